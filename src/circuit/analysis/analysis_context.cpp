@@ -21,6 +21,7 @@ Result<std::unique_ptr<AnalysisContext>> AnalysisContext::make(std::shared_ptr<c
 
 NodeClamps AnalysisContext::initial_clamps() const {
     if (circuit->ic.empty()) return {};
+    // The voltages have the size of x, since uic starts from them.
     NodeClamps out{std::vector<double>(static_cast<std::size_t>(system.nodes())),
                    std::vector<double>(static_cast<std::size_t>(system.size()))};
     for (const auto& [node, v] : circuit->ic)
@@ -39,7 +40,7 @@ Result<OperatingPoint> AnalysisContext::initial_operating_point() {
     return find_operating_point(newton, circuit->ic.empty() ? nominal_x_ : nominal_initial_x_, initial_clamps());
 }
 
-/// Solves the nominal circuit. Chips are solved from its operating point, with the pivot order of its matrix there.
+/// Finds the operating points of the nominal circuit, and fixes the pivot order to that of its matrix.
 void AnalysisContext::solve_nominal() {
     if (!circuit->ic.empty())
         if (auto initial = initial_operating_point()) nominal_initial_x_ = std::move(initial->x);
@@ -95,7 +96,8 @@ Result<std::vector<double>> read_frequencies(const Directive& c, std::size_t wor
             out.push_back(count == 1 ? *from : *from + (*to - *from) * static_cast<double>(k) / static_cast<double>(count - 1));
         return out;
     }
-    // As in ngspice: points are spaced evenly per decade (octave), and the last is at or below the end.
+    // As in ngspice: points are spaced evenly on a logarithmic scale, `count` per decade or octave. The last is at or below the last
+    // frequency.
     const double base = kind == "dec" ? 10 : 2, steps = std::log(*to / *from) / std::log(base) * static_cast<double>(count);
     if (steps > 1e7) return bad_input(fmt::format(".{}: {:g} frequencies; the maximum is 10000000", c.name, steps), c.location);
     for (double k = 0; k <= std::floor(steps + 1e-9); ++k) out.push_back(*from * std::pow(base, k / static_cast<double>(count)));

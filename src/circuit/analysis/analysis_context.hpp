@@ -16,17 +16,19 @@ namespace corpuscle::circuit {
 /// The result of an analysis.
 struct AnalysisResult {
     std::vector<Plot> plots;
-    std::vector<std::pair<std::string, double>> numbers;  ///< printed as "name = value"
+    std::vector<std::pair<std::string, double>> numbers;  ///< names and values, printed as "name = value"
     std::vector<std::pair<std::string, double>> stats;    ///< counters: steps, iterations ...
-    std::string table;                                    ///< a printed table
+    std::string table;                                    ///< text to print, such as the table of .op
     std::vector<Error> warnings;
-    std::optional<std::vector<double>> spikes;  ///< s, if the netlist has .spike
+    std::optional<std::vector<double>> spikes;  ///< spike times of .tran, s; nothing if the netlist has no .spike
 };
 
 /// A circuit with everything that its analyses need. apply_variation() turns it into another chip.
 class AnalysisContext {
     std::optional<OperatingPoint> operating_point_;
-    std::vector<double> nominal_x_, nominal_initial_x_;  // nominal operating points, without and with .ic: the start of each chip's search
+    // Operating points of the nominal circuit, without and with .ic, from which the operating points of chips are searched. Empty: not
+    // known.
+    std::vector<double> nominal_x_, nominal_initial_x_;
     std::optional<ChipSample> chip_sample_;
 
     AnalysisContext(std::shared_ptr<const Circuit>, System, const Tolerances&);
@@ -37,40 +39,41 @@ public:
     System system;
     Tolerances tolerances;
     NewtonSolver newton;
-    std::function<bool(double fraction)>
-        should_stop{};                 ///< called repeatedly with the completed fraction; returns true to stop the analysis
-    PointSink* points = nullptr;       ///< receives the points of a transient; null: they are kept in the result
-    long max_iterations = 0;           ///< limit for a transient; 0: no limit
-    bool hit_iteration_limit = false;  ///< the last transient was stopped by this limit
-    bool output_directives_checked = false;     ///< .print, .plot and .meas were checked against the circuit
-    bool is_brief = false;             ///< one of many analyses: no printed tables, no warnings
+    /// Called repeatedly with the completed fraction of the analysis. Must return true to stop it.
+    std::function<bool(double fraction)> should_stop{};
+    PointSink* points = nullptr;             ///< receives the points of a transient; null: they are kept in the result
+    long max_iterations = 0;                 ///< maximum number of Newton iterations of a transient; 0: no limit
+    bool hit_iteration_limit = false;        ///< true if max_iterations has stopped the last transient
+    bool output_directives_checked = false;  ///< true if .print, .plot and .meas were checked against the circuit
+    bool is_brief = false;                   ///< true for one of many analyses: no printed tables, no warnings
 
     static Result<std::unique_ptr<AnalysisContext>> make(std::shared_ptr<const Circuit>);
     AnalysisContext(const AnalysisContext&) = delete;
 
     bool is_stopped(double fraction) const { return should_stop && should_stop(fraction); }
-    /// The operating point; computed once for each chip.
+    /// The operating point without .ic. It is computed once for each chip.
     Result<OperatingPoint> operating_point();
-    /// The operating point with the present source values and the nodes of .ic clamped; computed at each call.
+    /// The operating point with the nodes of .ic clamped. It is computed at each call, with the source values of that time.
     Result<OperatingPoint> initial_operating_point();
     NodeClamps initial_clamps() const;  ///< clamps of .ic; empty if there is no .ic
     void apply_variation(const ChipSample&);
+    /// Nothing for the nominal circuit.
     const std::optional<ChipSample>& chip_sample() const { return chip_sample_; }
 };
 
 Error interrupted_error();
 
-/// An error with the location of a word of a command.
+/// An error with the location of a word of a directive. Here and below, words are counted from 0, without the directive's name.
 Error error_at(const Directive&, std::size_t word, std::string message);
 
-/// Reads a number, with SPICE suffixes, from a word of a command. Errors contain the command, `what` (the meaning of the number) and the
-/// word's location.
+/// Reads a number, with SPICE suffixes, from a word of a directive. Errors contain the directive, `what` (the meaning of the number) and
+/// the word's location.
 Result<double> read_number(const Directive&, std::size_t word, std::string_view what);
 
 /// Reads frequencies (Hz) as "dec 10 1 1k", "oct ..." or "lin ...", starting at the given word.
 Result<std::vector<double>> read_frequencies(const Directive&, std::size_t word);
 
-/// An output variable v(a), v(a,b) or i(x): the difference of two unknowns. The index -1 stands for the value 0.
+/// An output variable v(a), v(a,b) or i(x): the difference of the unknowns `plus` and `minus`. The index -1 stands for the value 0.
 struct OutputVariable {
     int plus = -1, minus = -1;
     std::complex<double> value(std::span<const std::complex<double>> x) const;
@@ -78,25 +81,26 @@ struct OutputVariable {
 };
 Result<OutputVariable> read_output_variable(const System&, const Directive&, std::size_t word);
 
-/// Index of the system's unknowns by name. The system must outlive it.
+/// Finds unknowns of a system by name. The system must outlive it.
 class UnknownNames {
     const System& system_;
-    std::unordered_map<std::string_view, int> at_;
+    std::unordered_map<std::string_view, int> at_;  // index of each unknown
 
 public:
     explicit UnknownNames(const System&);
-    int index_of(std::string_view name) const;  ///< -1: none
+    int index_of(std::string_view name) const;  ///< -1: no unknown has this name
     const std::vector<std::string>& all() const { return system_.names(); }
 };
 Result<OutputVariable> read_output_variable(const UnknownNames&, const Directive&, std::size_t word);
 
-/// A plot with an empty curve for the swept quantity, then one for each unknown.
+/// A plot with an empty curve for the swept quantity of this name and type, then one for each unknown. If `swept` is empty, there is no
+/// first curve.
 Plot make_plot(const System&, std::string name, std::string swept, std::string type);
-/// Appends a point to such a plot.
+/// Appends a point to such a plot with a swept quantity.
 void append(Plot&, std::complex<double> swept, std::span<const double> x);
 void append(Plot&, std::complex<double> swept, std::span<const std::complex<double>> x);
 
-/// G + j omega C, by entry of the sparsity pattern. omega: rad/s.
+/// G + j omega C (omega in rad/s), for the `entries` entries of the sparsity pattern.
 std::vector<std::complex<double>> admittances(const SystemEvaluation&, std::size_t entries, double omega);
 
 /// Evaluates all devices at an operating point.

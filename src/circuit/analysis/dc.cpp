@@ -1,4 +1,5 @@
-// .dc: operating points along one or two sweeps. Each search starts from the previous point, so that hysteresis is visible.
+// .dc: operating points along one or two sweeps. Each search starts from the previous point of the inner sweep, so that hysteresis is
+// visible.
 
 #include <fmt/format.h>
 #include <algorithm>
@@ -10,8 +11,9 @@
 namespace corpuscle::circuit {
 namespace {
 
+/// One of the sweeps of a .dc line.
 struct Sweep {
-    std::string variable;  // an element, or "temp"
+    std::string variable;  // name of an element, or "temp"
     double from, to, step;
     std::vector<double> values() const {
         std::vector<double> out;
@@ -21,6 +23,7 @@ struct Sweep {
     }
 };
 
+/// Reads the four words VARIABLE FROM TO STEP, from this word on.
 Result<Sweep> read_sweep(const AnalysisContext& context, const Directive& c, std::size_t word) {
     if (word >= c.words.size()) return bad_input(".dc: the sweep variable is missing", c.location);
     Sweep s{c.words[word], 0, 0, 0};
@@ -29,7 +32,7 @@ Result<Sweep> read_sweep(const AnalysisContext& context, const Directive& c, std
     for (const auto* number : {&from, &to, &step})
         if (!*number) return number->error();
     s.from = *from, s.to = *to, s.step = *step;
-    if (s.step == 0 || (s.to - s.from) / s.step < 0) s.step = s.to == s.from ? 1 : s.step;
+    if (s.step == 0 && s.to == s.from) s.step = 1;  // one point, with any step
     if (s.step == 0 || (s.to - s.from) / s.step < 0)
         return bad_input(fmt::format(".dc {}: step {:g} does not lead from {:g} to {:g}", s.variable, *step, s.from, s.to), c.location);
     if ((s.to - s.from) / s.step > 1e7)
@@ -46,6 +49,7 @@ Result<Sweep> read_sweep(const AnalysisContext& context, const Directive& c, std
     return s;
 }
 
+// The type and the name of the swept curve, as in ngspice.
 std::string type_of(const std::string& variable) {
     return variable == "temp" ? "temp-sweep" : variable[0] == 'i' ? "current" : variable[0] == 'v' ? "voltage" : "notype";
 }
@@ -53,26 +57,26 @@ std::string name_of(const std::string& variable) {
     return variable == "temp" ? "temp-sweep" : variable[0] == 'i' ? "i-sweep" : variable[0] == 'v' ? "v-sweep" : "res-sweep";
 }
 
-/// The circuit of a sweep: the original circuit, whose source values are restored at the end, or a copy at another temperature.
+/// The circuit of a sweep: the original circuit, whose values are restored at the end, or a copy at another temperature.
 class SweptCircuit {
     AnalysisContext& original_;
-    std::unique_ptr<AnalysisContext> copy_;
-    struct Source {
+    std::unique_ptr<AnalysisContext> copy_;  // null: temp is not swept
+    struct SweptElement {
         std::string name;
-        double original, current;
+        double original, present;  // principal values before the sweep and now
     };
-    std::vector<Source> sources_;
+    std::vector<SweptElement> elements_;
 
 public:
     explicit SweptCircuit(AnalysisContext& original) : original_(original) {}
     SweptCircuit(const SweptCircuit&) = delete;
     ~SweptCircuit() {
-        for (const auto& s : sources_) original_.system.device(s.name)->set_principal_value(s.original);
+        for (const auto& s : elements_) original_.system.device(s.name)->set_principal_value(s.original);
     }
     AnalysisContext& context() { return copy_ ? *copy_ : original_; }
 
     Result<void> set(const std::string& variable, double value) {
-        return variable == "temp" ? set_temperature(value) : set_source(variable, value);
+        return variable == "temp" ? set_temperature(value) : set_element(variable, value);
     }
 
 private:
@@ -83,14 +87,14 @@ private:
         if (!context) return context.error();
         copy_ = std::move(*context);
         if (original_.chip_sample()) copy_->apply_variation(*original_.chip_sample());
-        for (const auto& s : sources_) copy_->system.device(s.name)->set_principal_value(s.current);
+        for (const auto& s : elements_) copy_->system.device(s.name)->set_principal_value(s.present);
         return {};
     }
-    Result<void> set_source(const std::string& name, double value) {
-        auto source = std::find_if(sources_.begin(), sources_.end(), [&](const Source& s) { return s.name == name; });
-        if (source == sources_.end())
-            source = sources_.insert(source, {name, original_.system.device(name)->principal_value().value_or(0), value});
-        source->current = value;
+    Result<void> set_element(const std::string& name, double value) {
+        auto element = std::find_if(elements_.begin(), elements_.end(), [&](const SweptElement& s) { return s.name == name; });
+        if (element == elements_.end())
+            element = elements_.insert(element, {name, original_.system.device(name)->principal_value().value_or(0), value});
+        element->present = value;
         if (!context().system.device(name)->set_principal_value(value))
             return bad_input(fmt::format(".dc: {:g} is not an allowed value of {}", value, name), SourceLocation{original_.circuit->file});
         return {};

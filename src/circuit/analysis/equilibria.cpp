@@ -13,7 +13,7 @@
 namespace corpuscle::circuit {
 namespace {
 
-constexpr double min_difference = 1e-3;  // V, between two equilibria
+constexpr double min_difference = 1e-3;  // V: equilibria are different if some node voltage differs by more
 
 /// Collects equilibria without duplicates.
 class EquilibriumSet {
@@ -27,7 +27,7 @@ public:
         context.newton.context.time = 0, context.newton.context.with_charges = false;
     }
 
-    bool same(const std::vector<double>& a, const std::vector<double>& b) const {
+    bool are_same(const std::vector<double>& a, const std::vector<double>& b) const {
         for (std::size_t n = 0; n < nodes(); ++n)
             if (std::abs(a[n] - b[n]) > min_difference) return false;
         return true;
@@ -35,17 +35,18 @@ public:
     /// Adds an equilibrium, or finds the one that is already in the set.
     Equilibrium& add(std::vector<double> x) {
         for (auto& s : found_)
-            if (same(s.x, x)) return s;
+            if (are_same(s.x, x)) return s;
         context_.newton.limiting_state = context_.system.initial_limiting_state();
         const bool stable = context_.system.is_linear() || !find_unstable_mode(context_.newton, x);
         context_.newton.context.with_charges = false;
         return found_.emplace_back(Equilibrium{std::move(x), stable});
     }
+    /// Adds the equilibrium that a search from `start` finds; null if it finds none.
     Equilibrium* add_from(std::vector<double> start) {
         auto found = find_operating_point(context_.newton, std::move(start));
         return found ? &add(std::move(found->x)) : nullptr;
     }
-    /// Searches from x with a node clamped to a voltage, then from the result without the clamp.
+    /// Searches from x with a node clamped to the voltage `to`, then from the result without the clamp.
     void add_from_clamped(const std::vector<double>& x, std::size_t node, double to) {
         NodeClamps clamps{std::vector<double>(nodes()), std::vector<double>(x.size())};
         clamps.conductance[node] = 1, clamps.voltage[node] = to;
@@ -59,6 +60,7 @@ public:
             if (s.is_stable) out.push_back(s.x);
         return out;
     }
+    /// Default, stable, unstable; the set is empty afterwards.
     std::vector<Equilibrium> take_sorted() {
         std::sort(found_.begin(), found_.end(), [](const Equilibrium& a, const Equilibrium& b) {
             return std::tuple(!a.is_default, !a.is_stable, a.x) < std::tuple(!b.is_default, !b.is_stable, b.x);
@@ -67,7 +69,7 @@ public:
     }
 };
 
-/// The lowest and the highest voltage of ground and all voltage sources.
+/// The lowest and the highest of 0 V and the DC values of all voltage sources.
 std::pair<double, double> supply_range(const AnalysisContext& context) {
     double low = 0, high = 0;
     const auto& elements = context.circuit->elements;

@@ -19,17 +19,18 @@ struct Equilibrium {
 /// - the end of the power-on transient
 /// - the midpoint of any two stable equilibria, because an unstable one lies between them
 ///
-/// Two equilibria differ if a node differs by more than 1 mV. The list may be incomplete. The default equilibrium is first, then the stable
-/// ones, then the unstable ones, both sorted by voltages. With variation applied, these are the equilibria of that chip.
+/// Two equilibria differ if a node voltage differs by more than 1 mV. The list may be incomplete. The default equilibrium is first, then
+/// the stable ones, then the unstable ones, both sorted by voltages. With variation applied, these are the equilibria of that chip.
 ///
 /// Power-on is a transient from 0 V everywhere, without .ic, in which all V and I sources rise linearly within `rise` (s) to their values
-/// in .op. If it settles, its end is an equilibrium. Otherwise no equilibrium has is_power_on.
+/// in .op. If it settles, its final state is an equilibrium. Otherwise no equilibrium has is_power_on.
 Result<std::vector<Equilibrium>> find_equilibria(AnalysisContext&, double rise = 1e-3);
 
-/// The nodes that differ by more than 1 mV between two equilibria, the largest difference first.
+/// The nodes (indices of unknowns) whose voltages differ by more than 1 mV between two equilibria, the largest difference first.
 std::vector<std::size_t> differing_nodes(const AnalysisContext&, const Equilibrium&, const Equilibrium&);
 
-/// Describes the equilibria as text: stability, default and power-on state, and the nodes that differ.
+/// Describes the equilibria as text: stability, which is the default and which the power-on state, and the nodes that differ from the
+/// first.
 std::string describe(const AnalysisContext&, const std::vector<Equilibrium>&);
 
 }  // namespace corpuscle::circuit

@@ -26,6 +26,7 @@ Error unstable_warning(const AnalysisContext& context, const UnstableMode& mode)
         SourceLocation{context.circuit->file});
 }
 
+/// The charges of a device whose unknowns are v.
 std::vector<double> charges_of(const Device& device, const std::vector<double>& v, const EvalContext& eval_context) {
     const auto n = v.size();
     std::vector<double> stamp(2 * n + 2 * n * n);
@@ -34,7 +35,8 @@ std::vector<double> charges_of(const Device& device, const std::vector<double>& 
     return {stamp.begin() + static_cast<std::ptrdiff_t>(n), stamp.begin() + static_cast<std::ptrdiff_t>(2 * n)};
 }
 
-/// The charge of each element at its ic= voltage minus its charge at x. The current of an inductor is an unknown and is written to x.
+/// By equation, the sum of the charges that capacitors have at their ic= voltages minus those at x. An ic= current of an inductor is an
+/// unknown and is written to x.
 std::vector<double> charge_of_ics(const AnalysisContext& context, std::vector<double>& x) {
     std::vector<double> out;
     EvalContext eval_context;

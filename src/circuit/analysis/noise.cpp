@@ -11,13 +11,15 @@
 namespace corpuscle::circuit {
 namespace {
 
+/// The noise of one mechanism of one device.
 struct NoiseContribution {
-    std::string name;
-    double total = 0, total_in = 0;  // integrated noise power at the output, and referred to the source
-    double last = 0, last_in = 0;    // densities at the previous frequency
+    std::string name;                // of the device, with the mechanism
+    double total = 0, total_in = 0;  // integrated noise power: at the output, referred to the source
+    double last = 0, last_in = 0;    // noise power densities at the previous frequency, likewise
 };
 
-/// The integral of a density between two frequencies (Hz), where it is interpolated by a power law.
+/// The integral of a density from the frequency f0 (Hz), where it is s0, to f1, where it is s1. In between it is a power of f; if that is
+/// impossible, a straight line.
 double integrated_density(double f0, double s0, double f1, double s1) {
     if (s0 <= 0 || s1 <= 0 || f0 <= 0) return 0.5 * (s0 + s1) * (f1 - f0);
     const double exponent = std::log(s1 / s0) / std::log(f1 / f0);
@@ -44,7 +46,7 @@ Result<AnalysisResult> analyse_noise(AnalysisContext& context, const Directive& 
     struct Source {
         const Device* device;
         NoiseSource noise;
-        std::size_t contribution;
+        std::size_t contribution;  // index in `contributions`
     };
     std::vector<Source> sources;
     std::vector<NoiseContribution> contributions;
@@ -69,9 +71,11 @@ Result<AnalysisResult> analyse_noise(AnalysisContext& context, const Directive& 
         if (out->plus >= 0) lambda[static_cast<std::size_t>(out->plus)] += 1;
         if (out->minus >= 0) lambda[static_cast<std::size_t>(out->minus)] -= 1;
         solver.solve_transposed(lambda);
+        // lambda[n] is the output for a unit current into the equation of unknown n.
         const auto at = [&](const Device& d, std::size_t k) {
             return d.unknowns[k] < 0 ? std::complex<double>() : lambda[static_cast<std::size_t>(d.unknowns[k])];
         };
+        // The gain from the source to the output, except for the sign. A voltage source has three unknowns, a current source two.
         const auto gain = source->unknowns.size() == 3 ? at(*source, 2) : at(*source, 1) - at(*source, 0);
         double density = 0;
         for (const auto& s : sources) {

@@ -1,4 +1,4 @@
-// .op: the operating point, the quantities of each device, and a check for a second stable state.
+// .op: the operating point, the quantities of each device, and a search for other equilibria.
 
 #include <fmt/format.h>
 #include <algorithm>
@@ -13,12 +13,13 @@
 namespace corpuscle::circuit {
 namespace {
 
+// In characters.
 constexpr std::size_t page_width = 100, min_cell_width = 12, min_name_width = 24;
 
-/// The table of successive devices that have the same quantities.
+/// The quantities of successive devices of one kind, as a table.
 struct DeviceTable {
     struct DeviceRow {
-        std::string name, state;
+        std::string name, region;
         std::vector<std::string> cells;
     };
     std::vector<std::string_view> quantities;
@@ -30,11 +31,11 @@ struct DeviceTable {
         return minimum;
     }
 
-    /// Several tables below one another, so that no line exceeds 100 characters: each has a header and a row for each device. The state of
-    /// a device follows its last quantity.
+    /// Several tables below one another, so that no line exceeds page_width: each has a header and a row for each device. The
+    /// operating region of a device follows its last quantity.
     std::string text() const {
         const auto name_width = max_length(min_name_width, [](const DeviceRow& r) { return r.name.size(); });
-        const auto state_width = max_length(0, [](const DeviceRow& r) { return r.state.empty() ? 0 : r.state.size() + 2; });
+        const auto region_width = max_length(0, [](const DeviceRow& r) { return r.region.empty() ? 0 : r.region.size() + 2; });
         std::vector<std::size_t> widths;
         for (std::size_t k = 0; k < quantities.size(); ++k)
             widths.push_back(
@@ -42,14 +43,14 @@ struct DeviceTable {
         std::string out;
         for (std::size_t from = 0, to = 0; from < quantities.size(); from = to) {
             auto width = name_width + widths[to++];
-            const auto state_column = [&] { return to + 1 == quantities.size() ? state_width : 0; };  // for the next quantity
-            while (to < quantities.size() && width + widths[to] + state_column() <= page_width) width += widths[to++];
+            const auto region_column = [&] { return to + 1 == quantities.size() ? region_width : 0; };  // for the next quantity
+            while (to < quantities.size() && width + widths[to] + region_column() <= page_width) width += widths[to++];
             out += fmt::format("\n{:{}}", "", name_width);
             for (std::size_t k = from; k < to; ++k) out += fmt::format("{:>{}}", quantities[k], widths[k]);
             for (const auto& r : rows) {
                 out += fmt::format("\n{:{}}", r.name, name_width);
                 for (std::size_t k = from; k < to; ++k) out += fmt::format("{:>{}}", r.cells[k], widths[k]);
-                if (to == quantities.size() && !r.state.empty()) out += "  " + r.state;
+                if (to == quantities.size() && !r.region.empty()) out += "  " + r.region;
             }
             out += '\n';
         }
@@ -81,7 +82,8 @@ std::string operating_point_table(const System& system, std::span<const double> 
     return out + table.text();
 }
 
-/// Searches again with all nodes at the highest voltage. Returns a warning if the result is different.
+/// Searches again, from a start with all nodes at the largest node voltage of the operating point. Returns a warning if the result differs
+/// from the operating point by more than 1 mV at a node.
 std::optional<Error> check_second_state(AnalysisContext& context, const OperatingPoint& found) {
     if (context.system.is_linear() || !context.circuit->nodesets.empty()) return {};
     double high = 0;
@@ -102,10 +104,10 @@ std::optional<Error> check_second_state(AnalysisContext& context, const Operatin
     return {};
 }
 
-/// .op [states [RISE]]
+/// The words of .op [states [RISE]].
 struct OpOptions {
-    bool states = false;
-    double rise = 1e-3;  // s
+    bool states = false;  // true if given
+    double rise = 1e-3;   // s: rise time of the sources at power-on
 };
 Result<OpOptions> read_op_options(const Directive& c) {
     OpOptions out;

@@ -9,9 +9,9 @@
 namespace corpuscle::circuit {
 namespace {
 
-constexpr double settling_time = 1e5;  // s: after this time the circuit has settled or oscillates
+constexpr double settling_time = 1e5;  // s: length of the transient, after which the circuit has settled or oscillates
 
-/// A copy of the circuit with rising sources.
+/// A copy of the circuit without .ic, whose sources rise from 0 to their DC values within `rise` (s).
 std::shared_ptr<const Circuit> with_rising_sources(const AnalysisContext& context, double rise) {
     auto copy = std::make_shared<Circuit>(*context.circuit);
     copy->ic.clear();

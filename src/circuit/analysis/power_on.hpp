@@ -5,8 +5,8 @@
 
 namespace corpuscle::circuit {
 
-/// The final state of a transient that starts at 0 V everywhere, without .ic, while all sources rise from 0 within `rise` (s). Returns
-/// nothing if the circuit keeps oscillating.
+/// The unknowns at the end of a transient that starts at 0 V everywhere, without .ic, while all V and I sources rise from 0 within `rise`
+/// (s). Returns nothing if the circuit keeps oscillating.
 Result<std::optional<std::vector<double>>> power_on_state(const AnalysisContext&, double rise);
 
 }  // namespace corpuscle::circuit

@@ -10,12 +10,14 @@
 namespace corpuscle::circuit {
 namespace {
 
+/// A circuit linearized at its operating point x. The solver has factored its conductances.
 struct LinearCircuit {
     std::vector<double> x;
     SystemEvaluation evaluation;
     LinearSolver<double> solver;
 };
 
+/// `c` is the directive that messages name.
 Result<LinearCircuit> linearize(AnalysisContext& context, const Directive& c) {
     const auto operating_point = context.operating_point();
     if (!operating_point) return operating_point.error();
@@ -26,7 +28,7 @@ Result<LinearCircuit> linearize(AnalysisContext& context, const Directive& c) {
     return linear;
 }
 
-/// Adds a value to the element of an unknown; ground (-1) has none.
+/// Adds a value to x[unknown]; does nothing for ground (-1).
 void add(std::vector<double>& x, int unknown, double value) {
     if (unknown >= 0) x[static_cast<std::size_t>(unknown)] += value;
 }
@@ -42,8 +44,9 @@ Result<AnalysisResult> analyse_tf(AnalysisContext& context, const Directive& c) 
         return bad_input(fmt::format(".tf: '{}' is not an independent source", c.words[1]), c.location);
     auto linear = linearize(context, c);
     if (!linear) return linear.error();
+    constexpr double infinite = 1e20;  // ohm: printed for an infinite resistance
     const bool is_voltage_source = source->unknowns.size() == 3;
-    std::vector<double> response(linear->x.size());
+    std::vector<double> response(linear->x.size());  // of the unknowns to a change of the source by 1 V or 1 A
     if (is_voltage_source)
         add(response, source->unknowns[2], 1);
     else
@@ -54,32 +57,33 @@ Result<AnalysisResult> analyse_tf(AnalysisContext& context, const Directive& c) 
         return OutputVariable{source->unknowns[0], source->unknowns[1]}.value(std::span<const double>(x));
     };
     const double input_resistance = is_voltage_source ? (response[static_cast<std::size_t>(source->unknowns[2])] == 0
-                                                             ? 1e20
+                                                             ? infinite
                                                              : -1 / response[static_cast<std::size_t>(source->unknowns[2])])
                                                       : -across(response);
-    std::vector<double> output_response(linear->x.size());
+    std::vector<double> output_response(linear->x.size());  // to a unit current into the output, or a unit voltage in its branch
     const bool is_voltage_output = context.system.is_voltage(out->plus);
-    double resistance = 1e20;
+    double output_resistance = infinite;
     if (is_voltage_output) {
         add(output_response, out->plus, 1), add(output_response, out->minus, -1);
         linear->solver.solve(output_response);
-        resistance = out->value(std::span<const double>(output_response));
+        output_resistance = out->value(std::span<const double>(output_response));
     } else {
         add(output_response, out->plus, -1);
         linear->solver.solve(output_response);
         const double g = output_response[static_cast<std::size_t>(out->plus)];
-        resistance = g == 0 ? 1e20 : std::abs(1 / g);
+        output_resistance = g == 0 ? infinite : std::abs(1 / g);
     }
     result.numbers = {{"transfer_function", out->value(std::span<const double>(response))},
                       {source->name + "#input_impedance", std::abs(input_resistance)},
-                      {"output_impedance_at_" + c.words[0], std::abs(resistance)}};
+                      {"output_impedance_at_" + c.words[0], std::abs(output_resistance)}};
     Plot plot{"Transfer Function", false, false, {}};
     for (const auto& [name, value] : result.numbers) plot.curves.push_back({name, "notype", {value}});
     result.plots.push_back(std::move(plot));
     return result;
 }
 
-/// d out / d p = -lambda . df/dp, where G^T lambda selects the output. df/dp of a device is a difference quotient of its principal value.
+/// The derivative of the output with respect to the principal value p of each device is -lambda . df/dp, where G^T lambda is 1 at `plus`
+/// and -1 at `minus` of the output. df/dp is a difference quotient.
 Result<AnalysisResult> analyse_sens(AnalysisContext& context, const Directive& c) {
     const auto out = read_output_variable(context.system, c, 0);
     if (!out) return out.error();

@@ -17,22 +17,24 @@
 namespace corpuscle::circuit {
 namespace {
 
+/// The input of a transient: .tran, .options, .spike, initial condition.
 struct TranSetup {
     TransientTimes times;
     TransientPlan plan;
-    std::optional<SpikeOutput> output;
+    std::optional<SpikeOutput> spike_output;
     InitialCondition initial;
 };
 
-/// Measures how long each operating range of the circuit is violated.
+/// Measures how long the quantity of each .assert is outside its operating range.
 class RangeMonitor {
     struct MonitoredRange {
         OperatingRange range;
-        double outside = 0, first = -1;  // s
-        bool is_outside = false;
+        double outside = 0;       // s: total time outside the range
+        double first = -1;        // s: time of the first point outside; -1: none
+        bool is_outside = false;  // at the last point
     };
     std::vector<MonitoredRange> ranges_;
-    double last_time_ = 0;
+    double last_time_ = 0;  // s: time of the last point
 
 public:
     explicit RangeMonitor(std::vector<OperatingRange> ranges) {
@@ -41,12 +43,13 @@ public:
     void add_point(double t, std::span<const double> x) {
         for (auto& r : ranges_) {
             const bool was_outside = std::exchange(r.is_outside, !r.range.contains(r.range.quantity.unknowns.value(x)));
-            r.outside +=
-                (t - last_time_) * (was_outside + r.is_outside) / 2;  // if it crossed the limit within the step, half of the step counts
+            // A step counts with half of its length if only one of its ends is outside.
+            r.outside += (t - last_time_) * (was_outside + r.is_outside) / 2;
             if (r.is_outside && r.first < 0) r.first = t;
         }
         last_time_ = t;
     }
+    /// Adds a warning for each range that was violated.
     void report(std::vector<Error>& warnings) const {
         for (const auto& r : ranges_)
             if (r.first >= 0)
@@ -61,7 +64,7 @@ double max_step_of(const TransientTimes& t) {
     return t.max_step.value_or(std::clamp(t.step, duration / 200, duration / 50));
 }
 
-/// Runs a transient, passes its points to each(), and returns its spikes (s).
+/// Runs a transient, passes its points to each(), and returns the times (s) of its spikes from START on.
 Result<std::vector<double>> run_transient(AnalysisContext& context, const TranSetup& setup, Transient& t,
                                           const Transient::PointCallback& each) {
     std::vector<double> out;
@@ -71,8 +74,8 @@ Result<std::vector<double>> run_transient(AnalysisContext& context, const TranSe
         [&](double time, std::span<const double> x) {
             if (!each(time, x)) return false;
             if (time < t.time()) return true;  // within a step
-            if (setup.output)
-                if (const auto spike = setup.output->find_spike(t); spike && *spike >= setup.times.start) out.push_back(*spike);
+            if (setup.spike_output)
+                if (const auto spike = setup.spike_output->find_spike(t); spike && *spike >= setup.times.start) out.push_back(*spike);
             context.hit_iteration_limit = context.max_iterations > 0 && t.stats().iterations > context.max_iterations;
             return !context.hit_iteration_limit && !(stopped = context.is_stopped(time / setup.times.stop));
         },
@@ -85,20 +88,20 @@ Result<std::vector<double>> run_transient(AnalysisContext& context, const TranSe
     return out;
 }
 
-/// Estimates the largest error of a spike time (s) by a second run with a tenth of the tolerances, whose errors are at most a third of the
-/// errors of the first. Returns NaN if the second run has a different number of spikes.
+/// Estimates the largest error of a spike time (s) by a second transient with a tenth of the tolerances. Its errors are assumed to be at
+/// most a third of those of the first. Returns NaN if it has a different number of spikes, or fails.
 Result<double> spike_error(AnalysisContext& context, TranSetup setup, const std::vector<double>& spikes) {
     for (double* tolerance : {&setup.plan.reltol, &setup.plan.vntol, &setup.plan.abstol}) *tolerance /= 10;
-    // Only the spikes are compared, so other curves and points within a step are not needed.
+    // Only the spikes are compared, so other unknowns and points within a step are not needed.
     setup.plan.all_reported = false, setup.plan.steps_only = true;
-    setup.plan.reported = {setup.output->unknowns.plus, setup.output->unknowns.minus};
+    setup.plan.reported = {setup.spike_output->unknowns.plus, setup.spike_output->unknowns.minus};
     Transient transient(context.system, context.newton, setup.plan);
     const auto finer = run_transient(context, setup, transient, [](double, std::span<const double>) { return true; });
     if (!finer && finer.error().code == ErrorCode::interrupted) return finer.error();
     if (!finer || finer->size() != spikes.size()) return std::nan("");
     double largest = 0;
     for (std::size_t k = 0; k < spikes.size(); ++k) largest = std::max(largest, std::abs((*finer)[k] - spikes[k]));
-    return 1.5 * largest;
+    return 1.5 * largest;  // the difference is at least two thirds of the error of the first
 }
 
 /// Adds the spikes to the printed numbers, which .expect can check.
@@ -117,7 +120,7 @@ Result<void> report_spikes(AnalysisContext& context, const TranSetup& setup, std
                 out.warnings.push_back(
                     bad_input(fmt::format("{} spikes, but a different number with a tenth of the tolerances; use .options accuracy=fine",
                                           spikes.size()),
-                              setup.output->location));
+                              setup.spike_output->location));
         }
     }
     out.spikes = std::move(spikes);
@@ -131,8 +134,8 @@ Result<AnalysisResult> analyse_tran(AnalysisContext& context, const Directive& c
     if (!times) return times.error();
     const auto plan = read_transient_plan(*context.circuit);
     if (!plan) return plan.error();
-    const auto output = read_spike_output(context.system);
-    if (!output) return output.error();
+    const auto spike_output = read_spike_output(context.system);
+    if (!spike_output) return spike_output.error();
     auto ranges = read_operating_ranges(context.system);
     if (!ranges) return ranges.error();
     RangeMonitor range_monitor(std::move(*ranges));
@@ -142,7 +145,7 @@ Result<AnalysisResult> analyse_tran(AnalysisContext& context, const Directive& c
     if (*force && !context.system.set_force_input(&**force))
         return bad_input(fmt::format(".force: no source has a force input; add one such as '{}' (60 nA/N)", "iin 0 fin force 60n"),
                          SourceLocation{context.circuit->file});
-    TranSetup setup{*times, *plan, *output, {}};
+    TranSetup setup{*times, *plan, *spike_output, {}};
     setup.plan.all_reported = true;
     setup.plan.stop = times->stop, setup.plan.max_step = max_step_of(*times);
     PlotRecorder recorder;
@@ -166,7 +169,7 @@ Result<AnalysisResult> analyse_tran(AnalysisContext& context, const Directive& c
     });
     const auto ended = points.end();
     const auto reported =
-        spikes && written && ended && setup.output ? report_spikes(context, setup, std::move(*spikes), out) : Result<void>();
+        spikes && written && ended && setup.spike_output ? report_spikes(context, setup, std::move(*spikes), out) : Result<void>();
     context.system.start_transient(0, 0), context.system.set_force_input(nullptr);
     if (!spikes) return spikes.error();
     for (const auto& done : {written, ended, reported})

@@ -8,8 +8,8 @@ namespace corpuscle::circuit {
 namespace {
 
 struct Accuracy {
-    std::string_view word;
-    double reltol, vntol;
+    std::string_view word;  // of .options accuracy=word
+    double reltol, vntol;   // vntol: V
 };
 constexpr Accuracy accuracies[] = {{"rough", 1e-3, 1e-5}, {"normal", 1e-5, 1e-6}, {"fine", 1e-6, 1e-7}, {"finest", 1e-8, 1e-9}};
 
@@ -43,8 +43,8 @@ Result<TransientPlan> read_transient_plan(const Circuit& c) {
     return plan;
 }
 
-Result<TransientTimes> read_transient_times(const Directive& command) {
-    auto c = command;
+Result<TransientTimes> read_transient_times(const Directive& directive) {
+    auto c = directive;
     TransientTimes out;
     out.uic = !c.words.empty() && c.words.back() == "uic";
     if (out.uic) c.words.pop_back();

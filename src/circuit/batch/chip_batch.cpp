@@ -12,7 +12,8 @@ namespace {
 
 using lanes::LaneRow;
 
-/// Simulates a block of lanes. Each round makes one Newton iteration for every chip in the block.
+/// Simulates chips on the lanes of one block. Each round makes one Newton iteration for every chip in the block. Sets of lanes are bits of
+/// a std::uint8_t.
 class Batch {
     const lanes::ChipKernels& kernels_;
     const std::function<std::optional<Chip>()>& next_;
@@ -20,9 +21,11 @@ class Batch {
     const BatchOptions& options_;
     ChipMemory memory_;
     std::vector<ChipLane> lanes_;
-    std::vector<LaneRow> value_, slope_, weights_;
+    std::vector<LaneRow> value_weights_, slope_weights_;  // of PredictCall
+    std::vector<LaneRow> error_weights_;                  // of ErrorCall
     bool has_more_chips_ = true;
-    double gmin_;
+    double gmin_;  // S
+    // Errors of the last step of each lane for its order and the next lower and higher order, relative to the allowed error.
     std::array<double, lanes::chips_per_block> error_{}, lower_{}, higher_{};
 
     void fill(std::size_t lane);
@@ -30,26 +33,27 @@ class Batch {
     void finish(std::size_t lane);
     void fail(std::size_t lane);
     std::uint8_t prepare(lanes::SolveCall&, lanes::StepCall&);
-    std::uint8_t inaccurate_chips(std::uint8_t working, const lanes::SolveCall&);
+    std::uint8_t inaccurate_lanes(std::uint8_t working, const lanes::SolveCall&);
     void iterate(std::uint8_t working, lanes::SolveCall&, lanes::StepCall&);
     void decide_steps(std::uint8_t needs_error, std::uint8_t diverged, const LaneRow& a);
     template <class Needs, class OrderOf>
-    void estimate_errors(std::uint8_t chips, const Needs& needs, const OrderOf& order_of, std::array<double, lanes::chips_per_block>& out);
+    void estimate_errors(std::uint8_t selected, const Needs& needs, const OrderOf& order_of,
+                         std::array<double, lanes::chips_per_block>& out);
 
 public:
     Batch(const lanes::ChipKernels& kernels, const System& system, const Elimination& list, double radius, std::size_t points, double gmin,
           const std::function<std::optional<Chip>()>& next, const std::function<void(const Chip&, ChipResponse&&)>& on_done,
           const BatchOptions& options)
-        : kernels_(kernels), next_(next), on_done_(on_done), options_(options), memory_(system, list, points), value_(points),
-          slope_(points), weights_(points), gmin_(gmin) {
+        : kernels_(kernels), next_(next), on_done_(on_done), options_(options), memory_(system, list, points), value_weights_(points),
+          slope_weights_(points), error_weights_(points), gmin_(gmin) {
         memory_.linearization_radius = radius;
         for (std::size_t l = 0; l < options.lanes; ++l) lanes_.emplace_back(memory_, l);
     }
     Result<void> run();
 };
 
-// A solution is checked if the pivot growth of its elimination exceeds the first value. The second is the allowed relative residual.
-constexpr double doubtful_lane_growth = 1e6, doubtful_lane_residual = 1e-9;
+constexpr double doubtful_lane_growth = 1e6;     // largest multiplier of an elimination at and above which its solution is checked
+constexpr double doubtful_lane_residual = 1e-9;  // relative residual at and above which a solution is not accurate enough
 
 bool contains(std::uint8_t set, std::size_t lane) { return (set >> lane & 1) != 0; }
 std::uint8_t bit(std::size_t lane) { return static_cast<std::uint8_t>(1u << lane); }
@@ -71,12 +75,14 @@ void Batch::fill(std::size_t lane) {
     }
 }
 
+/// Simulates a chip by the scalar code. `iterations`: Newton iterations that it has already taken on its lane.
 void Batch::run_scalar(const Chip& chip, long iterations) {
     auto response = run_chip_scalar(chip, options_);
     response.is_scalar = true, response.stats.iterations += iterations;
     on_done_(chip, std::move(response));
 }
 
+/// Passes on the result of a lane, and loads the next chip.
 void Batch::finish(std::size_t lane) {
     const Chip chip = lanes_[lane].chip();
     on_done_(chip, lanes_[lane].finish());
@@ -90,32 +96,33 @@ void Batch::fail(std::size_t lane) {
     fill(lane);
 }
 
+/// Prepares a round and predicts x. Returns the lanes that have a task.
 std::uint8_t Batch::prepare(lanes::SolveCall& solve, lanes::StepCall& step) {
-    lanes::PredictCall predict{{}, value_.data(), slope_.data()};
+    lanes::PredictCall predict{{}, value_weights_.data(), slope_weights_.data()};
     std::uint8_t working = 0;
     for (std::size_t l = 0; l < lanes_.size(); ++l)
-        if (lanes_[l].prepare(predict, value_, slope_, solve, step) != ChipLane::NextTask::nothing) working |= bit(l);
+        if (lanes_[l].prepare(predict, value_weights_, slope_weights_, solve, step) != ChipLane::NextTask::nothing) working |= bit(l);
     kernels_.predict(memory_.block, predict);
     return working;
 }
 
-/// Estimates the errors of the steps for an order of each chip that needs it.
+/// For each selected lane with needs(lane), estimates the error that its step would have with the order order_of(lane).
 template <class Needs, class OrderOf>
-void Batch::estimate_errors(std::uint8_t chips, const Needs& needs, const OrderOf& order_of,
+void Batch::estimate_errors(std::uint8_t selected, const Needs& needs, const OrderOf& order_of,
                             std::array<double, lanes::chips_per_block>& out) {
     lanes::ErrorCall call{};
-    call.past_weights = weights_.data();
-    std::fill(weights_.begin(), weights_.end(), LaneRow{});
+    call.past_weights = error_weights_.data();
+    std::fill(error_weights_.begin(), error_weights_.end(), LaneRow{});
     bool any = false;
     for (std::size_t l = 0; l < lanes_.size(); ++l)
-        if (contains(chips, l) && needs(lanes_[l])) lanes_[l].set_error_weights(order_of(lanes_[l]), call, weights_), any = true;
+        if (contains(selected, l) && needs(lanes_[l])) lanes_[l].set_error_weights(order_of(lanes_[l]), call, error_weights_), any = true;
     if (!any) return;
     kernels_.estimate_error(memory_.block, call);
     for (std::size_t l = 0; l < lanes_.size(); ++l) out[l] = call.worst.value[l];
 }
 
-/// The chips whose elimination was not accurate enough.
-std::uint8_t Batch::inaccurate_chips(std::uint8_t working, const lanes::SolveCall& solve) {
+/// The lanes whose solution is not accurate enough.
+std::uint8_t Batch::inaccurate_lanes(std::uint8_t working, const lanes::SolveCall& solve) {
     std::uint8_t doubtful = 0;
     for (std::size_t l = 0; l < lanes_.size(); ++l)
         if (contains(working, l) && !lanes_[l].is_restarting() && !(solve.growth.value[l] < doubtful_lane_growth)) doubtful |= bit(l);
@@ -128,8 +135,9 @@ std::uint8_t Batch::inaccurate_chips(std::uint8_t working, const lanes::SolveCal
     return out;
 }
 
+/// Applies the Newton steps of the working lanes, and decides about their time steps.
 void Batch::iterate(std::uint8_t working, lanes::SolveCall& solve, lanes::StepCall& step) {
-    const auto failed = inaccurate_chips(working, solve);
+    const auto failed = inaccurate_lanes(working, solve);
     kernels_.apply_step(memory_.block, step);
     std::uint8_t needs_error = 0, diverged = 0;
     for (std::size_t l = 0; l < lanes_.size(); ++l) {
@@ -145,7 +153,8 @@ void Batch::iterate(std::uint8_t working, lanes::SolveCall& solve, lanes::StepCa
     decide_steps(needs_error, diverged, solve.a);
 }
 
-/// Decides about the steps of these chips, and accepts those with an allowed error.
+/// Decides about the time steps of the lanes that need the error or whose iterations diverged, and accepts those with an allowed error.
+/// `a`: see SolveCall.
 void Batch::decide_steps(std::uint8_t needs_error, std::uint8_t diverged, const LaneRow& a) {
     if ((needs_error | diverged) == 0) return;
     kernels_.evaluate_charges(memory_.block);
@@ -195,14 +204,15 @@ Result<void> Batch::run() {
     }
 }
 
-/// The distance from its linearization point, V, at which a transistor is linearized again. The relative error of its current there is at
-/// most (radius / n phi_t)^2 / 2. This equals an error of the gate voltage of that fraction of n phi_t, here a sixteenth of the allowed
-/// error.
+/// The change of a terminal voltage, V, at which a transistor is linearized again. The relative error of the linearized current is then at
+/// most (radius / (n phi_t))^2 / 2, as for an error of radius^2 / (2 n phi_t) of the gate voltage. With n = 1, this is a sixteenth of the
+/// allowed error of a voltage of 0.5 V.
 double linearization_radius(const TransientPlan& plan) {
     constexpr double phi_t = 0.026, fraction = 1.0 / 16;
     return std::sqrt(2 * phi_t * fraction * (plan.reltol * 0.5 + plan.vntol));
 }
 
+/// Simulates all chips by the scalar code, for circuits that lanes cannot simulate.
 Result<void> run_all_scalar(const std::function<std::optional<Chip>()>& next,
                             const std::function<void(const Chip&, ChipResponse&&)>& on_done, const BatchOptions& options) {
     while (const auto chip = next()) {
@@ -220,7 +230,7 @@ Result<void> run_chips(const std::shared_ptr<const CircuitAfferentFactory>& nomi
                        const std::function<void(const Chip&, ChipResponse&&)>& on_done, const BatchOptions& options) {
     const auto kernels = chip_kernels();
     if (!kernels) return kernels.error();
-    auto simulation = StreamingTransient::make(*nominal, 1e-4, {});
+    auto simulation = StreamingTransient::make(*nominal, 1e-4, {});  // its sample time does not matter here
     if (!simulation) return simulation.error();
     const auto& system = (*simulation)->context().system;
     const auto* list = (*simulation)->transient().elimination();

@@ -15,33 +15,34 @@ namespace corpuscle::circuit {
 struct Chip {
     std::int64_t id = 0;                                   ///< chosen by the caller
     std::shared_ptr<const CircuitAfferentFactory> design;  ///< all chips of a batch must have the same devices at the same nodes
-    std::optional<ChipSample> sample;
-    std::span<const double> force;  ///< N, sampled at interval T; must stay valid until the chip is done
-    double T = 1e-4;                ///< s
+    std::optional<ChipSample> sample;                      ///< nothing: the nominal circuit
+    std::span<const double> force;                         ///< N; must stay valid until the chip is done
+    double T = 1e-4;                                       ///< s, interval between samples of the force
 };
 
 /// The result of one chip.
 struct ChipResponse {
-    std::vector<double> spikes;  ///< s
+    std::vector<double> spikes;  ///< s since the first sample of the force
     TransientStats stats;
     EnergyUse energy_use;
-    std::vector<RangeViolation> range_violations;  ///< by range of the design
+    std::vector<RangeViolation> range_violations;  ///< [operating range of the design]
     std::vector<std::vector<float>> probes;        ///< [probe of the design][recorded sample]
-    std::optional<Error> error;                    ///< where the simulation did not converge: time and unknown
-    bool hit_iteration_limit = false;              ///< stopped at the iteration limit
-    bool is_scalar = false;                        ///< simulated by the scalar code after its lane failed
+    std::optional<Error> error;                    ///< if the simulation did not converge (with time and unknown) or was interrupted
+    bool hit_iteration_limit = false;              ///< true if the simulation stopped at max_iterations
+    bool is_scalar = false;  ///< true if the chip was simulated by the scalar code, because a lane cannot or its lane failed
 };
 
 struct BatchOptions {
-    std::size_t lanes = 8;        ///< 1, 4 or 8; results do not depend on it
-    long max_iterations = 0;      ///< limit for one chip; 0: no limit
-    std::size_t probe_every = 0;  ///< records the probes at every n-th sample; 0: never
-    std::function<bool()> should_stop = {};
+    std::size_t lanes = 8;                   ///< number of chips that are simulated at once: 1, 4 or 8; results do not depend on it
+    long max_iterations = 0;                 ///< maximum number of Newton iterations of one chip; 0: no limit
+    std::size_t probe_every = 0;             ///< n: records the probes at samples 0, n, 2n ...; 0: never
+    std::function<bool()> should_stop = {};  ///< called repeatedly; must return true to stop
 };
 
-/// Simulates chips until `next` returns none. Calls on_done for each finished chip, in any order. The result of a chip does not depend on
-/// the other chips, the number of lanes or the instruction set. If the elimination or the convergence fails on a lane, the chip is
-/// simulated again from its beginning by the scalar code (run_chip_scalar). Errors: interrupted by should_stop.
+/// Simulates chips until `next` returns none. Calls on_done for each finished chip, in any order. `nominal` gives the elimination order and
+/// the tolerances for all lanes. The result of a chip does not depend on the other chips, the number of lanes or the instruction set. If
+/// the elimination or the convergence fails on a lane, the chip is simulated again from its beginning by the scalar code (run_chip_scalar).
+/// Errors: interruption by should_stop, an instruction set that this machine does not have, a nominal circuit that cannot be set up.
 Result<void> run_chips(const std::shared_ptr<const CircuitAfferentFactory>& nominal, const std::function<std::optional<Chip>()>& next,
                        const std::function<void(const Chip&, ChipResponse&&)>& on_done, const BatchOptions&);
 

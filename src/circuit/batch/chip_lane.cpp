@@ -9,10 +9,9 @@
 namespace corpuscle::circuit {
 namespace {
 
-// The same limits as in transient.cpp.
-constexpr double min_lane_step = 1e-15;  // relative to the end time
-constexpr double large_lane_step = 20, hopeless_lane_error = 2;
-constexpr long rounds_between_sums = 256;
+// The same as min_relative_step, large_newton_step and hopeless_error in transient.cpp.
+constexpr double min_lane_step = 1e-15, large_lane_step = 20, hopeless_lane_error = 2;
+constexpr long rounds_between_sums = 256;  // see ChipMemory::sum_again()
 
 }  // namespace
 
@@ -27,12 +26,13 @@ Result<bool> ChipLane::start(const Chip& chip, const BatchOptions& options) {
     }
     if (!is_compatible()) return false;
     std::vector<double> force(chip.force.begin(), chip.force.end());
+    // The force stays constant after its last sample, so that all breakpoints before it are known.
     force.insert(force.end(), static_cast<std::size_t>(2 * ForceWaveform::lookahead + 2), force.back());
     if (auto ok = simulation_->begin(force); !ok) return ok.error();
     chip_ = chip;
 
     auto& context = simulation_->context();
-    const auto start = simulation_->transient().save();
+    const auto start = simulation_->transient().save();  // the state at the initial condition
     plan_ = simulation_->transient().plan();
     control_ = {}, newton_ = {}, restart_pending_ = false, next_task_ = NextTask::nothing, rounds_ = 0;
     control_.h = start.h, times_ = {}, points_ = smooth_count_ = 1, newest_slot_ = curve_points_ = 0, breakpoint_ = -1, jumped_ = false;
@@ -76,7 +76,7 @@ ChipResponse ChipLane::finish() {
     return std::move(response_);
 }
 
-/// Writes the currents of the time-dependent sources at t to the block's source_currents.
+/// Writes f of the time-dependent sources at time t and x = 0 to the block's source_currents.
 void ChipLane::set_sources(double t) {
     const auto& system = simulation_->context().system;
     EvalContext eval_context{t, 1, simulation_->context().tolerances.gmin, true};
@@ -102,17 +102,18 @@ void ChipLane::start_step() {
     ends_at_breakpoint_ = now + 1.01 * h >= breakpoint_;
     if (!ends_at_breakpoint_ && now + 2 * h > breakpoint_) h = (breakpoint_ - now) / 2;
     t_ = ends_at_breakpoint_ ? breakpoint_ : now + h;
-    may_jump_ = !simulation_->transient().interpolated_unknowns().empty() && t_ - now <= control_.jump_step_limit(plan_.reltol, plan_.max_step);
+    may_jump_ =
+        !simulation_->transient().interpolated_unknowns().empty() && t_ - now <= control_.jump_step_limit(plan_.reltol, plan_.max_step);
     predictor_weights_ = weights_of_value(times(std::min(control_.order + 1, points_)), t_);
     newton_.begin();
     is_new_step_ = true;
 }
 
-ChipLane::NextTask ChipLane::prepare(lanes::PredictCall& call, std::span<lanes::LaneRow> value, std::span<lanes::LaneRow> slope,
-                                     lanes::SolveCall& solve, lanes::StepCall& step) {
+ChipLane::NextTask ChipLane::prepare(lanes::PredictCall& call, std::span<lanes::LaneRow> value_weights,
+                                     std::span<lanes::LaneRow> slope_weights, lanes::SolveCall& solve, lanes::StepCall& step) {
     is_new_step_ = false;
     if (!is_occupied()) return next_task_ = NextTask::nothing;
-    if (next_task_ == NextTask::restart) {  // at the last point, without history
+    if (next_task_ == NextTask::restart) {  // evaluate at the newest point, without dq/dt
         a_ = 0;
         set_sources(times_[0]);
         for (std::size_t n = 0; n < memory_.unknowns(); ++n)
@@ -122,10 +123,10 @@ ChipLane::NextTask ChipLane::prepare(lanes::PredictCall& call, std::span<lanes::
         set_sources(t_);
         const auto weights = weights_of_slope(times(control_.order), t_, a_);
         for (int k = 0; k < points_; ++k)
-            value[history_slot(k)].value[lane_] = predictor_weights_[static_cast<std::size_t>(k)],
-            slope[history_slot(k)].value[lane_] = weights[static_cast<std::size_t>(k)];
+            value_weights[history_slot(k)].value[lane_] = predictor_weights_[static_cast<std::size_t>(k)],
+            slope_weights[history_slot(k)].value[lane_] = weights[static_cast<std::size_t>(k)];
         for (int k = points_; k < static_cast<int>(memory_.block.points); ++k)
-            value[history_slot(k)].value[lane_] = slope[history_slot(k)].value[lane_] = 0;
+            value_weights[history_slot(k)].value[lane_] = slope_weights[history_slot(k)].value[lane_] = 0;
         next_task_ = NextTask::iterate;
     }
     call.is_new_step.value[lane_] = is_new_step_;
@@ -142,8 +143,8 @@ void ChipLane::relinearize_nonlinear_devices() {
         context.newton.limiting_state);
 }
 
-ChipLane::IterationStatus ChipLane::finish_iteration(double size, bool clamped, bool finite) {
-    if (next_task_ == NextTask::restart) {
+ChipLane::IterationStatus ChipLane::finish_iteration(double size, bool is_clamped, bool is_finite) {
+    if (next_task_ == NextTask::restart) {  // with a = 0 and no history, the residual is f(x) = -dq/dt
         for (std::size_t n = 0; n < memory_.unknowns(); ++n) memory_.block.rate[n].value[lane_] = -memory_.block.r[n].value[lane_];
         points_ = 1;
         if (restart_pending_) smooth_count_ = 1;
@@ -152,11 +153,11 @@ ChipLane::IterationStatus ChipLane::finish_iteration(double size, bool clamped, 
         return IterationStatus::iterating;
     }
     ++response_.stats.iterations;
-    if (!finite || !std::isfinite(size)) {
+    if (!is_finite || !std::isfinite(size)) {
         is_iterating_ = false;
         return IterationStatus::failed;
     }
-    auto status = newton_.update(size, is_limited_ || clamped);
+    auto status = newton_.update(size, is_limited_ || is_clamped);
     if (status == NewtonControl::Status::converged && !may_jump_) {
         auto& context = simulation_->context();
         if (!memory_.expressions_match(lane_, context.system, {t_, 1, context.tolerances.gmin, true},
@@ -171,23 +172,23 @@ ChipLane::IterationStatus ChipLane::finish_iteration(double size, bool clamped, 
 void ChipLane::set_error_weights(int order, lanes::ErrorCall& call, std::span<lanes::LaneRow> past_weights) const {
     for (auto& row : past_weights) row.value[lane_] = 0;
     if (points_ == 1) {
-        const double per_step = 1 / (t_ - times_[0]);
+        const double per_step = 1 / (t_ - times_[0]);  // 1/s
         call.charge_weight.value[lane_] = per_step, past_weights[history_slot(0)].value[lane_] = -per_step;
         call.rate_weight.value[lane_] = -1;
         return;
     }
     const int points = std::min(order + 1, points_);
     const auto weights = order == control_.order ? predictor_weights_ : weights_of_value(times(points), t_);
-    const double per_history = 1 / (t_ - times_[static_cast<std::size_t>(points) - 1]);
+    const double per_history = 1 / (t_ - times_[static_cast<std::size_t>(points) - 1]);  // 1/s
     call.charge_weight.value[lane_] = per_history, call.rate_weight.value[lane_] = 0;
     for (int k = 0; k < points; ++k) past_weights[history_slot(k)].value[lane_] = -per_history * weights[static_cast<std::size_t>(k)];
 }
 
 /// The same estimate as Transient::interpolation_error().
 double ChipLane::interpolation_error() {
-    const auto curves = simulation_->transient().interpolated_unknowns();
+    const auto interpolated_unknowns = simulation_->transient().interpolated_unknowns();
     curve_points_ = 0;
-    if (curves.empty()) return 0;
+    if (interpolated_unknowns.empty()) return 0;
     auto& b = memory_.block;
     std::array<double, 9> times{t_};
     std::copy(times_.begin(), times_.end(), times.begin() + 1);
@@ -195,7 +196,7 @@ double ChipLane::interpolation_error() {
     for (int k = 0; k < StepControl::max_curve_points; ++k) rows[static_cast<std::size_t>(k) + 1] = b.past_x + history_slot(k) * b.unknowns;
     const auto curve = best_interpolant(times, smooth_count_, [&](const HistoryWeights& w, int points) {
         double worst = 0;
-        for (const int n : curves) {
+        for (const int n : interpolated_unknowns) {
             double sum = 0;
             for (std::size_t k = 0; k <= static_cast<std::size_t>(points); ++k) sum += w[k] * rows[k][n].value[lane_];
             const double tolerance = plan_.reltol * b.scale[n].value[lane_] + (b.is_voltage[n] ? plan_.vntol : plan_.abstol);
@@ -207,7 +208,6 @@ double ChipLane::interpolation_error() {
     return curve.error;
 }
 
-/// Decides about the step after the Newton iterations. An infinite `error` means that they diverged.
 ChipLane::StepStatus ChipLane::decide_step(double error) {
     const bool diverged = std::isinf(error);
     if (!diverged && is_iterating_ && !(error > hopeless_lane_error)) return StepStatus::iterating;
@@ -255,6 +255,7 @@ bool ChipLane::accept_step() {
     const double step_start = times_[0];
     advance();
     add_energy(step_start);
+    // A spike after the last sample is dropped.
     if (const auto at = spike(); at && std::ceil(*at / chip_->T) < static_cast<double>(chip_->force.size()))
         response_.spikes.push_back(*at);
     record_samples();
@@ -262,6 +263,7 @@ bool ChipLane::accept_step() {
     return !response_.hit_iteration_limit && times_[0] < end_time_;
 }
 
+/// As Transient::interpolate().
 double ChipLane::interpolate(double t, int unknown) const {
     if (unknown < 0) return 0;
     if (const auto source = simulation_->transient().source_voltage(t, unknown)) return *source;
@@ -273,6 +275,7 @@ double ChipLane::interpolate(double t, int unknown) const {
     return sum;
 }
 
+/// The time of a spike within the last step; nothing if there is none.
 std::optional<double> ChipLane::spike() const {
     const auto& o = chip_->design->spike_output;
     const auto u = [&](int k, int unknown) { return unknown < 0 ? 0 : past(memory_.block.past_x, k, static_cast<std::size_t>(unknown)); };
@@ -282,7 +285,7 @@ std::optional<double> ChipLane::spike() const {
                          [&](double t) { return sign * (interpolate(t, o.unknowns.plus) - interpolate(t, o.unknowns.minus) - o.level); });
 }
 
-/// For all samples up to the current time: records the probes and checks the operating ranges.
+/// For all samples in the last step: records the probes and checks the operating ranges.
 void ChipLane::record_samples() {
     const auto& design = *chip_->design;
     const auto every = static_cast<std::int64_t>(options_->probe_every), count = static_cast<std::int64_t>(chip_->force.size());

@@ -9,7 +9,7 @@
 namespace corpuscle::circuit {
 namespace {
 
-/// Allocates several arrays of rows from one block of memory.
+/// Allocates several arrays of rows from one vector.
 class RowAllocator {
     std::vector<std::pair<lanes::LaneRow**, std::size_t>> requests_;
 
@@ -19,19 +19,20 @@ public:
         std::size_t total = 0;
         for (const auto& [array, count] : requests_) total += count;
         memory.assign(total, {});
-        total = 0;
-        for (const auto& [array, count] : requests_) *array = memory.data() + total, total += count;
+        std::size_t offset = 0;
+        for (const auto& [array, count] : requests_) *array = memory.data() + offset, offset += count;
     }
 };
 
-/// The unknowns of the transistors' terminals; ground is the index after the last unknown.
+/// The unknowns of the transistors' terminals; ground is the index after the last unknown. All groups consist of transistors, the only kind
+/// of device that has batches.
 std::vector<int> transistor_terminals(const System& system) {
     std::vector<int> out;
     for (const auto& group : system.groups())
         for (const int u : group.unknowns) out.push_back(u < 0 ? system.size() : u);
     return out;
 }
-/// The unknowns of the other devices.
+/// The unknowns of each other device; ground is -1.
 std::vector<std::vector<int>> other_unknowns(const System& system) {
     std::vector<std::vector<int>> out;
     for (const auto k : system.scalar_devices()) out.push_back(system.devices()[k]->unknowns);
@@ -45,10 +46,10 @@ ChipMemory::ChipMemory(const System& system, const Elimination& elimination, std
     const auto& p = system.pattern();
     const auto n = static_cast<std::size_t>(system.size()), entries = p.entries();
     const auto list = elimination.list();
-    std::vector<std::size_t> order(entries);
+    std::vector<std::size_t> order(entries);  // entries of the pattern in the order of their slots
     std::iota(order.begin(), order.end(), std::size_t{0});
     std::sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) { return list.entry_slot[a] < list.entry_slot[b]; });
-    std::vector<int> columns(entries);
+    std::vector<int> columns(entries);  // of each entry
     for (int column = 0; column < p.size(); ++column)
         for (int e = p.column_begin()[static_cast<std::size_t>(column)]; e < p.column_begin()[static_cast<std::size_t>(column) + 1]; ++e)
             columns[static_cast<std::size_t>(e)] = column;
@@ -57,12 +58,13 @@ ChipMemory::ChipMemory(const System& system, const Elimination& elimination, std
         entry_[k] = row_.size();
         row_.push_back(p.rows()[k]), column_.push_back(columns[k]), slot_.push_back(list.entry_slot[k]);
     }
-    for (int u = 0; u < system.size(); ++u) voltage_.push_back(system.is_voltage(u));
+    for (int u = 0; u < system.size(); ++u) is_voltage_.push_back(system.is_voltage(u));
     for (const auto& group : system.groups())
         for (const auto k : group.entries) entries_.push_back(entry_[k]);
     auto& b = block;
     b.unknowns = n, b.entries = entries, b.points = points, b.devices = transistors_, b.list = list;
-    b.row = row_.data(), b.column = column_.data(), b.slot = slot_.data(), b.is_voltage = voltage_.data(), b.terminals = terminals_.data();
+    b.row = row_.data(), b.column = column_.data(), b.slot = slot_.data(), b.is_voltage = is_voltage_.data(),
+    b.terminals = terminals_.data();
     RowAllocator rows;
     for (auto* array : {&b.q, &b.source_currents, &b.history, &b.rate, &b.r, &b.step, &b.error, &b.inverse_pivot, &b.work, &b.scale,
                         &b.inverse_allowed, &b.relative, &b.floor})
@@ -88,6 +90,7 @@ bool ChipMemory::is_compatible(const System& system) const {
            other_unknowns(system) == scalar_unknowns_;
 }
 
+/// Sums the linear devices of a chip, and lists its nonlinear devices that are not transistors.
 void ChipMemory::sum_linear_devices(const System& system, std::size_t chip, const EvalContext& context) {
     lanes::LaneRow *const I = linear_sums_.data(), *const G = I + block.unknowns, *const C = G + block.entries;
     for (auto& row : linear_sums_) row.value[chip] = 0;
@@ -122,7 +125,7 @@ void ChipMemory::load_chip(std::size_t chip, const System& system, const EvalCon
     for (const auto& group : system.groups())
         for (const auto* device : group.members) *constants++ = &transistor_constants(*device);
     std::fill_n(linearizations_.begin() + static_cast<std::ptrdiff_t>(chip * transistors_), transistors_, Linearization{});
-    for (std::size_t k = 0; k < 4 * transistors_; ++k) block.linearized_at[k].value[chip] = 1e30;
+    for (std::size_t k = 0; k < 4 * transistors_; ++k) block.linearized_at[k].value[chip] = 1e30;  // counts as moved
     for (std::size_t n = 0; n < block.unknowns; ++n) block.source_currents[n].value[chip] = 0;
     sum_again(chip);
 }
@@ -143,6 +146,7 @@ void ChipMemory::sum_again(std::size_t chip) {
     for (auto& other : nonlinear_devices_[chip]) std::fill(other.last_linearization.begin(), other.last_linearization.end(), 0.0);
 }
 
+/// Adds the change of a linearization to the sums of the block.
 void ChipMemory::replace_linearization(const DeviceOnChip& p, const Linearization& updated) {
     constexpr std::size_t row = lanes::chips_per_block;  // distance between rows
     Linearization &old = linearizations_[p.chip * transistors_ + p.device], change;
@@ -240,6 +244,7 @@ bool ChipMemory::expressions_match(std::size_t chip, const System& system, const
         for (std::size_t row = 0; row < n; ++row) {
             double linear = o.last_linearization[row];
             for (std::size_t column = 0; column < n; ++column) linear += o.last_linearization[2 * n + row * n + column] * o.v[column];
+            // As in StepEquations: the equation of a branch current is a sum of voltages.
             const bool is_voltage = o.unknowns[row] >= 0 && !system.is_voltage(o.unknowns[row]);
             const double scale = is_voltage ? std::abs(o.v[0] - o.v[1]) : std::max(std::abs(f[row]), std::abs(linear));
             if (!tolerance.accepts(is_voltage, f[row] - linear, scale)) return false;

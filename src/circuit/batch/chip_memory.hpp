@@ -1,5 +1,5 @@
 #pragma once
-// The memory of a block of chips, as the kernels need it. Devices are linearized again when their voltages have moved.
+// The memory of a block of chips, as the kernels need it. Transistors are linearized again when their voltages have moved.
 
 #include <memory>
 #include <vector>
@@ -13,34 +13,39 @@ namespace corpuscle::circuit {
 
 using lanes::Linearization;
 
-/// A nonlinear device without kernels, for one chip. It is linearized in every iteration.
+/// A nonlinear device of one chip that is not a transistor. It is linearized in every iteration.
 struct NonlinearDevice {
     std::size_t index;  ///< in the system
     std::vector<int> unknowns;
-    std::vector<std::size_t> entries;                                     ///< matrix entry of each derivative; the last entry is ground
-    std::vector<double> v, limited_v, linearization, last_linearization;  ///< linearization: i, q, g, c, as in Linearization
+    std::vector<std::size_t> entries;        ///< matrix entry of each derivative; for ground the number of entries
+    std::vector<double> v, limited_v;        ///< values of its unknowns, before and after limiting
+    std::vector<double> linearization;       ///< i, q, g, c, as in Linearization
+    std::vector<double> last_linearization;  ///< the one that the sums of the block contain
 };
 
+/// The parameter `chip` of the functions is the column of a chip in the block, from 0.
 class ChipMemory {
+    // The arrays to which the pointers of `block` with similar names refer; rows_ holds all rows.
     std::vector<lanes::LaneRow> rows_;
-    std::vector<int> terminals_, row_, column_, slot_, fill_;  // terminals_: unknowns of the transistors' terminals
-    std::size_t transistors_;
+    std::vector<int> terminals_, row_, column_, slot_, fill_;
+    std::size_t transistors_;                        // number of transistors of a chip
     std::vector<std::vector<int>> scalar_unknowns_;  // unknowns of each device that is not a transistor
-    std::vector<char> voltage_;
-    std::vector<std::size_t> entry_;               // matrix entry by index in the sparsity pattern; the last one is for ground
-    std::vector<std::size_t> entries_;             // entry of each derivative of the transistors
+    std::vector<char> is_voltage_;
+    std::vector<std::size_t> entry_;               // entry of the block, by entry of the sparsity pattern; the last one is for ground
+    std::vector<std::size_t> entries_;             // [transistor][16]: entry of the block of each derivative
     std::vector<Linearization> linearizations_;    // [chip][transistor]
-    std::vector<lanes::LaneRow> linear_sums_;      // I, G, C of linear devices
+    std::vector<lanes::LaneRow> linear_sums_;      // I, G, C of the linear devices, one after another; their Q is 0
     std::vector<const UicmConstants*> constants_;  // [chip][transistor]
-    std::vector<std::uint8_t> moved_;
+    std::vector<std::uint8_t> moved_;              // [transistor]: chips in which it has moved, as bits
     struct DeviceOnChip {
         std::size_t device, chip;
     };
+    // The moved transistors of all chips, their constants, voltages (all drains, gates, sources, bulks) and new linearizations.
     std::vector<DeviceOnChip> moved_devices_;
     std::vector<const UicmConstants*> moved_constants_;
-    std::vector<lanes::LaneRow> moved_v_;            // voltages of the moved transistors: drains, gates, sources, bulks
-    std::vector<Linearization> new_linearizations_;  // new linearizations of the moved transistors
-    std::vector<NonlinearDevice> nonlinear_devices_[lanes::chips_per_block];
+    std::vector<lanes::LaneRow> moved_v_;
+    std::vector<Linearization> new_linearizations_;
+    std::vector<NonlinearDevice> nonlinear_devices_[lanes::chips_per_block];  // by chip
 
     void prefetch(const DeviceOnChip&) const;
     void replace_linearization(const DeviceOnChip&, const Linearization& updated);
@@ -50,23 +55,23 @@ public:
     lanes::ChipBlock block{};
     double linearization_radius = 0;  ///< V: a transistor is linearized again after a terminal voltage has moved this far
 
-    /// For chips with the same connections as this system. `points`: length of the history.
+    /// Memory for chips with the same connections as this system. `points`: length of the history.
     ChipMemory(const System&, const Elimination&, std::size_t points);
     ChipMemory(const ChipMemory&) = delete;
 
     std::size_t unknowns() const { return block.unknowns; }
     /// True if the devices of this system have the same unknowns as those of the system passed to the constructor.
     bool is_compatible(const System&) const;
-    /// Loads a chip into a column. Its transistors are linearized when they are next needed.
+    /// Loads the devices of a chip into its column. Its transistors are linearized at the next relinearize().
     void load_chip(std::size_t chip, const System&, const EvalContext&);
-    /// Sums the linearizations of a chip again, so that rounding errors of the updates do not accumulate.
+    /// Computes the sums I, Q, G and C of a chip again from its linearizations, so that rounding errors of the updates do not accumulate.
     void sum_again(std::size_t chip);
 
-    /// Linearizes all transistors that have moved, in the chips of this bit set.
+    /// Linearizes all transistors that have moved by linearization_radius, in the chips of this bit set. gmin: S.
     void relinearize(const lanes::ChipKernels&, std::uint8_t chips, double gmin);
     /// Linearizes the other nonlinear devices of a chip. Returns true if a device's voltages were limited.
     bool relinearize_nonlinear_devices(std::size_t chip, const System&, const EvalContext&, std::vector<double>& limiting_state);
-    /// True if the expressions of a chip match their linearizations at x.
+    /// True if the expressions with jumps of a chip match their linearizations at x.
     bool expressions_match(std::size_t chip, const System&, const EvalContext&, const ExpressionTolerance&);
 };
 

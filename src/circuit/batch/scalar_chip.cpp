@@ -7,7 +7,7 @@ namespace {
 
 constexpr std::size_t samples_per_block = 256;
 
-/// Simulates a chip block by block.
+/// Simulates a chip block by block. The response of the afferent lags the force by delay() samples, so the force is continued by as many.
 class ScalarRun {
     const Chip& chip_;
     const BatchOptions& options_;
@@ -15,9 +15,10 @@ class ScalarRun {
     std::unique_ptr<Afferent> afferent_;
     State state_;
     std::vector<Spike> spikes_;
-    std::vector<std::vector<double>> probes_;
-    std::vector<double*> rows_;
+    std::vector<std::vector<double>> probes_;  // [probe][sample of the block]
+    std::vector<double*> rows_;                // the rows of probes_
 
+    /// Records the probes of a block of `count` samples, the first with number `first`; numbers below 0 are before the force.
     void record_probes(std::int64_t first, std::size_t count) {
         const auto every = static_cast<std::int64_t>(options_.probe_every), end = static_cast<std::int64_t>(chip_.force.size());
         for (std::size_t p = 0; p < probes_.size(); ++p)

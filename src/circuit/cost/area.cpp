@@ -8,7 +8,8 @@
 namespace corpuscle::circuit {
 namespace {
 
-constexpr double um = 1e-6, max_rows_of_array = 4096;
+constexpr double um = 1e-6;                 // m
+constexpr double max_rows_of_array = 4096;  // array_area() tries no more
 
 }  // namespace
 

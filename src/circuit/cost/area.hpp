@@ -8,7 +8,7 @@ namespace corpuscle::circuit {
 /// Areas in m^2, without wells, bulk contacts, wires, guard rings and pads.
 struct Area {
     double gates = 0;       ///< channel area: m stack W L
-    double arrays = 0;      ///< of transistors, with each array in its smallest rectangle
+    double arrays = 0;      ///< of transistors, with each array in the smallest rectangle that contains it
     double islands = 0;     ///< of the same transistors, with each unit transistor on its own island
     double capacitors = 0;  ///< of plates; they are metal above the transistors, so they may overlap the arrays
     double total() const { return arrays + capacitors; }
@@ -18,8 +18,8 @@ struct Area {
 /// Density of MIM capacitors, F/m^2. 20 x 20 um are 0.8 pF and 30 x 30 um are 1.8 pF (thesis table 5; errata S4).
 inline constexpr double capacitor_density = 2e-3;
 
-/// Total area of an array of equal unit transistors of W by L, in rows and columns (along L) of one rectangle. The margins around the
-/// array and between its units are inferred from the thesis's tables 10 and 13 (0.18 um):
+/// Total area A_T of an array of equal unit transistors of W by L, in a rectangle of r rows (along W) and c columns (along L). The margins
+/// around the array and between its units are inferred from the thesis's tables 10 and 13 (0.18 um):
 ///
 ///     A_T = (r W + (r - 1) 0.28 um + 0.5 um) (c L + (c - 1) 0.54 um + 0.96 um)
 ///
@@ -29,12 +29,11 @@ inline constexpr double capacitor_density = 2e-3;
 ///
 /// For array A it is 3.6 % too large.
 struct RectangleRule {
-    static constexpr double around_W = 0.5e-6, around_L = 0.96e-6;  ///< m; margin of an island around its channel
-    static constexpr double between_W = 0.28e-6,
-                            between_L =
-                                0.54e-6;  ///< m; between units along W (separate diffusions) and along L (a shared diffusion with contacts)
+    static constexpr double around_W = 0.5e-6, around_L = 0.96e-6;  ///< m; margin of an island around its channel, both sides together
+    static constexpr double between_W = 0.28e-6;                    ///< m; between units along W, which have separate diffusions
+    static constexpr double between_L = 0.54e-6;                    ///< m; between units along L, which share a diffusion with contacts
 };
-/// A_T, m^2.
+/// A_T of an array with r = `rows` and c = `columns`, m^2.
 double rectangle_area(double W, double L, double rows, double columns);
 /// The area, m^2, of the smallest rectangle that contains this number of unit transistors.
 double array_area(double W, double L, double unit_transistors);

@@ -9,7 +9,7 @@
 namespace corpuscle::circuit {
 namespace {
 
-constexpr double min_reported_leak = 0.1;  // as a fraction of the smallest bias current
+constexpr double min_reported_leak = 0.1;  // smallest leakage current in Cost::leaks, as a fraction of the smallest bias current
 
 bool is_afferent(const Circuit& circuit) {
     const auto& elements = circuit.elements;

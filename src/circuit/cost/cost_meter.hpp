@@ -6,7 +6,7 @@
 
 namespace corpuscle::circuit {
 
-/// Measures power over a transient while it runs, and adds area and leakage afterwards.
+/// Measures power over a transient while it runs, and adds the power at the operating point, area and leakage afterwards.
 class CostMeter {
     AnalysisContext& context_;
     std::optional<PowerMeter> meter_;
@@ -15,7 +15,7 @@ class CostMeter {
 public:
     explicit CostMeter(AnalysisContext& context) : context_(context) {}
     CostMeter(const CostMeter&) = delete;
-    /// Connects the meter to the options of a run. The options must not outlive this object.
+    /// Makes the options of a run pass the points of its transient to this meter, which must outlive them.
     Result<void> attach(RunOptions& options);
     /// The cost; call it after the run.
     Result<Cost> cost() const { return cost_of(context_, power_over_time_ ? &*power_over_time_ : nullptr); }

@@ -15,7 +15,7 @@ enum Terminal { D, G, S, B };
 
 /// Merges nodes that are connected by 0 V sources, which only measure a current.
 class MergedNodes {
-    std::vector<int> representative_;
+    std::vector<int> representative_;  // by node: the lowest number of the nodes merged with it
 
 public:
     explicit MergedNodes(const Circuit& circuit) : representative_(circuit.nodes.size()) {
@@ -32,22 +32,23 @@ public:
     int representative(int node) const { return representative_[static_cast<std::size_t>(node)]; }
 };
 
-/// Nodes whose voltage is held by a capacitor and not by a voltage source. Maps each merged node to the capacitor's node.
+/// Nodes whose voltage is held by a capacitor and not by a voltage source. Maps the representative of the merged nodes to the node of the
+/// capacitor.
 std::map<int, int> capacitor_nodes(const Circuit& circuit, const MergedNodes& merged) {
     std::map<int, int> out;
     for (const auto& e : circuit.elements)
         if (e.letter == 'c')
             for (int k = 0; k < 2; ++k)
                 out.emplace(merged.representative(e.nodes[static_cast<std::size_t>(k)]), e.nodes[static_cast<std::size_t>(k)]);
-    out.erase(0);
+    out.erase(0);  // ground
     for (const auto& e : circuit.elements)
         if (e.letter == 'v' && !MergedNodes::is_wire(e))
             for (const int node : e.nodes) out.erase(merged.representative(node));
     return out;
 }
 
-/// The drain current, A, with the gate at the source voltage. `forward` is the forward bias of the bulk against the source, with the signs
-/// of an NMOS.
+/// The magnitude of the drain current, A, with the gate at the source voltage and `supply` (V) between drain and source. `forward` (V) is
+/// the voltage of the bulk above the source, with the signs of an NMOS. `polarity`: 1 for NMOS, -1 for PMOS.
 double drain_current(const Device& d, double polarity, double supply, double forward) {
     const double v[4] = {polarity * supply, 0, 0, polarity * forward};
     double f[4] = {}, q[4] = {}, df[16] = {}, dq[16] = {};

@@ -13,15 +13,16 @@ namespace corpuscle::circuit {
 struct Leakage {
     std::size_t element = 0;  ///< index in Circuit::elements
     double current = 0;       ///< A
-    double V_GS = 0;      ///< V at the operating point, positive towards conduction; the source is the terminal that acts as source there
-    bool is_off = false;  ///< V_GS is below phi_t: the transistor carries less than e times its leakage
-    std::string capacitor_node;  ///< the node at source or drain whose voltage a capacitor holds, such as "u"; "" if there is none
+    /// V, at the operating point, positive towards conduction. The source is the terminal that acts as source there.
+    double V_GS = 0;
+    bool is_off = false;         ///< true if V_GS is below phi_t: the transistor carries less than e times its leakage current
+    std::string capacitor_node;  ///< a node at its source or drain whose voltage a capacitor holds, such as "u"; "" if there is none
 };
 
-/// The leakage of every transistor at the operating point x.
+/// The leakage of every transistor at the operating point x. supply: V.
 std::vector<Leakage> leakage_of(const System&, std::span<const double> x, double supply);
 
-/// The smallest current of the ideal current sources, A, FORCE sources excluded; 0 if there is none.
+/// The smallest DC current above 0 of the ideal current sources, A, FORCE sources excluded; 0 if there is none.
 double smallest_bias(const Circuit&);
 
 }  // namespace corpuscle::circuit

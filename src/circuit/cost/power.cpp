@@ -6,6 +6,7 @@
 namespace corpuscle::circuit {
 namespace {
 
+/// The name of the block to which an element belongs.
 std::string block_of(const Element& e) {
     const auto dot = e.name.find('.');
     if (dot != std::string::npos) return e.name.substr(1, dot - 1);
@@ -29,6 +30,7 @@ std::vector<int> force_nodes(const System& system) {
 /// True for a current source with an expression that reads one of these nodes.
 bool is_sensor(const Element& e, const Device& d, std::span<const int> nodes) {
     if (!e.expression || e.expression_is_voltage || (e.letter != 'b' && e.letter != 'g')) return false;
+    // The first two unknowns are the nodes of the source itself; the others are read by the expression.
     return std::any_of(d.unknowns.begin() + 2, d.unknowns.end(),
                        [&](int u) { return std::find(nodes.begin(), nodes.end(), u) != nodes.end(); });
 }
@@ -75,7 +77,7 @@ PowerMeter::PowerMeter(const System& system, std::span<const double> x, double g
     }
 }
 
-/// The current into the first node of the device; `power` receives the sum of v i over all its nodes, W.
+/// The current (A) into the first node of device k; `power` receives the sum of v i over all its nodes, W.
 double PowerMeter::current(std::size_t k, std::span<const double> x, double t, double& power) const {
     const auto& d = *system_.devices()[k];
     const auto n = d.unknowns.size();

@@ -12,7 +12,7 @@
 namespace corpuscle::circuit {
 
 /// The blocks of a circuit. Each subcircuit of the top level is one ("ccvs" for xccvs). The ideal current sources of the top level form
-/// another ("ideal currents"), and all other elements of the top level the last ("top level").
+/// another ("ideal currents"). All other elements of the top level form one more ("top level").
 struct Blocks {
     std::vector<std::string> names;
     std::vector<std::size_t> block_of_element;  ///< index of the block of each element
@@ -23,8 +23,8 @@ struct Blocks {
 struct PowerBreakdown {
     double supplies = 0;                  ///< delivered by all sources
     double sensor = 0;                    ///< the part of `supplies` for the current through the sensor; see PowerMeter
-    double without_sensor = 0;            ///< the rest
-    std::vector<double> sources, blocks;  ///< of each source and block, in the order of the meter
+    double without_sensor = 0;            ///< the rest of `supplies`
+    std::vector<double> sources, blocks;  ///< by index in PowerMeter::sources() and in PowerMeter::blocks().names
 };
 
 /// Computes power at a solution of the circuit. Sources are independent voltage sources, FORCE sources, and current sources that deliver
@@ -33,12 +33,12 @@ struct PowerBreakdown {
 /// voltage of the source that delivers most, although a part of this power is dissipated in other elements.
 class PowerMeter {
     const System& system_;
-    double gmin_;
+    double gmin_;  // S
     Blocks blocks_;
-    std::vector<std::size_t> sources_, sensors_;  // devices
-    std::vector<int> role_;                       // of each device: the index of its source, or -1 - the index of its block
-    double supply_ = 0;
-    mutable std::vector<double> v_, f_, q_, df_, dq_;
+    std::vector<std::size_t> sources_, sensors_;       // indices of devices
+    std::vector<int> role_;                            // by device: its index in sources_, or -1 - the index of its block
+    double supply_ = 0;                                // V
+    mutable std::vector<double> v_, f_, q_, df_, dq_;  // buffers of current()
 
     double current(std::size_t device, std::span<const double> x, double t, double& power) const;
 
@@ -54,8 +54,8 @@ public:
     };
     DeliveredPower delivered_at(std::span<const double> x, double t) const;
     const Blocks& blocks() const { return blocks_; }
-    std::vector<std::string> sources() const;  ///< their names
-    double supply() const { return supply_; }  ///< V, of the source that delivers the most power
+    std::vector<std::string> sources() const;  ///< names of the sources
+    double supply() const { return supply_; }  ///< V: voltage of the voltage source that delivers the most power at the operating point
     bool has_sensor() const { return !sensors_.empty(); }
 };
 
@@ -63,10 +63,12 @@ public:
 class PowerOverTime final : public PointSink {
     const PowerMeter& meter_;
     std::vector<Phase> phases_;
-    std::vector<PowerBreakdown> sums_;  // J; the first is of the complete transient
-    std::vector<double> times_;
-    PowerBreakdown peak_, previous_;
-    double t_ = 0;
+    // The first element is of the complete transient; the others are of the phases.
+    std::vector<PowerBreakdown> sums_;  // J
+    std::vector<double> times_;         // s
+    PowerBreakdown peak_;               // largest value of each number
+    PowerBreakdown previous_;           // at the previous point
+    double t_ = 0;                      // s: time of the previous point
     bool has_points_ = false;
 
 public:
@@ -75,7 +77,7 @@ public:
     Result<void> add_point(std::span<const double> row) override;
     Result<void> end() override { return {}; }
 
-    /// "mean", "peak", then each phase by name; empty if there was no transient.
+    /// "mean", "peak" (the largest value of each number), then the mean in each phase by its name; empty if there was no transient.
     std::vector<std::pair<std::string, PowerBreakdown>> averages() const;
 };
 

@@ -20,10 +20,10 @@ class ForceWaveform;
 
 /// The conditions under which a device is evaluated.
 struct EvalContext {
-    double time = 0;           ///< s
+    double time = 0;           ///< s: time of the sources' waveforms
     double source_scale = 1;   ///< factor of all sources: below 1 during source stepping
     double gmin = 0;           ///< S, in parallel with every junction
-    bool with_charges = true;  ///< false: q and dq need not be evaluated
+    bool with_charges = true;  ///< false: q and dq of the stamp need not be computed
 };
 
 /// The contribution of a device to the equations. The unknowns are the terminals, then the device's own unknowns. For a node, f is the
@@ -32,15 +32,17 @@ struct EvalContext {
 /// dq have n^2; most callers allocate them in this order in one buffer.
 struct Stamp {
     std::span<double> f, q, df, dq;
+    // The derivatives of f[row] and q[row] with respect to the unknown `column`.
     double& slope(std::size_t row, std::size_t column) const { return df[row * f.size() + column]; }
     double& capacitance(std::size_t row, std::size_t column) const { return dq[row * f.size() + column]; }
 };
 
-/// A noise current between two unknowns of a device: its spectral density, A^2/Hz, is white + flicker / f.
+/// A noise current between two unknowns of a device: its spectral density, A^2/Hz, at the frequency f in Hz is white + flicker / f.
 struct NoiseSource {
     std::string_view mechanism;  ///< "thermal", "shot", "flicker" ...
     std::size_t from, to;        ///< indices into the device's unknowns
-    double white = 0, flicker = 0;
+    double white = 0;            ///< A^2/Hz
+    double flicker = 0;          ///< A^2/Hz at 1 Hz
 };
 
 /// One quantity of a device in the .op table.
@@ -49,18 +51,19 @@ struct OperatingValue {
     double value;
 };
 
-/// The random process and mismatch sample of one chip, a function of (seed, chip).
+/// The random process and mismatch sample of one chip. The deviations of each device are computed from (seed, chip, index of the device).
 struct ChipSample {
-    std::uint64_t seed = 0, chip = 0;
-    bool has_mismatch = true;  ///< each device has its own deviation
-    double process[4] = {};    ///< normal deviates common to all devices: V_T0 of NMOS and PMOS, then I_SQ of NMOS and PMOS
+    std::uint64_t seed = 0, chip = 0;  ///< chip: its number among the chips of this seed
+    bool has_mismatch = true;          ///< false: all devices have the process deviation only
+    double process[4] = {};            ///< standard normal deviates common to all devices: V_T0 of NMOS, PMOS; I_SQ of NMOS, PMOS
 };
 
+/// An element of the circuit. Its unknowns are its terminals, then those that only its equations need, e.g. a branch current.
 class Device {
 public:
     std::string name;
     SourceLocation location;
-    std::vector<int> unknowns;  ///< indices in the system; -1: ground
+    std::vector<int> unknowns;  ///< indices of its unknowns in the system; -1: ground
 
     virtual ~Device() = default;
     /// Writes f, q and their derivatives to a stamp that is zero. v: values of the device's unknowns.
@@ -71,53 +74,58 @@ public:
 
     /// Number of values that limit() keeps between Newton iterations.
     virtual std::size_t limiting_state_size() const { return 0; }
-    /// Limits the Newton step: changes v if it is too far from the last evaluation, which `state` holds. Returns true if v was changed.
+    /// Limits the Newton step: changes v if it is too far from the voltages of the last evaluation, which `state` holds. Then stores the
+    /// voltages of this evaluation in `state`. Returns true if v was changed.
     virtual bool limit(std::span<double> /*v*/, std::span<double> /*state*/) const { return false; }
 
-    /// The value that .dc sweeps: DC value of a source, resistance, gain ... Returns false (or nothing) if the device has none.
+    /// The value that .dc sweeps: DC value of a source, resistance, gain ... A device without such a value returns false, or nothing.
     virtual bool set_principal_value(double) { return false; }
     virtual std::optional<double> principal_value() const { return {}; }
     /// Adds the source's AC value to the right-hand side of the equations of .ac.
     virtual void add_ac_stimulus(std::span<std::complex<double>>) const {}
 
-    /// Starts a transient with this step and end (s). An end of 0 freezes the source at its DC value again.
+    /// Starts the waveform of a source for a transient. `step` and `stop` (s) are those of .tran, from which SPICE takes default times.
+    /// With a stop of 0 the source has its DC value again.
     virtual void start_transient(double /*step*/, double /*stop*/) {}
     /// Sets the force waveform of a source with the keyword FORCE; null: 0 N. Returns false for any other device.
     virtual bool set_force_input(const ForceWaveform*) { return false; }
-    /// The first time after t (s) at which the waveform has a kink or a jump.
+    /// The first time after t (s) at which the source's waveform has a kink or a jump; infinity if there is none.
     virtual double next_breakpoint(double /*t*/) const { return std::numeric_limits<double>::infinity(); }
-    /// The longest step (s) that resolves the waveform between its breakpoints.
+    /// The longest time step (s) that resolves the source's waveform between its breakpoints.
     virtual double max_step() const { return std::numeric_limits<double>::infinity(); }
     /// For a linear device: true if its currents depend on time.
     virtual bool is_time_dependent() const { return false; }
 
-    /// Applies the process and mismatch sample of a chip; null: nominal. `index` counts the devices that have variation. Returns false if
-    /// this kind of device has none.
+    /// Applies the process and mismatch sample of a chip; null: nominal. `index` is the number, from 0, of this device among the devices
+    /// with variation. Returns false if this kind of device has no variation.
     virtual bool apply_variation(const ChipSample*, std::uint32_t /*index*/) { return false; }
 
-    // Properties at an operating point; the argument is v as in eval().
+    // Properties at an operating point; the argument is the v of eval().
     virtual std::vector<NoiseSource> noise(std::span<const double>) const { return {}; }
     virtual std::vector<OperatingValue> operating_info(std::span<const double>) const { return {}; }
     virtual std::string operating_region(std::span<const double>) const { return {}; }  ///< "saturation", "weak" ...
 };
 
-/// The stamps of several devices of one kind: rows of `stride` numbers, one for each device, aligned to 64 bytes. Otherwise as Stamp.
+/// The stamps of several devices of one kind. The elements have the order of Stamp, but each element is a row of `stride` numbers, one for
+/// each device, aligned to 64 bytes.
 struct BatchStamp {
     std::size_t stride;
-    const double* v;
+    const double* v;  ///< values of the unknowns
     double *f, *df;
     double* max_term;  ///< largest term of each f, the scale of its rounding error; null: not needed
     double *q, *dq;    ///< null: not needed
-    double rate = 0;   ///< 1/s: f and df are returned with rate times q and dq added
+    double rate = 0;   ///< 1/s: rate q is added to f, and rate dq to df
 };
 
-/// Devices of one kind, evaluated together on SIMD lanes. The stride is a multiple of 8; copies of the last device fill the rest.
+/// Devices of one kind, evaluated together on SIMD lanes. The stride is a multiple of 8. Elements of a row beyond the last device belong to
+/// copies of it.
 class DeviceBatch {
 public:
     virtual ~DeviceBatch() = default;
-    virtual void bind(std::span<const Device* const>) = 0;  ///< copies the devices' constants; call again when they have changed
+    /// Copies the devices' constants. Call it again when these have changed, e.g. after apply_variation().
+    virtual void bind(std::span<const Device* const>) = 0;
     virtual void eval(const EvalContext&, const BatchStamp&) const = 0;
-    /// Extrapolates the charges linearly: q += dq dv.
+    /// Extrapolates the charges linearly to unknowns that differ by dv from those of eval(): q += dq dv.
     virtual void extrapolate(std::size_t stride, const double* dv, const double* dq, double* q) const = 0;
 };
 
@@ -125,9 +133,9 @@ public:
 class DeviceSetup {
 public:
     virtual ~DeviceSetup() = default;
-    virtual int node_unknown(int number) const = 0;        ///< unknown of a node's voltage
-    virtual int branch_unknown(int element) const = 0;     ///< unknown of the current through an element; -1: none
-    virtual int add_unknown(std::string_view name) = 0;    ///< adds an unknown, e.g. "x1.d1#anode"
+    virtual int node_unknown(int number) const = 0;        ///< unknown of the voltage of Circuit::nodes[number]; -1: ground
+    virtual int branch_unknown(int element) const = 0;     ///< unknown of the current through Circuit::elements[element]; -1: there is none
+    virtual int add_unknown(std::string_view name) = 0;    ///< adds the voltage of an inner node, such as "x1.d1#junction"
     virtual double temperature(const Element&) const = 0;  ///< K
     virtual const Circuit& circuit() const = 0;
 };

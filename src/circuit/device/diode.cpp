@@ -9,6 +9,7 @@
 namespace corpuscle::circuit {
 namespace {
 
+/// Parameters of a .model line; see `fields`.
 struct DiodeCard {
     double is = 1e-14, n = 1, rs = 0, cjo = 0, vj = 1, m = 0.5, fc = 0.5, tt = 0, bv = 0, ibv = 1e-3, eg = 1.11, xti = 3, kf = 0, af = 1,
            tnom = 27;
@@ -37,30 +38,34 @@ double band_gap(double kelvin) { return 1.16 - 7.02e-4 * kelvin * kelvin / (kelv
 
 /// Changes is, vj and cjo to their values at another temperature, after SPICE.
 void adjust_to_temperature(DiodeCard& c, double kelvin) {
-    const double nominal = c.tnom + zero_celsius, ratio = kelvin / nominal, vt = thermal_voltage(kelvin);
+    constexpr double reference = 300.15;                                                                   // K
+    const double nominal = c.tnom + zero_celsius, ratio = kelvin / nominal, vt = thermal_voltage(kelvin);  // nominal: K
     c.is *= num::exp((ratio - 1) * c.eg / (c.n * vt) + c.xti / c.n * num::log(ratio));
     const auto pb = [](double t) {  // temperature-dependent part of the built-in potential, V
-        const double reference = 300.15, v = thermal_voltage(t);
+        const double v = thermal_voltage(t);
         const double arg = -band_gap(t) / (2 * v) + 1.1150877 / (2 * thermal_voltage(reference));
         return -2 * v * (1.5 * num::log(t / reference) + arg);
     };
-    const double reference = 300.15, base = (c.vj - pb(nominal)) / (nominal / reference);
+    const double base = (c.vj - pb(nominal)) / (nominal / reference);  // V: vj at the reference temperature
     const double nominal_part = 1 + c.m * (4e-4 * (nominal - reference) - (c.vj - base) / base);
     const double vj = base * kelvin / reference + pb(kelvin);
     c.cjo = c.cjo / nominal_part * (1 + c.m * (4e-4 * (kelvin - reference) - (vj - base) / base));
     c.vj = vj;
 }
 
-/// Current from anode to cathode: i = is (exp(v / n V_t) - 1), flattened below -3 n V_t as in SPICE, breakdown at -bv.
-/// Charge: depletion charge (the integral of cjo / (1 - v/vj)^m, a parabola above fc vj) plus transit charge tt i.
+/// Current from anode to cathode: i = is (exp(v / (n V_t)) - 1), nearly constant below -3 n V_t as in SPICE, breakdown at -bv.
+/// Charge: depletion charge (the integral of cjo / (1 - v/vj)^m, continued as a parabola above fc vj) plus transit charge tt i.
 /// Unknowns: anode, cathode and, if rs > 0, the node between rs and the junction.
 class Diode final : public Device {
     DiodeCard c_;
-    double area_, n_vt_, v_crit_, v_breakdown_;
+    double area_;           // area factor
+    double n_vt_, v_crit_;  // V: see limit_junction()
+    double v_breakdown_;    // V: breakdown below -v_breakdown_
 
     struct CurrentSlope {
         double i, g;  // A, S
     };
+    /// Current and conductance at the junction voltage v.
     CurrentSlope current(double v) const {
         const double is = c_.is * area_;
         if (v >= -3 * n_vt_) {
@@ -74,7 +79,7 @@ class Diode final : public Device {
         const double e = std::exp(-(v_breakdown_ + v) / n_vt_);
         return {-is * e, is * e / n_vt_};
     }
-    /// Charge, C, and capacitance, F, of the depletion layer.
+    /// Charge, C, and capacitance, F, of the depletion layer at the junction voltage v.
     std::pair<double, double> depletion(double v) const {
         const double c0 = c_.cjo * area_, knee = c_.fc * c_.vj;
         if (c0 == 0) return {0, 0};
@@ -83,6 +88,7 @@ class Diode final : public Device {
         const double f2 = std::pow(1 - c_.fc, 1 + c_.m), f3 = 1 - c_.fc * (1 + c_.m), slope = c_.m / c_.vj;
         return {charge(knee) + c0 / f2 * (f3 * (v - knee) + slope / 2 * (v * v - knee * knee)), c0 / f2 * (f3 + slope * v)};
     }
+    /// Index of the junction's anode among the unknowns; the cathode is unknown 1.
     std::size_t junction_anode() const { return c_.rs > 0 ? 2 : 0; }
 
 public:
@@ -101,7 +107,7 @@ public:
         const double unlimited = u;
         bool shortened = false;
         if (c_.bv > 0 && u < std::min(0.0, -c_.bv + 10 * n_vt_)) {
-            double mirrored = -(u + c_.bv);
+            double mirrored = -(u + c_.bv);  // forward voltage of the breakdown exponential
             shortened = limit_junction(mirrored, -(state[0] + c_.bv), n_vt_, v_crit_);
             u = -(mirrored + c_.bv);
         } else {

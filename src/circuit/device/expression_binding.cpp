@@ -24,9 +24,9 @@ int ExpressionBinding::local_index(int unknown) {
 }
 
 Result<ExpressionBinding> ExpressionBinding::make(const Expression& expression, const Element& e, const DeviceSetup& setup,
-                                                  std::vector<int> first) {
+                                                  std::vector<int> own) {
     ExpressionBinding out;
-    out.unknowns_ = std::move(first);
+    out.unknowns_ = std::move(own);
     const Circuit& circuit = setup.circuit();
     for (const auto& in : expression.inputs()) {
         Input input;

@@ -4,8 +4,9 @@
 
 namespace corpuscle::circuit {
 
-/// Natural logarithm of a normal x > 0, as accurate as num::log and faster. Uses log m = 2 artanh s = 2 s + s z (2/3 + 2/5 z ...), z = s^2,
-/// with the minimax polynomial for |s| <= 0.172 (error 3e-16) instead of the series. Terms are summed in pairs.
+/// Natural logarithm of a normal x = 2^k m > 0, as accurate as num::log and faster. With s = (m - 1) / (m + 1) and z = s^2,
+/// log m = 2 artanh s = 2 s + s z (2/3 + 2/5 z ...). The minimax polynomial for |s| <= 0.172 (error 3e-16) replaces the series in brackets.
+/// Its terms are summed in pairs.
 template <class T>
 [[gnu::always_inline]] inline T fast_log(T x) {
     T m = num::mantissa(x), k = num::exponent(x);
@@ -19,6 +20,7 @@ template <class T>
     return k * T(6.93147180369123816490e-01) + (T(2.0) * s + (s * z * p + k * T(1.90821492927058770002e-10)));
 }
 
+/// A Dual is a value v with its derivative d.
 inline num::Dual fast_log(num::Dual x) { return {fast_log(x.v), x.d / x.v}; }
 
 }  // namespace corpuscle::circuit

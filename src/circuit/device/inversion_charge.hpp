@@ -1,11 +1,12 @@
 #pragma once
-// Inversion charge density at one end of a channel from the voltage there: solves q + ln q = x in constant time, without branches.
+// Normalized inversion charge density q at one end of a channel from the normalized voltage x there: solves q + ln q = x in constant time,
+// without branches.
 
 #include "circuit/device/fast_log.hpp"
 
 namespace corpuscle::circuit {
 
-num::Dual inversion_charge(num::Dual x);
+num::Dual inversion_charge(num::Dual x);  // declared before the templates, so that they find it
 
 namespace detail {
 
@@ -23,12 +24,13 @@ template <class T>
     return num::exponent(x) * T(0.6931471805599453) + (T(-1.49277583) + m * (T(2.11263167) + m * (T(-0.72910377) + m * T(0.10968954))));
 }
 
-/// q with a relative error of about 3e-4: a series in e^x below -2.5, one in ln x above 6, a polynomial between.
+/// First approximation of q, with a relative error of about 3e-4: a series in e^x for x < -2.5, one in ln x for x > 6, a polynomial
+/// between.
 template <class T>
 [[gnu::always_inline]] inline T inversion_seed(T x) {
     const auto far = x > T(6.0);
     const T y = num::max(x, T(6.0)), L = rough_log(y);
-    const T E = rough_exp(num::select(far, -L, num::max(num::min(x, T(-2.5)), T(-num::exp_limit<T>))));  // 1/x for x > 6
+    const T E = rough_exp(num::select(far, -L, num::max(num::min(x, T(-2.5)), T(-num::exp_limit<T>))));  // e^x for x < -2.5, 1/x for x > 6
     const T low = E * (T(1.0) - E * (T(1.0) - E * (T(1.5) - E * T(8.0 / 3))));
     const T high = y - L + L * E * (T(1.0) + E * (T(0.5) * L - T(1.0)));
 
@@ -42,8 +44,8 @@ template <class T>
 
 }  // namespace detail
 
-/// Solves q + ln q = x for q: the seed, then one fourth-order step of Fritsch, Shafer and Crowley (algorithm 443, Comm. ACM 16, 1973).
-/// Relative error below 1e-13 for |x| <= 700, mostly from the rounding of x. Returns e^-700 for smaller x. NaN in, NaN out.
+/// Solves q + ln q = x for q: inversion_seed(), then one fourth-order step of Fritsch, Shafer and Crowley (algorithm 443, Comm. ACM 16,
+/// 1973). Relative error below 1e-13 for |x| <= 700, mostly from the rounding of x. Returns e^-700 for x < -700. NaN in, NaN out.
 template <class T>
 [[gnu::always_inline]] inline T inversion_charge(T x) {
     const T q = detail::inversion_seed(x), r = num::max(T(-num::exp_limit<T>), x) - q - fast_log(q);
@@ -51,7 +53,7 @@ template <class T>
     return q + q * r * (a - r) / (p * (a - T(2.0) * r));
 }
 
-/// dq/dx = q / (1 + q).
+/// With the derivative dq/dx = q / (1 + q).
 inline num::Dual inversion_charge(num::Dual x) {
     const double q = inversion_charge(x.v);
     return {q, q / (1 + q) * x.d};

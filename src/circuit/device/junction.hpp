@@ -4,9 +4,8 @@
 
 namespace corpuscle::circuit {
 
-/// Constants common to all junctions of one model card at one temperature. The current is extrapolated linearly where v / (n_dio phi_t)
-/// exceeds `exp_limit`, the value at which it is junction_current_limit. The capacitance is extrapolated linearly above
-/// v_limit = F_C P_B.
+/// Constants common to all junctions of one model card at one temperature: thermal voltage phi_t = kT/q, ideality factor n_dio, built-in
+/// potential P_B (V), grading coefficient M_J. Above v_limit = F_C P_B, with 0 <= F_C < 1, the capacitance is extrapolated linearly.
 template <class T>
 struct JunctionConstants {
     T per_n_phi_t;                                            ///< 1 / (n_dio phi_t), 1/V
@@ -16,12 +15,15 @@ struct JunctionConstants {
 
 template <class T>
 struct JunctionEvaluation {
-    T i, g, q, c;  ///< A, S, C, F
+    T i, g, q, c;  ///< current (A), di/dv (S), charge (C), dq/dv (F)
 };
 
 /// Junction diode, v = v_anode - v_cathode.   i = I_sat (exp(v / (n_dio phi_t)) - 1)   (thesis eq. 43);
 ///     q = C_0 P_B / (1 - M_J) (1 - (1 - v / P_B)^(1 - M_J)),   c = dq/dv = C_0 / (1 - v / P_B)^M_J
-/// Both have continuous derivatives; the extrapolation of the charge is that of SPICE. No breakdown, series resistance or transit time.
+/// The current is extrapolated linearly where v / (n_dio phi_t) exceeds `exp_limit`, the value at which the current is
+/// junction_current_limit (uicm_card.hpp). Current and capacitance are continuous with their derivatives at the start of the extrapolation;
+/// that of the capacitance is SPICE's. No breakdown, series resistance or transit time. I_sat: saturation current, A; C_0: capacitance at
+/// 0 V, F.
 template <class T>
 [[gnu::always_inline]] inline JunctionEvaluation<T> junction(T v, T I_sat, T exp_limit, T C_0, const JunctionConstants<T>& constants) {
     const T x = v * constants.per_n_phi_t, x_e = num::min(x, exp_limit), e = I_sat * num::exp(x_e);

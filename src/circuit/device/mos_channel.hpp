@@ -4,7 +4,7 @@
 
 namespace corpuscle::circuit {
 
-/// A quantity of the channel with its derivatives with respect to x at the source and x at the drain.
+/// A quantity of the channel with its derivatives with respect to x_S and x_D, the normalized voltages at source and drain.
 template <class T>
 struct ValueWithSlopes {
     T value, by_S, by_D;
@@ -14,46 +14,49 @@ struct ValueWithSlopes {
 /// caller applies the sign of the carriers.
 template <class T>
 struct MosChannel {
-    T q_S, q_D;                      ///< inversion charge densities at the source and drain voltages
+    T q_S, q_D;                      ///< inversion charge densities at source and drain before velocity saturation
     ValueWithSlopes<T> i, Q_S, Q_D;  ///< current from drain to source; channel charge assigned to the source and to the drain
+    /// The charge of the whole channel.
     T Q() const { return Q_S.value + Q_D.value; }
 };
 
 /// Unified current control model (thesis app. A) with the velocity saturation of ACM2 (Advanced Compact MOSFET model, version 2). At each
-/// end x = (V_P - V)/phi_t + 1 and
+/// end of the channel x = (V_P - V)/phi_t + 1, where V_P is the pinch-off voltage and V the voltage of that end, and
 ///
 ///     q + ln q = x;     i = (q_S + q_D + 2)(q_S - q_D) / (1 + zeta |q_S - q_D|)
 ///
-/// With h the higher and l the lower of the two charges, l cannot fall below the charge q_sat = zeta i / 2 of saturated carriers:
+/// zeta is the coefficient of velocity saturation. With h the higher and l the lower of the charges q_S and q_D, l cannot fall below the
+/// charge q_sat = zeta i / 2 of carriers at the saturation velocity:
 ///
 ///     s = q_sat / h = zeta (h + 2) / (zeta h + 1 + zeta + sqrt((1 + zeta)^2 + 2 zeta h));
 ///     l' = (q_sat + (1 - 2 s) l) / (1 - s l / h) replaces l
 ///
 /// ACM2 solves a third logarithm for l'. This rational form has the same limits: i = 2 q_sat / zeta in saturation, and i never falls as
-/// V_DS grows. It is better at V_DS = 0. There the conductance is that of free carriers, so the noise is 4kTg, and the capacitances are
-/// continuous where source and drain change places. zeta = 0 gives exactly the model without velocity saturation, which has continuous
-/// derivatives of all orders. Otherwise current and charges have continuous first derivatives; at V_DS = 0 the second derivative jumps by
-/// an amount of order zeta.
-/// In saturation i = 2 q_S / (1 + zeta) as q_S goes to 0: the saturation velocity limits diffusion, too.
+/// V_DS grows. It is better at V_DS = 0, where source and drain change places. There the conductance g is that without velocity saturation,
+/// so the noise is 4kTg, and the capacitances are continuous. zeta = 0 gives exactly the model without velocity saturation, which has
+/// continuous derivatives of all orders. Otherwise current and charges have continuous first derivatives; at V_DS = 0 the second derivative
+/// jumps by an amount of order zeta. In saturation i goes to 2 q_S / (1 + zeta) as q_S goes to 0: the saturation velocity limits diffusion,
+/// too.
 ///
-/// Charges (ACM2) in a form without cancellation as q goes to 0, with u = q_S + 1 - q_x, w = q_D + 1 - q_x, q_x = zeta i / 2:
+/// Charges of ACM2, in a form without cancellation as q goes to 0, with u = q_S + 1 - q_x, w = q_D + 1 - q_x, q_x = zeta i / 2:
 ///
 ///     Q_D = (2/15) (2u^3 + 4u^2 w + 6u w^2 + 3w^3) / (u + w)^2 - 1/2 + q_x / 2,   Q_S with u and w exchanged
 template <class T>
-class OrderedChannel {  // ordered: the higher end first
+class OrderedChannel {  // with the end of the higher charge first
     T h, l;
     T zeta;
 
 public:
     struct EndSlopes {
-        T high, low;  // derivatives with respect to x at the higher and at the lower end
+        T high, low;  // derivatives with respect to x at the end with the higher charge and at the other end
     };
     T i, Q_high, Q_low;
     EndSlopes di, dQ_high, dQ_low;
 
     [[gnu::always_inline]] OrderedChannel(T higher, T lower, T zeta) : h(higher), l(lower), zeta(zeta) {
         const T one(1.0), two(2.0);
-        // The lower charge l', and delta = h - l'. Divisions are combined: 1 / (x y) gives both 1/x and 1/y.
+        // The lower charge l' (`low`), and delta = h - l'. Divisions are combined: 1 / (x y) gives both 1/x and 1/y. _h and _l mark
+        // derivatives with respect to h and l; high_x = dh/dx and low_x = dl/dx, where dq/dx = q / (1 + q).
         const T root = num::sqrt((one + zeta) * (one + zeta) + two * zeta * h), sum = zeta * h + one + zeta + root;
         const T per_root_sum = one / (root * sum);
         const T s = zeta * (h + two) * (per_root_sum * root), hs = one - per_root_sum * sum - s;  // hs = h ds/dh
@@ -69,7 +72,7 @@ public:
         const T drift = (two * (low + one) - zeta * i) * per_E;  // di/d(delta)
         const T i_h = two * delta * per_E + drift * delta_h, i_l = -drift * low_l;
         di = {i_h * high_x, i_l * low_x};
-        // the charges
+        // the charges, with A = u - 1 and B = w - 1 of the formula above, and X = q_x
         const T half = T(0.5) * zeta, X = half * i, X_h = half * i_h, X_l = half * i_l;
         const T A = h - X, B = low - X;
         const T A_h = one - X_h, A_l = -X_l, B_h = (one - delta_h) - X_h, B_l = low_l - X_l;

@@ -10,6 +10,7 @@
 
 namespace corpuscle::circuit {
 
+/// The value with this name; `fallback` if there is none.
 inline double value_or(const Values& values, std::string_view name, double fallback) {
     const auto at = values.find(name);
     return at == values.end() ? fallback : at->second;
@@ -24,7 +25,7 @@ inline Result<void> check_value_names(std::string_view owner, const Values& valu
     return {};
 }
 
-/// Reads a model card from a .model line. Names in `others` are accepted but not read.
+/// Reads the parameters in `fields` from a .model line; the others keep their defaults. Names in `others` are accepted but not read here.
 template <class P, std::size_t N>
 Result<P> read_model_card(const ParameterDef<P> (&fields)[N], const Model& model, std::initializer_list<std::string_view> others) {
     P card;
@@ -36,9 +37,9 @@ Result<P> read_model_card(const ParameterDef<P> (&fields)[N], const Model& model
     for (std::size_t k = 0; k < N; ++k) {
         const auto given = model.values.find(names[k]);
         if (given == model.values.end()) continue;
-        const ParameterInfo row{
+        const ParameterInfo info{
             fields[k].name, fields[k].unit, card.*fields[k].member, fields[k].low, fields[k].high, fields[k].description, {}};
-        if (auto ok = check_range(model.name, row, given->second); !ok) return bad_input(ok.error().message, model.location);
+        if (auto ok = check_range(model.name, info, given->second); !ok) return bad_input(ok.error().message, model.location);
         card.*fields[k].member = given->second;
     }
     return card;

@@ -9,8 +9,8 @@
 namespace corpuscle::circuit {
 namespace {
 
-/// The value of an R, C or L at its temperature: value scale (1 + tc1 dT + tc2 dT^2). dT is relative to tnom of the model, of .options, or
-/// 27 C.
+/// The value of an R, C or L at its temperature: value * scale * (1 + tc1 dT + tc2 dT^2), where dT is the temperature above tnom. The
+/// values of tc1, tc2 and tnom are those of the element, else of its model. The default of tnom is that of .options, else 27 C.
 double at_temperature(double value, const Element& e, const DeviceSetup& setup) {
     const Model* model = e.model < 0 ? nullptr : &setup.circuit().models[static_cast<std::size_t>(e.model)];
     const auto parameter = [&](std::string_view name, double fallback) {
@@ -23,7 +23,7 @@ double at_temperature(double value, const Element& e, const DeviceSetup& setup) 
 constexpr std::string_view passive_values[] = {"m", "tc1", "tc2", "temp", "dtemp", "ic", "tnom", "scale"};
 constexpr std::string_view model_values[] = {"tc1", "tc2", "tnom"};
 
-/// Rejects parameters of the element or its model that these devices do not have.
+/// Rejects parameters that a resistor, capacitor or inductor, or its model, does not have.
 Result<void> check_parameters(const Element& e, const DeviceSetup& setup) {
     if (auto ok = check_value_names(e.name, e.values, passive_values, e.location); !ok) return ok;
     if (value_or(e.values, "scale", 1) == 0) return bad_input(fmt::format("{}: scale must not be 0", e.name), e.location);
@@ -32,9 +32,9 @@ Result<void> check_parameters(const Element& e, const DeviceSetup& setup) {
     return check_value_names(model.name, model.values, model_values, model.location);
 }
 
-/// i = v / R
+/// i = v / R. Unknowns: two nodes.
 class Resistor final : public Device {
-    double g_, r_, kelvin_;
+    double g_, r_, kelvin_;  // S and ohm of m resistors in parallel; K
 
 public:
     Resistor(double r, double m, double kelvin) : g_(m / r), r_(r / m), kelvin_(kelvin) {}
@@ -51,7 +51,7 @@ public:
     }
 };
 
-/// q = C v
+/// q = C v. Unknowns: two nodes.
 class Capacitor final : public Device {
     double c_;
 
@@ -66,7 +66,7 @@ public:
     std::optional<double> principal_value() const override { return c_; }
 };
 
-/// q = an expression of voltages
+/// q = m times an expression. Unknowns: two nodes, then those that only the expression uses.
 class ChargeExpression final : public Device {
     Expression expression_;
     ExpressionBinding binding_;
@@ -84,7 +84,7 @@ public:
     }
 };
 
-/// v = L di/dt. The third unknown is the current; its equation is v - d(L i)/dt = 0.
+/// v = L di/dt. Unknowns: two nodes, and the current; the equation of the current is v - d(L i)/dt = 0.
 class Inductor final : public Device {
     double l_;
 

@@ -12,7 +12,7 @@
 namespace corpuscle::circuit {
 namespace {
 
-/// The DC value of an independent source; without one, the first value of its waveform.
+/// The DC value of an independent source. Without one: v1 of PULSE and EXP, the offset of SIN, the first value of PWL.
 double dc_value(const Waveform& w) {
     if (w.has_dc || w.numbers.empty()) return w.dc;
     switch (w.shape) {
@@ -28,17 +28,18 @@ double dc_value(const Waveform& w) {
     }
 }
 
+/// The AC stimulus as a complex number.
 std::complex<double> phasor(const Waveform& w) {
     const double turns = w.ac_phase / 360;
     return {w.ac_magnitude * num::cos_turns(turns), w.ac_magnitude * num::sin_turns(turns)};
 }
 
-/// A V or I source. With the keyword FORCE its value is the DC value plus a scale factor times the force input.
+/// A V or I source. With the keyword FORCE its value is the DC value plus the force (N) times the argument of FORCE (V/N or A/N).
 class IndependentSource : public Device {
     Waveform wave_;
-    double value_;
-    std::optional<SourceWaveform> waveform_;
-    const ForceWaveform* force_ = nullptr;
+    double value_;                            // DC value, V or A
+    std::optional<SourceWaveform> waveform_;  // only during a transient
+    const ForceWaveform* force_ = nullptr;    // null: no FORCE, or 0 N
 
     double value_at(double t) const { return waveform_ ? waveform_->at(t) : force_ ? value_ + wave_.numbers[0] * force_->at(t) : value_; }
 
@@ -79,6 +80,7 @@ public:
     void add_ac_stimulus(std::span<std::complex<double>> out) const override { out[2] += phasor_; }
 };
 
+/// i = I through the source from its first node to the second. Unknowns: two nodes.
 class CurrentSource final : public IndependentSource {
     double m_;
 
@@ -91,7 +93,8 @@ public:
     void add_ac_stimulus(std::span<std::complex<double>> out) const override { out[0] -= m_ * phasor_, out[1] += m_ * phasor_; }
 };
 
-/// v(+) - v(-) = gain times a voltage (E: unknowns 3 and 4) or a current (H: unknown 3)
+/// v(+) - v(-) = gain times a voltage (E) or a current (H). Unknowns: two nodes and the current through the source, then from index 3 the
+/// two controlling nodes or the controlling current.
 class ControlledVoltageSource final : public Device {
     double gain_;
 
@@ -108,7 +111,8 @@ public:
     std::optional<double> principal_value() const override { return gain_; }
 };
 
-/// i = gain times a voltage (G: unknowns 2 and 3) or a current (F: unknown 2)
+/// i = gain times a voltage (G) or a current (F). Unknowns: two nodes, then from index 2 the two controlling nodes or the controlling
+/// current.
 class ControlledCurrentSource final : public Device {
     double gain_;
 
@@ -132,17 +136,18 @@ bool contains_jumps(const Expression& expression) {
     return std::any_of(std::begin(jumps), std::end(jumps), [&](auto jump) { return text->find(jump) != std::string::npos; });
 }
 
+/// i = m times an expression. Unknowns: two nodes, then those that only the expression uses.
 class ExpressionCurrentSource final : public Device {
     Expression expression_;
     ExpressionBinding binding_;
     double m_;
-    bool jumps_ = contains_jumps(expression_);
+    bool has_jumps_ = contains_jumps(expression_);
 
 public:
     ExpressionCurrentSource(Expression expression, ExpressionBinding binding, double m)
         : expression_(std::move(expression)), binding_(std::move(binding)), m_(m) {}
     bool is_linear() const override { return false; }
-    bool has_jumps() const override { return jumps_; }
+    bool has_jumps() const override { return has_jumps_; }
     void eval(std::span<const double> v, const EvalContext& context, const Stamp& out) const override {
         binding_.eval(expression_, v, context, [&](double i, std::span<const ExpressionBinding::Slope> slopes) {
             out.f[0] += m_ * i * context.source_scale, out.f[1] -= m_ * i * context.source_scale;
@@ -154,16 +159,17 @@ public:
     }
 };
 
+/// v(+) - v(-) = an expression. Unknowns: two nodes and the current through the source, then those that only the expression uses.
 class ExpressionVoltageSource final : public Device {
     Expression expression_;
     ExpressionBinding binding_;
-    bool jumps_ = contains_jumps(expression_);
+    bool has_jumps_ = contains_jumps(expression_);
 
 public:
     ExpressionVoltageSource(Expression expression, ExpressionBinding binding)
         : expression_(std::move(expression)), binding_(std::move(binding)) {}
     bool is_linear() const override { return false; }
-    bool has_jumps() const override { return jumps_; }
+    bool has_jumps() const override { return has_jumps_; }
     void eval(std::span<const double> v, const EvalContext& context, const Stamp& out) const override {
         out.f[0] += v[2], out.f[1] -= v[2];
         out.slope(0, 2) += 1, out.slope(1, 2) -= 1;
@@ -175,6 +181,7 @@ public:
     }
 };
 
+// Parameters that sources accept. A voltage source ignores m.
 constexpr std::string_view source_values[] = {"m", "temp", "dtemp"};
 
 template <class D>
@@ -218,9 +225,9 @@ Result<std::unique_ptr<Device>> make_controlled_source(const Element& e, DeviceS
 
 Result<std::unique_ptr<Device>> make_formula_source(const Element& e, DeviceSetup& setup) {
     if (auto ok = check_value_names(e.name, e.values, source_values, e.location); !ok) return ok.error();
-    std::vector<int> first = {setup.node_unknown(e.nodes[0]), setup.node_unknown(e.nodes[1])};
-    if (e.expression_is_voltage) first.push_back(setup.branch_unknown(setup.circuit().find_element(e.name)));
-    auto binding = ExpressionBinding::make(*e.expression, e, setup, std::move(first));
+    std::vector<int> own = {setup.node_unknown(e.nodes[0]), setup.node_unknown(e.nodes[1])};
+    if (e.expression_is_voltage) own.push_back(setup.branch_unknown(setup.circuit().find_element(e.name)));
+    auto binding = ExpressionBinding::make(*e.expression, e, setup, std::move(own));
     if (!binding) return binding.error();
     auto unknowns = binding->unknowns();
     if (e.expression_is_voltage)

@@ -18,8 +18,8 @@ SourceWaveform::SourceWaveform(Waveform wave, double step, double stop) : wave_(
     if (wave_.shape == Shape::piecewise_linear)
         for (std::size_t k = 0; k + 1 < wave_.numbers.size(); k += 2) breakpoints_.push_back(wave_.numbers[k]);
     if (wave_.shape == Shape::exponential) {
-        const double first = number(2, 0);
-        breakpoints_ = {first, number(4, first + step_)};
+        const double rise_delay = number(2, 0);
+        breakpoints_ = {rise_delay, number(4, rise_delay + step_)};
     }
     if (wave_.shape == Shape::sine) breakpoints_ = {number(3, 0)};
 }
@@ -39,7 +39,7 @@ double SourceWaveform::at(double t) const {
     }
 }
 
-/// The arguments of PULSE are v1 v2 td tr tf pw per np.
+/// The arguments of PULSE are v1 v2 td tr tf pw per np; np is the number of pulses, 0 for any number.
 double SourceWaveform::pulse(double t) const {
     const auto positive_or = [&](std::size_t k, double fallback) { return number(k, 0) > 0 ? number(k, 0) : fallback; };
     const double v1 = number(0, 0), v2 = number(1, 0), rise = positive_or(3, step_), fall = positive_or(4, step_), width = number(5, stop_);
@@ -73,6 +73,7 @@ double SourceWaveform::exponential(double t) const {
     return v;
 }
 
+/// The netlist reader guarantees at least one point, and ascending times.
 double SourceWaveform::piecewise_linear(double t) const {
     const auto& x = wave_.numbers;
     const auto after = static_cast<std::size_t>(std::upper_bound(breakpoints_.begin(), breakpoints_.end(), t) - breakpoints_.begin());
@@ -93,6 +94,7 @@ double SourceWaveform::next_breakpoint(double t) const {
     const double delay = number(2, 0), rise = positive_or(3, step_), fall = positive_or(4, step_), width = number(5, stop_);
     const double period = positive_or(6, std::max(stop_, rise + width + fall)), cycles = number(7, 0);
     if (t < delay) return delay;
+    // From one cycle earlier, since the quotient is rounded.
     for (double cycle = std::max(0.0, std::floor((t - delay) / period) - 1);; ++cycle) {
         if (cycles > 0 && cycle > cycles) return never;
         for (const double offset : {0.0, rise, rise + width, rise + width + fall})

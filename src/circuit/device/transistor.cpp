@@ -16,6 +16,7 @@ const lanes::ChipKernels lanes::scalar_chip_kernels = lanes::chip_kernels_for<do
 
 namespace {
 
+/// An array of the voltages that a span holds.
 struct Voltages {
     double v[4];
     explicit Voltages(std::span<const double> x) : v{x[0], x[1], x[2], x[3]} {}
@@ -37,7 +38,8 @@ public:
 
     void eval(std::span<const double> v, const EvalContext& context, const Stamp& out) const override {
         const Uicm<double> model(constants_);
-        double max_term[4];
+        double max_term[4];  // not used
+        // With one transistor and a stride of 1, the arrays are those of the stamp.
         lanes::scalar_transistor_kernels.eval({reinterpret_cast<const std::byte*>(&model), 1, 1, v.data(), context.gmin, out.f.data(),
                                                out.df.data(), max_term, context.with_charges ? out.q.data() : nullptr, out.dq.data(), 0});
     }
@@ -90,13 +92,14 @@ private:
     }
 };
 
+/// Transistors on SIMD lanes.
 class TransistorBatch final : public DeviceBatch {
     struct alignas(64) CacheLine {
         std::byte bytes[64];
     };
     const lanes::TransistorKernels& kernels_;
-    std::vector<CacheLine> models_;
-    std::size_t count_ = 0;
+    std::vector<CacheLine> models_;  // storage of the models that kernels_.build() constructs, each for one transistor per lane
+    std::size_t count_ = 0;          // of transistors
 
 public:
     explicit TransistorBatch(const lanes::TransistorKernels& kernels) : kernels_(kernels) {}
@@ -107,7 +110,7 @@ public:
         models_.resize(((count_ + kernels_.lanes - 1) / kernels_.lanes * kernels_.model_bytes + sizeof(CacheLine) - 1) / sizeof(CacheLine));
         auto* at = models_.data()->bytes;
         for (std::size_t k = 0; k < count_; k += kernels_.lanes, at += kernels_.model_bytes) {
-            for (std::size_t l = 0; l < kernels_.lanes; ++l)
+            for (std::size_t l = 0; l < kernels_.lanes; ++l)  // all devices are transistors; the last fills the remaining lanes
                 constants[l] = static_cast<const Transistor*>(devices[std::min(k + l, count_ - 1)])->constants();
             kernels_.build(at, constants);
         }
@@ -121,7 +124,7 @@ public:
     }
 };
 
-/// The instance parameters of an M line.
+/// The instance parameters of an M line. temp and dtemp are read by DeviceSetup; ic and off are accepted without effect here.
 Result<UicmInstance> read_instance(const Element& e) {
     UicmInstance instance;
     std::vector<std::string_view> known = {"temp", "dtemp", "ic", "off"};
@@ -130,8 +133,8 @@ Result<UicmInstance> read_instance(const Element& e) {
     for (const auto& f : UicmInstance::fields) {
         const auto given = e.values.find(f.name);
         if (given == e.values.end()) continue;
-        const ParameterInfo row{f.name, f.unit, instance.*f.member, f.low, f.high, f.description, {}};
-        if (auto ok = check_range(e.name, row, given->second); !ok) return bad_input(ok.error().message, e.location);
+        const ParameterInfo info{f.name, f.unit, instance.*f.member, f.low, f.high, f.description, {}};
+        if (auto ok = check_range(e.name, info, given->second); !ok) return bad_input(ok.error().message, e.location);
         instance.*f.member = given->second;
     }
     return instance;
@@ -158,10 +161,10 @@ const UicmConstants& transistor_constants(const Device& device) { return static_
 
 namespace {
 
-/// Selects the kernels for the instruction set of this machine.
+/// Selects the table of kernels for the instruction set that instruction_set() returns.
 template <class Table>
-Result<const Table*> best_of(const Table& scalar, [[maybe_unused]] const Table& avx2, [[maybe_unused]] const Table& avx512,
-                             const Table& baseline) {
+Result<const Table*> select_table(const Table& scalar, [[maybe_unused]] const Table& avx2, [[maybe_unused]] const Table& avx512,
+                                  const Table& baseline) {
     const auto set = instruction_set();
     if (!set) return set.error();
     switch (*set) {
@@ -179,17 +182,17 @@ Result<const Table*> best_of(const Table& scalar, [[maybe_unused]] const Table& 
 }  // namespace
 
 #ifdef __x86_64__
-#define CORPUSCLE_BEST_OF(scalar, table) best_of(scalar, lanes::avx2::table, lanes::avx512::table, lanes::baseline::table)
+#define CORPUSCLE_SELECT_TABLE(scalar, table) select_table(scalar, lanes::avx2::table, lanes::avx512::table, lanes::baseline::table)
 #else
-#define CORPUSCLE_BEST_OF(scalar, table) best_of(scalar, lanes::baseline::table, lanes::baseline::table, lanes::baseline::table)
+#define CORPUSCLE_SELECT_TABLE(scalar, table) select_table(scalar, lanes::baseline::table, lanes::baseline::table, lanes::baseline::table)
 #endif
 
 Result<std::unique_ptr<DeviceBatch>> make_transistor_batch() {
-    const auto best = CORPUSCLE_BEST_OF(lanes::scalar_transistor_kernels, transistor_kernel_table);
-    if (!best) return best.error();
-    return std::unique_ptr<DeviceBatch>(std::make_unique<TransistorBatch>(**best));
+    const auto kernels = CORPUSCLE_SELECT_TABLE(lanes::scalar_transistor_kernels, transistor_kernel_table);
+    if (!kernels) return kernels.error();
+    return std::unique_ptr<DeviceBatch>(std::make_unique<TransistorBatch>(**kernels));
 }
 
-Result<const lanes::ChipKernels*> chip_kernels() { return CORPUSCLE_BEST_OF(lanes::scalar_chip_kernels, chip_kernel_table); }
+Result<const lanes::ChipKernels*> chip_kernels() { return CORPUSCLE_SELECT_TABLE(lanes::scalar_chip_kernels, chip_kernel_table); }
 
 }  // namespace corpuscle::circuit

@@ -11,14 +11,15 @@ struct Terminals {
     enum { D, G, S, B };
 };
 
-/// Currents from the nodes into the device (A) and charges on it (C), at drain, gate, source, bulk. di[a][b] is the derivative of i[a] with
-/// respect to the voltage of b; dq likewise.
+/// Currents from the nodes into the device (A), without displacement currents, and charges of the terminals (C): at drain, gate, source,
+/// bulk. di[a][b] is the derivative of i[a] with respect to the voltage of terminal b; dq likewise.
 template <class T>
 struct UicmEvaluation : Terminals {
     T i[4], q[4], di[4][4], dq[4][4];
 };
 
-/// Noise power densities, A^2/Hz: of the channel between drain and source (flicker at 1 Hz, proportional to 1/f), and of the two junctions.
+/// Noise power densities, A^2/Hz: thermal and flicker noise of the channel between drain and source, shot noise of the two junctions.
+/// Flicker noise is proportional to 1/f; this is its value at 1 Hz.
 template <class T>
 struct UicmNoise {
     T thermal, flicker, shot_s, shot_d;
@@ -27,7 +28,7 @@ struct UicmNoise {
 /// Internal quantities of a transistor, for the polarity of an NMOS.
 template <class T>
 struct UicmInternals {
-    T q_S, q_D;     ///< inversion charges at source and drain; i_f = q_S (q_S + 2), i_r = q_D (q_D + 2)
+    T q_S, q_D;     ///< normalized inversion charge densities at source and drain; i_f = q_S (q_S + 2), i_r = q_D (q_D + 2)
     T I, I_s, I_d;  ///< A: channel current, drain to source; junction currents, bulk to source and bulk to drain
 };
 
@@ -37,27 +38,28 @@ struct UicmInternals {
 ///
 ///     I_D = I_S i(x_S, x_D) (1 + (sqrt(V_DS^2 + knee^2) - knee) / V_A),   knee = 4 phi_t, V_A = V_E L
 ///
-/// Above the knee, where weak inversion saturates, the conductance is I_D / V_A. At V_DS = 0 the factor is 1 and even in V_DS, so that
-/// exchanging source and drain negates I_D to the last bit.
+/// V_P is the pinch-off voltage, n the slope factor, sigma the coefficient of DIBL, I_S the specific current, i(x_S, x_D) the normalized
+/// current, V_A the Early voltage. Well above the knee, the voltage at which I_D saturates in weak inversion, the output conductance is
+/// I_D / V_A. The factor in brackets is 1 at V_DS = 0 and even in V_DS, so exchanging source and drain negates I_D to the last bit.
 ///
 /// Charges:
 ///
-/// - Q_S and Q_D of the channel
-/// - Q_B = -(n - 1)/n (C_ox W L V_GB + Q_I), the depletion charge that a constant n implies. ACM2 has its first term in the capacitances
-///   but not in the charges.
+/// - Q_S and Q_D, the parts of the channel charge Q_I = Q_S + Q_D that belong to source and drain
+/// - Q_B = -(n - 1)/n (C_ox W L V_GB + Q_I), the depletion charge that a constant n implies. ACM2 has the term with V_GB in the
+///   capacitances but not in the charges.
 /// - Q_G = -(Q_S + Q_D + Q_B)
 /// - overlaps, and junctions (junction.hpp)
 ///
-/// Noise:
+/// Noise power densities, with the mobility mu, the effective trap density N_ot, the electron charge q and the normalized charge densities
+/// q_S and q_D:
 ///
 /// - thermal 4kT mu |Q_I| / L^2
 /// - flicker q^2 N_ot mu I_D / (L^2 n C_ox) ln((1 + q_S) / (1 + q_D)) / f
-/// - shot 2q (I + 2 I_sat)
+/// - shot 2q (I + 2 I_sat) of each junction
 ///
-/// Temperature: V_T is linear in T, I_S a power of T; phi_t and the saturation current of the junctions vary, too. n, sigma, zeta, V_E and
-/// the capacitances are constant.
-/// Left out: gate leakage, impact ionisation, gate-induced drain leakage, accumulation, non-quasi-static effects, self-heating, series
-/// resistance.
+/// Temperature: V_T is linear in T, I_S is proportional to a power of T; phi_t and the saturation current of the junctions vary, too. n,
+/// sigma, zeta, V_E and the capacitances are constant. Left out: gate leakage, impact ionisation, gate-induced drain leakage, accumulation,
+/// non-quasi-static effects, self-heating, series resistance.
 template <class T>
 class Uicm : public Terminals {
     T polarity, V_T, per_n, per_phi_t, sigma_n, zeta, I_S, lambda, knee, Q_0, C_dep, C_gs, C_gd, C_gb;
@@ -65,7 +67,7 @@ class Uicm : public Terminals {
     JunctionConstants<T> junction_constants;
 
 public:
-    /// `value(&UicmConstants::x)` returns each constant, which may differ between lanes.
+    /// value(&UicmConstants::x) must return the constant x, which may differ between lanes.
     template <class Values>
     explicit Uicm(const Values& value)
         : polarity(value(&UicmConstants::polarity)), V_T(value(&UicmConstants::V_T)), per_n(value(&UicmConstants::per_n)),
@@ -103,9 +105,10 @@ public:
         const MosChannel<T> c = evaluate_at(at);
         const auto b_s = junction(-at.sb, I_sat_s, exp_limit_s, C_js, junction_constants),
                    b_d = junction(-at.db, I_sat_d, exp_limit_d, C_jd, junction_constants);
+        // The factor is 2q.
         const auto shot = [](const T& i, const T& I_sat) { return T(2 * 1.602176634e-19) * num::abs(i + T(2.0) * I_sat); };
-        const T span = num::abs(num::log((T(1.0) + c.q_S) / (T(1.0) + c.q_D)));
-        return {thermal * c.Q(), flicker * I_S * num::abs(c.i.value) * span, shot(b_s.i, I_sat_s), shot(b_d.i, I_sat_d)};
+        const T log_ratio = num::abs(num::log((T(1.0) + c.q_S) / (T(1.0) + c.q_D)));
+        return {thermal * c.Q(), flicker * I_S * num::abs(c.i.value) * log_ratio, shot(b_s.i, I_sat_s), shot(b_d.i, I_sat_d)};
     }
 
     UicmInternals<T> internals(const T (&v)[4]) const {
@@ -130,7 +133,7 @@ private:
         return evaluate_channel((V_P - at.sb) * per_phi_t + T(1.0), (V_P - at.db) * per_phi_t + T(1.0), zeta);
     }
 
-    /// Derivatives with respect to the four terminal voltages, from the derivatives with respect to x at source and drain. They sum to
+    /// Derivatives of a quantity with respect to the four terminal voltages, from its derivatives with respect to x_S and x_D. They sum to
     /// zero.
     struct Slopes {
         T d, g, s, b;
@@ -141,7 +144,8 @@ private:
         return {d, g, s, -(d + g + s)};
     }
 
-    /// `early_d`: derivative of I_D with respect to V_DS that comes from the Early factor.
+    /// `factor`: I_S times the factor of the Early effect. `early_d`: the part of dI_D/dV_DS that comes from the Early effect. `b_s`,
+    /// `b_d`: the junctions from bulk to source and to drain.
     [[gnu::always_inline]] void currents(const ValueWithSlopes<T>& i, T factor, T early_d, const JunctionEvaluation<T>& b_s,
                                          const JunctionEvaluation<T>& b_d, UicmEvaluation<T>& out) const {
         const T I = factor * i.value, zero(0.0);
@@ -157,6 +161,7 @@ private:
 
     [[gnu::always_inline]] void charges(const Voltages& at, const MosChannel<T>& c, const JunctionEvaluation<T>& b_s,
                                         const JunctionEvaluation<T>& b_d, UicmEvaluation<T>& out) const {
+        // o_d, o_s, o_b: overlap charges; o_b includes the depletion charge's term with V_GB.
         const T gd = at.gb - at.db, gs = at.gb - at.sb, o_d = C_gd * gd, o_s = C_gs * gs, o_b = (C_gb + C_dep) * at.gb;
         const T Q_S = -(Q_0 * c.Q_S.value), Q_D = -(Q_0 * c.Q_D.value), Q_B = -((T(1.0) - per_n) * (Q_S + Q_D));
         const T d = Q_D - o_d - b_d.q, s = Q_S - o_s - b_s.q, b = Q_B - o_b + b_s.q + b_d.q;

@@ -12,30 +12,31 @@ namespace {
 /// x^p with the project's exp and log: bit-identical on every machine.
 double power(double x, double p) { return num::exp(p * num::log(x)); }
 
-/// A source or drain region: total area (m^2) and perimeter (m) of all columns.
+/// The source or drain regions of all columns together: area, m^2, and perimeter, m.
 struct Diffusion {
     double area, perimeter;
 };
+/// `area`, `perimeter`: those of one column; negative: computed from W and L_dif.
 Diffusion diffusion(const UicmCard& card, const UicmInstance& instance, double area, double perimeter) {
     return {instance.m * (area < 0 ? instance.W * card.L_dif : area),
             instance.m * (perimeter < 0 ? 2 * (instance.W + card.L_dif) : perimeter)};
 }
 
-/// Temperature factor of I_sat, as in SPICE: T^(XTI / n_dio) exp((T / T_nom - 1) E_g / (n_dio phi_t)).
+/// Temperature factor of I_sat, as in SPICE: (T / T_nom)^(XTI / n_dio) exp((T / T_nom - 1) E_g / (n_dio phi_t)).
 double junction_growth(const UicmCard& card, double T, double T_nom, double phi_t) {
     return power(T / T_nom, card.XTI / card.n_dio) * num::exp((T / T_nom - 1) * card.E_g / (card.n_dio * phi_t));
 }
 
-/// Argument of exp at which the junction current is junction_current_limit.
+/// Argument of exp, from 0 to 600, at which the junction current is junction_current_limit.
 double exp_limit_of(double I_sat) { return I_sat > 0 ? std::clamp(num::log(junction_current_limit / I_sat), 0.0, 600.0) : 0; }
 
-enum RandomPurpose : std::uint32_t { mismatch_purpose = 0x75690001, process_purpose };  // selects a stream of the Philox generator
+enum RandomPurpose : std::uint32_t { mismatch_purpose = 0x75690001, process_purpose };  // each is a random stream of its own
 
 }  // namespace
 
 UicmConstants uicm_constants(const UicmCard& card, const UicmInstance& instance, double temperature, bool pmos) {
     const double T = temperature + zero_celsius, T_nom = card.T_nom + zero_celsius, phi_t = boltzmann * T / electron_charge;
-    const double length = instance.L * instance.stack, width = instance.W * instance.m, gate = card.C_ox * instance.area();
+    const double length = instance.L * instance.stack, width = instance.W * instance.m, C_gate = card.C_ox * instance.area();
     const double I_S = card.I_SQ * instance.mulu0 * power(T / T_nom, card.I_S_exponent) * width / length;
     const double growth = junction_growth(card, T, T_nom, phi_t);
     const Diffusion source = diffusion(card, instance, instance.AS, instance.PS),
@@ -49,14 +50,15 @@ UicmConstants uicm_constants(const UicmCard& card, const UicmInstance& instance,
     c.per_n = 1 / card.n, c.per_phi_t = 1 / phi_t;
     c.sigma_n = card.sigma_L / length / card.n, c.zeta = card.zeta_L * instance.mulu0 / length;
     c.I_S = I_S, c.lambda = 1 / (card.V_E * length), c.knee = 4 * phi_t;
-    c.Q_0 = card.n * phi_t * gate, c.C_dep = (card.n - 1) / card.n * gate;
+    c.Q_0 = card.n * phi_t * C_gate, c.C_dep = (card.n - 1) / card.n * C_gate;
     c.C_gs = card.C_GSO * width, c.C_gd = card.C_GDO * width, c.C_gb = card.C_GBO * length * instance.m;
     c.I_sat_s = I_sat(source), c.I_sat_d = I_sat(drain), c.exp_limit_s = exp_limit_of(c.I_sat_s), c.exp_limit_d = exp_limit_of(c.I_sat_d);
     c.C_js = C_0(source), c.C_jd = C_0(drain);
     c.per_n_phi_t = 1 / (card.n_dio * phi_t), c.per_P_B = 1 / card.P_B, c.v_limit = card.F_C * card.P_B;
     c.charge_exponent = 1 - card.M_J, c.P_B_per_charge_exponent = card.P_B / c.charge_exponent, c.per_P_B_M_J = card.M_J / card.P_B;
+    // The formulas of uicm.hpp with mu expressed by I_S. Uicm::noise() multiplies by the normalized channel charge and current.
     c.thermal = 8 * boltzmann * T * I_S / phi_t;
-    const double e_n = electron_charge / (card.n * card.C_ox * phi_t);
+    const double e_n = electron_charge / (card.n * card.C_ox * phi_t);  // m^2: normalized charge density of one electron per m^2
     c.flicker = card.C_ox > 0 ? 2 * e_n * e_n * card.N_ot * I_S / instance.area() : 0;
     return c;
 }

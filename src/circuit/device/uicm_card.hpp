@@ -11,8 +11,8 @@ namespace corpuscle::circuit {
 /// A process card: `.model nch nmos (level=80 isq=112n vto=0.461 ...)`. The two polarities are mirror images: parameters have the same
 /// sign for both, and vto > 0 is an enhancement device, also for PMOS.
 /// Effects of length: drain-induced barrier lowering (DIBL) and velocity saturation are proportional to 1/L, the Early voltage to L. For
-/// velocity saturation this follows from the definition zeta = mu phi_t / (L v_sat). With these proportions a stack of elements equals one
-/// device of their total length.
+/// velocity saturation this follows from the definition zeta = mu phi_t / (L v_sat). With these proportions a stack of elements has the
+/// parameters of one device of their total length.
 struct UicmCard {
     double I_SQ = 112e-9, V_T0 = 0.461, n = 1.27, sigma_L = 0, zeta_L = 0, V_E = 8e6, C_ox = 8.42e-3;
     double C_GSO = 0, C_GDO = 0, C_GBO = 0;
@@ -20,7 +20,7 @@ struct UicmCard {
     double alpha_VT = -0.4e-3, I_S_exponent = 0.5, T_nom = 27, N_ot = 0;
     double A_VT = 0, A_IS = 0, S_VT0 = 0, S_IS = 0;
 
-    static constexpr double level = 80;  ///< level= of this model in a .model line; no SPICE uses it for another model
+    static constexpr double level = 80;  ///< level= of this model in a .model line; no SPICE simulator uses level 80 for another model
     static constexpr std::string_view name = "uicm", description = "UICM transistor, all regions (with extensions from ACM2)";
     static constexpr std::string_view source = "choice: circuits of 0.18 um; see process/tsmc180.lib";
     static constexpr ParameterDef<UicmCard> fields[] = {
@@ -76,10 +76,11 @@ struct UicmInstance {
         {"ps", &UicmInstance::PS, "m", -1, 1, "source perimeter of a column; negative: 2 (w + ldif)"},
         {"pd", &UicmInstance::PD, "m", -1, 1, "drain perimeter of a column; negative: 2 (w + ldif)"},
     };
+    /// The gate area of the whole array, m^2.
     double area() const { return W * L * m * stack; }
 };
 
-/// Above this current (A) the current of a junction is extrapolated linearly, so that Newton iterations cannot overflow. Real currents are
+/// Above this value (A) the current of a junction is extrapolated linearly, so that Newton iterations cannot overflow. Real currents are
 /// far lower.
 inline constexpr double junction_current_limit = 10e-3;
 
@@ -88,27 +89,30 @@ UicmConstants uicm_constants(const UicmCard&, const UicmInstance&, double temper
 
 /// The deviation of a transistor from its nominal parameters.
 struct UicmShift {
-    double V_T = 0, factor = 1;  ///< added to the threshold, V; factor of I_SQ
+    double V_T = 0;     ///< V, added to the threshold
+    double factor = 1;  ///< of I_SQ
 };
 
-/// The mismatch of one transistor, a random sample for (seed, device, chip): A_VT / sqrt(area) times a normal deviate, and the factor
-/// exp(A_IS / sqrt(area) times another deviate). The area is the total gate area of the array. `device`: index of the transistor in the
-/// netlist.
+/// The mismatch of one transistor, a random sample for (seed, device, chip): A_VT / sqrt(area) times a standard normal deviate, and the
+/// factor exp(A_IS / sqrt(area) times another one). The area is the gate area of the whole array. `device`: number of the transistor, from
+/// 0, among the transistors of the flat circuit.
 UicmShift sample_mismatch(const UicmCard&, const UicmInstance&, std::uint64_t seed, std::uint32_t device, std::uint64_t chip);
-/// The same mismatch as changes of delvto and mulu0.
+/// The instance with the same mismatch as changes of delvto and mulu0.
 UicmInstance with_mismatch(UicmInstance, const UicmCard&, std::uint64_t seed, std::uint32_t device, std::uint64_t chip);
 
-/// Normal deviates common to all transistors of a chip, a random sample for (seed, chip): V_T0 of NMOS and PMOS, then I_SQ of NMOS and
-/// PMOS.
+/// Standard normal deviates common to all transistors of a chip: V_T0 of NMOS and PMOS, then I_SQ of NMOS and PMOS.
 struct ProcessDeviates {
     double values[4];
 };
+/// A random sample for (seed, chip).
 ProcessDeviates sample_process(std::uint64_t seed, std::uint64_t chip);
+/// The deviation of a transistor of this card and polarity. `deviates`: those of ProcessDeviates.
 UicmShift process_shift(const UicmCard&, bool pmos, const double (&deviates)[4]);
 /// The card with the process variation of one chip.
 UicmCard with_process(UicmCard, bool pmos, std::uint64_t seed, std::uint64_t chip);
 
-/// Applies mismatch and process shifts to the constants. The result equals that of with_mismatch() and with_process() except for rounding.
+/// Applies mismatch and process shifts to the constants. The mismatch of I_SQ comes from the mobility and changes zeta as well; that of the
+/// process does not. The result equals that of with_mismatch() and with_process() except for rounding.
 UicmConstants with_shifts(UicmConstants, const UicmShift& mismatch, const UicmShift& process);
 
 }  // namespace corpuscle::circuit

@@ -7,6 +7,7 @@
 namespace corpuscle::circuit {
 namespace {
 
+/// Writes directives one by one. Appends those that are left out to `left_out`.
 class DirectiveExporter {
     const Circuit& circuit_;
     const ExportNames& names_;
@@ -41,6 +42,7 @@ private:
         left_out_.push_back(bad_input(fmt::format("left out: {} ({})", text, why), c.location));
         return fmt::format("* left out: {} ({})\n", text, why);
     }
+    /// The words with the exported names of nodes and elements.
     std::vector<std::string> renamed(const Directive& c) const {
         std::vector<std::string> out;
         for (const auto& w : c.words) out.push_back(names_.word(w));
@@ -80,7 +82,7 @@ private:
         return fmt::format("* {}\n{}", why, line("noise", words));
     }
 
-    /// ngspice requires the name of an analysis; a .print without one is written for each analysis.
+    /// ngspice requires the name of an analysis in .print. One without a name is written for each analysis of the netlist.
     std::string print(const Directive& c) const {
         constexpr std::string_view printed[] = {"op", "dc", "ac", "noise", "tran"};
         const auto is_kind = [&](const std::string& w) {
@@ -100,13 +102,10 @@ private:
     }
 };
 
-}  // namespace
-
-namespace {
-
 /// The order in which ngspice runs analyses, which does not depend on the order of their lines. It runs several lines of one analysis in
-/// reverse.
+/// reverse order.
 constexpr std::string_view run_order[] = {"ac", "dc", "op", "tran", "noise", "sens", "tf"};
+/// The position of an analysis in run_order, from 0; the length of run_order for any other directive.
 std::ptrdiff_t run_rank(std::string_view kind) {
     return std::find(std::begin(run_order), std::end(run_order), kind) - std::begin(run_order);
 }
@@ -117,16 +116,17 @@ bool is_analysis(const Directive& c) { return run_rank(c.name) < std::ssize(run_
 std::string directives_text(const Circuit& circuit, const ExportNames& names, std::vector<Error>& left_out) {
     const DirectiveExporter exporter(circuit, names, left_out);
     std::string analyses, others;
-    std::string_view last = run_order[0];
+    std::string_view last_analysis = run_order[0];  // that ngspice runs
     for (const auto& c : circuit.directives)
-        if (is_analysis(c) && run_rank(c.name) > run_rank(last)) last = c.name;
+        if (is_analysis(c) && run_rank(c.name) > run_rank(last_analysis)) last_analysis = c.name;
     for (const auto& c : circuit.directives) {
         if (is_analysis(c)) {
-            analyses.insert(0, exporter.text(c));
+            analyses.insert(0, exporter.text(c));  // in reverse order, so that ngspice runs them in that of the netlist
             continue;
         }
-        if (c.name.starts_with("meas") && !c.words.empty() && c.words[0] != last) {
-            const auto why = fmt::format(".meas {}: ngspice measures only the analysis that it runs last, here .{}", c.words[0], last);
+        if (c.name.starts_with("meas") && !c.words.empty() && c.words[0] != last_analysis) {
+            const auto why =
+                fmt::format(".meas {}: ngspice measures only the analysis that it runs last, here .{}", c.words[0], last_analysis);
             left_out.push_back(bad_input(why, c.location));
             others += fmt::format("* {}\n", why);
         }

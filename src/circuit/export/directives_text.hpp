@@ -7,7 +7,8 @@
 
 namespace corpuscle::circuit {
 
-/// All directives as lines. Those that ngspice does not have become comments and are appended to `left_out`.
+/// All directives as lines, with analyses first. Those that ngspice does not have become comments. Messages about these, and about results
+/// that differ in ngspice, are appended to `left_out`.
 std::string directives_text(const Circuit&, const ExportNames&, std::vector<Error>& left_out);
 
 }  // namespace corpuscle::circuit

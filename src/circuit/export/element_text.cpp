@@ -10,6 +10,7 @@
 namespace corpuscle::circuit {
 namespace {
 
+/// Writes one element.
 class ElementText {
     const Circuit& circuit_;
     const Element& e_;
@@ -51,18 +52,20 @@ public:
 private:
     double value(std::string_view name, double default_value) const { return value_or(e_.values, name, default_value); }
     const Model* model() const { return e_.model < 0 ? nullptr : &circuit_.models[static_cast<std::size_t>(e_.model)]; }
-    /// The value that the element has for this name, or else its model.
+    /// The value with this name of the element, else of its model, else the default.
     double value_or_of_model(std::string_view name, double default_value) const {
         return value(name, model() ? value_or(model()->values, name, default_value) : default_value);
     }
+    /// The temperature of the element, C.
     double celsius() const { return value("temp", circuit_.temperature + value("dtemp", 0)); }
+    /// " temp=..." or " dtemp=..." if the element has it.
     std::string temperature() const {
         if (e_.values.contains("temp")) return fmt::format(" temp={}", value("temp", 0));
         return e_.values.contains("dtemp") ? fmt::format(" dtemp={}", value("dtemp", 0)) : "";
     }
 
-    /// Parallel elements are merged into one. An element that .dc sweeps is written with its value at its temperature and without
-    /// temperature coefficients, because ngspice would apply these to each value of the sweep.
+    /// An R, C or L; m parallel ones are merged into one. An element that .dc sweeps is written with its value at its temperature and
+    /// without temperature coefficients, because ngspice would apply these to each value of the sweep.
     std::string passive() const {
         const double m = value("m", 1), scaled = e_.value * value("scale", 1), total = e_.letter == 'c' ? scaled * m : scaled / m;
         const double tc1 = value_or_of_model("tc1", 0), tc2 = value_or_of_model("tc2", 0),
@@ -74,6 +77,7 @@ private:
         if (e_.values.contains("ic")) out += fmt::format(" ic={}", value("ic", 0));
         return out + temperature() + '\n';
     }
+    /// True if .dc sweeps the element.
     bool is_swept() const {
         return std::any_of(circuit_.directives.begin(), circuit_.directives.end(), [this](const Directive& c) {
             return c.name == "dc" && std::find(c.words.begin(), c.words.end(), e_.name) != c.words.end();
@@ -83,7 +87,8 @@ private:
     Result<std::string> source() const {
         const Waveform& w = e_.waveform;
         const bool force = w.shape == Waveform::Shape::force, has_shape = w.shape != Waveform::Shape::none && !force;
-        // The DC value of a sine with a phase depends on the phase in ngspice; here it is the offset, so it is written out.
+        // In ngspice the DC value of a sine with a phase depends on the phase. In Corpuscle it is the offset, so the offset is written as
+        // dc.
         const bool has_phase = w.shape == Waveform::Shape::sine && w.numbers.size() > 5;
         std::string out = head_;
         if (w.has_dc || !has_shape || has_phase) out += fmt::format(" dc {}", w.has_dc || !has_phase ? w.dc : w.numbers[0]);
@@ -126,6 +131,7 @@ private:
         }
     }
 
+    /// A voltage, current, time or temperature in an expression.
     std::string input(const ExpressionInput& in) const {
         switch (in.kind) {
             case ExpressionInput::Kind::voltage:

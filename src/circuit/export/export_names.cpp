@@ -10,14 +10,14 @@ namespace {
 
 bool is_letter_or_digit(char c) { return (c >= 'a' && c <= 'z') || (c >= '0' && c <= '9'); }
 
-/// The name with all but letters, digits and `allowed` replaced by _.
+/// The name in small letters, with all characters but letters, digits and those of `allowed` replaced by _.
 std::string legal(std::string_view name, std::string_view allowed) {
     std::string out;
     for (const char c : name) out += is_letter_or_digit(lower(c)) || allowed.find(c) != std::string_view::npos ? lower(c) : '_';
     return out;
 }
 
-/// Makes the names legal and unique. Names that are legal already are kept.
+/// Makes the names legal and unique. Names that are legal already keep their text; of equal ones, the first does.
 std::vector<std::string> unique_names(const std::vector<std::string>& wanted, std::string_view allowed) {
     std::set<std::string, std::less<>> taken;
     std::vector<std::string> out(wanted.size());
@@ -31,7 +31,7 @@ std::vector<std::string> unique_names(const std::vector<std::string>& wanted, st
     return out;
 }
 
-/// The name that an element has in the export, before illegal letters are replaced.
+/// The name that an element has in the export, before illegal characters are replaced.
 std::string exported_name(const Element& e) {
     const std::string letters = e.letter == 'm' ? "xm" : std::string(1, e.letter);
     if (e.name.find('.') != std::string::npos) return letters + "_" + e.name;
@@ -65,11 +65,11 @@ std::string ExportNames::word(std::string_view text) const {
     for (std::size_t at = 0; at < text.size();) {
         const auto open = text.find('(', at), close = text.find(')', std::min(open, text.size()));
         if (close == std::string_view::npos) return out + std::string(text.substr(at));
-        std::size_t name = open;
+        std::size_t name = open;  // start of the function's name
         while (name > at && is_in_name(text[name - 1])) --name;
         out += text.substr(at, open + 1 - at);
         at = open + 1;
-        const char kind = name < open ? text[name] : ' ';
+        const char kind = name < open ? text[name] : ' ';               // first letter of the function's name
         if (open - name > 3 || (kind != 'v' && kind != 'i')) continue;  // a view such as v vm vdb, but not max(
         auto inside = text.substr(at, close - at);
         for (bool first = true; first || !inside.empty(); first = false) {

@@ -11,6 +11,7 @@
 namespace corpuscle::circuit {
 namespace {
 
+/// The text with spaces instead of newlines.
 std::string one_line(std::string text) {
     std::replace_if(text.begin(), text.end(), [](char c) { return c == '\n' || c == '\r'; }, ' ');
     return text;
@@ -36,9 +37,9 @@ std::string header(const Circuit& c, bool transistors) {
     return out;
 }
 
-/// Tolerances are tighter than in Corpuscle, because ngspice stops iterating one step earlier and its defaults are far too loose for
-/// picoamperes. itl2 limits the iterations for the next point of a sweep. In transients, ngspice's trapezoidal rule fails at picoamperes
-/// ("timestep too small"); Gear's method does not.
+/// .options and .temp. Tolerances are tighter than in Corpuscle, because ngspice stops iterating one step earlier and its defaults are far
+/// too loose for picoamperes. itl2 limits the iterations for each point of a sweep after the first. In transients, ngspice's trapezoidal
+/// rule fails at picoamperes ("timestep too small"); Gear's method does not.
 std::string options_text(const Tolerances& t, const Circuit& c) {
     std::string out = fmt::format(".options reltol={} abstol={} vntol={} gmin={} itl1={} itl2={}", std::min(t.reltol, 1e-7), t.abstol,
                                   std::min(t.vntol, 1e-10), t.gmin, std::max(t.itl1, 500), std::max(t.itl1, 500));
@@ -51,9 +52,10 @@ std::string options_text(const Tolerances& t, const Circuit& c) {
     return fmt::format("{}\n.temp {}\n", out, c.temperature);
 }
 
-std::string node_voltages(std::string_view word, const std::vector<std::pair<int, double>>& at, const ExportNames& names) {
+/// Lines of .ic or .nodeset, one for each node.
+std::string node_voltages(std::string_view directive, const std::vector<std::pair<int, double>>& voltages, const ExportNames& names) {
     std::string out;
-    for (const auto& [node, volts] : at) out += fmt::format("{} v({})={}\n", word, names.node(node), volts);
+    for (const auto& [node, volts] : voltages) out += fmt::format("{} v({})={}\n", directive, names.node(node), volts);
     return out;
 }
 

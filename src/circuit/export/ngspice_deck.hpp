@@ -12,8 +12,9 @@ namespace corpuscle::circuit {
 /// An exported netlist.
 struct NgspiceDeck {
     std::string text;
-    std::vector<Error>
-        left_out;  ///< directives that ngspice does not have, at their lines of the netlist; comments of the deck list them too
+    /// Messages about directives that ngspice does not have, or whose results differ, with their lines of the netlist. Comments in the deck
+    /// say the same.
+    std::vector<Error> left_out;
 };
 
 /// The flat circuit with all parameters evaluated and transistors as subcircuits of expressions. Fails where run_directives() would fail.

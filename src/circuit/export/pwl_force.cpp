@@ -14,12 +14,13 @@ namespace {
 constexpr double max_error = 1e-4;  // as a fraction of the largest force
 constexpr int points_per_line = 6;
 
-/// Samples to keep for a piecewise linear curve that stays within `tolerance` of all samples. Each line is as long as possible.
+/// Numbers, from 0 to `last`, of the samples through which a piecewise linear curve passes that stays within `tolerance` (N) of all
+/// samples. Each line is as long as possible.
 std::vector<std::int64_t> select_breakpoints(const ForceWaveform& waveform, std::int64_t last, double tolerance) {
     const auto at = [&](std::int64_t k) { return waveform.at(static_cast<double>(k) * waveform.T()); };
     std::vector<std::int64_t> out{0};
     for (std::int64_t from = 0; from < last;) {
-        double min_slope = -std::numeric_limits<double>::infinity(), max_slope = -min_slope;
+        double min_slope = -std::numeric_limits<double>::infinity(), max_slope = -min_slope;  // N per sample
         std::int64_t to = from + 1;
         for (std::int64_t k = from + 1; k <= last; ++k) {
             const auto length = static_cast<double>(k - from);
@@ -41,7 +42,8 @@ Result<std::string> pwl_force(const Circuit& circuit, double scale) {
     if (!force) return force.error();
     if (!*force) return std::string();
     const ForceWaveform& waveform = **force;
-    const std::int64_t last = waveform.end_sample() - 1 - (ForceWaveform::lookahead + 1);  // after it the force is constant
+    // force_directive() appends lookahead + 1 samples with a constant force.
+    const std::int64_t last = waveform.end_sample() - 1 - (ForceWaveform::lookahead + 1);
     double largest = 0;
     for (std::int64_t k = 0; k <= last; ++k) largest = std::max(largest, std::abs(waveform.at(static_cast<double>(k) * waveform.T())));
     std::string out = "pwl(";

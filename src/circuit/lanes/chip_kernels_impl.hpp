@@ -78,6 +78,7 @@ void predict(const ChipBlock& block, const PredictCall& call) {
     }
 }
 
+/// A bit for each lane.
 inline std::uint8_t bits_of(bool m) { return m; }
 #ifdef CORPUSCLE_ISA
 inline std::uint8_t bits_of(xsimd::batch_bool<double> m) { return static_cast<std::uint8_t>(num::mask_bits(m)); }
@@ -163,7 +164,7 @@ template <class T>
 void residual(const ChipBlock& block, const SolveCall& call, LaneRow& worst) {
     const ChipBlock b = block;  // a local copy cannot alias the stores below
     const Wide<T> a(call.a);
-    LaneRow *const sum = b.error, *const largest = b.work;
+    LaneRow *const sum = b.error, *const largest = b.work;  // J step + r; largest term of each row
     for (std::size_t n = 0; n < b.unknowns; ++n) sum[n] = b.r[n], row<T>(b.r[n]).abs().to(largest[n]);
     for (std::size_t e = 0; e < b.entries; ++e) {
         const Wide<T> part = (row<T>(b.G[e]) + a * row<T>(b.C[e])) * row<T>(b.step[b.column[e]]);
@@ -178,15 +179,15 @@ void residual(const ChipBlock& block, const SolveCall& call, LaneRow& worst) {
 
 template <class T>
 void apply_step(const ChipBlock& block, StepCall& call) {
-    const ChipBlock b = block;  // a local copy cannot alias the stores below
-    constexpr double max_volts = 0.5;
+    const ChipBlock b = block;                  // a local copy cannot alias the stores below
+    constexpr double max_voltage_change = 0.5;  // V
     const Wide<T> updates_x(call.updates_x), zero(0.0);
     Wide<T> size(0.0), clamped(0.0), non_finite(0.0);
     for (std::size_t n = 0; n < b.unknowns; ++n) {
         Wide<T> d(b.step[n]);
         non_finite = non_finite + (d - d);  // NaN or infinite d gives NaN
         if (b.is_voltage[n]) {
-            const Wide<T> cut = min(max(d, Wide<T>(-max_volts)), Wide<T>(max_volts));
+            const Wide<T> cut = min(max(d, Wide<T>(-max_voltage_change)), Wide<T>(max_voltage_change));
             clamped = max((d - cut).abs(), clamped);
             d = cut;
         }
@@ -221,14 +222,14 @@ void estimate_error(const ChipBlock& block, ErrorCall& call) {
 template <class T>
 void accept(const ChipBlock& block, const AcceptCall& call) {
     const ChipBlock b = block;  // a local copy cannot alias the stores below
-    const Wide<T> is_accepted(call.is_accepted), a(call.a), none(0.0);
+    const Wide<T> is_accepted(call.is_accepted), a(call.a), zero(0.0);
     for (std::size_t n = 0; n < b.unknowns; ++n) {
         Wide<T>::where(is_accepted, a * row<T>(b.q[n]) + row<T>(b.history[n]), row<T>(b.rate[n])).to(b.rate[n]);
         const Wide<T> scale = Wide<T>::where(is_accepted, max(row<T>(b.x[n]).abs(), row<T>(b.scale[n])), row<T>(b.scale[n]));
         scale.to(b.scale[n]);
         const Wide<T> allowed = row<T>(b.relative[n]) * scale + row<T>(b.floor[n]);
         Wide<T>::for_each_part([&](std::size_t k) {
-            return num::select(allowed.part[k] > T(0.0), T(1.0) / allowed.part[k], none.part[k]);
+            return num::select(allowed.part[k] > T(0.0), T(1.0) / allowed.part[k], zero.part[k]);
         }).to(b.inverse_allowed[n]);
     }
 }
@@ -238,7 +239,8 @@ template <class T, std::size_t... l>
     return T{constants[l]->*field...};
 }
 
-/// Transposes four vectors of lanes into memory: four consecutive numbers for each lane, one Linearization apart. `first`: first lane.
+/// Transposes four vectors of lanes into memory: for each lane its four numbers one after another, at a distance of one Linearization from
+/// those of the lane before. `first`: address for the first lane.
 template <class T>
 [[gnu::always_inline]] inline void store_across(const T (&x)[4], double* first) {
     constexpr std::size_t distance = sizeof(Linearization) / sizeof(double);

@@ -13,8 +13,8 @@ inline constexpr std::size_t max_lanes = 8;  ///< a multiple of the number of la
 /// A batch of transistors. Every array has rows of `stride` numbers, one for each transistor, and is aligned to 64 bytes. The unknowns are
 /// drain, gate, source, bulk.
 struct TransistorCall {
-    const std::byte* models;
-    std::size_t count, stride;  ///< the stride is at least `count` rounded up to the number of lanes
+    const std::byte* models;    ///< from build(), one for each register of transistors
+    std::size_t count, stride;  ///< number of transistors; the stride is at least this, rounded up to the number of lanes
     const double* v;            ///< [4][stride], V
     double gmin;                ///< S, in parallel with every junction
     double *f, *df;             ///< [4][stride], A; [4 * 4][stride], S
@@ -25,8 +25,8 @@ struct TransistorCall {
 
 /// The transistor kernels of one instruction set.
 struct TransistorKernels {
-    std::size_t lanes, model_bytes;
-    void (*build)(std::byte* to, const UicmConstants*);  ///< constructs the models of one transistor per lane
+    std::size_t lanes, model_bytes;  ///< number of lanes; size of a model, which holds one transistor per lane
+    void (*build)(std::byte* to, const UicmConstants* constants);  ///< constructs a model from one element of `constants` per lane
     void (*eval)(const TransistorCall&);
     void (*extrapolate)(std::size_t stride, const double* dv, const double* dq, double* q);  ///< q += dq dv for the whole stride
 };

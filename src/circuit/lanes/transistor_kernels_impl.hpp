@@ -10,6 +10,7 @@
 namespace corpuscle::circuit::lanes {
 namespace {
 
+/// The number of lanes of T.
 template <class T>
 constexpr std::size_t width() {
     if constexpr (std::is_same_v<T, double>)
@@ -32,6 +33,7 @@ template <class T>
         x.store_aligned(to);
 }
 
+// The functions of TransistorKernels.
 template <class T>
 void build(std::byte* to, const UicmConstants* constants) {
     new (to) Uicm<T>([constants](double UicmConstants::* field) {
@@ -41,7 +43,7 @@ void build(std::byte* to, const UicmConstants* constants) {
     });
 }
 
-constexpr double phi_t = 0.026;  // V: smallest voltage scale of the rounding error, since exponents are relative to phi_t
+constexpr double phi_t = 0.026;  // V: smallest voltage scale of the rounding error, since the arguments of exp are relative to phi_t
 
 /// Adds the conductance gmin in parallel with both junctions.
 template <class T>
@@ -56,7 +58,8 @@ template <class T>
     }
 }
 
-template <class T, bool charges>
+/// eval() with or without charges, as q of the call is given or null.
+template <class T, bool with_charges>
 [[gnu::always_inline]] inline void eval_as(const TransistorCall& call) {
     const std::size_t stride = call.stride;
     const auto* model = reinterpret_cast<const Uicm<T>*>(call.models);
@@ -67,7 +70,7 @@ template <class T, bool charges>
         UicmEvaluation<T> a;
         model->eval(v, a);
         add_gmin(a, v, gmin);
-        if constexpr (charges) {
+        if constexpr (with_charges) {
             for (std::size_t row = 0; row < 4; ++row) {
                 store(a.q[row], call.q + row * stride + k);
                 a.i[row] = a.i[row] + rate * a.q[row];

@@ -20,11 +20,12 @@ void ValueMeasurement::add_point(double x, const PlotRow& row) {
     if (!has_segment) return;
     const auto& segment = *curve_.segment();
     if (!first_segment_) first_segment_ = segment;
+    // With at=X, the first segment that contains X counts.
     const bool is_here = event_.crossing ? is_crossing : std::isnan(value_) && segment.contains(event_.at);
     if (is_here) value_ = value_in(segment, event_.position());
 }
 
-/// A position that lies beyond an end only by rounding counts as the end.
+/// at=X that lies beyond an end of the curve only by rounding counts as that end.
 double ValueMeasurement::value() const {
     if (!std::isnan(value_) || event_.crossing || !curve_.segment()) return value_;
     const auto& last = *curve_.segment();

@@ -1,5 +1,5 @@
 #pragma once
-// Measurements for .meas: each computes one number from a curve, point by point and in constant memory.
+// Measurements for .meas: each computes one number from curves, point by point and in constant memory.
 
 #include <limits>
 #include <optional>
@@ -16,6 +16,7 @@ inline constexpr double unbounded = std::numeric_limits<double>::infinity();
 class Measurement {
 public:
     virtual ~Measurement() = default;
+    /// The next point of the plot; x is the swept quantity.
     virtual void add_point(double x, const PlotRow&) = 0;
     /// The result after the last point; NaN if nothing was found.
     virtual double value() const = 0;
@@ -27,7 +28,7 @@ struct Interval {
     bool contains(double x) const { return from <= x && x <= to; }
 };
 
-/// A curve minus another curve or a level, followed point by point.
+/// Follows a curve, or a curve minus another curve or a level, point by point.
 class CurveFollower {
     CurveView curve_;
     std::optional<CurveView> other_;
@@ -52,29 +53,31 @@ public:
 /// Selects some zero crossings of a curve.
 struct EdgeSelection {
     enum class Kind { rise, fall, cross } kind = Kind::cross;
-    double number = 1;  ///< 1 is the first crossing; 0 is the last
+    double number = 1;  ///< of the crossing among those that count: 1 is the first; 0 is the last
     Interval interval;  ///< only crossings in this interval count
 };
 
-/// Counts the zero crossings of a curve and keeps the position of the selected one.
+/// Counts the zero crossings of a CurveFollower that count for the selection, and keeps the position of the selected one.
 class CrossingCounter {
     CurveFollower follower_;
     EdgeSelection edges_;
-    double count_ = 0, position_ = not_found;
+    double count_ = 0;             // crossings so far
+    double position_ = not_found;  // x of the selected one
 
 public:
     CrossingCounter(CurveFollower follower, EdgeSelection edges) : follower_(std::move(follower)), edges_(edges) {}
     /// Returns true if the newest segment has the selected crossing. If the last crossing is selected, returns true at every crossing.
     bool add_point(double x, const PlotRow&);
     double count() const { return count_; }
-    double position() const { return position_; }  ///< NaN if it was not found yet
+    double position() const { return position_; }  ///< x of the selected crossing; NaN if it was not found yet
 };
 
-/// A position: at=X, or the position of a crossing.
+/// A position x: that of at=X, or that of a crossing.
 struct EventPoint {
     double at = not_found;
     std::optional<CrossingCounter> crossing;  ///< if set, replaces `at`
 
+    /// Returns true if the newest segment has the crossing.
     bool add_point(double x, const PlotRow& row) { return crossing && crossing->add_point(x, row); }
     double position() const { return crossing ? crossing->position() : at; }
 };
@@ -112,7 +115,7 @@ public:
 /// find and deriv: the value or the slope of a curve at a position.
 class ValueMeasurement final : public Measurement {
     CurveFollower curve_;
-    bool is_slope_;
+    bool is_slope_;  // true for deriv
     EventPoint event_;
     std::optional<LineSegment> first_segment_;
     double value_ = not_found;
@@ -120,13 +123,13 @@ class ValueMeasurement final : public Measurement {
     double value_in(const LineSegment& segment, double x) const { return is_slope_ ? segment.slope() : segment.at(x); }
 
 public:
-    ValueMeasurement(CurveFollower curve, bool slope, EventPoint event)
-        : curve_(std::move(curve)), is_slope_(slope), event_(std::move(event)) {}
+    ValueMeasurement(CurveFollower curve, bool is_slope, EventPoint event)
+        : curve_(std::move(curve)), is_slope_(is_slope), event_(std::move(event)) {}
     void add_point(double x, const PlotRow&) override;
     double value() const override;
 };
 
-/// min max pp avg rms integ min_at max_at over an interval.
+/// min max pp avg rms integ min_at max_at of a curve over an interval. pp is max - min; min_at and max_at are positions x.
 class SummaryMeasurement final : public Measurement {
 public:
     enum class Statistic { min, max, pp, min_at, max_at, avg, rms, integ };
@@ -135,10 +138,14 @@ private:
     Statistic statistic_;
     CurveFollower curve_;
     Interval interval_;
-    bool any_ = false;
-    double low_ = 0, high_ = 0, low_at_ = 0, high_at_ = 0;
-    double length_ = 0, area_ = 0, integral_ = 0, squares_ = 0;  // area_ is integrated over |dx|; squares_: integral of the square
-    double first_value_ = 0;                                            // first value, the result if the interval has length 0
+    bool any_ = false;                 // true if a point of the curve was in the interval
+    double low_ = 0, high_ = 0;        // minimum and maximum so far
+    double low_at_ = 0, high_at_ = 0;  // x of these
+    double length_ = 0;                // of x inside the interval
+    double area_ = 0;                  // integral over |dx|
+    double integral_ = 0;              // integral over dx
+    double squares_ = 0;               // integral of the square over |dx|
+    double first_value_ = 0;           // first value in the interval, the result of avg and rms if length_ is 0
 
     void update_extremes(double x, double y);
 

@@ -30,13 +30,14 @@ std::size_t equals_in(const std::string& word) {
     return word.find('=', is_expression ? word.find('\'', 5) : 0);
 }
 
+/// Reads the words of a .meas line one after another.
 class MeasurementParser {
-    const Directive& command_;
-    const Plot& head_;
-    std::size_t at_ = 2;  // after "tran NAME"
+    const Directive& directive_;
+    const Plot& head_;    // names and types of the curves
+    std::size_t at_ = 2;  // index of the next word; the first two are "tran NAME"
 
 public:
-    MeasurementParser(const Directive& command, const Plot& head) : command_(command), head_(head) {}
+    MeasurementParser(const Directive& directive, const Plot& head) : directive_(directive), head_(head) {}
 
     Result<std::unique_ptr<Measurement>> parse() {
         auto out = head_.has_sweep ? swept() : operating_point();
@@ -47,12 +48,13 @@ public:
 private:
     using ParseResult = Result<std::unique_ptr<Measurement>>;
 
-    bool done() const { return at_ >= command_.words.size(); }
-    std::string peek() const { return done() ? "" : command_.words[at_]; }
-    std::string next() { return done() ? "" : command_.words[at_++]; }
+    bool done() const { return at_ >= directive_.words.size(); }
+    std::string peek() const { return done() ? "" : directive_.words[at_]; }
+    std::string next() { return done() ? "" : directive_.words[at_++]; }
+    /// An error with the location of the next word.
     Error error_here(std::string_view message) const {
-        auto location = command_.location;
-        if (at_ < command_.columns.size()) location.column = command_.columns[at_];
+        auto location = directive_.location;
+        if (at_ < directive_.columns.size()) location.column = directive_.columns[at_];
         return bad_input(fmt::format(".meas: {}", message), location);
     }
 
@@ -85,12 +87,13 @@ private:
         return ParseResult(std::make_unique<OperatingPointMeasurement>(*view));
     }
 
+    /// The curve of this name.
     Result<CurveView> curve(std::string_view name) const {
         if (const auto view = CurveView::find(head_, name)) return *view;
         if (name.starts_with("par(") && head_.is_complex)
             return error_here("par() does not work on the complex curves of .ac; use param= instead");
         if (name.starts_with("par("))
-            if (const auto expression = parse_par_expression(name, command_.location); !expression)
+            if (const auto expression = parse_par_expression(name, directive_.location); !expression)
                 return error_here(expression.error().message);
         return error_here(fmt::format("there is no curve '{}' in '{}'", name, head_.name));
     }
@@ -102,7 +105,7 @@ private:
         return out;
     }
 
-    /// Reads the number if the next word is "name=NUMBER".
+    /// Reads the number if the next word is "name=NUMBER"; otherwise returns nothing and reads no word.
     Result<std::optional<double>> option(std::string_view name) {
         const auto word = peek();
         if (!word.starts_with(name) || word.size() <= name.size() || word[name.size()] != '=') return std::optional<double>();
@@ -113,7 +116,7 @@ private:
         return std::optional<double>(number->value);
     }
 
-    /// Reads from= and to=. Returns true if there was at least one of them.
+    /// Reads from= and to=, if they are next. Returns true if there was at least one of them.
     Result<bool> bounds(Interval& interval) {
         const auto from = option("from");
         if (!from) return from.error();
@@ -124,7 +127,7 @@ private:
         return *from || *to;
     }
 
-    /// Reads rise=, fall= or cross=. Returns true if there was one of them.
+    /// Reads rise=, fall= or cross=, if it is next. Returns true if there was one of them.
     Result<bool> numbered_edge(EdgeSelection& edges) {
         for (const auto& e : edge_words) {
             const bool last = peek() == fmt::format("{}=last", e.word);
@@ -140,7 +143,8 @@ private:
         return false;
     }
 
-    /// Reads rise= fall= cross= td= from= to= in any order. For count, the words rise, fall and cross select the edges.
+    /// Reads rise= fall= cross= td= from= to= in any order; val= as well if `level` is not null. For count, the words rise, fall and cross
+    /// without a number select the kind of edges.
     Result<EdgeSelection> edges(bool is_count, std::optional<double>* level = nullptr) {
         EdgeSelection out;
         for (bool more = true; more;) {
@@ -191,17 +195,18 @@ private:
         return ParseResult(std::make_unique<SummaryMeasurement>(statistic, CurveFollower(*view), interval));
     }
 
-    ParseResult find_or_deriv(bool slope) {
+    ParseResult find_or_deriv(bool is_slope) {
         const auto view = curve();
         if (!view) return view.error();
         const auto at = option("at");
         if (!at) return at.error();
-        if (*at) return ParseResult(std::make_unique<ValueMeasurement>(CurveFollower(*view), slope, EventPoint{**at, {}}));
+        if (*at) return ParseResult(std::make_unique<ValueMeasurement>(CurveFollower(*view), is_slope, EventPoint{**at, {}}));
         if (peek() != "when") return error_here(fmt::format("'{}': expected at=VALUE or when CURVE=VALUE", peek()));
         ++at_;
         auto crossings = edge();
         if (!crossings) return crossings.error();
-        return ParseResult(std::make_unique<ValueMeasurement>(CurveFollower(*view), slope, EventPoint{not_found, std::move(*crossings)}));
+        return ParseResult(
+            std::make_unique<ValueMeasurement>(CurveFollower(*view), is_slope, EventPoint{not_found, std::move(*crossings)}));
     }
 
     ParseResult distance() {

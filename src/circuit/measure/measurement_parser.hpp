@@ -8,15 +8,16 @@
 
 namespace corpuscle::circuit {
 
-/// Parses the words of a .meas line that follow NAME, for a plot with the curves of `head`:
+/// Parses the words of a .meas line that follow NAME, for a plot with the curves of `head`, which needs no values:
 ///
 ///     find CURVE at=X | find CURVE when EDGE | deriv CURVE at=X | deriv CURVE when EDGE | when EDGE | count EDGE [rise|fall|cross]
 ///
 ///     min|max|pp|min_at|max_at|avg|rms|integ CURVE [from=A] [to=B]
 ///
-///     trig at=X | trig CURVE val=V ... targ at=X | targ CURVE val=V ...
+///     trig POSITION targ POSITION
 ///
-/// EDGE is CURVE=VALUE|CURVE [rise=N|last] [fall=N|last] [cross=N|last] [td=T] [from=A] [to=B]. For an operating point only find CURVE.
+/// EDGE is CURVE=VALUE or CURVE=CURVE, then SELECTION: [rise=N|last] [fall=N|last] [cross=N|last] [td=T] [from=A] [to=B]. POSITION is at=X,
+/// CURVE val=V SELECTION, or EDGE. For an operating point, only `find CURVE` is possible.
 Result<std::unique_ptr<Measurement>> parse_measurement(const Directive&, const Plot& head);
 
 }  // namespace corpuscle::circuit

@@ -6,10 +6,10 @@
 
 namespace corpuscle::circuit {
 
-BatchedDevices::ScatterAdd BatchedDevices::make_scatter(std::vector<std::pair<int, int>> target_source) {
+BatchedDevices::ScatterAdd BatchedDevices::make_scatter(std::vector<std::pair<int, int>> to_from) {
     std::map<int, std::vector<int>> sources;
-    for (const auto& [to, from] : target_source) sources[to].push_back(from);
-    std::vector<std::pair<std::size_t, int>> order;  // sums of equal length together, for branch prediction
+    for (const auto& [to, from] : to_from) sources[to].push_back(from);
+    std::vector<std::pair<std::size_t, int>> order;  // (terms, target): sums of equal length together, for branch prediction
     for (const auto& [to, from] : sources) order.emplace_back(from.size(), to);
     std::sort(order.begin(), order.end());
     ScatterAdd out;
@@ -92,9 +92,9 @@ void BatchedDevices::add_charges(const std::vector<double>& step, std::vector<do
     const int* terminal = terminals_.data();
     for (const auto& buffer : buffers_) {
         const auto n = buffer.group.terminals, stride = buffer.group.stride;
-        double *const d = numbers() + buffer.offset, *const qs = d + 2 * n * stride, *const dq = qs + (1 + n) * n * stride;
-        for (std::size_t k = 0; k < n * stride; ++k) d[k] = step[static_cast<std::size_t>(*terminal++)];
-        buffer.group.batch->extrapolate(stride, d, dq, qs);
+        double *const dv = numbers() + buffer.offset, *const charges = dv + 2 * n * stride, *const dq = charges + (1 + n) * n * stride;
+        for (std::size_t k = 0; k < n * stride; ++k) dv[k] = step[static_cast<std::size_t>(*terminal++)];
+        buffer.group.batch->extrapolate(stride, dv, dq, charges);
     }
     charges_.add(numbers(), q.data());
 }

@@ -7,7 +7,7 @@
 
 namespace corpuscle::circuit {
 
-/// By bisection. Returns nothing unless f(from) <= 0 and f(to) > 0.
+/// Finds the crossing by bisection, and returns a time at which f > 0. Returns nothing unless f(from) <= 0 and f(to) > 0.
 template <class Function>
 std::optional<double> bisect_crossing(double from, double to, const Function& f) {
     if (!(f(from) <= 0 && f(to) > 0)) return {};
@@ -18,8 +18,8 @@ std::optional<double> bisect_crossing(double from, double to, const Function& f)
     return to;
 }
 
-/// The same with known values at both ends. Without a sign change, f may still cross zero twice in the interval. If one of the two values
-/// is closer to zero than to the other value, four subintervals are therefore searched.
+/// The same with known values at both ends, f_from and f_to. Unless f rises from below zero to above, it may still cross zero twice in the
+/// interval. If one of the two values is closer to zero than to the other value, four subintervals are therefore searched.
 template <class Function>
 std::optional<double> find_crossing(double from, double to, double f_from, double f_to, const Function& f) {
     if (f_from <= 0 && f_to > 0) return bisect_crossing(from, to, f);

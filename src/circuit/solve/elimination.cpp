@@ -9,7 +9,7 @@
 namespace corpuscle::circuit {
 namespace {
 
-constexpr double max_multiplier = 1e7;  // of scaled rows; the pivots that KLU chooses stay below 1e3
+constexpr double max_multiplier = 1e7;  // largest allowed magnitude in L; with the pivots that KLU chooses it stays below 1e3
 
 std::vector<int> inverse_permutation(std::span<const int> permutation) {
     std::vector<int> out(permutation.size());
@@ -104,7 +104,7 @@ bool Elimination::factor(std::span<const double> values) {
     const int* target = updates_.data();
     for (std::size_t k = 0; k < pivots_.size(); ++k) {
         const Pivot& p = pivots_[k];
-        const double inverse = 1 / s[p.u_begin - 1];
+        const double inverse = 1 / s[p.u_begin - 1];  // the pivot's slot precedes those of its row
         inverse_pivot_[k] = inverse;
         for (int l = p.l_begin; l < p.l_end; ++l) {
             const double m = s[l] *= inverse;

@@ -12,28 +12,30 @@ namespace corpuscle::circuit {
 
 class SparsityPattern;
 
-/// P R A Q = L U with row scales R, row order P and column order Q chosen in advance. The slots hold U row by row, each row starting with
-/// its pivot, then L column by column.
+/// P R A Q = L U with row scales R, row order P and column order Q chosen in advance. The array of slots holds the numbers of U row by row,
+/// each row starting with its pivot, then those of L column by column, without its diagonal of ones.
 class Elimination {
-    using Pivot = lanes::EliminationList::Pivot;  // slots of a row of U without its pivot; slots of a column of L
+    using Pivot = lanes::EliminationList::Pivot;  // of one elimination step: slots of its row of U after the pivot, of its column of L
     std::vector<Pivot> pivots_;
-    std::vector<int> updates_;                 // target slots, pivot by pivot: for each slot of L one target for each slot in the row of U
-    std::vector<int> l_rows_, u_columns_;      // row or column of each slot, numbered by elimination step
+    std::vector<int> updates_;                 // slots to change, pivot by pivot: for each slot of L one for each slot in the row of U
+    std::vector<int> l_rows_, u_columns_;      // row of each slot of L, column of each slot of U, numbered by elimination step
     std::vector<int> entry_slot_, entry_row_;  // slot and row of each entry of the sparsity pattern
-    std::vector<int> rows_, columns_;          // P, Q
-    std::vector<double> scale_, slots_, inverse_pivot_;
+    std::vector<int> rows_, columns_;          // P, Q: row and column of A, by elimination step
+    std::vector<double> scale_;                // R: factor of each row of A
+    std::vector<double> slots_, inverse_pivot_;
     int l_first_slot_ = 0;
     double growth_ = 0;
-    mutable std::vector<double> work_;
+    mutable std::vector<double> work_;  // buffer of solve()
 
 public:
-    /// rows[k], columns[k]: row and column of A that step k eliminates. values: matrix values from which the row scales are computed.
+    /// rows[k], columns[k]: row and column of A that elimination step k eliminates. values: a matrix from which the row scales are
+    /// computed.
     Elimination(const SparsityPattern&, std::span<const int> rows, std::span<const int> columns, std::span<const double> values);
 
     /// Returns false if the pivot order is not stable for these values (a pivot is far too small compared with its column).
     bool factor(std::span<const double> values);
-    void solve(std::span<double> b) const;     ///< A x = b, in place
-    double growth() const { return growth_; }  ///< the largest multiplier of the last factorization, for scaled rows
+    void solve(std::span<double> b) const;     ///< A x = b, in place, after factor()
+    double growth() const { return growth_; }  ///< largest magnitude in L of the last factorization
 
     /// The list for the lane kernels, which is valid as long as this object.
     lanes::EliminationList list() const;

@@ -36,7 +36,7 @@ HistoryWeights weights_of_slope(std::span<const double> times, double t, double&
 HistoryWeights weights_of_interpolation_error(std::span<const double> times) {
     HistoryWeights w{};
     const double half = times[1] + (times[0] - times[1]) / 2;
-    double numerator = 1;  // product over all points but the last, at mid-step
+    double numerator = 1;  // the product of (half - time) over all points but the last
     for (std::size_t j = 0; j + 1 < times.size(); ++j) numerator *= half - times[j];
     for (std::size_t k = 0; k < times.size(); ++k) {
         double denominator = 1;

@@ -34,8 +34,8 @@ struct LinearSolver<T>::Impl {
     klu_symbolic* symbolic;
     klu_numeric* numeric = nullptr;
     std::optional<Elimination> list;
-    bool by_list = false;  // the last factorization used the list
-    long fallback_count = 0;
+    bool by_list = false;     // the last factorization used the list
+    long fallback_count = 0;  // see LinearSolver::fallback_count()
 
     explicit Impl(const SparsityPattern& p)
         : pattern(p), size(p.size()), begin(p.column_begin().begin(), p.column_begin().end()), rows(p.rows().begin(), p.rows().end()) {
@@ -86,16 +86,16 @@ bool LinearSolver<T>::factor(std::span<const T> values) {
     if constexpr (!Impl::is_complex) {
         impl_->by_list = impl_->list && impl_->list->factor(values);
         if (impl_->by_list) return true;
+        // If there is a list, KLU's previous pivots are not reused: a solution must depend on its matrix only, not on earlier matrices.
         if (impl_->list) return factor_with_new_pivots(values);
     }
-    // If there is a list, the previous pivots are not reused: a solution must depend on its matrix only, not on earlier matrices.
-    return (impl_->numeric != nullptr && !impl_->list && impl_->refactor(numbers)) || impl_->factor(numbers);
+    return (impl_->numeric != nullptr && impl_->refactor(numbers)) || impl_->factor(numbers);
 }
 
 template <class T>
 bool LinearSolver<T>::factor_with_new_pivots(std::span<const T> values) {
     impl_->by_list = false;
-    impl_->fallback_count += impl_->list.has_value();
+    impl_->fallback_count += impl_->list.has_value();  // 1 if there is a list
     return impl_->factor(reinterpret_cast<double*>(const_cast<T*>(values.data())));
 }
 

@@ -9,7 +9,8 @@
 
 namespace corpuscle::circuit {
 
-/// The sparsity pattern of a square matrix, in compressed columns.
+/// The sparsity pattern of a square matrix, in compressed columns: the entries of column c are those from column_begin()[c] to before
+/// column_begin()[c + 1].
 class SparsityPattern {
     int size_;
     std::vector<int> begin_, rows_;
@@ -19,20 +20,20 @@ public:
     SparsityPattern(int size, std::vector<std::pair<int, int>> entries);
     int size() const { return size_; }
     std::size_t entries() const { return rows_.size(); }
-    /// Index of an entry in the array of values.
+    /// Index of an entry, which must exist, in the array of values.
     std::size_t entry_index(int row, int column) const;
     std::span<const int> column_begin() const { return begin_; }
-    std::span<const int> rows() const { return rows_; }
+    std::span<const int> rows() const { return rows_; }  ///< of each entry
 };
 
-/// The column at which a factorization failed, which depends linearly on others. -1: not known.
+/// Why a factorization failed: this column depends linearly on others. -1: not known.
 struct Singularity {
     int column = -1;
 };
 
 class Elimination;
 
-/// T: double or std::complex<double>.
+/// Factors matrices of one pattern and solves equations with them. The pattern must outlive the solver. T: double or std::complex<double>.
 template <class T>
 class LinearSolver {
     struct Impl;
@@ -52,12 +53,12 @@ public:
     void fix_pivot_order(std::span<const T> values);
     const Elimination* elimination() const;  ///< null: no list
     long fallback_count() const;             ///< number of matrices since fix_pivot_order() for which the list was not used
-    /// The largest multiplier of the last factorization by the list. If it is large, the solution should be checked. 0: the list was not
-    /// used.
+    /// The largest multiplier in the last factorization, see Elimination::growth(). If it is large, the solution should be checked. 0: the
+    /// list was not used.
     double growth() const;
     bool factor_with_new_pivots(std::span<const T> values);  ///< chooses new pivots even if there is a list; increases fallback_count()
     void solve(std::span<T> right_side) const;               ///< A x = b, in place
-    void solve_transposed(std::span<T> right_side) const;    ///< A^T x = b (no conjugate)
+    void solve_transposed(std::span<T> right_side) const;    ///< A^T x = b (no conjugate), in place; not after fix_pivot_order()
 };
 
 extern template class LinearSolver<double>;

@@ -26,6 +26,7 @@ NewtonSolver::NewtonSolver(const System& s, const Tolerances& t)
 }
 
 bool NewtonSolver::is_balanced() const {
+    // The equation of a node is a sum of currents, that of a branch current a sum of voltages.
     for (std::size_t n = 0; n < evaluation.f.size(); ++n) {
         const double floor = n < static_cast<std::size_t>(system.nodes()) ? tolerances.abstol : tolerances.vntol;
         if (!(std::abs(evaluation.f[n]) <= tolerances.reltol * evaluation.scale[n] + evaluation.roundoff[n] + floor)) return false;
@@ -37,7 +38,7 @@ bool NewtonSolver::solve(std::vector<double>& x, const NodeClamps& clamps, int m
     const auto count = static_cast<std::size_t>(system.size()), nodes = static_cast<std::size_t>(system.nodes());
     const bool linear = system.is_linear();
     const double limit = linear ? 0 : max_voltage_step(system);
-    bool is_close = false;  // the last step was small
+    bool is_close = false;  // the last step was below the tolerances
     singular_unknown = -1;
     for (int k = 0; k < (max_iterations > 0 ? max_iterations : tolerances.itl1); ++k) {
         system.eval(x, context, limiting_state, evaluation);

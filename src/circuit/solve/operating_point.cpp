@@ -36,11 +36,11 @@ class OperatingPointSearch {
     NewtonSolver& newton_;
     const System& system_;
     bool has_guess_;                    // the start is near the solution; .nodeset is then ignored
-    std::vector<double> start_, last_;  // last_: where Newton's method without continuation failed
+    std::vector<double> start_, last_;  // last_: last iterate of Newton's method without continuation, if it failed
     std::size_t nodes_;
     NodeClamps clamps_;  // clamps that are part of the solved circuit
 
-    /// A clamp at every node. A node that is clamped already keeps its clamp.
+    /// Clamps of g (S) from every node to the voltages `to`. A node in clamps_ keeps that clamp.
     NodeClamps clamp_all(double g, const std::vector<double>& to) const {
         NodeClamps out{std::vector<double>(nodes_, g), to};
         for (std::size_t n = 0; n < clamps_.conductance.size(); ++n)
@@ -48,8 +48,9 @@ class OperatingPointSearch {
         return out;
     }
 
+    // The methods: each starts from x. If it returns true, x is the solution.
     bool plain_newton(std::vector<double>& x) {
-        constexpr int max_from_guess = 40;  // iterations: from a good guess Newton's method converges within half of these, or diverges
+        constexpr int max_from_guess = 40;  // iterations: from a good guess, Newton's method converges within half as many, or diverges
         newton_.limiting_state = system_.initial_limiting_state();
         return newton_.solve(x, clamps_, has_guess_ ? std::min(max_from_guess, newton_.tolerances.itl1) : 0);
     }
@@ -57,7 +58,7 @@ class OperatingPointSearch {
     /// gmin stepping: a conductance from every node to ground, reduced decade by decade.
     bool gmin_stepping(std::vector<double>& x) {
         const std::vector<double> ground(x.size());
-        double g = 1e-2, factor = 10;
+        double g = 1e-2, factor = 10;  // S; g is divided by the factor
         newton_.limiting_state = system_.initial_limiting_state();
         for (int tries = 0; tries < 200; ++tries) {
             auto next = x;
@@ -77,7 +78,7 @@ class OperatingPointSearch {
 
     /// Source stepping: all sources rise from 0.
     bool source_stepping(std::vector<double>& x) {
-        double reached = 0, step = 0.1;
+        double reached = 0, step = 0.1;  // source_scale of the last solution; its next increase
         newton_.limiting_state = system_.initial_limiting_state();
         newton_.context.source_scale = 0;
         bool found = newton_.solve(x, clamps_);
@@ -103,8 +104,9 @@ class OperatingPointSearch {
         constexpr double max_change = 20e-3, settled_below = 2e-3;  // V
         constexpr int max_iterations = 5;
         const LooseTolerances loose(newton_.tolerances);
-        double g = 1e-4, rate = 0, failed_g = 0;  // S, A, S; a step is longer if g is smaller
-        int limited_steps = 0;                    // remaining steps with a length limit, after one that was too long
+        double g = 1e-4, failed_g = 0;  // S: capacitance / time step, which is smaller for a longer step; that of the last failed step
+        double rate = 0;                // A: largest change of a voltage in the last step, times g
+        int limited_steps = 0;          // remaining steps that must be shorter than the failed one
         newton_.limiting_state = system_.initial_limiting_state();
         for (int tries = 0; tries < 600; ++tries) {
             auto next = x;
@@ -117,7 +119,7 @@ class OperatingPointSearch {
                 continue;
             }
             const double moved = largest_difference(x, next), speedup = rate > 0 ? moved * g / rate : 0;
-            x = std::move(next), rate = moved * g;
+            x = std::move(next), rate = moved * g;  // speedup: this rate / that of the step before
             if (moved < 10 * settled_below && g < 1e-13) {
                 if (auto solution = x; loose.with_tight([&] { return newton_.solve(solution, clamps_, 20); }))
                     return x = std::move(solution), true;
@@ -129,7 +131,7 @@ class OperatingPointSearch {
         }
         return false;
     }
-    /// Pseudo-transient with tight tolerances in every step, shortened only after a failure: slow but robust.
+    /// Pseudo-transient with tight tolerances in every step. A step is shortened only after a failure. Slow but robust.
     bool exact_pseudo_transient(std::vector<double>& x) {
         double g = 1e-4;
         newton_.limiting_state = system_.initial_limiting_state();
@@ -148,13 +150,14 @@ class OperatingPointSearch {
         }
         return false;
     }
+    /// The largest difference of a node voltage, V.
     double largest_difference(const std::vector<double>& a, const std::vector<double>& b) const {
         double largest = 0;
         for (std::size_t n = 0; n < nodes_; ++n) largest = std::max(largest, std::abs(a[n] - b[n]));
         return largest;
     }
 
-    /// Solves with the nodes of .nodeset clamped. The result is the start without these clamps.
+    /// Replaces x by the solution with the nodes of .nodeset clamped, if it is found.
     void apply_nodesets(std::vector<double>& x) {
         const auto& nodesets = system_.circuit().nodesets;
         if (nodesets.empty()) return;
@@ -173,6 +176,7 @@ public:
         newton_.iterations = 0;
     }
 
+    /// Searches from the start, then again without the guess.
     Result<OperatingPoint> run() {
         if (has_guess_)
             if (auto found = from_start()) return *found;
@@ -185,6 +189,7 @@ public:
     }
 
 private:
+    /// Tries all methods from start_.
     std::optional<OperatingPoint> from_start() {
         struct Method {
             std::string_view name;

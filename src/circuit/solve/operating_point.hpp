@@ -8,12 +8,13 @@
 
 namespace corpuscle::circuit {
 
-/// Convergence tolerances and iteration limit. The names are those of SPICE; the defaults are tighter, for currents of picoamperes.
+/// Convergence tolerances and iteration limit of Newton's method. The names are those of SPICE. Defaults are tighter than SPICE's, for
+/// currents of picoamperes.
 struct Tolerances {
-    double reltol = 1e-6;
-    double vntol = 1e-9;    ///< V
-    double abstol = 1e-16;  ///< A
-    double gmin = 1e-15;    ///< S
+    double reltol = 1e-6;   ///< relative to an unknown, or to the largest term of an equation
+    double vntol = 1e-9;    ///< V, added for voltages
+    double abstol = 1e-16;  ///< A, added for currents
+    double gmin = 1e-15;    ///< S, in parallel with every junction
     int itl1 = 100;         ///< maximum number of Newton iterations in one attempt
 
     /// From .options. Errors: a value out of range.
@@ -22,16 +23,17 @@ struct Tolerances {
 
 struct OperatingPoint {
     std::vector<double> x;
-    std::string_view method;  ///< "newton", "gmin", "source", "pseudo-transient"
+    std::string_view method;  ///< that found it: "newton", "gmin", "source", "pseudo-transient"
     int iterations = 0;       ///< Newton iterations of all attempts
 };
 
-/// Conductances that pull nodes to given voltages: conductance (x - voltage) is added to the equation of each node. Empty: no clamps.
+/// Conductances (S) that pull nodes to given voltages (V), by node: the current conductance * (x - voltage) is added to the equation of
+/// each node. Empty: no clamps.
 struct NodeClamps {
     std::vector<double> conductance, voltage;
 };
 
-/// Newton's method for one system. It refers to the system and keeps the symbolic analysis of its matrix.
+/// Newton's method for one system, which must outlive it.
 struct NewtonSolver {
     const System& system;
     Tolerances tolerances;
@@ -39,19 +41,20 @@ struct NewtonSolver {
     LinearSolver<double> linear_solver;
     SystemEvaluation evaluation;
     std::vector<double> limiting_state;
-    int iterations = 0;
-    int singular_unknown = -1;  ///< unknown at which the matrix of the last solve was singular; -1: not singular
-    std::vector<double> step;
+    int iterations = 0;         ///< of all calls of solve(); set to 0 by the caller
+    int singular_unknown = -1;  ///< unknown at which the matrix of the last solve() was singular; -1: not singular, or not known
+    std::vector<double> step;   ///< the last Newton step
 
     NewtonSolver(const System&, const Tolerances&);
-    bool is_balanced() const;  ///< true if the last residual is below the tolerances
-    /// Iterates from x; afterwards x is the last iterate. max_iterations 0: itl1. Returns true if it converged.
+    bool is_balanced() const;  ///< true if the residual of the last evaluation is below the tolerances
+    /// Iterates from x; afterwards x is the last iterate. A max_iterations of 0 means itl1. Returns true if the iterations converged.
     bool solve(std::vector<double>& x, const NodeClamps& = {}, int max_iterations = 0);
     /// Describes the largest residual at x as text: the unknown, the value and the device.
     std::string describe_residual(std::span<const double> x);
 };
 
-/// Starts from `start`; if that is empty, from 0 with the voltages of .nodeset. `clamps` are part of the solved circuit.
+/// Finds an operating point. The search starts from the unknowns in `start`; if it is empty, from 0 with the voltages of .nodeset. The
+/// solution includes the effect of `clamps`.
 Result<OperatingPoint> find_operating_point(NewtonSolver&, std::vector<double> start = {}, NodeClamps clamps = {});
 
 }  // namespace corpuscle::circuit

@@ -14,8 +14,8 @@ struct UnstableMode {
     double rate;                    ///< 1/s; 0: it oscillates while it grows, and the rate is not known
 };
 
-/// For a circuit at x, where f(x) = 0. Returns nothing if all disturbances decay. Growth with a time constant above about 100 s, or of an
-/// oscillation by less than about 1 % per cycle, is not detected.
+/// Examines a circuit at x, where f(x) = 0. Returns nothing if all disturbances decay. Growth with a time constant above about 100 s, or of
+/// an oscillation by less than about 1 % per cycle, is not detected.
 std::optional<UnstableMode> find_unstable_mode(NewtonSolver&, std::span<const double> x);
 
 }  // namespace corpuscle::circuit

@@ -1,5 +1,6 @@
 #pragma once
-// Step size and order control of a transient, and convergence control of its Newton iterations. Pure numbers, independent of circuits.
+// Step size and order control of a transient, and convergence control of its Newton iterations. Independent of circuits: all errors are
+// relative to the allowed error.
 
 #include <algorithm>
 #include <cmath>
@@ -10,17 +11,20 @@ namespace corpuscle::circuit {
 
 /// Chooses the length and the order of the next BDF step.
 struct StepControl {
-    int order = 1, steps_since_order_change = 0, failures = 0;
-    bool starting = true;        ///< since the start, every step has used the highest order that its points allow
-    double h = 0;                ///< s
-    double recent_max_step = 0;  ///< s: longest of the recent steps, with exponential decay
+    int order = 1;
+    int steps_since_order_change = 0;  ///< accepted steps
+    int failures = 0;                  ///< successive rejected steps
+    bool starting = true;              ///< every step since restart() has used the highest order that its points allow
+    double h = 0;                      ///< s: length of the next step
+    double recent_max_step = 0;        ///< s: longest of the recent steps, with exponential decay
 
-    static constexpr double safety = 0.65;        ///< below 1, since a rejected step costs more than several shorter ones
+    /// Factor of the step length. It is below 1, since a rejected step costs more than several shorter ones.
+    static constexpr double safety = 0.65;
     static constexpr double max_growth = 2;       ///< largest ratio of successive step lengths
     static constexpr double curve_tolerance = 2;  ///< allowed interpolation error between two points, relative to the allowed error
     static constexpr int max_curve_points = 5;    ///< maximum number of points of the interpolating polynomial
 
-    /// Factor of the step length for which a method of this order would have exactly the allowed error.
+    /// Factor of the length of a step with this error that gives about the allowed error with a method of this order; at most 10.
     static double growth_factor(double error, int order) {
         return error > 0 ? std::min(safety * num::exp(num::log(error) / -(order + 1)), 10.0) : 10;
     }
@@ -30,15 +34,17 @@ struct StepControl {
     /// True if choose() needs the errors of the next lower and higher order.
     bool is_order_change_due() const { return steps_since_order_change > order || starting; }
     bool can_lower_order() const { return order > 1; }
+    /// `highest`, `points`: see choose().
     bool can_raise_order(int highest, int points) const { return order < highest && points > order + 1; }
 
-    /// Call after an accepted step of this length (s) and error. `points` is the number of earlier points, `highest` the largest
-    /// allowed order, and error_of(order) the error of the step for another order.
+    /// Call after an accepted step of this length (s) and error. `points` is the number of points before this step that the formula may
+    /// use, `highest` the largest allowed order, and error_of(order) the error that the step would have with another order.
     template <class ErrorOf>
     void choose(double length, double error, int points, int highest, ErrorOf&& error_of) {
         double factor = growth_factor(error, order);
         if (is_order_change_due()) {
             steps_since_order_change = 0;
+            // Factors of the step length; 0.9 favours the present order.
             const double lower = can_lower_order() ? 0.9 * growth_factor(error_of(order - 1), order - 1) : 0;
             const double higher = can_raise_order(highest, points) ? 0.9 * growth_factor(error_of(order + 1), order + 1) : 0;
             if (lower > factor && lower > higher)
@@ -55,14 +61,17 @@ struct StepControl {
     void limit_by_curve(double length, double error, int points) {
         h = std::min(h, length * std::clamp(growth_factor(error, points - 1), 0.3, max_growth));
     }
-    void record_step(double step) { recent_max_step = std::max(step, 0.7 * recent_max_step); }
-    /// Steps up to this length may contain a jump. Unknowns without charge are then checked at the ends only, and interpolation is linear.
+    /// Call after an accepted step of this length (s).
+    void record_step(double length) { recent_max_step = std::max(length, 0.7 * recent_max_step); }
+    /// Within a step of up to this length (s) the solution may jump. The error of unknowns without charge and of the interpolation then
+    /// does not lead to a rejection, and interpolation within the step is linear.
     double jump_step_limit(double reltol, double max_step) const { return std::max(reltol * recent_max_step, 1e-9 * max_step); }
+    /// Sets h to this factor of a length, within limits. `points` as in choose().
     void scale_step(double length, double factor, int points) { h = length * std::clamp(factor, 0.3, points < 3 ? 5 : max_growth); }
 
-    /// Call after a rejected step of this length (s). `error` is relative to the allowed error, and 0 if the equations were not solved.
-    /// `previous` is the length of the step before, 0 if there was none since the start. Returns true if the integration must restart from
-    /// the last point, which happens after more than `max_failures` failures or a strong reduction.
+    /// Call after a rejected step of this length (s). `error` is 0 if the equations were not solved. `previous` is the length (s) of the
+    /// last accepted step, 0 if there was none since the integration restarted. Returns true if the integration must restart from the last
+    /// point: after more than `max_failures` successive rejections, or if the step shrinks to less than a tenth of the previous one.
     bool shorten(double length, double error, double previous, int max_failures = 1) {
         ++failures;
         h = length * (error > 0 ? std::clamp(growth_factor(error, order), previous > 0 ? 0.1 : 1e-3, 0.8) : 0.125);
@@ -76,9 +85,10 @@ struct NewtonControl {
     static constexpr int max_iterations = 12;
     static constexpr double convergence_limit = 0.03;  ///< error that the iteration may leave, relative to the allowed error
 
-    int iterations = 0;
-    double last_size = 0;         ///< size of the last Newton step, relative to the allowed error; 0: it was limited
-    double quadratic_factor = 1;  ///< constant of the quadratic convergence: error after a step / (size of the step)^2
+    int iterations = 0;    ///< of this time step
+    double last_size = 0;  ///< size of the last Newton step, relative to the allowed error; 0: it was limited, or there was none
+    /// Estimate of (error after a Newton step) / (size of the step)^2. It is kept from one time step to the next.
+    double quadratic_factor = 1;
 
     void begin() { iterations = 0, last_size = 0; }
     /// Call this if the iteration has not converged although the last Newton step was small.

@@ -7,8 +7,8 @@
 namespace corpuscle::circuit {
 namespace {
 
-// A solution by the elimination list is checked if the pivot growth exceeds the first value. The second is the allowed relative residual.
-constexpr double doubtful_growth = 1e4, doubtful_residual = 1e-9;
+constexpr double doubtful_growth = 1e4;     // Elimination::growth() at and above which the solution is checked
+constexpr double doubtful_residual = 1e-9;  // relative residual at and above which the matrix is factored again with new pivots
 
 }  // namespace
 
@@ -30,6 +30,7 @@ StepEquations::StepEquations(const System& system, NewtonSolver& newton)
         }
         if (d.is_time_dependent()) time_dependent_.push_back(k);
         const std::span<double> all(scalar.stamp);
+        // At v = 0 the currents are those at x = 0; the derivatives do not depend on v.
         d.eval(scalar.v, newton.context, {all.first(n), all.subspan(n, n), all.subspan(2 * n, n * n), all.subspan(2 * n + n * n)});
         for (std::size_t row = 0; row < n; ++row) {
             if (!d.is_time_dependent()) constant_currents_[static_cast<std::size_t>(scalar.unknowns[row])] += all[row];
@@ -52,7 +53,7 @@ void StepEquations::prepare(double t, double a, std::span<const double> history)
     for (const auto k : time_dependent_) {
         const Device& d = *system_.devices()[k];
         const auto n = d.unknowns.size();
-        scratch_.assign(3 * n + 2 * n * n, 0.0);
+        scratch_.assign(3 * n + 2 * n * n, 0.0);  // f, q, df, dq, v = 0
         const std::span<double> all(scratch_);
         d.eval(all.last(n), newton_.context,
                {all.first(n), all.subspan(n, n), all.subspan(2 * n, n * n), all.subspan(2 * n + n * n, n * n)});
@@ -63,6 +64,7 @@ void StepEquations::prepare(double t, double a, std::span<const double> history)
     for (const auto& l : linear_) J_0_[l.entry] = l.g + a * l.c;
 }
 
+/// Evaluates a nonlinear device at x_, limited if necessary, and adds it to J_ and r_.
 void StepEquations::linearize_device(ScalarDevice& scalar) {
     const Device& d = *system_.devices()[scalar.device];
     const auto n = scalar.terminals;
@@ -98,6 +100,8 @@ void StepEquations::linearize(std::span<const double> x) {
     batched_devices_.evaluate(newton_.context, a_, x_, J_, r_);
 }
 
+/// In a nonlinear circuit, limits the voltages of the Newton step to 0.5 V. Returns the largest component of the step, relative to the
+/// allowed error. Sets `clamped` if a voltage was limited.
 double StepEquations::largest_step(std::span<const double> allowed, bool& clamped) {
     double largest = 0;
     for (std::size_t n = 0; n < allowed.size(); ++n) {
@@ -109,7 +113,7 @@ double StepEquations::largest_step(std::span<const double> allowed, bool& clampe
     return largest;
 }
 
-/// Solves J step + r = 0.
+/// Solves J step + r = 0. Returns false if J is singular.
 bool StepEquations::solve_for_step() {
     const auto J = std::span<const double>(J_).first(J_.size() - 1);
     const auto step = std::span(step_).first(step_.size() - 1);
@@ -160,7 +164,7 @@ bool StepEquations::expressions_match() {
         const Device& d = *system_.devices()[scalar.device];
         if (!d.has_jumps()) continue;
         const auto n = scalar.terminals;
-        scratch_.assign(3 * n + 2 * n * n, 0.0);
+        scratch_.assign(3 * n + 2 * n * n, 0.0);  // f, q, df, dq, v
         const std::span<double> all(scratch_);
         const auto v = all.last(n), f = all.first(n);
         for (std::size_t j = 0; j < n; ++j) {
@@ -172,7 +176,7 @@ bool StepEquations::expressions_match() {
             double linear = scalar.stamp[row];
             for (std::size_t column = 0; column < n; ++column)
                 linear += scalar.stamp[2 * n + row * n + column] * (v[column] - scalar.v[column]);
-            // The equation of a branch current is a sum of voltages.
+            // The equation of a branch current is a sum of voltages, that of a node a sum of currents.
             const bool is_voltage = scalar.unknowns[row] < system_.size() && !is_voltage_[static_cast<std::size_t>(scalar.unknowns[row])];
             const double scale = is_voltage ? std::abs(v[0] - v[1]) : std::max(std::abs(f[row]), std::abs(linear));
             if (!expression_tolerance_.accepts(is_voltage, f[row] - linear, scale)) return false;

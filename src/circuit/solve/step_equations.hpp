@@ -1,5 +1,6 @@
 #pragma once
-// The equations of one time step, f(x, t) + a q(x) + history = 0, and their solution by Newton's method.
+// The equations of one time step, f(x, t) + a q(x) + history = 0, and their solution by Newton's method. The integration formula gives a
+// and history so that dq/dt = a q(x) + history at the end of the step.
 
 #include "circuit/solve/batched_devices.hpp"
 #include "circuit/solve/operating_point.hpp"
@@ -10,42 +11,46 @@ namespace corpuscle::circuit {
 /// The largest difference allowed between an expression and its linearization when a Newton iteration ends.
 struct ExpressionTolerance {
     double reltol = 0, vntol = 0, abstol = 0;
+    /// `difference`, `scale`: V or A; scale is the magnitude of the values compared.
     bool accepts(bool is_voltage, double difference, double scale) const {
         constexpr double factor = 10;
         return std::abs(difference) <= factor * (reltol * scale + (is_voltage ? vntol : abstol));
     }
 };
 
-/// Linear devices are summed once, and sources once per time step. Only the other devices are evaluated in each iteration, directly into
-/// the Jacobian and the residual. So an iteration costs little more than evaluating the transistors and one elimination. The final charges
-/// are extrapolated linearly from the last evaluation. The charge residual of a step enters the next one, so charge is conserved.
+/// The derivatives of linear devices are summed once, in the constructor, and the values of sources once per time step. Only the nonlinear
+/// devices are evaluated in each iteration, directly into the Jacobian and the residual. So an iteration costs little more than evaluating
+/// the transistors and one elimination. The charges at the end of the step are extrapolated linearly from the last evaluation. The charge
+/// residual of a step enters the next one, so charge is conserved.
 class StepEquations {
     const System& system_;
     NewtonSolver& newton_;
-    struct LinearEntry {
+    struct LinearEntry {  // a matrix entry to which linear devices contribute
         std::size_t entry;
         int row, column;
-        double g, c;
+        double g, c;  // S and F: sums of their df and dq
     };
     std::vector<LinearEntry> linear_;
-    std::vector<double> constant_currents_;    // currents of time-independent linear devices at x = 0
-    std::vector<std::size_t> time_dependent_;  // time-dependent sources
+    std::vector<double> constant_currents_;    // f of the time-independent linear devices at x = 0
+    std::vector<std::size_t> time_dependent_;  // indices of the time-dependent sources
     struct ScalarDevice {                      // a nonlinear device that is not in a group
-        std::size_t device, terminals;
-        std::vector<int> unknowns;
-        std::vector<double> v, linearized_at, stamp;  // stamp: f, q, df, dq one after another
-        bool limited = false;
+        std::size_t device, terminals;         // its index; number of its unknowns
+        std::vector<int> unknowns;             // ground is the index after the last unknown
+        std::vector<double> v, linearized_at;  // its unknowns at the last x, and after limiting
+        std::vector<double> stamp;             // f, q, df, dq one after another; f and q are extrapolated to v
+        bool limited = false;                  // linearized_at differs from v
     };
     std::vector<ScalarDevice> scalar_devices_;
     BatchedDevices batched_devices_;
     LinearSolver<double> solver_;  // not the one of the operating point, whose pivot order differs
-    // base_ is the residual at x = 0 without the devices that are evaluated in each iteration, J_0_ the Jacobian of the linear devices. The
-    // last element of each vector is for ground.
+    // x_ is the x of the last evaluation, step_ the Newton step from it. base_ is the residual at x = 0 without the nonlinear devices, J_0_
+    // the Jacobian of the linear devices. The last element of each vector except scratch_ is for ground.
     std::vector<double> x_, base_, J_0_, J_, r_, step_, scratch_;
     std::vector<char> is_voltage_;
     NewtonControl newton_control_;
-    double a_ = 0;  // 1/s: dq/dt = a q + history
-    bool limited_ = false, checks_expressions_ = false;
+    double a_ = 0;                     // 1/s: dq/dt = a q + history
+    bool limited_ = false;             // some device was evaluated at limited voltages
+    bool checks_expressions_ = false;  // see check_expressions()
     ExpressionTolerance expression_tolerance_;
     bool expressions_match();
 
@@ -56,29 +61,32 @@ class StepEquations {
     double largest_step(std::span<const double> allowed, bool& clamped);
 
 public:
-    long iterations = 0;
+    long iterations = 0;  ///< of all steps; set to 0 by the caller
 
     StepEquations(const System&, NewtonSolver&);
 
     /// Prepares a step that ends at t (s), with dq/dt = a q + history.
     void prepare(double t, double a, std::span<const double> history);
-    /// If `enabled`, an iteration converges only when each expression with jumps matches its linearization at the solution. At a jump the
+    /// If `enabled`, the iterations converge only when each expression with jumps matches its linearization at the solution. At a jump the
     /// linearization is wrong even if the last Newton step was short.
-    void check_expressions(bool enabled, const ExpressionTolerance& t) { checks_expressions_ = enabled, expression_tolerance_ = t; }
+    void check_expressions(bool enabled, const ExpressionTolerance& tolerance) {
+        checks_expressions_ = enabled, expression_tolerance_ = tolerance;
+    }
     using Status = NewtonControl::Status;
-    /// One Newton step from x. converged: the error of every unknown with allowed[n] > 0 is a small part of allowed[n].
+    /// Takes one Newton step from x. The status is `converged` if the remaining error of every unknown with allowed[n] > 0 is a small part
+    /// of allowed[n] (V or A).
     Status iterate(std::vector<double>& x, std::span<const double> allowed);
-    /// The largest component of the last Newton step, relative to the allowed error.
+    /// The largest component of the last Newton step, relative to the allowed error; 0 if the step was limited.
     double step_size() const { return newton_control_.last_size; }
-    /// The charges of the solution.
+    /// The charges at the result of iterate(). Call at most once after iterate().
     void read_charges(std::span<double> q);
-    /// Solves (G + a C) e = r in place, with the derivatives at the solution: the effect of a perturbation of the equations on the
-    /// unknowns.
+    /// Solves (G + a C) e = r in place, with the last matrix: the effect e of a perturbation r of the equations on the unknowns.
     void solve_perturbation(std::span<double> r) const { solver_.solve(r); }
-    /// Evaluates f(x, t) and q(x) without history and with a = 0.
+    /// Evaluates f(x, t) and q(x).
     void evaluate_static(double t, std::span<const double> x, std::span<double> f, std::span<double> q);
     /// Fixes the pivot order of all later matrices to that of the matrix at x with dq/dt = a q.
     void fix_pivot_order(std::span<const double> x, double a);
+    // See NewtonControl.
     double quadratic_factor() const { return newton_control_.quadratic_factor; }
     void set_quadratic_factor(double factor) { newton_control_.quadratic_factor = factor; }
     /// The elimination list after fix_pivot_order(); null: there is none.

@@ -13,7 +13,7 @@ namespace corpuscle::circuit {
 
 class System::Builder final : public DeviceSetup {
     System& system_;
-    std::vector<int> branches_;
+    std::vector<int> branches_;  // by element: unknown of its branch current; -1: none
 
 public:
     explicit Builder(System& system) : system_(system), branches_(system.circuit_->elements.size(), -1) {
@@ -83,6 +83,7 @@ Result<void> System::make_groups() {
         }
         auto batch = kind.make_batch();
         if (!batch) return batch.error();
+        // All devices of a kind with batches have the same number of unknowns.
         DeviceGroup group{std::move(*batch), {}, devices_[members[0]]->unknowns.size(), (members.size() + 7) / 8 * 8, {}, {}};
         for (const auto k : members) {
             group.members.push_back(devices_[k].get());
@@ -119,7 +120,7 @@ bool System::set_force_input(const ForceWaveform* force) {
 
 void System::apply_variation(const ChipSample* chip) {
     std::uint32_t index = 0;
-    for (const auto& d : devices_) index += d->apply_variation(chip, index);
+    for (const auto& d : devices_) index += d->apply_variation(chip, index);  // counts the devices with variation
     for (const auto& group : groups_) group.batch->bind(group.members);
 }
 
@@ -143,7 +144,7 @@ void System::eval(std::span<const double> x, const EvalContext& context, std::ve
                   SystemEvaluation& sums) const {
     const auto count = static_cast<std::size_t>(size());
     sums.f.assign(count, 0), sums.q.assign(count, 0), sums.scale.assign(count, 0), sums.roundoff.assign(count, 0);
-    sums.G.assign(pattern_->entries() + 1, 0), sums.C.assign(pattern_->entries() + 1, 0);  // the last: ground
+    sums.G.assign(pattern_->entries() + 1, 0), sums.C.assign(pattern_->entries() + 1, 0);  // the last element: ground
     sums.is_limited = false;
     for (const auto k : scalar_devices_) add_device(k, x, context, limiting_state, sums);
     for (const auto& group : groups_) add_group(group, x, context, sums);

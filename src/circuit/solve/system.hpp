@@ -1,5 +1,5 @@
 #pragma once
-// The equations of a circuit: f(x) + dq(x)/dt = 0, where x holds node voltages (V) and branch currents (A).
+// The equations of a circuit: f(x) + dq(x)/dt = 0, where x holds the unknowns: node voltages (V) and branch currents (A).
 
 #include <memory>
 #include <string>
@@ -13,10 +13,10 @@ namespace corpuscle::circuit {
 /// The sum of all devices' contributions at one x.
 struct SystemEvaluation {
     std::vector<double> f, q;      ///< by equation
-    std::vector<double> G, C;      ///< derivatives of f and q, by entry of the sparsity pattern
-    std::vector<double> scale;     ///< largest single contribution to each equation, the scale for a relative tolerance
+    std::vector<double> G, C;      ///< derivatives of f and q, by entry of the sparsity pattern; then one element for ground
+    std::vector<double> scale;     ///< largest contribution of a single device to each equation, the scale for a relative tolerance
     std::vector<double> roundoff;  ///< rounding error of each equation, from the rounding of x and of the devices' sums
-    bool is_limited = false;       ///< a device was evaluated at limited voltages; its part of f is extrapolated linearly to x
+    bool is_limited = false;       ///< some device was evaluated at limited voltages; its contribution is extrapolated linearly to x
 
 private:
     friend class System;
@@ -31,21 +31,23 @@ private:
 struct DeviceGroup {
     std::unique_ptr<DeviceBatch> batch;
     std::vector<const Device*> members;
-    std::size_t terminals, stride;
-    std::vector<int> unknowns;         ///< [member][terminal]
-    std::vector<std::size_t> entries;  ///< [member][terminal^2]: matrix entry of each derivative; ground is past the end of the pattern
+    std::size_t terminals;             ///< of each member; all its unknowns are terminals
+    std::size_t stride;                ///< number of members, rounded up to a multiple of 8
+    std::vector<int> unknowns;         ///< [member][terminal]; -1: ground
+    std::vector<std::size_t> entries;  ///< [member][terminal^2]: matrix entry of each derivative; for ground the number of entries
 };
 
+/// The unknowns, devices and sparsity pattern of a circuit.
 class System {
     std::shared_ptr<const Circuit> circuit_;
-    std::vector<std::string> names_;
-    std::vector<std::unique_ptr<Device>> devices_;
-    std::vector<std::size_t> limiting_state_offset_;
+    std::vector<std::string> names_;                  // of the unknowns
+    std::vector<std::unique_ptr<Device>> devices_;    // one for each element of the circuit, in the same order
+    std::vector<std::size_t> limiting_state_offset_;  // by device
     std::size_t limiting_state_size_ = 0;
     std::unique_ptr<SparsityPattern> pattern_;
-    std::vector<std::vector<std::size_t>> entries_;  // matrix entry of each device's derivatives; past the end of the pattern: ground
+    std::vector<std::vector<std::size_t>> entries_;  // by device, matrix entry of each derivative; for ground the number of entries
     std::vector<DeviceGroup> groups_;
-    std::vector<std::size_t> scalar_devices_;  // devices in no group
+    std::vector<std::size_t> scalar_devices_;  // indices of the devices in no group
     int nodes_ = 0;
     bool is_linear_ = true;
 
@@ -60,8 +62,9 @@ public:
     static Result<System> make(std::shared_ptr<const Circuit>);
 
     const Circuit& circuit() const { return *circuit_; }
-    int size() const { return static_cast<int>(names_.size()); }
-    int nodes() const { return nodes_; }  ///< number of node voltages, which are the first unknowns
+    int size() const { return static_cast<int>(names_.size()); }  ///< number of unknowns
+    int nodes() const { return nodes_; }                          ///< nodes of the circuit without ground; their voltages come first
+    /// True for a node voltage, also of a node that a device has added; false for a branch current.
     bool is_voltage(int unknown) const { return names_[static_cast<std::size_t>(unknown)][0] == 'v'; }
     const std::vector<std::string>& names() const { return names_; }  ///< "v(out)", "i(v1)"
     int unknown(std::string_view name) const;                         ///< -1: no unknown has this name
@@ -69,16 +72,18 @@ public:
     const std::vector<std::unique_ptr<Device>>& devices() const { return devices_; }
     Device* device(std::string_view name) const;  ///< null: no device has this name
     std::span<const DeviceGroup> groups() const { return groups_; }
-    std::span<const std::size_t> scalar_devices() const { return scalar_devices_; }  ///< devices in no group
+    std::span<const std::size_t> scalar_devices() const { return scalar_devices_; }  ///< indices of the devices in no group
+    /// Matrix entry of each derivative of a device, row by row; for ground the number of entries of the pattern.
     std::span<const std::size_t> entries(std::size_t device) const { return entries_[device]; }
     /// The part of a limiting state that belongs to a device.
     std::span<double> limiting_state_of(std::size_t device, std::vector<double>& state) const {
         return std::span(state).subspan(limiting_state_offset_[device], devices_[device]->limiting_state_size());
     }
-    bool is_linear() const { return is_linear_; }
+    bool is_linear() const { return is_linear_; }  ///< true if all devices are linear
+    /// Zeros, for the values that Device::limit() of all devices keeps between Newton iterations.
     std::vector<double> initial_limiting_state() const { return std::vector<double>(limiting_state_size_); }
 
-    /// Evaluates all devices at x and sums their contributions.
+    /// Evaluates all devices at x and sums their contributions. Updates the limiting state.
     void eval(std::span<const double> x, const EvalContext&, std::vector<double>& limiting_state, SystemEvaluation&) const;
     // These call the function of the same name of all devices; next_breakpoint() and max_step() return the smallest result.
     void start_transient(double step, double stop);

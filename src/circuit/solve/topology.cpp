@@ -21,7 +21,7 @@ public:
         while (up != parent_[static_cast<std::size_t>(up)]) up = parent_[static_cast<std::size_t>(up)];
         return up;
     }
-    /// Returns false if both were in one set already.
+    /// Unites the sets of a and b. Returns false if both were in one set already.
     bool join(int a, int b) {
         a = root(a), b = root(b);
         if (a == b) return false;
@@ -30,14 +30,15 @@ public:
     }
 };
 
-/// True if the element can determine the voltage of an otherwise floating node. A controlled current source can, if it depends on that
-/// voltage.
+/// True if the element can determine the voltage of an otherwise floating node. A controlled current source can, if its current depends on
+/// that voltage.
 bool conducts(const Element& e) {
     if (e.letter == 'b') return has_branch_current(e) || !e.expression->is_constant();
     const auto* kind = find_device_kind(e.letter);
     return kind != nullptr && kind->conducts_dc;
 }
 
+/// True if the element fixes the voltage between its first two nodes.
 bool fixes_voltage(const Element& e) {
     if (e.letter == 'b' || e.letter == 'g') return has_branch_current(e);
     const auto* kind = find_device_kind(e.letter);
@@ -50,7 +51,7 @@ std::vector<int> conducting_nodes(const Element& e) {
     return {e.nodes[0], e.nodes[1]};
 }
 
-/// The names of up to three elements at a node.
+/// The names of up to three elements at a node, and the number of the others.
 std::string elements_at(const Circuit& c, int node) {
     std::vector<std::string> names;
     std::size_t more = 0;
@@ -59,6 +60,7 @@ std::string elements_at(const Circuit& c, int node) {
     return fmt::format("{}{}", fmt::join(names, ", "), more > 0 ? fmt::format(" and {} more", more) : "");
 }
 
+/// Rejects nodes without a DC path to ground. The message describes the part of the circuit with the first of these nodes.
 Result<void> check_floating_nodes(const Circuit& c) {
     NodeSets sets(c.nodes.size());
     for (const auto& e : c.elements)
@@ -69,7 +71,7 @@ Result<void> check_floating_nodes(const Circuit& c) {
         if (sets.root(static_cast<int>(n)) != sets.root(0)) floating.push_back(static_cast<int>(n));
     if (floating.empty()) return {};
     const int first = floating[0];
-    bool sources = false;  // a current source connects it to other nodes
+    bool sources = false;  // a current source is connected to this part
     const Element* first_element = nullptr;
     std::vector<std::string> names;
     for (const int n : floating)
@@ -91,7 +93,7 @@ Result<void> check_floating_nodes(const Circuit& c) {
 
 Result<void> check_voltage_loops(const Circuit& c) {
     NodeSets sets(c.nodes.size());
-    std::vector<const Element*> joined;
+    std::vector<const Element*> joined;  // elements that fix a voltage and close no loop
     for (const auto& e : c.elements) {
         if (!fixes_voltage(e)) continue;
         if (sets.join(e.nodes[0], e.nodes[1])) {
@@ -126,8 +128,8 @@ Result<void> check_solvable(const Circuit& c) {
 }
 
 std::vector<Error> find_dangling_nodes(const Circuit& c) {
-    std::vector<int> terminals(c.nodes.size());
-    std::vector<const Element*> element(c.nodes.size());
+    std::vector<int> terminals(c.nodes.size());           // number of terminals, and of uses in expressions, by node
+    std::vector<const Element*> element(c.nodes.size());  // the last element with a terminal at the node
     for (const auto& e : c.elements) {
         for (const int n : e.nodes) ++terminals[static_cast<std::size_t>(n)], element[static_cast<std::size_t>(n)] = &e;
         if (!e.expression) continue;
@@ -136,14 +138,14 @@ std::vector<Error> find_dangling_nodes(const Circuit& c) {
                 if (const int n = c.find_node(name); in.kind == ExpressionInput::Kind::voltage && n > 0)
                     ++terminals[static_cast<std::size_t>(n)];
     }
-    std::vector<std::string_view> shared;
+    std::vector<std::string_view> connected;  // nodes with more than one terminal, as suggestions
     for (std::size_t n = 1; n < c.nodes.size(); ++n)
-        if (terminals[n] > 1) shared.push_back(c.nodes[n]);
+        if (terminals[n] > 1) connected.push_back(c.nodes[n]);
     std::vector<Error> out;
     for (std::size_t n = 1; n < c.nodes.size(); ++n)
-        if (terminals[n] == 1 && c.nodes[n].find('.') == std::string::npos)
+        if (terminals[n] == 1 && c.nodes[n].find('.') == std::string::npos)  // not inside a subcircuit
             out.push_back(bad_input(
-                fmt::format("node '{}' is connected only to {}{}", c.nodes[n], element[n]->name, did_you_mean(c.nodes[n], shared)),
+                fmt::format("node '{}' is connected only to {}{}", c.nodes[n], element[n]->name, did_you_mean(c.nodes[n], connected)),
                 element[n]->location));
     return out;
 }

@@ -11,10 +11,10 @@
 namespace corpuscle::circuit {
 namespace {
 
-constexpr double min_relative_gap = 1e-12;   // minimum distance of the first point after a breakpoint, relative to the time
+constexpr double min_relative_gap = 1e-12;   // minimum distance of the first point after a breakpoint, relative to the breakpoint's time
 constexpr double min_relative_step = 1e-15;  // minimum step, relative to the end time
-// Relative to the allowed error: if a Newton step is larger than the first value, the error is estimated early; above the second value the
-// step is rejected without further iterations.
+// Both are relative to the allowed error. After a Newton step larger than large_newton_step, the error of the time step is estimated. If
+// the estimate exceeds hopeless_error, the time step is rejected without further iterations.
 constexpr double large_newton_step = 20, hopeless_error = 2;
 
 }  // namespace
@@ -31,7 +31,7 @@ Result<void> Transient::begin(std::vector<double> x, bool settled, std::span<con
     alternations_.assign(count, 0), damping_steps_ = 0, has_charge_.assign(count, 0);
     for (std::size_t n = 0; n < count; ++n)
         has_charge_[n] = newton_.evaluation.C[system_.pattern().entry_index(static_cast<int>(n), static_cast<int>(n))] != 0;
-    capacitance_.assign(count, 0);
+    capacitance_.assign(count, 0);  // sum of the magnitudes in each row of C
     const auto& pattern = system_.pattern();
     for (std::size_t column = 0; column < count; ++column)
         for (int e = pattern.column_begin()[column]; e < pattern.column_begin()[column + 1]; ++e)
@@ -48,6 +48,7 @@ Result<void> Transient::begin(std::vector<double> x, bool settled, std::span<con
     for (std::size_t n = 0; n < charge.size(); ++n) first.q[n] += charge[n];
     restart(true);
     update_tolerances();
+    // The matrix is that of a step of a thousandth of the longest step.
     if (!std::exchange(pivot_order_fixed_, true)) equations_.fix_pivot_order(history_points_[0].x, 1e3 / plan_.max_step);
     if (settled) return {};
     auto ok = make_consistent();
@@ -55,7 +56,7 @@ Result<void> Transient::begin(std::vector<double> x, bool settled, std::span<con
     return ok;
 }
 
-/// Computes the unknowns without charge by a step so short that no charge changes.
+/// Computes the unknowns without charge from the charges, by a step so short that no charge changes.
 Result<void> Transient::make_consistent() {
     const double h = 1e-15 * plan_.max_step;
     auto point = history_points_[0];
@@ -69,7 +70,7 @@ Result<void> Transient::make_consistent() {
     }
     allowed_error_ = allowed;
     if (status != StepEquations::Status::converged) {
-        history_points_.next_point() = std::move(point);
+        history_points_.next_point() = std::move(point);  // for the residual in the message
         return step_too_short(h);
     }
     history_points_.clear();
@@ -79,8 +80,9 @@ Result<void> Transient::make_consistent() {
     return {};
 }
 
-/// Integration continues from the newest point only; dq/dt there follows from the currents. With `exact`, the charge is recomputed from x.
-/// Otherwise it keeps the value of the last step, whose small residual would be a large current in a short first step.
+/// Integration continues from the newest point only; dq/dt there follows from the currents. With `exact`, the charge is computed from x
+/// again. Without, it keeps the value of the last step, which differs by the residual of that step. In a very short first step this small
+/// difference would be a large current.
 void Transient::restart(bool forget, bool exact) {
     TimePoint& point = history_points_.newest();
     equations_.evaluate_static(point.t, point.x, rate_, error_);
@@ -90,9 +92,10 @@ void Transient::restart(bool forget, bool exact) {
     control_.restart();
 }
 
+/// Updates scale_, allowed_error_, tolerance_ and the scales of the rounding error from the newest point.
 void Transient::update_tolerances() {
-    constexpr double of_largest = 1e-9;  // allowed error of a current, relative to the largest current
-    double largest = 0;
+    constexpr double of_largest = 1e-9;  // part of the allowed error of a current, relative to the largest current in the circuit
+    double largest = 0;                  // A
     for (std::size_t n = 0; n < allowed_error_.size(); ++n) {
         const bool voltage = system_.is_voltage(static_cast<int>(n));
         scale_[n] = std::max(scale_[n], std::abs(history_points_[0].x[n]));
@@ -103,19 +106,20 @@ void Transient::update_tolerances() {
     }
     if (!plan_.all_reported) return;
     largest_charge_ = largest_current_ = 0;
-    voltage_scale_ = 1;  // V: the charge of a junction is a difference of terms as large as at its built-in potential
+    voltage_scale_ = 1;  // V: at least this, since the charge of a junction is a difference of terms as large as at its built-in potential
     for (std::size_t n = 0; n < allowed_error_.size(); ++n) {
         largest_charge_ = std::max(largest_charge_, std::abs(history_points_[0].q[n]));
         largest_current_ = std::max(largest_current_, std::abs(rate_[n]));
         if (system_.is_voltage(static_cast<int>(n))) voltage_scale_ = std::max(voltage_scale_, scale_[n]);
         if (!system_.is_voltage(static_cast<int>(n))) tolerance_[n] += of_largest * largest;
     }
-    // A capacitor between nodes of similar voltage has a small charge, but one with the rounding error of its terminals' voltages.
+    // A capacitor between nodes of similar voltage has a small charge, but the rounding error of this charge is that of its terminals'
+    // voltages.
     largest_charge_ = std::max(largest_charge_, *std::max_element(capacitance_.begin(), capacitance_.end()) * voltage_scale_);
 }
 
-/// Solves the step to t; the solution is history_points_.next_point(). Stops early if the error will be far too large. Returns false if the
-/// iterations diverged.
+/// Solves the step to t; the solution is history_points_.next_point(). `error` becomes its error, relative to the allowed error. Stops
+/// before convergence if this error will be far too large. Returns false if the iterations diverged.
 bool Transient::attempt(double t, double& error) {
     const double h = t - history_points_[0].t;
     auto& next = history_points_.next_point();
@@ -133,7 +137,8 @@ bool Transient::attempt(double t, double& error) {
     if (rounding_measured_) std::fill(rounding_.begin(), rounding_.end(), 0.0), rounding_measured_ = false;
     equations_.prepare(t, leading_, history_);
     equations_.check_expressions(!may_jump_, {plan_.reltol, plan_.vntol, plan_.abstol});
-    const bool must_converge = plan_.all_reported && history_points_.count() == 1;  // rounding_error() of a first step needs the solution
+    // The error of a first step includes rounding_error(), which needs the converged solution.
+    const bool must_converge = plan_.all_reported && history_points_.count() == 1;
     for (;;) {
         using Status = StepEquations::Status;
         const auto status = equations_.iterate(next.x, allowed_error_);
@@ -147,10 +152,11 @@ bool Transient::attempt(double t, double& error) {
     }
 }
 
+/// Converts error_ from an error of the equations to that of each unknown. Returns the largest of these, relative to the allowed error.
 double Transient::worst_error() {
     equations_.solve_perturbation(error_);
-    constexpr double uncharged_factor = 2;  // an unknown without charge may have a larger error, because it does not affect the next step
-    constexpr double sum_factor = 1.5;      // stricter than in an afferent: the sum over many steps stays below ten allowed errors
+    constexpr double uncharged_factor = 2;  // an unknown without charge may have a larger error, because this does not affect the next step
+    constexpr double sum_factor = 1.5;  // stricter than for afferents: the sum of the errors of many steps stays below ten allowed errors
     double worst = 0;
     uncharged_error_ = 0;
     for (std::size_t n = 0; n < error_.size(); ++n)
@@ -164,15 +170,17 @@ double Transient::worst_error() {
     return may_jump_ ? worst : std::max(worst, uncharged_error_);
 }
 
-/// Rounding error of a current, from the charges and the step length. For a voltage: as measured by measure_rounding(), otherwise 0.
+/// The error of an unknown that comes from rounding, A or V. For a current it is computed from the charges and the step length, and is at
+/// least the value that measure_rounding() has computed. For a voltage it is the latter, 0 before measure_rounding().
 double Transient::rounding_error(int unknown) const {
     const double measured = rounding_[static_cast<std::size_t>(unknown)];
     if (system_.is_voltage(unknown)) return measured;
     return std::max(measured, std::abs(leading_) * (1e-14 * largest_charge_ + 1e-15 * history_points_[0].t * largest_current_));
 }
 
-/// Before a step is rejected: computes the error of each unknown from the rounding of the charges, and adds it to the tolerances. This
-/// error grows as the step gets shorter, most at nodes that are connected only to capacitors.
+/// Called before a step is rejected. Computes the error of each unknown that comes from the rounding of the charges, and computes `error`
+/// and `curve_error` again with tolerances that are larger by this. It grows as the step gets shorter, most at nodes that are connected
+/// only to capacitors.
 void Transient::measure_rounding(double& error, double& curve_error) {
     constexpr double roundoff = 1e-15;
     if (!converged_ || !plan_.all_reported || std::max(error, curve_error) <= 1) return;
@@ -183,11 +191,11 @@ void Transient::measure_rounding(double& error, double& curve_error) {
     error = error_of(control_.order), curve_error = interpolation_error();
 }
 
-/// The interpolation error at the middle of the step just solved, relative to the allowed error. Uses the number of points with the
-/// smallest error. The first step after a breakpoint has no third point for an estimate.
+/// The interpolation error at the middle of the step just solved, relative to the allowed error. Sets curve_points_ to the number of points
+/// with the smallest error. The first step after a breakpoint has no third point for an estimate; its error is 0.
 double Transient::interpolation_error() {
-    constexpr double convergence_ratio = 3;  // each higher degree must change the curve at least this many times less
-    constexpr double output_factor = 2.2;    // stricter than in an afferent, since users draw straight lines between the points
+    constexpr double convergence_ratio = 3;  // each higher degree must change the curve at least by this factor less than the one before
+    constexpr double output_factor = 2.2;    // stricter than for afferents, since users draw straight lines between the points
     curve_points_ = 0;
     if (interpolated_unknowns_.empty()) return 0;
     const auto& next = history_points_.next_point();
@@ -197,7 +205,8 @@ double Transient::interpolation_error() {
     std::array<const double*, History::max_points + 1> x{next.x.data()};
     for (int k = 0; k < history_points_.smooth_count(); ++k) x[static_cast<std::size_t>(k) + 1] = history_points_[k].x.data();
     auto& tolerance = error_;
-    for (const int u : interpolated_unknowns_) tolerance[static_cast<std::size_t>(u)] = tolerance_[static_cast<std::size_t>(u)] + rounding_error(u);
+    for (const int u : interpolated_unknowns_)
+        tolerance[static_cast<std::size_t>(u)] = tolerance_[static_cast<std::size_t>(u)] + rounding_error(u);
     const auto worst_of = [&](const HistoryWeights& w, int points) {
         double worst = 0;
         for (const int u : interpolated_unknowns_) {
@@ -218,9 +227,10 @@ double Transient::interpolation_error() {
     return output_factor * std::max(curve.error, convergence_ratio * worst_of(weights, more) / StepControl::curve_tolerance);
 }
 
-/// The error that the step just solved would have with this order, relative to the allowed error.
+/// The error that the step just solved would have if its order were `order`, relative to the allowed error.
 double Transient::error_of(int order) {
-    constexpr double max_spacing = 1.2;  // step lengths per point: a longer history underestimates the error of this step
+    // Largest mean distance of the points, in step lengths. Points at a larger distance underestimate the error of this step.
+    constexpr double max_spacing = 1.2;
     const auto& next = history_points_.next_point();
     const double h = next.t - history_points_[0].t;
     if (history_points_.count() == 1) {
@@ -236,7 +246,7 @@ double Transient::error_of(int order) {
     return worst_error();
 }
 
-/// Chooses the order and length of the next step after a step of this length and error.
+/// Chooses the order and length of the next step after an accepted step of this length (s) and error.
 void Transient::choose_step(double h, double error) {
     const int points = history_points_.count(), highest = std::min(uses_trapezoidal() ? 2 : plan_.max_order, points - 1);
     if (!uses_trapezoidal()) return control_.choose(h, error, points, highest, [this](int order) { return error_of(order); });
@@ -245,9 +255,9 @@ void Transient::choose_step(double h, double error) {
     control_.scale_step(h, factor, points);
 }
 
-/// Shortens the step after a rejection. An `error` of 0 means that the equations of the step were not solved.
+/// Shortens the step after a rejection of one of length h (s). An `error` of 0 means that the equations of the step were not solved.
 Result<void> Transient::reject_step(double h, double error) {
-    constexpr int max_failures = 3;  // before a restart with order 1, which gives inaccurate currents
+    constexpr int max_failures = 3;  // more rejections lead to a restart with order 1, whose first currents are inaccurate
     ++stats_.rejected;
     if (error == 0) ++stats_.diverged;
     if (control_.shorten(h, error, history_points_.count() > 1 ? history_points_[0].t - history_points_[1].t : 0,
@@ -257,6 +267,7 @@ Result<void> Transient::reject_step(double h, double error) {
     return step_too_short(control_.h);
 }
 
+/// `h`: length of the step, s.
 Error Transient::step_too_short(double h) {
     return {ErrorCode::not_converged,
             fmt::format("transient stopped at {}: the step became too short ({}); {}", format_quantity(time(), "s"),
@@ -267,7 +278,7 @@ Error Transient::step_too_short(double h) {
 /// Detects ringing of the trapezoidal rule: the change of some dq/dt alternates in sign from step to step.
 void Transient::detect_ringing() {
     constexpr int min_alternations = 3;
-    constexpr double visible = 1e-2;  // relative to the largest rate so far
+    constexpr double visible = 1e-2;  // smallest change of dq/dt that counts, relative to the largest dq/dt so far
     bool rings = false;
     for (std::size_t n = 0; n < rate_.size(); ++n) {
         const double before = std::exchange(rate_change_[n], leading_ * history_points_.next_point().q[n] + history_[n] - rate_[n]);
@@ -282,6 +293,7 @@ void Transient::detect_ringing() {
     std::fill(alternations_.begin(), alternations_.end(), 0);
 }
 
+/// Makes the solved step the newest point.
 void Transient::accept_step() {
     const auto& next = history_points_.next_point();
     if (plan_.method == Integration::trapezoidal) detect_ringing();
@@ -292,14 +304,15 @@ void Transient::accept_step() {
     ++stats_.steps, ++control_.steps_since_order_change, control_.failures = 0;
 }
 
-/// Takes a step right after a breakpoint, so short that no charge changes. It gives the values of unknowns without charge after their jump.
-bool Transient::take_breakpoint_step(double t0, double breakpoint, double& t) {
-    // Relative to the next step. A shorter step has more rounding error at nodes with only capacitors; the tolerance limits that error.
+/// If t0 is a breakpoint and all unknowns are reported, takes a step so short that no charge changes. It gives the values of unknowns
+/// without charge after their jump. Returns false if there is no such step at t0, or if it failed.
+bool Transient::take_breakpoint_step(double t0, double next_breakpoint) {
+    // Length relative to the next step, longer for a small reltol: a shorter step has more rounding error at nodes with only capacitors.
     const double fraction = 1e-8 * std::clamp(1e-5 / plan_.reltol, 1.0, 10.0);
     if (start_phase_ != StartPhase::breakpoint) return false;
     start_phase_ = StartPhase::first_step;
     restart(true, true);
-    t = t0 + fraction * std::min({control_.h, plan_.max_step, breakpoint - t0});
+    const double t = t0 + fraction * std::min({control_.h, plan_.max_step, next_breakpoint - t0});
     double error = 0;
     may_jump_ = true;
     if (t - t0 < min_relative_gap * t0 || !attempt(t, error) || !(error <= 1)) return false;
@@ -309,19 +322,19 @@ bool Transient::take_breakpoint_step(double t0, double breakpoint, double& t) {
 }
 
 Result<bool> Transient::step(double until) {
-    constexpr double first_part = 1.0 / 256;  // first step after a breakpoint / planned step, since the curvature is not known
+    constexpr double first_part = 1.0 / 256;  // (first step after a breakpoint) / (planned step): short, since the curvature is not known
     // If the error does not fall as the first step is shortened, it comes from the rounding of the start point. After three such attempts
     // the step is accepted.
     constexpr double min_reduction = 0.9;
     constexpr int max_not_reduced = 3;
     if (std::exchange(restart_pending_, false)) restart(true, plan_.all_reported);
-    double rejected = 0;  // error of the last attempt
+    double rejected = 0;  // error of the last attempt, relative to the allowed error; 0: none, or not solved
     int not_reduced = 0;  // number of successive attempts that did not reduce the error
     for (;;) {
         const double t0 = time(), breakpoint = std::min(plan_.stop, system_.next_breakpoint(t0));
-        double h = std::min(control_.h, plan_.max_step), breakpoint_step_end = 0;
-        if (until < plan_.stop && t0 + 2.1 * h > until) return false;
-        if (take_breakpoint_step(t0, breakpoint, breakpoint_step_end)) return true;
+        double h = std::min(control_.h, plan_.max_step);
+        if (until < plan_.stop && t0 + 2.1 * h > until) return false;  // a breakpoint within 2 h changes the length of the step
+        if (take_breakpoint_step(t0, breakpoint)) return true;
         if (std::exchange(start_phase_, StartPhase::none) == StartPhase::first_step)
             h = std::max(first_part * std::min(h, breakpoint - t0), min_relative_gap * t0);
         const bool ends_at_breakpoint = t0 + 1.01 * h >= breakpoint;
@@ -345,6 +358,7 @@ Result<bool> Transient::step(double until) {
         const double planned = control_.h;
         choose_step(t - t0, error);
         if (!may_jump_) control_.limit_by_curve(t - t0, curve_error, curve_points_);
+        // A step that only the breakpoint has shortened does not shorten the next one.
         if (ends_at_breakpoint && t - t0 < planned) control_.h = std::max(control_.h, std::min(planned, plan_.max_step));
         if (jumped) curve_points_ = 2;
         accept_step();

@@ -12,46 +12,52 @@ namespace corpuscle::circuit {
 
 enum class Integration { bdf, trapezoidal };
 
+/// The parameters of a transient.
 struct TransientPlan {
-    double stop = 0, max_step = 0;  ///< s: end time; maximum step
+    double stop = 0, max_step = 0;  ///< s: end time; longest step
     Integration method = Integration::bdf;
     int max_order = 4;      ///< maximum order of BDF
-    double reltol = 1e-5;   ///< allowed error of a step, relative to the largest value so far
-    double vntol = 1e-6;    ///< V, added for voltages
-    double abstol = 1e-16;  ///< A, added for currents
+    double reltol = 1e-5;   ///< allowed error of an unknown in a step, relative to its largest magnitude so far
+    double vntol = 1e-6;    ///< V, added to the allowed error of voltages
+    double abstol = 1e-16;  ///< A, added to the allowed error of currents
     /// Unknowns whose values between steps are used. Interpolation must be as accurate as the values at the steps' ends.
     std::vector<int> reported = {};
-    bool all_reported = false;  ///< all unknowns are reported; each breakpoint is followed by a point immediately after it
-    bool steps_only = false;    ///< run() calls back only at the steps' ends
+    bool all_reported = false;  ///< true in .tran, false for afferents: all unknowns are reported, with a point right after each breakpoint
+    bool steps_only = false;    ///< true: run() calls back only at the steps' ends
 };
 
 /// Counters of a transient.
 struct TransientStats {
-    long steps = 0, rejected = 0, diverged = 0, iterations = 0;  ///< diverged: those of the rejected steps whose Newton iterations diverged
+    long steps = 0, rejected = 0;  ///< accepted and rejected steps
+    long diverged = 0;             ///< rejected steps whose Newton iterations diverged
+    long iterations = 0;           ///< Newton iterations
 };
 
-/// The complete state of a transient. The next steps depend on this, the circuit and the initial x only.
+/// The complete state of a transient. The next steps depend only on this, the circuit and the x passed to begin(). Members have the names
+/// and meanings of those of Transient, StepControl and NewtonControl.
 struct TransientState {
     std::vector<TimePoint> history;  ///< newest first
     int order = 1, steps_since_order_change = 0, failures = 0;
     bool is_starting = true, restart_pending = false;
     double h = 0, quadratic_factor = 1, recent_max_step = 0;
     int damping_steps = 0;
-    int count = 1, curve_points = 0, start_phase = 0;  ///< points of the integration formula; points of the last interpolation; start phase
+    int count = 1;  ///< History::count()
+    int curve_points = 0;
+    int start_phase = 0;  ///< Transient::StartPhase as a number
     std::vector<double> scale, rate, limiting_state, rate_change, max_rate;
     std::vector<int> alternations;
     TransientStats stats;
 };
 
 /// Integration with variable step and order: variable-coefficient BDF or the trapezoidal rule. The polynomial through the earlier points is
-/// the predictor. The difference between the charges and their prediction is the truncation error of the formula in the equations. The
-/// Jacobian converts it to the error of each voltage, which decides acceptance and the length and order of the next step.
+/// the predictor. The difference between the charges and their prediction gives the truncation error of the formula in the equations. The
+/// Jacobian converts it to the error of each unknown, which decides acceptance and the length and order of the next step.
 /// The trapezoidal rule rings if the circuit is much faster than the step; two BDF steps then damp the ringing.
 /// Between points the solution is interpolated by a polynomial through the last points. A step is accepted only if the interpolation error
 /// of each reported unknown, estimated with the next higher degree, is allowed as well. A jump has no such polynomial. The steps shrink
-/// until the jump is in a step so short that linear interpolation is accurate. A node voltage that is defined by sources only is computed
-/// exactly from their waveforms.
-/// Integration restarts with order 1 at the beginning, at every breakpoint of a source, and when the step must shrink tenfold.
+/// until the jump is in a step so short that the values between its ends do not matter, and interpolation is linear. A node voltage that is
+/// defined by sources only is computed exactly from their waveforms. Integration restarts with order 1 at the beginning, at every
+/// breakpoint of a source, and when the step must shrink tenfold.
 class Transient {
 public:
     using PointCallback = std::function<bool(double t, std::span<const double> x)>;
@@ -64,39 +70,40 @@ private:
     History history_points_;
     StepControl control_;
     double leading_ = 0;              // 1/s: dq/dt = leading_ q + history_ in the current step
-    bool pivot_order_fixed_ = false;  // the pivot order of the matrix
+    bool pivot_order_fixed_ = false;  // true after the first begin(), which fixes the pivot order of the matrix
     bool restart_pending_ = false;    // the last point is a breakpoint of a source or the end of a jump: integration restarts there
     bool may_jump_ = false;           // the current step is so short that it may contain a jump
     enum class StartPhase {
         none,
-        first_step,
-        breakpoint
-    } start_phase_ = StartPhase::none;  // after a breakpoint: a point immediately, then a first step
-    int curve_points_ = 0;              // points of the interpolation in the last step; 0: see interpolation_points()
-    double uncharged_error_ = 0;        // error of unknowns without charge in the last step / allowed error
+        first_step,  // the next step is the first normal one after a breakpoint, which is short
+        breakpoint   // the next step ends immediately after a breakpoint
+    } start_phase_ = StartPhase::none;
+    int curve_points_ = 0;        // points of the interpolation in the last step; 0: not determined, see interpolation_points()
+    double uncharged_error_ = 0;  // largest error of an unknown without charge in the last step, relative to the allowed error
     double voltage_scale_ = 0, largest_charge_ = 0, largest_current_ = 0;  // V, C, A: scales of the rounding error
     bool converged_ = false, rounding_measured_ = false;                   // of the current step
     std::vector<double> capacitance_, rounding_;                           // F, by node; by unknown, see rounding_error()
-    // scale_ is the largest magnitude of each unknown so far. The error of a step is compared with allowed_error_, that of reported values
-    // with tolerance_. rate_ is dq/dt at the newest point, error_ is a buffer.
+    // By unknown. scale_ is the largest magnitude so far. The error at the end of a step is compared with allowed_error_ (0: not
+    // controlled), that of reported values with tolerance_. rate_ is dq/dt at the newest point; error_ is a buffer.
     std::vector<double> scale_, allowed_error_, tolerance_, history_, rate_, error_;
     std::vector<char> has_charge_;
     std::vector<int> interpolated_unknowns_;  // reported unknowns that are interpolated
-    struct SourceNode {        // a node with the voltage of node `base` plus `sign` times the source's
+    struct SourceNode {  // a node whose voltage is that of the unknown `base` (-1: ground) plus `sign` times the source's voltage
         int unknown, base;
         const Device* source;
         double sign;
     };
     std::vector<SourceNode> source_nodes_;
     std::vector<int> source_node_index_;          // by unknown, index in source_nodes_; -1: none
-    std::vector<double> rate_change_, max_rate_;  // trapezoidal rule: last change of dq/dt, largest dq/dt
-    std::vector<int> alternations_;               // number of successive sign changes
+    std::vector<double> rate_change_, max_rate_;  // for detect_ringing(): change of dq/dt in the last step; largest dq/dt so far
+    std::vector<int> alternations_;               // number of successive sign changes of rate_change_
     int damping_steps_ = 0;                       // remaining BDF steps that damp ringing
 
     TransientStats stats_;
 
     bool uses_trapezoidal() const { return plan_.method == Integration::trapezoidal && damping_steps_ == 0; }
     void detect_ringing();
+    /// Number of points of the interpolation in the last step; if the step did not determine it, at least 4 where there are as many.
     int interpolation_points() const {
         return curve_points_ > 0 ? curve_points_ : std::min(std::max(control_.order + 1, 4), history_points_.count());
     }
@@ -105,7 +112,7 @@ private:
     double rounding_error(int unknown) const;
     void measure_rounding(double& error, double& curve_error);
     double interpolation_error();
-    bool take_breakpoint_step(double t0, double breakpoint, double& t);
+    bool take_breakpoint_step(double t0, double next_breakpoint);
     void restart(bool forget, bool exact = false);
     Result<void> make_consistent();
     Error step_too_short(double h);
@@ -122,32 +129,37 @@ public:
     Transient(System& system, NewtonSolver& newton, const TransientPlan& plan)
         : system_(system), newton_(newton), plan_(plan), equations_(system, newton) {}
 
-    /// Calls begin() and simulates until `each` returns false or the end is reached. Calls each(t, x) at t = 0, at the end of every step,
-    /// and at points within a step if linear interpolation across it would have more than a few times the allowed error. Errors: the time
-    /// and unknown where the step became too short.
+    /// Calls begin() with these arguments and simulates until `each` returns false or the end time is reached. Calls each(t, x) at t = 0,
+    /// at the end of every step, and at points within a step if linear interpolation across it would have an error of more than twice the
+    /// allowed error. If a step becomes too short, the error names the time and the unknown.
     Result<void> run(std::vector<double> x, bool settled, const PointCallback& each, std::span<const double> charge = {});
     const TransientStats& stats() const { return stats_; }
     const TransientPlan& plan() const { return plan_; }
-    std::span<const int> interpolated_unknowns() const { return interpolated_unknowns_; }  ///< unknowns whose interpolation error is controlled
+    /// The unknowns whose interpolation error is controlled.
+    std::span<const int> interpolated_unknowns() const { return interpolated_unknowns_; }
     /// True if the unknown has a charge, so that its error is controlled.
     bool has_charge(std::size_t unknown) const { return has_charge_[unknown] != 0; }
     /// The elimination list, after begin(); null: there is none.
     const Elimination* elimination() const { return equations_.elimination(); }
 
-    /// Starts at t = 0 from x. If not `settled`, only the charges are consistent; unknowns without charge are computed from them. `charge`
-    /// is added to the charges at x (from ic= of elements; empty: nothing). The pivot order of the matrix is that of the first x ever
-    /// passed, so that the steps after restore() are identical to those without a save.
+    /// Starts at t = 0 from x. settled: x solves the equations at t = 0. Otherwise only the charges at x are used, and the unknowns without
+    /// charge are computed from them. `charge`, by equation, is added to the charges at x (from ic= of elements; empty: nothing). The pivot
+    /// order of the matrix is that at the x of the first call, so that the steps after restore() are identical to those without a save.
     Result<void> begin(std::vector<double> x, bool settled = true, std::span<const double> charge = {});
-    /// The voltage of a node that is defined by sources only, at least one of them time-dependent. Nothing for any other unknown.
+    /// The voltage at t of a node that is defined by voltage sources only, at least one of them time-dependent. Nothing for any other
+    /// unknown.
     std::optional<double> source_voltage(double t, int unknown) const;
-    /// Takes one step that ends at or before `until`. Returns false if the step would end later, or if its length depends on later input.
+    /// Takes one step that ends at or before `until` (s). Returns false, without a step, if the step would end later, or if its length
+    /// depends on source values after `until`.
     Result<bool> step(double until);
-    double time() const { return history_points_[0].t; }
+    double time() const { return history_points_[0].t; }  ///< s: end of the last step
     std::span<const double> x() const { return history_points_[0].x; }
-    /// Interpolates an unknown (-1: ground) between the last two points.
+    /// Interpolates an unknown (-1: ground) at t, between the last two points.
     double interpolate(double t, int unknown) const;
+    /// Interpolates all unknowns.
     void interpolate(double t, std::span<double> x) const;
-    /// The first time in the last step at which plus - minus (unknowns; -1: ground) crosses a level, upwards or downwards.
+    /// The first time found in the last step at which the difference of the unknowns `plus` and `minus` (-1: ground) crosses a level;
+    /// downwards if not `upwards`.
     std::optional<double> crossing(int plus, int minus, double level, bool upwards) const;
 
     TransientState save() const;

@@ -9,12 +9,12 @@
 
 namespace corpuscle::circuit {
 
-/// Finds the nodes that a chain of voltage sources connects to ground, at least one of them time-dependent. Sources with a force input are
-/// not included, since the force of later blocks is not known yet.
+/// Finds the nodes that a chain of voltage sources connects to ground, where at least one of the sources is time-dependent. Sources with a
+/// force input are not included, since the force of later blocks is not known yet. Then lists the interpolated unknowns.
 void Transient::find_source_nodes() {
     const auto count = static_cast<std::size_t>(system_.size());
     source_nodes_.clear(), source_node_index_.assign(count, -1), interpolated_unknowns_.clear();
-    std::vector<char> known(count + 1);  // the last element is ground
+    std::vector<char> known(count + 1);  // by unknown, 1 if sources define its voltage; the last element is ground
     known[count] = 1;
     const auto& elements = system_.circuit().elements;
     for (bool more = true; std::exchange(more, false);)
@@ -30,13 +30,15 @@ void Transient::find_source_nodes() {
             source_node_index_[at(u)] = static_cast<int>(source_nodes_.size());
             source_nodes_.push_back({u, base, &d, plus ? -1.0 : 1.0});
         }
-    const auto add = [&](int u) {
-        if (u < 0 || source_node_index_[static_cast<std::size_t>(u)] >= 0 || std::find(interpolated_unknowns_.begin(), interpolated_unknowns_.end(), u) != interpolated_unknowns_.end())
+    const auto add_interpolated = [&](int u) {
+        if (u < 0 || source_node_index_[static_cast<std::size_t>(u)] >= 0 ||
+            std::find(interpolated_unknowns_.begin(), interpolated_unknowns_.end(), u) != interpolated_unknowns_.end())
             return;
-        if (plan_.method == Integration::bdf || system_.is_voltage(u)) interpolated_unknowns_.push_back(u);  // currents ring with the trapezoidal rule
+        if (plan_.method == Integration::bdf || system_.is_voltage(u))
+            interpolated_unknowns_.push_back(u);  // currents ring with the trapezoidal rule
     };
-    for (const int u : plan_.reported) add(u);
-    for (int u = 0; plan_.all_reported && u < system_.size(); ++u) add(u);
+    for (const int u : plan_.reported) add_interpolated(u);
+    for (int u = 0; plan_.all_reported && u < system_.size(); ++u) add_interpolated(u);
 }
 
 double Transient::source_node_voltage(const SourceNode& node, double t) const {
@@ -45,7 +47,7 @@ double Transient::source_node_voltage(const SourceNode& node, double t) const {
     node.source->eval(zero, {t, 1, newton_.context.gmin, false}, {f, q, df, dq});
     const double base =
         node.base < 0 ? 0 : source_voltage(t, node.base).value_or(history_points_[0].x[static_cast<std::size_t>(node.base)]);
-    return base - node.sign * f[2];
+    return base - node.sign * f[2];  // with all unknowns 0, f[2] of a voltage source is minus its voltage
 }
 
 std::optional<double> Transient::source_voltage(double t, int unknown) const {
@@ -69,7 +71,7 @@ void Transient::interpolate(double t, std::span<double> x) const {
     for (const auto& node : source_nodes_) x[static_cast<std::size_t>(node.unknown)] = source_node_voltage(node, t);
 }
 
-/// Passes the last step to the callback, with enough intermediate points for linear interpolation.
+/// Passes the last step to the callback, with enough intermediate points for linear interpolation. Returns false if the callback does.
 bool Transient::emit_points(const PointCallback& each) {
     constexpr double linear_tolerance = 2;  // error of linear interpolation, relative to the allowed error
     const double t0 = history_points_[1].t, t1 = history_points_[0].t;
@@ -81,6 +83,7 @@ bool Transient::emit_points(const PointCallback& each) {
         for (std::size_t n = 0; n < x.size(); ++n) {
             const double tolerance = plan_.all_reported ? tolerance_[n] + rounding_error(static_cast<int>(n)) : allowed_error_[n];
             const double line = history_points_[1].x[n] + part * (history_points_[0].x[n] - history_points_[1].x[n]);
+            // A parabola's deviation from its chord at these points is 3/4 of the largest.
             if (tolerance > 0) deviation = std::max(deviation, 4.0 / 3 * std::abs(x[n] - line) / tolerance);
         }
     }
