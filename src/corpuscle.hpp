@@ -23,13 +23,15 @@ struct ForceSignal {
     std::vector<double> force;  ///< N, one value per sample
 };
 
-/// A stimulus by name, or a sum of stimuli ("press+noise"), with settings such as "press.F_max=2N". `rate` in Hz. Throws InputError.
+/// Computes a stimulus by name, or a sum of stimuli ("press+noise"), with settings such as "press.F_max=2N". `rate` is the sample rate in
+/// Hz; `seed` is for random stimuli such as noise. Throws InputError.
 ForceSignal stimulus(const std::string& name, const std::vector<std::string>& settings = {}, double rate = 10e3, std::uint64_t seed = 0);
 
 /// Response of one afferent.
 struct Response {
-    std::vector<double> spikes;                       ///< s, in order; sample 0 is at 0 s
-    std::vector<double> instantaneous_rates() const;  ///< Hz, 1 / (t[k+1] - t[k]) at spike k (thesis 3.3); one value fewer than spikes
+    std::vector<double> spikes;  ///< spike times, s, in order; sample 0 of the force is at 0 s
+    /// Hz: entry k is 1 / (spikes[k + 1] - spikes[k]), as in section 3.3 of the thesis; one entry fewer than spikes.
+    std::vector<double> instantaneous_rates() const;
 };
 
 /// Simulates one afferent ("sa1", "sa1b+izhikevich") over the whole signal, with settings such as "sa1.f_B=25Hz". Throws InputError.
@@ -42,7 +44,7 @@ class LiveSkin {
 public:
     struct Event {
         double time = 0;                   ///< s; the first frame is at time 0
-        std::uint32_t afferent_index = 0;  ///< index of the afferent; afferent_name() gives its name
+        std::uint32_t afferent_index = 0;  ///< index of the afferent, from 0; afferent_name() gives its name
         std::uint32_t address = 0;         ///< the afferent's address in event files (doc/events.md)
     };
 
@@ -52,33 +54,35 @@ public:
         double x = 0, y = 0;
     };
 
-    /// `population` is "hand", "fingertip", "grid 8x8", a population file, or afferents by name ("sa1,fa1"). Named afferents are created on
-    /// each of `channels` channels. `rate` is in frames per second. `settings` are parameters such as "sa1.f_B=25Hz". Throws InputError, as
-    /// do the other members.
+    /// `population` is "hand", "fingertip", "grid 8x8", a population file, or afferents by name ("sa1,fa1"). `rate` is in
+    /// frames per second. Afferents by name are created on each of `channels` channels; other populations ignore `channels`.
+    /// `settings` are parameters such as "sa1.f_B=25Hz". Throws InputError, as do the other members.
     explicit LiveSkin(const std::string& population, double rate = 1e3, std::size_t channels = 1,
                       const std::vector<std::string>& settings = {});
     LiveSkin(LiveSkin&&) noexcept;
     LiveSkin& operator=(LiveSkin&&) noexcept;
     ~LiveSkin();
 
-    std::size_t sites() const;                            ///< number of forces in a frame
-    Site site(std::size_t number) const;                  ///< site of force `number` of a frame, from 0
-    std::size_t afferents() const;                        ///< number of afferents
-    std::int64_t frames() const;                          ///< frames simulated so far
+    std::size_t sites() const;                             ///< number of forces in a frame
+    Site site(std::size_t number) const;                   ///< site of the force with this index in a frame, from 0
+    std::size_t afferents() const;                         ///< number of afferents
+    std::int64_t frames() const;                           ///< frames simulated so far
     std::string afferent_name(std::uint32_t index) const;  ///< "sa1#17"
 
-    /// Simulates one frame: one force (N) for each site. Calls sink(event), in order, for each spike that arrives during this frame.
+    /// Simulates one frame: one force (N) for each site. Calls sink(event), in order, for each spike that arrives, after its conduction
+    /// delay, during this frame.
     template <class Sink>
     void push(std::span<const double> frame, Sink&& sink) {
         for (const auto& e : respond(frame)) sink(e);
     }
-    /// The same, as a list that is valid until the next call.
+    /// The same, but returns the events as a list that is valid until the next call.
     std::span<const Event> respond(std::span<const double> frame);
-    /// Call after the last frame: returns the spikes that are still travelling along the nerve.
+    /// Call after the last frame: returns the spikes that are still travelling along the nerve; the list is valid until the next call.
     std::span<const Event> finish();
 
-    /// The state as bytes. A LiveSkin constructed with the same arguments can resume from it.
+    /// The state as bytes.
     std::vector<std::byte> save() const;
+    /// Restores a saved state. The LiveSkin must have been constructed with the same arguments.
     void resume(std::span<const std::byte>);
 
 private:

@@ -10,6 +10,7 @@ namespace corpuscle {
 namespace {
 
 using namespace circuit;
+
 /// Published measurements of the most similar chip, for comparison.
 constexpr std::string_view published_silicon =
     "For comparison, measured silicon (0.18 um): 12.33 nW per taxel, 25 taxels per mm2 (Alea et al. 2024,\n"
@@ -18,17 +19,19 @@ constexpr std::string_view published_silicon =
 
 using Rows = std::vector<std::vector<std::string>>;
 
-/// Three significant digits below 100 and all digits above, so that a column can be added up by eye.
+/// A number with three significant digits below 100 and as an integer above, so that a column can be added up by eye.
 std::string cell(double x) { return x == 0 ? "0" : std::abs(x) < 100 ? fmt::format("{:.3g}", x) : fmt::format("{:.0f}", x); }
+/// An area in m^2 as a number in um^2.
 std::string um2(double area) { return cell(area * 1e12); }
 
+/// Adds a row with a power in nW for each column of Cost::power: "op", "mean" ... `power_of` selects the power (W) from a PowerBreakdown.
 template <class Power>
 void add_row(Rows& rows, const Cost& cost, std::string name, Power&& power_of) {
     rows.push_back({std::move(name)});
     for (const auto& [when, p] : cost.power) rows.back().push_back(cell(power_of(p) * 1e9));
 }
 
-/// True if the contribution exceeds 1e-6 of the total in any column.
+/// True if a power exceeds 1e-6 of the delivered power in any column.
 template <class Power>
 bool is_visible(const Cost& cost, Power&& power_of) {
     constexpr double visible = 1e-6;
@@ -93,16 +96,16 @@ std::string leaks_table(const Cost& cost) {
 }
 
 /// The mean power of a transient, or the power in .op if there is none.
-const PowerBreakdown& typical(const Cost& cost) {
+const PowerBreakdown& typical_power(const Cost& cost) {
     const auto* mean = cost.powers("mean");
     return mean ? *mean : cost.power[0].second;
 }
 
-/// The number of receptors per area and per power.
-std::string density(const Cost& cost) {
+/// The number of afferents per area and per power; "" if the circuit is not an afferent.
+std::string afferent_density(const Cost& cost) {
     if (!cost.is_afferent) return "";
-    const auto& p = typical(cost);
-    std::string out = "\nreceptors";
+    const auto& p = typical_power(cost);
+    std::string out = "\nafferents";
     if (cost.area().total() > 0) out += fmt::format(" per mm2: {:.3g};", cost.per_mm2());
     if (p.without_sensor > 0) out += fmt::format(" per mW: {:.3g}", 1e-3 / p.without_sensor);
     if (cost.has_sensor && p.supplies > 0) out += fmt::format(", {:.3g} with the sensor current", 1e-3 / p.supplies);
@@ -111,10 +114,10 @@ std::string density(const Cost& cost) {
 
 }  // namespace
 
-std::string budget_tables(const Cost& cost) { return power_table(cost) + area_table(cost) + leaks_table(cost) + density(cost); }
+std::string budget_tables(const Cost& cost) { return power_table(cost) + area_table(cost) + leaks_table(cost) + afferent_density(cost); }
 
 std::string budget_line(const Cost& cost) {
-    const auto& p = typical(cost);
+    const auto& p = typical_power(cost);
     return fmt::format("  power {}  of which sensor {}  area {:.4g} um2", format_quantity(p.supplies, "W"), format_quantity(p.sensor, "W"),
                        cost.area().total() * 1e12);
 }

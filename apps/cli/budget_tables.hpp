@@ -7,8 +7,9 @@
 
 namespace corpuscle {
 
+/// Power, area, leakage and, for an afferent, the number of afferents per area and per power.
 std::string budget_tables(const circuit::Cost&);
-/// Power and area in one line, for netlists with several steps.
+/// Power and area in one line, for a netlist with several variants.
 std::string budget_line(const circuit::Cost&);
 
 }  // namespace corpuscle

@@ -31,7 +31,7 @@ Result<CompareOptions> options_of(const CompareArguments& args) {
     return options;
 }
 
-/// Warns of a window above 0.5 s. It is probably a number meant as milliseconds; a number without a unit is in seconds.
+/// Warns of a window above 0.5 s. It was probably meant in milliseconds, but a number without a unit is in seconds.
 void warn_of_window(const CompareOptions& options, const CompareArguments& args) {
     constexpr double max_usual = 0.5;  // s
     if (options.window <= max_usual) return;
@@ -41,6 +41,7 @@ void warn_of_window(const CompareOptions& options, const CompareArguments& args)
 }
 
 Json document_of(const TrainDifference& d) {
+    // Shifts exist only if spikes match.
     const auto seconds = [&](double x) { return d.matched > 0 ? Json(x) : Json(nullptr); };
     return {{"spikes_a", d.spikes_a},
             {"spikes_b", d.spikes_b},
@@ -102,7 +103,7 @@ Result<void> run(const CompareArguments& args, const CommonArguments& common) {
     const SpikeColumns columns{args.time_column, args.train_column};
     auto a = read_spikes(args.files.front(), columns);
     auto b = args.files.size() == 1 ? a : read_spikes(args.files.back(), columns);
-    // --time and --train apply to the file that has these columns; the other file is read with the default columns.
+    // --time and --train need to apply to one of the files only. A file without these columns is read with the default columns.
     if (!a && b && args.files.size() == 2 && (args.time_column || args.train_column))
         if (auto with_defaults = read_spikes(args.files.front())) a = std::move(with_defaults);
     if (a && !b && (args.time_column || args.train_column))

@@ -10,8 +10,8 @@
 namespace corpuscle {
 namespace {
 
-constexpr std::size_t block = 1 << 16;                      // bytes; pending points are written when there are this many
-constexpr auto max_delay = std::chrono::milliseconds(500);  // after which pending points are written
+constexpr std::size_t block = 1 << 16;                      // bytes of pending points that are written at once
+constexpr auto max_delay = std::chrono::milliseconds(500);  // longest time between two writes of pending points
 
 }  // namespace
 
@@ -40,6 +40,7 @@ Result<void> CurveFiles::add_plots(std::span<const Plot> plots) {
 }
 
 Result<void> CurveFiles::write_table(const Plot& plot, std::size_t count) {
+    // The number of files matters only if it is 1, because the path then has no number.
     const auto file = open(analysis_count_ + count - 1, plot_count_++, (has_steps_ ? "step," : "") + csv_header(plot));
     if (!file) return file.error();
     return (*file)->write(csv_rows(plot, has_steps_ ? label_ + "," : ""));
@@ -82,13 +83,14 @@ Result<void> CurveFiles::end() {
 Result<void> CurveFiles::finish() {
     for (auto& file : files_)
         if (auto ok = file.commit(); !ok) return ok;
-    const bool synced = std::any_of(files_.begin(), files_.end(), [](const auto& f) { return f.is_synced(); });
+    const bool is_any_synced = std::any_of(files_.begin(), files_.end(), [](const auto& f) { return f.is_synced(); });
     files_.clear();
-    return synced ? sync_directory_of(arguments_.out) : Result<void>();
+    return is_any_synced ? sync_directory_of(arguments_.out) : Result<void>();
 }
 
 Result<std::string> CurveFiles::finish_early(bool interrupted) {
-    if (!has_streamed_ && !(interrupted && has_complete_plots_)) files_.clear();  // keeps the earlier files at these paths
+    if (!has_streamed_ && !(interrupted && has_complete_plots_))
+        files_.clear();  // removes the unfinished files; files of earlier runs at these paths remain
     if (files_.empty()) return std::string();
     const bool in_transient = file_ != nullptr;
     const auto note =
@@ -100,7 +102,7 @@ Result<std::string> CurveFiles::finish_early(bool interrupted) {
 
 std::string CurveFiles::path_of(std::size_t file_count, std::size_t index) const {
     auto path = arguments_.out;
-    if (file_count > 1) path.insert(path.size() - 4, fmt::format("-{}", index + 1));
+    if (file_count > 1) path.insert(path.size() - std::string_view(".csv").size(), fmt::format("-{}", index + 1));
     return path;
 }
 
@@ -113,7 +115,7 @@ Result<void> CurveFiles::check(std::size_t analysis_count) const {
     return {};
 }
 
-/// File `index` of `file_count`. The first use creates it with `head` as its content.
+/// Returns file `index`, from 0, of `file_count`. The first call creates it and writes `head`.
 Result<OutputFile*> CurveFiles::open(std::size_t file_count, std::size_t index, const std::string& head) {
     if (index < files_.size()) return &files_[index];
     const auto path = path_of(file_count, index);

@@ -18,10 +18,10 @@ namespace {
 using namespace circuit;
 using Json = nlohmann::ordered_json;
 
-Json document_of(const NgspiceDeck& deck, const std::vector<Error>& found) {
-    Json warnings = Json::array();
-    for (const auto& r : found) warnings.push_back(r.text());
-    return {{"simulator", "ngspice"}, {"deck", deck.text}, {"warnings", warnings}};
+Json document_of(const NgspiceDeck& deck, const std::vector<Error>& warnings) {
+    Json texts = Json::array();
+    for (const auto& warning : warnings) texts.push_back(warning.text());
+    return {{"simulator", "ngspice"}, {"deck", deck.text}, {"warnings", texts}};
 }
 
 Result<void> export_netlist(const ExportArguments& args, const CommonArguments& common) {
@@ -38,7 +38,7 @@ Result<void> export_netlist(const ExportArguments& args, const CommonArguments& 
     warnings.insert(warnings.end(), deck->left_out.begin(), deck->left_out.end());
     if (!args.out.empty())
         if (auto ok = write_file(args.out, deck->text); !ok) return ok;
-    for (const auto& r : warnings) print_warning(r.text());
+    for (const auto& warning : warnings) print_warning(warning.text());
     if (common.json)
         fmt::print("{}\n", json_text(document_of(*deck, warnings)));
     else if (args.out.empty())

@@ -11,11 +11,11 @@
 
 namespace corpuscle {
 
-/// True if an argument is a stimulus, a named skin stimulus, an existing file, or "-".
+/// True if an argument names a stimulus ("press"), a touch of a skin ("stroke") or an existing file, or is "-" (standard input).
 bool is_force(const std::string& argument);
 
-/// A stimulus takes precedence over a file of the same name: write ./press for the file. "-" is standard input.
-/// `rate`: the default sampling rate of stimuli, Hz.
+/// Opens a stimulus or a recording. A stimulus takes precedence over a file of the same name: write ./press for the file. "-" is standard
+/// input. `rate` (Hz) and `seed` are for stimuli; RecordingOptions::rate, if set, replaces `rate`.
 Result<std::unique_ptr<ForceSource>> open_force(const std::string& force, const RecordingOptions&,
                                                 std::span<const ParameterOverride> overrides, double rate, std::uint64_t seed);
 

@@ -10,7 +10,7 @@ namespace corpuscle {
 namespace {
 
 constexpr std::size_t max_width = 100;     // columns
-constexpr std::size_t short_examples = 3;  // number of examples of a verb's --help
+constexpr std::size_t short_examples = 3;  // number of examples that --help of a verb prints
 
 /// The options that --help lists for verbs with many options.
 struct CommonOptions {
@@ -38,7 +38,7 @@ std::size_t columns_of(std::string_view text) {
         std::count_if(text.begin(), text.end(), [](char c) { return (static_cast<unsigned char>(c) & 0xc0) != 0x80; }));
 }
 
-/// Breaks a line at blanks; continuation lines begin with `indent` blanks.
+/// Breaks a line at blanks so that it fits max_width. Continuation lines begin with `indent` blanks.
 std::string wrapped(std::string_view line, std::size_t indent) {
     std::string out;
     while (columns_of(line) > max_width) {
@@ -57,7 +57,7 @@ std::string wrapped(std::string_view line, std::size_t indent) {
     return out + std::string(line) + "\n";
 }
 
-/// A name and its description in columns. After a long name the description begins on the next line.
+/// A name and its description, which begins in column `width`. After a long name the description begins on the next line.
 std::string entry(const std::string& name, const std::string& description, std::size_t width) {
     const auto head = "  " + name;
     if (description.empty()) return wrapped(head, 4);
@@ -83,7 +83,8 @@ std::string continued(std::string_view command) {
     return fmt::format("{}{}{}\n", out, out.empty() ? "  " : "      ", command);
 }
 
-/// An example and its explanation, which follows on a new line if the example is long.
+/// Formats a line of the footer with an example: a command, three or more blanks and its explanation. The explanation follows on a new line
+/// if the command is long.
 std::string example(std::string_view line) {
     constexpr std::string_view gap = "   ";
     const auto begin = line.find_first_not_of(' ');
@@ -98,10 +99,10 @@ std::string example(std::string_view line) {
 
 struct Footer {
     std::string examples, prose;
-    bool is_short = false;  ///< examples were left out
+    bool omits_examples = false;  ///< true if there were more examples than the limit
 };
 
-/// Splits the footer into examples, of which at most `limit` are kept, and all other paragraphs.
+/// Splits the footer into examples, one on each line, of which at most `limit` are kept, and all other paragraphs.
 Footer split_footer(const std::string& footer, std::size_t limit) {
     Footer out;
     bool in_examples = false;
@@ -114,9 +115,10 @@ Footer split_footer(const std::string& footer, std::size_t limit) {
         for (const std::string_view title : {"Examples:", "Example:", "First steps:"}) is_title = is_title || line == title;
         in_examples = (in_examples || is_title) && !line.empty();
         if (in_examples && !is_title && ++count > limit) {
-            out.is_short = true;
+            out.omits_examples = true;
             continue;
         }
+        // Indented lines are lists. Their continuation lines begin in column 17, as the titles of studies do.
         in_examples ? out.examples += example(line) : out.prose += wrapped(line, line.starts_with("  ") ? 17 : 0);
     }
     const auto text = out.prose.find_first_not_of('\n');
@@ -167,8 +169,8 @@ std::vector<std::string> normalize_help(std::vector<std::string> arguments) {
 
 namespace {
 
-/// True if the argument at k is `text`: an option ("--spin", "--limit=2N"), an option with a value ("--stamp count"), or a positional
-/// argument.
+/// True if argument k is `text`. For a text without blank, "--limit" or "transduction", the argument may have a value: "--limit=2N". For an
+/// option with a value, "--stamp count", the arguments are "--stamp=count", or "--stamp" and "count".
 bool is_at(const std::vector<std::string>& arguments, std::size_t k, std::string_view text) {
     const auto blank = text.find(' ');
     const auto name = text.substr(0, blank);
@@ -192,7 +194,7 @@ std::string unknown_option_error(const CLI::App& app, const std::vector<std::str
             for (const auto& n : option->get_lnames()) known.push_back("--" + n);
     };
     add_options();
-    for (std::size_t k = 0; k < arguments.size() && arguments[k] != "--"; ++k) {  // verbs: "sweep", "show"
+    for (std::size_t k = 0; k < arguments.size() && arguments[k] != "--"; ++k) {  // follows the verbs: "sweep", "show"
         const auto verbs = current->get_subcommands([&](const CLI::App* verb) { return verb->get_name() == arguments[k]; });
         if (verbs.empty()) continue;
         current = verbs.front(), name += (name.empty() ? "" : " ") + arguments[k];

@@ -1,5 +1,6 @@
 #pragma once
-// Formats --help: examples first, lines of at most 100 columns. --help of a verb is short; --help-all prints everything.
+// Formats --help: examples first, lines of at most 100 columns. --help of a verb prints few examples, and for verbs with many options only
+// the common options; --help-all prints everything.
 
 #include <CLI/CLI.hpp>
 
@@ -13,15 +14,15 @@ public:
     std::string make_subcommand(const CLI::App*) const override;
 
 private:
-    /// The groups of options of --help-all, or the common options of --help.
+    /// The text of the options: all groups for --help-all and for verbs with few options, otherwise the common options.
     std::string list_options(const CLI::App*, CLI::AppFormatMode) const;
-    static constexpr std::size_t width_of_names = 30;
+    static constexpr std::size_t width_of_names = 30;  // columns, before the descriptions of options
 };
 
 /// Rewrites "help respond" to "respond --help", and an empty command line to "--help".
 std::vector<std::string> normalize_help(std::vector<std::string> arguments);
 
-/// The error message if an argument has been renamed or is an option that the verb does not have, else "".
+/// The error message if an argument is a former spelling (renamed_arguments.hpp) or an option that the verb does not have, else "".
 std::string unknown_option_error(const CLI::App&, const std::vector<std::string>& arguments);
 
 /// The error message if the first argument is not a verb of the program, else "".

@@ -1,5 +1,3 @@
-// The table that corpuscle respond prints below the rates: the implementations of each afferent type, compared with the first one.
-
 #include "implementations_table.hpp"
 
 #include <fmt/format.h>
@@ -10,10 +8,10 @@
 namespace corpuscle {
 namespace {
 
-constexpr std::size_t max_rows = 30;
-constexpr std::size_t max_rows_with_silent = 8;  // longer tables omit pairs without spikes
+constexpr std::size_t max_rows = 30;             // of the printed table, approximately
+constexpr std::size_t max_rows_with_silent = 8;  // if there are more comparisons, those without spikes are omitted
 
-/// The spike counts of all phases: "0 5 8 1 0".
+/// The spike counts of all phases, of the implementation or of its reference (selected by `count`): "0 5 8 1 0".
 std::string by_phase(const ImplementationComparison& c, std::size_t ImplementationComparison::PhaseCount::* count) {
     std::string text;
     for (const auto& p : c.phases) text += fmt::format("{}{}", text.empty() ? "" : " ", p.*count);
@@ -33,7 +31,7 @@ std::vector<std::string> line_of(const ImplementationComparison& c) {
             shown(c.van_rossum, "{:.2f}")};
 }
 
-/// The reference that the following lines are compared with.
+/// The line of the reference, with which the following lines are compared.
 std::vector<std::string> reference_line(const ImplementationComparison& c) {
     return {c.reference, c.channel, fmt::format("{}", c.total.reference_spikes),
             by_phase(c, &ImplementationComparison::PhaseCount::reference_spikes)};
@@ -52,7 +50,10 @@ std::string implementations_table(const ImplementationComparisons& comparisons) 
             ++silent;
             continue;
         }
-        if (rows.size() > max_rows && ++omitted) continue;
+        if (rows.size() > max_rows) {
+            ++omitted;
+            continue;
+        }
         if (!last || last->reference != c.reference || last->channel != c.channel) rows.push_back(reference_line(c));
         rows.push_back(line_of(c));
         last = &c;

@@ -1,4 +1,5 @@
 #pragma once
+// The table that `corpuscle respond` prints below the rates.
 
 #include <string>
 
@@ -6,7 +7,8 @@
 
 namespace corpuscle {
 
-/// A table that compares the implementations of each afferent type with the first one. Empty if no type has two implementations.
+/// A table that compares the implementations of each afferent type with its reference (ImplementationGroup). "" if no type has several
+/// implementations.
 std::string implementations_table(const ImplementationComparisons&);
 
 }  // namespace corpuscle

@@ -36,7 +36,7 @@ std::vector<ListEntry> entries_of(const std::vector<CatalogEntry>& models) {
     return entries;
 }
 
-/// Keeps an object alive until the program ends: entries hold views into names that a plan owns.
+/// Keeps an object alive until the program ends. It is used for parameters of netlists, to whose names the entries only refer.
 template <class T>
 const std::shared_ptr<T>& keep_alive(const std::shared_ptr<T>& object) {
     static std::vector<std::shared_ptr<T>> all;
@@ -72,7 +72,7 @@ std::vector<ListEntry> afferent_entries() {
     return entries;
 }
 
-/// The contents of netlists: devices by letter, parameters of .model and M lines, analyses.
+/// Sections about netlists: devices by letter, parameters of .model and M lines, analyses.
 std::vector<ListSection> circuit_sections() {
     using namespace circuit;
     const CatalogEntry card{UicmCard::name, UicmCard::description, UicmCard::source, parameters_of<UicmCard>(UicmCard::fields)};
@@ -105,7 +105,7 @@ std::vector<ListSection> catalogue() {
     return all;
 }
 
-/// The requested sections and entries; all if `what` is empty.
+/// The sections and entries that are named in `what`; all sections if it is empty.
 Result<std::vector<ListSection>> select_sections(const std::vector<std::string>& what) {
     auto all = catalogue();
     if (what.empty()) return all;
@@ -135,11 +135,13 @@ Result<std::vector<ListSection>> select_sections(const std::vector<std::string>&
     return out;
 }
 
+/// True if at least one limit is not the largest double, which means no limit.
 bool has_range(const ParameterInfo& r) {
     return r.low > -std::numeric_limits<double>::max() || r.high < std::numeric_limits<double>::max();
 }
 
-std::string range(const ParameterInfo& r) {
+/// "[LOW, HIGH]"; "" without a range.
+std::string range_text(const ParameterInfo& r) {
     if (!has_range(r)) return "";
     return fmt::format("[{}, {}]", format_quantity(r.low, r.unit), format_quantity(r.high, r.unit));
 }
@@ -150,7 +152,7 @@ std::string text_of(const ListEntry& e) {
     if (!e.other_names.empty()) text += fmt::format("    also called: {}\n", fmt::join(e.other_names, ", "));
     std::vector<std::vector<std::string>> rows;
     for (const auto& p : e.parameters)
-        rows.push_back({"    " + std::string(p.info.name), format_quantity(p.info.default_value, p.info.unit), range(p.info),
+        rows.push_back({"    " + std::string(p.info.name), format_quantity(p.info.default_value, p.info.unit), range_text(p.info),
                         std::string(p.info.description) + (p.info.source.empty() ? "" : fmt::format(" ({})", p.info.source))});
     for (const auto& t : e.notes) rows.push_back({"    " + t.subject, t.text, t.source.empty() ? "" : "(" + t.source + ")"});
     return text + format_table(rows, false);

@@ -14,7 +14,9 @@ struct CatalogNote {
 };
 
 struct ListEntry {
-    std::string name, detail, description, source;  ///< `detail` is printed in parentheses after the name
+    std::string name;
+    std::string detail;  ///< such as the composition of an afferent; printed in parentheses after the name
+    std::string description, source;
     std::vector<AfferentParameter> parameters;
     std::vector<std::string> other_names;
     std::string_view detail_key = "composition";  ///< the JSON key of `detail` for this kind of entry
@@ -26,10 +28,11 @@ struct ListSection {
     std::vector<ListEntry> entries;
 };
 
-/// Skin populations, and indenters.
+/// The sections "skins" (populations) and "contact" (indenters and touches).
 std::vector<ListSection> skin_sections();
 
-/// The sites of one population in frame order. The CSV form can be used as the site list of a population file.
+/// The sites of one population, in the order of the forces in a frame, as CSV or JSON. Returns an error unless `populations` has one entry.
+/// The CSV can be used as the site list of a population file.
 Result<std::string> sites_listing(const std::vector<std::string>& populations, bool json);
 
 }  // namespace corpuscle

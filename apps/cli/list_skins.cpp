@@ -1,4 +1,4 @@
-// corpuscle list skins, corpuscle list contact: populations with their classes, indenters with their parameters.
+// corpuscle list skins, corpuscle list contact: populations with their classes, and indenters and touches with their parameters.
 
 #include <fmt/format.h>
 #include <algorithm>
@@ -15,16 +15,17 @@
 namespace corpuscle {
 namespace {
 
+/// The source of a property of a skin or class; "" if it is not documented.
 std::string source_for(const std::vector<SourceNote>& sources, std::string_view property) {
     const auto found = std::find_if(sources.begin(), sources.end(), [&](const SourceNote& s) { return s.quantity == property; });
     return found == sources.end() ? "" : found->source;
 }
 
-/// The densities of a class: "tip 70, middle 33, palm 10 /cm2". A region is named by the part after its last dot if all regions with that
-/// part have the same density.
+/// The densities of a class: "tip 70, middle 33, palm 10 /cm2". "tip" stands for all regions whose name ends in ".tip". If such regions
+/// differ in density, every region is listed with its complete name.
 std::string densities(const SkinPlan& plan, const SkinClass& c) {
     std::vector<std::pair<std::string, double>> found;
-    bool is_unique = true;
+    bool has_same_density = true;
     for (std::size_t r = 0; r < c.density.size(); ++r) {
         const auto& region = plan.sites.regions[r];
         const auto name = region.substr(region.rfind('.') + 1);
@@ -32,20 +33,22 @@ std::string densities(const SkinPlan& plan, const SkinClass& c) {
         if (same == found.end())
             found.emplace_back(name, c.density[r]);
         else
-            is_unique = is_unique && same->second == c.density[r];
+            has_same_density = has_same_density && same->second == c.density[r];
     }
-    if (!is_unique) {
+    if (!has_same_density) {
         found.clear();
         for (std::size_t r = 0; r < c.density.size(); ++r) found.emplace_back(plan.sites.regions[r], c.density[r]);
     }
     std::string out;
-    for (const auto& [name, density] : found) out += fmt::format("{}{} {:.4g}", out.empty() ? "" : ", ", name, density * 1e-4);
+    for (const auto& [name, density] : found)
+        out += fmt::format("{}{} {:.4g}", out.empty() ? "" : ", ", name, density * 1e-4);  // from 1/m^2
     return out + " /cm2";
 }
 
-void add_class_notes(const SkinPlan& plan, std::uint32_t k, std::vector<CatalogNote>& out) {
-    const auto& c = plan.classes[k];
-    const auto by_region = afferents_by_region(plan, k);
+/// Adds the properties of one class of a skin.
+void add_class_notes(const SkinPlan& plan, std::uint32_t class_index, std::vector<CatalogNote>& out) {
+    const auto& c = plan.classes[class_index];
+    const auto by_region = afferents_by_region(plan, class_index);
     const auto count = std::accumulate(by_region.begin(), by_region.end(), std::uint64_t{0});
     out.push_back({c.name, fmt::format("{} afferents, {}: {}", count, c.afferent.composition(), densities(plan, c)),
                    source_for(c.sources, "density")});
@@ -94,10 +97,10 @@ std::vector<ListEntry> contact_entries() {
     out.push_back(std::move(path));
     for (const auto& t : named_touches()) {
         ListEntry e{std::string(t.name), fmt::format("{}, {}", t.force, t.indenter), std::string(t.description), "choice", {}, {}};
-        const auto add_note = [&](std::string_view of, const std::vector<Setting>& settings) {
+        const auto add_note = [&](std::string_view subject, const std::vector<Setting>& settings) {
             std::string text;
             for (const auto& s : settings) text += fmt::format("{}{} = {:.4g}", text.empty() ? "" : ", ", s.name, s.value);
-            e.notes.push_back({std::string(of), text + " (SI)", ""});
+            e.notes.push_back({std::string(subject), text + " (SI)", ""});
         };
         add_note("contact", t.settings), add_note(t.force, t.force_settings);
         out.push_back(std::move(e));

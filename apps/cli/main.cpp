@@ -213,7 +213,7 @@ void add_compare(CLI::App& app, CompareArguments& args, CommonArguments& common)
     verb.add_flag("--by-order", args.by_order, "ignore names: compare the first train of A with the first of B, and so on");
     verb.add_option("--time", args.time_column, "column of spike times, by name or number (default: time_s)")->type_name("COLUMN");
     verb.add_option("--train", args.train_column, "column that identifies the train, by name or number")->type_name("COLUMN");
-    verb.add_option("--window", args.window, "maximum distance of matching spikes")->capture_default_str()->type_name("TIME");
+    verb.add_option("--window", args.window, "maximum time between matching spikes")->capture_default_str()->type_name("TIME");
     verb.add_option("--cost", args.cost, "Victor-Purpura distance: cost per second of shift")
         ->capture_default_str()
         ->type_name("FREQUENCY");
@@ -289,7 +289,7 @@ void add_list(CLI::App& app, ListArguments& args, CommonArguments& common) {
     add_common(verb, common);
 }
 
-/// The options that were given to the verb.
+/// The options and positional arguments that were given to the verb.
 std::vector<TypedOption> typed_options(const CLI::App& app) {
     std::vector<TypedOption> out;
     for (const auto* verb : app.get_subcommands())

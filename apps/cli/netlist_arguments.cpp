@@ -9,7 +9,7 @@ namespace corpuscle {
 std::vector<circuit::NetlistOverride> netlist_overrides(const NetlistArguments& args) {
     std::vector<circuit::NetlistOverride> out;
     const auto add = [&](const char* name, const std::optional<std::string>& value) {
-        if (value) out.push_back({name, *value, fmt::format("--{} {}", name, *value), true});
+        if (value) out.push_back({name, *value, fmt::format("--{} {}", name, *value), /* is_parameter_only = */ true});
     };
     add("supply", args.supply), add("temp", args.temp), add("corner", args.corner), add("mismatch", args.mismatch);
     return out;

@@ -9,7 +9,7 @@ namespace corpuscle {
 /// The overrides from --supply, --temp, --corner and --mismatch.
 std::vector<circuit::NetlistOverride> netlist_overrides(const NetlistArguments&);
 
-/// The probes of all --probe options, one string each.
+/// The names of all probes in the --probe options, each of which may have several.
 std::vector<std::string> probe_names(const NetlistArguments&);
 
 /// The first netlist option that was given, with its value, such as "--temp 85"; "" if none was.

@@ -1,5 +1,5 @@
 #pragma once
-// Groups of options, several of which are shared between verbs.
+// Groups of options; some of the groups belong to several verbs.
 
 #include "verbs.hpp"
 
@@ -9,10 +9,11 @@ class App;
 
 namespace corpuscle {
 
-/// The error message if the name of a report page does not end in .html.
+/// The error message for a report page whose name does not end in .html.
 std::string page_name_error(const std::string& name);
 
-/// The error message if --report is followed by a force instead of a page name. It includes the correct command.
+/// The error message if --report is followed by a force `name` instead of a page. `forces`: the other forces of the command. The message
+/// includes the correct command.
 std::string report_argument_error(const std::string& name, std::vector<std::string> forces);
 
 void add_netlist_options(CLI::App&, NetlistArguments&);

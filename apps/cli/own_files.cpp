@@ -43,13 +43,15 @@ bool is_event_time(std::string_view text) {
     return point > 0 && point != text.npos && text.size() - point - 1 == decimals && text.find_first_not_of("0123456789.") == text.npos;
 }
 
-/// True for a table of events with this header. The first row, if present, has its time in the first or the last field.
+/// True for a table of events with this header. Its first row, if there is one, must have a time in the first field (`time_first`) or in
+/// the last field.
 bool is_event_table(std::string_view beginning, std::string_view header, bool time_first) {
     if (take_line(beginning) != header) return false;
     const auto row = take_line(beginning);
     return row.empty() || is_event_time(time_first ? row.substr(0, row.find(',')) : row.substr(row.rfind(',') + 1));
 }
 
+/// True for a line of an event file in JSON Lines.
 bool is_event_record(std::string_view line) {
     constexpr std::string_view before = "{\"time_s\":", after = ",\"afferent\":\"";
     if (!line.starts_with(before)) return false;
@@ -71,7 +73,7 @@ bool is_own_raw(std::string_view beginning) {
 bool is_own_table(std::string_view beginning) {
     auto header = take_line(beginning);
     if (header.empty()) return false;
-    bool has_circuit_curve = false;
+    bool has_circuit_curve = false;  // a table with only a time column may be of any program
     while (!header.empty()) {
         const auto name = take_csv_field(header);
         if (!is_curve_name(name)) return false;

@@ -45,7 +45,7 @@ std::string escaped(std::uint32_t c) {
     return c < 0x80 ? fmt::format("\\x{:02x}", c) : fmt::format("\\u{:04x}", c);
 }
 
-/// Escapes all control characters except those in `kept`.
+/// Escapes all control characters and invalid bytes, except the ASCII characters in `kept`.
 std::string escape_except(std::string_view text, std::string_view kept) {
     std::string out;
     out.reserve(text.size());
@@ -72,6 +72,8 @@ std::string json_text(const nlohmann::ordered_json& document) {
     std::string out;
     for (std::string_view left = text; !left.empty();) {
         const auto c = first_character(left);
+        // In one byte only DEL is left to escape: the writer has escaped C0 and replaced invalid bytes, and line breaks format the
+        // document.
         const bool is_kept = c.bytes == 1 ? left[0] != '\x7f' : !is_control(c.code);
         is_kept ? out += left.substr(0, c.bytes) : out += fmt::format("\\u{:04x}", c.code);
         left.remove_prefix(c.bytes);

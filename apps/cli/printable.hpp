@@ -14,7 +14,8 @@ std::string printable(std::string_view);
 /// The same, but keeps line breaks; for text of several lines that the program composed.
 std::string printable_lines(std::string_view);
 
-/// A JSON document with the same characters escaped in JSON's notation, so that its content is unchanged.
+/// The text of a JSON document, in which the same characters are escaped as JSON does it (\u202e). The content is unchanged, except that
+/// bytes that are not UTF-8 are replaced.
 std::string json_text(const nlohmann::ordered_json&);
 
 }  // namespace corpuscle

@@ -9,7 +9,7 @@
 namespace corpuscle {
 namespace {
 
-/// "LO..HI"
+/// Parses "LO..HI".
 Result<std::pair<double, double>> range_of(const std::string& text) {
     const auto dots = text.find("..");
     const auto low = parse_quantity(text.substr(0, dots), ""),
@@ -45,7 +45,7 @@ Result<void> read_structured_options(const RecordingArguments& args, RecordingOp
     return {};
 }
 
-/// Newtons per unit of the readings: "0.002", "10%", or with a unit, "2mN".
+/// Parses newtons per unit of the readings: "0.002", "10%", or with a unit, "2mN".
 Result<std::optional<double>> scale_of(const std::optional<std::string>& text) {
     const auto plain = optional_quantity(text, "", "--scale");
     const auto force = plain ? plain : optional_quantity(text, "N", "--scale");

@@ -7,7 +7,7 @@ namespace corpuscle {
 
 struct RenamedArgument {
     std::string_view verb;
-    std::string_view old_text, new_text;  ///< an option, an option and its value, or an argument
+    std::string_view old_text, new_text;  ///< an option, an option and its value, or a positional argument
 };
 
 inline constexpr RenamedArgument renamed_arguments[] = {

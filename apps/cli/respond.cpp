@@ -27,16 +27,16 @@
 namespace corpuscle {
 namespace {
 
-constexpr double default_rate = 10e3;             // Hz, of stimuli
-constexpr std::size_t max_rows = 60;              // of the printed table
-constexpr std::size_t max_rows_with_silent = 24;  // longer tables omit silent afferents
+constexpr double default_rate = 10e3;             // Hz, sample rate of stimuli
+constexpr std::size_t max_rows = 60;              // of the printed table of measures
+constexpr std::size_t max_rows_with_silent = 24;  // longer tables omit afferents without spikes
 
 /// A simulation, prepared from the arguments.
 struct Job {
     std::vector<ParameterOverride> overrides;
-    std::vector<AfferentPlan> afferents;  // as requested
+    std::vector<AfferentPlan> afferents;  // the afferents of --afferent
     CopySpec copy_spec;
-    std::vector<AfferentPlan> copies;  // of all afferents; without --copies the afferents themselves
+    std::vector<AfferentPlan> copies;  // the simulated afferents: all copies, or without --copies the afferents themselves
     std::vector<std::unique_ptr<ForceSource>> sources;
     RespondOptions options;
     std::vector<std::string> warnings;
@@ -54,13 +54,13 @@ Result<std::vector<ParameterOverride>> spread_overrides(const RespondArguments& 
     return overrides;
 }
 
-/// Parameter names of netlists are in lower case.
+/// The overrides with their parameter names in lower case, as the parameters of netlists are.
 std::vector<ParameterOverride> in_lower_case(std::vector<ParameterOverride> overrides) {
     for (auto& entry : overrides) entry.parameter = lower(entry.parameter);
     return overrides;
 }
 
-/// Replaces every afferent by its copies, if --copies was given.
+/// Fills in job.copies and job.copy_spec.
 Result<void> populate(Job& job, const RespondArguments& args) {
     const auto overrides = spread_overrides(args);
     if (!overrides) return overrides.error();
@@ -87,7 +87,7 @@ Result<void> populate(Job& job, const RespondArguments& args) {
     return {};
 }
 
-/// Indices of afferents have 32 bits.
+/// Returns an error if there are more afferents than 32-bit indexes.
 Result<void> check_afferent_count(const Job& job) {
     std::uint64_t count = 0;
     for (const auto& s : job.sources) count += s->channels().size() * job.copies.size();
@@ -96,7 +96,7 @@ Result<void> check_afferent_count(const Job& job) {
         fmt::format("--copies {}: {} afferents over all channels are too many; use fewer copies or channels", job.copy_spec.count, count));
 }
 
-/// Every override must have been applied to an afferent or a stimulus.
+/// Returns an error if an override was not applied to any afferent or stimulus.
 Result<void> check_overrides(const Job& job) {
     std::vector<std::string_view> names;
     for (const auto& a : job.afferents) names.push_back(a.name);
@@ -108,7 +108,7 @@ Result<void> check_overrides(const Job& job) {
     return {};
 }
 
-/// Options and probes of netlists must have been used by a netlist.
+/// Returns an error if there is a netlist option but no netlist, or if no netlist has one of the probes.
 Result<void> check_netlist_options(const NetlistArguments& args, const NetlistOptions& netlist_options) {
     if (const auto option = first_netlist_option(args); !option.empty() && !netlist_options.is_used)
         return bad_usage(fmt::format("{}: there is no netlist in this run; try --afferent sa1-circuit", option));
@@ -131,6 +131,7 @@ Result<void> plan_afferents(Job& job, const RespondArguments& args) {
     return check_netlist_options(args.netlists, netlist_options);
 }
 
+/// Prepares the simulation: reads the options, plans the afferents and opens the sources.
 Result<Job> prepare(const RespondArguments& args, bool quiet) {
     Job job;
     if (args.forces.empty()) return bad_usage("respond: no FORCE given; try 'corpuscle respond press'");
@@ -173,7 +174,7 @@ Result<Job> prepare(const RespondArguments& args, bool quiet) {
 
 std::string cell(const MeasureInfo& m, double x) { return std::isnan(x) ? "-" : fmt::format("{:.{}f}", x, m.decimals); }
 
-/// The value of one afferent. For copies: mean and standard deviation, with at least one decimal.
+/// The cell of measure m in a row: the value of one afferent or, for copies, mean and standard deviation with at least one decimal.
 std::string cell(const MeasureRow& row, std::size_t m) {
     if (row.copy_statistics.empty()) return cell(measures[m], row.values[m]);
     const int decimals = std::max(measures[m].decimals, 1);
@@ -182,7 +183,7 @@ std::string cell(const MeasureRow& row, std::size_t m) {
     return fmt::format("{:.{}f}", mean, decimals) + (std::isnan(deviation) ? "" : fmt::format(" +- {:.{}f}", deviation, decimals));
 }
 
-/// One line per input. It shows rate, duration and force range, so that a wrong unit or sampling rate is noticed.
+/// One line for each input. It shows sample rate, duration and range of force, so that the user notices a wrong unit or rate.
 std::string inputs_table(const RunSummary& summary) {
     std::string text;
     for (const auto& i : summary.inputs())
@@ -200,42 +201,46 @@ std::string copies_line(const CopySpec& spec) {
                : fmt::format("{} copies of each afferent; mean +- standard deviation over copies that have a value\n", spec.count);
 }
 
-/// Rates and other measures. A long table omits afferents that did not fire.
+/// The table of rates and other measures. A long table omits afferents that did not fire.
 std::string rate_table(const RunSummary& summary) {
-    std::map<std::pair<std::string, std::string>, double> spikes;
-    for (const auto& r : summary.rows()) spikes[{r.afferent, r.channel}] += r.values[0];
-    const bool with_silent = summary.rows().size() <= max_rows_with_silent;
+    std::map<std::pair<std::string, std::string>, double> spikes;  // by afferent and channel, over all phases
+    for (const auto& r : summary.rows()) spikes[{r.afferent, r.channel}] += r.values[measure_index<SpikeCount>];
+    const bool shows_silent = summary.rows().size() <= max_rows_with_silent;
     std::vector<std::vector<std::string>> rows = {{"afferent", "channel", "phase"}};
     const auto columns = summary.columns();
     for (const auto c : columns) rows[0].push_back(column_heading(measures[c]));
     std::size_t omitted = 0;
     for (const auto& r : summary.rows()) {
-        if (!with_silent && spikes[{r.afferent, r.channel}] == 0) continue;
-        if (rows.size() > max_rows && ++omitted) continue;
+        if (!shows_silent && spikes[{r.afferent, r.channel}] == 0) continue;
+        if (rows.size() > max_rows) {
+            ++omitted;
+            continue;
+        }
         rows.push_back({r.afferent, r.channel, r.phase});
         for (const auto c : columns) rows.back().push_back(cell(r, c));
     }
     auto text = format_table(rows);
     if (omitted > 0) text += fmt::format("... and {} more rows; --out writes all of them to summary.json\n", omitted);
     const auto silent = std::count_if(spikes.begin(), spikes.end(), [](const auto& s) { return s.second == 0; });
-    if (!with_silent && silent > 0)
+    if (!shows_silent && silent > 0)
         text += fmt::format("Not shown: {} of {} afferents without spikes (counted once per channel).\n", silent, spikes.size());
     return text;
 }
 
-/// Prints warnings, and notes unless --quiet was given.
+/// Prints the warnings that are known before the run and, unless `quiet`, the notes of the sources.
 void print_notes(const Job& job, bool quiet) {
     for (const auto& s : job.sources)
         for (const auto& r : quiet ? std::vector<std::string>{} : s->notes()) print_message(fmt::format("{}: {}", s->name(), r));
     for (const auto& warning : job.warnings) print_warning(warning);
 }
 
+/// Prints a warning and keeps it for summary and report page.
 void warn(Job& job, std::string message) {
     print_warning(message);
     job.warnings.push_back(std::move(message));
 }
 
-/// Prints the quality findings of the recordings, which are known after the run.
+/// Prints the findings about the quality of the recordings, which are known only after the run.
 void print_quality(Job& job, const RunSummary& summary, bool quiet) {
     for (const auto& i : summary.inputs()) {
         for (const auto& s : quiet ? std::vector<std::string>{} : i.quality.descriptions) print_message(fmt::format("{}: {}", i.name, s));
@@ -243,7 +248,7 @@ void print_quality(Job& job, const RunSummary& summary, bool quiet) {
     }
 }
 
-/// Warns of rates above the physiological limit, for each afferent on its fastest channel.
+/// Warns of afferents that fire faster than a nerve fibre can; for each of them, the warning names the channel with the highest rate.
 void warn_of_rates(Job& job, const RunSummary& summary) {
     constexpr auto peak = measure_index<PeakRate>;
     for (const auto& plan : job.afferents) {
@@ -257,7 +262,7 @@ void warn_of_rates(Job& job, const RunSummary& summary) {
     }
 }
 
-/// The number of simulated netlists over all channels.
+/// The number of simulated netlists: one for each copy on each channel of each source.
 std::size_t netlist_count(const Job& job) {
     std::size_t count = 0;
     for (const auto& s : job.sources)
@@ -268,7 +273,7 @@ std::size_t netlist_count(const Job& job) {
 /// Collects the spikes of every afferent for the JSON document on standard output.
 class SpikeTimes final : public ResponseSink {
     nlohmann::ordered_json trains_ = nlohmann::ordered_json::array();
-    std::size_t first_ = 0;  // index of the first train of the current input
+    std::size_t first_ = 0;  // index in trains_ of the first train of the current input
 
 public:
     Result<void> begin(const Input& input) override {
@@ -287,7 +292,7 @@ public:
     const nlohmann::ordered_json& document() const { return trains_; }
 };
 
-/// Names of the files that are written per input, per afferent or per channel.
+/// The names of the files that exist once for each input, afferent or channel. They are created during the run.
 std::vector<std::string> later_names(const Job& job, const RespondArguments& args) {
     std::vector<std::string> all;
     std::size_t channels = 0;
@@ -318,22 +323,22 @@ Result<void> run(const RespondArguments& args, const CommonArguments& common) {
     job->options.pool = &pool;
     RunSummary summary;
     SilenceDetector silence;
-    std::vector<ResponseSink*> listeners = {&summary, &silence};
-    outputs.add_listeners(listeners);
+    std::vector<ResponseSink*> sinks = {&summary, &silence};
+    outputs.add_sinks(sinks);
     SpikeTimes times;
-    if (common.json) listeners.push_back(&times);
-    Result<RunStats> work = [&] {
+    if (common.json) sinks.push_back(&times);
+    Result<RunStats> stats = [&] {
         Progress progress(common.quiet);
         job->options.should_continue = [&](double fraction) { return progress.update(fraction), !interrupted(); };
-        return respond(job->sources, job->copies, listeners, job->options);
+        return respond(job->sources, job->copies, sinks, job->options);
     }();
-    if (!work) return work.error();
+    if (!stats) return stats.error();
     print_quality(*job, summary, common.quiet);
-    for (const auto& warning : response_warnings(*work)) warn(*job, warning);
+    for (const auto& warning : response_warnings(*stats)) warn(*job, warning);
     warn_of_rates(*job, summary);
     const auto silent = silence.silent_afferents(job->copies, job->options);
     for (const auto& s : common.quiet ? std::vector<SilentAfferent>{} : silent) print_message(silence_message(s));
-    auto result = summary.document(job->afferents, *work, job->options, args.seed, job->warnings);
+    auto result = summary.document(job->afferents, *stats, job->options, args.seed, job->warnings);
     if (job->copy_spec.count > 0) result["copies"] = document_of(job->copy_spec);
     for (const auto& s : silent)
         result["silent"].push_back({{"afferent", s.name},
@@ -349,10 +354,10 @@ Result<void> run(const RespondArguments& args, const CommonArguments& common) {
     else if (!common.quiet)
         print_text(inputs_table(summary) + copies_line(job->copy_spec) + rate_table(summary) +
                    implementations_table(summary.comparisons()) + outputs.written_text());
-    if (!work->diverged.empty()) {
-        auto error = work->diverged[0];
+    if (!stats->diverged.empty()) {
+        auto error = stats->diverged[0];
         error.message =
-            fmt::format("{} of {} netlists did not converge; the first: {}", work->diverged.size(), netlist_count(*job), error.message);
+            fmt::format("{} of {} netlists did not converge; the first: {}", stats->diverged.size(), netlist_count(*job), error.message);
         return error;
     }
     return {};
@@ -364,6 +369,7 @@ int respond(const RespondArguments& given, const CommonArguments& common) {
     if (!given.population.empty()) return respond_skin(given, common);
     catch_interrupt();
     auto args = given;
+    // The probes of --probe are recorded in probes.csv or on the report page.
     if (!args.netlists.probes.empty()) {
         if (args.out.empty() && !args.has_report)
             return report_error(

@@ -12,7 +12,9 @@
 #include "study/test_vectors_file.hpp"
 
 namespace corpuscle {
-/// Removes unfinished files in reverse order. The first file may have created the directory, which must be empty when it is removed.
+
+/// Removes files without final names, in reverse order: the first file may have created the directory, and then removes it when it is
+/// empty.
 RespondOutputs::~RespondOutputs() {
     report_file_.reset(), summary_file_.reset();
     while (!files_.empty()) files_.pop_back();
@@ -91,13 +93,13 @@ Result<void> RespondOutputs::open(const RespondArguments& args, const CopySpec& 
     auto page = OutputFile::create(*page_path);
     if (!page) return page.error();
     report_file_ = std::move(*page);
-    report_.emplace(RespondReport::max_total_points, copy_spec, !args.use_float);
+    report_.emplace(RespondReport::max_total_points, copy_spec, !args.use_float);  // --float records no probes
     return {};
 }
 
-void RespondOutputs::add_listeners(std::vector<ResponseSink*>& listeners) {
-    for (auto& file : files_) listeners.push_back(&*file);
-    if (report_) listeners.push_back(&*report_);
+void RespondOutputs::add_sinks(std::vector<ResponseSink*>& sinks) {
+    for (auto& file : files_) sinks.push_back(&*file);
+    if (report_) sinks.push_back(&*report_);
 }
 
 std::vector<std::string> RespondOutputs::file_names() const { return file_names_in(directory_, paths()); }

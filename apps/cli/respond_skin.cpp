@@ -27,10 +27,10 @@
 namespace corpuscle {
 namespace {
 
-constexpr double skin_rate = 1e3;  // Hz, of stimuli
+constexpr double skin_rate = 1e3;  // Hz, default sample rate of stimuli
 constexpr const char* default_indenter = "flat";
 
-/// Rejects options that apply only to afferents without a skin, each with the reason and a remedy.
+/// Returns an error, with the reason and a remedy, for options that do not apply to a skin.
 Result<void> check_skin_options(const RespondArguments& args) {
     struct Refusal {
         const char* option;
@@ -69,8 +69,8 @@ Result<void> check_skin_options(const RespondArguments& args) {
     return {};
 }
 
-/// The skin stimulus of this name, or null.
-const NamedTouch* find_skin_stimulus(const std::string& force) {
+/// The touch of this name, such as "stroke"; null if there is none.
+const NamedTouch* find_touch(const std::string& force) {
     const auto all = named_touches();
     const auto at = std::find_if(all.begin(), all.end(), [&](const NamedTouch& t) { return t.name == force; });
     return at == all.end() ? nullptr : &*at;
@@ -81,25 +81,26 @@ struct SkinJob {
     std::vector<ParameterOverride> overrides;
     std::unique_ptr<ForceSource> source;
     std::shared_ptr<const Innervation> skin;
-    std::unique_ptr<Contact> contact;  ///< null: the channels are forces at the sites
+    std::unique_ptr<Contact> contact;  ///< null: each channel is the force at one site
     std::unique_ptr<SkinForce> force;
     SkinRunNotes run_info;
-    std::string name;
-    std::string skin_note;  ///< note that the site table is used as a skin; "": it is not
+    std::string name;       ///< of the touch, stimulus or recording
+    std::string skin_note;  ///< note that a sensor array is treated as skin; "" if it is not
 };
 
-/// Adds the settings of a skin stimulus as overrides. Overrides of the user take precedence.
-void add_stimulus_overrides(std::vector<ParameterOverride>& overrides, const NamedTouch& stimulus) {
-    const auto add = [&](std::string_view of, const std::vector<Setting>& settings) {
+/// Adds the settings of a touch as overrides. Overrides of the user take precedence.
+void add_touch_overrides(std::vector<ParameterOverride>& overrides, const NamedTouch& touch) {
+    const auto add = [&](std::string_view target, const std::vector<Setting>& settings) {
         for (const auto& s : settings)
             if (std::none_of(overrides.begin(), overrides.end(),
-                             [&](const ParameterOverride& entry) { return entry.target == of && entry.parameter == s.name; }))
-                overrides.push_back({std::string(of), std::string(s.name), fmt::format("{}", s.value), true});
+                             [&](const ParameterOverride& entry) { return entry.target == target && entry.parameter == s.name; }))
+                overrides.push_back({std::string(target), std::string(s.name), fmt::format("{}", s.value), true});
     };
-    add("contact", stimulus.settings);
-    add(stimulus.force, stimulus.force_settings);
+    add("contact", touch.settings);
+    add(touch.force, touch.force_settings);
 }
 
+/// Returns an error if an override was not applied.
 Result<void> check_skin_overrides(const SkinJob& job) {
     std::vector<std::string_view> names = {"contact", job.source->name()};
     for (const auto& c : job.skin->plan.classes) names.push_back(c.name);
@@ -110,7 +111,8 @@ Result<void> check_skin_overrides(const SkinJob& job) {
     return {};
 }
 
-Result<void> open_contact(SkinJob& job, const RespondArguments& args, const NamedTouch* stimulus) {
+/// Makes job.force: with an indenter if the force has one channel and the skin several sites, otherwise from one channel for each site.
+Result<void> open_contact(SkinJob& job, const RespondArguments& args, const NamedTouch* touch) {
     const auto& sites = job.skin->plan.sites;
     const std::size_t channels = job.source->channels().size();
     if (channels > 1 || sites.size() == 1) {
@@ -123,7 +125,7 @@ Result<void> open_contact(SkinJob& job, const RespondArguments& args, const Name
         job.force = make_site_force(*job.source, std::move(*at), sites.size());
         return {};
     }
-    const std::string indenter = !args.contact.empty() ? args.contact : stimulus ? std::string(stimulus->indenter) : default_indenter;
+    const std::string indenter = !args.contact.empty() ? args.contact : touch ? std::string(touch->indenter) : default_indenter;
     auto contact = make_contact(indenter, job.overrides, sites, job.source->clock());
     if (!contact) return contact.error();
     job.contact = std::move(*contact);
@@ -131,6 +133,7 @@ Result<void> open_contact(SkinJob& job, const RespondArguments& args, const Name
     return {};
 }
 
+/// Prepares the simulation: reads the options, opens the force and places the afferents.
 Result<SkinJob> prepare_skin(const RespondArguments& args) {
     if (auto ok = check_skin_options(args); !ok) return ok.error();
     SkinJob job;
@@ -139,32 +142,32 @@ Result<SkinJob> prepare_skin(const RespondArguments& args) {
         if (!parsed) return parsed.error();
         job.overrides.push_back(std::move(*parsed));
     }
-    const auto* stimulus = find_skin_stimulus(args.forces[0]);
-    if (stimulus) add_stimulus_overrides(job.overrides, *stimulus);
+    const auto* touch = find_touch(args.forces[0]);
+    if (touch) add_touch_overrides(job.overrides, *touch);
     auto options = recording_options(args);
     if (!options) return options.error();
-    auto source = open_force(stimulus ? std::string(stimulus->force) : args.forces[0], *options, job.overrides, skin_rate, args.seed);
+    auto source = open_force(touch ? std::string(touch->force) : args.forces[0], *options, job.overrides, skin_rate, args.seed);
     if (!source) return source.error();
     job.source = std::move(*source);
-    job.name = stimulus ? std::string(stimulus->name) : job.source->name();
+    job.name = touch ? std::string(touch->name) : job.source->name();
     auto plan = load_skin_plan(args.population, job.source->channels());
     if (!plan) return plan.error();
     if (auto ok = apply_class_overrides(*plan, job.overrides); !ok) return ok.error();
-    if (args.seed != 0) plan->seed = args.seed;
+    if (args.seed != 0) plan->seed = args.seed;  // 0, the default, keeps the seed of the population file
     if (job.source->channels().size() == 1) job.skin_note = treat_as_skin(*plan);
     auto skin = innervate(std::move(*plan));
     if (!skin) return skin.error();
     job.skin = std::move(*skin);
-    if (auto ok = open_contact(job, args, stimulus); !ok) return ok.error();
+    if (auto ok = open_contact(job, args, touch); !ok) return ok.error();
     if (auto ok = check_skin_overrides(job); !ok) return ok.error();
-    if (!stimulus)
+    if (!touch)
         if (auto ok = check_recording_arguments(args); !ok) return ok.error();
     job.run_info.method = args.method == "exact" ? Method::exact : Method::backward_euler;
     job.run_info.sampled = args.sampled;
     return job;
 }
 
-/// Collects metadata, notes and warnings of the force.
+/// Collects metadata and notes of force and contact, and warnings about the force and the steps of the run. Call it after the run.
 void add_force_notes(SkinJob& job) {
     auto& run_info = job.run_info;
     run_info.metadata = job.source->metadata();
@@ -189,7 +192,7 @@ void add_force_notes(SkinJob& job) {
                         run_info.stats.truncated_steps));
 }
 
-/// A remedy for a stimulus that is too weak: the option that makes it stronger by this factor.
+/// A remedy for a force that is too weak: the setting or option that multiplies it by `factor`; "" if there is none.
 std::string stronger_stimulus_advice(const SkinJob& job, const RespondArguments& args, double factor) {
     const auto& plan = job.skin->plan;
     if (job.contact && plan.sites.area > 0 && !(plan.felt_area > 0)) {
@@ -199,22 +202,24 @@ std::string stronger_stimulus_advice(const SkinJob& job, const RespondArguments&
     }
     const auto metadata = job.source->metadata();
     if (!is_stimulus(job.source->name())) {
+        // The metadata of a recording begins with the scale of its first channel.
         const bool has_gain = !metadata.empty() && metadata[0].name.ends_with("newtons per unit");
         return has_gain
                    ? fmt::format("try --scale {}{}", format_rounded_up(factor * metadata[0].value), args.unit ? " instead of --unit" : "")
                    : "";
     }
+    // The parameter of the stimulus with the largest force is assumed to be its amplitude.
     const MetadataEntry* largest = nullptr;
     for (const auto& f : metadata)
         if (f.unit == "N" && (!largest || f.value > largest->value)) largest = &f;
     return largest ? fmt::format("try --set {}={}N", largest->name, format_rounded_up(factor * largest->value)) : "";
 }
 
-/// Reports classes without spikes: as a warning if no class fired, else as a note.
+/// Reports the silent classes: as a warning if all classes are silent, else as a note.
 void add_silence_notes(SkinJob& job, const RespondArguments& args, const std::vector<SilentClass>& silent) {
-    constexpr double margin = 1.25;  // afferents of a class vary, and receive different forces
+    constexpr double margin = 1.25;  // on the factor, because the afferents of a class vary and receive different forces
     std::vector<std::string> messages;
-    std::optional<double> min_factor;
+    std::optional<double> min_factor;  // of the class that needs the least additional force
     for (const auto& s : silent) {
         auto text = job.skin->plan.classes[s.class_index].name;
         if (!(s.max_force > 0))
@@ -241,7 +246,7 @@ void add_silence_notes(SkinJob& job, const RespondArguments& args, const std::ve
     (all ? job.run_info.warnings : job.run_info.notes).push_back(std::move(text));
 }
 
-/// Warns of rates above the physiological limit.
+/// Warns of classes in which afferents fire faster than a nerve fibre can.
 void add_rate_warnings(SkinJob& job, const SkinSummary& summary) {
     for (std::size_t c = 0; c < job.skin->plan.classes.size(); ++c) {
         const auto& plan = job.skin->plan.classes[c].afferent;
@@ -253,11 +258,11 @@ void add_rate_warnings(SkinJob& job, const SkinSummary& summary) {
     }
 }
 
-/// Options that change where or how results are written, but not the results.
+/// Options that change where or how results are written and how fast, but not the response.
 constexpr std::string_view output_options[] = {"--checkpoint", "--out",       "--report", "--bin",  "--events",
                                                "--npz",        "--overwrite", "--quiet",  "--json", "--threads"};
 
-/// Adds the checksum of a file's contents, if the file exists.
+/// Adds the checksum of a file's contents, if the file exists. `kind`: "recording", "population file" ...
 Result<void> add_contents(RunFingerprint& all, const std::string& kind, const std::string& path) {
     std::error_code status;
     if (!std::filesystem::is_regular_file(path, status)) return {};
@@ -267,7 +272,7 @@ Result<void> add_contents(RunFingerprint& all, const std::string& kind, const st
     return {};
 }
 
-/// Checksum of the sites. A population file may include other files; their contents are covered by the sites.
+/// Checksum of the sites. It also covers the site lists that a population file includes.
 std::string sites_checksum(const Sites& sites) {
     Checksum sum;
     for (const auto& p : sites.positions) sum.add(p.x), sum.add(p.y), sum.add(p.z);
@@ -278,13 +283,14 @@ std::string sites_checksum(const Sites& sites) {
     return fmt::format("{} sites, checksum {:016x}", sites.size(), sum.value());
 }
 
-/// Everything that determines the response: all options except output options, and the contents of the files they name.
+/// All that determines the response: the program's version, the force, all options except output_options, and the contents of the files
+/// that they name.
 Result<RunFingerprint> fingerprint_of(const SkinJob& job, const RespondArguments& args, const CommonArguments& common) {
     RunFingerprint all = {{"the program", fmt::format("version {}", version)}, {"FORCE", args.forces[0]}};
     for (const auto& [name, values] : common.typed)
         if (name != "FORCE" && std::find(std::begin(output_options), std::end(output_options), name) == std::end(output_options))
             all.emplace_back(name, fmt::format("{}", fmt::join(values, " ")));
-    if (!is_stimulus(args.forces[0]) && !find_skin_stimulus(args.forces[0]))
+    if (!is_stimulus(args.forces[0]) && !find_touch(args.forces[0]))
         if (auto ok = add_contents(all, "recording", args.forces[0]); !ok) return ok.error();
     if (auto ok = add_contents(all, "population file", args.population); !ok) return ok.error();
     if (auto ok = add_contents(all, "layout file", args.layout); !ok) return ok.error();
@@ -307,6 +313,7 @@ Result<std::unique_ptr<Skin>> make_skin(const SkinJob& job, const SkinProcess& s
     return Skin::make(job.skin, {job.source->clock().T(), job.run_info.method, job.run_info.sampled, 0, 0}, *set, self.part());
 }
 
+/// Runs the skin in a single process or as rank 0, and writes all outputs.
 Result<void> coordinate_skin(SkinJob& job, const RespondArguments& args, const CommonArguments& common, const SkinProcess& self) {
     auto skin = make_skin(job, self);
     if (!skin) return skin.error();
@@ -329,20 +336,20 @@ Result<void> coordinate_skin(SkinJob& job, const RespondArguments& args, const C
                                       job.source->clock().T() * static_cast<double>(checkpoint->resumed_samples()), args.checkpoint));
     }
     SkinSpikeTimes times;
-    std::vector<SkinSink*> listeners = {&summary, &silence};
-    if (common.json) listeners.push_back(&times);
-    outputs.add_listeners(listeners);
+    std::vector<SkinSink*> sinks = {&summary, &silence};
+    if (common.json) sinks.push_back(&times);
+    outputs.add_sinks(sinks);
     const auto simulator = self.ranks ? distributed_skin_simulator(*self.ranks, **skin, pool) : local_skin_simulator(**skin, pool);
     const SkinInput input{job.name, job.source->description(), job.source->clock(), job.source->phases(), *job.skin};
-    const auto work = [&] {
+    const auto stats = [&] {
         Progress progress(common.quiet);
-        return run_skin(*job.force, input, *simulator, listeners,
+        return run_skin(*job.force, input, *simulator, sinks,
                         {[&](double fraction) { return progress.update(fraction), !interrupted(); }, checkpoint.get()});
     }();
-    if (!work && work.error().code == ErrorCode::interrupted && checkpoint)
+    if (!stats && stats.error().code == ErrorCode::interrupted && checkpoint)
         return Error{ErrorCode::interrupted, fmt::format("interrupted; the same command resumes from {}", args.checkpoint)};
-    if (!work) return work.error();
-    job.run_info.stats = *work;
+    if (!stats) return stats.error();
+    job.run_info.stats = *stats;
     add_force_notes(job);
     add_silence_notes(job, args, silence.silent_classes(job.run_info.method, job.run_info.sampled));
     add_rate_warnings(job, summary);
@@ -364,6 +371,7 @@ Result<void> coordinate_skin(SkinJob& job, const RespondArguments& args, const C
     return {};
 }
 
+/// Runs the skin in this process, as the coordinator or as a worker.
 Result<void> run_as(const RespondArguments& args, const CommonArguments& common, const SkinProcess& self) {
     auto job = prepare_skin(args);
     if (!self.is_coordinator()) {

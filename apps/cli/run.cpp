@@ -26,6 +26,7 @@ namespace {
 using namespace circuit;
 using Json = nlohmann::ordered_json;
 
+/// The values of a curve; a complex value is a pair of real and imaginary part.
 Json column(const Plot& plot, const Curve& curve) {
     Json out = Json::array();
     for (const auto& x : curve.values)
@@ -34,7 +35,7 @@ Json column(const Plot& plot, const Curve& curve) {
     return out;
 }
 
-/// Collects saved curves for the JSON document. It is not used if the curves go into a file.
+/// Collects the saved curves in memory for the JSON document. It is not used with --out.
 class CollectedPlots final : public CurveSink {
     PlotRecorder recorder_;
 
@@ -48,12 +49,12 @@ public:
     Result<void> end() override { return plots.push_back(std::move(recorder_.plot)), Result<void>(); }
 };
 
-/// One variant of the netlist (a step or a Monte Carlo chip) and its results.
+/// One variant of the netlist (a step of .step or a chip of .mc) and its results.
 struct VariantResult {
     Variant variant;
     RunOutcome outcome;
-    std::vector<Plot> plots;  ///< for the JSON document; without the curves that were streamed into a file
-    std::optional<Cost> cost = {};
+    std::vector<Plot> plots;        ///< for the JSON document; with --out, without the points of transients, which are only in the file
+    std::optional<Cost> cost = {};  ///< with --budget
 };
 
 Json document_of(const VariantResult& result) {
@@ -82,6 +83,7 @@ Json document_of(const VariantResult& result) {
     return out;
 }
 
+/// Prints the measurements and the expectations, in SI units.
 void print_numbers(const RunOutcome& outcome) {
     for (const auto& [name, value] : outcome.numbers)
         std::isnan(value) ? fmt::print("{:20} = failed\n", printable(name)) : fmt::print("{:20} = {:.6e}\n", printable(name), value);
@@ -90,6 +92,7 @@ void print_numbers(const RunOutcome& outcome) {
                    e.is_met ? "holds" : "does not hold");
 }
 
+/// Prints all results of the only variant.
 void print(const VariantResult& result) {
     for (const auto& a : result.outcome.analyses) {
         fmt::print("{}.{}: {} point{}\n", &a == &result.outcome.analyses[0] ? "" : "\n", a.directive->name, a.point_count,
@@ -101,7 +104,7 @@ void print(const VariantResult& result) {
     if (result.cost) print_text("\n" + budget_tables(*result.cost));
 }
 
-/// Prints the measurements of one variant in one line.
+/// Prints the numbers of one of several variants in one line, and its .print tables.
 void print_line(const VariantResult& result) {
     fmt::print("{}:", printable(result.variant.label));
     for (const auto& [name, value] : result.outcome.numbers) fmt::print("  {} = {:.6e}", printable(name), value);
@@ -123,15 +126,15 @@ struct MeasurementStats {
     double deviation() const { return count < 2 ? 0 : std::sqrt(squares / static_cast<double>(count - 1)); }
 };
 
-/// Prints each variant when it is finished, and statistics at the end.
+/// Prints each variant when it is finished, and for .mc statistics at the end. With several variants, the JSON document is an array.
 class VariantPrinter {
     const CommonArguments& common_;
-    bool has_steps_, is_monte_carlo_;
-    std::size_t count_ = 0;
-    std::vector<MeasurementStats> stats_;
+    bool has_steps_, is_monte_carlo_;      // the netlist has several variants; it has .mc
+    std::size_t count_ = 0;                // number of printed JSON documents
+    std::vector<MeasurementStats> stats_;  // only for .mc
 
 public:
-    std::vector<Error> failures;              ///< of variants that did not converge
+    std::vector<Error> failures;              ///< errors of the variants that did not converge
     std::optional<Error> failed_expectation;  ///< the first expectation that was not met
 
     VariantPrinter(const CommonArguments& common, bool has_steps, bool is_monte_carlo)
@@ -154,6 +157,7 @@ public:
             has_steps_ ? print_line(result) : print(result);
         }
     }
+    /// Prints and counts a variant that did not converge.
     void fail(const std::string& label, const Error& error) {
         failures.push_back(error);
         if (common_.json)
@@ -161,6 +165,7 @@ public:
         else if (!common_.quiet)
             print_text(fmt::format("{}:  {}\n", printable(label), printable(error.message)));
     }
+    /// Ends the JSON array, or prints the statistics.
     void finish() {
         if (common_.json) return has_steps_ ? fmt::print("{}]\n", count_ == 0 ? "[" : "\n") : void();
         if (common_.quiet) return;
@@ -186,14 +191,15 @@ private:
 
 /// The progress of a variant. If there are transients, other analyses are not counted, because transients take most of the time.
 class VariantProgress {
-    std::size_t analyses_ = 0, transients_ = 0, done_ = 0;
-    double last_ = 0;  // fraction of the current analysis; a smaller one means that the next analysis has begun
+    std::size_t analyses_ = 0, transients_ = 0;  // in the netlist
+    std::size_t done_ = 0;                       // number of counted analyses that have ended
+    double last_ = 0;                            // last fraction of the current analysis; a smaller one means that the next has begun
 
 public:
     explicit VariantProgress(const Circuit& circuit) {
         for (const auto& c : circuit.directives) analyses_ += find_analysis(c.name) != nullptr, transients_ += c.name == "tran";
     }
-    /// The finished fraction of the variant when `fraction` of the current analysis is finished; both 0 to 1.
+    /// The finished fraction of the variant when `fraction` of `analysis` ("tran"), the current one, is finished; both 0 to 1.
     double of(std::string_view analysis, double fraction) {
         if (transients_ > 0 && analysis != "tran") return static_cast<double>(done_) / static_cast<double>(transients_);
         if (fraction < last_) ++done_;
@@ -208,7 +214,8 @@ std::size_t analysis_count_of(const Circuit& circuit) {
                                                   [](const Directive& c) { return find_analysis(c.name) != nullptr; }));
 }
 
-/// Creates the analysis context of a variant, or reuses the last one if the circuit is the same. `brief`: without tables and warnings.
+/// Creates the analysis context of a variant, or reuses `context` if the circuit is the same, as for the chips of .mc. `brief`: analyses
+/// make no tables and no warnings.
 Result<void> prepare(std::unique_ptr<AnalysisContext>& context, const Variant& variant, bool brief) {
     if (!context || context->circuit != variant.circuit) {
         auto made = AnalysisContext::make(variant.circuit);
@@ -220,6 +227,7 @@ Result<void> prepare(std::unique_ptr<AnalysisContext>& context, const Variant& v
     return {};
 }
 
+/// Runs all variants. A variant that does not converge is passed to the printer, unless it is the only one; any other error ends the run.
 Result<void> run_all(NetlistVariants& variants, const RunArguments& args, const CommonArguments& common, VariantPrinter& printer,
                      CurveFiles& files) {
     const auto count = variants.count();
@@ -228,7 +236,7 @@ Result<void> run_all(NetlistVariants& variants, const RunArguments& args, const 
     for (std::size_t k = 0; k < count; ++k) {
         auto variant = variants.at(k);
         if (!variant) return variant.error();
-        if (auto ok = prepare(context, *variant, k > 0 || variants.has_chips()); !ok) return ok;
+        if (auto ok = prepare(context, *variant, /* brief = */ k > 0 || variants.has_chips()); !ok) return ok;
         if (k == 0)
             if (auto ok = files.check(analysis_count_of(*variant->circuit)); !ok) return ok;
         VariantProgress variant_progress(*variant->circuit);
@@ -267,7 +275,7 @@ Result<void> run_all(NetlistVariants& variants, const RunArguments& args, const 
     return {};
 }
 
-/// Finishes the files of an incomplete run, with a warning that they end early.
+/// Keeps the files of an incomplete run, with a warning that says where they end.
 void keep_partial_files(CurveFiles& files) {
     const auto note = files.finish_early(interrupted());
     if (!note)

@@ -17,7 +17,7 @@ namespace corpuscle {
 
 SkinOutputs::~SkinOutputs() {
     report_file_.reset(), summary_file_.reset();
-    while (!files_.empty()) files_.pop_back();  // reverse order: the first file may have created the directory
+    while (!files_.empty()) files_.pop_back();  // in reverse order: the first file may have created the directory, and then removes it
 }
 
 template <class F, class... A>
@@ -77,9 +77,9 @@ Result<void> SkinOutputs::open(const RespondArguments& args, const SkinSummary& 
     return {};
 }
 
-void SkinOutputs::add_listeners(std::vector<SkinSink*>& listeners) {
-    for (auto& file : files_) listeners.push_back(&*file);
-    if (report_) listeners.push_back(&*report_);
+void SkinOutputs::add_sinks(std::vector<SkinSink*>& sinks) {
+    for (auto& file : files_) sinks.push_back(&*file);
+    if (report_) sinks.push_back(&*report_);
 }
 
 std::vector<std::string> SkinOutputs::paths() const {

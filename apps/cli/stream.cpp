@@ -25,6 +25,7 @@
 namespace corpuscle {
 namespace {
 
+/// The plan of the skin of --population. `channels`: of the recording or stimulus; empty for a live input.
 Result<SkinPlan> plan_of(const StreamArguments& args, std::span<const Channel> channels, std::span<const ParameterOverride> overrides) {
     if (channels.empty()) return make_live_plan(args.population, args.channel_count, overrides);
     if (is_afferent_list(args.population)) return make_channel_plan(args.population, channels, overrides);
@@ -34,7 +35,7 @@ Result<SkinPlan> plan_of(const StreamArguments& args, std::span<const Channel> c
     return plan;
 }
 
-/// The components of one stream.
+/// One stream: its input, skin and output.
 class LiveRun {
     const StreamArguments& args_;
     const CommonArguments& common_;
@@ -45,7 +46,7 @@ class LiveRun {
     std::unique_ptr<EventFormat> format_;
     std::unique_ptr<EventSink> sink_;
     std::unique_ptr<StreamLoop> loop_;
-    bool status_shown_ = false;
+    bool is_status_shown_ = false;  // true while the last line of the terminal is the status line
 
     StreamReportInput report_input() const { return {*skin_, *frames_, *sink_, *format_, *loop_}; }
 
@@ -64,8 +65,9 @@ class LiveRun {
         return {};
     }
 
-    /// Maps the columns of a CSV header to sites. Either all names are sites, or none is and the columns are in site order.
-    /// `sites`: the site of each column according to --layout; empty: the columns are all sites in order.
+    /// Makes the function that reads the names in a CSV header. Either all names are sites, or none is. The function returns the site of
+    /// each column, or an empty list if the columns have the order of `sites`: the site of each column according to --layout, or empty for
+    /// all sites in order.
     HeaderReader header_reader(std::vector<std::uint32_t> sites) const {
         return [this, sites = std::move(sites)](std::span<const std::string> names) -> Result<std::vector<std::uint32_t>> {
             const auto& all = skin_->innervation().plan.sites;
@@ -110,6 +112,7 @@ class LiveRun {
         return {};
     }
 
+    /// `clock`: of the frames.
     Result<void> open_skin(const SkinPlan& plan, Clock clock) {
         clock.t0 = 0;  // time 0 is the first frame
         auto innervation = innervate(plan);
@@ -133,6 +136,7 @@ class LiveRun {
         return {};
     }
 
+    /// Loads the state of --resume: the skin, the last force of each site, and the number of the last frame if frames are numbered.
     Result<void> load_state() {
         if (args_.resume.empty()) return {};
         const auto state = load_stream(args_.resume);
@@ -154,7 +158,7 @@ class LiveRun {
     }
 
     void clear_status() {
-        if (std::exchange(status_shown_, false)) fmt::print(stderr, "\r\033[K");
+        if (std::exchange(is_status_shown_, false)) fmt::print(stderr, "\r\033[K");
     }
     void print(const std::string& text) { clear_status(), print_message(text); }
     void warn(const std::string& text) { clear_status(), print_warning(fmt::format("{}: {}", input_name(args_.in), text)); }
@@ -170,7 +174,7 @@ class LiveRun {
                                  c.afferent.min_rate));
     }
 
-    /// Prints the quality findings of a recording.
+    /// Prints the findings about the quality of a recording.
     void print_quality() {
         if (!source_) return;
         const auto quality = source_->quality();
@@ -179,9 +183,10 @@ class LiveRun {
         for (const auto& s : quality.warnings) clear_status(), print_warning(fmt::format("{}: {}", source_->name(), s));
     }
 
+    /// Describes the error of a frame. If the width of a frame is wrong, adds the option that would make it right.
     std::string frame_error_text(const FrameError& frame_error) const {
         const auto text = describe_frame_error(frame_error, layout_, args_.layout.empty() ? args_.population : args_.layout);
-        const auto stamps = layout_.stamp == FrameStamp::none ? 0U : 1U;
+        const auto stamps = layout_.stamp == FrameStamp::none ? 0U : 1U;  // number of fields before the forces
         if (frame_error.reason == FrameError::header) return "header: " + text;
         if (frame_error.reason != FrameError::width || !args_.layout.empty() || frame_error.found <= stamps) return text;
         const auto& plan = skin_->innervation().plan;
@@ -204,6 +209,7 @@ class LiveRun {
                                                    : fmt::format("no frame from {}", from));
     }
 
+    /// Returns an error if spikes or datagrams were lost, unless --allow-drops was given.
     Result<void> check_drops() const {
         const auto spikes = loop_->stats().dropped + sink_->dropped(), datagrams = frames_->counts().senders.dropped;
         if (args_.allow_drops || spikes + datagrams == 0) return {};
@@ -214,13 +220,13 @@ class LiveRun {
             fmt::format("{}; use --allow-drops to accept this{}", message, loop_->stats().dropped > 0 ? ", or a larger --buffer" : ""));
     }
 
-    /// Prints the status line, unless the terminal is blocked (Ctrl-S): it must not block the stream.
+    /// Prints the status line, unless the terminal is blocked (Ctrl-S), because printing would then block the stream.
     void show_status() {
         pollfd terminal = {STDERR_FILENO, POLLOUT, 0};
         if (::poll(&terminal, 1, 0) != 1) return;
         fmt::print(stderr, "\r\033[K{}", stream_status(report_input()));
         std::fflush(stderr);
-        status_shown_ = true;
+        is_status_shown_ = true;
     }
 
     void print_summary() {
@@ -229,6 +235,7 @@ class LiveRun {
         if (!common_.quiet && !common_.json) fmt::print(stderr, "corpuscle: {}", printable_lines(stream_summary(report_input())));
     }
 
+    /// Opens input, skin and output.
     Result<void> open(const StreamQuantities& quantities, std::span<const ParameterOverride> overrides) {
         if (auto ok = is_live_input(args_.in) ? open_live(quantities, overrides) : open_recorded(quantities, overrides); !ok) return ok;
         std::vector<std::string_view> others;
@@ -239,7 +246,7 @@ class LiveRun {
         return open_sink(quantities);
     }
 
-    /// The file of --resume may be replaced by --save-state, but by no other output.
+    /// Checks that the output files may be written. The file of --resume may be replaced by --save-state, but by no other output.
     Result<void> check_outputs() const {
         OutputCheck outputs(common_.overwrite);
         remember_input("-");  // standard input may be a file, which must not be replaced

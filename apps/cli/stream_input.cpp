@@ -13,7 +13,7 @@
 namespace corpuscle {
 namespace {
 
-constexpr double stimulus_rate = 1e3;  // Hz
+constexpr double stimulus_rate = 1e3;  // Hz, default sample rate of a stimulus
 
 /// Parses an option that has a default.
 Result<double> required_quantity(const std::string& text, std::string_view unit, std::string_view option) {
@@ -22,9 +22,9 @@ Result<double> required_quantity(const std::string& text, std::string_view unit,
     return **value;
 }
 
-/// Rejects options of recordings that live frames do not have, with the reason.
+/// Returns an error, with the reason, if an option was given that applies to recordings but not to live frames.
 Result<void> check_live_options(const StreamArguments& args) {
-    RecordingArguments others = args;  // without the options that live frames have
+    RecordingArguments others = args;  // without the options that also apply to live frames
     others.unit.reset(), others.scale.reset(), others.offset.reset(), others.layout.clear();
     const auto option = first_recording_option(others);
     if (option.empty()) return {};
@@ -38,6 +38,7 @@ Result<void> check_live_options(const StreamArguments& args) {
     return bad_usage(fmt::format("{} is for recordings (--in FILE), not for live frames from {}: {}", option, input_name(args.in), reason));
 }
 
+/// The port of "tcp:PORT" or "udp:PORT".
 Result<int> port_of(const StreamArguments& args) {
     const auto scheme = args.in.substr(0, 4);
     int port = 0;
@@ -93,7 +94,7 @@ Result<Clock> live_clock(const StreamArguments& args, const StreamQuantities& qu
 
 Result<FrameLayout> live_layout(const StreamArguments& args, const StreamQuantities& quantities, std::size_t sites, const Clock& clock) {
     if (auto ok = check_live_options(args); !ok) return ok.error();
-    Column column;  // names the frame in error messages
+    Column column;  // only for the name of the frame in error messages
     column.name = "a frame";
     const auto scale = newtons_per_unit(column, quantities.recording, input_name(args.in));
     if (!scale) return scale.error();
@@ -111,7 +112,7 @@ Result<FrameLayout> live_layout(const StreamArguments& args, const StreamQuantit
 Result<std::unique_ptr<ByteSource>> open_live_input(const StreamArguments& args, const StreamQuantities& quantities,
                                                     const FrameLayout& layout) {
     if (args.in == "-") return open_standard_input();
-    if (args.in.starts_with("serial:")) return open_serial(args.in.substr(7), args.baud);
+    if (args.in.starts_with("serial:")) return open_serial(args.in.substr(std::string_view("serial:").size()), args.baud);
     const auto port = port_of(args);
     if (!port) return port.error();
     const SenderLimits limits{args.clients, static_cast<std::int64_t>(std::min(quantities.idle_timeout, 1e9) * 1e9)};

@@ -15,23 +15,28 @@ namespace corpuscle {
 
 /// True for a live input (-, tcp:PORT, udp:PORT, serial:DEVICE), false for a recording or a stimulus.
 bool is_live_input(const std::string& in);
-/// "standard input", "tcp:7000", "grip.csv"
+/// The name of an input in messages: "standard input" for "-", otherwise as typed, such as "tcp:7000" or "grip.csv".
 std::string input_name(const std::string& in);
 
-/// Quantities of the command line in SI: max_force in N, times in s, the buffer in bytes.
+/// The options of the command line that are quantities.
 struct StreamQuantities {
-    RecordingOptions recording;  ///< rate, scale, offset and unit apply to live frames, too
-    double max_force = 0, hold = 0, max_gap = 0, buffer = 0, idle_timeout = 0;
+    RecordingOptions recording;                      ///< rate, scale, offset and unit apply to live frames, too
+    double max_force = 0;                            ///< N
+    double hold = 0, max_gap = 0, idle_timeout = 0;  ///< s
+    double buffer = 0;                               ///< bytes
 };
+/// Parses these options.
 Result<StreamQuantities> stream_quantities(const StreamArguments&);
 
-/// Opens a recording, read as by respond, or a stimulus.
+/// Opens the recording, read as by `respond`, or the stimulus of --in.
 Result<std::unique_ptr<ForceSource>> open_stream_source(const StreamArguments&, const StreamQuantities&,
                                                         std::span<const ParameterOverride>);
 
-/// The clock of live frames, and the layout of their bytes.
+/// The clock of live frames.
 Result<Clock> live_clock(const StreamArguments&, const StreamQuantities&);
+/// The layout of live frames. `sites`: number of forces in a frame.
 Result<FrameLayout> live_layout(const StreamArguments&, const StreamQuantities&, std::size_t sites, const Clock&);
+/// Opens a live input: standard input, a port or a serial device.
 Result<std::unique_ptr<ByteSource>> open_live_input(const StreamArguments&, const StreamQuantities&, const FrameLayout&);
 
 }  // namespace corpuscle

@@ -8,9 +8,10 @@
 namespace corpuscle {
 namespace {
 
+/// A time in ns as text, such as "12.5 us".
 std::string time_of(std::int64_t ns) { return format_quantity(static_cast<double>(ns) * 1e-9, "s"); }
 
-/// "3 gaps", "1 gap"
+/// A number with its noun: "3 gaps", "1 gap".
 std::string counted(std::int64_t n, std::string_view noun) { return fmt::format("{} {}{}", n, noun, n == 1 ? "" : "s"); }
 
 std::string quantiles(const LatencyHistogram& histogram) {
@@ -18,7 +19,8 @@ std::string quantiles(const LatencyHistogram& histogram) {
                        time_of(histogram.quantile(0.999)), time_of(histogram.max()));
 }
 
-/// True if frames arrived one at a time at the pace of a clock. If they arrived in bulk, jitter is meaningless.
+/// True if live frames arrived one batch at a time at the pace of a clock. If they arrived in bulk, as from a file, jitter and input rate
+/// are meaningless.
 bool is_paced(const StreamReportInput& parts) {
     const auto& stats = parts.loop.stats();
     if (!parts.frames.is_live() || stats.rate() == 0) return false;
@@ -26,7 +28,7 @@ bool is_paced(const StreamReportInput& parts) {
     return !in_bulk || stats.rate() < 2 * parts.skin.clock().rate();
 }
 
-/// Everything that went wrong, one line each.
+/// One line for each kind of problem that occurred.
 std::string problems(const StreamReportInput& parts) {
     const auto counts = parts.frames.counts();
     const auto& order = counts.sequence;
@@ -40,7 +42,7 @@ std::string problems(const StreamReportInput& parts) {
          fmt::format("the sender's frame numbers restarted {}", order.restarts == 1 ? "once" : counted(order.restarts, "time"))},
         {counts.unreadable, counted(counts.unreadable, "frame") + " unreadable: replaced by the last force"},
         {counts.invalid_values,
-         counted(counts.invalid_values, "reading") + " invalid or beyond the limit: replaced by the last force of the site"},
+         counted(counts.invalid_values, "reading") + " invalid or beyond --max-force: replaced by the last force of the site"},
         {counts.partial_frames, counted(counts.partial_frames, "incomplete frame") + " at a disconnect"},
         {counts.senders.idle, counted(counts.senders.idle, "sender") + " disconnected: idle while another was waiting"},
         {counts.senders.ignored, counted(counts.senders.ignored, "datagram") + " from other senders ignored"},
@@ -57,6 +59,7 @@ std::string problems(const StreamReportInput& parts) {
     return text;
 }
 
+/// The quantiles of a histogram of times (ns), in s.
 nlohmann::ordered_json in_seconds(const LatencyHistogram& histogram) {
     const auto s = [](std::int64_t ns) { return static_cast<double>(ns) * 1e-9; };
     return {{"count", histogram.count()},

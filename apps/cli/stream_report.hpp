@@ -17,9 +17,11 @@ struct StreamReportInput {
     const StreamLoop& loop;
 };
 
+/// The summary at the end of a stream.
 std::string stream_summary(const StreamReportInput&);
-/// One line for a terminal.
+/// The status line during a stream.
 std::string stream_status(const StreamReportInput&);
+/// The summary as a JSON document.
 nlohmann::ordered_json stream_document(const StreamReportInput&);
 
 }  // namespace corpuscle

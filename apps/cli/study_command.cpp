@@ -20,7 +20,8 @@
 namespace corpuscle {
 namespace {
 
-/// True if `requested` lies in the range of a study: "table17" in table17-18, "eq40" in eq34-41.
+/// True if `requested` is one of the figures, tables or equations that the name of a study covers: "table17" in table17-18, "eq40" in
+/// eq34-41.
 bool covers(std::string_view study, std::string_view requested) {
     const auto digits = requested.find_first_of("0123456789");
     if (digits == std::string_view::npos || digits == 0 || requested.find_first_not_of("0123456789", digits) != std::string_view::npos ||
@@ -35,6 +36,7 @@ bool covers(std::string_view study, std::string_view requested) {
     return number >= from && number <= to;
 }
 
+/// The studies that the names select, each of them once.
 Result<std::vector<const Study*>> selected_studies(const std::vector<std::string>& names) {
     std::vector<std::string_view> known = {"all"};
     for (const auto* s : all_studies) known.push_back(s->name);
@@ -68,7 +70,7 @@ std::string text_of(const Study& study, const StudyResult& result) {
     return text;
 }
 
-/// The directory of the recordings that recorded_studies read.
+/// The directory of the recordings that recorded_studies read: CORPUSCLE_DATA, or a default.
 std::string recordings_directory() {
     const char* data = std::getenv("CORPUSCLE_DATA");
     return data && *data ? data : "../shared/data";

@@ -19,6 +19,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
+/// Parses "K/N", where K counts from 1; Shard::index counts from 0. "" is the complete sweep.
 Result<Shard> shard_of(const std::string& text) {
     if (text.empty()) return Shard{};
     long long k = 0, n = 0;
@@ -28,7 +29,7 @@ Result<Shard> shard_of(const std::string& text) {
     return Shard{k - 1, n};
 }
 
-/// The default results file in the current directory: "mc.sqlite" for some/where/mc.toml, "mc-1of4.sqlite" for a shard.
+/// The results file of --out. The default is in the current directory: "mc.sqlite" for some/where/mc.toml, "mc-1of4.sqlite" for shard 1/4.
 std::string results_path(const SweepArguments& args, const Shard& shard) {
     if (!args.out.empty()) return args.out;
     const auto stem = fs::path(args.file).stem().string();
@@ -48,29 +49,31 @@ struct SweepProcess {
     bool is_coordinator() const { return !ranks || ranks->rank() == 0; }
 };
 
-Result<void> run_items(const SweepProcess& self, const Sweep& sweep, SweepResults& results, const SweepRunOptions& run,
+/// Runs the missing items, in a single process or as the coordinator of the ranks.
+Result<void> run_items(const SweepProcess& self, const Sweep& sweep, SweepResults& results, const SweepRunOptions& run_options,
                        const CommonArguments& common) {
     SweepProgress progress;
-    if (!self.ranks) return run_sweep(sweep, results, run, progress);
+    if (!self.ranks) return run_sweep(sweep, results, run_options, progress);
     if (!self.ranks->survive_death_of_one() && !common.quiet)
         fmt::print(stderr,
                    "corpuscle: note: if one rank dies, mpirun ends all of them, and the same command resumes the sweep. "
-                   "With 'mpirun --enable-recovery ...' the others finish\n");
+                   "With 'mpirun --enable-recovery ...' the other ranks finish\n");
     DeadRanks dead_ranks;
-    auto ok = run_coordinator(*self.ranks, sweep, results, run, progress, dead_ranks);
+    auto ok = run_coordinator(*self.ranks, sweep, results, run_options, progress, dead_ranks);
     if (dead_ranks.ranks > 0)
         fmt::print(stderr, "corpuscle: warning: {} rank{} died or stopped responding, and other ranks repeat {} items\n", dead_ranks.ranks,
                    dead_ranks.ranks == 1 ? "" : "s", dead_ranks.redistributed_items);
     return ok;
 }
 
-/// Adds the next step to the error of an interrupted run.
+/// The error of a run; if it was interrupted, the message says how to resume it.
 Error with_advice(const Error& error, const SweepResults& results) {
     if (error.code != ErrorCode::interrupted) return error;
     return {error.code, fmt::format("interrupted; {} of {} items have ended and are saved in {}; the same command resumes the sweep",
                                     results.finished_count(), results.item_count(), results.path())};
 }
 
+/// Opens the results file, runs the missing items and prints the status.
 Result<void> coordinate_run(const SweepProcess& self, const Sweep& sweep, const SweepArguments& args, const CommonArguments& common,
                             const Shard& shard) {
     auto results = SweepResults::open(results_path(args, shard), sweep);
@@ -78,14 +81,15 @@ Result<void> coordinate_run(const SweepProcess& self, const Sweep& sweep, const 
         if (self.ranks) shut_down_workers(*self.ranks);
         return results.error();
     }
-    const auto before = results->finished_count();
-    SweepRunOptions run{.threads = self.ranks ? std::max(1U, args.threads) : args.threads, .shard = shard, .should_stop = interrupted};
+    const auto finished_before = results->finished_count();
+    SweepRunOptions run_options{
+        .threads = self.ranks ? std::max(1U, args.threads) : args.threads, .shard = shard, .should_stop = interrupted};
     auto done = [&] {
         Progress progress(common.quiet);
-        run.on_progress = [&](const SweepProgress& c) {
+        run_options.on_progress = [&](const SweepProgress& c) {
             progress.update(static_cast<double>(c.finished()) / static_cast<double>(std::max<std::int64_t>(1, c.planned)));
         };
-        return run_items(self, sweep, *results, run, common);
+        return run_items(self, sweep, *results, run_options, common);
     }();
     if (const auto checkpointed = results->checkpoint(); !checkpointed && !common.quiet)
         print_warning(fmt::format("the results are complete only if {} is kept together with {}-wal: {}", results->path(), results->path(),
@@ -94,7 +98,7 @@ Result<void> coordinate_run(const SweepProcess& self, const Sweep& sweep, const 
     const auto state = read_sweep_status(*results, shard);
     if (!state) return state.error();
     auto final_state = *state;
-    final_state.finished_now = results->finished_count() - before, final_state.sweep = args.file;
+    final_state.finished_now = results->finished_count() - finished_before, final_state.sweep = args.file;
     print_state(common, final_state);
     if (results->finished_count() > 0 && final_state.diverged == results->finished_count())
         return Error{ErrorCode::not_converged,
@@ -158,6 +162,7 @@ Result<void> merge(const SweepMergeArguments& args, const CommonArguments& commo
     auto out = SweepResults::open(args.out, in.front());
     if (!out) return out.error();
     auto ok = merge_all(*out, in, common);
+    // A checkpoint also after an error, so that the items merged so far are in the file; the first error is returned.
     if (auto checkpointed = out->checkpoint(); ok) ok = checkpointed;
     if (!ok) return ok;
     const auto state = read_sweep_status(*out, {});
@@ -188,7 +193,7 @@ int sweep(const SweepArguments& args, const CommonArguments& common) {
     if (args.status) return status_of(show_sweep_status(args, common));
     SweepProcess self;
     const auto done = run(args, common, self);
-    // With several ranks the coordinator prints errors. Other ranks have sent theirs to it, unless it has died.
+    // With several ranks the coordinator prints all errors. A worker returns an error only if the coordinator has died.
     const bool prints_errors = self.ranks ? self.is_coordinator() || !done : Ranks::reports_errors();
     const int code = done ? 0 : prints_errors ? report_error(done.error()) : static_cast<int>(done.error().code);
     if (self.ranks && !self.ranks->left_together()) {

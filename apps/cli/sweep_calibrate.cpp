@@ -1,4 +1,4 @@
-// corpuscle sweep calibrate: trims simulated chips of one netlist to match a model; prints the yield for each number of bits.
+// corpuscle sweep calibrate: trims simulated chips of one netlist to match a model; prints the yield for each number of trim bits.
 
 #include <fmt/format.h>
 #include <cmath>
@@ -13,7 +13,7 @@
 namespace corpuscle {
 namespace {
 
-/// The default trims of the two built-in circuits.
+/// The default trims of a built-in circuit, and the model that it must match.
 struct DefaultTrims {
     const char *netlist, *model, *trims[3];
 };
@@ -22,7 +22,8 @@ constexpr DefaultTrims default_trims[] = {
     {"fa1-circuit", "fa1", {"i_leak=100%", "i_biasb=25%", "rect.p1b.m+rect.n2b.m=50%"}},
 };
 
-/// Parses "rect.p1b.m+rect.n2b.m=50%": parameter names joined by +, and the range. Multipliers (.m) are integers.
+/// Parses "rect.p1b.m+rect.n2b.m=50%": names of parameters that are trimmed together, and the range, by which the highest code increases
+/// their value. If the first name is a multiplier (.m), the values are integers.
 Result<Trim> parse_trim(const std::string& text, const ChipCalibration& calibration) {
     const auto equals = text.find('=');
     const auto range = equals == std::string::npos ? std::nullopt : std::optional(text.substr(equals + 1));
@@ -42,9 +43,9 @@ Result<Trim> parse_trim(const std::string& text, const ChipCalibration& calibrat
     return trim_of(calibration.netlist, calibration.overrides, std::move(names), percent / 100, is_integer);
 }
 
-constexpr double max_first_spike_error = 10e-3;  // s
+constexpr double max_first_spike_error = 10e-3;  // s, between the first spikes of chip and model
 
-/// Sets the stimulus, and derives the pass limits from the response of the model.
+/// Sets the stimulus, and derives the pass limits from the response of the model in each phase and between the phases.
 Result<void> set_target(ChipCalibration& calibration, const std::string& model, const SweepCalibrateArguments& args) {
     const TrialSpec trial{model, args.force, {}, 10e3};
     const auto stimulus = trial_force(trial);
@@ -64,6 +65,7 @@ Result<void> set_target(ChipCalibration& calibration, const std::string& model, 
     return {};
 }
 
+/// Calibrates the same chips with all trims and, with --separately, also with each trim alone.
 Result<std::vector<CalibrationResult>> run_calibrations(ChipCalibration& calibration, const std::vector<Trim>& trims,
                                                         const SweepCalibrateArguments& args) {
     const circuit::ChipSpec sampler{static_cast<double>(args.samples), args.seed};

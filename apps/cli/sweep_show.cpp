@@ -19,6 +19,7 @@
 namespace corpuscle {
 namespace {
 
+/// The options of the summary; the quantiles are sorted.
 Result<SweepSummaryOptions> summary_options(const SweepShowArguments& args) {
     SweepSummaryOptions out;
     out.axes = args.by;

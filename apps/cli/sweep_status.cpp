@@ -10,15 +10,16 @@
 namespace corpuscle {
 namespace {
 
-/// Finished items per second since the writer started; 0 if not yet known.
+/// Items that the writer has finished per second since it started; 0 if there is no writer or it has just started.
 double rate_of(const SweepStatus& s) {
     if (!s.writer || s.running_for < 1) return 0;
     return static_cast<double>(s.finished - s.writer->finished) / s.running_for;
 }
 
+/// Seconds until the writer has finished the items that it planned. Only if rate_of() is not 0.
 double seconds_left(const SweepStatus& s) {
-    const double left = static_cast<double>(s.writer->planned - (s.finished - s.writer->finished));
-    return left / rate_of(s);
+    const double items_left = static_cast<double>(s.writer->planned - (s.finished - s.writer->finished));
+    return items_left / rate_of(s);
 }
 
 std::string writer_text(const SweepStatus& s) {
@@ -27,7 +28,7 @@ std::string writer_text(const SweepStatus& s) {
     return text + "\n";
 }
 
-/// The command to run next; "" while the sweep is running.
+/// A line that names the next command; "" while the sweep is running, or if the command is unknown.
 std::string next_step(const SweepStatus& s) {
     if (s.writer) return "";
     if (s.missing() > 0)

@@ -12,18 +12,20 @@ namespace {
 
 using Rows = std::vector<std::vector<std::string>>;
 
-constexpr std::size_t max_devices = 5;
-constexpr double min_fraction = 0.0005;  // smaller fractions would print as 0.0 %
+constexpr std::size_t max_devices = 5;   // listed for each measure
+constexpr double min_fraction = 0.0005;  // smaller fractions of variance would print as 0.0 %
 
-/// Formats the values of one measure: the same unit prefix for all, and decimals that suit the standard deviation.
+/// Formats the values of one measure: all with the same unit prefix, and with a number of decimals that follows from the standard
+/// deviation.
 class NumberFormat {
-    double factor_ = 1;
+    double factor_ = 1;  // from the unit of the measure to unit_
     int decimals_ = 4;
-    bool scientific_ = false;  // very large or small, without a unit that could take a prefix
-    bool integers_ = false;    // print integers without decimals
-    std::string unit_;
+    bool scientific_ = false;  // true for very large or small values whose unit takes no prefix
+    bool integers_ = false;    // true: integers are printed without decimals
+    std::string unit_;         // with prefix
 
 public:
+    /// `counts`: values without a unit are printed as integers if the smallest and the largest are.
     NumberFormat(const std::string& unit, const MeasureSummary& m, bool counts = false)
         : integers_(counts && unit.empty() && m.min == std::round(m.min) && m.max == std::round(m.max)), unit_(unit) {
         const double size = std::max(std::abs(m.min), std::abs(m.max)),
@@ -49,15 +51,18 @@ public:
     }
 };
 
+/// A fraction as a number in percent.
 std::string percent(double fraction) { return std::isnan(fraction) ? "-" : fmt::format("{:.1f}", 100 * fraction); }
 std::string percent_interval(const Estimate& e) {
     return std::isnan(e.low) ? "-" : fmt::format("{:.1f} ... {:.1f}", 100 * e.low, 100 * e.high);
 }
 
+/// The name of a measure with a unit, as a heading.
 std::string heading_of(const SweepColumn& c, const std::string& unit) {
     return unit.empty() ? c.name : fmt::format("{} ({})", c.name, unit);
 }
 
+/// The pass limits of a measure, of which there is at least one.
 std::string limits_of(const SweepColumn& c) {
     const auto formatted = [&](double x) { return format_quantity(x, c.unit); };
     return c.min && c.max ? fmt::format("{} ... {}", formatted(*c.min), formatted(*c.max))
@@ -65,7 +70,7 @@ std::string limits_of(const SweepColumn& c) {
                           : "max " + formatted(*c.max);
 }
 
-/// "chips: 1000 items, all finished; 3 diverged."
+/// The first line: "chips: 1000 items, all finished; 3 diverged."
 std::string opening(const SweepTable& table, const SweepSummary& s, const std::string& title) {
     const auto finished = static_cast<std::int64_t>(table.rows());
     std::string text = finished == table.item_count
@@ -76,6 +81,7 @@ std::string opening(const SweepTable& table, const SweepSummary& s, const std::s
     return text + ".\n";
 }
 
+/// A table of the yield and of the yield of each measure with limits.
 std::string yields(const SweepTable& table, const SweepSummary& s) {
     Rows rows = {{"yield", "limits", "passed", "of", "%", "95 % CI"}};
     const auto line = [&](const std::string& name, const std::string& limits, std::int64_t passed, const Estimate& fraction) {
@@ -90,10 +96,11 @@ std::string yields(const SweepTable& table, const SweepSummary& s) {
     return "\n" + format_table(rows);
 }
 
+/// A table of the statistics of each measure over all items.
 std::string measures_text(const SweepTable& table, const SweepSummary& s) {
     Rows rows = {{"measure", "items", "mean", "95 % CI", "sigma", "95 % CI", "min"}};
     for (const double q : s.options.quantiles) rows[0].push_back(q == 0.5 ? "median" : fmt::format("{:g} %", 100 * q));
-    for (const char* last : {"max", "normality (r)"}) rows[0].emplace_back(last);
+    for (const char* heading : {"max", "normality (r)"}) rows[0].emplace_back(heading);
     for (std::size_t m = 0; m < table.measures.size(); ++m) {
         const auto& one = s.all.measures[m];
         const NumberFormat format(table.measures[m].unit, one);
@@ -109,6 +116,7 @@ std::string measures_text(const SweepTable& table, const SweepSummary& s) {
     return "\n" + format_table(rows);
 }
 
+/// A table of the yield and the measures at each grid point.
 std::string points_text(const SweepTable& table, const SweepSummary& s) {
     if (s.points.size() < 2) return "";
     Rows rows = {{"point", "items", "yield %", "95 % CI"}};
@@ -136,6 +144,7 @@ std::string array_of(const MismatchDevice& d) {
     return d.m == 1 && d.stack == 1 ? size : fmt::format("{:g}x{:g} of {}", d.m, d.stack, size);
 }
 
+/// Adds the parameters and devices on which a measure depends. Only the first line has the name of the measure.
 void add_dependence(Rows& rows, const SweepTable& table, const SweepSummary& s, const Dependence& d) {
     auto name = d.measure;
     const auto line = [&](std::vector<std::string> cells) {
@@ -144,6 +153,7 @@ void add_dependence(Rows& rows, const SweepTable& table, const SweepSummary& s, 
     };
     for (const auto& [axis, between] : d.points) line({table.axes[axis].name, "grid axis", "", percent(between.fraction), "", "", ""});
     for (const auto& i : d.influences)
+        // Devices are listed below, one line for both V_T and I_S of a device.
         if (i.device < 0 && i.influence.fraction.value >= min_fraction)
             line({i.name, "random", "", percent(i.influence.fraction.value), "", "", ""});
     for (std::size_t k = 0; k < std::min(d.devices.size(), max_devices); ++k) {
@@ -157,6 +167,7 @@ void add_dependence(Rows& rows, const SweepTable& table, const SweepSummary& s, 
     if (d.devices.size() > max_devices) line({fmt::format("and {} more devices", d.devices.size() - max_devices), "", "", "", "", "", ""});
 }
 
+/// A table of the parameters and devices on which each measure and the yield depend.
 std::string dependences_text(const SweepTable& table, const SweepSummary& s) {
     Rows rows = {{"measure", "depends on", "size", "area (um^2)", "variance (%)", "by V_T", "by I_S", "sigma at 4x area (%)"}};
     std::vector<std::string> independent;
@@ -171,8 +182,8 @@ std::string dependences_text(const SweepTable& table, const SweepSummary& s) {
     std::string text;
     if (rows.size() > 1)
         text = fmt::format(
-            "\nInfluences, in percent of variance (for grid axes of the total variance, for random parameters of the variance within\n"
-            "a grid point, {} chips):\n{}",
+            "\nInfluences, in percent of a variance: for a grid axis, the total variance; for a random parameter, the variance within\n"
+            "a grid point ({} chips):\n{}",
             s.searched_chips, format_table(rows));
     if (!explained.empty())
         text += fmt::format("A linear model explains (%): {}. The rest is nonlinear, an interaction, or not significant.\n", explained);
@@ -181,7 +192,7 @@ std::string dependences_text(const SweepTable& table, const SweepSummary& s) {
     return text;
 }
 
-/// "Grid of press.F_max (8 values) by sa1.f_B (4 values) ..."
+/// A line that describes a sweep without random axes: "Grid of press.F_max (8 values) by sa1.f_B (4 values) ..."
 std::string grid_opening(const SweepTable& table) {
     std::string axes;
     for (std::size_t a = 0; a < table.axes.size(); ++a)
@@ -190,6 +201,7 @@ std::string grid_opening(const SweepTable& table) {
     return fmt::format("Grid of {}, without random parameters: the values are exact, not estimates.\n", axes);
 }
 
+/// As yields(), for a grid, without confidence intervals. "" if all items passed.
 std::string grid_yields(const SweepTable& table, const SweepSummary& s) {
     if (s.all.passed == s.all.items) return "";
     Rows rows = {{"yield", "limits", "passed", "of", "%"}};
@@ -204,13 +216,14 @@ std::string grid_yields(const SweepTable& table, const SweepSummary& s) {
     return "\n" + format_table(rows);
 }
 
-/// The label of the first row in which a measure has this value.
+/// The label of the grid point of the first row in which a measure (by index) has this value.
 std::string point_of(const SweepTable& table, std::size_t measure, double value) {
     const auto& values = table.measure_values[measure];
     const auto at = std::find(values.begin(), values.end(), value);
     return at == values.end() ? "-" : point_label(table, static_cast<std::size_t>(at - values.begin()));
 }
 
+/// A table of the smallest and largest value of each measure, and the grid points at which they occur.
 std::string grid_measures(const SweepTable& table, const SweepSummary& s) {
     Rows rows = {{"measure", "items", "min", "at", "max", "at", "mean"}};
     for (std::size_t m = 0; m < table.measures.size(); ++m) {
@@ -224,16 +237,16 @@ std::string grid_measures(const SweepTable& table, const SweepSummary& s) {
     return "\n" + format_table(rows);
 }
 
-/// The effect of every axis on each measure.
+/// A table with the effect of every axis on each measure and on the yield.
 std::string effects_text(const SweepTable& table, const SweepSummary& s) {
     Rows rows = {{"measure", "axis", "variance (%)", "from", "mean there", "to", "mean there"}};
-    for (std::size_t d = 0; d < s.dependences.size(); ++d) {
+    for (std::size_t d = 0; d < s.dependences.size(); ++d) {  // in the order of the measures; then the yield
         const auto& one = s.dependences[d];
         const bool is_yield = d >= table.measures.size();
         const NumberFormat format(is_yield ? "" : table.measures[d].unit, is_yield ? MeasureSummary{} : s.all.measures[d], true);
         const auto mean = [&](double x) { return is_yield ? percent(x) + " %" : format(x); };
         const auto name = is_yield ? one.measure : heading_of(table.measures[d], format.unit());
-        double rest = 1;
+        double rest = 1;  // fraction of the variance that no single axis explains
         for (const auto& e : one.effects) {
             const auto& axis = table.axes[e.axis];
             const auto value = [&](double x) {
@@ -253,6 +266,7 @@ std::string effects_text(const SweepTable& table, const SweepSummary& s) {
                      format_table(rows);
 }
 
+/// As points_text(), for a grid.
 std::string grid_points(const SweepTable& table, const SweepSummary& s) {
     if (s.points.size() < 2) return "";
     Rows rows = {{"point"}};
@@ -273,7 +287,7 @@ std::string grid_points(const SweepTable& table, const SweepSummary& s) {
     return fmt::format("\nBy grid point{}:\n{}", means ? ", means" : "", format_table(rows));
 }
 
-/// The requested quantiles, with confidence intervals unless the sweep is a grid.
+/// A table of the requested quantiles, with confidence intervals unless the sweep is a grid.
 std::string quantiles_text(const SweepTable& table, const SweepSummary& s) {
     Rows rows = {{"quantile"}};
     for (std::size_t m = 0; m < table.measures.size(); ++m) {

@@ -1,5 +1,5 @@
 #pragma once
-// Prints the results of a sweep as tables: yields, measures, then what they depend on.
+// The results of a sweep as tables: yields, measures, then the parameters on which they depend.
 
 #include <string>
 
@@ -7,7 +7,7 @@
 
 namespace corpuscle {
 
-/// `quantiles`: print the requested quantiles with their confidence intervals.
+/// `quantiles`: also a table of the requested quantiles with their confidence intervals.
 std::string sweep_tables(const SweepTable&, const SweepSummary&, const std::string& title, bool quantiles);
 
 }  // namespace corpuscle

@@ -1,5 +1,5 @@
 #pragma once
-// The command-line options of `corpuscle sweep` and its sub-verbs.
+// The command-line options of `corpuscle sweep` and its sub-verbs, and the options that all verbs have.
 
 #include "verbs.hpp"
 
@@ -20,7 +20,7 @@ class SweepVerbs {
     std::string dump_path_;
     SweepShowArguments show_;
     SweepCalibrateArguments calibrate_;
-    CLI::App* verb_ = nullptr;
+    CLI::App* verb_ = nullptr;  // `sweep`, after add_to()
 
 public:
     void add_to(CLI::App&, CommonArguments&);

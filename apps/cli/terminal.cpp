@@ -20,19 +20,19 @@
 namespace corpuscle {
 namespace {
 
-volatile std::sig_atomic_t stop = 0;
-volatile std::sig_atomic_t stop_time = 0;  // ms, of the first signal
+volatile std::sig_atomic_t stop = 0;       // 1 after the first signal
+volatile std::sig_atomic_t stop_time = 0;  // milliseconds() at the first signal
 
-/// Milliseconds of a monotonic clock, modulo twelve days. Safe in a signal handler.
+/// Time of a monotonic clock in ms, modulo 1e9 ms (twelve days). Safe in a signal handler.
 int milliseconds() {
     timespec now = {};
     ::clock_gettime(CLOCK_MONOTONIC, &now);
     return static_cast<int>((now.tv_sec % 1'000'000) * 1000 + now.tv_nsec / 1'000'000);
 }
 
-constexpr std::size_t max_table_width = 100;  // columns; wider tables get a header of several lines
+constexpr std::size_t max_table_width = 100;  // columns; in wider tables the heading has several lines
 
-/// True for a number, or a mean with its standard deviation: "9.4 +- 1.1".
+/// True for a number, or for a mean with its standard deviation: "9.4 +- 1.1".
 bool is_number(std::string_view cell) {
     if (const auto sign = cell.find(" +- "); sign != cell.npos) return is_number(cell.substr(0, sign)) && is_number(cell.substr(sign + 4));
     return !cell.empty() && cell.find_first_not_of("0123456789.-+e") == std::string::npos;
@@ -44,7 +44,7 @@ std::size_t width(const std::string& text) {
         std::count_if(text.begin(), text.end(), [](char c) { return (static_cast<unsigned char>(c) & 0xc0) != 0x80; }));
 }
 
-/// Splits a heading at blanks and hyphens: "Victor-", "Purpura".
+/// Splits a heading at blanks and after hyphens: "Victor-", "Purpura".
 std::vector<std::string> split_heading(const std::string& heading) {
     std::vector<std::string> out;
     std::istringstream input(heading);
@@ -58,8 +58,8 @@ std::vector<std::string> split_heading(const std::string& heading) {
     return out;
 }
 
-/// Breaks the header of a table that is too wide into several lines. Returns the number of header lines.
-std::size_t wrap_header(std::vector<std::vector<std::string>>& rows) {
+/// Breaks the heading (the first row) of a table that is too wide into several rows. Returns the number of rows of the heading.
+std::size_t wrap_heading(std::vector<std::vector<std::string>>& rows) {
     if (rows.size() < 2) return 1;
     std::vector<std::size_t> widths(rows[0].size());
     std::size_t total = 0;
@@ -87,14 +87,16 @@ std::size_t wrap_header(std::vector<std::vector<std::string>>& rows) {
     return std::max<std::size_t>(lines.size(), 1);
 }
 
-/// Splits the columns of a table into blocks that fit a terminal. Each block begins with the text columns that name the rows.
+/// Splits the columns of a table into blocks that fit a terminal. `widths`, `numeric`: for each column, its width and whether its cells are
+/// numbers. Each block has the indexes of its columns. It begins with the text columns before the first numeric one, which name the rows.
 std::vector<std::vector<std::size_t>> blocks_of(const std::vector<std::size_t>& widths, const std::vector<bool>& numeric) {
     const auto indices = [](std::size_t from, std::size_t to) {
         std::vector<std::size_t> out(to - from);
         std::iota(out.begin(), out.end(), from);
         return out;
     };
-    // Each column is followed by two blanks. The last one needs none, so the limits below are max_table_width + 2.
+    // Width of the columns from `from` to `to` - 1 with two blanks after each. The last one needs none, so the limits below are
+    // max_table_width + 2.
     const auto total_width = [&](std::size_t from, std::size_t to) {
         return std::accumulate(widths.begin() + static_cast<std::ptrdiff_t>(from), widths.begin() + static_cast<std::ptrdiff_t>(to),
                                std::size_t{0}, [](std::size_t total, std::size_t w) { return total + w + 2; });
@@ -113,8 +115,8 @@ std::vector<std::vector<std::size_t>> blocks_of(const std::vector<std::size_t>& 
     return blocks;
 }
 
-/// "out/x.csv" -> "x.csv". Text that is not a path, such as "1/4" and "5mV/K", is returned unchanged.
-std::string base_name(const std::string& part) {
+/// A path without its directories: "x.csv" for "out/x.csv". Text that is not a path, such as "1/4" or "5mV/K", is returned unchanged.
+std::string file_name_of(const std::string& part) {
     if (part.find('/') == std::string::npos) return part;
     const std::filesystem::path path(part);
     std::error_code status;
@@ -129,7 +131,7 @@ std::string without_directories(const std::string& argument) {
     std::string out;
     for (std::size_t at = 0; at <= argument.size();) {
         const auto end = std::min(argument.find_first_of("=,", at), argument.size());
-        out += base_name(argument.substr(at, end - at));
+        out += file_name_of(argument.substr(at, end - at));
         if (end < argument.size()) out += argument[end];
         at = end + 1;
     }
@@ -181,14 +183,14 @@ std::string format_table(const std::vector<std::vector<std::string>>& raw_rows, 
     auto rows = raw_rows;
     for (auto& row : rows)
         for (auto& cell : row) cell = printable(cell);
-    const auto headers = has_heading ? wrap_header(rows) : 0;
+    const auto heading_rows = has_heading ? wrap_heading(rows) : 0;
     std::vector<std::size_t> widths;
     std::vector<bool> numeric;
     for (std::size_t r = 0; r < rows.size(); ++r)
         for (std::size_t c = 0; c < rows[r].size(); ++c) {
             if (widths.size() <= c) widths.push_back(0), numeric.push_back(true);
             widths[c] = std::max(widths[c], width(rows[r][c]));
-            if (r >= headers && !rows[r][c].empty() && !is_number(rows[r][c])) numeric[c] = false;
+            if (r >= heading_rows && !rows[r][c].empty() && !is_number(rows[r][c])) numeric[c] = false;
         }
     std::string text;
     for (const auto& block : blocks_of(widths, numeric)) {

@@ -9,10 +9,10 @@
 
 namespace corpuscle {
 
-/// Prints the error on standard error and returns its exit status.
+/// Prints an error on standard error. Returns the exit status of its code.
 int report_error(const Error&);
 
-/// Prints one line on standard error. It begins with "corpuscle:", and a warning with "corpuscle: warning:". Control characters are
+/// Prints one line on standard error. A message begins with "corpuscle:", a warning with "corpuscle: warning:". Control characters are
 /// escaped.
 void print_message(const std::string& message);
 void print_warning(const std::string& message);
@@ -23,18 +23,20 @@ void print_text(const std::string& text);
 /// Flushes standard output. Returns an error if some of the text could not be written.
 Result<void> finish_output();
 
-/// Installs the signal handlers. The first Ctrl-C sets a flag and ends a blocked read; the second ends the program.
+/// Installs the signal handlers. The first Ctrl-C makes interrupted() true and ends a blocked read; the second ends the program.
 void catch_interrupt();
+/// True after Ctrl-C or another signal that ends the program.
 bool interrupted();
 
-/// "12 s", "3:05 min", "2:10 h".
+/// A duration as text: "12 s", "3:05 min", "2:10 h".
 std::string time_text(double seconds);
 
-/// Formats rows as a table: columns padded to their widest cell, numbers aligned right, text left. If `has_heading`, the first row is the
-/// heading, whose long cells are wrapped.
+/// Formats rows as a table: columns are padded to their widest cell, columns of numbers are aligned right, others left. If `has_heading`,
+/// the first row is the heading. In a table wider than 100 columns the heading is wrapped; if it is still too wide, the table is split into
+/// blocks.
 std::string format_table(const std::vector<std::vector<std::string>>& rows, bool has_heading = true);
 
-/// A progress bar with the remaining time on standard error. It appears only on a terminal and after one second.
+/// A progress bar with the remaining time, on standard error. It appears only if this is a terminal, and after one second.
 class Progress {
     using Clock = std::chrono::steady_clock;
     bool is_enabled_;

@@ -1,6 +1,7 @@
 #pragma once
-// The command-line arguments of each verb as typed. main.cpp fills these structures; one file per verb does the work and returns the
-// exit status.
+// The command-line arguments of each verb, as typed or with their defaults. Members are named after their options unless a comment says
+// otherwise. main.cpp, option_groups.cpp and the *_verbs.cpp files declare the options. The functions at the end run the verbs and return
+// the exit status.
 
 #include <cstdint>
 #include <optional>
@@ -9,33 +10,34 @@
 
 namespace corpuscle {
 
-/// An option as typed, under its long name.
+/// An option or positional argument as typed. `name` is the long name of an option: "--afferent".
 struct TypedOption {
     std::string name;
     std::vector<std::string> values;
 };
 
 struct CommonArguments {
-    bool json = false, quiet = false;
-    bool overwrite = false;               ///< replace files that no earlier run wrote
-    std::string command;                  ///< as typed, for the report page
-    std::vector<TypedOption> typed = {};  ///< the verb's options, in the order of --help
+    bool json = false;                    ///< print one JSON document on standard output
+    bool quiet = false;                   ///< print neither tables nor progress nor notes
+    bool overwrite = false;               ///< also replace files that were not written by an earlier run
+    std::string command;                  ///< the command line, see quote_command(); for the report page
+    std::vector<TypedOption> typed = {};  ///< the options that were given to the verb, in the order of --help-all
 };
 
-/// Overrides and probes, which apply to every netlist of the run.
+/// Options that apply to every netlist of the run.
 struct NetlistArguments {
     std::optional<std::string> supply, temp, corner, mismatch;
     std::vector<std::string> probes;
 };
 
-/// How to read a recording; recording_options() converts this to options of the reader.
+/// The options for reading a recording; recording_options() converts them to RecordingOptions.
 struct RecordingArguments {
-    std::vector<std::string> channels, notch;
+    std::vector<std::string> channels, notch;  ///< all --channel and --notch options
     std::optional<std::string> rate, dataset, time, time_unit, unit, scale, resample, offset, range, bad_fields, despike, lowpass;
     std::string layout;
-    std::optional<std::uint32_t> skip;  ///< lines
-    std::optional<bool> transpose;
-    bool absolute = false;
+    std::optional<std::uint32_t> skip;  ///< number of lines at the beginning of a text file
+    std::optional<bool> transpose;      ///< true: --transpose; false: --no-transpose
+    bool absolute = false;              ///< --abs
 };
 
 struct RespondArguments : RecordingArguments {
@@ -43,18 +45,19 @@ struct RespondArguments : RecordingArguments {
     std::vector<std::string> forces, afferents = {"sa1", "fa1"}, settings, spreads;
     std::optional<std::string> noise, bin;
     std::string method = "exact";
-    bool sampled = false, probe_files = false, vectors = false, has_report = false, npz = false, wav = false;
-    std::string out, report_file;
-    std::string population, contact, events, checkpoint;  ///< of a skin; "": not given
+    bool sampled = false, probe_files = false, vectors = false, npz = false, wav = false;
+    bool has_report = false;                              ///< --report was given
+    std::string out, report_file;                         ///< report_file: of --report; "" without a name
+    std::string population, contact, events, checkpoint;  ///< options of a skin; "": not given
     std::uint64_t seed = 0;
     std::uint32_t copies = 0;   ///< 0: not given
     std::uint32_t threads = 0;  ///< 0: one per core
-    bool use_float = false;
+    bool use_float = false;     ///< --float
 };
 
 struct CompareArguments {
     std::vector<std::string> files, pairs;
-    std::optional<std::string> time_column, train_column;  ///< columns of the spike tables
+    std::optional<std::string> time_column, train_column;  ///< columns of the spike files, by name or number
     bool by_order = false;
     std::string window = "5ms", cost = "100Hz", tau = "10ms";
 };
@@ -79,9 +82,9 @@ struct SweepArguments {
     std::string file, out, shard;
     std::optional<std::uint64_t> seed;
     std::optional<std::int64_t> samples;
-    std::size_t lanes = 8;
+    std::size_t lanes = 8;      ///< number of chips that one thread simulates at once: 1, 4 or 8
     std::uint32_t threads = 0;  ///< 0: one per core, or one per MPI rank
-    bool status = false;
+    bool status = false;        ///< only print the status of the sweep
 };
 
 /// corpuscle sweep merge OUT IN...
@@ -101,11 +104,11 @@ struct SweepShowArguments {
 struct SweepCalibrateArguments {
     std::string netlist, like, force = "press", corner = "mc";
     std::vector<std::string> trims;
-    int bits = 4;
-    std::int64_t samples = 64;
+    int bits = 4;               ///< maximum number of bits of each trim
+    std::int64_t samples = 64;  ///< number of chips
     std::uint64_t seed = 1;
-    std::uint32_t threads = 0;
-    bool separately = false;
+    std::uint32_t threads = 0;  ///< 0: one per core
+    bool separately = false;    ///< also evaluate each trim alone
 };
 
 struct StreamArguments : RecordingArguments {
@@ -115,14 +118,14 @@ struct StreamArguments : RecordingArguments {
     std::string out = "-", to, format = "lines", save_state, resume;
     std::size_t channel_count = 1;  ///< forces per frame, if `population` is a list of afferents
     std::size_t batch_frames = 1;   ///< frames per batch
-    std::int64_t clients = 0;       ///< 0: unlimited
+    std::int64_t clients = 0;       ///< number of senders, one after another, after which the stream ends; 0: unlimited
     long baud = 115200;
     bool sampled = false, busy_poll = false, allow_drops = false;
 };
 
 struct ListArguments {
     std::vector<std::string> names;
-    bool list_sites = false;  ///< list the sites of a population
+    bool list_sites = false;  ///< list the sites of the population that `names` contains
 };
 
 int respond(const RespondArguments&, const CommonArguments&);

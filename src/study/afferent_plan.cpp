@@ -14,12 +14,14 @@ namespace {
 
 using circuit::CircuitAfferentFactory;
 
-/// Parameters of a netlist afferent and their values. `texts` stores the names and descriptions to which `parameters` refers.
+/// Parameters of a netlist afferent and their values. `texts` stores the names and descriptions to which `parameters` refers; it is a
+/// deque, because its elements must not move.
 struct NetlistParameters {
     std::deque<std::string> texts;
     std::vector<AfferentParameter> parameters;
     std::vector<double> values;
 
+    /// `initial`: the value in the netlist; `value`: the value in use; `shared_by_copies`: false if copies may have different values.
     void add(std::string name, std::string description, double initial, double value, bool set_by_user, bool shared_by_copies = true) {
         constexpr double limit = std::numeric_limits<double>::max();
         const auto& stored_name = texts.emplace_back(std::move(name));
@@ -29,7 +31,8 @@ struct NetlistParameters {
     }
 };
 
-/// A device's parameter as set in a circuit, or its default. An empty name means the device's main value.
+/// A parameter of a device as set in a circuit, or its default; 0 if the circuit has no such device or parameter. An empty name means the
+/// device's main value.
 double number_of(const circuit::Circuit& c, std::string_view element, std::string_view name) {
     const int k = c.find_element(element);
     if (k < 0) return 0;
@@ -42,7 +45,8 @@ double number_of(const circuit::Circuit& c, std::string_view element, std::strin
     return name == "m" || name == "area" ? 1 : name == "temp" ? c.temperature : 0;
 }
 
-/// Lists a netlist's parameters, then the other values that are set. The defaults are the values written in the netlist.
+/// Lists in `plan` the .param parameters of a netlist, then the other values that the user has overridden (of devices, temperature and
+/// mismatch). The defaults are the values written in the netlist.
 Result<void> describe_parameters(AfferentPlan& plan, const CircuitAfferentFactory& design) {
     auto described = std::make_shared<NetlistParameters>();
     const auto& changes = design.netlist->overrides();
@@ -66,7 +70,7 @@ Result<void> describe_parameters(AfferentPlan& plan, const CircuitAfferentFactor
     return {};
 }
 
-/// The requested probes that the circuit has, named as for .save.
+/// The requested probes that the circuit has, with the names that .save uses.
 Result<std::vector<std::string>> probes_in(const circuit::Circuit& circuit, const NetlistOptions& options) {
     options.probe_found.resize(options.probes.size());
     std::vector<std::string> out;
@@ -81,6 +85,7 @@ Result<std::vector<std::string>> probes_in(const circuit::Circuit& circuit, cons
     return out;
 }
 
+/// Plans the netlist that `text` names, with the settings that are for this netlist.
 Result<AfferentPlan> plan_netlist(std::string_view text, std::span<const ParameterOverride> settings, const NetlistOptions& options) {
     const auto* embedded = circuit::find_embedded_netlist(text);
     const std::string name(embedded ? embedded->name : text);
@@ -113,7 +118,8 @@ Result<AfferentPlan> plan_netlist(std::string_view text, std::span<const Paramet
     return plan;
 }
 
-/// The error for an unknown name, with a suggestion if a netlist has a similar name.
+/// The error for an unknown name: `error`, which suggests catalogue afferents, or a suggestion of an embedded netlist if its name is the
+/// most similar.
 Error unknown_afferent(std::string_view text, Error error) {
     std::vector<std::string_view> names;
     for (const auto& a : named_afferents()) names.push_back(a.name);

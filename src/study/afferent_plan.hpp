@@ -6,7 +6,7 @@
 
 namespace corpuscle {
 
-/// True if the text names a netlist: an embedded one or a path. Catalogue names contain neither a dot nor a slash.
+/// True if the text names a netlist: an embedded one or a path. Names of catalogue afferents contain neither a dot nor a slash.
 inline bool names_netlist(std::string_view text) {
     return circuit::find_embedded_netlist(text) != nullptr || text.find_first_of("./") != std::string_view::npos;
 }
@@ -14,21 +14,22 @@ inline bool names_netlist(std::string_view text) {
 /// Options for every netlist of a run.
 struct NetlistOptions {
     std::vector<circuit::NetlistOverride> overrides = {};
-    std::vector<std::string> probes = {};        ///< recorded instead of the .save quantities, in each netlist that has them
-    mutable std::vector<bool> probe_found = {};  ///< for each entry of `probes`: true if some netlist has it
-    mutable std::string probe_hint = {};         ///< suggestion for an entry that no netlist has
+    std::vector<std::string> probes = {};        ///< recorded instead of the .save quantities in each netlist that has at least one of them
+    mutable std::vector<bool> probe_found = {};  ///< for each entry of `probes`: true if a netlist planned so far has it
+    mutable std::string probe_hint = {};         ///< a similar name, for the first of `probes` that a netlist did not have
     mutable bool is_used = false;                ///< true once a netlist has been planned with these options
 };
 
-/// Like plan_afferent, and accepts netlists: "sa1-circuit", or "path/own.cir" with a force input and a spike output (doc/circuits.md). An
-/// override for a netlist sets one of its values: "sa1-circuit.summer.N3B.w=1.2um".
+/// As plan_afferent, but also accepts netlists: "sa1-circuit", or "path/own.cir" with a force input and a spike output (doc/circuits.md).
+/// An override for a netlist sets one of its values: "sa1-circuit.summer.N3B.w=1.2um".
 Result<AfferentPlan> plan_any_afferent(std::string_view text, std::span<const ParameterOverride> overrides, const NetlistOptions& = {});
 
-/// Rebuilds the circuit of a copy with the copy's sampled values if its plan is a netlist. Does nothing for other plans.
+/// If the afferent is a netlist: rebuilds the circuit of a copy with the values that were sampled for the copy. `original` is the plan from
+/// which the copy was made. Does nothing for other afferents.
 Result<void> rebuild_copy(AfferentPlan& copy, const AfferentPlan& original);
 
-/// The part of an override's name after the netlist's name: "summer.N3B.w" of "sa1-circuit.summer.N3B.w=1.2um". Empty if the override
-/// names something else.
+/// The part of an override's name after the netlist's name: "summer.N3B.w" of "sa1-circuit.summer.N3B.w=1.2um". No value if the
+/// override is not for this netlist.
 std::optional<std::string> netlist_override_name(const ParameterOverride&, std::string_view netlist);
 
 }  // namespace corpuscle

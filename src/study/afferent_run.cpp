@@ -8,6 +8,7 @@
 namespace corpuscle {
 namespace {
 
+/// The name of source n of a run. If earlier sources have the same name, a number is appended: "press (2)".
 std::string unique_name(std::span<const std::unique_ptr<ForceSource>> sources, std::size_t n) {
     int same = 1;
     for (std::size_t k = 0; k < n; ++k) same += sources[k]->name() == sources[n]->name();
@@ -65,7 +66,7 @@ std::vector<std::string> response_warnings(const RunStats& stats) {
     if (stats.truncated_steps > 0)
         warnings.push_back(
             fmt::format("{} steps had more spikes than one step can hold ({}, or 1 behind a converter) and were "
-                        "truncated; raise the rate, or the threshold",
+                        "truncated; raise the sample rate, or the threshold of the neuron",
                         stats.truncated_steps, max_spikes_per_step));
     if (stats.saturated > 0)
         warnings.push_back(

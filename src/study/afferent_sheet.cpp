@@ -20,6 +20,7 @@ std::shared_ptr<const Innervation> sheet_innervation(const AfferentSheet& sheet,
     p.sites.region.assign(sensors, 0);
     p.sites.regions = {"sheet"};
     p.classes.push_back({.name = afferent, .afferent = std::move(plan), .sigma = sigma});
+    // class 0, number from 1, region 0, position, no delay
     for (std::size_t k = 0; k < afferents; ++k) out->afferents.push_back({0, static_cast<std::uint32_t>(k) + 1, 0, sheet.position(k), 0});
     out->class_begin = {0, afferents};
     auto& fields = out->fields.emplace_back();
@@ -28,7 +29,7 @@ std::shared_ptr<const Innervation> sheet_innervation(const AfferentSheet& sheet,
         for (std::size_t k = 0; k < afferents; ++k) {
             const double dx = out->afferents[k].position.x - force.positions[s].x, dy = out->afferents[k].position.y - force.positions[s].y;
             const double distance_squared = (dx * dx + dy * dy) / (sigma * sigma);
-            if (distance_squared > 16) continue;
+            if (distance_squared > 16) continue;  // farther than 4 sigma
             fields.afferent.push_back(static_cast<std::uint32_t>(k)), fields.weight.push_back(num::exp(-0.5 * distance_squared));
         }
         fields.begin.push_back(fields.afferent.size());
@@ -36,16 +37,17 @@ std::shared_ptr<const Innervation> sheet_innervation(const AfferentSheet& sheet,
     return out;
 }
 
-/// Sums of weight, and of weight times position, in each time bin.
+/// Computes the centroid in each time bin. Until mean() is called, `track` has the sums of weight, and of weight times position.
 struct CentroidSums {
     CentroidTrack track;
-    double from, bin;
+    double from, bin;  ///< s: start of the first bin, and bin width
 
     CentroidSums(double first, double to, double width) : from(first), bin(width) {
         const auto bins = static_cast<std::size_t>(std::round((to - first) / width));
         for (auto* v : {&track.x, &track.y, &track.weight}) v->assign(bins, 0);
         for (std::size_t b = 0; b < bins; ++b) track.t.push_back(first + (static_cast<double>(b) + 0.5) * width);
     }
+    /// Adds a position at the time t, s. Times outside all bins are ignored.
     void add(double t, const Position& at, double weight) {
         const double b = std::floor((t - from) / bin);
         if (!(b >= 0 && b < static_cast<double>(track.t.size()))) return;

@@ -10,15 +10,16 @@
 namespace corpuscle {
 namespace {
 
-/// Units without SI prefixes.
+/// Units that are not written with an SI prefix.
 constexpr std::array<std::string_view, 8> units_without_prefix = {"%", "C", "gf", "dB", "degrees", "spikes", "times", "um^2"};
 
-/// True for a value that is only rounding error and differs between machines: far below the allowed range, or below 1e-9 percent.
+/// True for a value that is only rounding error and may differ between machines: far smaller than the limits of the allowed range, or below
+/// 1e-9 percent.
 bool is_rounding(double x, const Claim& c) {
-    double allowed = 0;
-    for (const double end : {c.allowed_min, c.allowed_max})
-        if (std::isfinite(end)) allowed = std::max(allowed, std::abs(end));
-    return std::abs(x) < 1e-5 * allowed || (c.unit == "%" && std::abs(x) < 1e-9);
+    double largest_limit = 0;
+    for (const double limit : {c.allowed_min, c.allowed_max})
+        if (std::isfinite(limit)) largest_limit = std::max(largest_limit, std::abs(limit));
+    return std::abs(x) < 1e-5 * largest_limit || (c.unit == "%" && std::abs(x) < 1e-9);
 }
 
 }  // namespace

@@ -20,7 +20,7 @@ CopiesFile::CopiesFile(OutputFile file, const CopySpec& copies) : file_(std::mov
     for (const auto& c : columns_)
         header += "," + quote_csv_field(c.unit.empty() ? std::string(c.parameter) : fmt::format("{}_{}", c.parameter, c.unit));
     for (const auto& m : measures) header += "," + quote_csv_field(measure_key(m));
-    (void)file_.write(header + "\n");
+    (void)file_.write(header + "\n");  // commit() reports an error
 }
 
 Result<void> CopiesFile::begin(const Input& input) {
@@ -51,6 +51,7 @@ Result<void> CopiesFile::end(const Input& input, std::int64_t samples) {
     tally_.set_end(since_start_.time(samples));
     for (std::size_t u = 0; u < input.afferent_count(); ++u) {
         put_row(input, u);
+        // Writes in pieces of 64 KiB.
         if (text_.size() < std::size_t{1} << 16 && u + 1 < input.afferent_count()) continue;
         if (auto ok = file_.write({text_.data(), text_.size()}); !ok) return ok;
         text_.clear();

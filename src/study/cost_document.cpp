@@ -21,7 +21,7 @@ Json document_of(const circuit::Area& a) {
 
 Json document_of(const circuit::Cost& cost, const circuit::PowerBreakdown& p) {
     Json out = {{"delivered_W", p.supplies}, {"sensor_W", p.sensor}, {"without_sensor_W", p.without_sensor}};
-    if (p.blocks.empty()) return out;  // means over a run have no blocks
+    if (p.blocks.empty()) return out;  // a mean over a run is not divided by block
     Json sources = Json::object(), blocks = Json::object();
     for (std::size_t k = 0; k < p.sources.size(); ++k) sources[cost.sources[k]] = p.sources[k];
     for (std::size_t k = 0; k < p.blocks.size(); ++k) blocks[cost.blocks[k].name] = p.blocks[k];
@@ -29,7 +29,7 @@ Json document_of(const circuit::Cost& cost, const circuit::PowerBreakdown& p) {
     return out;
 }
 
-/// The cost at rest under this force.
+/// The cost of a circuit at rest under this force (N).
 Result<circuit::Cost> cost_under(const circuit::CircuitAfferentFactory& design, double force) {
     auto context = circuit::AnalysisContext::make(design.circuit);
     if (!context) return context.error();
@@ -39,7 +39,8 @@ Result<circuit::Cost> cost_under(const circuit::CircuitAfferentFactory& design, 
     return circuit::cost_of(**context);
 }
 
-/// Energy used by an afferent's copies, which are adjacent in the statistics.
+/// The energy that all copies of one afferent used. The statistics have one entry for each copy; the copies of an afferent are adjacent,
+/// and every afferent has the same number of them.
 EnergyUse energy_used_by(const RunStats& stats, std::size_t afferent, std::size_t afferent_count) {
     EnergyUse out;
     const std::size_t copies = stats.energy_use.size() / afferent_count;
@@ -80,8 +81,9 @@ Json cost_documents_of(std::span<const AfferentPlan> afferents, const RunStats& 
         const auto* design = dynamic_cast<const circuit::CircuitAfferentFactory*>(afferents[a].factory.get());
         if (design == nullptr) continue;
         auto cost = cost_under(*design, force);
-        if (!cost) continue;  // no operating point: reported elsewhere
+        if (!cost) continue;  // the circuit has no operating point under this force
         if (const auto spent = energy_used_by(stats, a, afferents.size()); spent.seconds > 0) {
+            // Energy and time are sums over copies and channels, so this is the mean power of one afferent.
             const double supplies = spent.supplies / spent.seconds, sensor = spent.sensor / spent.seconds;
             cost->power.emplace_back("mean", circuit::PowerBreakdown{supplies, sensor, supplies - sensor, {}, {}});
         }

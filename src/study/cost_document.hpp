@@ -1,5 +1,5 @@
 #pragma once
-// The cost of a circuit, as a JSON document.
+// The cost of a circuit (power, area, leakage) as a JSON document.
 
 #include <nlohmann/json_fwd.hpp>
 
@@ -10,8 +10,8 @@ namespace corpuscle {
 
 nlohmann::ordered_json document_of(const circuit::Cost&);
 
-/// For each netlist afferent: the cost table of one afferent at rest under `force` (N), and the mean power in the run over all copies and
-/// channels of the afferent. Empty without netlists.
+/// For each netlist in a list of afferents without their copies: the cost of one afferent at rest under `force` (N), and its mean power
+/// during the run, over all its copies and channels. An empty array if no afferent is a netlist.
 nlohmann::ordered_json cost_documents_of(std::span<const AfferentPlan>, const RunStats&, double force);
 
 }  // namespace corpuscle

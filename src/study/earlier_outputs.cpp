@@ -15,7 +15,7 @@ namespace {
 
 constexpr std::uintmax_t max_summary_size = std::uintmax_t{256} << 20;  // bytes
 
-/// True for "" and for a suffix such as "-2".
+/// True for the number in a file name: "" for the first file, "-2" for the second.
 bool is_file_number(std::string_view text) {
     return text.empty() || (text.size() > 1 && text[0] == '-' && text.find_first_not_of("0123456789", 1) == text.npos);
 }
@@ -37,9 +37,11 @@ bool is_own_page(std::string_view beginning) {
 
 bool is_output_name(std::string_view name) {
     if (name.find('/') != name.npos || name.find('\0') != name.npos) return false;
+    // Earlier versions wrote units.csv and traces*.csv.
     const std::string_view fixed_names[] = {"spikes.csv", "spikes.jsonl",  "spikes.aer", "spikes.aedat", "spikes.npz",
                                             "copies.csv", "afferents.csv", "psth.csv",   "summary.json", "units.csv"};
     if (std::find(std::begin(fixed_names), std::end(fixed_names), name) != std::end(fixed_names)) return true;
+    // The part of the name between two texts, or no value if the name does not begin and end with them.
     const auto between = [&](std::string_view before, std::string_view after) {
         return name.size() >= before.size() + after.size() && name.starts_with(before) && name.ends_with(after)
                    ? std::optional(name.substr(before.size(), name.size() - before.size() - after.size()))

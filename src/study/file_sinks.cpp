@@ -17,7 +17,9 @@ std::string numbered_path(const std::string& directory, std::string_view name, s
     return fmt::format("{}/{}{}{}", directory, name, index == 0 ? "" : fmt::format("-{}", index + 1), extension);
 }
 
-SpikesFile::SpikesFile(OutputFile file) : file_(std::move(file)) { (void)file_.write("afferent,channel,time_s\n"); }
+SpikesFile::SpikesFile(OutputFile file) : file_(std::move(file)) {
+    (void)file_.write("afferent,channel,time_s\n");  // commit() reports an error
+}
 
 Result<void> SpikesFile::begin(const Input& input) {
     names_ = afferent_csv_names(input);

@@ -9,7 +9,7 @@ namespace corpuscle {
 namespace {
 
 constexpr double fingertip_rate = 1e3;          // Hz
-constexpr Position fingertip_centre{0, 12e-3};  // m, of the built-in fingertip
+constexpr Position fingertip_centre{0, 12e-3};  // m: x, y of the middle of the built-in fingertip
 
 Result<std::vector<ParameterOverride>> overrides_of(const std::vector<std::string>& texts) {
     std::vector<ParameterOverride> out;
@@ -45,7 +45,7 @@ Result<std::vector<FingertipTrain>> press_fingertip(const Innervation& tip, Skin
 Result<std::vector<FingertipTrain>> simulate_fingertip(const Punch& punch) {
     auto plan = load_skin_plan("fingertip");
     if (!plan) return plan.error();
-    plan->nerve.reset();
+    plan->nerve.reset();  // no conduction delay
     const auto tip = innervate(std::move(*plan));
     if (!tip) return tip.error();
     const auto overrides =

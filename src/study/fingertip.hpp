@@ -8,17 +8,19 @@
 
 namespace corpuscle {
 
-/// A flat, round, rigid punch on the middle of the fingertip, pressed as in the thesis (1.2) from zero force to `force`.
+/// A flat, round, rigid punch on the middle of the fingertip, pressed as in section 1.2 of the thesis (stimulus `press`),
+/// but from zero force to `force`.
 struct Punch {
     double radius = 0, force = 0;  ///< m, N
 };
 
-/// One afferent's spikes, s, without conduction delay.
+/// The spikes of one afferent of the fingertip.
 struct FingertipTrain {
-    std::string afferent;  ///< afferent type: "sa1"
-    double distance = 0;   ///< from the punch's centre to the afferent, m
-    std::vector<double> spikes;
+    std::string afferent;        ///< afferent type: "sa1"
+    double distance = 0;         ///< from the punch's centre to the afferent, m
+    std::vector<double> spikes;  ///< s since the first sample of the force, without conduction delay
 };
+/// Returns every afferent of the fingertip.
 Result<std::vector<FingertipTrain>> simulate_fingertip(const Punch&);
 
 }  // namespace corpuscle

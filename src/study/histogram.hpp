@@ -5,7 +5,8 @@
 
 namespace corpuscle {
 
-/// Divides the range from the smallest to the largest value into `bins` equal parts. Each pair is the centre of a bin and its count.
+/// Divides the range from the smallest to the largest value into `bins` equal parts. Each pair of the curve is the centre of a bin and the
+/// number of values in it.
 StudyCurve histogram_of(const std::vector<double>& values, int bins = 30);
 
 }  // namespace corpuscle

@@ -37,12 +37,13 @@ std::size_t count_spikes(std::span<const double> train, double from, double to) 
     return static_cast<std::size_t>(std::lower_bound(train.begin(), train.end(), to) - std::lower_bound(train.begin(), train.end(), from));
 }
 
-double median_shift_of(std::vector<double> values) {
-    std::sort(values.begin(), values.end());
-    const auto n = values.size();
-    return n == 0 ? NAN : n % 2 == 1 ? values[n / 2] : (values[n / 2 - 1] + values[n / 2]) / 2;
+double median_shift_of(std::vector<double> shifts) {
+    std::sort(shifts.begin(), shifts.end());
+    const auto n = shifts.size();
+    return n == 0 ? NAN : n % 2 == 1 ? shifts[n / 2] : (shifts[n / 2 - 1] + shifts[n / 2]) / 2;
 }
 
+/// Fills in the distances and shifts. If there are too many pairs of close spikes to align the trains, only the van Rossum distance.
 void measure_distance(std::span<const double> reference, std::span<const double> train, ImplementationComparison& c) {
     c.van_rossum = std::sqrt(van_rossum_squared(reference, train, ImplementationComparisons::tau));
     const auto aligned = align_trains(reference, train, ImplementationComparisons::cost);
@@ -65,11 +66,11 @@ double ImplementationComparison::PhaseCount::excess() const {
 Result<void> ImplementationComparisons::begin(const Input& input) {
     is_kept_.assign(input.plans.size(), false);
     groups_.clear();
-    const bool copies = std::any_of(input.plans.begin(), input.plans.end(), [](const auto& a) { return a.copy_number > 0; });
-    for (auto& v : copies ? std::vector<ImplementationGroup>{} : implementation_groups(input.plans)) {
-        if (v.members.size() < 2) continue;
-        for (const auto m : v.members) is_kept_[m] = true;
-        groups_.push_back(std::move(v));
+    const bool has_copies = std::any_of(input.plans.begin(), input.plans.end(), [](const auto& a) { return a.copy_number > 0; });
+    for (auto& group : has_copies ? std::vector<ImplementationGroup>{} : implementation_groups(input.plans)) {
+        if (group.members.size() < 2) continue;
+        for (const auto m : group.members) is_kept_[m] = true;
+        groups_.push_back(std::move(group));
     }
     trains_.assign(groups_.empty() ? 0 : input.afferent_count(), {});
     since_start_ = input.source.clock();
@@ -86,19 +87,19 @@ Result<void> ImplementationComparisons::block(const Input& input, const RunBlock
 
 Result<void> ImplementationComparisons::end(const Input& input, std::int64_t) {
     for (std::size_t c = 0; c < input.source.channels().size(); ++c)
-        for (const auto& v : groups_)
-            for (std::size_t m = 1; m < v.members.size(); ++m) rows_.push_back(compare_implementation(input, c, v, m));
+        for (const auto& group : groups_)
+            for (std::size_t m = 1; m < group.members.size(); ++m) rows_.push_back(compare_implementation(input, c, group, m));
     trains_.clear();
     return {};
 }
 
 ImplementationComparison ImplementationComparisons::compare_implementation(const Input& input, std::size_t channel,
-                                                                           const ImplementationGroup& v, std::size_t member) const {
+                                                                           const ImplementationGroup& group, std::size_t member) const {
     const std::size_t first = channel * input.plans.size();
-    const auto &reference = trains_[first + v.members[0]], &train = trains_[first + v.members[member]];
-    ImplementationComparison out{v.afferent_type,
-                                 input.plans[v.members[member]].name,
-                                 input.plans[v.members[0]].name,
+    const auto &reference = trains_[first + group.members[0]], &train = trains_[first + group.members[member]];
+    ImplementationComparison out{group.afferent_type,
+                                 input.plans[group.members[member]].name,
+                                 input.plans[group.members[0]].name,
                                  input.channel_name(channel),
                                  {"", train.size(), reference.size()}};
     for (const auto& p : input.source.phases())

@@ -31,6 +31,7 @@ int reference_rank(const AfferentPlan& plan, const std::string& afferent_type) {
 std::string afferent_type_of(const AfferentPlan& plan) {
     const auto stem = names_netlist(plan.name) ? std::filesystem::path(plan.name).stem().string() : plan.name;
     const auto name = in_lower_case(stem);
+    // A type has a name without hyphen: the alias SA-I leads to sa1 here, but sa1-kim is reduced to its prefix below.
     if (const auto* a = find_afferent(name); a && a->name.find('-') == a->name.npos) return std::string(a->name);
     const auto* prefix_match = find_afferent(name.substr(0, name.find_first_of("-_")));
     return prefix_match ? std::string(prefix_match->name) : stem;
@@ -40,13 +41,15 @@ std::vector<ImplementationGroup> implementation_groups(std::span<const AfferentP
     std::vector<ImplementationGroup> all;
     for (std::size_t k = 0; k < plans.size(); ++k) {
         const auto afferent_type = afferent_type_of(plans[k]);
-        auto at = std::find_if(all.begin(), all.end(), [&](const ImplementationGroup& v) { return v.afferent_type == afferent_type; });
+        auto at =
+            std::find_if(all.begin(), all.end(), [&](const ImplementationGroup& group) { return group.afferent_type == afferent_type; });
         if (at == all.end()) at = all.insert(at, {afferent_type, {}});
         at->members.push_back(k);
     }
-    for (auto& v : all)
-        std::sort(v.members.begin(), v.members.end(), [&](std::size_t a, std::size_t b) {
-            return std::pair(reference_rank(plans[a], v.afferent_type), a) < std::pair(reference_rank(plans[b], v.afferent_type), b);
+    for (auto& group : all)
+        std::sort(group.members.begin(), group.members.end(), [&](std::size_t a, std::size_t b) {
+            return std::pair(reference_rank(plans[a], group.afferent_type), a) <
+                   std::pair(reference_rank(plans[b], group.afferent_type), b);
         });
     return all;
 }

@@ -1,5 +1,5 @@
 #pragma once
-// Groups the afferents that implement one afferent type: its model, its chip, another author's model.
+// Groups the afferents of a run by afferent type: the model of a type, its circuit and the models of other authors are in one group.
 
 #include <string>
 #include <vector>
@@ -8,18 +8,19 @@
 
 namespace corpuscle {
 
-/// "sa1" for sa1, SA-I, sa1-circuit, sa1-kim and any circuits/sa1.cir or sa1_biased.cir. If the name does not begin
-/// with the name of a known afferent, returns the complete name; for a netlist path, the file's stem.
+/// The afferent type of a plan, from its name: "sa1" for sa1, SA-I, sa1-circuit, sa1-kim, and for paths such as circuits/sa1.cir or
+/// sa1_biased.cir. If the name does not begin with the name of a catalogue afferent, returns the complete name; for the path of a netlist,
+/// the file name without directory and extension.
 std::string afferent_type_of(const AfferentPlan&);
 
-/// Afferents of one type, by index. The first is the reference: the afferent with the name of the type, otherwise the first model,
-/// otherwise the first requested.
+/// The plans of one afferent type. The first is the reference: the afferent with the name of the type, otherwise the first model, otherwise
+/// the first netlist.
 struct ImplementationGroup {
     std::string afferent_type;
-    std::vector<std::size_t> members;
+    std::vector<std::size_t> members;  ///< indexes of plans
 };
 
-/// All afferent types in the order of the request; many have only one implementation.
+/// One group for each afferent type, in the order in which the types first occur. A group may have a single member.
 std::vector<ImplementationGroup> implementation_groups(std::span<const AfferentPlan>);
 
 }  // namespace corpuscle

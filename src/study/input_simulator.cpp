@@ -8,18 +8,19 @@
 namespace corpuscle {
 namespace {
 
-/// Smallest number of afferents for which SIMD lanes are used; with fewer, most lanes are empty.
+/// Smallest number of afferents of one group for which SIMD lanes are used; with fewer, most lanes would be empty.
 constexpr std::size_t min_lane_group = 4;
 
-/// Number of samples per block: options.block, or fewer, to limit the memory for force or probes to about 64 MB and to report progress
-/// often enough with very many afferents.
+/// Number of samples per block: options.block, or fewer, to limit the memory for force or probes to about 64 MB (max_values numbers), and
+/// to report progress often enough with very many afferents (max_steps samples, summed over the afferents). `probes_per_afferent` is an
+/// estimate.
 std::size_t block_size(const Input& input, const RespondOptions& options, bool wants_probes) {
     constexpr std::size_t max_values = std::size_t{1} << 23, max_steps = std::size_t{1} << 28, probes_per_afferent = 8;
     const std::size_t values = wants_probes ? input.afferent_count() * probes_per_afferent : input.source.channels().size();
     return std::clamp<std::size_t>(std::min(max_values / (values + 1), max_steps / (input.afferent_count() + 1)), 1, options.block);
 }
 
-/// Afferents with equal keys can be simulated on the same SIMD lanes.
+/// Plans with equal keys can share SIMD lanes: they have the same components and the same values of the parameters that lanes must share.
 std::string lane_key(const AfferentPlan& plan) {
     std::string key = plan.composition();
     for (std::size_t k = 0; k < plan.values.size(); ++k)
@@ -27,12 +28,13 @@ std::string lane_key(const AfferentPlan& plan) {
     return key;
 }
 
-/// Indexes of plans.
+/// The indexes of the plans of an input, grouped.
 struct PlanGroups {
     std::vector<std::vector<std::size_t>> on_lanes;  ///< groups of plans that can share lanes
-    std::vector<std::size_t> scalar;                 ///< plans that are simulated alone
+    std::vector<std::size_t> scalar;                 ///< plans that cannot use lanes
 };
 
+/// Groups the plans that can use lanes by lane_key().
 PlanGroups group_plans(std::span<const AfferentPlan> plans, const SimulationOptions& run) {
     PlanGroups groups;
     std::vector<std::string> keys;
@@ -63,6 +65,7 @@ Result<InputSimulator> InputSimulator::make(Input input, const RespondOptions& o
     return simulator;
 }
 
+/// Decides for each plan whether its afferents use lanes, and makes the lane groups and the other afferents. Single precision needs lanes.
 Result<void> InputSimulator::place_afferents(const RespondOptions& options, InstructionSet set) {
     const SimulationOptions run{input_.source.clock().T(), options.method, options.sampled, options.noise, options.seed};
     const auto plans = input_.plans;
@@ -114,6 +117,7 @@ Result<void> InputSimulator::place_on_lanes(std::span<const std::size_t> plans, 
     for (std::size_t c = 0; c < channels; ++c) {
         for (const auto k : plans) {
             group.afferents.push_back(static_cast<std::uint32_t>(c * plan_count + k));
+            // PopulationPlan::plans has one plan for all afferents, or one for each of them.
             if (plans.size() > 1) lane_plans.push_back(&input_.plans[k]);
         }
         if (!by_channel && c + 1 < channels) continue;
@@ -151,6 +155,7 @@ Result<void> InputSimulator::simulate_lane_group(LaneGroup& group, ThreadPool& p
     return {};
 }
 
+/// Simulates an afferent for one block. The probes of a netlist that did not converge are NaN from the next block on.
 void InputSimulator::simulate_scalar(ScalarAfferent& scalar) {
     const std::size_t u = scalar.afferent_index;
     std::vector<double*> probe_values;
@@ -167,7 +172,8 @@ void InputSimulator::simulate_scalar(ScalarAfferent& scalar) {
     scalar.energy_use = response.energy_use;
 }
 
-/// An afferent with a delay receives its first delay() samples before the first block, and then stays ahead of the block by as many.
+/// Simulates one block of force. The response of an afferent with a delay lags behind the force by delay() samples. Therefore it receives
+/// its first delay() samples before the first block, and is then always that many samples ahead of the block.
 Result<void> InputSimulator::respond_to_force(ScalarAfferent& scalar, ResponseBlock& response, std::span<double* const> probe_values) {
     const auto& afferent = *afferents_[scalar.afferent_index % afferents_.size()];
     const auto delay = static_cast<std::size_t>(afferent.delay()), channel = input_.channel_of(scalar.afferent_index);
@@ -179,7 +185,8 @@ Result<void> InputSimulator::respond_to_force(ScalarAfferent& scalar, ResponseBl
     return afferent.respond(force, scalar.state, response);
 }
 
-/// The afferent of this plan that was outside a range for the longest time, or null; and the number of afferents that were outside it.
+/// Among the afferents of one plan, one for each channel: the one that was outside a range for the longest time, null if none was; and the
+/// number of afferents that were outside it.
 std::pair<const InputSimulator::ScalarAfferent*, std::size_t> InputSimulator::longest_violation(std::size_t plan, std::size_t range) const {
     const ScalarAfferent* longest = nullptr;
     std::size_t count = 0;
@@ -199,12 +206,13 @@ std::vector<std::string> InputSimulator::range_warnings() const {
         for (std::size_t r = 0; r < ranges.size(); ++r) {
             const auto [scalar, count] = longest_violation(plan, r);
             if (!scalar) continue;
-            const auto& o = scalar->range_violations[r];
-            const auto violation = range_violation_message(ranges[r], static_cast<double>(o.samples) * T, static_cast<double>(samples_) * T,
-                                                           static_cast<double>(o.first_sample) * T);
+            const auto& violations = scalar->range_violations[r];
+            const auto message =
+                range_violation_message(ranges[r], static_cast<double>(violations.samples) * T, static_cast<double>(samples_) * T,
+                                        static_cast<double>(violations.first_sample) * T);
             warnings.push_back(fmt::format("{} on {}: {}{}", input_.plans[plan].name,
-                                           input_.channel_name(input_.channel_of(scalar->afferent_index)), violation,
-                                           count > 1 ? fmt::format(" (and on {} other channels for a shorter time)", count - 1) : ""));
+                                           input_.channel_name(input_.channel_of(scalar->afferent_index)), message,
+                                           count > 1 ? fmt::format(" (and on {} other channels, for at most as long)", count - 1) : ""));
         }
     }
     return warnings;
@@ -213,6 +221,7 @@ std::vector<std::string> InputSimulator::range_warnings() const {
 Result<void> InputSimulator::simulate_scalars(ThreadPool& pool, RunStats& stats) {
     pool.for_each(scalars_.size(), [this](std::size_t k, unsigned) { simulate_scalar(scalars_[k]); });
     for (auto& s : scalars_) {
+        // A netlist that did not converge is left out from now on; any other error ends the run.
         if (s.error && !(s.error->code == ErrorCode::not_converged && input_.plan_of(s.afferent_index).factory)) return *s.error;
         if (s.error) s.diverged = true, stats.diverged.push_back(*std::exchange(s.error, {}));
         spikes_.insert(spikes_.end(), s.spikes.begin(), s.spikes.end());

@@ -1,5 +1,5 @@
 #pragma once
-// Look-ahead on a source, for afferents whose response lags behind the force.
+// Reads a source of force some samples ahead, for afferents whose response lags behind the force.
 
 #include <span>
 #include <vector>
@@ -8,21 +8,24 @@
 
 namespace corpuscle {
 
-/// Reads blocks of a source and, for each channel, `lookahead` further samples. After the end of the source its last force is repeated.
+/// Reads blocks of a source and, for each channel, the `lookahead` samples after the block. After the end of the source, its last force is
+/// repeated.
 class LookaheadBuffer {
     std::size_t lookahead_;                    // samples to look ahead
     std::vector<std::vector<double>> buffer_;  // force of each channel from the block's first sample on; empty without look-ahead
-    std::size_t block_ = 0, available_ = 0;    // samples of the last block; samples of the source in the buffer
-    bool ended_ = false;
+    std::size_t last_block_ = 0;               // number of samples of the last block
+    std::size_t available_ = 0;                // number of samples of the source in the buffer, without repetitions of the last force
+    bool ended_ = false;                       // true after the end of the source has been read
 
-    Result<void> fill(ForceSource&, Frames&);
+    Result<void> fill(ForceSource&, Frames& block);
 
 public:
     LookaheadBuffer(std::size_t channels, std::size_t lookahead) : lookahead_(lookahead), buffer_(channels) {}
 
-    /// Reads the next block; count 0 means the end.
+    /// Reads the next block; a count of 0 marks the end.
     Result<void> next(ForceSource&, Frames&);
-    /// Samples of a channel, counted from the block's first; the range may end up to `lookahead` samples after the block.
+    /// `count` samples of a channel from sample `from` of the last block on. The range may end up to `lookahead` samples after the block.
+    /// Only if `lookahead` is not 0.
     std::span<const double> samples(std::size_t channel, std::size_t from, std::size_t count) const {
         return std::span(buffer_[channel]).subspan(from, count);
     }

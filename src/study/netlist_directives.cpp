@@ -24,6 +24,7 @@ std::string with_directives(const std::string& text, const std::string& directiv
     for (std::size_t at = 0; at < text.size();) {
         const auto end = std::min(text.find('\n', at), text.size());
         const auto line = std::string_view(text).substr(at, end - at);
+        // The first line is the title. A line that begins with + continues the line before it.
         if (!line.starts_with('+')) removed = !first && is_removed_directive(line);
         if (!removed) out += line;
         out += '\n';

@@ -5,7 +5,8 @@
 
 namespace corpuscle {
 
-/// The text with its analyses, measures and other directives blanked, and these lines appended. Line numbers are preserved.
+/// The text of a netlist, in which the lines of analyses, measures, outputs and expectations are blanked, so that line numbers are
+/// preserved. The lines `directives` and .end are appended.
 std::string with_directives(const std::string& text, const std::string& directives);
 
 }  // namespace corpuscle

@@ -2,8 +2,8 @@
 
 namespace corpuscle {
 
-PsthFile::PsthFile(OutputFile file, double bin) : file_(std::move(file)), bin_width_(bin) {
-    (void)file_.write("afferent,channel,from_s,to_s,spikes,rate_Hz\n");
+PsthFile::PsthFile(OutputFile file, double bin_width) : file_(std::move(file)), bin_width_(bin_width) {
+    (void)file_.write("afferent,channel,from_s,to_s,spikes,rate_Hz\n");  // commit() reports an error
 }
 
 Result<void> PsthFile::begin(const Input& input) {

@@ -6,15 +6,15 @@
 
 namespace corpuscle {
 
-/// psth.csv: afferent,channel,from_s,to_s,spikes,rate_Hz. Bins in order from the input's start, with a line for each afferent. Bins as in
-/// time_bins.hpp.
+/// psth.csv: afferent,channel,from_s,to_s,spikes,rate_Hz. One line for each afferent, bin after bin from the start of the input. from_s and
+/// to_s are on the clock of the input. For the edges of bins, see time_bins.hpp.
 class PsthFile final : public FileSink {
     OutputFile file_;
     double bin_width_;  // s
     TimeBins bins_;
 
 public:
-    PsthFile(OutputFile file, double bin);
+    PsthFile(OutputFile file, double bin_width);
     Result<void> begin(const Input&) override;
     Result<void> block(const Input&, const RunBlock&) override;
     Result<void> end(const Input&, std::int64_t samples) override;

@@ -19,7 +19,7 @@ void append_key(Json& object, std::string key, Json value) {
     object.get_ref<Json::object_t&>().push_back({std::move(key), std::move(value)});
 }
 
-/// Positions of the sensors, by channel; empty if unknown.
+/// The positions of the sensors by channel name, for the sensors whose position is known.
 Json position_document(const RunSummary::InputSummary& input) {
     Json out = Json::object();
     for (std::size_t c = 0; c < input.sensors.size(); ++c)
@@ -71,6 +71,7 @@ Json copies_document(const CopyStatistics& o) {
 Json row_document(const MeasureRow& row) {
     Json out = {{"afferent", row.afferent}, {"channel", row.channel}, {"phase", row.phase}};
     for (std::size_t m = 0; m < std::size(measures); ++m)
+        // A measure without decimals is a count, which is never NaN.
         out[measure_key(measures[m])] = !row.copy_statistics.empty() ? copies_document(row.copy_statistics[m])
                                         : measures[m].decimals == 0  ? Json(static_cast<std::int64_t>(row.values[m]))
                                                                      : json_number(row.values[m]);
@@ -133,8 +134,8 @@ Result<void> RunSummary::begin(const Input& input) {
     summary.sensors = input.source.channels();
     inputs_.push_back(std::move(summary));
     since_start_ = input.source.clock();
-    since_start_.t0 = 0;  // times since 1970 would lose precision
-    std::vector<TimeWindow> windows;
+    since_start_.t0 = 0;              // times since 1970 would lose precision
+    std::vector<TimeWindow> windows;  // one for each phase; without phases one for the whole input, whose end is set in end()
     for (const auto& p : inputs_.back().phases) windows.push_back({p.from, p.to, input.source.cycle_frequency()});
     if (windows.empty()) windows.push_back({.stimulus_frequency = input.source.cycle_frequency()});
     tally_ = MeasureAccumulator(std::move(windows), input.afferent_count());
@@ -155,7 +156,7 @@ Result<void> RunSummary::end(const Input& input, std::int64_t samples) {
     summary.samples = samples;
     summary.quality = input.source.quality();
     tally_.set_end(since_start_.time(samples));
-    const auto groups = copy_group_starts(input.plans);
+    const auto groups = copy_group_starts(input.plans);  // groups[g] is the first plan of afferent g, groups.back() the number of plans
     for (std::size_t c = 0; c < summary.channels.size(); ++c)
         for (std::size_t g = 0; g + 1 < groups.size(); ++g)
             for (std::size_t p = 0; p < std::max<std::size_t>(summary.phases.size(), 1); ++p)
@@ -163,14 +164,13 @@ Result<void> RunSummary::end(const Input& input, std::int64_t samples) {
     return comparisons_.end(input, samples);
 }
 
-/// A row for the plans from ... to - 1, which are one afferent or all copies of one afferent.
 MeasureRow RunSummary::row(const Input& input, std::size_t channel, std::size_t from, std::size_t to, std::size_t phase) const {
     const auto& summary = inputs_.back();
     const std::size_t first = channel * input.plans.size();
     MeasureRow row{base_name(input.plans[from]), summary.channels[channel], summary.phases.empty() ? "all" : summary.phases[phase].name,
                    tally_.values(first + from, phase)};
-    if (input.plans[from].copy_number == 0) {
-        if (row.values[measure_index<SpikeCount>] == 1) row.values[measure_index<MeanRate>] = no_value;  // one spike has no rate
+    if (input.plans[from].copy_number == 0) {                                                            // not a copy
+        if (row.values[measure_index<SpikeCount>] == 1) row.values[measure_index<MeanRate>] = no_value;  // one spike does not define a rate
         return row;
     }
     row.copy_statistics.resize(std::size(measures));
@@ -212,7 +212,7 @@ Json RunSummary::document(std::span<const AfferentPlan> afferents, const RunStat
                                    {"rejected", stats.rejected},
                                    {"iterations", stats.iterations},
                                    {"not_converged", stats.diverged.size()}};
-    double rest_force = INFINITY;
+    double rest_force = INFINITY;  // the smallest force of the run
     for (const auto& i : inputs_) rest_force = std::min(rest_force, i.min_force);
     if (auto costs = cost_documents_of(afferents, stats, rest_force); !costs.empty()) out["costs"] = std::move(costs);
     out["warnings"] = warnings;

@@ -10,8 +10,10 @@
 namespace corpuscle {
 namespace {
 
-constexpr double max_factor = 1e6, factor_tolerance = 1.02;
+constexpr double max_factor = 1e6;
+constexpr double factor_tolerance = 1.02;  // the search stops when its bounds differ by this ratio
 
+/// True if the afferent fires at least once when the force is multiplied by `factor`. False after an error.
 bool fires_with_factor(const Afferent& afferent, std::span<const double> force, double factor) {
     constexpr std::size_t block = 4096;
     std::vector<double> scaled(block);
@@ -31,7 +33,7 @@ bool fires_with_factor(const Afferent& afferent, std::span<const double> force, 
 
 std::optional<double> factor_to_fire(const AfferentPlan& plan, const SimulationOptions& run, std::span<const double> force) {
     const auto afferent = make_afferent(plan, run);
-    double low = 1, high = 1;
+    double low = 1, high = 1;  // it fires at `high`, and not at `low` unless both are 1
     while (!fires_with_factor(*afferent, force, high)) {
         if (high >= max_factor) return {};
         low = high, high *= 2;
@@ -45,28 +47,28 @@ std::optional<double> factor_to_fire(const AfferentPlan& plan, const SimulationO
 
 Result<void> SilenceDetector::begin(const Input& input) {
     force_samples_.assign(input.source.channels().size(), {});
-    max_force_.assign(force_samples_.size(), 0);
+    channel_max_.assign(force_samples_.size(), 0);
     has_fired_.resize(input.plans.size());
     return {};
 }
 
 Result<void> SilenceDetector::block(const Input& input, const RunBlock& block) {
-    const std::size_t limit = max_silence_samples / force_samples_.size();
+    const std::size_t max_samples = max_silence_samples / force_samples_.size();
     for (std::size_t c = 0; c < force_samples_.size(); ++c) {
         const auto* force = block.force.force[c].data();
-        const auto count = std::min(block.force.count, limit - std::min(limit, force_samples_[c].size()));
+        const auto count = std::min(block.force.count, max_samples - std::min(max_samples, force_samples_[c].size()));
         force_samples_[c].insert(force_samples_[c].end(), force, force + count);
-        for (std::size_t k = 0; k < block.force.count; ++k) max_force_[c] = std::max(max_force_[c], force[k]);
+        for (std::size_t k = 0; k < block.force.count; ++k) channel_max_[c] = std::max(channel_max_[c], force[k]);
     }
     for (const auto& s : block.spikes) has_fired_[(s.afferent_index - input.first_afferent) % input.plans.size()] = 1;
     return {};
 }
 
 Result<void> SilenceDetector::end(const Input& input, std::int64_t) {
-    const auto most = std::max_element(max_force_.begin(), max_force_.end());
-    if (*most > strongest_max_) {
-        strongest_max_ = *most, dt_ = input.source.clock().T();
-        strongest_channel_ = std::move(force_samples_[static_cast<std::size_t>(most - max_force_.begin())]);
+    const auto max = std::max_element(channel_max_.begin(), channel_max_.end());
+    if (*max > largest_force_) {
+        largest_force_ = *max, dt_ = input.source.clock().T();
+        largest_force_samples_ = std::move(force_samples_[static_cast<std::size_t>(max - channel_max_.begin())]);
     }
     force_samples_.clear();
     return {};
@@ -81,8 +83,9 @@ std::vector<SilentAfferent> SilenceDetector::silent_afferents(std::span<const Af
         const auto from = has_fired_.begin() + static_cast<std::ptrdiff_t>(groups[g]),
                    to = has_fired_.begin() + static_cast<std::ptrdiff_t>(groups[g + 1]);
         if (plan.factory || std::find(from, to, 1) != to) continue;
-        out.push_back({base_name(plan), strongest_max_, {}});
-        if (strongest_max_ > 0) out.back().factor = factor_to_fire(plan, {dt_, options.method, options.sampled, 0, 0}, strongest_channel_);
+        out.push_back({base_name(plan), largest_force_, {}});
+        if (largest_force_ > 0)
+            out.back().factor = factor_to_fire(plan, {dt_, options.method, options.sampled, 0, 0}, largest_force_samples_);
     }
     return out;
 }

@@ -10,27 +10,30 @@
 
 namespace corpuscle {
 
-/// Number of force samples, over all channels, that are kept for the search of the factor; later samples are ignored.
+/// Largest number of force samples of an input, summed over its channels, that are kept for the search of the factor. Later samples are
+/// ignored.
 inline constexpr std::size_t max_silence_samples = std::size_t{1} << 18;
 
-/// The factor, at least 1, by which force must be multiplied for the afferent to fire. Accurate to 2 %, rounded up. None if it exceeds a
-/// million.
+/// The smallest factor, at least 1, by which `force` (N) must be multiplied for the afferent to fire; the result is at most 2 %
+/// larger. No value if the factor exceeds a million.
 std::optional<double> factor_to_fire(const AfferentPlan&, const SimulationOptions&, std::span<const double> force);
 
 /// An afferent that, with all of its copies, never fired on any channel of any input.
 struct SilentAfferent {
     std::string name;
-    double force = 0;              ///< N: the largest force on any channel
-    std::optional<double> factor;  ///< by which force must be multiplied
+    double force = 0;              ///< N, the largest force on any channel of any input
+    std::optional<double> factor;  ///< see factor_to_fire(); for copies, of the first copy
 };
 
-/// Finds silent afferents. Netlists are left out, because the search would take longer than the run.
+/// Finds silent afferents, and their factors for the channel with the largest force of the run. Netlists are left out, because the search
+/// would take longer than the run.
 class SilenceDetector final : public ResponseSink {
-    std::vector<std::vector<double>> force_samples_;  // force of each channel of the current input
-    std::vector<double> max_force_;                   // of each channel of the current input, N
-    std::vector<char> has_fired_;                     // of each plan
-    std::vector<double> strongest_channel_;           // force samples of the channel, among all inputs, with the largest force so far
-    double strongest_max_ = 0, dt_ = 0;               // of that channel: the largest force, N, and the sample period, s
+    std::vector<std::vector<double>> force_samples_;  // kept force samples of each channel of the current input, N
+    std::vector<double> channel_max_;                 // largest force of each channel of the current input, N
+    std::vector<char> has_fired_;                     // of each plan: 1 if it has fired on any channel of any input
+    double largest_force_ = 0;                        // of all channels of all inputs so far, N
+    std::vector<double> largest_force_samples_;       // kept force samples of the channel with the largest force, N
+    double dt_ = 0;                                   // sample period of that channel, s
 
 public:
     Result<void> begin(const Input&) override;
@@ -40,10 +43,11 @@ public:
     std::vector<SilentAfferent> silent_afferents(std::span<const AfferentPlan> afferents, const RespondOptions&) const;
 };
 
-/// "fa1 never fired: the largest force was 0.5 N; it would fire at about 6.3 times this force".
+/// A message such as "fa1 never fired: the largest force was 0.5 N; it would fire at about 6.3 times this
+/// force".
 std::string silence_message(const SilentAfferent&);
 
-/// Two significant digits, rounded up: "1.5", "0.0021".
+/// A number with two significant digits, rounded up: "1.5", "0.0021".
 std::string format_rounded_up(double);
 
 }  // namespace corpuscle

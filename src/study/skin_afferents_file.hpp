@@ -1,5 +1,5 @@
 #pragma once
-// Position and response of every afferent of a skin, one row each.
+// A file with the position and the response of every afferent of a skin.
 
 #include "study/skin_file_sink.hpp"
 #include "study/skin_summary.hpp"
@@ -7,7 +7,8 @@
 namespace corpuscle {
 
 /// afferents.csv: afferent_index,afferent,region,x_mm,y_mm,delay_ms,spikes,first_spike_s,touched_s,rate_Hz. `afferent_index` is
-/// Spike::afferent_index; the rate is over the complete force. The counts come from the summary, which must precede this file among the
+/// Spike::afferent_index. delay_ms is the conduction delay, first_spike_s a time on the clock of the input, touched_s a duration. rate_Hz
+/// is the number of spikes divided by the duration of the force. All values come from the summary, which must precede this file among the
 /// sinks.
 class SkinAfferentsFile final : public SkinFileSink {
     OutputFile file_;

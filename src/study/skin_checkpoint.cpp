@@ -20,10 +20,10 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// FILE: magic, fingerprint, checksum of the force, number and checksum of the spikes, the skin's state, checksum of all that.
+// FILE: magic and version, fingerprint, checksum of the force, number and checksum of the spikes, the skin's state, checksum of all this.
 constexpr std::string_view checkpoint_magic = "corpuscle checkpoint ", checkpoint_version = "2";
 constexpr std::string_view spikes_header = "corpuscle told spikes 2\n";
-static_assert(spikes_header.size() % sizeof(std::uint64_t) == 0);
+static_assert(spikes_header.size() % sizeof(std::uint64_t) == 0);  // the spikes after the header are aligned
 
 /// A spike as stored in FILE.spikes.
 struct StoredSpike {
@@ -66,13 +66,15 @@ bool take_fingerprint(std::string_view& from, RunFingerprint& out) {
     return true;
 }
 
+/// Says how an entry of the fingerprint differs: `then` is its value in the checkpoint, `now` in this run; null if the entry is
+/// missing.
 std::string difference(const std::string& name, const std::string* then, const std::string* now) {
     if (name.starts_with("contents of")) return fmt::format("the {} have changed", name);
     if (!then) return fmt::format("{} was not given and now is {}", name, *now);
     return now ? fmt::format("{} was {} and now is {}", name, *then, *now) : fmt::format("{} was {} and now is not given", name, *then);
 }
 
-/// The differences between two runs, in words; "" if there are none.
+/// The differences between the fingerprints of two runs, in words; "" if there are none.
 std::string differences(const RunFingerprint& then, const RunFingerprint& now) {
     const auto value_in = [](const RunFingerprint& all, const std::string& name) {
         const auto at = std::find_if(all.begin(), all.end(), [&](const auto& e) { return e.first == name; });
@@ -95,6 +97,7 @@ bool begins_with(const std::string& path, std::string_view prefix) {
     return in.read(head.data(), static_cast<std::streamsize>(head.size())) && head == prefix;
 }
 
+/// True if the open file is still the file at this path.
 bool is_file_at(int file, const std::string& path) {
     struct ::stat open_file = {}, file_at_path = {};
     return ::fstat(file, &open_file) == 0 && ::stat(path.c_str(), &file_at_path) == 0 && open_file.st_ino == file_at_path.st_ino &&
@@ -110,7 +113,8 @@ std::string SkinCheckpoint::remedy() const {
 }
 
 Error SkinCheckpoint::changed_force_error() const {
-    return bad_input(fmt::format("the force up to this checkpoint differs from the force of the run that made it; {}", remedy()), {file_});
+    return bad_input(fmt::format("the force before this checkpoint differs from the force of the run that wrote it; {}", remedy()),
+                     {file_});
 }
 
 Result<std::unique_ptr<SkinCheckpoint>> SkinCheckpoint::open(const std::string& file, Skin& skin, RunFingerprint fingerprint) {
@@ -120,9 +124,9 @@ Result<std::unique_ptr<SkinCheckpoint>> SkinCheckpoint::open(const std::string& 
     std::error_code status;
     if (fs::exists(file, status))
         if (auto ok = checkpoint->resume(); !ok) return ok.error();
+    // Spikes after the last checkpoint are removed; this run computes them again.
     const auto end = spikes_header.size() + checkpoint->spike_count_ * sizeof(StoredSpike);
-    if (::ftruncate(::fileno(checkpoint->spikes_), static_cast<off_t>(end)) != 0)
-        return checkpoint->system_error(checkpoint->spikes_file_);
+    if (::ftruncate(::fileno(checkpoint->spikes_), static_cast<off_t>(end)) != 0) return checkpoint->system_error(checkpoint->spikes_file_);
     return checkpoint;
 }
 
@@ -226,7 +230,8 @@ Result<void> SkinCheckpoint::resume() {
     return check_spikes(spikes_sum);
 }
 
-/// Checks that the spikes have the number and checksum in FILE, are in order, and have valid afferent indexes and times.
+/// Checks that the spikes in FILE.spikes have the number and checksum that FILE says, are in order, and have valid afferent indexes and
+/// times.
 Result<void> SkinCheckpoint::check_spikes(std::uint64_t checksum) {
     std::error_code status;
     const auto size = fs::file_size(spikes_file_, status), stored = (size - std::min(size, spikes_header.size())) / sizeof(StoredSpike);
@@ -257,11 +262,12 @@ Result<void> SkinCheckpoint::check_spikes(std::uint64_t checksum) {
 Result<void> SkinCheckpoint::add_force(const SkinForce::Block& block, std::int64_t first) {
     const auto steps = block.total_force.size();
     force_sum_.add(block.total_force.data(), block.total_force.size_bytes());
-    const auto add = [&](std::size_t site) { force_sum_.add(block.force.data + site * block.force.stride, steps * sizeof(double)); };
-    for (std::size_t s = 0; block.force.reads_all && s < skin_.sites(); ++s) add(s);
+    const auto add_site = [&](std::size_t site) { force_sum_.add(block.force.data + site * block.force.stride, steps * sizeof(double)); };
+    for (std::size_t s = 0; block.force.reads_all && s < skin_.sites(); ++s) add_site(s);
     for (const auto s : block.force.touched)
-        if (!block.force.reads_all) add(s);
+        if (!block.force.reads_all) add_site(s);
     const auto end = first + static_cast<std::int64_t>(steps);
+    // A checkpoint is made between two blocks. In the block that ends there, the force so far must have the same checksum.
     if (resumed_samples_ <= first || resumed_samples_ > end) return {};
     return resumed_samples_ == end && force_sum_.value() == force_to_resumed_ ? Result<void>() : changed_force_error();
 }
@@ -271,7 +277,7 @@ Result<void> SkinCheckpoint::finish(std::int64_t samples) {
 }
 
 Result<void> SkinCheckpoint::replay(std::int64_t end, std::vector<Spike>& spikes) {
-    // A block includes the spikes that arrive up to its last sample.
+    // A block includes the spikes with a step before `end`, the first sample of the next block.
     if (replayed_ == 0 && read_ahead_.empty()) std::fseek(spikes_, static_cast<long>(spikes_header.size()), SEEK_SET);
     for (StoredSpike stored{};;) {
         if (read_ahead_.empty()) {

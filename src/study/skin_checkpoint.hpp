@@ -1,6 +1,7 @@
 #pragma once
-// Checkpoints of a skin run, so that it can be killed and resumed. FILE holds the skin's state at some sample, FILE.spikes all spikes
-// before it. The same command replays these spikes and continues, so every output is the same as without the interruption.
+// Checkpoints of a skin run, so that it can be killed and resumed. FILE, named by --checkpoint, holds the skin's state after some
+// sample; FILE.spikes holds all spikes up to this sample. When the same command is run again, it replays these spikes and continues, so
+// every output is the same as without the interruption.
 
 #include <cstdio>
 #include <string>
@@ -12,14 +13,15 @@
 
 namespace corpuscle {
 
-/// The inputs that determine a run's response, by name: {"--scale", "0.02"}. Checksums of files are included under names that begin with
-/// "contents of".
+/// All options and files that determine the response of a run, as pairs of name and value: {"--scale", "0.02"}. For a file, the name begins
+/// with "contents of", and the value is its checksum.
 using RunFingerprint = std::vector<std::pair<std::string, std::string>>;
 
 class SkinCheckpoint final : public SkinRunLog {
 public:
-    /// For a skin that has not started. Resumes it if FILE exists. Rejects a checkpoint of another skin or run and names the difference.
-    /// Also rejects a damaged file, one in use by another process, and a file that is not a checkpoint, and leaves it unchanged.
+    /// For a skin that has not started. If `file` exists, resumes the skin from it. Returns an error, and leaves the files unchanged, if
+    /// the checkpoint is of another skin or run (the error names the difference), is damaged, is in use by another process, or is not a
+    /// checkpoint.
     static Result<std::unique_ptr<SkinCheckpoint>> open(const std::string& file, Skin&, RunFingerprint);
     ~SkinCheckpoint() override;
 
@@ -49,11 +51,11 @@ private:
     RunFingerprint fingerprint_;
     std::FILE* spikes_ = nullptr;  // locked while it is open
     std::int64_t resumed_samples_ = 0;
-    std::uint64_t spike_count_ = 0;  // spikes written
-    std::uint64_t replayed_ = 0;     // spikes of these that were read again
-    Checksum spikes_sum_, force_sum_;
-    std::uint64_t force_to_resumed_ = 0;  // checksum of the force before `resumed_samples_`
-    std::vector<Spike> read_ahead_;       // a spike that was read but belongs to a later block
+    std::uint64_t spike_count_ = 0;       // number of spikes in FILE.spikes
+    std::uint64_t replayed_ = 0;          // number of these spikes that were read again
+    Checksum spikes_sum_, force_sum_;     // of the spikes in FILE.spikes; of the force of this run so far
+    std::uint64_t force_to_resumed_ = 0;  // checksum, from FILE, of the first `resumed_samples_` samples of force
+    std::vector<Spike> read_ahead_;       // at most one spike, which was read but belongs to a later block
 };
 
 /// Checksum of a file's contents, as used in a RunFingerprint.

@@ -14,7 +14,7 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-constexpr std::size_t max_first_spikes = 100;
+constexpr std::size_t max_first_spikes = 100;  // largest number of afferents under "first_spikes"
 
 Json sources_document(const std::vector<SourceNote>& all) {
     Json out = Json::array();
@@ -22,7 +22,7 @@ Json sources_document(const std::vector<SourceNote>& all) {
     return out;
 }
 
-/// Number and density of the afferents of a class in each region.
+/// For each region: the number of afferents of class c and, if it was given, their density.
 Json density_document(const Innervation& skin, std::size_t c) {
     const auto& plan = skin.plan;
     std::vector<std::int64_t> afferents(plan.sites.regions.size());
@@ -30,7 +30,8 @@ Json density_document(const Innervation& skin, std::size_t c) {
     Json out = Json::object();
     for (std::size_t r = 0; r < afferents.size(); ++r) {
         out[plan.sites.regions[r]] = {{"afferents", afferents[r]}};
-        if (!plan.classes[c].density.empty()) out[plan.sites.regions[r]]["afferents_per_cm2"] = plan.classes[c].density[r] * 1e-4;
+        if (!plan.classes[c].density.empty())
+            out[plan.sites.regions[r]]["afferents_per_cm2"] = plan.classes[c].density[r] * 1e-4;  // from 1/m^2
     }
     return out;
 }
@@ -126,12 +127,12 @@ Json SkinSummary::document(const SkinRunNotes& notes) const {
                                        {"afferent", skin_->afferent_name(f.afferent_index)},
                                        {"region", skin_->plan.sites.regions[skin_->afferents[f.afferent_index].region]},
                                        {"time_s", f.time}});
-    const auto& w = notes.stats;
-    out["work"] = {{"steps", w.steps},
-                   {"afferent_steps", w.afferent_steps},
-                   {"at_rest", w.skipped_steps},
-                   {"spikes", w.spikes},
-                   {"truncated_steps", w.truncated_steps}};
+    const auto& stats = notes.stats;
+    out["work"] = {{"steps", stats.steps},
+                   {"afferent_steps", stats.afferent_steps},
+                   {"at_rest", stats.skipped_steps},
+                   {"spikes", stats.spikes},
+                   {"truncated_steps", stats.truncated_steps}};
     out["warnings"] = notes.warnings;
     return out;
 }
@@ -152,6 +153,7 @@ std::vector<std::vector<std::string>> SkinSummary::table() const {
         for (const auto x : {r.first_spike, r.median_first_spike}) cells.push_back(millisecond_cell(x));
         out.push_back(std::move(cells));
     };
+    // The rows of all regions first, without and then with phases; then those of single regions over all phases, if afferents were active.
     const auto put_if = [&](auto wanted) {
         for (const auto& r : rows_)
             if (wanted(r)) put(r);

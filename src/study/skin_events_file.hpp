@@ -10,12 +10,12 @@ class SkinEventsFile final : public SkinFileSink {
     OutputFile file_;
     std::string format_name_;
     std::unique_ptr<EventFormat> format_;
-    std::string bytes_;
+    std::string bytes_;  // of the current block
 
     Result<void> put(std::span<const Spike>);
 
 public:
-    /// `format`: one of event_formats().
+    /// `format`: the name of one of event_formats().
     SkinEventsFile(OutputFile file, std::string format) : file_(std::move(file)), format_name_(std::move(format)) {}
     Result<void> begin(const SkinInput&) override;
     Result<void> block(const SkinInput&, const SkinRunBlock& block) override { return put(block.spikes); }

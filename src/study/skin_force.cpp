@@ -16,7 +16,7 @@ class PressedForce final : public SkinForce {
     ForceSource& source_;
     Contact& contact_;
     Frames frames_{1, pressed_block};
-    std::int64_t first_ = 0;
+    std::int64_t first_ = 0;  // index of the first sample of the next block
 
 public:
     PressedForce(ForceSource& source, Contact& contact) : source_(source), contact_(contact) {}
@@ -38,13 +38,14 @@ public:
 
 class SitesForce final : public SkinForce {
     ForceSource& source_;
-    std::vector<std::uint32_t> sites_;
+    std::vector<std::uint32_t> sites_;  // the site of each channel
     Frames frames_;
-    std::vector<double> force_, total_ = std::vector<double>(site_block);  // [site][step]
+    std::vector<double> force_;                                    // [site][step], N; 0 at sites without a channel
+    std::vector<double> total_ = std::vector<double>(site_block);  // of all sites, for each step, N
 
 public:
-    SitesForce(ForceSource& source, std::vector<std::uint32_t> sites, std::size_t all)
-        : source_(source), sites_(std::move(sites)), frames_(sites_.size(), site_block), force_(all * site_block) {}
+    SitesForce(ForceSource& source, std::vector<std::uint32_t> sites, std::size_t all_sites)
+        : source_(source), sites_(std::move(sites)), frames_(sites_.size(), site_block), force_(all_sites * site_block) {}
     double progress() const override { return source_.progress(); }
 
     Result<Block> next() override {

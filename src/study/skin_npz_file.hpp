@@ -6,8 +6,9 @@
 
 namespace corpuscle {
 
-/// spikes.npz: the arrays of NpzFile (npz_file.hpp), one segment. unit_ids are the values of afferent_index in afferents.csv,
-/// unit_channel contains the regions, unit_x_m and unit_y_m the positions. The spikes are kept in memory until the end.
+/// spikes.npz: the arrays of NpzFile (npz_file.hpp) with one segment. unit_ids are the values of afferent_index in afferents.csv.
+/// unit_channel contains the names of the regions, unit_x_m and unit_y_m the positions of the afferents. The spikes are kept in memory
+/// until the end.
 class SkinNpzFile final : public SkinFileSink {
     OutputFile file_;
     NpzWriter npz_;

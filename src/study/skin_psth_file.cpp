@@ -7,8 +7,8 @@
 
 namespace corpuscle {
 
-SkinPsthFile::SkinPsthFile(OutputFile file, double bin) : file_(std::move(file)), bin_width_(bin) {
-    (void)file_.write("afferent,channel,afferents,from_s,to_s,spikes,rate_Hz\n");
+SkinPsthFile::SkinPsthFile(OutputFile file, double bin_width) : file_(std::move(file)), bin_width_(bin_width) {
+    (void)file_.write("afferent,channel,afferents,from_s,to_s,spikes,rate_Hz\n");  // commit() reports an error
 }
 
 Result<void> SkinPsthFile::begin(const SkinInput& input) {
@@ -38,6 +38,7 @@ Result<void> SkinPsthFile::block(const SkinInput&, const SkinRunBlock& block) {
 
 Result<void> SkinPsthFile::end(const SkinInput&, std::int64_t samples, std::span<const Spike> last) {
     for (const auto& s : last) bins_.count(s, group_of_[s.afferent_index]);
+    // Conduction delays can make the last spikes arrive after the end of the force; the bins then end after the last spike.
     bins_.end(last.empty() ? samples : std::max(samples, last.back().step + 1));
     return file_.write(bins_.take_lines());
 }

@@ -11,14 +11,14 @@ namespace {
 
 /// The first byte of a message between the ranks of a skin run.
 enum SkinMessage : char {
-    spikes_of_block = 's',  ///< worker: any number of PackedRankSpike
-    worker_stats = 'w',     ///< worker, its last message: SkinStats
-    worker_error = 'e',     ///< worker: an error code and a message
-    acknowledged = 't',     ///< coordinator: a block was received
-    shutdown = 'd',         ///< coordinator: the run is over
+    spikes_of_block = 's',  ///< from a worker: any number of PackedRankSpike
+    worker_stats = 'w',     ///< from a worker, its last message: SkinStats
+    worker_error = 'e',     ///< from a worker: an error code, one byte, and the text of the error
+    acknowledged = 't',     ///< from the coordinator: the spikes of a block were received
+    shutdown = 'd',         ///< from the coordinator: the run is over
 };
 
-/// Maximum number of messages that a worker sends without an acknowledgement.
+/// A worker waits when it has sent this many messages that are not acknowledged.
 constexpr int max_unacknowledged = 8;
 
 struct PackedRankSpike {
@@ -27,8 +27,9 @@ struct PackedRankSpike {
     std::uint64_t afferent_index;
 };
 
+/// A message with the spikes of one block, in the byte order of this machine.
 std::string pack_spikes(const std::vector<Spike>& spikes) {
-    std::string text(1 + spikes.size() * sizeof(PackedRankSpike), spikes_of_block);
+    std::string text(1 + spikes.size() * sizeof(PackedRankSpike), spikes_of_block);  // the first byte is the type
     for (std::size_t k = 0; k < spikes.size(); ++k) {
         const PackedRankSpike s{spikes[k].step, spikes[k].offset, spikes[k].afferent_index};
         std::memcpy(text.data() + 1 + k * sizeof s, &s, sizeof s);
@@ -36,6 +37,7 @@ std::string pack_spikes(const std::vector<Spike>& spikes) {
     return text;
 }
 
+/// Appends the spikes of a message.
 void unpack_into(const std::string& text, std::vector<Spike>& spikes) {
     for (std::size_t at = 1; at + sizeof(PackedRankSpike) <= text.size(); at += sizeof(PackedRankSpike)) {
         PackedRankSpike s;
@@ -52,10 +54,10 @@ class DistributedSimulator final : public SkinSimulator {
     Ranks& ranks_;
     Skin& own_;
     ThreadPool& pool_;
-    std::vector<std::deque<std::string>> received_;  // of each rank
-    SkinStats others_stats_;
+    std::vector<std::deque<std::string>> received_;  // messages of each rank that were received but not yet read
+    SkinStats workers_stats_;                        // sums over the workers
 
-    /// Waits for the next message of a rank. Returns an error if that rank had one.
+    /// Waits for the next message of a rank. If it is an error, returns this error.
     Result<std::string> next_from(int rank) {
         auto& queue = received_[static_cast<std::size_t>(rank)];
         while (queue.empty()) {
@@ -70,7 +72,7 @@ class DistributedSimulator final : public SkinSimulator {
         return text;
     }
 
-    /// Adds the spikes of all other ranks for one block, in order.
+    /// Adds the spikes of all workers for one block, and sorts all spikes.
     Result<void> gather(std::vector<Spike>& spikes) {
         for (int rank = 1; rank < ranks_.size(); ++rank) {
             auto text = next_from(rank);
@@ -78,7 +80,7 @@ class DistributedSimulator final : public SkinSimulator {
             unpack_into(*text, spikes);
             ranks_.send(rank, std::string(1, acknowledged));
         }
-        (void)ranks_.unsent();
+        (void)ranks_.unsent();  // frees the acknowledgements that have been sent
         std::sort(spikes.begin(), spikes.end());
         return {};
     }
@@ -97,24 +99,24 @@ public:
         for (int rank = 1; rank < ranks_.size(); ++rank) {
             auto text = next_from(rank);
             if (!text) return text.error();
-            SkinStats work;
-            std::memcpy(&work, text->data() + 1, std::min(sizeof work, text->size() - 1));
-            others_stats_.afferent_steps += work.afferent_steps, others_stats_.skipped_steps += work.skipped_steps,
-                others_stats_.spikes += work.spikes;
-            others_stats_.truncated_steps += work.truncated_steps;
+            SkinStats worker;
+            std::memcpy(&worker, text->data() + 1, std::min(sizeof worker, text->size() - 1));
+            workers_stats_.afferent_steps += worker.afferent_steps, workers_stats_.skipped_steps += worker.skipped_steps,
+                workers_stats_.spikes += worker.spikes;
+            workers_stats_.truncated_steps += worker.truncated_steps;
         }
         return {};
     }
     SkinStats stats() const override {
-        auto all = own_.stats();
-        all.afferent_steps += others_stats_.afferent_steps, all.skipped_steps += others_stats_.skipped_steps,
-            all.spikes += others_stats_.spikes;
-        all.truncated_steps += others_stats_.truncated_steps;
+        auto all = own_.stats();  // `steps` is the same for all ranks
+        all.afferent_steps += workers_stats_.afferent_steps, all.skipped_steps += workers_stats_.skipped_steps,
+            all.spikes += workers_stats_.spikes;
+        all.truncated_steps += workers_stats_.truncated_steps;
         return all;
     }
 };
 
-/// A worker's connection to the coordinator; counts its unacknowledged messages.
+/// A worker's connection to the coordinator. Counts the messages that are not acknowledged yet.
 class WorkerChannel {
     Ranks& ranks_;
     int unacknowledged_ = 0;
@@ -129,13 +131,14 @@ class WorkerChannel {
 
 public:
     explicit WorkerChannel(Ranks& ranks) : ranks_(ranks) {}
-    /// Returns false if the coordinator has shut the run down.
+    /// Sends a message, and waits while too many are not acknowledged. Returns false if the coordinator has shut the run down.
     bool send(std::string text) {
         ++unacknowledged_;
         ranks_.send(0, std::move(text));
         for (receive(); !is_shut_down_ && unacknowledged_ >= max_unacknowledged; receive()) pause_briefly();
         return !is_shut_down_;
     }
+    /// Waits until the coordinator has shut the run down and all messages have been sent.
     void wait_for_shutdown() {
         for (receive(); !is_shut_down_ || ranks_.unsent() > 0; receive()) pause_briefly();
     }
@@ -155,8 +158,8 @@ Result<bool> simulate_rank_afferents(WorkerChannel& channel, SkinForce& force, S
     spikes.clear();
     skin.finish(spikes);
     if (!channel.send(pack_spikes(spikes))) return false;
-    const auto work = skin.stats();
-    return channel.send(std::string(1, worker_stats) + std::string(reinterpret_cast<const char*>(&work), sizeof work));
+    const auto stats = skin.stats();
+    return channel.send(std::string(1, worker_stats) + std::string(reinterpret_cast<const char*>(&stats), sizeof stats));
 }
 
 }  // namespace

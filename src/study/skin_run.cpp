@@ -18,12 +18,13 @@ public:
     SkinStats stats() const override { return skin_.stats(); }
 };
 
-/// Limits how often the log is flushed; the interval is long enough to make its cost negligible.
+/// Limits how often the log is flushed. The interval is so long that the cost of flushing is negligible.
 class FlushTimer {
     std::chrono::steady_clock::time_point last_ = std::chrono::steady_clock::now();
     static constexpr std::chrono::seconds interval{10};
 
 public:
+    /// True at most once in each interval.
     bool is_due() {
         const auto t = std::chrono::steady_clock::now();
         if (t - last_ < interval) return false;
@@ -32,7 +33,8 @@ public:
     }
 };
 
-/// Gets the spikes of one block, by simulation or from the log.
+/// Gets the spikes of one block, which begins with sample `first`: from the log if an earlier run has simulated it, otherwise by
+/// simulation.
 Result<void> run_block(const SkinForce::Block& block, std::int64_t first, SkinSimulator& skin, SkinRunLog* run_log,
                        std::vector<Spike>& spikes) {
     spikes.clear();

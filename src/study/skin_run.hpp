@@ -1,5 +1,5 @@
 #pragma once
-// Runs force through a whole skin into sinks: the counterpart of afferent_run.hpp, which is for afferents on channels.
+// Simulates a skin under a force and passes the response to sinks: the counterpart of afferent_run.hpp, which is for afferents on channels.
 
 #include <functional>
 #include <memory>
@@ -10,22 +10,22 @@
 
 namespace corpuscle {
 
-/// The input of a run.
+/// The force of a run and the skin that it acts on.
 struct SkinInput {
-    std::string name;         ///< name of the force: "press"
-    std::string description;  ///< "a sphere of 5 mm, pressed with ..."
-    Clock clock;
-    std::vector<Phase> phases;
+    std::string name;           ///< name of the force: "press"
+    std::string description;    ///< "a sphere of 5 mm, pressed with ..."
+    Clock clock;                ///< of the force
+    std::vector<Phase> phases;  ///< of a stimulus
     const Innervation& skin;
 };
 
 /// The response to one block of force.
 struct SkinRunBlock {
-    std::int64_t first_sample = 0;  ///< index of the block's first sample
-    std::size_t steps = 0;
+    std::int64_t first_sample = 0;  ///< index of the block's first sample; 0 is the first sample of the force
+    std::size_t steps = 0;          ///< number of samples
     const SiteForce& force;
     std::span<const double> total_force;  ///< total force of all sites at each step, N
-    std::span<const Spike> spikes;        ///< in order of time, then afferent index
+    std::span<const Spike> spikes;        ///< that arrive during the block, in order of time, then afferent index
 };
 
 class SkinSink {
@@ -33,7 +33,7 @@ public:
     virtual ~SkinSink() = default;
     virtual Result<void> begin(const SkinInput&) { return {}; }
     virtual Result<void> block(const SkinInput&, const SkinRunBlock&) { return {}; }
-    /// `last`: spikes that the nerve fibres are still conducting at the end of the force.
+    /// `samples`: number of samples of the force. `last`: spikes that the nerve fibres are still conducting at the end of the force.
     virtual Result<void> end(const SkinInput&, std::int64_t /*samples*/, std::span<const Spike> /*last*/) { return {}; }
 };
 
@@ -43,7 +43,7 @@ public:
     /// Valid until the next block.
     struct Block {
         SiteForce force;
-        std::span<const double> total_force;  ///< of all sites together, N; one value for each step of the block
+        std::span<const double> total_force;  ///< of all sites together, N; one value for each sample of the block
     };
     virtual ~SkinForce() = default;
     /// Returns the next block; at the end of the force, a block without samples.
@@ -53,7 +53,8 @@ public:
 
 /// The force at the sites when a contact presses one channel of force onto the skin.
 std::unique_ptr<SkinForce> make_pressed_force(ForceSource&, Contact&);
-/// The force at the sites from one channel for each site; `sites`: the site of each channel.
+/// The force at the sites from a recording with one channel for each site. `sites`: the site of each channel; `all_sites`: the number of
+/// sites of the skin.
 std::unique_ptr<SkinForce> make_site_force(ForceSource&, std::vector<std::uint32_t> sites, std::size_t all_sites);
 /// The site of each channel of a recording: by name, or by order if there are as many channels as sites.
 Result<std::vector<std::uint32_t>> match_sites(const SkinPlan&, const ForceSource&);
@@ -62,7 +63,7 @@ Result<std::vector<std::uint32_t>> match_sites(const SkinPlan&, const ForceSourc
 class SkinSimulator {
 public:
     virtual ~SkinSimulator() = default;
-    /// Simulates these steps and appends their spikes.
+    /// Simulates the next block of this many steps and appends its spikes.
     virtual Result<void> respond(const SiteForce&, std::size_t steps, std::vector<Spike>&) = 0;
     /// Call after the last step: appends the spikes that the nerve fibres are still conducting.
     virtual Result<void> flush(std::vector<Spike>&) = 0;
@@ -71,30 +72,31 @@ public:
 /// Simulates the complete skin in this process.
 std::unique_ptr<SkinSimulator> local_skin_simulator(Skin&, ThreadPool&);
 
-/// A record of a run that can be stopped and resumed: the spikes so far, to be replayed, and the sample at which to continue.
+/// A log of a run that can be stopped and resumed: the spikes so far, which are replayed, and the sample at which the simulation continues.
 class SkinRunLog {
 public:
     virtual ~SkinRunLog() = default;
-    virtual std::int64_t resumed_samples() const = 0;  ///< samples simulated before this run
-    /// Adds the force of the next block to the log. If the block was simulated before, returns an error unless its force is the same.
+    virtual std::int64_t resumed_samples() const = 0;  ///< number of samples that an earlier run has simulated; 0 if the run is not resumed
+    /// Adds the force of the next block, which begins with sample `first`. Returns an error if the force so far differs from that of
+    /// the earlier run, at the latest in the block in which the earlier run ended.
     virtual Result<void> add_force(const SkinForce::Block&, std::int64_t first) = 0;
-    /// Replays the spikes of the next block that was simulated before.
+    /// For a block that an earlier run has simulated: appends its spikes. `end` is the index of the sample after the block.
     virtual Result<void> replay(std::int64_t end, std::vector<Spike>&) = 0;
-    /// Appends the spikes of a newly simulated block.
+    /// Adds the spikes of a newly simulated block to the log.
     virtual Result<void> append(std::span<const Spike>) = 0;
-    /// Makes everything so far durable.
+    /// Writes the log to disk, so that a run can be resumed after the last block.
     virtual Result<void> flush() = 0;
-    /// Call at the end of the force, which had this many samples.
+    /// Call at the end of the force. `samples`: its number of samples. Returns an error if an earlier run has simulated more.
     virtual Result<void> finish(std::int64_t samples) = 0;
 };
 
 struct SkinRunOptions {
-    /// Called once a block with the completed fraction, 0 to 1; false stops the run.
+    /// Called after each block with the completed fraction of the run, 0 to 1. If it returns false, the run stops.
     std::function<bool(double)> should_continue = [](double) { return true; };
-    SkinRunLog* log = nullptr;
+    SkinRunLog* log = nullptr;  ///< null: the run cannot be resumed
 };
 
-/// Runs a force through a skin. A run that is stopped by the callback returns an error of code `interrupted`.
+/// Simulates a skin under a force. If should_continue stops the run, returns an error of code `interrupted`.
 Result<SkinStats> run_skin(SkinForce&, const SkinInput&, SkinSimulator&, std::span<SkinSink* const>, const SkinRunOptions&);
 
 }  // namespace corpuscle

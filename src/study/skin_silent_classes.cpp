@@ -8,25 +8,26 @@ namespace corpuscle {
 
 Result<void> SkinSilenceDetector::begin(const SkinInput& input) {
     skin_ = &input.skin, dt_ = input.clock.T(), max_total_force_ = 0;
-    has_fired_.assign(skin_->plan.classes.size(), 0), max_force_.assign(has_fired_.size(), 0);
+    has_fired_.assign(skin_->plan.classes.size(), 0), class_max_force_.assign(has_fired_.size(), 0);
     site_peak_.assign(skin_->plan.sites.size(), 0), force_on_afferent_.assign(skin_->afferents.size(), 0);
     total_force_.clear();
     return {};
 }
 
-/// Finds the sites with force, and the largest force of each.
-void SkinSilenceDetector::find_peaks(const SkinRunBlock& block) {
+/// Finds the sites with force in the block, and the largest force of each.
+void SkinSilenceDetector::find_site_peaks(const SkinRunBlock& block) {
     touched_sites_.clear();
-    const auto add = [&](std::uint32_t site) {
+    const auto add_site = [&](std::uint32_t site) {
         const double* force = block.force.data + site * block.force.stride;
         const double max = *std::max_element(force, force + block.steps);
         if (max > 0) site_peak_[site] = max, touched_sites_.push_back(site);
     };
-    for (std::uint32_t s = 0; block.force.reads_all && s < site_peak_.size(); ++s) add(s);
+    for (std::uint32_t s = 0; block.force.reads_all && s < site_peak_.size(); ++s) add_site(s);
     for (const auto s : block.force.touched)
-        if (!block.force.reads_all) add(s);
+        if (!block.force.reads_all) add_site(s);
 }
 
+/// The upper bound of the force on the afferents of a class in the current block, N.
 double SkinSilenceDetector::max_force_on_class(std::size_t class_index) {
     const auto& fields = skin_->fields[class_index];
     double max = 0;
@@ -45,9 +46,9 @@ Result<void> SkinSilenceDetector::block(const SkinInput&, const SkinRunBlock& bl
     total_force_.insert(total_force_.end(), block.total_force.begin(),
                         block.total_force.begin() + static_cast<std::ptrdiff_t>(std::min(remaining, block.steps)));
     max_total_force_ = std::max(max_total_force_, *std::max_element(block.total_force.begin(), block.total_force.end()));
-    find_peaks(block);
+    find_site_peaks(block);
     for (std::size_t c = 0; c < has_fired_.size(); ++c)
-        if (!has_fired_[c]) max_force_[c] = std::max(max_force_[c], max_force_on_class(c));
+        if (!has_fired_[c]) class_max_force_[c] = std::max(class_max_force_[c], max_force_on_class(c));
     return {};
 }
 
@@ -60,10 +61,10 @@ std::vector<SilentClass> SkinSilenceDetector::silent_classes(Method method, bool
     std::vector<SilentClass> out;
     for (std::size_t c = 0; c < has_fired_.size(); ++c) {
         if (has_fired_[c] || skin_->class_begin[c + 1] == skin_->class_begin[c]) continue;
-        out.push_back({c, max_force_[c], {}});
-        if (!(max_force_[c] > 0 && max_total_force_ > 0)) continue;
-        auto force_on_afferent = total_force_;  // scaled to the afferent with the largest force
-        for (auto& f : force_on_afferent) f *= max_force_[c] / max_total_force_;
+        out.push_back({c, class_max_force_[c], {}});
+        if (!(class_max_force_[c] > 0 && max_total_force_ > 0)) continue;
+        auto force_on_afferent = total_force_;  // the total force over time, scaled to the largest force on an afferent of the class
+        for (auto& f : force_on_afferent) f *= class_max_force_[c] / max_total_force_;
         out.back().factor = factor_to_fire(skin_->plan.classes[c].afferent, {dt_, method, sampled, 0, 0}, force_on_afferent);
     }
     return out;

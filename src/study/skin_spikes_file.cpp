@@ -6,7 +6,9 @@
 
 namespace corpuscle {
 
-SkinSpikesFile::SkinSpikesFile(OutputFile file) : file_(std::move(file)) { (void)file_.write("afferent,channel,time_s\n"); }
+SkinSpikesFile::SkinSpikesFile(OutputFile file) : file_(std::move(file)) {
+    (void)file_.write("afferent,channel,time_s\n");  // commit() reports an error
+}
 
 Result<void> SkinSpikesFile::begin(const SkinInput& input) {
     names_.clear();

@@ -7,7 +7,8 @@
 
 namespace corpuscle {
 
-/// spikes.csv: afferent,channel,time_s, as for afferents on channels; the channel is the region. In order of time, to the nanosecond.
+/// spikes.csv: afferent,channel,time_s, as in SpikesFile; the channel is the region. In order of time. Times are on the clock of the force,
+/// to the nanosecond.
 class SkinSpikesFile final : public SkinFileSink {
     OutputFile file_;
     std::vector<std::string> names_;  // "sa1#17,palm" of each afferent

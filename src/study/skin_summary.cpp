@@ -21,6 +21,7 @@ std::vector<std::uint32_t> main_sites(const Innervation& skin) {
     return site;
 }
 
+/// The median; changes the order of the values.
 double median_of(std::vector<double>& values) {
     if (values.empty()) return no_value;
     const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
@@ -46,13 +47,15 @@ Result<void> SkinSummary::begin(const SkinInput& input) {
     return {};
 }
 
-/// Phases do not overlap. Returns the number of phases if none contains t.
+/// The index of the phase that contains the time t, s since the start of the force; the number of phases if none does. Phases do not
+/// overlap.
 std::size_t SkinSummary::phase_of(double t) const {
     const auto found = std::find_if(phases_.begin(), phases_.end(), [t](const Phase& p) { return t >= p.from && t < p.to; });
     return static_cast<std::size_t>(found - phases_.begin());
 }
 
-/// True if the site of an afferent's largest weight has force at this sample of the block.
+/// True if the site where the afferent has its largest weight has force at this sample, counted from the start of the force. The sample
+/// must be in the block.
 bool SkinSummary::is_touched(const SkinRunBlock& block, std::size_t afferent_index, std::int64_t sample) const {
     const auto site = main_site_[afferent_index];
     const auto& [data, stride, touched, reads_all] = block.force;
@@ -60,8 +63,8 @@ bool SkinSummary::is_touched(const SkinRunBlock& block, std::size_t afferent_ind
     return data[site * stride + static_cast<std::size_t>(sample - block.first_sample)] > 0;
 }
 
-/// Counts spikes. `block`: the block in which they arrive; null after the last block.
-void SkinSummary::add(std::span<const Spike> spikes, const SkinRunBlock* block) {
+/// Counts spikes. `block`: the block in which they arrive; null if they arrive after the force has ended.
+void SkinSummary::count_spikes(std::span<const Spike> spikes, const SkinRunBlock* block) {
     for (const auto& s : spikes) {
         const double t = since_start_.time(s.step, s.offset);
         const auto phase = phase_of(t);
@@ -75,7 +78,7 @@ void SkinSummary::add(std::span<const Spike> spikes, const SkinRunBlock* block) 
     all_spikes_ += static_cast<std::int64_t>(spikes.size());
 }
 
-/// Splits the block at the edges of phases and counts the samples with force at each site in each phase.
+/// Splits the block at the edges of phases, and counts the samples with force of each site in each phase.
 void SkinSummary::count_touched_samples(const SkinRunBlock& block) {
     const auto sites = skin_->plan.sites.size();
     const auto time = [&](std::size_t k) { return since_start_.time(block.first_sample + static_cast<std::int64_t>(k)); };
@@ -100,14 +103,14 @@ Result<void> SkinSummary::block(const SkinInput&, const SkinRunBlock& block) {
         if (f > 0 && std::isnan(touch_start_)) touch_start_ = since_start_.time(block.first_sample + static_cast<std::int64_t>(k));
     }
     count_touched_samples(block);
-    add(block.spikes, &block);
+    count_spikes(block.spikes, &block);
     return {};
 }
 
 double SkinSummary::seconds() const { return since_start_.time(samples_); }
 
-std::size_t SkinSummary::group_index(const SkinAfferent& u, std::size_t phase) const {
-    return (phase * skin_->plan.classes.size() + u.class_index) * skin_->plan.sites.regions.size() + u.region;
+std::size_t SkinSummary::group_index(const SkinAfferent& afferent, std::size_t phase) const {
+    return (phase * skin_->plan.classes.size() + afferent.class_index) * skin_->plan.sites.regions.size() + afferent.region;
 }
 
 /// Number of spikes of a row that arrived while their afferents were touched.
@@ -121,7 +124,7 @@ std::int64_t SkinSummary::count_spikes_while_touched(const SkinSummaryRow& r) co
     return sum;
 }
 
-/// Number of samples at which an afferent is touched, in one phase or in all.
+/// Number of samples at which an afferent is touched, in one phase or, for SkinSummaryRow::all, during the whole force.
 std::int64_t SkinSummary::touched_samples(std::size_t afferent_index, std::size_t phase) const {
     const auto sites = skin_->plan.sites.size();
     if (phase != SkinSummaryRow::all) return site_touched_samples_[phase * sites + main_site_[afferent_index]];
@@ -130,27 +133,30 @@ std::int64_t SkinSummary::touched_samples(std::size_t afferent_index, std::size_
     return sum;
 }
 
+/// The row of these afferents, which are those of the class in the region.
 SkinSummaryRow SkinSummary::row(std::size_t class_index, std::size_t region, std::size_t phase,
                                 std::span<const std::uint32_t> afferents) const {
     SkinSummaryRow r{
         .class_index = class_index, .region = region, .phase = phase, .afferents = static_cast<std::int64_t>(afferents.size())};
     r.seconds = phase == SkinSummaryRow::all ? seconds() : std::max(std::min(phases_[phase].to, seconds()) - phases_[phase].from, 0.0);
-    std::int64_t max_spikes = 0, touched = 0;
-    std::vector<double> firsts;
+    std::int64_t max_spikes = 0;  // of one afferent
+    std::int64_t total_touched_samples = 0;
+    std::vector<double> first_times;
     for (const auto u : afferents) {
         const std::int64_t spikes = phase == SkinSummaryRow::all ? counts_[u] : phase_counts_[phase * counts_.size() + u];
         const auto samples = touched_samples(u, phase);
         r.spikes += spikes, r.active += spikes > 0, r.touched += samples > 0;
-        max_spikes = std::max(max_spikes, spikes), touched += samples;
-        if (phase == SkinSummaryRow::all && spikes > 0) firsts.push_back(first_times_[u]);
+        max_spikes = std::max(max_spikes, spikes), total_touched_samples += samples;
+        if (phase == SkinSummaryRow::all && spikes > 0) first_times.push_back(first_times_[u]);
     }
     if (max_spikes == 1)
         r.max_rate = no_value;
     else if (r.seconds > 0)
         r.max_rate = static_cast<double>(max_spikes) / r.seconds;
-    if (touched > 0 && r.spikes != 1) r.touched_rate = static_cast<double>(count_spikes_while_touched(r)) / since_start_.time(touched);
-    if (!firsts.empty()) r.first_spike = *std::min_element(firsts.begin(), firsts.end());
-    r.median_first_spike = median_of(firsts);
+    if (total_touched_samples > 0 && r.spikes != 1)
+        r.touched_rate = static_cast<double>(count_spikes_while_touched(r)) / since_start_.time(total_touched_samples);
+    if (!first_times.empty()) r.first_spike = *std::min_element(first_times.begin(), first_times.end());
+    r.median_first_spike = median_of(first_times);
     return r;
 }
 
@@ -160,7 +166,7 @@ void SkinSummary::add_rows(std::size_t class_index, std::size_t region, const st
 }
 
 Result<void> SkinSummary::end(const SkinInput&, std::int64_t samples, std::span<const Spike> last) {
-    add(last, nullptr);
+    count_spikes(last, nullptr);
     samples_ = samples;
     touched_times_.clear();
     for (std::size_t u = 0; u < counts_.size(); ++u) touched_times_.push_back(since_start_.time(touched_samples(u, SkinSummaryRow::all)));

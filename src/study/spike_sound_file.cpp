@@ -10,34 +10,37 @@
 namespace corpuscle {
 namespace {
 
-/// The gain of stereo position a of n on one ear; position 0 is fully left, n - 1 fully right.
+/// The gain of stereo position a of n on one ear (0 left, 1 right); position 0 is fully left, n - 1 fully right.
 double ear_gain(std::size_t a, std::size_t n, std::size_t ear) {
     if (n == 1) return 1;
     const double right = static_cast<double>(a) / static_cast<double>(n - 1);
     return ear == 0 ? 1 - right : right;
 }
 
-/// Time of a step since the start of the input, s.
+/// Time of a spike since the start of the input, s; without offset, the time of a sample.
 double since_start(const Input& input, std::int64_t step, double offset = 1) {
     auto clock = input.source.clock();
     clock.t0 = 0;
     return clock.time(step, offset);
 }
 
+/// The frame of the sound nearest to a time, s since the start of the input.
 std::int64_t frame_of(double t) { return std::llround(t * SpikeSoundFile::sample_rate); }
 
 }  // namespace
 
 void SpikeSoundFile::SoundCloser::operator()(sf_private_tag* wav) const { sf_close(wav); }
 
-/// A click starts at its full level and decays exponentially with a time constant of a quarter of a millisecond.
+/// Computes the positions of the afferents and the click of each position. A click starts at its full level and decays exponentially with a
+/// time constant of a quarter of a millisecond.
 Result<void> SpikeSoundFile::shape_clicks(const Input& input) {
     const auto groups = copy_group_starts(input.plans);
     const std::size_t positions = groups.size() - 1;  // copies share the position of their original
     position_of_.clear();
     for (std::size_t p = 0; p < positions; ++p) position_of_.resize(groups[p + 1], p);
     sound_channels_ = positions == 1 ? 1 : 2;
-    const double loudness_sum = static_cast<double>(input.plans.size()) / (positions == 1 ? 1 : 2);  // sum of the gains on one ear
+    const double loudness_sum =
+        static_cast<double>(input.plans.size()) / (positions == 1 ? 1 : 2);  // sum of the gains of all plans, the same on both ears
     const double loudest = 0.9 * 32767 / (loudness_sum * static_cast<double>(input.source.channels().size()));
     if (loudest < 1)
         return bad_input(fmt::format("'{}': {} afferents at once would make each click too soft for 16 bits; run it without --wav",
@@ -62,22 +65,25 @@ Result<void> SpikeSoundFile::begin(const Input& input) {
     std::unique_ptr<sf_private_tag, SoundCloser> wav(sf_open_fd(fileno(file->stream()), SFM_WRITE, &info, SF_FALSE));
     if (!wav) return bad_input(fmt::format("cannot write: {}", sf_strerror(nullptr)), {file->path()});
     sounds_.push_back({std::move(*file), std::move(wav)});
-    last_click_.assign(input.afferent_count(), -click_frames);
+    last_click_.assign(input.afferent_count(), -click_frames);  // ended before the first frame
     pending_.clear();
     written_ = 0;
     return {};
 }
 
+/// Adds a click of an afferent at `frame`, and removes the rest of its previous click.
 void SpikeSoundFile::add_click(std::size_t afferent_index, std::size_t position, std::int64_t frame) {
     const auto index_of = [this](std::int64_t f) { return static_cast<std::size_t>(f - written_) * sound_channels_; };
     pending_.resize(std::max(pending_.size(), index_of(frame + click_frames)));
     const auto& shape = click_shape_[position];
-    const auto skipped = static_cast<std::size_t>(std::min(frame - last_click_[afferent_index], click_frames)) * sound_channels_;
-    for (std::size_t k = skipped; k < shape.size(); ++k) pending_[index_of(frame) + k - skipped] -= shape[k];
+    // `finished`: the part of the previous click that ends before this one begins.
+    const auto finished = static_cast<std::size_t>(std::min(frame - last_click_[afferent_index], click_frames)) * sound_channels_;
+    for (std::size_t k = finished; k < shape.size(); ++k) pending_[index_of(frame) + k - finished] -= shape[k];
     for (std::size_t k = 0; k < shape.size(); ++k) pending_[index_of(frame) + k] += shape[k];
     last_click_[afferent_index] = frame;
 }
 
+/// Writes the frames before `frame`.
 Result<void> SpikeSoundFile::write_up_to(std::int64_t frame) {
     if (frame <= written_) return {};
     const auto values = static_cast<std::size_t>(frame - written_) * sound_channels_;
@@ -94,7 +100,7 @@ Result<void> SpikeSoundFile::write_up_to(std::int64_t frame) {
 Result<void> SpikeSoundFile::block(const Input& input, const RunBlock& block) {
     const double elapsed = since_start(input, block.first_sample + static_cast<std::int64_t>(block.force.count) - 1);
     if (elapsed > max_duration)
-        return bad_input(fmt::format("'{}' is longer than the {:g} hours that a WAV file can hold; run it without --wav", input.name,
+        return bad_input(fmt::format("'{}' is longer than {:g} hours, which is the limit of a WAV file; run it without --wav", input.name,
                                      max_duration / 3600),
                          {sounds_.back().file.path()});
     for (const auto& s : block.spikes) {

@@ -8,7 +8,7 @@
 namespace corpuscle {
 
 Result<SpikeTimingError> spike_timing_error(const std::vector<double>& exact, const std::vector<double>& other) {
-    const auto alignment = align_trains(exact, other, 2 / 50e-3);  // spikes closer than 50 ms are matched
+    const auto alignment = align_trains(exact, other, 2 / 50e-3);  // a cost at which only spikes less than 50 ms apart can be matched
     if (!alignment) return alignment.error();
     SpikeTimingError out;
     std::vector<double> delays;

@@ -1,5 +1,5 @@
 #pragma once
-// Spike-timing error between two trains that respond to the same stimulus.
+// Spike-timing error of a train with respect to an exact train, in response to the same stimulus.
 
 #include <vector>
 
@@ -8,12 +8,12 @@
 namespace corpuscle {
 
 struct SpikeTimingError {
-    double max = 0, rms = 0;  ///< s, over matched spikes
-    double median = 0;        ///< s, over matched spikes; positive if the second train is later
-    double unmatched = 0;     ///< number of spikes without a partner, of both trains together
+    double max = 0, rms = 0;  ///< s, largest absolute and rms time difference of matched spikes
+    double median = 0;        ///< s, median time difference of matched spikes; positive if `other` is later
+    double unmatched = 0;     ///< number of unmatched spikes in both trains together
 };
 
-/// Spikes within 50 ms of each other can be matched.
+/// Compares two trains (spike times in s, in order). Spikes less than 50 ms apart can be matched.
 Result<SpikeTimingError> spike_timing_error(const std::vector<double>& exact, const std::vector<double>& other);
 
 }  // namespace corpuscle

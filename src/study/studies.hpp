@@ -18,8 +18,8 @@ inline constexpr const Study* all_studies[] = {
 };
 #undef STUDY
 
-/// Studies of published recordings. The recordings are not part of the project and may be absent, so these studies are not included in
-/// "all"; they run if named.
+/// Studies of published recordings. The recordings are not part of the project and may be absent, so `corpuscle study all` leaves
+/// these studies out; they run only if they are named.
 namespace studies::eskin_press {
 extern const Study study;
 }

@@ -14,18 +14,20 @@ namespace {
 class StudyProgress {
     const StudyOptions& options_;
     std::mutex mutex_;
-    std::vector<double> fractions_;
+    std::vector<double> fractions_;  // completed fraction of each study
     std::optional<Error> error_;
 
 public:
     StudyProgress(const StudyOptions& options, std::size_t count) : options_(options), fractions_(count) {}
 
+    /// Sets the completed fraction of a study. Returns false if all studies must stop.
     bool update(std::size_t index, double fraction) {
         const std::lock_guard lock(mutex_);
         fractions_[index] = fraction;
         return !error_ && options_.should_continue(std::accumulate(fractions_.begin(), fractions_.end(), 0.0) /
                                                    static_cast<double>(fractions_.size()));
     }
+    /// Keeps the error of the study with this name, if it is the first error.
     void fail(std::string_view name, Error error) {
         const std::lock_guard lock(mutex_);
         if (error_) return;

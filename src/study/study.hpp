@@ -1,5 +1,5 @@
 #pragma once
-// A study reproduces a published result, or asks a question of the models, and lists computed values beside published ones.
+// A study reproduces a published result, or answers a question about the models. It lists computed values beside published ones.
 
 #include <functional>
 #include <span>
@@ -18,15 +18,16 @@ struct StudyResult {
     std::vector<StudyPlot> plots;
     std::vector<std::string> notes;  ///< findings, and the limits of the study
 
-    /// A computed number. The published value follows: claim("V_Q", v, "V").published_as(350.1e-3, "table 17").
+    /// Adds a computed number. The published value is added to the claim: claim("V_Q", v, "V").published_as(350.1e-3, "table 17").
     Claim& claim(std::string label, double computed, std::string unit = {}) {
         return claims.emplace_back(Claim{.label = std::move(label), .computed = computed, .unit = std::move(unit)});
     }
-    /// A statement that is true or false.
+    /// Adds a statement, `label`, that is expected to be true.
     Claim& claim_true(std::string label, bool is_true, std::string source) {
         return claims.emplace_back(Claim{
             .label = std::move(label), .computed = is_true ? 1.0 : 0.0, .allowed_min = 1, .source = std::move(source), .is_boolean = true});
     }
+    /// Adds a plot, which has no series yet.
     StudyPlot& plot(std::string title, std::string x_label, std::string y_label, bool log_x = false, bool log_y = false) {
         return plots.emplace_back(StudyPlot{std::move(title), std::move(x_label), std::move(y_label), {}, log_x, log_y});
     }
@@ -34,9 +35,9 @@ struct StudyResult {
 };
 
 struct StudyOptions {
-    /// Called with the completed fraction, 0 to 1; false stops the study.
+    /// Called with the completed fraction, 0 to 1. If it returns false, the study stops.
     std::function<bool(double)> should_continue = [](double) { return true; };
-    std::string recordings_folder = {};  ///< the folder of published recordings, for studies of them
+    std::string recordings_folder = {};  ///< the folder with the published recordings; only for recorded_studies
 
     /// Calls should_continue. If that returns false, returns an error of code `interrupted`, which the study passes on.
     Result<void> report_progress(double fraction) const {
@@ -48,9 +49,10 @@ struct Study {
     std::string_view name, title;
     std::string_view question;  ///< the published statement or the question, and its source
     Result<StudyResult> (*compute)(const StudyOptions&);
-    std::string_view recording_folder = {};  ///< the folder it needs within StudyOptions::recordings_folder; "": none
+    /// The folder within StudyOptions::recordings_folder that the study reads; "" if it reads no recording.
+    std::string_view recording_folder = {};
 
-    /// Runs the study. Returns the error `interrupted` if the callback stops it, also before or after the computation.
+    /// Runs the study. If should_continue stops it, returns an error of code `interrupted`.
     Result<StudyResult> run(const StudyOptions& options) const {
         if (auto ok = options.report_progress(0); !ok) return ok.error();
         auto outcome = compute(options);
@@ -60,7 +62,8 @@ struct Study {
     }
 };
 
-/// Runs all these studies, several in parallel. The first error ends the run.
+/// Runs these studies, several in parallel, and returns their results in the same order. After the first error the other studies are
+/// stopped.
 Result<std::vector<StudyResult>> run_studies(std::span<const Study* const>, const StudyOptions&);
 
 }  // namespace corpuscle

@@ -42,7 +42,7 @@ Json document_of(const StudyPlot& p) {
         {"series", series}};
 }
 
-/// A cell of a Markdown table.
+/// Text for a cell of a Markdown table.
 std::string markdown_cell(std::string_view text) {
     std::string out;
     for (const char c : text) {
@@ -52,13 +52,14 @@ std::string markdown_cell(std::string_view text) {
     return out;
 }
 
-/// Number of claims of one kind that agree, and that deviate.
+/// Number of claims that agree with the published value or the allowed range, and of claims that deviate from it.
 struct VerdictCount {
     int agreeing = 0, deviating = 0;
     void add(const Claim& c) { c.needs_explanation() ? ++deviating : ++agreeing; }
 };
 
-void put_table(std::string& text, const StudyResult& outcome) {
+/// Puts the table of all claims of one study.
+void put_study_table(std::string& text, const StudyResult& outcome) {
     if (outcome.claims.empty()) return;
     text += "| | computed | published | deviation | allowed | | source, reason |\n|---|---|---|---|---|---|---|\n";
     for (const auto& c : outcome.claims)
@@ -68,7 +69,8 @@ void put_table(std::string& text, const StudyResult& outcome) {
     text += '\n';
 }
 
-void put_deviations(std::string& text, std::span<const Study* const> studies, std::span<const StudyResult> outcomes) {
+/// Puts the table of the headline claims of all studies.
+void put_headline_table(std::string& text, std::span<const Study* const> studies, std::span<const StudyResult> outcomes) {
     text += "| study | quantity | computed | published | deviation | allowed | reason, if it deviates |\n|---|---|---|---|---|---|---|\n";
     for (std::size_t k = 0; k < studies.size(); ++k)
         for (const auto& c : outcomes[k].claims)
@@ -83,14 +85,15 @@ void put_deviations(std::string& text, std::span<const Study* const> studies, st
 bool is_headline(const Claim& c) { return c.needs_explanation() || (!std::isnan(c.published) && !c.is_derived); }
 
 std::string verdict_counts(std::span<const StudyResult> outcomes) {
-    VerdictCount published, derived, other;
+    VerdictCount published, derived, ranges;  // ranges: claims with an allowed range, or of a statement
     for (const auto& outcome : outcomes)
         for (const auto& c : outcome.claims)
-            if (*c.verdict() != 0) (c.has_allowed_range() ? other : c.is_derived ? derived : published).add(c);
+            if (*c.verdict() != 0) (c.has_allowed_range() ? ranges : c.is_derived ? derived : published).add(c);
     return fmt::format(
-        "{} published numbers agree within a tenth, {} differ by more. {} numbers agree with values derived from published ones (in "
-        "brackets: by an equation, a sentence or the thesis's model), {} differ. {} claims in words hold, {} do not.",
-        published.agreeing, published.deviating, derived.agreeing, derived.deviating, other.agreeing, other.deviating);
+        "{} published numbers agree within 10 %, {} differ by more. {} numbers agree within 10 % with values that an equation, a sentence "
+        "or "
+        "the thesis's model gives (in brackets), {} differ by more. {} claims of a range or a statement hold, {} do not.",
+        published.agreeing, published.deviating, derived.agreeing, derived.deviating, ranges.agreeing, ranges.deviating);
 }
 
 Json document_of(const Study& study, const StudyResult& outcome) {
@@ -109,10 +112,10 @@ std::string markdown_of(std::span<const Study* const> studies, std::span<const S
         from_recording ? "A published recording" : "Every figure and table", from_recording ? studies.front()->name : "all",
         from_recording ? " if the recording is in CORPUSCLE_DATA" : ", and `out/reproduction.html` with the pictures",
         verdict_counts(outcomes));
-    put_deviations(text, studies, outcomes);
+    put_headline_table(text, studies, outcomes);
     for (std::size_t k = 0; k < studies.size(); ++k) {
         text += fmt::format("\n## {}\n\n**{}.** {}\n\n", studies[k]->name, studies[k]->title, studies[k]->question);
-        put_table(text, outcomes[k]);
+        put_study_table(text, outcomes[k]);
         for (const auto& p : outcomes[k].plots)
             text += fmt::format("- Picture: {}.{}\n", p.title,
                                 p.published_shape.empty() ? "" : fmt::format(" Published: {}", p.published_shape));

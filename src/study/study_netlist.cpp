@@ -26,6 +26,7 @@ using circuit::parse_embedded;
 using circuit::RunOptions;
 using circuit::Values;
 
+/// Parses the netlist, with its directives replaced, and applies the settings.
 Result<Netlist> netlist_of(const StudyNetlist& deck) {
     const bool is_text = deck.circuit.find('\n') != std::string::npos;
     const auto file = is_text ? std::string("circuits/study.cir") : fmt::format("circuits/{}.cir", deck.circuit);
@@ -45,7 +46,7 @@ Result<Netlist> netlist_of(const StudyNetlist& deck) {
     return apply_overrides([&](const std::string& corner) { return parse_embedded(text, file, corner); }, file, overrides);
 }
 
-/// A copy of the circuit with these parameters set in every model.
+/// A copy of the circuit with these parameters set in the card of every model.
 std::shared_ptr<const Circuit> with_model_parameters(const Circuit& circuit, const Values& numbers) {
     auto out = std::make_shared<Circuit>(circuit);
     for (auto& model : out->models)
@@ -62,6 +63,7 @@ StudyCurve NetlistResult::curve(std::string_view analysis, const std::string& y,
         if (a.directive->name != analysis || a.result.plots.empty()) continue;
         const auto& plot = a.result.plots[0];
         const auto values = find_curve_values(plot, y);
+        // The first curve of a plot is the swept quantity.
         const auto along = over.empty() ? std::optional(plot.curves[0].values) : find_curve_values(plot, over);
         if (!values || !along) return {};
         StudyCurve out;
@@ -121,12 +123,13 @@ Result<std::vector<NetlistResult>> run_study_variants(const StudyNetlist& deck) 
         auto variant = variants->at(k);
         if (!variant) return variant.error();
         if (!deck.model_parameters.empty()) variant->circuit = with_model_parameters(*variant->circuit, deck.model_parameters);
+        // The chips of .mc share one circuit, and therefore one context.
         if (!context || context->circuit != variant->circuit) {
             auto new_context = AnalysisContext::make(variant->circuit);
             if (!new_context) return new_context.error();
             context = std::move(*new_context);
         }
-        context->is_brief = true;
+        context->is_brief = true;  // no tables and no warnings
         if (variant->sample) context->apply_variation(*variant->sample);
         auto outcome = circuit::run_directives(*context, run_options);
         if (!outcome) {

@@ -7,14 +7,15 @@
 namespace corpuscle {
 namespace {
 
-/// The lines above the rows: comments with the afferent and every constant, then the names of the columns.
+/// The lines above the rows: comments with the afferent and every constant, then the names of the columns. For each neuron current I..., a
+/// column s... says whether the neuron fired.
 std::string header_text(const AfferentPlan& plan, const std::string& channel, const DigitalAfferent& afferent) {
     const auto& constants = afferent.chain().constants();
     std::string text = "# corpuscle vectors 1, described in doc/fixed-point.md\n";
     text += fmt::format("# afferent {}\n# parts {}\n# channel {}\n", plan.name, plan.composition(), channel);
     text += fmt::format("# word {}\n# frac {}\n# bits {:g}\n# f_s {} Hz\n", constants.format().word, constants.format().frac,
                         *plan.value("bits"), *plan.value("f_s"));
-    for (const auto& c : constants.all())
+    for (const auto& c : constants.all())  // a constant without a shift is a level, otherwise a factor
         text += c.shift < 0 ? fmt::format("# level {} {} {}\n", c.name, c.value, c.word)
                             : fmt::format("# factor {} {} {} {}\n", c.name, c.value, c.word, c.shift);
     std::string columns = "code,F", bits;
@@ -58,7 +59,7 @@ Result<void> TestVectorsFile::make_afferents(const Input& input) {
     return {};
 }
 
-Result<void> TestVectorsFile::open(const Input& input, std::size_t afferent_index) {
+Result<void> TestVectorsFile::open_vectors_file(const Input& input, std::size_t afferent_index) {
     const auto a = afferent_index % input.plans.size(), c = input.channel_of(afferent_index);
     const auto number = ++file_counts_[a] == 1 ? "" : fmt::format("-{}", file_counts_[a]);
     paths_.push_back(fmt::format("{}/vectors-{}{}.csv", directory_, input.plans[a].name, number));
@@ -76,7 +77,7 @@ Result<void> TestVectorsFile::begin(const Input& input) {
     afferent_files_.resize(input.afferent_count());
     for (std::size_t u = 0; u < input.afferent_count(); ++u)
         if (digital_[u % input.plans.size()])
-            if (auto ok = open(input, u); !ok) return ok;
+            if (auto ok = open_vectors_file(input, u); !ok) return ok;
     return {};
 }
 
@@ -84,7 +85,7 @@ Result<void> TestVectorsFile::block(const Input& input, const RunBlock& block) {
     for (std::size_t u = 0; u < afferent_files_.size(); ++u) {
         if (!afferent_files_[u]) continue;
         fmt::memory_buffer text;
-        const auto row = [&](const DigitalAfferent::Conversion& c) {
+        const auto put_row = [&](const DigitalAfferent::Conversion& c) {
             fmt::format_to(std::back_inserter(text), "{},{}", c.code, c.force);
             for (const Word w : c.recorded) fmt::format_to(std::back_inserter(text), ",{}", w);
             for (const bool spike : c.fired) fmt::format_to(std::back_inserter(text), ",{:d}", spike);
@@ -93,7 +94,8 @@ Result<void> TestVectorsFile::block(const Input& input, const RunBlock& block) {
         std::vector<Spike> spikes;
         ResponseBlock response{spikes};
         const std::span force(block.force.force[input.channel_of(u)].data(), block.force.count);
-        if (auto ok = digital_[afferent_files_[u]->plan_index]->respond_and_report(force, afferent_files_[u]->state, response, row); !ok)
+        if (auto ok = digital_[afferent_files_[u]->plan_index]->respond_and_report(force, afferent_files_[u]->state, response, put_row);
+            !ok)
             return ok;
         if (auto ok = afferent_files_[u]->file.write({text.data(), text.size()}); !ok) return ok;
     }

@@ -1,5 +1,6 @@
 #pragma once
-// Test vectors: each word that a digital afferent computed, to verify hardware built to doc/fixed-point.md.
+// Test vectors: each word that a digital afferent (an afferent behind a converter) computes, to verify hardware built to
+// doc/fixed-point.md.
 
 #include <fmt/format.h>
 
@@ -9,24 +10,28 @@
 
 namespace corpuscle {
 
-/// vectors-AFFERENT.csv: the constants as comments, then one row for each conversion. A second channel gives vectors-AFFERENT-2.csv ...
+/// Writes for each digital afferent:
 ///
-/// rom-AFFERENT.csv: the table from codes to force words. Afferents without a converter have no such files.
+/// vectors-AFFERENT.csv: the constants as comments, then one row for each conversion on the first channel of the first input. Each further
+/// channel, also of further inputs, has its own file: vectors-AFFERENT-2.csv, vectors-AFFERENT-3.csv
+///
+/// rom-AFFERENT.csv: the table from codes of the converter to words of force.
 class TestVectorsFile final : public FileSink {
+    /// The vectors of one afferent on one channel of the current input.
     struct AfferentFile {
         std::size_t plan_index;
         OutputFile file;
-        State state;
+        State state;  // of the afferent, which this sink simulates itself
     };
     std::string directory_;
-    std::vector<std::unique_ptr<DigitalAfferent>> digital_;    // of the current input, for each plan; null if it is not digital
-    std::vector<std::optional<AfferentFile>> afferent_files_;  // of the current input
-    std::vector<OutputFile> complete_files_;
-    std::vector<int> file_counts_;  // number of files for each plan
+    std::vector<std::unique_ptr<DigitalAfferent>> digital_;  // for each plan, at the sample rate of the current input; null if not digital
+    std::vector<std::optional<AfferentFile>> afferent_files_;  // for each afferent of the current input; no value if not digital
+    std::vector<OutputFile> complete_files_;                   // not yet committed
+    std::vector<int> file_counts_;                             // for each plan: number of vectors files so far
     std::vector<std::string> paths_;
 
     Result<void> make_afferents(const Input&);
-    Result<void> open(const Input&, std::size_t afferent_index);
+    Result<void> open_vectors_file(const Input&, std::size_t afferent_index);
 
 public:
     explicit TestVectorsFile(std::string directory) : directory_(std::move(directory)) {}

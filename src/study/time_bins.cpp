@@ -9,15 +9,16 @@
 
 namespace corpuscle {
 
-Result<void> TimeBins::check(const Clock& clock, double bin) {
+Result<void> TimeBins::check(const Clock& clock, double bin_width) {
     const double min = 0.01 * clock.T();
-    if (bin >= min * (1 - 1e-9)) return {};
+    if (bin_width >= min * (1 - 1e-9)) return {};
     return bad_usage(fmt::format("--bin {}: shorter than a hundredth of the {} between samples; write {} or more",
-                                 format_quantity(bin, "s"), format_quantity(clock.T(), "s"), format_quantity(min, "s")));
+                                 format_quantity(bin_width, "s"), format_quantity(clock.T(), "s"), format_quantity(min, "s")));
 }
 
-TimeBins::TimeBins(std::vector<Group> groups, const Clock& clock, double bin)
-    : groups_(std::move(groups)), since_start_(clock), bin_width_(bin), t0_(std::exchange(since_start_.t0, 0.0)), counts_(groups_.size()) {}
+TimeBins::TimeBins(std::vector<Group> groups, const Clock& clock, double bin_width)
+    : groups_(std::move(groups)), since_start_(clock), bin_width_(bin_width), t0_(std::exchange(since_start_.t0, 0.0)),
+      counts_(groups_.size()) {}
 
 std::int64_t TimeBins::bin_index(double t) const { return static_cast<std::int64_t>(std::floor(t / bin_width_ + 1e-9)); }
 
@@ -25,9 +26,9 @@ std::int64_t TimeBins::bin_index(double t) const { return static_cast<std::int64
 void TimeBins::end_bin(double to) {
     if (std::exchange(lines_taken_, false)) text_.clear();
     const double from = static_cast<double>(current_bin_) * bin_width_;
-    for (std::size_t r = 0; r < counts_.size(); ++r)
-        fmt::format_to(std::back_inserter(text_), "{},{:.9f},{:.9f},{},{:.6g}\n", groups_[r].name, t0_ + from, t0_ + to, counts_[r],
-                       static_cast<double>(counts_[r]) / (to - from) / groups_[r].afferents);
+    for (std::size_t g = 0; g < counts_.size(); ++g)
+        fmt::format_to(std::back_inserter(text_), "{},{:.9f},{:.9f},{},{:.6g}\n", groups_[g].name, t0_ + from, t0_ + to, counts_[g],
+                       static_cast<double>(counts_[g]) / (to - from) / groups_[g].afferents);
     counts_.assign(counts_.size(), 0);
     ++current_bin_;
 }

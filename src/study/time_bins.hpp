@@ -11,40 +11,43 @@
 
 namespace corpuscle {
 
-/// Bins are counted from the start; the last one ends with the input. A bin includes its start and excludes its end. A spike within 1e-9 of
-/// a bin width of an edge is at the edge.
+/// The first bin begins with the input; the last one ends with the input and may be shorter. A bin includes its start and excludes its end.
+/// A spike closer to an edge than 1e-9 bin widths counts as at the edge.
 class TimeBins {
 public:
-    /// The first columns of a bin's line, and the number of afferents over which its rate is averaged.
+    /// The afferents whose spikes are counted together: one line for each bin.
     struct Group {
-        std::string name;
-        double afferents = 1;
+        std::string name;      ///< the first columns of the line, as CSV
+        double afferents = 1;  ///< number of afferents, over which the rate is averaged
     };
 
-    /// Rejects a bin shorter than a hundredth of the sample period: it would give more lines than there can be spikes.
-    static Result<void> check(const Clock&, double bin);
+    /// Returns an error if bins are shorter than a hundredth of the sample period, because almost all of them would be empty. `bin_width`
+    /// in s.
+    static Result<void> check(const Clock&, double bin_width);
 
     TimeBins() = default;
-    TimeBins(std::vector<Group> groups, const Clock& clock, double bin);
-    /// Counts a spike of a group, in order of time. Ends the bins before the spike.
+    TimeBins(std::vector<Group> groups, const Clock& clock, double bin_width);
+    /// Counts a spike of a group. Spikes must come in order of time. Completes the bins that end before the spike.
     void count(const Spike& s, std::size_t group);
-    /// States that all later spikes come after this sample, and ends the bins before it.
+    /// Tells that all spikes still to come are after this sample, counted from 0. Completes the bins that end before it.
     void advance_to(std::int64_t sample);
-    /// States that the input had this many samples, and ends the last bin.
+    /// Tells that the input has ended after this many samples. Completes the last bin.
     void end(std::int64_t samples);
-    /// Lines of the bins completed since the last call: name,from_s,to_s,spikes,rate_Hz. Valid until the next count.
+    /// Lines of the bins completed since the last call: name,from_s,to_s,spikes,rate_Hz, with times on the clock of the input. Valid until
+    /// the next call of another function.
     std::string_view take_lines();
 
 private:
     std::vector<Group> groups_;
-    Clock since_start_;
-    double bin_width_ = 1, t0_ = 0;     // s; t0_: start of the input on the clock of the spike file
-    std::int64_t current_bin_ = 0;      // index of the current bin
+    Clock since_start_;                 // of the input, with its first sample at 0 s
+    double bin_width_ = 1;              // s
+    double t0_ = 0;                     // s, start of the input on its own clock
+    std::int64_t current_bin_ = 0;      // index of the current bin, from 0
     std::vector<std::int64_t> counts_;  // spikes in the current bin, for each group
-    fmt::memory_buffer text_;
-    bool lines_taken_ = false;
+    fmt::memory_buffer text_;           // lines of complete bins
+    bool lines_taken_ = false;          // true if take_lines() has returned text_, so that it can be cleared
 
-    std::int64_t bin_index(double t) const;
+    std::int64_t bin_index(double t) const;  // t: s since the start
     void end_bin(double to);
     void end_bins_before(std::int64_t bin);
 };

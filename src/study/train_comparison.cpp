@@ -15,6 +15,7 @@ namespace {
 
 using Trains = std::vector<NamedTrain>;
 
+/// The names of the first eight trains, for a message.
 std::string list_names(const Trains& trains) {
     std::vector<std::string> names;
     for (const auto& t : trains)
@@ -24,10 +25,11 @@ std::string list_names(const Trains& trains) {
 
 /// Looks up the trains of a file by name.
 class TrainIndex {
-    std::map<std::pair<std::string_view, std::string_view>, const NamedTrain*> by_name_;
-    std::unordered_map<std::string, const NamedTrain*> by_shown_name_;
+    std::map<std::pair<std::string_view, std::string_view>, const NamedTrain*> by_name_;  // afferent and channel
+    std::unordered_map<std::string, const NamedTrain*> by_shown_name_;                    // NamedTrain::name()
     std::map<std::string_view, std::vector<const NamedTrain*>> by_afferent_;
 
+    /// The train of this afferent if there is exactly one, otherwise null.
     const NamedTrain* only_of(const std::string& afferent) const {
         const auto found = by_afferent_.find(afferent);
         return found != by_afferent_.end() && found->second.size() == 1 ? found->second.front() : nullptr;
@@ -49,8 +51,8 @@ public:
         return found == by_shown_name_.end() ? nullptr : found->second;
     }
 
-    /// The train of the same name; or, if one of the two files has no channels (address events), the only train of this afferent. "sa1#1"
-    /// without a channel matches the only train of "sa1".
+    /// The train with the same afferent and channel as a train of another file. If one of the two files has no channels (address events):
+    /// the only train of the same afferent; "sa1#1" without a channel also matches the only train of "sa1". Null if there is none.
     const NamedTrain* partner_of(const NamedTrain& train) const {
         if (const auto* found = of_name(train.afferent, train.channel)) return found;
         if (train.afferent.empty()) return nullptr;
@@ -67,6 +69,7 @@ TrainPair train_pair(const NamedTrain* a, const NamedTrain* b) {
     return {a ? a->name() : "", b ? b->name() : "", a ? &a->times : nullptr, b ? &b->times : nullptr};
 }
 
+/// The trains whose complete name, afferent or channel is `name`.
 std::vector<const NamedTrain*> trains_named(const Trains& trains, const std::string& name) {
     std::vector<const NamedTrain*> all;
     for (const auto& t : trains)
@@ -74,14 +77,16 @@ std::vector<const NamedTrain*> trains_named(const Trains& trains, const std::str
     return all;
 }
 
-/// The train of B that corresponds to a train of A if the name `from` is replaced by `to`.
+/// The train of file B whose name is that of a train of file A with `from` (the complete name, the afferent or the channel) replaced by
+/// `to`; null if there is none.
 const NamedTrain* renamed_partner(const TrainIndex& b, const NamedTrain& train, const std::string& from, const std::string& to) {
     if (const auto* found = train.name() == from ? b.of_shown_name(to) : nullptr) return found;
     const auto* found = train.afferent == from ? b.of_name(to, train.channel) : nullptr;
     return found || train.channel != from ? found : b.of_name(train.afferent, to);
 }
 
-/// Adds the pairs of one --pair option: the only train of each name, or all pairs of trains whose names differ only in the given part.
+/// Adds the pairs of the option --pair FROM=TO. If FROM names one train of A and TO names one train of B, these are the pair. Otherwise
+/// adds all pairs of trains whose names become equal when FROM is replaced by TO.
 Result<void> add_pairs(const Trains& a, const Trains& b, const std::string& text, std::vector<TrainPair>& out) {
     const auto equals = text.find('=');
     if (equals == text.npos) return bad_usage(fmt::format("--pair {}: write A-NAME=B-NAME, such as sa1=sa1-kim", text));
@@ -97,8 +102,8 @@ Result<void> add_pairs(const Trains& a, const Trains& b, const std::string& text
         if (const auto* other = renamed_partner(index, *train, from, to)) out.push_back(train_pair(train, other));
     if (out.size() > before) return {};
     return bad_usage(
-        fmt::format("--pair {}: matches {} trains of the first file and {} of the second, and no two names differ only "
-                    "in this; name one train of each file, such as --pair '{}={}'",
+        fmt::format("--pair {}: matches {} trains of the first file and {} of the second, and no two of their names differ only "
+                    "in this part; name one train of each file, such as --pair '{}={}'",
                     text, in_a.size(), in_b.size(), in_a[0]->name(), in_b[0]->name()));
 }
 
@@ -117,7 +122,8 @@ std::vector<TrainPair> by_name(const Trains& a, const Trains& b) {
     return out;
 }
 
-/// A --pair option for two trains that differ only in the afferent or only in the channel; otherwise for the first train of each file.
+/// A --pair option for a message: for two trains whose names differ only in the afferent or only in the channel; if there are none, for the
+/// first train of each file.
 std::string suggest_pair(const Trains& a, const Trains& b) {
     for (const auto& x : a)
         for (const auto& y : b) {
@@ -170,7 +176,7 @@ Result<std::vector<TrainPair>> pair_trains(const Trains& a, const Trains& b, con
 Result<TrainDifference> compare_trains(const TrainPair& pair, const CompareOptions& options) {
     static const std::vector<double> empty_train;
     const auto &a = pair.train_a ? *pair.train_a : empty_train, &b = pair.train_b ? *pair.train_b : empty_train;
-    const auto matched = align_trains(a, b, 2 / options.window);
+    const auto matched = align_trains(a, b, 2 / options.window);  // a cost at which only spikes closer than the window can match
     const auto distance = victor_purpura(a, b, options.cost);
     if (!matched || !distance) return matched ? distance.error() : matched.error();
     TrainDifference d{pair.a, pair.b, a.size(), b.size(), matched->moved.size()};

@@ -41,7 +41,8 @@ StudyCurve TrialForce::curve() const {
 
 namespace {
 
-/// The index of the probe for each requested name. A netlist's probes are in the order of the request.
+/// The index in Afferent::probes() of each probe in the spec. The probes of a netlist may have longer names than requested ("i(xsummer.m1)"
+/// for "i(m1)"); they are in the order of the request.
 Result<std::vector<std::size_t>> probe_indexes(const TrialSpec& spec, const Afferent& afferent) {
     std::vector<std::size_t> out;
     for (std::size_t k = 0; k < spec.probes.size(); ++k) {
@@ -60,26 +61,28 @@ Result<std::vector<std::size_t>> probe_indexes(const TrialSpec& spec, const Affe
 Result<TrialResult> run_trial(const TrialSpec& spec) {
     auto trial = trial_force(spec);
     if (!trial) return trial.error();
+    // trial_overrides() succeeds here, because it has succeeded in trial_force().
     const auto plan = plan_any_afferent(spec.afferent, *trial_overrides(spec), {.probes = spec.probes});
     if (!plan) return plan.error();
     const auto afferent = make_afferent(*plan, {trial->clock.T(), spec.method, spec.sampled});
     const auto indexes = probe_indexes(spec, *afferent);
     if (!indexes) return indexes.error();
+    // The last force is held for the delay of the response; probe values are shifted back by it.
     const auto delay = static_cast<std::size_t>(afferent->delay());
     trial->force.insert(trial->force.end(), delay, trial->force.back());
     auto state = afferent->start();
     std::vector<Spike> spikes;
-    std::vector<RangeViolation> outside(afferent->ranges().size());
+    std::vector<RangeViolation> violations(afferent->ranges().size());
     std::vector<std::vector<double>> probe_values(spec.probes.empty() ? 0 : afferent->probes().size(),
                                                   std::vector<double>(trial->force.size()));
     std::vector<double*> probes;
     for (auto& values : probe_values) probes.push_back(values.data());
     ResponseBlock response{spikes};
-    response.range_violations = outside, response.probes = probes;
+    response.range_violations = violations, response.probes = probes;
     if (auto ok = afferent->respond(trial->force, state, response); !ok) return ok.error();
     TrialResult out{spike_times(spikes, trial->clock), {}, {}};
-    for (std::size_t k = 0; k < outside.size(); ++k)
-        if (outside[k].samples > 0) out.range_warnings.emplace_back(afferent->ranges()[k].meaning);
+    for (std::size_t k = 0; k < violations.size(); ++k)
+        if (violations[k].samples > 0) out.range_warnings.emplace_back(afferent->ranges()[k].meaning);
     for (std::size_t k = 0; k < spec.probes.size(); ++k) {
         auto& curve = out.probes[spec.probes[k]];
         const auto& values = probe_values[(*indexes)[k]];

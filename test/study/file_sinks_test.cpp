@@ -44,7 +44,7 @@ public:
 
 /// Passes spikes to sinks in blocks, as a run does.
 void pass_to_sinks(const ForceSource& source, std::span<const AfferentPlan> plans, std::vector<Spike> spikes, std::int64_t samples,
-                       std::int64_t block, std::initializer_list<ResponseSink*> sinks) {
+                   std::int64_t block, std::initializer_list<ResponseSink*> sinks) {
     const std::vector<std::span<const Probe>> probes(plans.size());
     const Input input{source, "still", plans, probes};
     std::sort(spikes.begin(), spikes.end());
@@ -247,7 +247,7 @@ TEST(SpikeSoundFile, RefusesMoreThanAWavFileHoldsAndLeavesNothing) {
             pass_to_sinks(source, plans({"sa1"}), {}, 30, 1, {&clicks});
             ADD_FAILURE() << "was written";
         } catch (const std::runtime_error& e) {
-            EXPECT_NE(std::string(e.what()).find("'still' is longer than the 6 hours that a WAV file can hold; run it without --wav"),
+            EXPECT_NE(std::string(e.what()).find("'still' is longer than 6 hours, which is the limit of a WAV file; run it without --wav"),
                       std::string::npos)
                 << e.what();
         }

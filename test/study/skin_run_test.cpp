@@ -84,7 +84,7 @@ TEST(SkinRun, ACheckpointOfAnotherForceIsRefusedEvenWithTheSameOptions) {
     ASSERT_FALSE(press_fingertip(folder, "a", 5, true));
     const auto other = press_fingertip(folder, "a", -1, true, {{"FORCE", "press"}}, 1.5);
     ASSERT_FALSE(other);
-    EXPECT_NE(other.error().message.find("the force up to this checkpoint differs from the force of the run that made it"),
+    EXPECT_NE(other.error().message.find("the force before this checkpoint differs from the force of the run that wrote it"),
               std::string::npos)
         << other.error().message;
     EXPECT_FALSE(std::filesystem::exists(folder / "a"));

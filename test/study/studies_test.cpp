@@ -162,7 +162,7 @@ TEST(Studies, TheirMarkdownTableEscapesItsText) {
     out.claim("|a| over b", 1, "V").published_as(2, "table 1").explain("x | y");
     const auto text = markdown_of(all, std::span(&out, 1));
     EXPECT_NE(text.find("| \\|a\\| over b | 1 V | 2 V | -50.0 % | - | differs | table 1; x \\| y |\n"), std::string::npos) << text;
-    EXPECT_NE(text.find("0 published numbers agree within a tenth, 1 differ by more. 0 numbers agree with values derived"),
+    EXPECT_NE(text.find("0 published numbers agree within 10 %, 1 differ by more. 0 numbers agree within 10 % with values"),
               std::string::npos)
         << text;
 }

@@ -64,10 +64,11 @@ TEST(PairTrains, ErrorsNameTheOptionsThatWork) {
               "no train has the same name in both files: fa1,fz; sa1,fz | sa1-kim,fz; --pair fa1=sa1-kim would compare these");
     EXPECT_EQ(pairs(fz, abs, {.pairs = {"fz"}}), "--pair fz: write A-NAME=B-NAME, such as sa1=sa1-kim");
     EXPECT_EQ(pairs(fz, abs, {.pairs = {"fz=fx"}}), "--pair fz=fx: the second file has no train 'fx'; it has fa1,fz_abs; sa1,fz_abs");
-    EXPECT_EQ(pairs(fz, {{"7", "a"}, {"7", "b"}}, {.pairs = {"fz=7"}}),
-              "--pair fz=7: matches 2 trains of the first file and 2 of the second, and no two names differ only in this; name one train "
-              "of each file, "
-              "such as --pair 'fa1,fz=7,a'");
+    EXPECT_EQ(
+        pairs(fz, {{"7", "a"}, {"7", "b"}}, {.pairs = {"fz=7"}}),
+        "--pair fz=7: matches 2 trains of the first file and 2 of the second, and no two of their names differ only in this part; name "
+        "one train of each file, "
+        "such as --pair 'fa1,fz=7,a'");
     EXPECT_EQ(pairs(fz, {{"1", ""}}, {.by_order = true}),
               "--by-order: the first file has 2 trains, the second 1; --pair A-NAME=B-NAME selects trains to compare");
     EXPECT_EQ(pairs(fz, abs, {.pairs = {"fz=fz_abs"}, .by_order = true}), "--by-order and --pair are alternatives: give one");
