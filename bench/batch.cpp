@@ -1,12 +1,12 @@
 // How long does one chip of a batched simulation take, and does it give the same result as a scalar run?
 //
-//     bench-batch NETLIST|NAME [CHIPS] [LANES] [alone]
+//     bench-batch NETLIST|NAME [CHIPS] [LANES] [alone]           default: 100 chips, 8 lanes
 //
-// Method: the netlist's afferent responds to a press of 1.0 s (10 kHz); each chip has its own sample of process and mismatch. run_chips
-// simulates all chips on one thread. Output: time per chip, steps, iterations and their time, chips that left their lane and ended as
-// scalar runs, and spike counts. With `alone` each chip also runs scalar, with its own pivots (KLU) and every transistor evaluated in every
-// iteration. Then the output adds the chips whose spike counts differ, the largest difference of two spikes of the same index, and the
-// differences in steps.
+// Method: the netlist's afferent responds to the press of 1.0 s (10 kHz); each chip has its own sample of process and mismatch. run_chips
+// simulates all chips on one thread. Output: wall time per chip, time steps, Newton iterations and the time of one, chips whose lane failed
+// and that were simulated again by the scalar code, and the spike counts, each with its number of chips. With `alone`, the scalar code also
+// simulates each chip, with its own pivots (KLU) and every transistor evaluated in every iteration. Then the output compares this run with
+// that on lanes: chips with another spike count, the largest shift of a spike in each of the other chips, and the differences in steps.
 
 #include <algorithm>
 #include <chrono>
@@ -27,13 +27,15 @@ using namespace corpuscle::circuit;
 
 constexpr double T = 1e-4;  // s
 
-double seconds() { return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count(); }
+/// Wall time, s.
+double now() { return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count(); }
 
-using Responses = std::map<std::int64_t, ChipResponse>;
+using Responses = std::map<std::int64_t, ChipResponse>;  // by index of the chip
 
+/// `seconds`: wall time of all chips.
 void print_responses(const Responses& responses, double seconds) {
     long steps = 0, rejected = 0, iterations = 0, max_iterations = 0, left = 0, diverged = 0;
-    std::map<std::size_t, int> counts;
+    std::map<std::size_t, int> counts;  // number of chips by spike count
     for (const auto& [number, a] : responses) {
         steps += a.stats.steps, rejected += a.stats.rejected, iterations += a.stats.iterations;
         max_iterations = std::max(max_iterations, a.stats.iterations);
@@ -52,7 +54,7 @@ void print_responses(const Responses& responses, double seconds) {
 void compare(const Responses& lanes, const Responses& alone) {
     int chips_with_other_counts = 0, chips_with_other_steps = 0;
     long step_difference = 0, total_steps = 0;
-    std::vector<double> shifts;
+    std::vector<double> shifts;  // largest shift of a spike in each chip with the same spike count, s
     for (const auto& [number, a] : lanes) {
         const auto& b = alone.at(number);
         chips_with_other_steps += a.stats.steps != b.stats.steps || a.stats.rejected != b.stats.rejected;
@@ -67,13 +69,14 @@ void compare(const Responses& lanes, const Responses& alone) {
         shifts.push_back(largest);
     }
     std::sort(shifts.begin(), shifts.end());
-    const auto at = [&](double fraction) {
+    const auto quantile = [&](double fraction) {
         return shifts.empty() ? 0 : shifts[static_cast<std::size_t>(fraction * static_cast<double>(shifts.size() - 1))];
     };
     std::printf(
         "%d chips have another spike count; %d chips have other steps, which differ by %ld of %ld\n"
-        "largest shift of a spike: median %.1f us, 99 %% %.1f us, all %.1f us\n",
-        chips_with_other_counts, chips_with_other_steps, step_difference, total_steps, at(0.5) * 1e6, at(0.99) * 1e6, at(1) * 1e6);
+        "largest shift of a spike in a chip: median of the chips %.1f us, 99 %% of the chips below %.1f us, maximum %.1f us\n",
+        chips_with_other_counts, chips_with_other_steps, step_difference, total_steps, quantile(0.5) * 1e6, quantile(0.99) * 1e6,
+        quantile(1) * 1e6);
 }
 
 }  // namespace
@@ -96,17 +99,17 @@ int main(int argc, char** argv) {
 
     Responses lanes, alone;
     std::int64_t next = 0;
-    double began = seconds();
+    double start = now();
     const auto done = run_chips(
         *design, [&]() -> std::optional<Chip> { return next < count ? std::optional(chip(next++)) : std::nullopt; },
         [&](const Chip& c, ChipResponse&& a) { lanes.emplace(c.id, std::move(a)); }, options);
     if (!done) return std::fprintf(stderr, "%s\n", done.error().text().c_str()), 1;
     std::printf("on lanes, ");
-    print_responses(lanes, seconds() - began);
+    print_responses(lanes, now() - start);
     if (argc < 5) return 0;
-    began = seconds();
+    start = now();
     for (std::int64_t k = 0; k < count; ++k) alone.emplace(k, run_chip_scalar(chip(k), options));
     std::printf("alone, ");
-    print_responses(alone, seconds() - began);
+    print_responses(alone, now() - start);
     compare(lanes, alone);
 }

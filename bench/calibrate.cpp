@@ -1,10 +1,13 @@
-// How well do trims correct chips? Each chip has mismatch and process variation and responds to a press. Its trims are set until it fires
-// like the model.
+// How well do trims correct chips? Each chip has mismatch and process variation and responds to a press. Its trims (parameters that can be
+// set on a finished chip) are set until it fires like the model.
 //
-//     bench-calibrate sa1|fa1 [CHIPS] [BITS] [SEED] [TRIM ...]      TRIM: i_leak i_biasb gain; default: all, then each alone
+//     bench-calibrate sa1|fa1 [CHIPS] [BITS] [SEED] [TRIM ...]
+//
+// Default: 64 chips, 4 bits, seed 1. TRIM: i_leak, i_biasb or gain; default: the three together, then each alone.
 //
 // Method: study/sweep/calibrate.hpp. The limits enclose the model's spikes (FiringLimits::around). Output: the limits, then for each
-// set of trims the number of chips within the limits without trims and with 1, 2 ... bits, and the number of presses.
+// set of trims the number of chips within the limits without trims and with at most 1, 2 ... bits, and the number of presses. For sets of
+// three trims, also a line for each chip.
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -38,9 +41,9 @@ int main(int argc, char** argv) {
         if (argc > 1 && std::strcmp(argv[1], k.model) == 0) chosen_case = &k;
     if (chosen_case == nullptr) return std::fputs("bench-calibrate sa1|fa1 [CHIPS] [BITS] [SEED] [TRIM ...]\n", stderr), 2;
     const int count = argc > 2 ? std::atoi(argv[2]) : 64, bits = argc > 3 ? std::atoi(argv[3]) : 4;
-    const circuit::ChipSpec sampled{static_cast<double>(count), argc > 4 ? std::strtoull(argv[4], nullptr, 10) : 1};
+    const circuit::ChipSpec spec{static_cast<double>(count), argc > 4 ? std::strtoull(argv[4], nullptr, 10) : 1};
     std::vector<circuit::ChipSample> chips;
-    for (int k = 0; k < count; ++k) chips.push_back(sampled.sample(static_cast<std::uint64_t>(k)));
+    for (int k = 0; k < count; ++k) chips.push_back(spec.sample(static_cast<std::uint64_t>(k)));
 
     ChipCalibration calibration;
     calibration.netlist = std::string(chosen_case->model) + "-circuit", calibration.bits = bits;
@@ -48,7 +51,7 @@ int main(int argc, char** argv) {
     calibration.batch.max_iterations = 60'000;
     const auto press = stimulus("press");
     calibration.force = press.force, calibration.T = 1 / press.rate;
-    const TimeWindow phases[] = {{0, 0.25}, {0.25, 0.375}, {0.375, 0.625}, {0.625, 0.75}, {0.75, 1}};
+    const TimeWindow phases[] = {{0, 0.25}, {0.25, 0.375}, {0.375, 0.625}, {0.625, 0.75}, {0.75, 1}};  // of the press, s
     calibration.limits = FiringLimits::around(respond(chosen_case->model, press).spikes, phases, 10e-3);
     calibration.on_progress = [](std::size_t left, std::size_t presses) {
         std::fprintf(stderr, "%zu chips left, %zu presses\n", left, presses);
@@ -56,7 +59,7 @@ int main(int argc, char** argv) {
     fmt::print("{}, {} chips: {}\n", calibration.netlist, count, calibration.limits.text());
 
     const std::vector<std::string> trims[] = {{"i_leak"}, {"i_biasb"}, chosen_case->gain};
-    std::vector<std::vector<int>> sets = {{0, 1, 2}, {0}, {1}, {2}};  // indexes of `trims`
+    std::vector<std::vector<int>> sets = {{0, 1, 2}, {0}, {1}, {2}};  // of indexes in `trims`
     if (argc > 5) {
         sets = {{}};
         for (int a = 5; a < argc; ++a)
@@ -67,6 +70,7 @@ int main(int argc, char** argv) {
         std::string names;
         for (const int k : set) {
             const auto& name = trims[k];
+            // Ranges: i_leak 100 %, i_biasb 25 %, the gain 50 % of a number of columns.
             auto trim = trim_of(calibration.netlist, calibration.overrides, name, k == 0 ? 1.0 : k == 1 ? 0.25 : 0.5, k == 2);
             if (!trim) return fail(trim.error());
             names += (names.empty() ? "" : ", ") + name[0];
@@ -74,7 +78,7 @@ int main(int argc, char** argv) {
         }
         const auto all = calibrate(calibration, chips);
         if (!all) return fail(all.error());
-        std::vector<int> within(static_cast<std::size_t>(bits) + 1), presses(within.size());
+        std::vector<int> within(static_cast<std::size_t>(bits) + 1);  // number of chips within the limits, by number of bits
         int total = 0, max_presses = 0, diverged = 0;
         for (const auto& c : *all) {
             total += c.presses, max_presses = std::max(max_presses, c.presses), diverged += c.diverged;

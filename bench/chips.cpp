@@ -3,8 +3,9 @@
 //     bench-chips NETLIST [CHIPS]
 //
 // Method: the netlist is read once. Each chip has its own sample of mismatch and process, and is solved from the nominal operating point to
-// the tolerances of its .options. Output: median, minimum and maximum of 9 rounds over the same chips, Newton steps, chips that needed
-// another method than Newton's or failed, and mean and standard deviation of each node. `bench/peers/chips.py` compares it with ngspice.
+// the tolerances of its .options. Output: median, minimum and maximum wall time per chip of 9 rounds over the same chips, Newton steps,
+// chips that needed another method than Newton's or failed, and mean and standard deviation of each node's voltage. `bench/peers/chips.py`
+// compares it with ngspice.
 
 #include <algorithm>
 #include <chrono>
@@ -20,9 +21,10 @@ namespace {
 using namespace corpuscle;
 using namespace corpuscle::circuit;
 
+/// The work of one round, summed over all chips.
 struct Work {
-    long steps = 0, other_methods = 0, failed = 0;
-    std::vector<double> sum, squares;
+    long steps = 0, other_methods = 0, failed = 0;  // Newton steps; chips solved by another method; chips not solved
+    std::vector<double> sum, squares;               // of each node's voltage and of its square
 };
 
 Work run_round(AnalysisContext& bench, std::uint64_t chips) {
@@ -30,9 +32,9 @@ Work run_round(AnalysisContext& bench, std::uint64_t chips) {
     const auto nodes = static_cast<std::size_t>(bench.system.nodes());
     work.sum.resize(nodes), work.squares.resize(nodes);
     for (std::uint64_t chip = 0; chip < chips; ++chip) {
-        ChipSample draw{1, chip, true, {}};
-        std::copy_n(sample_process(draw.seed, chip).values, 4, draw.process);
-        bench.apply_variation(draw);
+        ChipSample sample{1, chip, true, {}};
+        std::copy_n(sample_process(sample.seed, chip).values, 4, sample.process);
+        bench.apply_variation(sample);
         const auto found = bench.operating_point();
         if (!found) {
             ++work.failed;
@@ -64,8 +66,8 @@ int main(int argc, char** argv) {
     }
     std::sort(us.begin(), us.end());
     std::printf(
-        "%llu chips: %.2f us each (%.2f ... %.2f), %.2f Newton steps each, %ld by another method, %ld failed, %ld matrices not eliminated "
-        "along the list\n",
+        "%llu chips: %.2f us each (%.2f ... %.2f), %.2f Newton steps each, %ld by another method, %ld failed; in all rounds, %ld matrices "
+        "not eliminated along the list\n",
         static_cast<unsigned long long>(chips), us[us.size() / 2], us.front(), us.back(),
         static_cast<double>(work.steps) / static_cast<double>(chips), work.other_methods, work.failed,
         (*bench)->newton.linear_solver.fallback_count());

@@ -1,12 +1,14 @@
 // How much faster than real time does a complete hand respond, and how much memory does it use?
 //
-//     bench-hand [SECONDS] [RUNS]
+//     bench-hand [SECONDS] [RUNS]      default: 10 s of touch, 7 runs
 //
 // Method: the built-in hand (17,144 afferents, 4,793 sites), one thread, spikes stored as binary address events, processor time of this
-// process. Construction and runs are timed separately. Output: median, minimum and maximum of RUNS (7), then the work: steps computed,
-// steps skipped because no force acted and no state could change, spikes, bytes written. Three forces of SECONDS (10) at 1 kHz are used.
-// `stroke` moves a fingertip over the hand with 1 N (as in `corpuscle respond stroke --population hand`). A flat disk of 40 mm presses the
-// palm with a sine. Noise on every site keeps every afferent active, which is the worst case. Peak memory is that of the complete process.
+// process. Construction and runs are timed separately. Output: median, minimum and maximum of the runs, then the work: steps of afferents
+// computed, steps skipped because no force acted and no state could change, spikes, bytes written. There are three forces, all at 1 kHz:
+// - `stroke` moves a fingertip over the hand with 1 N for 10 s, as in `corpuscle respond stroke --population hand`;
+// - a flat disk of 80 mm diameter presses the palm with a sine for SECONDS;
+// - noise on every site for SECONDS keeps every afferent active, which is the worst case.
+// Peak memory is that of the complete process.
 //
 // Compared with TouchSim: peers/touchsim_hand.py; doc/skin.md lists the work that TouchSim does and this program does not.
 
@@ -25,6 +27,7 @@ namespace {
 
 using namespace corpuscle;
 
+/// Processor time of this process, s.
 double processor() { return static_cast<double>(std::clock()) / CLOCKS_PER_SEC; }
 
 template <class T>
@@ -34,11 +37,11 @@ T value_or_exit(Result<T> result) {
     std::exit(1);
 }
 
-/// Noise for every site: 64 different signals, repeated.
+/// Noise that differs between sites: 64 samples for each site, repeated.
 class NoiseForce final : public SkinForce {
-    static constexpr std::size_t block = 64;
-    std::vector<double> force_, total_ = std::vector<double>(block, 1.0);
-    std::int64_t left_, all_;
+    static constexpr std::size_t block = 64;                               // samples
+    std::vector<double> force_, total_ = std::vector<double>(block, 1.0);  // N: at each site; in total, which is not the sum here
+    std::int64_t left_, all_;                                              // samples
 
 public:
     NoiseForce(std::size_t sites, std::int64_t samples) : force_(sites * block), left_(samples), all_(samples) {
@@ -52,13 +55,14 @@ public:
     double progress() const override { return 1 - static_cast<double>(left_) / static_cast<double>(all_); }
 };
 
-/// A stimulus and its indenter.
+/// One of the forces. `source` and `contact` are null for noise.
 struct PressCase {
     std::unique_ptr<ForceSource> source;
     std::unique_ptr<Contact> contact;
     std::unique_ptr<SkinForce> force;
 };
 
+/// A stimulus at 1 kHz that acts through an indenter.
 PressCase press(const Innervation& skin, std::string_view stimulus, std::string_view indenter, std::vector<ParameterOverride> overrides) {
     PressCase p{value_or_exit(make_stimulus(stimulus, overrides, 1e3, 0)), {}, {}};
     p.contact = value_or_exit(make_contact(indenter, overrides, skin.plan.sites, p.source->clock()));
@@ -66,12 +70,12 @@ PressCase press(const Innervation& skin, std::string_view stimulus, std::string_
     return p;
 }
 
-/// `simulated`: s of touch per run, or 0.
+/// `seconds`: processor time of each run; `simulated`: s of touch in a run, or 0 if none are simulated.
 void print_times(const char* label, std::vector<double> seconds, double simulated) {
     std::sort(seconds.begin(), seconds.end());
-    const double middle = seconds[seconds.size() / 2];
-    fmt::print("  {:<34} {:6.1f} ms ({:.1f} to {:.1f})", label, 1e3 * middle, 1e3 * seconds.front(), 1e3 * seconds.back());
-    if (simulated > 0) fmt::print("  {:5.0f} times real time", simulated / middle);
+    const double median = seconds[seconds.size() / 2];
+    fmt::print("  {:<34} {:6.1f} ms ({:.1f} to {:.1f})", label, 1e3 * median, 1e3 * seconds.front(), 1e3 * seconds.back());
+    if (simulated > 0) fmt::print("  {:5.0f} times real time", simulated / median);
     fmt::print("\n");
 }
 
@@ -81,7 +85,7 @@ int main(int argc, char** argv) {
     const double length = argc > 1 ? std::atof(argv[1]) : 10;
     const int runs = argc > 2 ? std::atoi(argv[2]) : 7;
     const auto file = (std::filesystem::temp_directory_path() / fmt::format("bench-hand-{}.aer", ::getpid())).string();
-    ThreadPool alone(1);
+    ThreadPool single_thread(1);
     const auto set = value_or_exit(instruction_set());
     std::vector<double> build_times;
     std::shared_ptr<const Innervation> skin;
@@ -123,7 +127,7 @@ int main(int argc, char** argv) {
             auto out = SkinEventsFile(value_or_exit(OutputFile::create(file)), "aer");
             SkinSink* const sinks[] = {&out};
             const SkinInput input{name, "", *make_clock(1e3), {}, *skin};
-            const auto simulator = local_skin_simulator(*skin_state, alone);
+            const auto simulator = local_skin_simulator(*skin_state, single_thread);
             const double from = processor();
             work = value_or_exit(run_skin(*force.force, input, *simulator, sinks, {}));
             if (!out.commit()) return 1;

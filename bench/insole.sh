@@ -1,7 +1,7 @@
 #!/bin/sh
-# How long do two minutes of walking on 16 sensors (gaitpdb GaCo01_01, 1.1 MB of text) take through sa1 and fa1, with start and output?
-# Mean wall time of 20 complete processes in sequence. The recording is not part of the project: it is in $CORPUSCLE_DATA, by default
-# ../shared/data.
+# How long does `corpuscle respond` take for sa1 and fa1 under two minutes of walking on 16 sensors (gaitpdb GaCo01_01, 1.1 MB of text)?
+# Mean wall time of 20 complete processes in sequence, with start and output. The recording is not part of the project: it is in
+# $CORPUSCLE_DATA, by default ../shared/data.
 set -eu
 program=$1
 here=$(dirname "$0")

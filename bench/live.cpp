@@ -1,24 +1,26 @@
-// How long is the delay from a frame of forces to its spikes, how much of a core does this take, and is it stable over time?
+// How long after a frame of forces do its spikes come from `corpuscle stream`, how much of a core does this take, and is it stable over
+// time?
 //   bench-live MODE [SECONDS [PROGRAM]]
-// - delay: "grid 64x64" (8192 afferents) at 5.2 kHz, the densest published skin: 2.1e7 samples per second
+// - delay: "grid 64x64" (4096 sites, 8192 afferents) at 5.2 kHz, the densest published skin: 2.1e7 forces per second
 // - sleep: as delay, without --busy-poll: the program, the sender and the reader sleep until a frame comes
-// - share: "hand" (17,000 afferents) at 1 kHz under a stroke: the fraction of a core
+// - share: "hand" (17,000 afferents) at 1 kHz under a stroke: the fraction of a core that the program uses
 // - together: as share, with --batch-frames 16, over loopback: the program sleeps until 16 frames have arrived
 // - noise: as share, with noise that keeps every afferent active
 // - soak: "grid 16x16" at 1 kHz over loopback, frames numbered: memory, drift, lost events
 //
-// Defaults: 60 s (3600 s are recommended for soak) and ./corpuscle. `corpuscle stream` runs with its usual options on the last core only.
-// The sender and the reader are threads of this program on the other cores.
+// Defaults: 60 s (3600 s are recommended for soak) and ./corpuscle. "The program" is PROGRAM, as `corpuscle stream` on the last core only.
+// The sender of the frames and the reader of the spikes are threads of this process on
+// the other cores.
 //
-// With delay, program and sender busy-wait (--busy-poll), which excludes the time to wake a thread.
+// In the mode delay, the program (--busy-poll) and the sender busy-wait, which excludes the time to wake a thread.
 // In all modes but soak, frames are binary float32 through a pipe (together: TCP). Each is written at its scheduled time (clock_nanosleep
 // to absolute times). Events are binary through another pipe. The delay of a frame is from just before its write to the
-// read of its first spike. A frame without a spike has no delay here, but the program counts it; at its end the program reports the number
-// of frames and its own measurement of every frame. For comparison an idle loop runs first for the same time: a thread sleeps to the same
-// ticks and records how late it wakes, which is the machine's own delay. Every site has noise of some mN at every frame, so that no
-// afferent can be skipped, and a round contact moves over the skin. With share and together there is no noise; a fingertip rubs the palm in
-// circles of 1 cm. The printed processor time (user and system) excludes the first seconds, in which the program builds its skin.
-// soak compares every received byte with the result of the same frames in this process.
+// read of its first spike. A frame without a spike has no delay here; but the program measures the time of every frame itself, and reports
+// the number of frames and these times at its end. For comparison, an idle loop runs first for the same time: a thread sleeps until the
+// same scheduled times and records how late it wakes, which is the machine's own delay. A round contact moves over the skin, and every site
+// has noise of some mN in every frame, so that no afferent can be skipped. In the modes share and together there is no noise, and the
+// contact is a fingertip that rubs the palm in circles of 1 cm. The fraction of a core (user and system time) excludes the first 3 s, in
+// which the program builds its skin. The mode soak compares every received byte with the result of the same frames in this process.
 
 #include <sys/prctl.h>
 #include <sys/socket.h>
@@ -35,7 +37,7 @@ using namespace corpuscle;
 
 constexpr int start_up = 3;  // s in which the program builds its skin and warms up
 
-/// A row of a table: count, quantiles and maximum (us), and the fraction within 1 ms.
+/// A row of the table: number of delays, their quantiles and maximum (us), and the percentage of delays below 1 ms.
 std::string row(const char* name, const LatencyHistogram& d) {
     std::uint64_t within = 0;
     for (int b = 0; b < LatencyHistogram::bin_count() && LatencyHistogram::end_of(b) <= 1'000'000; ++b) within += d.count_in(b);
@@ -45,11 +47,11 @@ std::string row(const char* name, const LatencyHistogram& d) {
                        100 * static_cast<double>(within) / static_cast<double>(std::max<std::uint64_t>(1, d.count())));
 }
 
-/// Both histograms, as percentages per octave.
+/// Both histograms, in bins of one octave, as percentages of their counts.
 void print_histograms(const LatencyHistogram& idle, const LatencyHistogram& delay) {
     fmt::print("\n  up to us     idle %    delay %\n");
     std::uint64_t a = 0, b = 0;
-    std::int64_t edge = 1024;
+    std::int64_t edge = 1024;  // ns
     for (int k = 0; k < LatencyHistogram::bin_count(); ++k) {
         a += idle.count_in(k), b += delay.count_in(k);
         if (LatencyHistogram::end_of(k) < edge) continue;
@@ -61,7 +63,7 @@ void print_histograms(const LatencyHistogram& idle, const LatencyHistogram& dela
     }
 }
 
-/// Delays with which this thread wakes at its scheduled times, without other work.
+/// Delays (ns) with which this thread wakes at its scheduled times, `rate` per second, without other work.
 LatencyHistogram idle_loop(int rate, int seconds) {
     LatencyHistogram late;
     const auto begin = steady_now() + 10'000'000;
@@ -80,7 +82,8 @@ std::shared_ptr<const Innervation> skin_of(const std::string& population) {
     return *skin;
 }
 
-/// Every mode but soak. `circle_radius`: see frames_of_a_second.
+/// All modes but soak. `rate` is in Hz. contact_radius (m), noise and circle_radius (m) are those of frames_of_a_second(). With
+/// `batch_frames` above 1, frames come over TCP, and the program gets --batch-frames.
 int measure_delay(const std::string& program, const std::string& population, int rate, int seconds, double contact_radius, bool busy_poll,
                   bool noise, int batch_frames = 1, double circle_radius = 0) {
     const auto skin = skin_of(population);
@@ -105,7 +108,7 @@ int measure_delay(const std::string& program, const std::string& population, int
     });
     Sender sender(frames, sites, rate, count, false);
     LatencyHistogram delay;
-    std::int64_t last = 0, spikes = 0;
+    std::int64_t last = 0, spikes = 0;  // last: step of the last spike read
     EventReader reader(child.out.get(), header, [&](const address_events::EncodedSpike& spike, std::int64_t now) {
         ++spikes;
         if (spike.step == last || spike.step >= count) return;
@@ -118,7 +121,7 @@ int measure_delay(const std::string& program, const std::string& population, int
             while (steady_now() < sender.due(k)) reader.read();
             sender.send(child.in.get(), k);
         }
-        ::fcntl(child.out.get(), F_SETFL, 0);
+        ::fcntl(child.out.get(), F_SETFL, 0);  // the last reads block
         child.in.close();
         while (reader.read()) {
         }
@@ -143,6 +146,7 @@ int measure_delay(const std::string& program, const std::string& population, int
     return status;
 }
 
+/// Resident memory of a process.
 std::int64_t resident_kB(pid_t pid) {
     std::ifstream in(fmt::format("/proc/{}/statm", pid));
     std::int64_t size = 0, resident = 0;
@@ -169,12 +173,12 @@ int soak(const std::string& program, int seconds) {
     const std::int64_t count = std::int64_t{rate} * seconds;
     Sender sender(frames, sites, rate, count, true);
     std::thread sending([&] { sender.send_all(to.get()), to.close(); });
-    // Simulates the same frames in this process, as far as events have been received.
+    // This process simulates the same frames, up to the step of the last event received. expected[at] is the next event to receive.
     auto reference = SkinStream::make(skin, {rate, 1});
     std::vector<double> frame(sites);
     std::vector<address_events::EncodedSpike> expected;
     std::size_t at = 0;
-    const auto expect_spikes_to = [&](std::int64_t step) {
+    const auto simulate_to = [&](std::int64_t step) {
         while (at == expected.size() && (*reference)->frames() < std::min(count, step + 1)) {
             const auto* from = frames.data() + static_cast<std::size_t>((*reference)->frames() % rate) * sites;
             std::copy_n(from, sites, frame.begin());
@@ -187,10 +191,10 @@ int soak(const std::string& program, int seconds) {
             }
         }
     };
-    std::vector<LatencyHistogram> minutes(static_cast<std::size_t>(seconds) / 60 + 1);
+    std::vector<LatencyHistogram> minutes(static_cast<std::size_t>(seconds) / 60 + 1);  // delays of each minute
     std::int64_t spikes = 0, wrong = 0, next_report = 0, last = -1;
     EventReader reader(events.get(), (*format)->header().size(), [&](const address_events::EncodedSpike& spike, std::int64_t now) {
-        expect_spikes_to(spike.step);
+        simulate_to(spike.step);
         wrong += at == expected.size() || std::memcmp(&expected[at], &spike, sizeof spike) != 0;
         ++spikes, at += at < expected.size();
         if (spike.step != last && spike.step < count)
@@ -204,7 +208,7 @@ int soak(const std::string& program, int seconds) {
     while (reader.read()) {
     }
     sending.join();
-    expect_spikes_to(count);
+    simulate_to(count);
     const auto summary = child.read_output(child.err.get());
     const int status = child.wait();
     fmt::print("\n{:28} {:>9} {:>8} {:>8} {:>8} {:>9}   within 1 ms\n", "us", "number", "50 %", "99 %", "99.9 %", "longest");

@@ -22,7 +22,7 @@
 
 namespace corpuscle {
 
-/// Binds the calling thread to these cores.
+/// Binds the calling thread to the cores `first` to `last`.
 inline void bind_to(int first, int last) {
     cpu_set_t cores;
     CPU_ZERO(&cores);
@@ -30,17 +30,18 @@ inline void bind_to(int first, int last) {
     ::sched_setaffinity(0, sizeof cores, &cores);
 }
 
-/// Sleeps until a time of the monotonic clock.
+/// Sleeps until a time of the monotonic clock, ns.
 inline void sleep_until(std::int64_t ns) {
     const timespec at = {ns / 1'000'000'000, ns % 1'000'000'000};
     while (::clock_nanosleep(CLOCK_MONOTONIC, TIMER_ABSTIME, &at, nullptr) == EINTR) {
     }
 }
 
-/// Frames of one second, to be repeated, with noise and a contact that moves in a circle. `circle_radius`: m; 0: over most of the skin.
+/// The frames of one second, [frame][site], N; the sender repeats them. A contact moves once around a circle; `noise`: as of 1 to 5 mN on
+/// each afferent, at every site. `contact_radius`: m; `circle_radius`: m, 0: an ellipse of half the size of the skin.
 inline std::vector<float> frames_of_a_second(const SkinPlan& plan, int rate, double contact_radius, bool noise, double circle_radius = 0) {
     const auto& sites = plan.sites;
-    // force at a site (N) that acts on an afferent like 1 N
+    // the force at every site, N, under which an afferent responds as to 1 N
     const double scale = plan.felt_area > 0 && sites.area > 0 ? sites.area / plan.felt_area : 1;
     std::vector<float> out(sites.size() * static_cast<std::size_t>(rate));
     Position low = sites.positions[0], high = low;
@@ -62,11 +63,11 @@ inline std::vector<float> frames_of_a_second(const SkinPlan& plan, int rate, dou
     return out;
 }
 
-/// The running program.
+/// The program under test, as a child process with pipes.
 struct Program {
     pid_t pid = 0;
-    Descriptor in, out, err;
-    rusage used = {};
+    Descriptor in, out, err;  // this process's ends: writes to `in`, reads from `out` and `err`
+    rusage used = {};         // resources, after wait()
 
     Program(const std::string& path, std::vector<std::string> arguments, int core) {
         int pipes[3][2];
@@ -87,18 +88,20 @@ struct Program {
         in = Descriptor(pipes[0][1]), out = Descriptor(pipes[1][0]), err = Descriptor(pipes[2][0]);
         ::close(pipes[0][0]), ::close(pipes[1][1]), ::close(pipes[2][1]);
     }
+    /// Waits for its end and returns its exit status.
     int wait() {
         int status = 0;
         ::wait4(pid, &status, 0, &used);
         return WEXITSTATUS(status);
     }
+    /// Reads one of its outputs to the end.
     std::string read_output(int fd) const {
         std::string all;
         char piece[4096];
         for (ssize_t n = 0; (n = ::read(fd, piece, sizeof piece)) > 0;) all.append(piece, static_cast<std::size_t>(n));
         return all;
     }
-    /// Processor time so far, user and system, s.
+    /// Its processor time so far, user and system, s.
     double processor_seconds() const {
         std::ifstream stat(fmt::format("/proc/{}/stat", pid));
         std::string word;
@@ -107,7 +110,7 @@ struct Program {
         stat >> user >> system;
         return (user + system) / static_cast<double>(::sysconf(_SC_CLK_TCK));
     }
-    /// The same of the ended program.
+    /// Its processor time in total, user and system, s; after wait().
     double final_processor_seconds() const {
         const auto s = [](const timeval& t) { return static_cast<double>(t.tv_sec) + 1e-6 * static_cast<double>(t.tv_usec); };
         return s(used.ru_utime) + s(used.ru_stime);
@@ -130,20 +133,22 @@ inline Descriptor connect_to(const Program& child) {
 
 /// Sends each frame at its scheduled time, and records when its write starts.
 class Sender {
-    const std::vector<float>& second_;
+    const std::vector<float>& second_;  // the frames of one second
     std::size_t sites_;
-    int rate_;
-    bool numbered_;
-    std::vector<char> bytes_;
-    std::int64_t begin_ = steady_now() + 10'000'000;
+    int rate_;                                        // Hz
+    bool numbered_;                                   // each frame is preceded by its number
+    std::vector<char> bytes_;                         // number and forces of one frame
+    std::int64_t begin_ = steady_now() + 10'000'000;  // scheduled time of frame 0, ns
 
 public:
-    std::vector<std::int64_t> sent_at;
+    std::vector<std::int64_t> sent_at;  // for each frame: time at which its write started, ns
 
     Sender(const std::vector<float>& second, std::size_t sites, int rate, std::int64_t count, bool numbered)
         : second_(second), sites_(sites), rate_(rate), numbered_(numbered), bytes_(4 + sites * sizeof(float)),
           sent_at(static_cast<std::size_t>(count)) {}
+    /// Scheduled time of frame k, ns.
     std::int64_t due(std::int64_t k) const { return begin_ + k * 1'000'000'000 / rate_; }
+    /// Time at which the write of frame k started, ns. Another thread may call this.
     std::int64_t sent(std::int64_t k) const { return __atomic_load_n(&sent_at[static_cast<std::size_t>(k)], __ATOMIC_ACQUIRE); }
     void send(int fd, std::int64_t k) {
         const auto number = static_cast<std::uint32_t>(k);
@@ -163,11 +168,11 @@ public:
     }
 };
 
-/// Reads events as they arrive; calls each() with every event and the time of its read.
+/// Reads events as they arrive. Calls each(event, time) for every event, with the time of its read, ns.
 template <class Each>
 class EventReader {
     int fd_;
-    std::size_t header_, filled_ = 0;
+    std::size_t header_, filled_ = 0;  // bytes of the header still to skip; bytes in the buffer
     Each each_;
     std::vector<char> buffer_ = std::vector<char>(1 << 20);
 

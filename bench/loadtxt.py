@@ -1,4 +1,5 @@
-"""Peer for reading text: NumPy's loadtxt on a similar file of 20 MB. Prints MB/s of the file; loadtxt keeps everything in memory."""
+"""How fast does NumPy's loadtxt read a file like that of bench-read, but of 20 MB? Prints MB of the file per second. loadtxt keeps all rows
+in memory."""
 
 import math
 import tempfile

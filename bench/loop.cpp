@@ -1,14 +1,14 @@
-// How long does one second of the 108-array loop take, and how is the time of an iteration divided?
+// How long does the loop of 108 transistor arrays take for one second of touch, and how is the time of a Newton iteration divided?
 //
-//     bench-loop [NETLIST] [ROUNDS]
+//     bench-loop [NETLIST] [ROUNDS]      default: bench/decks/loop.cir, 5 rounds
 //
-// Method: one core, processor seconds, default accuracy (`.options accuracy=normal`). The netlist (bench/decks/loop.cir) starts from its
-// operating point with .ic held. It runs one second as it is, and one second with a constant input current of 60 nA, at which nothing
-// fires; the difference is the cost of spikes. The operating-point search is not counted. Then the parts of an iteration are timed
-// separately at 256 points of the run. The first part is the transistors with their charges on lanes. The others are factoring and solving
-// each matrix (conductances, plus capacitances over a step of 10 us), both along the list and by KLU with its last pivots. The rest of an
-// iteration is bookkeeping: moving voltages to the lanes and derivatives to the matrix, prediction, errors, history, convergence,
-// crossings. Each line has median, minimum and maximum of the rounds.
+// Method: one core, processor seconds, default accuracy (`.options accuracy=normal`). The netlist starts from its
+// operating point with .ic held. It runs one second as it is, and one second with a constant input current of 60 nA, at which there are no
+// spikes; the difference is the cost of spikes. The operating-point search is not counted. Then the parts of an iteration are timed
+// separately at about 256 points of the run. The first part is the evaluation of the transistors, with their charges, on lanes. The others
+// are factoring and solving each matrix (conductances, plus capacitances over a step of 10 us), both along the elimination list and by KLU
+// with its last pivots. The rest of an iteration is bookkeeping: moving voltages to the lanes and derivatives to the matrix, prediction,
+// errors, history, convergence, crossings. Each line has median, minimum and maximum of the rounds.
 
 #include <algorithm>
 #include <cstdio>
@@ -24,8 +24,11 @@ namespace {
 using namespace corpuscle;
 using namespace corpuscle::circuit;
 
-constexpr double seconds = 1, level = 0.35, quiet_current = 60e-9, step = 10e-6;  // s, V, A, s
-constexpr std::size_t max_points = 256;
+constexpr double seconds = 1;            // simulated
+constexpr double level = 0.35;           // V: a spike is an upward crossing by v(s)
+constexpr double quiet_current = 60e-9;  // A
+constexpr double step = 10e-6;           // s
+constexpr std::size_t max_points = 256;  // approximately
 
 /// Processor time, s; other load on the machine affects it less than wall time.
 double processor_time() {
@@ -34,6 +37,7 @@ double processor_time() {
     return static_cast<double>(t.tv_sec) + 1e-9 * static_cast<double>(t.tv_nsec);
 }
 
+/// Median, minimum and maximum. `scale`: converts s to `unit`.
 void print_times(const char* label, std::vector<double> times, double scale, const char* unit) {
     std::sort(times.begin(), times.end());
     std::printf("  %-34s %9.3f %s (%.3f ... %.3f)\n", label, times[times.size() / 2] * scale, unit, times.front() * scale,
@@ -46,14 +50,14 @@ double median(std::vector<double> times) {
 
 struct OneSecondRun {
     std::vector<double> times;  // processor time of each round, s
-    TransientStats work;
+    TransientStats work;        // of the last round; so are the following
     double reltol = 0;
-    std::vector<double> spikes;  // s
-    std::vector<std::vector<double>> points;
-    std::vector<double> at;
+    std::vector<double> spikes;               // s
+    std::vector<std::vector<double>> points;  // unknowns at some of the steps
+    std::vector<double> at;                   // times of the points, s
 };
 
-/// Runs one second `rounds` times from the same start.
+/// Runs one second `rounds` times from the same start. `quiet`: with the constant input current.
 Result<OneSecondRun> run_one_second(AnalysisContext& bench, int rounds, bool quiet) {
     OneSecondRun out;
     const int spiking = bench.system.unknown("v(s)");
@@ -68,6 +72,7 @@ Result<OneSecondRun> run_one_second(AnalysisContext& bench, int rounds, bool qui
         if (!from) return from.error();
         out.spikes.clear(), out.points.clear(), out.at.clear();
         Transient transient(bench.system, bench.newton, plan);
+        // The number of steps is known after the first round.
         const long spacing = std::max(1L, out.work.steps / static_cast<long>(max_points));
         const double start = processor_time();
         if (auto ok = transient.begin(from->x, from->is_consistent); !ok) return ok.error();
@@ -87,7 +92,7 @@ Result<OneSecondRun> run_one_second(AnalysisContext& bench, int rounds, bool qui
     return out;
 }
 
-/// Mean time (s) of one call for each round of `count` calls.
+/// For each round of `count` calls: the mean processor time of one call, s.
 std::vector<double> time_each(int rounds, std::size_t count, const std::function<void(std::size_t)>& one) {
     std::vector<double> out;
     for (int round = 0; round < rounds; ++round) {
@@ -98,10 +103,11 @@ std::vector<double> time_each(int rounds, std::size_t count, const std::function
     return out;
 }
 
-/// Times (s) of the parts of an iteration, one for each round.
+/// Processor times (s) of the parts of an iteration, one for each round. factor, solve: by KLU; factor_listed, solve_listed: along the
+/// list.
 struct IterationParts {
     std::vector<double> devices, factor, solve, factor_listed, solve_listed;
-    long off_list = 0;
+    long off_list = 0;  // matrices that could not be eliminated along the list
 };
 
 IterationParts time_parts(const AnalysisContext& bench, const OneSecondRun& run, int rounds) {
@@ -113,10 +119,11 @@ IterationParts time_parts(const AnalysisContext& bench, const OneSecondRun& run,
     const auto count = run.points.size(), entries = bench.system.pattern().entries();
     const DeviceGroup& transistors = bench.system.groups()[0];
     const auto n = transistors.terminals, stride = transistors.stride;
-    struct alignas(64) Line {
+    struct alignas(64) Line {  // of the cache
         double of[8];
     };
     std::vector<Line> lines((3 * n + 2 * n * n) * stride / 8);
+    // voltages, currents, charges, then the derivatives of the currents and of the charges
     double *const v = lines[0].of, *const f = v + n * stride, *const q = f + n * stride, *const df = q + n * stride;
     out.devices = time_each(rounds, count, [&](std::size_t k) {
         for (std::size_t m = 0; m < transistors.members.size(); ++m)
@@ -150,7 +157,7 @@ void report(const AnalysisContext& bench, const OneSecondRun& whole, const OneSe
                     s.work.rejected, s.work.iterations, s.spikes.size());
         if (!s.spikes.empty()) std::printf(", from %.6f to %.6f s", s.spikes.front(), s.spikes.back());
         std::printf("\n");
-        print_times("whole", s.times, 1, "s");
+        print_times("complete", s.times, 1, "s");
         print_times("an iteration", s.times, 1e6 / static_cast<double>(s.work.iterations), "us");
     };
     row("a second of touch", whole);

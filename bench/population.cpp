@@ -1,17 +1,20 @@
 // How many afferent-steps per second does a population of `sa1` compute on one core, and how close is this to the machine's limit?
 //
-// Method: one process runs these in turn, 25 times (--runs): the sum of the streamed force (the memory limit), additions in registers (the
-// arithmetic limit), and the population with each kind of input. Output: medians. N = 100,000 at 10 kHz; spikes are stored in memory in
-// order, or as marks (one bit per afferent and step). Streamed: each afferent has its own force, in tiles, 1,000 steps from the press's
-// rise, 800 MB in double, which exceeds the caches. Profile: one press of 10,000 steps; each afferent has a gain from 0.5 to 1, and the
-// receptor is computed once. Own parameters: every afferent has its own f_B and its own receptor.
-// The peers' tasks are those of bench/peers/, in backward Euler, for comparison with the output of NumPy and Brian2.
-// --only WORDS: only the cases whose name contains WORDS.
+// Method: one process runs these cases in turn, 25 times (--runs): reading the streamed force and summing it (the memory limit), additions
+// in registers (the arithmetic limit), and the population with each kind of input. Output: medians of wall time. There are N = 100,000
+// afferents at 10 kHz. Spikes are stored in memory in order, or as marks (one bit per afferent and step). The names of the cases mean:
+// - streamed: each afferent has its own force, in tiles; 1,000 steps from the press's rise, 800 MB in double, which exceeds the caches;
+// - profile: one press of 10,000 steps; each afferent has a gain from 0.5 to 1, and the receptor is computed once;
+// - own parameters: every afferent has its own f_B and its own receptor;
+// - interpolated: spikes have times between the samples; in all other cases they are on the samples;
+// - the peers': the tasks of peers/work.py, in backward Euler, for comparison with NumPy and Brian2.
+// --only WORDS: only the two limits and the cases whose name contains WORDS.
 //
-// Operations for `sa1`, method exact, per afferent-step without a spike. Receptor 12: 1 difference, 2 high-passes of 3, 2 rectifiers, 3 for
-// the sum. LIF-B 8: 2 for the input current, 1 addition, 1 floor, 1 threshold, 3 for a rise through the leak. Together 20 operations and 8,
-// 4 or 2 bytes (double, float, 16-bit integers). A profile that does not rise needs 5 operations and no bytes. The limit is the lower of
-// memory and arithmetic; an operation in float counts half of one in double.
+// Arithmetic operations for `sa1`, method exact, per afferent-step without a spike. Receptor 12: 1 difference of forces, 2 high-passes of
+// 3, 2 rectifiers, 3 for the sum. Neuron LIF-B 8: 2 for the input current, 1 addition, 1 limit at E_L, 1 comparison with the threshold, 3
+// to test whether the current rises past the leak. Together 20 operations and 8, 4 or 2 bytes (double, float, 16-bit integers). A step of a
+// profile in which the current does not rise needs 5 operations and no bytes. The printed limit is the lower of the memory limit and the
+// arithmetic limit; an operation in float counts half of one in double.
 
 #include <fmt/format.h>
 
@@ -29,10 +32,13 @@ namespace {
 
 using namespace corpuscle;
 
-constexpr std::size_t max_count = 100'000, stream_steps = 1000;
-constexpr long rounds = 20'000'000;
-volatile double discarded;
+constexpr std::size_t max_count = 100'000;  // afferents
+constexpr std::size_t stream_steps = 1000;
+constexpr std::size_t rise_step = 2400;  // of the press: its rise begins at step 2500
+constexpr long rounds = 20'000'000;      // of 64 additions
+volatile double discarded;               // keeps the compiler from leaving out a computation
 
+/// Wall time, s.
 double now() { return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count(); }
 
 [[noreturn]] void stop(const std::string& why) {
@@ -40,7 +46,8 @@ double now() { return std::chrono::duration<double>(std::chrono::steady_clock::n
     std::exit(1);
 }
 
-// The compiler vectorizes the two limits for each instruction set. They do not use the lanes, which are the code under test.
+// The compiler vectorizes the code that measures the two limits, for each instruction set. It does not use the lanes, which are the code
+// under test.
 #ifdef __x86_64__
 #define EACH_SET __attribute__((target_clones("default", "arch=x86-64-v3", "arch=x86-64-v4"), optimize("O3,unroll-loops")))
 #else
@@ -49,6 +56,7 @@ double now() { return std::chrono::duration<double>(std::chrono::steady_clock::n
 
 typedef double Vector __attribute__((vector_size(64)));
 
+/// The sum of `count` numbers; `count` must be a multiple of 32.
 EACH_SET double sum(const double* p, std::size_t count) {
     Vector s[4] = {};
     const auto* v = reinterpret_cast<const Vector*>(p);
@@ -58,12 +66,13 @@ EACH_SET double sum(const double* p, std::size_t count) {
     return all[0] + all[1] + all[2] + all[3] + all[4] + all[5] + all[6] + all[7];
 }
 
-/// Additions in registers: eight independent chains hide the latency. 64 additions per round.
+/// Performs `count` rounds of 64 additions of doubles in registers. Eight independent chains hide the latency.
 template <class V>
 [[gnu::always_inline]] inline double additions(long count) {
     V a{}, b{}, c{}, d{}, e{}, f{}, g{}, h{};
     for (long k = 0; k < count * 8 * static_cast<long>(sizeof(double)) / static_cast<long>(sizeof(V)); ++k) {
         a += 1e-9, b += 1e-9, c += 1e-9, d += 1e-9, e += 1e-9, f += 1e-9, g += 1e-9, h += 1e-9;
+        // Without this, the compiler would combine the additions.
         asm volatile("" : "+x"(a), "+x"(b), "+x"(c), "+x"(d), "+x"(e), "+x"(f), "+x"(g), "+x"(h));
     }
     return (a + b + c + d + e + f + g + h)[0];
@@ -82,6 +91,7 @@ double additions(long count) {
     return additions<Two>(count);
 }
 
+/// The samples of the press at 10 kHz, N.
 std::vector<double> press() {
     Frames block(1, 10000);
     const auto source = make_stimulus("press", {}, 10e3, 0);
@@ -89,9 +99,10 @@ std::vector<double> press() {
     return block.force[0];
 }
 
+/// Factor of the force of this afferent: 0.5 for the first, 1 for the last.
 double gain(std::size_t afferent_index) { return 0.5 + 0.5 * static_cast<double>(afferent_index) / (max_count - 1); }
 
-/// The press multiplied by each afferent's gain, in tiles.
+/// The rise of the press multiplied by each afferent's gain and by `scale`, in tiles: [tile][step][afferent in the tile].
 template <class E>
 lanes::AlignedBuffer<E> tiles(const std::vector<double>& f, double scale) {
     const std::size_t count = (max_count + tile_width - 1) / tile_width;
@@ -99,19 +110,20 @@ lanes::AlignedBuffer<E> tiles(const std::vector<double>& f, double scale) {
     E* out = rows.data();
     for (std::size_t tile = 0; tile < count; ++tile)
         for (std::size_t t = 0; t < stream_steps; ++t)
-            for (std::size_t u = 0; u < tile_width; ++u) *out++ = static_cast<E>(f[2400 + t] * gain(tile * tile_width + u) * scale);
+            for (std::size_t u = 0; u < tile_width; ++u) *out++ = static_cast<E>(f[rise_step + t] * gain(tile * tile_width + u) * scale);
     return rows;
 }
 
-/// One timed case.
+/// A computation that is timed, and its times.
 struct TimedCase {
     std::string name;
     double work;                       // bytes, additions or afferent-steps in a run
-    std::function<double()> once;      // runs once; returns seconds
-    double operations = 0, bytes = 0;  // per afferent-step; operations in double
-    std::vector<double> seconds = {};
-    std::int64_t spikes = 0;  // of the last run
+    std::function<double()> run_once;  // returns its wall time, s
+    double operations = 0, bytes = 0;  // of a population, per afferent-step: operations in double, bytes of force
+    std::vector<double> seconds = {};  // of each run
+    std::int64_t spikes = 0;           // of the last run
 
+    /// Median work per second.
     double rate() const {
         auto s = seconds;
         std::nth_element(s.begin(), s.begin() + static_cast<std::ptrdiff_t>(s.size() / 2), s.end());
@@ -121,28 +133,32 @@ struct TimedCase {
 
 /// A population and its complete force, in blocks.
 struct Case {
-    std::size_t units = max_count, steps = 0, block = 0;
+    std::size_t afferents = max_count;
+    std::size_t steps = 0, block = 0;  // in total; in a block
     Method method = Method::exact;
-    bool own_parameters = false, sampled = true, marks = false;
+    bool own_parameters = false;  // each afferent has its own f_B
+    bool sampled = true;          // spikes are on the samples; otherwise their times are interpolated
+    bool marks = false;           // spikes are stored as bits
     Precision precision = Precision::double_precision;
     InstructionSet set = InstructionSet::baseline;
-    std::function<PopulationForce(std::size_t first, std::size_t steps)> force = {};
+    std::function<PopulationForce(std::size_t first, std::size_t steps)> force = {};  // of `steps` steps from step `first`
 
     std::unique_ptr<LanePopulation> make_population() const {
         const auto plan = plan_afferent("sa1", {});
-        std::vector<AfferentPlan> plans(own_parameters ? units : 1, *plan);
-        for (std::size_t u = 0; own_parameters && u < units; ++u)
+        std::vector<AfferentPlan> plans(own_parameters ? afferents : 1, *plan);
+        for (std::size_t u = 0; own_parameters && u < afferents; ++u)
             for (std::size_t k = 0; k < plans[u].values.size(); ++k)
                 if ((*plans[u].parameters)[k].info.name == "f_B") plans[u].values[k] = 15 + 10 * static_cast<double>(u) / (max_count - 1);
         std::vector<const AfferentPlan*> pointers;
         for (const auto& p : plans) pointers.push_back(&p);
-        auto result = make_lane_population({pointers, units, {}, precision}, {1e-4, method, sampled}, set);
+        auto result = make_lane_population({pointers, afferents, {}, precision}, {1e-4, method, sampled}, set);
         if (!result) stop(result.error().text());
         return std::move(*result);
     }
 
-    double once(std::int64_t& spikes) const {
-        static ThreadPool alone(1);
+    /// Simulates the population; returns its wall time, s, without making the population and the force. Also counts the spikes.
+    double run_once(std::int64_t& spikes) const {
+        static ThreadPool single_thread(1);
         static std::vector<Spike> found;
         static std::vector<std::uint64_t> bits;
         const auto population = make_population();
@@ -154,7 +170,7 @@ struct Case {
             PopulationResponse response{marks ? nullptr : &found, marks ? &bits : nullptr};
             const auto f = force(k, count);
             const double start = now();
-            const auto done = population->respond(f, count, response, alone);
+            const auto done = population->respond(f, count, response, single_thread);
             elapsed += now() - start;
             if (!done) stop(done.error().text());
             for (std::size_t w = 0; marks && w < bits.size(); ++w) spikes += __builtin_popcountll(bits[w]);
@@ -164,18 +180,20 @@ struct Case {
     }
 };
 
+/// All cases, with their forces.
 class Bench {
     std::string only_;
     std::vector<double> press_ = press(), gains_;
     lanes::AlignedBuffer<double> doubles_ = tiles<double>(press_, 1);
     lanes::AlignedBuffer<float> floats_ = tiles<float>(press_, 1);
-    lanes::AlignedBuffer<std::int16_t> words_ = tiles<std::int16_t>(press_, 8000);
+    lanes::AlignedBuffer<std::int16_t> words_ = tiles<std::int16_t>(press_, 8000);  // 1/8000 N
     std::vector<std::unique_ptr<TimedCase>> all_;
 
+    /// operations, bytes: see TimedCase.
     void add(const std::string& name, const Case& c, double operations, double bytes) {
         if (name.find(only_) == std::string::npos) return;
-        all_.push_back(std::make_unique<TimedCase>(TimedCase{name, static_cast<double>(c.units * c.steps), {}, operations, bytes}));
-        all_.back()->once = [c, t = all_.back().get()] { return c.once(t->spikes); };
+        all_.push_back(std::make_unique<TimedCase>(TimedCase{name, static_cast<double>(c.afferents * c.steps), {}, operations, bytes}));
+        all_.back()->run_once = [c, t = all_.back().get()] { return c.run_once(t->spikes); };
     }
 
     PopulationForce streamed(Precision precision) const {
@@ -189,10 +207,11 @@ class Bench {
         return c;
     }
 
+    /// Adds the cases of one instruction set and precision.
     void add_set(InstructionSet set, Precision precision) {
         const bool in_double = precision == Precision::double_precision;
         const std::string tag = fmt::format("{} {} ", name_of(set), in_double ? "double" : "float");
-        const double operation = in_double ? 1 : 0.5, bytes = in_double ? 8 : 4;
+        const double operation = in_double ? 1 : 0.5, bytes = in_double ? 8 : 4;  // in additions of doubles; of one force
         const auto changed = [](Case c, auto change) { return change(c), c; };
         Case stream{.steps = stream_steps, .block = stream_steps, .precision = precision, .set = set};
         stream.force = [this, precision](std::size_t, std::size_t) { return streamed(precision); };
@@ -209,7 +228,7 @@ class Bench {
                         c.force = [this](std::size_t, std::size_t) { return PopulationForce(ForceInt16{words_.data(), 1.0 / 8000}); };
                     }),
             20 * operation, 2);
-        add(tag + "streamed from the cache, N = 1000", changed(stream, [](Case& c) { c.units = 1000, c.steps = 10000, c.block = 100; }),
+        add(tag + "streamed from the cache, N = 1000", changed(stream, [](Case& c) { c.afferents = 1000, c.steps = 10000, c.block = 100; }),
             20 * operation, 0);
         const Case profile = profile_case(set, precision);
         add(tag + "profile", profile, 5 * operation, 0);
@@ -220,26 +239,26 @@ class Bench {
                     [this](Case& c) {
                         c.own_parameters = true, c.steps = 1000;
                         c.force = [this](std::size_t k, std::size_t n) {
-                            return PopulationForce(ForceProfile{std::span(press_).subspan(2400 + k, n), gains_});
+                            return PopulationForce(ForceProfile{std::span(press_).subspan(rise_step + k, n), gains_});
                         };
                     }),
             21 * operation, 0);
-        const auto peers = [](Case c) { return c.method = Method::backward_euler, c; };
-        add(tag + "the peers' shared", peers(profile), 5 * operation, 0);
+        const auto in_backward_euler = [](Case c) { return c.method = Method::backward_euler, c; };
+        add(tag + "the peers' shared", in_backward_euler(profile), 5 * operation, 0);
         add(tag + "the peers' own",
-            changed(peers(profile),
+            changed(in_backward_euler(profile),
                     [this](Case& c) {
                         c.own_parameters = true, c.steps = 2000;
                         c.force = [this](std::size_t k, std::size_t n) {
-                            return PopulationForce(ForceProfile{std::span(press_).subspan(2400 + k, n), gains_});
+                            return PopulationForce(ForceProfile{std::span(press_).subspan(rise_step + k, n), gains_});
                         };
                     }),
             21 * operation, 0);
-        add(tag + "the peers' streamed", peers(stream), 20 * operation, bytes);
+        add(tag + "the peers' streamed", in_backward_euler(stream), 20 * operation, bytes);
         add(tag + "profile, N = 1000",
             changed(profile,
                     [this](Case& c) {
-                        c.units = 1000;
+                        c.afferents = 1000;
                         c.force = [this](std::size_t k, std::size_t n) {
                             return PopulationForce(ForceProfile{std::span(press_).subspan(k, n), std::span(gains_).first(1000)});
                         };
@@ -266,13 +285,13 @@ public:
     }
 
     void run(int runs) {
-        for (auto& t : all_) (void)t->once();  // warm-up of pages and caches
+        for (auto& t : all_) (void)t->run_once();  // warm-up of pages and caches
         for (int k = 0; k < runs; ++k)
-            for (auto& t : all_) t->seconds.push_back(t->once());
+            for (auto& t : all_) t->seconds.push_back(t->run_once());
     }
 
     void print() const {
-        const double read = all_[0]->rate(), additions = all_[1]->rate();
+        const double read = all_[0]->rate(), additions = all_[1]->rate();  // the limits: bytes and additions per second
         fmt::print("read {:.1f} GB/s; {:.1f}e9 additions/s in double, with the best set\n", read / 1e9, additions / 1e9);
         fmt::print("{:50} {:>10} {:>10} {:>10} {:>9}\n", "", "steps/s", "limit", "fraction", "spikes");
         for (std::size_t k = 2; k < all_.size(); ++k) {

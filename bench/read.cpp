@@ -1,9 +1,12 @@
-// How fast is a text recording read, and how much memory does it use? bench-read MEGABYTES FOLDER
+// How fast is a text recording read, and how much memory does it use?
 //
-// Method: a CSV file with a time and 16 channels of footsteps, two decimals, is written to FOLDER, then read completely in these ways:
+//     bench-read [MEGABYTES [FOLDER]]      default: 200 MB, the present folder
+//
+// Method: a CSV file with a column of times and 16 channels of footsteps, two decimals, is written to FOLDER, then read completely in these
+// ways:
 // - only its bytes, by fread, which is the limit;
 // - its numbers, every column into blocks;
-// - as a force recording with all checks, at a given rate (one pass) and on its own clock (two passes).
+// - as a recording of force with all checks, at a given rate (one pass) and with the clock of its column of times (two passes).
 // Output: bytes per wall second, and the peak memory of the process so far.
 
 #include <fmt/format.h>
@@ -22,6 +25,7 @@ namespace {
 
 using namespace corpuscle;
 
+/// Writes the file of footsteps.
 void write_steps(const std::string& path, double megabytes) {
     std::FILE* file = std::fopen(path.c_str(), "wb");
     std::string text = "time_s";
@@ -40,6 +44,7 @@ void write_steps(const std::string& path, double megabytes) {
     std::fclose(file);
 }
 
+/// Times `work`, which reads the file and returns the number of rows or blocks. `bytes`: size of the file.
 void report(const char* label, double bytes, const std::function<std::int64_t()>& work) {
     const auto start = std::chrono::steady_clock::now();
     const auto rows = work();

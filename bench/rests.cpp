@@ -1,10 +1,11 @@
 // Which method finds the operating points of chips with mismatch, and how long does it take?
 //
-//     bench-rests NETLIST [CHIPS] [SEED]
+//     bench-rests NETLIST [CHIPS] [SEED]      default: 1000 chips, seed 1
 //
-// Method: the netlist is read once. Each chip has its own sample of mismatch and process (of the card's section in the netlist). It is
-// solved first like .op, then like the start of a transient, with the nodes of .ic held. "none" is the row of chips that did not converge.
-// Output: the chips that each method solved, Newton steps (mean, median, maximum), and microseconds of processor time per chip.
+// Method: the netlist is read once. Each chip has its own sample of mismatch and process, with the standard deviations of the section of
+// the process file that the netlist selects. It is solved first like .op, then like the start of a transient, with the nodes of .ic held.
+// Output: the number of chips that each method solved ("none": chips that did not converge), Newton steps (mean, median, maximum), and
+// microseconds of processor time per chip.
 
 #include <algorithm>
 #include <cstdio>
@@ -25,12 +26,13 @@ using namespace corpuscle::circuit;
 /// Processor time, s; other load on the machine affects it less than wall time.
 double now() { return static_cast<double>(std::clock()) / CLOCKS_PER_SEC; }
 
-struct Method {
-    std::vector<int> steps;
-    double seconds = 0;
+/// The chips that one method solved.
+struct MethodStatistics {
+    std::vector<int> steps;  // Newton steps of each chip
+    double seconds = 0;      // processor time of all chips
 };
 
-void print_methods(const char* label, std::map<std::string, Method>& methods) {
+void print_methods(const char* label, std::map<std::string, MethodStatistics>& methods) {
     std::printf("%s\n", label);
     for (auto& [name, statistics] : methods) {
         auto& s = statistics.steps;
@@ -54,11 +56,11 @@ int main(int argc, char** argv) {
     if (!circuit) return std::fprintf(stderr, "%s\n", circuit.error().text().c_str()), 1;
     auto bench = AnalysisContext::make(std::make_shared<const Circuit>(std::move(*circuit)));
     if (!bench) return std::fprintf(stderr, "%s\n", bench.error().text().c_str()), 1;
-    const ChipSpec sampled{chips, argc > 3 ? std::strtoull(argv[3], nullptr, 10) : 1};
+    const ChipSpec spec{chips, argc > 3 ? std::strtoull(argv[3], nullptr, 10) : 1};
     for (const bool with_ic : {false, true}) {
-        std::map<std::string, Method> methods;
+        std::map<std::string, MethodStatistics> methods;  // by name
         for (std::uint64_t k = 0; static_cast<double>(k) < chips; ++k) {
-            (*bench)->apply_variation(sampled.sample(k));
+            (*bench)->apply_variation(spec.sample(k));
             const double start = now();
             const auto found = with_ic ? (*bench)->initial_operating_point() : (*bench)->operating_point();
             auto& statistics = methods[found ? std::string(found->method) : "none"];

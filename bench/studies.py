@@ -1,7 +1,7 @@
 #!/usr/bin/python3
-"""How long does it take to reproduce every figure and table?   studies.py CORPUSCLE
+"""How long does it take to reproduce every figure and table of the thesis?   studies.py CORPUSCLE
 
-Runs `corpuscle study all` as a complete process three times, then without the studies that sample thousands of chips.
+Runs all studies in one process (`corpuscle study NAME ...`) three times, then all but those that sample thousands of chips.
 Prints wall time and processor time, medians of three. Targets: 60 s on two cores without these studies, 90 s with them.
 """
 import json
@@ -16,6 +16,7 @@ SAMPLED = {"table12", "table15", "table17-18", "bias-spread", "fig46"}
 
 
 def timed(names):
+    """Medians of wall time and processor time, s."""
     runs = []
     for _ in range(3):
         cpu_before, began = resource.getrusage(resource.RUSAGE_CHILDREN).ru_utime, time.monotonic()

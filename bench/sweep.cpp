@@ -1,10 +1,10 @@
-// How long do rank 0's operations of a sweep take: write a row, pack an outcome, exchange a message? How large and fast is a file of 1e6
-// rows?
-//   bench-sweep [ITEMS [FOLDER]]        rows: 1e6 work items, 6 axes, 10 measures, a train of 15 spikes; random numbers
+// How long do the operations of rank 0 in a sweep take: to write a row, to pack an outcome, to exchange a message? How large is a results
+// file of 1e6 rows, and how fast are queries of it?
+//   bench-sweep [ITEMS [FOLDER]]        rows of ITEMS (1e6) work items: 6 axes, 10 measures, a train of 15 spikes; random numbers
 //   mpirun -n 2 bench-sweep             messages between two ranks (-n 2 binds them to different cores)
 // Rows are written by SweepResults::add in batches of 8192, each a transaction on disk; then the file is checkpointed and queried. One run.
-// Output: wall time and processor time; processor time is rank 0's limit and depends less on other load. Messages: the mean of 20,000
-// in sequence, and rank 0's processor time in the calls that send and receive one.
+// Output: wall time and processor time. Processor time limits rank 0, and depends less on other load. Messages: the mean time of 20,000
+// exchanges in sequence, and the processor time of rank 0 in the calls that send one and receive one.
 
 #include <fmt/format.h>
 #include <sys/resource.h>
@@ -23,18 +23,22 @@ namespace {
 using namespace corpuscle;
 using Clock = std::chrono::steady_clock;
 
+/// Wall time since `start`, s.
 double since(Clock::time_point start) { return std::chrono::duration<double>(Clock::now() - start).count(); }
+/// Processor time of this process, s.
 double processor() {
     timespec t = {};
     ::clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &t);
     return static_cast<double>(t.tv_sec) + 1e-9 * static_cast<double>(t.tv_nsec);
 }
+/// Peak memory of this process so far.
 double memory_MB() {
     rusage use = {};
     ::getrusage(RUSAGE_SELF, &use);
     return static_cast<double>(use.ru_maxrss) / 1024;
 }
 
+/// A sweep without a simulation: its outcomes are random numbers.
 class RandomSweep final : public Sweep {
     std::int64_t items_;
     std::vector<SweepColumn> axes_, measures_;
@@ -77,6 +81,7 @@ void run_query(const SweepResults& results, const char* query) {
     fmt::print("  {:.3f} s  {}  ({})\n", since(start), query, value ? *value : -1);
 }
 
+/// Times rows of the results file. Returns the exit status.
 int rows(std::int64_t items, const std::string& folder) {
     const std::string path = folder + "/bench-sweep.sqlite";
     std::filesystem::remove(path);
@@ -85,7 +90,9 @@ int rows(std::int64_t items, const std::string& folder) {
     if (!results) return fmt::print("{}\n", results.error().text()), 1;
     constexpr std::int64_t batch = 8192;
     std::mt19937 random(1);
-    double writing = 0, writing_wall = 0, packing = 0, unpacking = 0, at_tenth = 0;
+    double writing = 0, packing = 0, unpacking = 0;  // processor time, s
+    double writing_wall = 0;                         // wall time, s
+    double at_tenth = 0;                             // memory after a tenth of the items, MB
     for (std::int64_t from = 0; from < items; from += batch) {
         std::vector<ItemOutcome> outcomes, decoded;
         for (std::int64_t k = from; k < std::min(items, from + batch); ++k) outcomes.push_back(sweep.outcome(k, random));
@@ -116,6 +123,7 @@ int rows(std::int64_t items, const std::string& folder) {
     return 0;
 }
 
+/// Times messages between two ranks. Returns the exit status.
 int messages() {
     auto joined = Ranks::join();
     if (!joined) return fmt::print("{}\n", joined.error().text()), 1;
@@ -125,7 +133,7 @@ int messages() {
         constexpr int count = 20'000;
         const std::string text(size, 'x');
         const auto start = Clock::now();
-        double busy = 0;
+        double busy = 0;  // processor time in the calls that send or receive a message, s
         const auto send = [&] {
             const auto before = processor();
             ranks.send(is_first ? 1 : 0, text);

@@ -3,10 +3,10 @@
 
     bench/thousand.py CORPUSCLE [CHIPS]
 
-Method: examples/sweeps/sa1-chips.toml runs unchanged (process and mismatch, 1.0 s of press, spikes and ten measures stored) into a file
-on disk. The result is the wall time of the complete command. All chips run on two threads. A tenth of them runs on one thread, with the
-default lanes, with 4 lanes and with 1. Their results must be equal. bench-batch times single iterations and scalar chips. peers/chip.py
-times a chip in ngspice.
+Method: examples/sweeps/sa1-chips.toml runs unchanged (process and mismatch, 1.0 s of press, spikes and ten measures stored) into a file on
+disk. The result is the wall time of the complete command. All chips run on two threads. Then a tenth of them runs on one thread three
+times, with 8 lanes (the default), 4 and 1; the results of the three must be equal. bench-batch times single iterations and chips without
+lanes. peers/chip.py times a chip in ngspice.
 """
 import os
 import subprocess
@@ -19,6 +19,7 @@ sweep = os.path.join(os.path.dirname(os.path.abspath(__file__)), "../examples/sw
 
 
 def run(samples, *options):
+    """Runs the sweep with this number of chips, prints its time, and returns its results as text."""
     with tempfile.TemporaryDirectory() as folder:
         out = os.path.join(folder, "r.sqlite")
         began = time.perf_counter()

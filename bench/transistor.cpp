@@ -1,9 +1,9 @@
-// How long does one transistor evaluation take: currents, charges, their 32 derivatives, both junctions?
+// How long does one evaluation of a transistor take: its currents and charges, their 32 derivatives, and both junctions?
 //
 // Method: one NMOS of 1.5/0.5 um with every effect of the model enabled (velocity saturation, DIBL, Early voltage, junctions, overlaps), at
-// 512 random voltage points between -0.2 and 1 V. The data fit the first-level cache, and no branch is predictable. All results are summed.
-// A lane is one transistor at one point. Output: median, minimum and maximum processor time of 15 rounds of about 20 ms, for scalar
-// code and for the SIMD lanes of each instruction set of this machine.
+// 512 random voltage points between -0.2 and 1 V. The data fit the first-level cache, and no branch is predictable. All results are summed,
+// so that none is left out. A lane is one transistor at one point. Output: median, minimum and maximum processor time of 15 repetitions of
+// about 20 ms, for scalar code and for the SIMD lanes of each instruction set of this machine.
 
 #include <algorithm>
 #include <cstdio>
@@ -22,8 +22,10 @@ namespace {
 using namespace corpuscle;
 using namespace corpuscle::circuit;
 
-constexpr std::size_t count = 512, rounds = 64;
+constexpr std::size_t count = 512;  // points
+constexpr std::size_t rounds = 64;  // over all points, in one repetition
 
+/// `v`: voltages of the four terminals, [terminal][point]. Returns the sum of all results.
 double scalar_rounds(const UicmConstants& constants, const double* const (&v)[4], std::size_t points, std::size_t times) {
     const Uicm<double> device(constants);
     UicmEvaluation<double> evaluation;
@@ -36,19 +38,21 @@ double scalar_rounds(const UicmConstants& constants, const double* const (&v)[4]
     return sum;
 }
 
-double seconds() {
+/// Processor time of this process, s.
+double processor() {
     timespec now{};
     clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &now);
     return static_cast<double>(now.tv_sec) + 1e-9 * static_cast<double>(now.tv_nsec);
 }
 
+/// Times `run` and prints the result. The first repetition is a warm-up.
 void measure(std::string_view name, test::UicmTimingFunction run, const UicmConstants& constants, const double* const (&v)[4]) {
     std::vector<double> ns;
     volatile double result = 0;
     for (int repeat = 0; repeat < 16; ++repeat) {
-        const double start = seconds();
+        const double start = processor();
         result = run(constants, v, count, rounds);
-        if (repeat > 0) ns.push_back((seconds() - start) / static_cast<double>(count * rounds) * 1e9);
+        if (repeat > 0) ns.push_back((processor() - start) / static_cast<double>(count * rounds) * 1e9);
     }
     std::sort(ns.begin(), ns.end());
     std::printf("%-9.*s %6.1f ns a lane (%.1f ... %.1f), sum %.6g\n", static_cast<int>(name.size()), name.data(), ns[ns.size() / 2],

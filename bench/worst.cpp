@@ -1,12 +1,12 @@
 // Which transistors' mismatch determines the spike count of a chip? Checks the result by enlarging them.
 //
-//     bench-worst sa1|fa1 [CHIPS] [SEED]
+//     bench-worst sa1|fa1 [CHIPS] [SEED]      default: 200 chips, seed 1
 //
-// Method: chips with only mismatch, each under the press. The ranks of their spike counts are correlated with the two deviates of each
-// transistor (threshold, current), sampled again as in the chip. A transistor's contribution is the sum of both squares. The three with
-// the largest contributions get four times the area (W and L doubled), and the same chips run again. Output: mean and standard deviation
-// of the spike count before and after, for each of the three alone and for all together; and the number of chips within
-// FiringLimits::around the model.
+// Method: chips with mismatch but without process variation, each under the press. The ranks of their spike counts are correlated with the
+// two normal deviates of each transistor (threshold, current), which are computed again as for the chip. A transistor's contribution is the
+// sum of the squares of both correlations. The three transistors with the largest contributions get four times the area (W and L doubled),
+// and the same chips run again. Output: mean and standard deviation of the spike count before and after, for each of the three transistors
+// alone and for all together; and the number of chips that meet the limits around the model's response (FiringLimits::around).
 
 #include <fmt/format.h>
 #include <algorithm>
@@ -28,7 +28,7 @@ namespace {
 
 using namespace corpuscle;
 using namespace corpuscle::circuit;
-using Trains = std::vector<std::vector<double>>;
+using Trains = std::vector<std::vector<double>>;  // [chip][spike], s
 
 std::shared_ptr<const CircuitAfferentFactory> factory_of(const std::string& name, const std::vector<NetlistOverride>& overrides) {
     const auto netlist = apply_overrides(name, overrides);
@@ -38,6 +38,7 @@ std::shared_ptr<const CircuitAfferentFactory> factory_of(const std::string& name
     return *factory;
 }
 
+/// Simulates all chips of this design under the press.
 Trains press_chips(const std::shared_ptr<const CircuitAfferentFactory>& factory, const ChipSpec& chips, const ForceSignal& press) {
     Trains out(static_cast<std::size_t>(chips.count));
     std::mutex guard;
@@ -65,7 +66,7 @@ Trains press_chips(const std::shared_ptr<const CircuitAfferentFactory>& factory,
     return out;
 }
 
-/// Ranks of the numbers (equal numbers share their mean rank), relative to the mean rank.
+/// Ranks of the numbers, minus the mean of all ranks; equal numbers share their mean rank.
 std::vector<double> ranks(const std::vector<double>& x) {
     std::vector<double> out;
     for (const double v : x) {
@@ -76,6 +77,7 @@ std::vector<double> ranks(const std::vector<double>& x) {
     return out;
 }
 
+/// Correlation of numbers with mean 0.
 double correlation(const std::vector<double>& a, const std::vector<double>& b) {
     const auto product = [](const auto& u, const auto& v) { return std::inner_product(u.begin(), u.end(), v.begin(), 0.0); };
     return product(a, b) / std::sqrt(product(a, a) * product(b, b));
@@ -111,19 +113,19 @@ int main(int argc, char** argv) {
     print_statistics("as designed", before, limits);
     std::vector<double> counts;
     for (const auto& t : before) counts.push_back(static_cast<double>(t.size()));
-    const auto order = ranks(counts);
+    const auto count_ranks = ranks(counts);
 
     struct Contribution {
         const Element* device;
-        double by_threshold, by_current;
+        double by_threshold, by_current;  // correlations
         double all() const { return by_threshold * by_threshold + by_current * by_current; }
     };
     std::vector<Contribution> contributions;
-    UicmCard card;
+    UicmCard card;  // with A_VT = A_IS = 1 and an area of 1 m^2, the mismatch is the deviate itself
     card.A_VT = card.A_IS = 1;
     UicmInstance square;
     square.W = square.L = 1;
-    std::uint32_t number = 0;
+    std::uint32_t number = 0;  // index among the transistors, as in the sampling of mismatch
     for (const auto& e : designed->circuit->elements) {
         if (e.letter != 'm') continue;
         std::vector<double> threshold, current;
@@ -131,12 +133,12 @@ int main(int argc, char** argv) {
             const auto deviates = sample_mismatch(card, square, chips.seed, number, k);
             threshold.push_back(deviates.V_T), current.push_back(std::log(deviates.factor));
         }
-        contributions.push_back({&e, correlation(order, threshold), correlation(order, current)});
+        contributions.push_back({&e, correlation(count_ranks, threshold), correlation(count_ranks, current)});
         ++number;
     }
     std::sort(contributions.begin(), contributions.end(),
               [](const Contribution& a, const Contribution& b) { return std::pair(-a.all(), a.device) < std::pair(-b.all(), b.device); });
-    std::vector<NetlistOverride> all;
+    std::vector<NetlistOverride> all;  // of the three
     for (std::size_t k = 0; k < 8; ++k)
         fmt::print("  {:20} threshold {:+.2f}, current {:+.2f}\n", contributions[k].device->name, contributions[k].by_threshold,
                    contributions[k].by_current);

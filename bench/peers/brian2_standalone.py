@@ -2,11 +2,12 @@
 
 Method: C++ standalone, no OpenMP. One group; a step is one `run_regularly`, then threshold, monitor and reset. Inputs common to all
 afferents are a TimedArray in time, so the receptor of `shared` costs nothing. The forces of `streamed` are a TimedArray in time and
-afferent, fetched in a separate `run_regularly`, because the compiler does not vectorize a combined one. The time is Brian2's own processor
-time of the loop over steps. It excludes generating and compiling code, reading the forces, and writing the spikes. The same program runs
-several times; the median is the result. Spikes are stored as time and afferent (monitor: spikes). `count` only counts them per afferent,
-`rate` per step, and with `none` the reset counts them. Flags: `default` are Brian2's own, `strict` keeps the order of sums, `unrolled` is
-the fastest, because the search for spikes is not vectorized and benefits from unrolling.
+afferent, fetched in a separate `run_regularly`, because the compiler does not vectorize a combined one. The time is the processor time of
+the loop over steps, as Brian2 measures it. It excludes generating and compiling code, reading the forces, and writing the spikes. The same
+program runs several times; the median is the result. With --monitor spikes, spikes are stored as time and afferent; `count` only counts
+them per afferent, `rate` per step, and with `none` the reset counts them. Compiler flags: `default` are Brian2's own, `strict` keeps the
+order of sums, `unrolled` is the fastest, because the search for spikes is not vectorized and benefits from unrolling. --rectify is the
+expression for max{x, 0}. The tasks and forms are described in work.py.
 
     brian2_standalone.py [--work shared ...] [--dtype float32 ...] [--form folded ...] [--n 100000] [--runs 5]
                          [--flags unrolled | default | strict | =FLAGS] [--monitor spikes | count | rate | none] [--rectify clip | int | abs]
@@ -32,11 +33,14 @@ FLAGS = {
 RECTIFY = {"clip": "clip({0}, 0, inf)", "int": "int(({0}) > 0)*({0})", "abs": "0.5*(({0}) + abs({0}))"}
 
 
+# for `streamed`: code that reads the forces of a step
 FETCH = "F_before = F\nF = frames(t, i)"
 
 
 def step_of(name, folded, rectify):
-    """Code of one step of the task: the receptor, then the increase of u, limited below to E_L = 0. For `streamed`, FETCH comes first."""
+    """Code of one step of the task `name`: the receptor, then the membrane voltage u, limited below to E_L = 0.
+
+    For `streamed`, FETCH precedes it."""
     positive = RECTIFY[rectify].format
     if name == "shared":
         lines = ["du = g*current_k(t) - leak_k" if folded else "du = (g*current(t) - I_leak0)*k"]
@@ -53,7 +57,7 @@ def step_of(name, folded, rectify):
 
 
 def constants(name, n):
-    """Parameters by their names in the step code, as variables of the group. Literals in the code would be doubles."""
+    """Parameters by their names in the step code. They become variables of the group, because literals in the code would be doubles."""
     k = work.K
     return {"k": k, "k_A": work.K_A, "K_B": work.K_B, "K_C": work.K_C, "I_leak0": work.I_LEAK0, "keep_C": work.keep(work.F_C),
             "k_A_k": work.K_A * k, "K_B_k": work.K_B * k, "K_C_k": work.K_C * k, "leak_k": work.I_LEAK0 * k,

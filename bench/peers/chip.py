@@ -4,10 +4,10 @@
     chip.py CORPUSCLE CHIP_CIR [--until SECONDS] [--rounds N] [--keep DIR]
 
 Method: `corpuscle run` simulates the netlist N times with its default accuracy, and once with tolerances a hundred times tighter as the
-reference for the spikes. Output: the fastest and the median, in processor seconds of complete processes. Then ngspice runs once on
-the netlist as exported by `corpuscle export` (the same transistors as expressions, the force as a piecewise linear source), up to SECONDS
-of the press. It uses Corpuscle's tolerances instead of the much tighter ones of the deck. Corpuscle runs again up to the same time. A
-spike is an upward crossing of half the supply by v(s), interpolated linearly between two points. One core each, in sequence.
+reference for the spikes. Output: the fastest and the median, in processor seconds of complete processes. Then ngspice runs once on the
+netlist as exported by `corpuscle export` (the same transistors as expressions, the force as a piecewise linear source), up to SECONDS of
+the press. It uses Corpuscle's tolerances instead of the much tighter ones of the deck. Corpuscle runs again up to the same time. A spike is
+an upward crossing of half the supply (0.35 V) by v(s), interpolated linearly between two points. All runs use one core, in sequence.
 """
 import argparse
 import re
@@ -18,10 +18,12 @@ import subprocess
 import tempfile
 from pathlib import Path
 
-OPTIONS = "reltol=1e-5 abstol=1e-16 vntol=1e-9"  # looser values lose picoamperes, and the chip does not fire
+# for ngspice; with looser values, currents of picoamperes are lost, and the chip does not fire
+OPTIONS = "reltol=1e-5 abstol=1e-16 vntol=1e-9"
 
 
 def timed(command):
+    """Processor seconds and output of a process."""
     def processor():
         used = resource.getrusage(resource.RUSAGE_CHILDREN)
         return used.ru_utime + used.ru_stime
@@ -43,6 +45,7 @@ def spikes(raw):
 
 
 class Chip:
+    """The chip's netlist, to be simulated by both programs. Each run gives seconds, [steps, rejected steps, iterations] and spike times."""
     def __init__(self, program, netlist, folder):
         self.program, self.folder = program, folder
         self.text = re.sub(r"(?m)^\.(op|expect).*\n", "", netlist.read_text())

@@ -1,12 +1,12 @@
 #!/usr/bin/env python3
 """A Monte Carlo analysis of the bias generator compared with ngspice: operating points of chips with mismatch in each transistor.
 
-    chips.py CORPUSCLE BENCH_CHIPS NETLIST [CHIPS] [CHIPS_OF_NGSPICE]
+    chips.py CORPUSCLE BENCH_CHIPS NETLIST [CHIPS] [CHIPS_OF_NGSPICE]      default: 5000 and 100 chips
 
 Method: `bench-chips` solves its chips. Then ngspice runs the same circuit as exported by `corpuscle export`. Normal deviates of the same
-sizes are added to each transistor's threshold and current (agauss). The chips run one after another in one process (reset, op), as is
-usual there. Its deviates differ from Corpuscle's, so only means and deviations of v(q) are compared, not single chips. ngspice's time is
-the time of its complete process less the time of a process with one chip. A chip has failed if ngspice reports a failed operating point.
+sizes are added to each transistor's threshold and current (agauss). The chips run one after another in one process (reset, op), as is usual
+there. Its deviates differ from Corpuscle's, so only means and standard deviations of v(q) are compared, not single chips. ngspice's time is
+the wall time of its complete process minus that of a process with one chip. A chip has failed if ngspice reports a failed operating point.
 It is wrong if v(q) differs from Corpuscle's mean by more than 20 of its standard deviations.
 """
 import math
@@ -40,6 +40,7 @@ assert "agauss" in deck
 
 
 def ngspice(count):
+    """Wall time (s), v(q) of each chip that converged, and number of the others."""
     text = f"{deck}\n.control\nrepeat {count}\nreset\nop\nprint v(q)\nend\nquit\n.endc\n.end\n"
     with tempfile.NamedTemporaryFile("w", suffix=".cir") as file:
         file.write(text)
@@ -61,5 +62,5 @@ peer = (seconds - single) / ngspice_chips * 1e6
 good = [v for v in values if abs(v - mean) < 20 * deviation]
 print(f"ngspice:   {ngspice_chips} chips: {peer:.0f} us each, {failed} failed, {len(values) - len(good)} wrong")
 print(f"v(q): ours {mean * 1e3:.3f} mV, deviation {deviation * 1e3:.3f} mV; ngspice {statistics.mean(good) * 1e3:.3f} mV, "
-      f"{statistics.stdev(good) * 1e3:.3f} mV")
+      f"deviation {statistics.stdev(good) * 1e3:.3f} mV")
 print(f"ngspice's time over ours: {peer / us:.0f}")

@@ -1,15 +1,15 @@
 #!/usr/bin/env python3
 """Transient of the loop of 108 transistor arrays compared with ngspice: one second of touch.
 
-    loop.py CORPUSCLE LOOP_CIR [SECONDS_AT_THE_MOST] [--keep DIR]
+    loop.py CORPUSCLE LOOP_CIR [SECONDS_AT_THE_MOST] [--keep DIR]      default: 300 s of wall time for each simulation
 
 Method: `bench/decks/loop.cir` runs here unchanged, and in ngspice twice. The first run has its transistors as expressions with the same
-parameters (two inner nodes y = ln q each, the usual form of such a model there). The second has BSIM3 transistors of the same sizes and,
-because of their leakage, a membrane of 10 pF; it compares only time, not spikes. Everything else is the same text: topology, sources,
-tolerances, maximum step. ngspice needs the tight tolerances of `.options`; with its defaults it stops or produces false spikes. Each runs
-once, in sequence, on one core; times are of complete processes. A spike is an upward crossing of 0.35 V by v(s), interpolated linearly
-between two points. Wall and processor seconds are printed side by side. Times per iteration and per spike, and the ratios, use processor
-time, because other load on the machine affects it less.
+parameters (each with two inner nodes y = ln q, where q is the normalised inversion charge at source or drain; this is the usual form
+there). The second has BSIM3 transistors of the same sizes and, because of their leakage, a membrane of 10 pF; it compares only time, not
+spikes. Topology, sources, tolerances and maximum step are the same text in all runs. ngspice needs the tight tolerances of `.options`; with
+its defaults it stops or produces false spikes. Each simulation runs once, in sequence, on one core; times are of complete processes. A
+spike is an upward crossing of 0.35 V by v(s), interpolated linearly between two points. Wall and processor seconds are printed side by
+side. Times per iteration and per spike, and the ratios, use processor time, because other load on the machine affects it less.
 """
 import re
 import resource
@@ -20,6 +20,7 @@ import tempfile
 import time
 from pathlib import Path
 
+# A transistor for ngspice. For a pmos, the signs of all voltages are changed.
 FORMULAS = """
 .subckt {name} d g s b cols=1 units=1
 bys ys 0 i=v(ys)+exp(v(ys))-1-((v({g},{b_g})-({vto}-0.4m*(temper-27))+({{0.01/units}})*(v({d},{b_d})+v({s},{b_s})))/{n}-v({s},{b_s}))/(8.617333e-5*(temper+273.15))
@@ -61,10 +62,12 @@ quit
 
 
 def braced(expression):
+    """An expression in one pair of braces, as ngspice requires."""
     return "{" + expression.strip("{}").replace("{", "(").replace("}", ")") + "}"
 
 
 def ngspice_deck(text, model, raw):
+    """The loop for ngspice, with the transistors of this model, `uicm` or `bsim3`. `raw`: path of its results."""
     lines, card = [], False
     for line in text.splitlines():
         card = line.startswith(".model") or (card and line.startswith("+"))
@@ -96,7 +99,7 @@ def spikes(raw):
 
 
 def timed(command):
-    """Wall and processor seconds, and the output; None if it was stopped."""
+    """(Wall, processor) seconds and the output of a process; both are None if it was stopped at the time limit."""
     def processor():
         used = resource.getrusage(resource.RUSAGE_CHILDREN)
         return used.ru_utime + used.ru_stime
@@ -109,6 +112,7 @@ def timed(command):
 
 
 def row(name, seconds, numbers, raw):
+    """Prints one simulation. Returns processor seconds, microseconds per iteration and milliseconds per spike."""
     if seconds is None:
         print(f"{name:<18} not finished in {time_limit:g} s")
         return None

@@ -1,8 +1,9 @@
 """How many afferent-steps per second does NumPy compute on one core, for the tasks of work.py?
 
 Method: carefully optimized NumPy. Every operation writes in place, into arrays allocated before the timing starts. Afferents are
-processed in blocks that stay in cache (256 kB per array), all steps of one block before the next. Each spike is stored as its step and
+processed in blocks that stay in cache (256 kB per array), all steps of one block before the next. Each spike is stored as step and
 afferent. A first run, not timed, checks that no afferent fires twice in a step; the result is the median wall time of the runs.
+The tasks and forms are described in work.py.
 
     numpy_in_place.py [--work shared ...] [--dtype float32 ...] [--form folded ...] [--n 100000] [--runs 5] [--block AFFERENTS]
 """
@@ -25,7 +26,7 @@ def constants(dtype):
 
 
 class Task:
-    """Everything that is computed before the timing starts."""
+    """A task with everything that is computed before the timing starts. `name`, `form`: see work.py; n: number of afferents."""
 
     def __init__(self, name, dtype, form, n):
         self.name, self.dtype, self.folded, self.n, self.c = name, dtype, form == "folded", n, constants(dtype)
@@ -37,7 +38,9 @@ class Task:
 
 
 def shared(task, rows):
-    """Returns a function that computes the increase of u in a step (before E_L) for a slice `rows` of afferents, in a reused array."""
+    """Returns a function that computes the increase of u in a step, before the limit at E_L, for the slice `rows` of the afferents.
+
+    The function returns the same array in every call."""
     c, g = task.c, task.g[rows]
     du = np.empty_like(g)
     I = [task.dtype(I * work.K if task.folded else I) for I in work.currents(task.press)]
@@ -55,7 +58,10 @@ def shared(task, rows):
 
 
 def receptor(task, rows, du):
-    """Returns a function that adds the current of the force change dF to du, which contains k_A F, and converts it to an increase of u."""
+    """Returns a function of the force change dF, which computes the increase of u.
+
+    Before the call, `du` must contain the static current k_A F. The function adds the dynamic currents, subtracts the leak, and converts
+    the sum to the increase of u, also in `du`."""
     c, keep_C, keep_B = task.c, task.c.keep_C, task.keep_B[rows]
     if task.name == "streamed":
         keep_B = keep_B[0]
@@ -85,6 +91,7 @@ def receptor(task, rows, du):
 
 
 def own(task, rows):
+    """As shared(), for the task `own`."""
     g, press = task.g[rows], [task.dtype(F) for F in task.press]
     F, before, du = multiply(g, press[0]), np.empty_like(g), np.empty_like(g)
     add_response = receptor(task, rows, du)
@@ -106,6 +113,7 @@ def own(task, rows):
 
 
 def streamed(task, rows):
+    """As shared(), for the task `streamed`."""
     frames, k_A = task.frames, task.c.k_A_k if task.folded else task.c.k_A
     du, dF = np.empty(rows.stop - rows.start, task.dtype), np.empty(rows.stop - rows.start, task.dtype)
     add_response = receptor(task, rows, du)
@@ -119,9 +127,10 @@ def streamed(task, rows):
 
 
 def fire(task, rows, rise, watched):
-    """Computes all steps of the afferents `rows`; returns their spikes as (step, first row, rows that fired).
+    """Computes all steps of the afferents `rows`.
 
-    `watched`: checks that no afferent fires twice in a step."""
+    Returns their spikes as (step, index of the first afferent of `rows`, indexes in `rows` of the afferents that fired).
+    `rise`: computes the increase of u in a step. `watched`: checks that no afferent fires twice in a step."""
     c, spikes = task.c, []
     u, over = np.full(rows.stop - rows.start, c.E_L), np.empty(rows.stop - rows.start, bool)
     for step in range(len(task.press)):
@@ -137,7 +146,7 @@ def fire(task, rows, rise, watched):
 
 
 def run(task, block, watched=False):
-    """Runs the complete task once; returns its time (s) and its spikes."""
+    """Runs the complete task once, in blocks of `block` afferents; returns its wall time (s) and its spikes, see fire()."""
     make = {"shared": shared, "own": own, "streamed": streamed}[task.name]
     blocks = [slice(low, min(low + block, task.n)) for low in range(0, task.n, block)]
     ready = [(rows, make(task, rows)) for rows in blocks]

@@ -1,8 +1,9 @@
-"""Do the peers compute the same as Corpuscle? Compares the spikes of numpy_in_place.py in float64 with the program's, for each afferent.
+"""Do the peers compute the same as Corpuscle? Compares the spikes of numpy_in_place.py in float64 with those of Corpuscle ("the program"),
+for each afferent. The peers are the other simulators in this folder.
 
-Method: 50 afferents. The program reads their forces as a recording with exactly the same doubles, and runs with
-`--method backward-euler --sampled`, one afferent per run if each has its own f_B. `shared` scales the current but the program scales the
-force, so their last digits differ; the other tasks do the same operations. Ends with status 1 if any spike differs.
+Method: 50 afferents. The program reads their forces as a recording with exactly the same doubles, and runs with `--method backward-euler
+--sampled`, one afferent per run if each has its own f_B. In the task `shared`, NumPy scales the current but the program scales the force,
+so the last digits of u differ; in the other tasks both do the same operations. Ends with status 1 if any spike differs.
 
     same_work.py build/release/corpuscle
 """
@@ -30,7 +31,7 @@ def trains(spikes):
 
 
 def respond(program, recording, out, options):
-    """The program's spike trains, one per channel of the recording."""
+    """The program's spike trains, one per channel of the recording, as lists of steps."""
     subprocess.run([program, "respond", recording, "--unit", "N", "--rate", "10kHz", "--afferent", "sa1", "--method", "backward-euler",
                     "--sampled", "--quiet", "--out", out, *options], check=True)
     found = [[] for _ in range(N)]
@@ -41,7 +42,7 @@ def respond(program, recording, out, options):
 
 
 def by_program(program, name, directory):
-    """The program's spike trains in a task."""
+    """The program's spike trains in the task `name`."""
     recording = Path(directory) / "force.npy"
     np.save(recording, work.frames(N, work.SAMPLES[name], np.float64))
     if name != "own":

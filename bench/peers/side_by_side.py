@@ -1,9 +1,10 @@
 """How many times faster than NumPy and Brian2 is a population, for the tasks of work.py?
 
 Method: everything is built first. Each round then runs in sequence: Corpuscle once, NumPy once and Brian2 once, the latter two in both of
-their forms. A drift of the machine's speed therefore affects all of them equally. In each round Corpuscle's rate is divided by the
-fastest of the others. Output: the medians of the rates and of that ratio, with its minimum and maximum. Spike totals in double must be
-equal, or the status is 1. The methods are described in numpy_in_place.py, brian2_standalone.py and ../population.cpp.
+their forms. A drift of the machine's speed therefore affects all of them equally. In each round Corpuscle's rate is divided by that of the
+fastest of the other runs. Output: for each program the median rate of its faster form; and the median, minimum and maximum of the ratio. If
+the total numbers of spikes in double differ, the status is 1. The methods are described in numpy_in_place.py, brian2_standalone.py and
+../population.cpp.
 
     side_by_side.py build/release/bench-population [--work shared ...] [--dtype float32 ...] [--runs 5]
 """
@@ -23,7 +24,7 @@ FORMS = ["as-written", "folded"]
 
 
 def ours(program, name, dtype, n):
-    """Time (s) and spikes of one run with the best instruction set, which the program prints first."""
+    """Time (s) and number of spikes of one run of bench-population with the best instruction set, which it prints first."""
     precision = {"float64": "double", "float32": "float"}[dtype]
     run = subprocess.run([program, "--runs", "1", "--only", f"{precision} the peers' {name}"], check=True, capture_output=True, text=True)
     line = next(line for line in run.stdout.splitlines() if "the peers'" in line)
@@ -39,6 +40,7 @@ def of_numpy(name, dtype, form, n):
 
 
 def of_brian2(name, dtype, form, options, directory):
+    """As of_numpy()."""
     spikes = brian2_standalone.build(name, dtype, form, options, directory)
     return lambda: brian2_standalone.run(directory), spikes
 

@@ -1,16 +1,21 @@
-"""The tasks on which peers and the population are compared.
+"""The tasks on which the peers (other simulators) are compared with bench-population.
 
 N afferents sa1 (SA-IB and LIF-B at their defaults), 10 kHz, backward Euler, spikes on the samples. The force of afferent i is g_i times the
-press, g_i = 0.5 + 0.5 i / (N - 1). Before the first sample the force equals the first, and membranes are at rest.
+press, g_i = 0.5 + 0.5 i / (N - 1), i = 0 ... N - 1. Before the first sample, the force is that of the first sample, and membranes are at
+rest.
 
-    shared     one receptor: the current of afferent i is g_i times the press's
+    shared     one receptor for all: the current of afferent i is g_i times the current under the press
     own        one receptor per afferent: f_B of afferent i is 15 Hz + 10 Hz i / (N - 1)
     streamed   one receptor per afferent, at the defaults; forces are read from memory, [step][afferent]
 
-In each step   x = keep x + keep (F - F_before) of B and C;   I = k_A F + max{K_B x_B, 0} + max{K_C x_C, 0};
-u = max{u + (I - I_leak0) k, E_L};   u > V_th: a spike, stored as step and afferent, and u decreases by V_th - V_reset.
+In each step, with the force F (F_before: of the step before), the high-passes x_B and x_C, the current I and the membrane voltage u:
 
-`as written` computes this in this order; `folded` is the same algebra with fewer operations, so its last digits differ.
+    x_B = keep_B x_B + keep_B (F - F_before);   x_C in the same way
+    I = k_A F + max{K_B x_B, 0} + max{K_C x_C, 0}
+    u = max{u + (I - I_leak0) k, E_L};   if u > V_th: a spike, stored as step and afferent, and u decreases by V_th - V_reset
+
+Here keep is the factor keep(f) below, and k is DT / C_m. The form `as-written` computes this in this order; `folded` is the same algebra
+with fewer operations, so its last digits differ.
 """
 
 import argparse
@@ -24,10 +29,10 @@ import numpy
 DT = 1e-4  # s
 K_A, K_B, F_B, K_C, F_C = 1e-6, 8e-6, 20.0, 2e-6, 2.0  # A/N, A/N, Hz, A/N, Hz
 C_M, I_LEAK0, E_L, V_TH, V_RESET = 500e-9, 500e-9, 0.0, 0.5, 0.25  # F, A, V, V, V
-K = DT / C_M  # V/A, one step
-DROP = V_TH - V_RESET  # V, one spike
+K = DT / C_M  # V/A: increase of u in one step per current
+DROP = V_TH - V_RESET  # V: decrease of u at a spike
 
-# Samples of the press: all, those of the rise, those of the rise and the start of the plateau.
+# For each task, the samples of the press: all, the rise (2500 to 3750) with the start of the plateau, or most of the rise.
 SAMPLES = {"shared": range(0, 10000), "own": range(2400, 4400), "streamed": range(2400, 3400)}
 
 
@@ -89,7 +94,7 @@ def frames(n, samples, dtype):
 
 
 def currents(force):
-    """The current of one afferent at the defaults under each force, A."""
+    """The receptor's current with the default parameters at each sample of a force, A."""
     out, before, x_B, x_C, keep_B, keep_C = [], force[0], 0.0, 0.0, keep(F_B), keep(F_C)
     for F in force:
         dF, before = F - before, F
@@ -99,7 +104,9 @@ def currents(force):
 
 
 def arguments(form, **more):
-    """Parses the command line: tasks, number types, forms (default: all), numbers of afferents and runs, and `more`."""
+    """Parses the command line: tasks, number types and forms (default: all), numbers of afferents and runs.
+
+    `more`: further options with their defaults."""
     parser = argparse.ArgumentParser()
     parser.add_argument("--work", nargs="+", choices=list(SAMPLES), default=list(SAMPLES))
     parser.add_argument("--dtype", nargs="+", choices=["float64", "float32"], default=["float64", "float32"])
@@ -114,7 +121,7 @@ def arguments(form, **more):
 
 
 def report(peer, work, dtype, form, n, seconds, spikes):
-    """Prints one measurement as text and as JSON. `seconds` has the time of each run."""
+    """Prints the measurement of one task as text and as JSON. `seconds`: time of each run; `n`: number of afferents."""
     steps, median = len(SAMPLES[work]), statistics.median(seconds)
     rate, spread = n * steps / median, (max(seconds) - min(seconds)) / median
     print(f"{peer} {work:9}{dtype:8} {rate / 1e6:8.0f} M afferent-steps/s  {n} x {steps}: {median:6.3f} s, {len(seconds)} runs, "

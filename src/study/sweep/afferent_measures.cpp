@@ -76,6 +76,7 @@ Result<std::size_t> AfferentMeasures::require_column(const LocatedText& name) {
 std::vector<double> AfferentMeasures::values(const SweepForce& force, const ItemResponse& response) const {
     std::vector<TimeWindow> windows;
     for (const auto& p : force.phases) windows.push_back({p.from, p.to, force.cycle_frequency});
+    // The accumulators have one train, with index 0.
     MeasureAccumulator total({{.stimulus_frequency = force.cycle_frequency}}, 1), phases(std::move(windows), 1);
     const bool by_phase = std::any_of(selected_.begin(), selected_.end(), [](const Entry& entry) { return entry.kind == Kind::phase; });
     for (const double t : response.spikes) {

@@ -1,4 +1,5 @@
-// A sweep over a netlist's own analyses. Each thread has one analysis context, on which it runs them for one item after another.
+// A sweep over a netlist's own analyses (.op, .tran, .meas ...). Each thread has one analysis context, in which it runs the analyses for
+// one item after another.
 
 #include <fmt/format.h>
 #include <algorithm>
@@ -22,22 +23,23 @@ constexpr std::string_view spike_measures[] = {"spikes", "first_spike", "last_sp
 
 class AnalysesSweep final : public PlannedSweep {
     NetlistFactory netlist_{};
-    std::shared_ptr<const Circuit> nominal_;
-    long iteration_limit_ = 0;  // iteration limit in the sweep file; 0 if it has none
-    mutable std::mutex mutex_;
-    mutable std::optional<long> nominal_iteration_limit_;
+    std::shared_ptr<const Circuit> nominal_;               // without varied values
+    long iteration_limit_ = 0;                             // iteration limit in the sweep file; 0: the file has none
+    mutable std::mutex mutex_;                             // protects nominal_iteration_limit_
+    mutable std::optional<long> nominal_iteration_limit_;  // see find_iteration_limit(); no value: not yet computed
 
     long find_iteration_limit(const std::function<bool()>& stop) const;
     Result<void> select_measures(const SweepText&);
     Result<void> select_trains(const SweepText&);
-    Result<std::shared_ptr<const Circuit>> circuit(std::span<const double> values) const;
+    /// `truncated`: whether an error in the result means that the item reached its iteration limit.
     ItemOutcome outcome(std::int64_t item, const Result<RunOutcome>&, bool truncated = false) const;
 
-    /// A thread's analysis context, and the values for which it was made.
+    /// A thread's analysis context, and the varied netlist values for which it was made.
     struct ThreadContext {
         std::vector<double> values;
         std::unique_ptr<AnalysisContext> context;
     };
+    /// Makes the context for an item with these axis values, unless the present context fits. The chip's sample is applied later.
     Result<void> prepare(ThreadContext&, std::span<const double> values) const;
 
 public:
@@ -45,18 +47,20 @@ public:
     Result<void> run_items(const NextItem&, const OutcomeHandler&, const std::function<bool()>& stop) const override;
 };
 
+/// The unit of a number of the netlist, from its name; "" if unknown.
 std::string unit_of(std::string_view name) {
     if (name.find("spike") != std::string_view::npos && name != "spikes") return "s";
     if (name == "mean_interval") return "s";
     return name.starts_with("v(") ? "V" : name.starts_with("i(") ? "A" : "";
 }
 
-/// Runs the analyses of the nominal circuit, to find the names of their results. Transients are left out, because they may take long.
+/// Runs the analyses of the nominal circuit, to find the names of their results. Transients are left out, because they may take long; so
+/// are .expect lines and .meas lines that need a transient or compute with other measurements.
 Result<RunOutcome> run_without_transients(const Circuit& circuit) {
     auto without_transients = std::make_shared<Circuit>(circuit);
-    std::erase_if(without_transients->directives, [](const circuit::Directive& c) {
-        return c.name == "tran" || ((c.name == "meas" || c.name == "measure") && !c.words.empty() && c.words[0] == "tran") ||
-               c.name == "expect" || ((c.name == "meas" || c.name == "measure") && c.words.size() > 2 && c.words[2].starts_with("param="));
+    std::erase_if(without_transients->directives, [](const circuit::Directive& d) {
+        return d.name == "tran" || ((d.name == "meas" || d.name == "measure") && !d.words.empty() && d.words[0] == "tran") ||
+               d.name == "expect" || ((d.name == "meas" || d.name == "measure") && d.words.size() > 2 && d.words[2].starts_with("param="));
     });
     circuit::RunOptions run_options;
     run_options.print_tables = false;
@@ -66,11 +70,11 @@ Result<RunOutcome> run_without_transients(const Circuit& circuit) {
     return circuit::run_directives(**context, run_options);
 }
 
-bool has_directive(const Circuit& circuit, std::string_view command) {
-    return std::any_of(circuit.directives.begin(), circuit.directives.end(), [&](const auto& c) { return c.name == command; });
+bool has_directive(const Circuit& circuit, std::string_view name) {
+    return std::any_of(circuit.directives.begin(), circuit.directives.end(), [&](const auto& d) { return d.name == name; });
 }
 
-/// The names of all numbers that the netlist computes.
+/// The names of all numbers that the netlist computes. `without_transients`: see run_without_transients(); no value if that failed.
 std::vector<std::string> number_names(const Circuit& circuit, const std::optional<RunOutcome>& without_transients) {
     std::vector<std::string> out;
     const auto add = [&](std::string name) {
@@ -81,27 +85,29 @@ std::vector<std::string> number_names(const Circuit& circuit, const std::optiona
             for (const auto& [name, value] : a.result.numbers) add(name);
     if (has_directive(circuit, "tran") && has_directive(circuit, "spike"))
         for (const auto name : spike_measures) add(std::string(name));
-    for (const auto& c : circuit.directives)
-        if ((c.name == "meas" || c.name == "measure") && c.words.size() > 2) add(c.words[1]);
-    for (const auto& c : circuit.directives) {
-        if (c.name == "print" && c.words.size() > 1 && c.words[0] == "op")
-            for (std::size_t k = 1; k < c.words.size(); ++k) add(c.words[k]);
-        if (c.name == "expect" && !c.words.empty()) add(c.words[0].substr(0, c.words[0].find('=')));
+    for (const auto& d : circuit.directives)
+        if ((d.name == "meas" || d.name == "measure") && d.words.size() > 2) add(d.words[1]);
+    for (const auto& d : circuit.directives) {
+        if (d.name == "print" && d.words.size() > 1 && d.words[0] == "op")
+            for (std::size_t k = 1; k < d.words.size(); ++k) add(d.words[k]);
+        if (d.name == "expect" && !d.words.empty()) add(d.words[0].substr(0, d.words[0].find('=')));
     }
     return out;
 }
 
+/// Selects the measures of the sweep file; without them, all numbers of the netlist. Then sets the limits.
 Result<void> AnalysesSweep::select_measures(const SweepText& spec) {
     const auto result = run_without_transients(*nominal_);
     std::optional<RunOutcome> without_transients;
     if (result) without_transients = *result;
+    // With a transient, an error may be due to its omission.
     if (!result && !has_directive(*nominal_, "tran")) return result.error();
     const auto known = number_names(*nominal_, without_transients);
     const auto column = [&](const LocatedText& name) -> Result<std::size_t> {
         for (std::size_t k = 0; k < measures_.size(); ++k)
             if (measures_[k].name == name.text) return k;
         const bool is_known = std::find(known.begin(), known.end(), name.text) != known.end();
-        const bool is_curve = without_transients && without_transients->find_number(name.text);
+        const bool is_curve = without_transients && without_transients->find_number(name.text);  // the measure is its last value
         const bool is_node = has_directive(*nominal_, "tran") && name.text.starts_with("v(") && name.text.ends_with(')') &&
                              nominal_->find_node(std::string_view(name.text).substr(2, name.text.size() - 3)) >= 0;
         if (!is_known && !is_curve && !is_node) {
@@ -132,13 +138,14 @@ Result<void> AnalysesSweep::select_measures(const SweepText& spec) {
     return {};
 }
 
+/// One train for each .tran, if spikes are kept and the netlist has a .spike.
 Result<void> AnalysesSweep::select_trains(const SweepText& spec) {
     if (!spec.probes.empty()) return spec.probes[0].error_here("traces applies to afferent = ...; for a netlist's own analyses use .meas");
     const auto keeps = keeps_spikes(spec);
     if (!keeps) return keeps.error();
     if (!*keeps || !has_directive(*nominal_, "spike")) return {};
-    for (const auto& c : nominal_->directives)
-        if (c.name == "tran") train_names_.push_back(train_names_.empty() ? "tran" : fmt::format("tran {}", train_names_.size() + 1));
+    for (const auto& d : nominal_->directives)
+        if (d.name == "tran") train_names_.push_back(train_names_.empty() ? "tran" : fmt::format("tran {}", train_names_.size() + 1));
     return {};
 }
 
@@ -181,7 +188,7 @@ Result<std::unique_ptr<Sweep>> AnalysesSweep::make(const SweepText& spec, const 
     if (auto ok = s.select_measures(spec); !ok) return ok.error();
     if (auto ok = s.select_trains(spec); !ok) return ok.error();
     s.metadata_ = first_metadata(spec, s.nominal_->title);
-    for (auto& fact : s.netlist_.metadata()) s.metadata_.push_back(std::move(fact));
+    for (auto& entry : s.netlist_.metadata()) s.metadata_.push_back(std::move(entry));
     s.add_mismatch_metadata(s.netlist_.name(), *s.nominal_);
     return std::unique_ptr<Sweep>(std::move(out));
 }
@@ -204,7 +211,8 @@ Result<void> AnalysesSweep::prepare(ThreadContext& thread, std::span<const doubl
     return {};
 }
 
-/// Iteration limit of each transient: from the sweep file, otherwise a multiple of the iterations of the nominal circuit.
+/// Iteration limit of each transient: from the sweep file, otherwise iteration_limit_factor times the iterations of the nominal circuit in
+/// all its analyses. 0: no limit, because there is no transient, the nominal circuit fails, or `stop` returned true.
 long AnalysesSweep::find_iteration_limit(const std::function<bool()>& stop) const {
     if (iteration_limit_ > 0 || !has_directive(*nominal_, "tran")) return iteration_limit_;
     const std::lock_guard lock(mutex_);
@@ -257,6 +265,7 @@ Result<void> AnalysesSweep::run_items(const NextItem& next, const OutcomeHandler
             continue;
         }
         auto& context = *thread.context;
+        // A netlist may select one chip by its mismatch seed; otherwise the sweep samples the chip.
         if (const auto fixed_sample = circuit::chip_sample_of(*context.circuit))
             context.apply_variation(*fixed_sample);
         else if (const auto sample = plan_.chip_sample(*item))

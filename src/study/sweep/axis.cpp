@@ -14,13 +14,13 @@ namespace corpuscle::sweeps {
 namespace {
 
 constexpr std::string_view methods[] = {"grid", "list", "uniform", "normal", "latin", "sobol"};
-constexpr double max_values = 1e6;
+constexpr double max_values = 1e6;  // of one axis
 
-/// The method given by the key `how`, otherwise the method implied by the other keys.
-std::string method_of(const AxisSpec& given) {
-    if (given.distribution) return given.distribution->text;
-    if (given.list) return "list";
-    if (given.mean || given.sigma) return "normal";
+/// The method given by the key `how` of a [[vary]], otherwise the method implied by the other keys.
+std::string method_of(const AxisSpec& spec) {
+    if (spec.distribution) return spec.distribution->text;
+    if (spec.list) return "list";
+    if (spec.mean || spec.sigma) return "normal";
     return "grid";
 }
 
@@ -32,15 +32,18 @@ class AxisReader {
 
     std::string name() const { return spec_.name.text; }
     Error error_at(const LocatedText& at, std::string message) const { return at.error_here(fmt::format("{}: {}", name(), message)); }
-    Error missing(std::string message) const { return error_at(spec_.distribution ? *spec_.distribution : spec_.name, std::move(message)); }
+    /// The error of the axis as a whole, at its `how` or its name.
+    Error error_at_axis(std::string message) const {
+        return error_at(spec_.distribution ? *spec_.distribution : spec_.name, std::move(message));
+    }
 
     Result<double> number(const LocatedText& given) const {
         auto value = quantity_.parse(given);
         if (!value) return error_at(given, value.error().message);
         return value;
     }
-    /// A value within the range of the subject.
-    Result<double> allowed(const LocatedText& given) const {
+    /// Reads a number and checks that the subject allows it.
+    Result<double> allowed_number(const LocatedText& given) const {
         const auto value = number(given);
         if (!value) return value;
         if (!(*value >= quantity_.min && *value <= quantity_.max))
@@ -73,12 +76,12 @@ class AxisReader {
         return true;
     }
 
-    /// Reads from and to; both must be above 0 for logarithmic steps.
+    /// Reads the keys from, to and log. With log = true, from and to must be above 0.
     Result<void> range(SweepAxis& axis) const {
         if (!spec_.from || !spec_.to)
-            return missing(fmt::format("{} is missing; how = \"{}\" needs {}", spec_.from ? "to" : "from", method_,
-                                       method_ == "grid" ? "from, to and count, or a list" : "from and to"));
-        const auto from = allowed(*spec_.from), to = allowed(*spec_.to);
+            return error_at_axis(fmt::format("{} is missing; how = \"{}\" needs {}", spec_.from ? "to" : "from", method_,
+                                             method_ == "grid" ? "from, to and count, or a list" : "from and to"));
+        const auto from = allowed_number(*spec_.from), to = allowed_number(*spec_.to);
         if (!from) return from.error();
         if (!to) return to.error();
         const auto logarithmic = is_logarithmic();
@@ -92,7 +95,7 @@ class AxisReader {
         if (auto ok = accept_only({"from", "to", "count", "log"}); !ok) return ok;
         if (auto ok = range(axis); !ok) return ok;
         if (!spec_.count)
-            return missing("count is missing: the number of values between from and to (or how = \"uniform\" for random values)");
+            return error_at_axis("count is missing: the number of values between from and to (or how = \"uniform\" for random values)");
         const auto count = parse_integer(*spec_.count, name() + ": count", 1, max_values);
         if (!count) return count.error();
         if (*count == 1 && axis.first != axis.second) return error_at(*spec_.count, "count must be 2 or more, because from and to differ");
@@ -106,6 +109,7 @@ class AxisReader {
         return {};
     }
 
+    /// Reads a list of labels: value k of the axis is the index k of its label.
     Result<void> labels(SweepAxis& axis) const {
         for (const auto& label : *spec_.list) {
             if (quantity_.check)
@@ -117,20 +121,20 @@ class AxisReader {
     }
 
     Result<void> list(SweepAxis& axis) const {
-        if (auto ok = accept_only({}); !ok) return ok;
-        if (!spec_.list || spec_.list->empty()) return missing("the list is empty: list = [...]");
+        if (auto ok = accept_only({"list"}); !ok) return ok;
+        if (!spec_.list || spec_.list->empty()) return error_at_axis("the list is empty: list = [...]");
         const auto is_label = [&](const LocatedText& s) { return !quantity_.parse(s); };
         if (quantity_.labels_only || (quantity_.allows_labels && std::any_of(spec_.list->begin(), spec_.list->end(), is_label)))
             return labels(axis);
         for (const auto& one : *spec_.list) {
-            const auto value = allowed(one);
+            const auto value = allowed_number(one);
             if (!value) return value.error();
             axis.values.push_back(*value);
         }
         return {};
     }
 
-    /// "5%" means 5 % of the mean; otherwise a value with unit.
+    /// Reads sigma: "5%" means 5 % of the mean; any other text is a value in the unit of the quantity.
     Result<double> sigma(double mean) const {
         const auto& given = *spec_.sigma;
         const bool is_percentage = trimmed(given.text).ends_with('%');
@@ -143,27 +147,28 @@ class AxisReader {
 
     Result<void> normal(SweepAxis& axis) const {
         if (auto ok = accept_only({"mean", "sigma", "at_least", "at_most"}); !ok) return ok;
-        if (!spec_.sigma) return missing("sigma is missing: a standard deviation, or a percentage of the mean such as \"5%\"");
-        if (!spec_.mean && !quantity_.nominal) return missing("mean is missing");
-        const auto mean = spec_.mean ? allowed(*spec_.mean) : *quantity_.nominal;
+        if (!spec_.sigma) return error_at_axis("sigma is missing: a standard deviation, or a percentage of the mean such as \"5%\"");
+        if (!spec_.mean && !quantity_.nominal) return error_at_axis("mean is missing");
+        const auto mean = spec_.mean ? allowed_number(*spec_.mean) : *quantity_.nominal;
         if (!mean) return mean.error();
         const auto deviation = sigma(*mean);
         if (!deviation) return deviation.error();
         axis.is_normal = true, axis.first = *mean, axis.second = *deviation;
-        double low = quantity_.min, high = quantity_.max;
+        double low = quantity_.min, high = quantity_.max;  // range in which the normal distribution is truncated
         for (const auto& [given, end] : {std::pair{&spec_.min, &low}, {&spec_.max, &high}}) {
             if (!*given) continue;
-            const auto value = allowed(**given);
+            const auto value = allowed_number(**given);
             if (!value) return value.error();
             *end = *value;
         }
-        if (!(*mean >= low && *mean <= high)) return missing("the mean is not between at_least and at_most");
-        if (*deviation == 0) return {};
+        if (!(*mean >= low && *mean <= high)) return error_at_axis("the mean is not between at_least and at_most");
+        if (*deviation == 0) return {};  // all samples are the mean
         if (std::isfinite(low)) axis.min_probability = normal_probability((low - *mean) / *deviation);
         if (std::isfinite(high)) axis.max_probability = normal_probability((high - *mean) / *deviation);
         return {};
     }
 
+    /// Latin hypercubes and Sobol points are normal if mean or sigma is given, otherwise uniform.
     Result<void> sampled(SweepAxis& axis, SamplingSpec& sampling_spec) const {
         const auto sampling = method_ == "latin" ? Sampling::latin : method_ == "sobol" ? Sampling::sobol : Sampling::random;
         const bool as_normal = method_ == "normal" || (method_ != "uniform" && (spec_.mean || spec_.sigma));
@@ -178,7 +183,7 @@ class AxisReader {
     }
 
 public:
-    AxisReader(const AxisSpec& given, const VariedQuantity& quantity) : spec_(given), quantity_(quantity) {}
+    AxisReader(const AxisSpec& spec, const VariedQuantity& quantity) : spec_(spec), quantity_(quantity) {}
 
     Result<SweepAxis> read(SamplingSpec& sampling_spec) const {
         SweepAxis axis{quantity_.column};
@@ -186,7 +191,8 @@ public:
             return error_at(*spec_.distribution, fmt::format("how = \"{}\" is unknown{} (there are {})", method_,
                                                              did_you_mean(method_, methods), fmt::join(methods, ", ")));
         if (quantity_.labels_only && method_ != "list")
-            return missing(fmt::format("its values are labels: list = [\"{}\", ...]", quantity_.column.name == "corner" ? "ss" : "..."));
+            return error_at_axis(
+                fmt::format("its values are labels: list = [\"{}\", ...]", quantity_.column.name == "corner" ? "ss" : "..."));
         if (auto ok = method_ == "grid" ? grid(axis) : method_ == "list" ? list(axis) : sampled(axis, sampling_spec); !ok)
             return ok.error();
         return axis;
@@ -195,13 +201,13 @@ public:
 
 }  // namespace
 
-bool is_sampled(const AxisSpec& given) {
-    const auto method = method_of(given);
+bool is_sampled(const AxisSpec& spec) {
+    const auto method = method_of(spec);
     return method == "uniform" || method == "normal" || method == "latin" || method == "sobol";
 }
 
-Result<SweepAxis> axis_of(const AxisSpec& given, const VariedQuantity& quantity, SamplingSpec& sampling_spec) {
-    return AxisReader(given, quantity).read(sampling_spec);
+Result<SweepAxis> axis_of(const AxisSpec& spec, const VariedQuantity& quantity, SamplingSpec& sampling_spec) {
+    return AxisReader(spec, quantity).read(sampling_spec);
 }
 
 Result<std::int64_t> parse_integer(const LocatedText& given, std::string_view name, double min, double max) {

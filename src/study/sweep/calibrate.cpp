@@ -22,22 +22,23 @@ using circuit::ChipSample;
 using circuit::CircuitAfferentFactory;
 using Codes = std::vector<int>;
 
-/// A chip to press with these codes, and its response.
+/// The simulation of one chip under the press with these codes, and its result.
 struct ChipPress {
-    std::size_t chip;
-    Codes codes;
+    std::size_t chip;  // index
+    Codes codes;       // one for each trim
     std::vector<double> spikes = {};
     double distance = 0;
     bool meets_limits = false, diverged = false;
 };
 
-/// Presses many chips in parallel. Makes each design, which is one set of trim values, only once.
+/// Simulates many presses in parallel. Makes each design (the netlist with one set of trim values) only once.
 class ChipPresser {
     const ChipCalibration& options_;
     const std::vector<ChipSample>& chips_;
-    std::map<std::vector<double>, std::shared_ptr<const CircuitAfferentFactory>> designs_;
+    std::map<std::vector<double>, std::shared_ptr<const CircuitAfferentFactory>> designs_;  // by trim values
     ThreadPool pool_;
 
+    /// The value of each trim.
     std::vector<double> values(const Codes& codes) const {
         std::vector<double> out;
         for (std::size_t k = 0; k < codes.size(); ++k) out.push_back(options_.trims[k].value(codes[k], options_.bits));
@@ -55,11 +56,13 @@ class ChipPresser {
         if (!factory) return factory.error();
         return designs_.emplace(trim_values, *factory).first->second;
     }
+    /// Sets the results of a press.
     void evaluate(ChipPress& p, ChipResponse&& response) const {
         p.spikes = std::move(response.spikes), p.diverged = response.error.has_value();
         p.meets_limits = !p.diverged && !response.hit_iteration_limit && options_.limits.are_met(p.spikes);
         p.distance = p.diverged ? std::numeric_limits<double>::infinity() : options_.limits.distance(p.spikes);
-        // A press that was stopped because the chip fired too often has a larger distance than any complete press; the earlier, the larger.
+        // A press that was stopped at the iteration limit, because the chip fired too often, gets a larger distance than any complete
+        // press: 1e6 to 2e6. The earlier its last spike, the larger.
         if (response.hit_iteration_limit)
             p.distance = 1e6 * (2 - (p.spikes.empty() ? 0 : p.spikes.back() / (options_.T * static_cast<double>(options_.force.size()))));
     }
@@ -68,9 +71,10 @@ public:
     ChipPresser(const ChipCalibration& options, const std::vector<ChipSample>& chips)
         : options_(options), chips_(chips), pool_(options.threads) {}
 
-    /// True if two sets of codes give the same trim values, because integer columns are rounded.
+    /// True if two sets of codes give the same trim values; different codes can, if the values are rounded to integers.
     bool same_values(const Codes& a, const Codes& b) const { return values(a) == values(b); }
 
+    /// Simulates these presses and writes their results into them.
     Result<void> press(std::vector<ChipPress>& all) {
         if (all.empty()) return {};
         std::vector<std::shared_ptr<const CircuitAfferentFactory>> designs;
@@ -92,6 +96,7 @@ public:
             evaluate(all[static_cast<std::size_t>(chip.id)], std::move(response));
         };
         pool_.for_each(pool_.threads(), [&](std::size_t, unsigned) {
+            // designs[0] stands for all designs, which have the same devices.
             if (auto done = circuit::run_chips(designs[0], next_chip, on_response, options_.batch); !done) {
                 const std::lock_guard lock(mutex);
                 failed = done.error();
@@ -101,21 +106,25 @@ public:
     }
 };
 
-/// Search for the codes of one chip.
+/// The search for the codes of one chip. Alternates between next_presses() and take_results().
 class TrimSearch {
     const ChipCalibration& options_;
     const ChipPresser& presser_;
     std::size_t chip_;
     CalibratedChip out_;
-    Codes best_, combined_;
-    double distance_ = 0;
-    int bits_ = 0, rounds_ = 0;
+    Codes best_;           // best codes so far; at first all 0: as designed
+    double distance_ = 0;  // of the press with best_
+    Codes combined_;  // codes of the next press, which moves all trims that reduced the distance; empty: the next ones move one trim each
+    int bits_ = 0;    // present number of bits
+    int rounds_ = 0;  // rounds of presses with this number of bits
     std::vector<Codes> tried_;
 
-    static constexpr int max_rounds_per_bits = 6;  // of presses, for one number of bits
+    static constexpr int max_rounds_per_bits = 6;  // for each number of bits
 
+    /// Step of the codes with the present number of bits, in steps of the largest number of bits.
     int step() const { return 1 << (options_.bits - bits_); }
-    bool allowed(const Codes& codes) const {
+    /// True if the codes are in range and their values have not been tried.
+    bool is_allowed(const Codes& codes) const {
         const int max = 1 << (options_.bits - 1), min = step() - max;
         for (const int c : codes)
             if (c < min || c > max) return false;
@@ -138,9 +147,9 @@ public:
         : options_(options), presser_(presser), chip_(chip), best_(options.trims.size()) {}
 
     bool is_finished() const { return out_.bits >= 0 || bits_ > options_.bits; }
-    CalibratedChip take() { return std::move(out_); }
+    CalibratedChip take_result() { return std::move(out_); }
 
-    /// The presses to run next.
+    /// The presses to simulate next.
     std::vector<ChipPress> next_presses() {
         if (bits_ == 0) return {{chip_, best_}};
         if (!combined_.empty()) return {{chip_, combined_}};
@@ -150,7 +159,7 @@ public:
                 for (const int d : {-step(), step()}) {
                     auto codes = best_;
                     codes[k] += d;
-                    if (allowed(codes)) out.push_back({chip_, std::move(codes)});
+                    if (is_allowed(codes)) out.push_back({chip_, std::move(codes)});
                 }
             if (!out.empty()) return out;
             finish_bits();
@@ -158,7 +167,7 @@ public:
         return {};
     }
 
-    /// Takes the results of these presses.
+    /// Takes the results of the presses that next_presses() returned.
     void take_results(std::vector<ChipPress>&& all) {
         out_.presses += static_cast<int>(all.size());
         for (const auto& p : all) tried_.push_back(p.codes);
@@ -175,17 +184,17 @@ public:
         ++rounds_;
         const auto before = best_;
         auto combined = best_;
-        const double start = distance_;
+        const double distance_before = distance_;
         std::size_t improving_trims = 0;
-        std::vector<double> best_distance(best_.size(), start);
+        std::vector<double> best_distance(best_.size(), distance_before);  // for each trim, of its better move
         for (auto& p : all) {
             for (std::size_t k = 0; k < best_.size() && !was_combined; ++k)
                 if (p.codes[k] != before[k] && p.distance < best_distance[k])
-                    improving_trims += best_distance[k] == start, best_distance[k] = p.distance, combined[k] = p.codes[k];
+                    improving_trims += best_distance[k] == distance_before, best_distance[k] = p.distance, combined[k] = p.codes[k];
             take_if_better(p);
         }
         if (best_ == before && !was_combined) return finish_bits();
-        if (improving_trims > 1 && allowed(combined)) combined_ = combined;
+        if (improving_trims > 1 && is_allowed(combined)) combined_ = combined;
     }
 };
 
@@ -235,7 +244,7 @@ Result<std::vector<CalibratedChip>> calibrate(const ChipCalibration& options, co
         if (all.empty()) break;
         if (auto done = presser.press(all); !done) return done.error();
         presses += all.size();
-        for (std::size_t from = 0, to = 0; from < all.size(); from = to) {
+        for (std::size_t from = 0, to = 0; from < all.size(); from = to) {  // the presses of a chip follow one another
             while (to < all.size() && all[to].chip == all[from].chip) ++to;
             searches[all[from].chip].take_results({std::make_move_iterator(all.begin() + static_cast<std::ptrdiff_t>(from)),
                                                    std::make_move_iterator(all.begin() + static_cast<std::ptrdiff_t>(to))});
@@ -246,7 +255,7 @@ Result<std::vector<CalibratedChip>> calibrate(const ChipCalibration& options, co
                 presses);
     }
     std::vector<CalibratedChip> out;
-    for (auto& s : searches) out.push_back(s.take());
+    for (auto& s : searches) out.push_back(s.take_result());
     return out;
 }
 

@@ -19,6 +19,7 @@ long CalibrationResult::total_presses() const {
 }
 
 double CalibrationResult::mean_presses() const {
+    // A chip that meets the limits without calibration has one press.
     const auto trimmed = chips.size() - count_within_limits(0);
     return trimmed == 0 ? 0
                         : static_cast<double>(total_presses() - static_cast<long>(count_within_limits(0))) / static_cast<double>(trimmed);
@@ -30,10 +31,10 @@ std::string CalibrationResult::names() const {
     return out;
 }
 
-int useful_bits(const CalibrationResult& result, int max) {
-    for (int b = 0; b < max; ++b)
-        if ((result.count_within_limits(max) - result.count_within_limits(b)) * 100 <= result.chips.size()) return b;
-    return max;
+int useful_bits(const CalibrationResult& result, int max_bits) {
+    for (int b = 0; b < max_bits; ++b)
+        if ((result.count_within_limits(max_bits) - result.count_within_limits(b)) * 100 <= result.chips.size()) return b;
+    return max_bits;
 }
 
 std::string format_calibration(const ChipCalibration& options, const std::vector<CalibrationResult>& all) {

@@ -1,5 +1,5 @@
-// A sweep over an afferent that is a netlist. Simulates many chips in parallel; each has a mismatch sample and, if netlist values vary, a
-// separate design.
+// A sweep over an afferent that is a netlist. Each item is a chip: a design, and a sample of process and mismatch if these are sampled.
+// Designs differ if netlist values vary. Many chips are simulated in parallel.
 
 #include <fmt/format.h>
 #include <algorithm>
@@ -17,22 +17,23 @@ namespace {
 using circuit::Chip;
 using circuit::ChipResponse;
 using circuit::CircuitAfferentFactory;
-using DesignPointer = std::shared_ptr<const CircuitAfferentFactory>;
+using DesignPointer = std::shared_ptr<const CircuitAfferentFactory>;  // a netlist with one set of values
 
 constexpr std::size_t max_cached_designs = 16;
 
 class ChipSweep final : public PlannedSweep {
     NetlistFactory netlist_{};
     ForceFactory force_;
-    DesignPointer nominal_;
+    DesignPointer nominal_;  // without varied values
     std::unique_ptr<AfferentMeasures> afferent_measures_;
-    std::size_t every_ = 0, lanes_ = circuit::BatchOptions{}.lanes;
-    long iteration_limit_ = 0;  // iteration limit in the sweep file; 0 if it has none
+    std::size_t every_ = 0;  // sampling step of the probes, in samples of the force; 0: no probes
+    std::size_t lanes_ = circuit::BatchOptions{}.lanes;
+    long iteration_limit_ = 0;  // iteration limit in the sweep file; 0: the file has none
 
-    mutable std::mutex mutex_;
-    mutable std::map<std::vector<double>, Result<DesignPointer>> designs_;
-    mutable std::mutex nominal_mutex_;
-    mutable std::optional<long> nominal_iteration_limit_;
+    mutable std::mutex designs_mutex_;
+    mutable std::map<std::vector<double>, Result<DesignPointer>> designs_;  // recent designs, by their varied netlist values
+    mutable std::mutex nominal_mutex_;                                      // protects nominal_iteration_limit_
+    mutable std::optional<long> nominal_iteration_limit_;                   // see find_iteration_limit(); no value: not yet computed
 
     /// Force and design of a chip that is being simulated.
     struct ActiveChip {
@@ -40,14 +41,17 @@ class ChipSweep final : public PlannedSweep {
         DesignPointer design;
     };
 
-    Result<void> set(const SweepText&);
+    /// Applies the fixed settings of the sweep file.
+    Result<void> apply_settings(const SweepText&);
     Result<void> select_measures(const SweepText&);
     Result<void> select_probes(const SweepText&);
+    /// The design for an item with these axis values.
     Result<DesignPointer> design(std::span<const double> values) const;
-    /// The chip sample fixed by the netlist, otherwise that of the sweep.
+    /// The sample that the netlist itself fixes by its mismatch seed, otherwise the one that the sweep draws for the item.
     std::optional<circuit::ChipSample> chip_sample(std::int64_t item, const CircuitAfferentFactory&) const;
     long find_iteration_limit(const std::function<bool()>& stop) const;
     ItemOutcome outcome(std::int64_t item, const ActiveChip&, ChipResponse&&) const;
+    /// The outcome of an item that did not converge or whose netlist is wrong.
     ItemOutcome failed_outcome(std::int64_t item, const Error&) const;
 
 public:
@@ -56,13 +60,13 @@ public:
     Result<void> run_items(const NextItem&, const OutcomeHandler&, const std::function<bool()>& stop) const override;
 };
 
-Result<void> ChipSweep::set(const SweepText& spec) {
+Result<void> ChipSweep::apply_settings(const SweepText& spec) {
     for (const auto& s : spec.settings)
         if (auto ok = force_.has_parameter(s.name) ? force_.set(s) : netlist_.set(s); !ok) return ok;
     return {};
 }
 
-/// Selects measures and limits.
+/// Selects the measures, and sets their limits.
 Result<void> ChipSweep::select_measures(const SweepText& spec) {
     std::vector<std::string> ranges;
     for (const auto& w : nominal_->operating_ranges) ranges.emplace_back(w.range().quantity);
@@ -77,7 +81,7 @@ Result<void> ChipSweep::select_measures(const SweepText& spec) {
     return {};
 }
 
-/// Selects the probes to keep, instead of those that the netlist saves.
+/// Selects the probes that are written to the results, instead of those in the netlist's .save.
 Result<void> ChipSweep::select_probes(const SweepText& spec) {
     for (const auto& probe : spec.probes) {
         const auto found = circuit::resolve_probe(*nominal_->circuit, probe.text);
@@ -114,7 +118,7 @@ Result<std::unique_ptr<Sweep>> ChipSweep::make(const SweepText& spec, const std:
     auto force = ForceFactory::of(spec, folder, *seed);
     if (!force) return force.error();
     s.force_ = std::move(*force);
-    if (auto ok = s.set(spec); !ok) return ok.error();
+    if (auto ok = s.apply_settings(spec); !ok) return ok.error();
     const auto nominal = s.netlist_.nominal();
     if (!nominal) return nominal.error();
     auto design = CircuitAfferentFactory::create(*nominal);
@@ -158,12 +162,12 @@ Result<DesignPointer> ChipSweep::design(std::span<const double> values) const {
     if (!netlist_.varies()) return nominal_;
     const auto netlist_values = netlist_.netlist_values(values);
     {
-        const std::lock_guard lock(mutex_);
+        const std::lock_guard lock(designs_mutex_);
         if (const auto at = designs_.find(netlist_values); at != designs_.end()) return at->second;
     }
     const auto netlist = netlist_.at(values);
     const auto new_design = netlist ? CircuitAfferentFactory::create(*netlist) : Result<DesignPointer>(netlist.error());
-    const std::lock_guard lock(mutex_);
+    const std::lock_guard lock(designs_mutex_);
     if (designs_.size() >= max_cached_designs) designs_.clear();
     designs_.emplace(netlist_values, new_design);
     return new_design;
@@ -174,7 +178,8 @@ std::optional<circuit::ChipSample> ChipSweep::chip_sample(std::int64_t item, con
     return plan_.chip_sample(item);
 }
 
-/// Iteration limit of an item: from the sweep file, otherwise a multiple of the iterations of the nominal chip with the nominal force.
+/// Iteration limit of an item: from the sweep file, otherwise iteration_limit_factor times the iterations of the nominal chip with the
+/// nominal force. 0: no limit, because the nominal chip fails or `stop` returned true.
 long ChipSweep::find_iteration_limit(const std::function<bool()>& stop) const {
     if (iteration_limit_ > 0) return iteration_limit_;
     const std::lock_guard lock(nominal_mutex_);
@@ -228,7 +233,7 @@ Result<void> ChipSweep::run_items(const NextItem& next, const OutcomeHandler& on
     circuit::BatchOptions options;
     options.should_stop = stop, options.probe_every = every_, options.lanes = lanes_;
     options.max_iterations = find_iteration_limit(stop);
-    std::map<std::int64_t, ActiveChip> active;
+    std::map<std::int64_t, ActiveChip> active;  // by item; keeps forces and designs alive
     std::optional<Error> sweep_error;
     const auto chip_of = [&](std::int64_t item, ActiveChip& at) {
         return Chip{item, at.design, chip_sample(item, *at.design), at.force->samples, at.force->clock.T()};
@@ -250,20 +255,20 @@ Result<void> ChipSweep::run_items(const NextItem& next, const OutcomeHandler& on
                 auto& active_chip = active[*item] = std::move(at);
                 return chip_of(*item, active_chip);
             }
-            auto response = circuit::run_chip_scalar(chip_of(*item, at), options);  // a different circuit cannot share lanes
+            auto response = circuit::run_chip_scalar(chip_of(*item, at), options);  // a circuit with other devices cannot share lanes
             if (response.error && response.error->code == ErrorCode::interrupted) return {};
             response.is_scalar = true;
             on_outcome(outcome(*item, at, std::move(response)));
         }
         return {};
     };
-    const auto ended = [&](const Chip& chip, ChipResponse&& response) {
-        const auto at = active.find(chip.id);
+    const auto on_done = [&](const Chip& chip, ChipResponse&& response) {
+        const auto at = active.find(chip.id);  // next_chip() has inserted it
         if (!response.error || response.error->code != ErrorCode::interrupted)
             on_outcome(outcome(chip.id, at->second, std::move(response)));
         active.erase(at);
     };
-    const auto done = circuit::run_chips(nominal_, next_chip, ended, options);
+    const auto done = circuit::run_chips(nominal_, next_chip, on_done, options);
     if (sweep_error) return *sweep_error;
     if (!done && done.error().code == ErrorCode::interrupted) return {};
     return done;

@@ -25,20 +25,21 @@ std::string value_text(double x, const SweepColumn& column) {
     return std::isnan(x) ? "" : fmt::format("{}", x);
 }
 
-/// The blobs of one table, read in the order of the items.
+/// Reads the blobs (arrays of T) of one table, in the order of the items.
 template <class T>
 class BlobReader {
     sql::Statement rows_;
-    bool has_ = false;
+    bool has_row_ = false;  // false: all rows are read
 
     Result<void> advance() {
         const auto more = rows_.step();
         if (!more) return more.error();
-        has_ = *more;
+        has_row_ = *more;
         return {};
     }
 
 public:
+    /// Starts a query whose columns are item, index of the train or probe, and blob, sorted by the first two.
     Result<void> begin(const SweepResults& results, const std::string& query) {
         auto statement = sql::Statement::make(results.handle(), results.path(), query);
         if (!statement) return statement.error();
@@ -46,13 +47,13 @@ public:
         return advance();
     }
 
-    /// Appends the blobs of an item as `columns` fields; a field without a blob is empty.
-    Result<void> put(std::int64_t item, std::size_t columns, std::string& text) {
-        while (has_ && rows_.integer(0) < item)
+    /// Appends the blobs of an item to the text as `columns` fields; a train or probe without a blob gives an empty field.
+    Result<void> append(std::int64_t item, std::size_t columns, std::string& text) {
+        while (has_row_ && rows_.integer(0) < item)
             if (auto ok = advance(); !ok) return ok;
         for (std::size_t k = 0; k < columns; ++k) {
             text += ",";
-            if (!has_ || rows_.integer(0) != item || rows_.integer(1) != static_cast<std::int64_t>(k)) continue;
+            if (!has_row_ || rows_.integer(0) != item || rows_.integer(1) != static_cast<std::int64_t>(k)) continue;
             const auto bytes = rows_.bytes(2);
             for (std::size_t at = 0; at + sizeof(T) <= bytes.size(); at += sizeof(T)) {
                 T x;
@@ -89,12 +90,12 @@ Result<void> dump_results(const SweepResults& results, const std::function<bool(
                                     csv_field(row.reason));
             for (std::size_t k = 0; k < row.axes.size(); ++k) text += "," + value_text(row.axes[k], results.axes()[k]);
             for (std::size_t k = 0; k < row.measures.size(); ++k) text += "," + value_text(row.measures[k], results.measures()[k]);
-            ok = spikes.put(row.item, results.train_names().size(), text);
-            if (ok) ok = probes.put(row.item, results.probe_names().size(), text);
+            ok = spikes.append(row.item, results.train_names().size(), text);
+            if (ok) ok = probes.append(row.item, results.probe_names().size(), text);
             should_continue = ok && put(text + "\n");
             return should_continue;
         });
-    spikes = {}, probes = {};
+    spikes = {}, probes = {};  // ends their queries, before the transaction
     const auto ended = sql::run(results.handle(), results.path(), "END");
     return !ok ? ok : !row_result ? row_result : ended;
 }

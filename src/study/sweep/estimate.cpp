@@ -9,8 +9,8 @@
 namespace corpuscle {
 namespace {
 
-constexpr double tail = (1 - confidence) / 2;
-constexpr std::size_t max_plotted = 1000;  // points of the normal probability plot
+constexpr double tail = (1 - confidence) / 2;  // probability beyond each end of an interval
+constexpr std::size_t max_plotted = 1000;      // points of the normal probability plot
 
 /// {n, d}: 1 - normality() is at most d in 95 of 100 normal samples of size n. Computed from 8000 random samples for each n (numpy; 600 for
 /// the largest n). Looney and Gulledge (1985) publish 1 - d = 0.918, 0.951, 0.977 and 0.987 for n = 10, 20, 50 and 100.
@@ -42,13 +42,13 @@ SortedSample::SortedSample(std::vector<double> values) : values_(std::move(value
 
 SortedSample SortedSample::merged(const std::vector<SortedSample>& all) {
     SortedSample out;
-    std::vector<std::ptrdiff_t> ends = {0};
+    std::vector<std::ptrdiff_t> ends = {0};  // sample k is out.values_[ends[k]] ... before ends[k + 1]
     for (const auto& sample : all) {
         out.values_.insert(out.values_.end(), sample.values_.begin(), sample.values_.end());
         ends.push_back(static_cast<std::ptrdiff_t>(out.values_.size()));
     }
     std::vector<double> merged(out.values_.size());
-    for (std::size_t width = 1; width < all.size(); width *= 2) {  // merges neighbours, then the results
+    for (std::size_t width = 1; width < all.size(); width *= 2) {  // merges pairs of neighbouring samples, then pairs of the results
         const auto at = [&](std::size_t k) { return out.values_.begin() + ends[std::min(k, all.size())]; };
         for (std::size_t k = 0; k < all.size(); k += 2 * width)
             std::merge(at(k), at(k + width), at(k + width), at(k + 2 * width), merged.begin() + ends[k]);
@@ -94,16 +94,18 @@ Estimate SortedSample::quantile(double q) const {
     const double at = q * (n - 1), below = std::floor(at);
     const auto rank = [&](double k) { return values_[static_cast<std::size_t>(std::clamp(k, 0.0, n - 1))]; };
     Estimate out{rank(below) + (at - below) * (rank(below + 1) - rank(below))};
-    // The quantile is below the k-th smallest value with probability P(at most k - 1 of n values are below it).
-    double low = -1, high = n, step = n;
-    const auto largest = [&](auto&& holds) {  // largest k of 0 ... n with holds(k), or -1; holds() is true for all smaller k
+    // The true quantile is below the k-th smallest value if at most k - 1 of the n values are below it, and above that value if at least k
+    // are. Both numbers have a binomial distribution. Each end of the interval is the innermost value for which this probability is at most
+    // `tail`.
+    const auto largest = [&](auto&& holds) {  // largest k of 0 ... n with holds(k), or -1; holds() must be true for all smaller k
         double k = -1;
-        for (step = std::exp2(std::ceil(std::log2(n + 1))); step >= 1; step /= 2)
+        for (double step = std::exp2(std::ceil(std::log2(n + 1))); step >= 1; step /= 2)
             if (k + step <= n && holds(k + step)) k += step;
         return k;
     };
-    low = largest([&](double k) { return binomial_up_to(k, n, q) <= tail; });                   // at most `low` values below the quantile
-    high = n - largest([&](double k) { return 1 - binomial_up_to(n - k - 1, n, q) <= tail; });  // at least `high` values below the quantile
+    const double low = largest([&](double k) { return binomial_up_to(k, n, q) <= tail; });  // at most `low` values are below
+    const double high =
+        n - largest([&](double k) { return 1 - binomial_up_to(n - k - 1, n, q) <= tail; });  // at least `high` values are below
     if (low >= 0 && low < n) out.low = rank(low);
     if (high - 1 >= 0 && high - 1 < n) out.high = rank(high - 1);
     return out;
@@ -112,7 +114,7 @@ Estimate SortedSample::quantile(double q) const {
 double SortedSample::normality() const {
     const auto n = count(), plotted = std::min(n, max_plotted);
     if (n < 3 || squares_ == 0) return Estimate::none;
-    double sum = 0, squares = 0, products = 0, scores = 0;
+    double sum = 0, squares = 0, products = 0, scores = 0;  // over the plotted points; scores: sum of the squares of z
     for (std::size_t k = 0; k < plotted; ++k) {
         const auto i = static_cast<std::size_t>((static_cast<double>(k) + 0.5) * static_cast<double>(n) / static_cast<double>(plotted));
         const double z = normal_quantile((static_cast<double>(i) + 1 - 0.375) / (static_cast<double>(n) + 0.25)), x = values_[i] - mean_;

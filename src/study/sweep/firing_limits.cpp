@@ -9,6 +9,7 @@
 namespace corpuscle {
 namespace {
 
+/// Number of spikes in a phase.
 double count_in(std::span<const double> spikes, const TimeWindow& phase) {
     return static_cast<double>(std::count_if(spikes.begin(), spikes.end(), [&](double t) { return t >= phase.from && t < phase.to; }));
 }
@@ -26,7 +27,7 @@ double spread_count(std::span<const double> spikes, const TimeWindow& phase) {
 
 FiringLimits FiringLimits::around(std::span<const double> reference, std::span<const TimeWindow> phases, double time_tolerance) {
     FiringLimits out;
-    bool fired = false;
+    bool fired = false;  // in this phase or an earlier one
     for (const auto& phase : phases) {
         const double count = count_in(reference, phase), count_tolerance = std::max(1.0, std::floor(count / 4));
         fired |= count > 0;
@@ -46,10 +47,11 @@ bool FiringLimits::are_met(std::span<const double> spikes) const {
 double FiringLimits::distance(std::span<const double> spikes) const {
     double out = 0;
     for (const auto& p : phases) {
-        const double deviation = (spread_count(spikes, p.phase) - p.designed) / std::max(0.5, (p.max - p.min) / 2);
+        const double deviation = (spread_count(spikes, p.phase) - p.reference_count) / std::max(0.5, (p.max - p.min) / 2);
         out += deviation * deviation;
     }
     if (first_spike_tolerance <= 0) return out;
+    // A response without spikes counts as a first spike at the end of the last phase.
     const double delay = spikes.empty() ? phases.back().phase.to - first_spike : spikes[0] - first_spike;
     return out + delay * delay / (first_spike_tolerance * first_spike_tolerance);
 }

@@ -13,7 +13,7 @@ namespace {
 
 constexpr double no_mean = std::numeric_limits<double>::quiet_NaN();
 
-/// The index of a row's value among the values of the axis; the number of values if it is not among them.
+/// The index of a row's value among the listed values of the axis; the number of listed values if it is not among them.
 std::size_t level_of(const SweepTable& table, std::size_t axis, std::size_t row) {
     const auto& values = table.points[axis];
     const double x = table.axis_values[axis][row];
@@ -21,7 +21,7 @@ std::size_t level_of(const SweepTable& table, std::size_t axis, std::size_t row)
     return at != values.end() && *at == x ? static_cast<std::size_t>(at - values.begin()) : values.size();
 }
 
-/// The sweep file's text without the lines added by the command line ("--seed 3").
+/// The stored text of the sweep file without the lines for options of the command line ("--seed 3").
 std::string file_text(const std::string& stored) {
     std::string out;
     for (std::size_t from = 0; from < stored.size();) {
@@ -38,7 +38,7 @@ bool is_deterministic(const SweepResults& results) {
     if (!results.about(mismatch_metadata_name).empty() || results.axes().empty()) return false;
     for (const auto& axis : results.axes())
         if (axis.name.starts_with("process.")) return false;
-    const auto stored = results.about("sweep file");  // empty if there was none: a netlist with .step
+    const auto stored = results.about("sweep file");  // empty if the sweep was a netlist with .step or .mc, without a sweep file
     const auto text = sweeps::read_sweep_text(file_text(stored), results.path());
     if (!text) return false;
     return std::none_of(text->axes.begin(), text->axes.end(), [](const sweeps::AxisSpec& axis) {
@@ -57,7 +57,7 @@ std::vector<AxisEffect> axis_effects(const SweepTable& table, const std::vector<
     for (std::size_t a = 0; a < table.axes.size(); ++a) {
         if (table.points[a].size() < 2) continue;
         AxisEffect effect{a, 0, {}};
-        std::vector<double> sums(table.points[a].size() + 1), counts(sums.size());
+        std::vector<double> sums(table.points[a].size() + 1), counts(sums.size());  // the last is for values that are not listed
         for (std::size_t r = 0; r < measure.size(); ++r)
             if (std::isfinite(measure[r])) {
                 const auto level = level_of(table, a, r);

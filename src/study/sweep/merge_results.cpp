@@ -1,4 +1,4 @@
-// Merges the rows of one results file into another.
+// Merges the rows of one results file into another. In the SQL below, `main` is the file that receives the rows, `source` the other one.
 
 #include <fmt/format.h>
 #include <sqlite3.h>
@@ -11,8 +11,8 @@ namespace {
 
 constexpr int max_listed = 3;  // items listed in a message about differences
 
-/// "i.ended, i.steps, ..."
-std::string all_columns(const std::string& table, const ResultsLayout& layout) {
+/// All columns of the table items except the item, with a table name before each: "i.ended, i.steps, ...".
+std::string result_columns(const std::string& table, const ResultsLayout& layout) {
     std::string out;
     for (const char* name : {"ended", "steps", "iterations", "alone", "why"})
         out += fmt::format("{}{}.{}", out.empty() ? "" : ", ", table, name);
@@ -20,31 +20,34 @@ std::string all_columns(const std::string& table, const ResultsLayout& layout) {
     return out;
 }
 
+/// All columns of the table items: "item, ended, ...".
 std::string item_columns(const ResultsLayout& layout) {
     std::string out = "item, ended, steps, iterations, alone, why";
     for (const auto& name : layout.stored_column_names) out += ", " + sql::quoted_name(name);
     return out;
 }
 
-/// The statement that copies the rows of the other file that this file lacks, for items of this sweep.
+/// The statement that copies the rows that `main` lacks from `source`. `items`: number of items of the sweep.
 std::string insertion_of(std::string_view table, const std::string& columns, std::int64_t items) {
     return fmt::format("INSERT INTO main.{0}({1}) SELECT {1} FROM source.{0} WHERE item >= 0 AND item < {2} ON CONFLICT DO NOTHING;", table,
                        columns, items);
 }
 
-/// The query for items that both files have with different results.
+/// The query for items that both files have, with different results.
 std::string select_differing(const ResultsLayout& layout) {
     std::string text = fmt::format("SELECT item FROM main.items i JOIN source.items s USING(item) WHERE ({}) IS NOT ({})",
-                                   all_columns("i", layout), all_columns("s", layout));
-    for (const auto& [table, number, bytes] : {std::tuple{"spikes", "train", "times"}, std::tuple{"traces", "trace", "samples"}})
+                                   result_columns("i", layout), result_columns("s", layout));
+    // A spike train or probe differs if the other file has other bytes or no row for it; so both directions are compared.
+    for (const auto& [table, index, bytes] : {std::tuple{"spikes", "train", "times"}, std::tuple{"traces", "trace", "samples"}})
         for (const auto& [one, other] : {std::pair{"main", "source"}, std::pair{"source", "main"}})
             text += fmt::format(
                 " UNION SELECT item FROM {0}.{2} a WHERE EXISTS(SELECT 1 FROM {1}.items b WHERE b.item = a.item) AND EXISTS(SELECT 1 FROM "
                 "{0}.items b WHERE b.item = a.item) AND a.{4} IS NOT (SELECT b.{4} FROM {1}.{2} b WHERE b.item = a.item AND b.{3} = a.{3})",
-                one, other, table, number, bytes);
+                one, other, table, index, bytes);
     return text + " ORDER BY item";
 }
 
+/// Returns an error if an item has different results in the two files. `path`, `from`: paths of `main` and `source`.
 Result<void> check_differences(sqlite3* file, const ResultsLayout& layout, const std::string& path, const std::string& from) {
     auto rows = sql::Statement::make(file, path, select_differing(layout));
     if (!rows) return rows.error();

@@ -30,17 +30,17 @@ double number_or(const circuit::Values& values, std::string_view name, double fa
 }  // namespace
 
 std::vector<MismatchDevice> mismatch_devices(const circuit::Circuit& circuit) {
-    const circuit::UicmInstance defaults;
-    const circuit::UicmCard card;
+    const circuit::UicmInstance instance_defaults;
+    const circuit::UicmCard card_defaults;
     std::vector<MismatchDevice> out;
     for (const auto& e : circuit.elements) {
         if (e.letter != 'm' || e.model < 0) continue;
         const auto& model = circuit.models[static_cast<std::size_t>(e.model)];
         MismatchDevice d{e.name, static_cast<std::uint32_t>(out.size()), model.type == "pmos"};
-        d.W = number_or(e.values, "w", defaults.W), d.L = number_or(e.values, "l", defaults.L);
-        d.m = number_or(e.values, "m", defaults.m), d.stack = number_or(e.values, "stack", defaults.stack);
-        d.sigma_VT = number_or(model.values, "avt", card.A_VT) / std::sqrt(d.area());
-        d.sigma_IS = number_or(model.values, "ais", card.A_IS) / std::sqrt(d.area());
+        d.W = number_or(e.values, "w", instance_defaults.W), d.L = number_or(e.values, "l", instance_defaults.L);
+        d.m = number_or(e.values, "m", instance_defaults.m), d.stack = number_or(e.values, "stack", instance_defaults.stack);
+        d.sigma_VT = number_or(model.values, "avt", card_defaults.A_VT) / std::sqrt(d.area());
+        d.sigma_IS = number_or(model.values, "ais", card_defaults.A_IS) / std::sqrt(d.area());
         out.push_back(std::move(d));
     }
     return out;
@@ -73,7 +73,7 @@ Result<MismatchSamples> parse_mismatch_samples(const std::string& text) {
 }
 
 DeviceDeviates deviates_of(const MismatchDevice& device, std::uint64_t seed, const std::vector<std::uint64_t>& chips) {
-    circuit::UicmCard card;  // with A_VT = A_IS = 1 and W = L = 1 m, the standard deviations are 1
+    circuit::UicmCard card;  // with A_VT = A_IS = 1 and an area of 1 m^2, the standard deviations are 1, so the shifts are the deviates
     card.A_VT = 1, card.A_IS = 1;
     const circuit::UicmInstance size{.W = 1, .L = 1};
     DeviceDeviates out;

@@ -1,4 +1,5 @@
-// A sweep over a model afferent: simulates blocks of items on SIMD lanes, and items that cannot share lanes one at a time.
+// A sweep over a model: takes items in groups of up to max_block_items and simulates them in parallel on SIMD lanes; items for which the
+// lanes cannot be used are simulated one at a time.
 
 #include <fmt/format.h>
 #include <algorithm>
@@ -13,51 +14,55 @@
 namespace corpuscle::sweeps {
 namespace {
 
-constexpr std::size_t max_block_items = 1024, min_block_items = 64;  // items
-constexpr std::size_t max_varied_samples = std::size_t{1} << 22;     // total force samples of a block if the force varies: 32 MB
-constexpr std::size_t block_steps = 1024;                            // samples between two calls of `stop`
+constexpr std::size_t max_block_items = 1024, min_block_items = 64;  // here a block is the items that are simulated together
+// Limit on the sum of the force samples of all items of a block, if the force varies: 32 MB.
+constexpr std::size_t max_varied_samples = std::size_t{1} << 22;
+constexpr std::size_t block_steps = 1024;  // force samples between two calls of `stop`
 
 /// A work item.
 struct ModelItem {
-    std::int64_t number;
+    std::int64_t number;  // index in the sweep
     AfferentPlan plan;
     std::shared_ptr<const SweepForce> force;
-    std::vector<double> spikes = {};
-    std::optional<std::string> failure = {};
+    std::vector<double> spikes = {};          // times since the first sample of the force, s
+    std::optional<std::string> failure = {};  // why the item cannot be simulated; no value: it can
 };
 
 class ModelSweep final : public PlannedSweep {
-    AfferentPlan nominal_;
+    AfferentPlan nominal_;  // without varied values
     ForceFactory force_;
     std::unique_ptr<AfferentMeasures> afferent_measures_;
-    struct Varied {
-        std::size_t parameter, axis;
+    struct VariedModelParameter {
+        std::size_t parameter, axis;  // indexes in the model's parameters and in the plan's axes
     };
-    std::vector<Varied> varied_;
-    std::vector<std::size_t> probes_;
-    std::size_t every_ = 0;
+    std::vector<VariedModelParameter> varied_;  // without those of the force
+    std::vector<std::size_t> probes_;           // indexes of the probes to record, among those of the afferent
+    std::size_t every_ = 0;                     // sampling step of the probes, in samples of the force; 0: no probes
 
-    /// Index of a parameter of the afferent.
-    std::size_t parameter(std::string_view name) const {
+    /// Index of the afferent's parameter of this name, which must exist.
+    std::size_t parameter_index(std::string_view name) const {
         const auto& all = *nominal_.parameters;
         return static_cast<std::size_t>(
             std::find_if(all.begin(), all.end(), [&](const AfferentParameter& p) { return p.info.name == name; }) - all.begin());
     }
-    /// "f_B" of "sa1.f_B".
+    /// The name of a parameter without the afferent: "f_B" of "sa1.f_B" or "f_B".
     std::string_view parameter_name(std::string_view afferent_name, std::string_view text) const {
         const auto dot = text.rfind('.');
         return dot != std::string_view::npos && matches_name(nominal_, afferent_name, text.substr(0, dot)) ? text.substr(dot + 1) : text;
     }
 
     Result<VariedQuantity> find_quantity(std::string_view afferent_name, const LocatedText& quantity) const;
-    Result<void> set(const SweepText&);
+    /// Applies the fixed settings of the sweep file.
+    Result<void> apply_settings(const SweepText&);
     Result<void> select_probes(const SweepText&);
 
-    SimulationOptions run_of(const SweepForce& force) const { return {force.clock.T()}; }
+    SimulationOptions options_for(const SweepForce& force) const { return {force.clock.T()}; }
     Result<ModelItem> make_item(std::int64_t number) const;
     std::size_t block_items() const;
-    Result<void> respond(std::vector<ModelItem>&, const OutcomeHandler&, const std::function<bool()>& stop) const;
+    /// Simulates a block of items and reports their outcomes.
+    Result<void> respond(std::vector<ModelItem>& block, const OutcomeHandler&, const std::function<bool()>& stop) const;
     Result<bool> respond_on_lanes(std::span<ModelItem* const>, InstructionSet, const std::function<bool()>& stop) const;
+    /// Simulates one item by the scalar code and returns the samples of its probes.
     Result<std::vector<std::vector<float>>> respond_alone(ModelItem&, const std::function<bool()>& stop) const;
     void report(ModelItem&, std::vector<std::vector<float>> probe_samples, const OutcomeHandler&) const;
 
@@ -73,12 +78,13 @@ Result<VariedQuantity> ModelSweep::find_quantity(std::string_view afferent_name,
     const auto row = find_parameter({nominal_.name, std::string(parameter_name(afferent_name, quantity.text)), ""}, rows);
     if (!row) return quantity.error_here(row.error().message);
     const auto& r = **row;
-    VariedQuantity out{{quantity.text, std::string(r.unit), std::string(r.description)}, nominal_.values[parameter(r.name)], r.low, r.high};
+    VariedQuantity out{
+        {quantity.text, std::string(r.unit), std::string(r.description)}, nominal_.values[parameter_index(r.name)], r.low, r.high};
     out.parse = [unit = std::string(r.unit)](const LocatedText& s) { return parse_quantity(s.text, unit); };
     return out;
 }
 
-Result<void> ModelSweep::set(const SweepText& spec) {
+Result<void> ModelSweep::apply_settings(const SweepText& spec) {
     const auto& afferent_name = spec.afferent->text;
     std::vector<ParameterOverride> overrides;
     for (const auto& s : spec.settings) {
@@ -87,7 +93,7 @@ Result<void> ModelSweep::set(const SweepText& spec) {
             continue;
         }
         overrides.assign(1, {afferent_name, std::string(parameter_name(afferent_name, s.name)), s.value.text});
-        const auto one = plan_any_afferent(afferent_name, overrides);
+        const auto one = plan_any_afferent(afferent_name, overrides);  // each setting alone, so that an error has its line
         if (!one) return s.value.error_here(one.error().message);
     }
     overrides.clear();
@@ -100,11 +106,11 @@ Result<void> ModelSweep::set(const SweepText& spec) {
     return {};
 }
 
-/// Selects the probes to keep.
+/// Selects the probes that are written to the results.
 Result<void> ModelSweep::select_probes(const SweepText& spec) {
     if (spec.probes.empty()) return {};
     const auto& force = *force_.nominal();
-    const auto afferent = make_afferent(nominal_, run_of(force));
+    const auto afferent = make_afferent(nominal_, options_for(force));
     std::vector<std::string_view> names;
     for (const auto& p : afferent->probes()) names.push_back(p.name);
     for (const auto& probe : spec.probes) {
@@ -138,7 +144,7 @@ Result<std::unique_ptr<Sweep>> ModelSweep::make(const SweepText& spec, const std
     if (!force) return force.error();
     s.force_ = std::move(*force);
     if (!spec.settings.empty())
-        if (auto ok = s.set(spec); !ok) return ok.error();
+        if (auto ok = s.apply_settings(spec); !ok) return ok.error();
     VariableQuantities quantities;
     quantities.subject_name = s.nominal_.name;
     quantities.find_quantity = [&](const LocatedText& quantity) { return s.find_quantity(afferent_name, quantity); };
@@ -146,7 +152,7 @@ Result<std::unique_ptr<Sweep>> ModelSweep::make(const SweepText& spec, const std
         if (s.force_.has_parameter(quantity))
             s.force_.vary(quantity, axis);
         else
-            s.varied_.push_back({s.parameter(s.parameter_name(afferent_name, quantity)), axis});
+            s.varied_.push_back({s.parameter_index(s.parameter_name(afferent_name, quantity)), axis});
     };
     auto sweep_plan = plan_of(spec, quantities);
     if (!sweep_plan) return sweep_plan.error();
@@ -184,7 +190,7 @@ Result<ModelItem> ModelSweep::make_item(std::int64_t number) const {
     return out;
 }
 
-/// Number of items in a block: an eighth of the sweep, within limits.
+/// Number of items in a block: an eighth of the sweep, within limits, so that several threads get items.
 std::size_t ModelSweep::block_items() const {
     auto limit = max_block_items;
     if (force_.varies()) limit = std::clamp<std::size_t>(max_varied_samples / force_.nominal()->samples.size(), 1, limit);
@@ -214,14 +220,14 @@ Result<void> ModelSweep::respond(std::vector<ModelItem>& block, const OutcomeHan
     const auto set = instruction_set();
     if (!set) return set.error();
     std::map<std::vector<double>, std::vector<ModelItem*>> lane_groups;
-    std::vector<ModelItem*> scalars;
+    std::vector<ModelItem*> scalars;  // items that are simulated one at a time
     for (auto& item : block) {
         if (item.failure) continue;
-        if (*set == InstructionSet::scalar || !probes_.empty() || !can_use_lanes(item.plan, run_of(*item.force))) {
+        if (*set == InstructionSet::scalar || !probes_.empty() || !can_use_lanes(item.plan, options_for(*item.force))) {
             scalars.push_back(&item);
             continue;
         }
-        std::vector<double> shared;
+        std::vector<double> shared;  // the values that all lanes must share
         for (std::size_t k = 0; k < item.plan.values.size(); ++k)
             if ((*item.plan.parameters)[k].info.is_shared_by_copies) shared.push_back(item.plan.values[k]);
         lane_groups[shared].push_back(&item);
@@ -233,7 +239,7 @@ Result<void> ModelSweep::respond(std::vector<ModelItem>& block, const OutcomeHan
     }
     std::vector<bool> is_reported(block.size());
     for (auto* item : scalars) {
-        item->spikes.clear();
+        item->spikes.clear();  // left over if the lanes failed
         auto probe_samples = respond_alone(*item, stop);
         if (!probe_samples) return probe_samples.error();
         report(*item, std::move(*probe_samples), on_outcome), is_reported[static_cast<std::size_t>(item - block.data())] = true;
@@ -243,20 +249,21 @@ Result<void> ModelSweep::respond(std::vector<ModelItem>& block, const OutcomeHan
     return {};
 }
 
-/// Returns false if the state of an item became NaN or infinite; then all items are simulated one at a time.
+/// Simulates items on lanes. Returns false if the state of an item became NaN or infinite; then the caller simulates these items one at a
+/// time.
 Result<bool> ModelSweep::respond_on_lanes(std::span<ModelItem* const> items, InstructionSet set, const std::function<bool()>& stop) const {
     std::vector<const AfferentPlan*> plans;
     for (const auto* item : items) plans.push_back(&item->plan);
-    const bool same_parameters = varied_.empty();
+    const bool same_parameters = varied_.empty();  // then one plan is enough for all lanes
     auto population =
         make_lane_population({same_parameters ? std::span(plans).first(1) : std::span<const AfferentPlan* const>(plans), items.size()},
-                             run_of(*items[0]->force), set);
+                             options_for(*items[0]->force), set);
     if (!population) return population.error();
     const bool same_force = std::all_of(items.begin(), items.end(), [&](const ModelItem* item) { return item->force == items[0]->force; });
     std::size_t longest = 0;
     for (const auto* item : items) longest = std::max(longest, item->force->samples.size());
-    std::vector<std::vector<double>> padded(items.size());  // shorter forces are extended by their last value
-    std::vector<const double*> columns(items.size());
+    std::vector<std::vector<double>> padded(items.size());  // samples of the forces that end early, extended by their last value
+    std::vector<const double*> columns(items.size());       // of each item: its next `steps` samples
     std::vector<Spike> spikes;
     ThreadPool single_thread(1);
     for (std::size_t at = 0; at < longest; at += block_steps) {
@@ -289,7 +296,7 @@ Result<bool> ModelSweep::respond_on_lanes(std::span<ModelItem* const> items, Ins
 }
 
 Result<std::vector<std::vector<float>>> ModelSweep::respond_alone(ModelItem& item, const std::function<bool()>& stop) const {
-    auto response = simulate_afferent(*make_afferent(item.plan, run_of(*item.force)), *item.force, probes_, every_, stop);
+    auto response = simulate_afferent(*make_afferent(item.plan, options_for(*item.force)), *item.force, probes_, every_, stop);
     if (!response && response.error().code == ErrorCode::interrupted) return response.error();
     if (!response) {
         item.failure = response.error().message;

@@ -38,9 +38,9 @@ NetlistOverride override_of(const std::string& name, std::string value) {
     return {name, std::move(value), name, equal_ignoring_case(name, "supply")};
 }
 
-/// Accepts "85" and "85C".
-Result<double> temperature_of(const LocatedText& given) {
-    auto text = trimmed(given.text);
+/// A temperature in degrees Celsius. Accepts "85" and "85C".
+Result<double> temperature_of(const LocatedText& spec) {
+    auto text = trimmed(spec.text);
     for (const std::string_view unit : {"degC", "\u00b0C", "C"})
         if (text.ends_with(unit)) {
             text.remove_suffix(unit.size());
@@ -48,31 +48,32 @@ Result<double> temperature_of(const LocatedText& given) {
         }
     const auto value = circuit::parse_number_with_unit(text);
     if (!value || !value->unit.empty())
-        return bad_input(fmt::format("'{}' is not a temperature; write degrees Celsius, such as 85", given.text));
+        return bad_input(fmt::format("'{}' is not a temperature; write degrees Celsius, such as 85", spec.text));
     return value->value;
 }
 
-Result<double> any_number(const LocatedText& given) {
-    const auto value = circuit::parse_number_with_unit(given.text);
+/// A number; a unit after it is ignored.
+Result<double> any_number(const LocatedText& spec) {
+    const auto value = circuit::parse_number_with_unit(spec.text);
     return value ? Result<double>(value->value) : value.error();
 }
 
 }  // namespace
 
-/// Texts are kept as first read, so that changes of a file during the sweep have no effect.
+/// The source files, as they were first read, so that changes of a file during the sweep have no effect.
 struct NetlistFactory::Files {
     std::mutex mutex;
-    std::vector<std::pair<std::string, std::string>> texts;
-    std::map<std::string, Netlist> by_corner;
+    std::vector<std::pair<std::string, std::string>> texts;  // path and text
+    std::map<std::string, Netlist> by_corner;                // parsed netlists
 };
 
-Result<NetlistFactory> NetlistFactory::of(const LocatedText& given, const std::string& folder, const std::string& directives) {
+Result<NetlistFactory> NetlistFactory::of(const LocatedText& name_or_path, const std::string& folder, const std::string& directives) {
     NetlistFactory out;
-    out.name_ = out.file_ = given.text, out.folder_ = folder, out.directives_ = directives, out.files_ = std::make_shared<Files>();
+    out.name_ = out.file_ = name_or_path.text, out.folder_ = folder, out.directives_ = directives, out.files_ = std::make_shared<Files>();
     std::error_code status;
-    if (const auto* embedded = circuit::find_embedded_netlist(given.text)) {
+    if (const auto* embedded = circuit::find_embedded_netlist(name_or_path.text)) {
         out.file_ = embedded->file, out.name_ = embedded->name, out.is_embedded_ = true;
-    } else if (const fs::path path = given.text; path.is_absolute()) {  // results must not contain absolute paths
+    } else if (const fs::path path = name_or_path.text; path.is_absolute()) {  // results must not contain absolute paths
         out.folder_ = path.parent_path().string(), out.name_ = out.file_ = path.filename().string();
     }
     if (!out.is_embedded_ && !fs::exists(fs::path(out.folder_) / out.file_, status)) {
@@ -81,12 +82,12 @@ Result<NetlistFactory> NetlistFactory::of(const LocatedText& given, const std::s
             if (file.ends_with(".cir")) known.push_back(file);
         for (const auto& c : circuit::embedded_netlists) known.push_back(c.name);
         if (!is_embedded(out.file_))
-            return given.error_here(
-                fmt::format("there is no netlist '{}' in the folder of the sweep file and no embedded one of this name{}", given.text,
-                            did_you_mean(given.text, known)));
+            return name_or_path.error_here(
+                fmt::format("there is no netlist '{}' in the folder of the sweep file and no embedded one of this name{}",
+                            name_or_path.text, did_you_mean(name_or_path.text, known)));
         out.is_embedded_ = true;
     }
-    auto opened = out.open("");
+    auto opened = out.open("");  // finds errors in the netlist
     if (!opened) return opened.error();
     return out;
 }
@@ -162,6 +163,7 @@ Result<VariedQuantity> NetlistFactory::find_quantity(const LocatedText& quantity
         out.column.description = fmt::format(".param {} of {}", lowercase, file_);
     } else {
         out.column.description = fmt::format("device parameter in {}", file_);
+        // Only errors about the name are reported here; others may be due to the value 1.
         if (const auto ok = check("1");
             !ok && (ok.error().message.find(" has no ") != std::string::npos || ok.error().message.find("may be") != std::string::npos))
             return quantity.error_here(ok.error().message);

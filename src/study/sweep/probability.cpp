@@ -7,7 +7,7 @@
 namespace corpuscle {
 namespace {
 
-constexpr double beta_accuracy = 1e-15;
+constexpr double beta_accuracy = 1e-15;  // relative
 
 /// The continued fraction of I_x(a, b), by Lentz's method (DLMF 8.17.22); converges fast for x < (a + 1) / (a + b + 2).
 double beta_fraction(double a, double b, double x) {
@@ -35,7 +35,7 @@ double normal_quantile(double p) {
     const double smaller_tail = std::min(p, 1 - p), t = std::sqrt(-2 * std::log(smaller_tail));
     double x = -(t - (2.515517 + t * (0.802853 + t * 0.010328)) / (1 + t * (1.432788 + t * (0.189269 + t * 0.001308))));
     for (int k = 0; k < 3; ++k) {
-        const double off =
+        const double off =  // error in probability, divided by the density
             (0.5 * std::erfc(-x / std::sqrt(2.0)) - smaller_tail) * std::sqrt(2 * 3.14159265358979323846) * std::exp(x * x / 2);
         x -= off / (1 + x * off / 2);
     }

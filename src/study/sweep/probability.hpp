@@ -7,15 +7,15 @@ namespace corpuscle {
 double normal_quantile(double p);
 /// I_x(a, b), the regularised incomplete beta function: a, b > 0, 0 <= x <= 1.
 double incomplete_beta(double a, double b, double x);
-/// x at which I_x(a, b) = p.
+/// The x at which I_x(a, b) = p.
 double beta_quantile(double a, double b, double p);
 /// Probability of at most k successes in n trials, each with probability p; 0 for k < 0.
 double binomial_up_to(double k, double n, double p);
-/// Quantile of Student's t with nu degrees of freedom.
+/// Quantile of Student's t with nu degrees of freedom, 0 < p < 1.
 double student_quantile(double nu, double p);
-/// Probability that |t| is at least this large.
+/// Probability that the absolute value of Student's t with nu degrees of freedom is at least |t|.
 double student_two_sided(double nu, double t);
-/// Probability that F with (nu1, nu2) degrees of freedom is at least this large.
+/// Probability that a number with the F distribution of (nu1, nu2) degrees of freedom is at least F.
 double fisher_upper(double nu1, double nu2, double F);
 
 }  // namespace corpuscle

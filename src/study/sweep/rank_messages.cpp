@@ -18,7 +18,7 @@ std::string host_name() {
     return host.data();
 }
 
-/// FNV-1a hash of everything that must be equal in two ranks of the same sweep.
+/// FNV-1a hash of everything that must be equal in all ranks of a sweep.
 std::uint64_t hash_of(const Sweep& sweep) {
     std::uint64_t hash = 0xcbf29ce484222325;
     const auto add = [&](const std::string& text) {
@@ -31,6 +31,7 @@ std::uint64_t hash_of(const Sweep& sweep) {
     return hash;
 }
 
+/// Writes the length, then the numbers.
 template <class T>
 void put(Message& m, const std::vector<T>& numbers) {
     static_assert(std::is_arithmetic_v<T>);
@@ -77,7 +78,8 @@ RankHandshake RankHandshake::of_this_process(const Sweep* sweep) {
     return {host_name(), static_cast<std::uint64_t>(::getpid()), sweep ? hash_of(*sweep) : 0};
 }
 bool RankHandshake::is_dead() const {
-    const bool is_id = process > 0 && process <= std::numeric_limits<pid_t>::max();  // of one process, not of a process group
+    const bool is_id =
+        process > 0 && process <= std::numeric_limits<pid_t>::max();  // 0 and negative numbers would mean process groups to kill()
     return is_id && ::kill(static_cast<pid_t>(process), 0) != 0 && errno == ESRCH;
 }
 bool RankHandshake::is_on_this_machine() const { return host == host_name() && !is_dead(); }

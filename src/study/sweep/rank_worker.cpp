@@ -1,4 +1,4 @@
-// Worker ranks (all except rank 0): request items and deliver outcomes.
+// A worker, which is any rank except rank 0: requests items from rank 0, computes them, and sends the outcomes.
 
 #include <fmt/format.h>
 #include <algorithm>
@@ -14,18 +14,22 @@ namespace corpuscle {
 namespace {
 
 class RankWorker {
-    static constexpr double delivery_interval = 0.1;  // s
-    static constexpr std::size_t max_unsent = 8;      // messages; with more, outcomes stay in the pool and its threads wait
+    static constexpr double delivery_interval = 0.1;  // s between two messages with outcomes
+    static constexpr std::size_t max_unsent = 8;      // messages; while this number is unsent, outcomes stay in the pool
 
     Ranks& ranks_;
     const SweepRunOptions& run_;
     const unsigned threads_;
-    std::optional<WorkerPool> pool_;
+    std::optional<WorkerPool> pool_;  // no value: this rank could not read the sweep
     RankHandshake coordinator_;
     RankTime now_, last_received_ = rank_time(), last_sent_ = last_received_, last_delivered_ = last_received_;
     RankThroughput throughput_;
-    bool has_request_ = false, error_reported_ = false, is_over_ = false, leave_together_ = true, is_stopped_ = false,
-         coordinator_is_local_ = false;
+    bool has_request_ = false;           // a request has not been answered yet
+    bool error_reported_ = false;        // an error in the sweep has been sent to rank 0
+    bool is_over_ = false;               // rank 0 has ended the run
+    bool leave_together_ = true;         // with all other ranks, see Ranks::leave()
+    bool is_stopped_ = false;            // by SweepRunOptions::should_stop
+    bool coordinator_is_local_ = false;  // the process of rank 0 is on this machine
 
     void send(const Message& m) {
         ranks_.send(0, m.bytes());

@@ -51,7 +51,7 @@ struct Mpi {
     MPI_Comm world = {};
     MPI_Errhandler errors_return = {};
     MPI_Datatype byte = {};
-    std::string missing;  ///< the missing library or function
+    std::string missing;  ///< why the library cannot be loaded, or a function that it lacks; empty if all is loaded
 
     Mpi() {
         void* library = nullptr;
@@ -77,9 +77,9 @@ struct Mpi {
     }
 };
 
-/// A message in transmission; its bytes must not move.
+/// A message that is being sent or received. Its bytes must not move in memory.
 struct PendingMessage {
-    int rank;  ///< receiver or sender
+    int rank;  ///< of the receiver or the sender
     std::string bytes;
     MPI_Request request;
 };
@@ -97,6 +97,7 @@ struct Ranks::Impl {
         if (mpi.test(&m.request, &done, MPI_STATUS_IGNORE) != MPI_SUCCESS) return State::failed;
         return done ? State::complete : State::in_progress;
     }
+    /// Starts to receive all messages that have arrived.
     void begin_receiving();
 };
 
@@ -108,7 +109,7 @@ Result<std::unique_ptr<Ranks>> Ranks::join() {
             fmt::format("started by mpirun, but the MPI library cannot be loaded here ({}); install OpenMPI, or start it "
                         "without mpirun: -j for the cores of one machine, --shard and 'corpuscle sweep merge' for several",
                         mpi.missing));
-    // With single-copy transfer, the receiver would read a large message from the memory of the sender, which may be dead.
+    // With Open MPI's single-copy transfer, the receiver would read a large message from the memory of the sender, which may have died.
     ::setenv("OMPI_MCA_btl_vader_single_copy_mechanism", "none", 0);
     if (mpi.init(nullptr, nullptr) != MPI_SUCCESS) return bad_input("MPI_Init failed; see its message above");
     mpi.set_errhandler(mpi.world, mpi.errors_return);
@@ -151,7 +152,7 @@ std::size_t Ranks::unsent() const {
 
 std::optional<Ranks::Received> Ranks::receive() {
     impl_->begin_receiving();
-    std::vector<int> incomplete;  // senders with an earlier message that is incomplete
+    std::vector<int> incomplete;  // senders of an incomplete message; their later messages must wait
     for (auto m = impl_->receiving.begin(); m != impl_->receiving.end();) {
         const auto current = m++;
         if (std::find(incomplete.begin(), incomplete.end(), current->rank) != incomplete.end()) continue;
@@ -167,8 +168,8 @@ std::optional<Ranks::Received> Ranks::receive() {
     return {};
 }
 
-// MPI may still write into these buffers, so they are never freed.
-void Ranks::drop_messages_to(int rank) {
+// MPI may still use the buffers of these messages, so they are never freed.
+void Ranks::drop_messages_of(int rank) {
     static std::list<PendingMessage> forgotten;
     for (auto* all : {&impl_->sending, &impl_->receiving})
         for (auto m = all->begin(); m != all->end();) {
@@ -197,7 +198,7 @@ bool Ranks::survive_death_of_one() const { return true; }
 void Ranks::send(int, std::string) {}
 std::size_t Ranks::unsent() const { return 0; }
 std::optional<Ranks::Received> Ranks::receive() { return {}; }
-void Ranks::drop_messages_to(int) {}
+void Ranks::drop_messages_of(int) {}
 void Ranks::leave(bool) {}
 
 #endif

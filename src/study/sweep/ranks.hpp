@@ -1,6 +1,6 @@
 #pragma once
-// Processes of one sweep, started together by mpirun, that exchange messages. Only ranks.cpp uses MPI. The MPI library is loaded by join(),
-// so that a start without mpirun does not take the time to load it.
+// Ranks: processes that mpirun starts together for one command, a sweep or a skin, and that exchange messages. Only ranks.cpp uses MPI.
+// join() loads the MPI library, so that a start without mpirun does not take the time to load it.
 
 #include <memory>
 #include <optional>
@@ -10,35 +10,36 @@
 
 namespace corpuscle {
 
+/// The communication of this process, which is one of the ranks, with the others.
 class Ranks {
 public:
     /// True if mpirun, or another launcher, started more than one process.
     static bool are_started();
-    /// True for the first process or the only one. Only this process prints errors that occur in all processes.
+    /// True for rank 0 and for a process without mpirun: this process prints the errors that occur in all processes.
     static bool reports_errors();
-    /// Initialises MPI, which waits for all other processes.
+    /// Initialises MPI; this waits until all other processes do the same.
     static Result<std::unique_ptr<Ranks>> join();
     ~Ranks();
 
-    int rank() const;
-    int size() const;
+    int rank() const;  ///< number of this process, from 0
+    int size() const;  ///< number of ranks
     /// True if the launcher keeps the other processes alive when one dies, or if this is unknown.
     bool survive_death_of_one() const;
 
-    /// Does not block; the message is kept until it has been sent.
+    /// Starts to send a message and returns at once; the message is kept until it has been sent.
     void send(int to, std::string message);
-    std::size_t unsent() const;  ///< number of kept messages
+    std::size_t unsent() const;  ///< number of messages that have not been sent completely
     struct Received {
-        int from;
+        int from;  ///< rank of the sender
         std::string message;
     };
-    /// A completely received message, if there is one.
+    /// The next message that has arrived completely; no value if there is none. Messages of one sender keep their order.
     std::optional<Received> receive();
-    /// Drops the messages that are kept for this rank, because it is dead.
-    void drop_messages_to(int rank);
-    /// Ends the communication of this rank. `together`: all ranks are alive and leave as well; otherwise the process must exit at once.
+    /// Gives up the messages to and from this rank that are not complete, because the rank is dead.
+    void drop_messages_of(int rank);
+    /// Ends the communication of this process. `together`: all ranks are alive and leave as well; if false, this process must exit at once.
     void leave(bool together);
-    bool left_together() const { return left_together_; }
+    bool left_together() const { return left_together_; }  ///< false after leave(false)
 
 private:
     struct Impl;

@@ -1,4 +1,4 @@
-// Reads a sweep file, makes the sweep of its subject, and reports errors with paths relative to the current folder.
+// Reads a sweep file and makes the sweep of its subject (afferent or netlist). Paths in errors are relative to the current folder.
 
 #include <fmt/format.h>
 #include <filesystem>
@@ -39,7 +39,7 @@ Result<std::unique_ptr<Sweep>> make_sweep(const SweepText& spec, const std::stri
     return names_netlist(spec.afferent->text) ? sweeps::make_chip_sweep(spec, folder) : sweeps::make_model_sweep(spec, folder);
 }
 
-/// Replaces a setting of the file by one of the command line.
+/// Replaces a setting of the sweep file by that of the command line, if there is one. The canonical text then ends with the option.
 void replace_setting(OptionalLocatedText& into, std::string_view key, const std::optional<std::string>& requested, SweepText& spec) {
     if (!requested || (into && into->text == *requested)) return;
     into = LocatedText{*requested, {}};
@@ -63,7 +63,7 @@ Result<std::unique_ptr<Sweep>> read_sweep(const std::string& path, const SweepOv
     replace_setting(spec->samples, "samples", text_of(overrides.samples), *spec);
     auto sweep = make_sweep(*spec, folder);
     if (sweep) return sweep;
-    auto error = sweep.error();  // netlists and the files they include have paths relative to the folder
+    auto error = sweep.error();  // in it, netlists and the files they include have paths relative to the folder of the sweep file
     std::error_code status;
     if (const auto full_path = file.parent_path() / error.location.file;
         !error.location.file.empty() && error.location.file != spec->file && fs::exists(full_path, status))

@@ -1,4 +1,4 @@
-// Creates and replaces a results file, always by renaming a complete new file: another program may be copying the old one.
+// Creates and replaces a results file, always by renaming a complete new file, because another program may be copying the old one.
 
 #include <fcntl.h>
 #include <sqlite3.h>
@@ -17,8 +17,9 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr std::int64_t long_wal = std::int64_t{256} << 20;  // bytes
+constexpr std::int64_t min_checkpoint_size = std::int64_t{256} << 20;  // smallest size of a -wal for which add() makes a checkpoint, bytes
 
+/// Size of a file in bytes; 0 if it does not exist.
 std::int64_t size_of(const std::string& path) {
     std::error_code status;
     const auto size = fs::file_size(path, status);
@@ -29,12 +30,13 @@ Error not_written(const std::string& path) {
     return bad_input(fmt::format("cannot be written ({}); the existing results are kept", std::strerror(errno)), {path});
 }
 
-/// Writes a file to disk, safe against power loss. `legacy`: marked as a file without a -wal (bytes 18 and 19 of SQLite's file format).
-Result<void> sync_file(const std::string& path, bool legacy) {
+/// Makes the operating system write a file to disk, so that it survives a loss of power. `without_wal`: first marks it as a file without a
+/// -wal (bytes 18 and 19 of SQLite's file format).
+Result<void> sync_file(const std::string& path, bool without_wal) {
     const int file = ::open(path.c_str(), O_RDWR | O_CLOEXEC);
     if (file < 0) return not_written(path);
     constexpr std::array<char, 2> versions = {1, 1};
-    const bool ok = (!legacy || ::pwrite(file, versions.data(), versions.size(), 18) == 2) && ::fsync(file) == 0;
+    const bool ok = (!without_wal || ::pwrite(file, versions.data(), versions.size(), 18) == 2) && ::fsync(file) == 0;
     ::close(file);
     if (!ok) return not_written(path);
     return {};
@@ -54,6 +56,7 @@ Result<void> create_empty(const std::string& path) {
     return {};
 }
 
+/// Makes the operating system write the folder of a file to disk, so that a rename survives a loss of power.
 void sync_folder(const std::string& path) {
     const auto folder = fs::path(path).parent_path();
     const int file = ::open(folder.empty() ? "." : folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
@@ -62,7 +65,8 @@ void sync_folder(const std::string& path) {
     ::close(file);
 }
 
-/// Copies all pages of one database, including those in its -wal, to the other with the same page numbers.
+/// Copies all pages of one database, including those in its -wal, to the other, with the same page numbers. `path`: of the other, for
+/// errors.
 Result<void> copy_pages(sqlite3* from, sqlite3* to, const std::string& path) {
     auto* backup = sqlite3_backup_init(to, "main", from, "main");
     if (!backup) return sql::error_of(to, path);
@@ -89,12 +93,14 @@ Result<void> SweepResults::Impl::create_file() const {
     return {};
 }
 
-void SweepResults::Impl::set_next_checkpoint_size() { next_checkpoint_size = std::max({long_wal, size_of(path), 2 * size_of(wal_path())}); }
+void SweepResults::Impl::set_next_checkpoint_size() {
+    next_checkpoint_size = std::max({min_checkpoint_size, size_of(path), 2 * size_of(wal_path())});
+}
 
-// The new file contains each page as in the -wal. A crash between renaming it and removing the -wal is safe: the new file with the old -wal
-// has the same content. A copy of the old file without its -wal has the content of the previous checkpoint.
+// The new file contains the newest version of each page. A crash between renaming it and removing the -wal is safe: the new file with the
+// old -wal has the same content. A copy of the old file without its -wal has the content of the previous checkpoint.
 Result<void> SweepResults::Impl::checkpoint(bool last) {
-    if (std::error_code status; !fs::exists(wal_path(), status) && !is_writing) return {};
+    if (std::error_code status; !fs::exists(wal_path(), status) && !is_writing) return {};  // no new rows
     {
         if (auto fresh = create_empty(checkpoint_path()); !fresh) return fresh;
         auto database = sql::open(checkpoint_path(), SQLITE_OPEN_READWRITE);

@@ -10,13 +10,15 @@ namespace {
 
 using Json = nlohmann::json;
 
-constexpr std::size_t max_columns = 1900;                       // SQLite's limit for a table is 2000
-constexpr std::size_t max_label_bytes = std::size_t{4} << 20;   // bytes: all labels of all axes
-constexpr std::size_t max_time_bytes = std::size_t{32} << 20;   // bytes: sample times of the probes
-constexpr std::int64_t max_items = 1'000'000'000'000;           // SweepPlan::max_items
-constexpr std::size_t max_about_bytes = std::size_t{96} << 20;  // bytes of all metadata
+constexpr std::size_t max_columns = 1900;  // SQLite's limit for a table is 2000
+constexpr std::size_t max_label_bytes =
+    std::size_t{4} << 20;  // bytes of the names, descriptions and labels of all columns of one kind; also of some entries of about
+constexpr std::size_t max_time_bytes = std::size_t{32} << 20;   // bytes of the sample times of the probes
+constexpr std::int64_t max_items = 1'000'000'000'000;           // equal to SweepPlan::max_items
+constexpr std::size_t max_about_bytes = std::size_t{96} << 20;  // bytes of the table about
 
-/// Names that changed between the formats of results files.
+/// Names that differ between the formats of results files: tables and columns `items`, `item` and `description`, key `metadata` of the
+/// table about.
 struct FormatNames {
     const char *items, *item, *description, *metadata;
 };
@@ -25,6 +27,7 @@ constexpr FormatNames current_names = {"items", "item", "description", "metadata
 
 const FormatNames& names_of_format(std::int64_t format) { return format == 1 ? first_format_names : current_names; }
 
+/// The statements that create the tables. The last one, for items, is continued by the columns of the sweep.
 constexpr const char* tables = R"(
 CREATE TABLE about(key TEXT PRIMARY KEY, value TEXT NOT NULL) WITHOUT ROWID;
 CREATE TABLE columns(position INTEGER PRIMARY KEY, kind TEXT NOT NULL, name TEXT NOT NULL, unit TEXT NOT NULL, description TEXT NOT NULL,
@@ -40,6 +43,7 @@ std::string lower(std::string text) {
     return text;
 }
 
+/// See ResultsLayout::stored_column_names.
 std::vector<std::string> unique_names(const std::vector<SweepColumn>& axes, const std::vector<SweepColumn>& measures) {
     std::set<std::string> taken = {"item", "ended", "steps", "iterations", "alone", "why"};
     std::vector<std::string> out;
@@ -52,7 +56,7 @@ std::vector<std::string> unique_names(const std::vector<SweepColumn>& axes, cons
     return out;
 }
 
-/// Completes a sentence that begins with a name: says in which line a text differs from its earlier version.
+/// The rest of a clause that begins with the name of a metadata entry: in which line its text differs from the earlier text.
 std::string describe_difference(const std::string& now, const std::string& before) {
     std::size_t line = 1;
     const auto end = std::min(now.size(), before.size());
@@ -61,13 +65,14 @@ std::string describe_difference(const std::string& now, const std::string& befor
     return are_multiline ? fmt::format(" has changed since, in line {}", line) : fmt::format(" was '{}' and is '{}' now", before, now);
 }
 
+/// `how`: a clause, such as "its table 'spikes' has no column 'times'".
 Error changed_by_other_program(const std::string& path, std::string_view how) {
     return bad_input(
         fmt::format("{}: it was changed by another program; use an earlier copy, or run the sweep into another file with --out", how),
         {path});
 }
 
-/// Returns an error if a table lacks one of these columns.
+/// Returns an error if a table lacks one of the columns `wanted`, or if the table of items has another key than the item.
 Result<void> check_table(sqlite3* file, const std::string& path, const std::string& table, const std::vector<std::string>& wanted,
                          const FormatNames& names = current_names) {
     auto rows = sql::Statement::make(file, path, "SELECT name, type, pk FROM pragma_table_info(?)");
@@ -92,6 +97,7 @@ Result<void> check_table(sqlite3* file, const std::string& path, const std::stri
     return {};
 }
 
+/// Checks the tables items, spikes and traces. `stored`: columns of axes and measures.
 Result<void> check_tables(sqlite3* file, const std::string& path, const std::vector<std::string>& stored, const FormatNames& names) {
     std::vector<std::string> columns = {names.item, "ended", "steps", "iterations", "alone", "why"};
     columns.insert(columns.end(), stored.begin(), stored.end());
@@ -100,8 +106,9 @@ Result<void> check_tables(sqlite3* file, const std::string& path, const std::vec
     return check_table(file, path, "traces", {names.item, "trace", "samples"});
 }
 
-/// Shows the tables of a file of the first format under the names of the current one, by temporary views. Views of this connection precede
-/// the file's own tables, so all queries work unchanged. `stored`: the column names in the file; `shown`: in the views.
+/// Shows the tables of a file of the first format under the names of the current one, by temporary views. A name in a query means the
+/// temporary view rather than the file's own table, so all queries work unchanged. `stored`: names of the axes and measures in the file;
+/// `shown`: in the views.
 Result<void> show_first_format(sqlite3* file, const std::string& path, const std::vector<std::string>& stored,
                                const std::vector<std::string>& shown) {
     std::string columns;
@@ -116,7 +123,7 @@ Result<void> show_first_format(sqlite3* file, const std::string& path, const std
                                 columns));
 }
 
-/// Returns an error if there are rows of items outside the sweep.
+/// Returns an error if the file has an item that is not one of the sweep's `items` items.
 Result<void> check_items(sqlite3* file, const std::string& path, std::int64_t items) {
     auto rows = sql::Statement::make(file, path, "SELECT item FROM items WHERE item < 0 OR item >= ? LIMIT 1");
     if (!rows) return rows.error();
@@ -127,6 +134,7 @@ Result<void> check_items(sqlite3* file, const std::string& path, std::int64_t it
                                     fmt::format("it holds item {}, of a sweep of {} items (0 to {})", rows->integer(0), items, items - 1));
 }
 
+/// Reads the axes or measures. `kind`: "axis" or "measure". Appends their names in the table items to `stored`.
 Result<std::vector<SweepColumn>> read_columns(sqlite3* file, const std::string& path, const char* kind, const FormatNames& names,
                                               std::vector<std::string>& stored) {
     auto rows = sql::Statement::make(
@@ -154,6 +162,7 @@ Result<std::vector<SweepColumn>> read_columns(sqlite3* file, const std::string& 
     }
 }
 
+/// Writes the axes or measures. `stored`: names of all axes and measures in the table items; `first`: index of the first of these columns.
 Result<void> write_columns(sqlite3* file, const std::string& path, const char* kind, const std::vector<SweepColumn>& columns,
                            const std::vector<std::string>& stored, std::size_t first) {
     auto row = sql::Statement::make(file, path, "INSERT INTO columns VALUES(?, ?, ?, ?, ?, ?, ?, ?, ?)");
@@ -205,6 +214,7 @@ Result<std::int64_t> format_of(sqlite3* file, const std::string& path) {
     return *file_version;
 }
 
+/// Compares everything but the descriptions.
 bool same_columns(const std::vector<SweepColumn>& a, const std::vector<SweepColumn>& b) {
     return std::equal(a.begin(), a.end(), b.begin(), b.end(), [](const SweepColumn& x, const SweepColumn& y) {
         return x.name == y.name && x.unit == y.unit && x.labels == y.labels && x.min == y.min && x.max == y.max;
@@ -257,7 +267,7 @@ Result<ResultsLayout> ResultsLayout::read(sqlite3* file, const std::string& path
             if (!columns) return columns.error();
             *into = std::move(*columns);
         }
-    } catch (const std::exception&) {  // a table that was edited by hand
+    } catch (const std::exception&) {  // of JSON, std::stoll or map::at, if a table was edited by hand
         return bad_input("is damaged: its tables about and columns cannot be read; name another file", {path});
     }
     if (out.item_count < 1 || out.item_count > max_items)
@@ -303,20 +313,20 @@ Error ResultsLayout::read_only_format(const std::string& path) const {
         {path});
 }
 
-std::string ResultsLayout::difference_from(const ResultsLayout& other) const {
+std::string ResultsLayout::difference_from(const ResultsLayout& earlier) const {
     for (const auto& name : metadata_names) {
-        const auto found = other.about.find(name);
-        if (found == other.about.end() ||
-            std::find(other.metadata_names.begin(), other.metadata_names.end(), name) == other.metadata_names.end())
+        const auto found = earlier.about.find(name);
+        if (found == earlier.about.end() ||
+            std::find(earlier.metadata_names.begin(), earlier.metadata_names.end(), name) == earlier.metadata_names.end())
             return fmt::format("it has no entry '{}'", name);
         if (found->second != about.at(name)) return name + describe_difference(about.at(name), found->second);
     }
-    for (const auto& name : other.metadata_names)
+    for (const auto& name : earlier.metadata_names)
         if (!about.contains(name)) return fmt::format("'{}' is not part of the sweep now", name);
-    if (item_count != other.item_count) return fmt::format("the number of items was {} and is {} now", other.item_count, item_count);
-    if (!same_columns(axes, other.axes)) return "the axes have changed since";
-    if (!same_columns(measures, other.measures)) return "the measures have changed since";
-    if (train_names != other.train_names || probe_names != other.probe_names || probe_times != other.probe_times)
+    if (item_count != earlier.item_count) return fmt::format("the number of items was {} and is {} now", earlier.item_count, item_count);
+    if (!same_columns(axes, earlier.axes)) return "the axes have changed since";
+    if (!same_columns(measures, earlier.measures)) return "the measures have changed since";
+    if (train_names != earlier.train_names || probe_names != earlier.probe_names || probe_times != earlier.probe_times)
         return "the kept trains and traces have changed since";
     return "";
 }

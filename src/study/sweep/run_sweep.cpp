@@ -7,7 +7,7 @@
 namespace corpuscle {
 namespace {
 
-constexpr std::size_t queue_length = 1 << 14;  // items queued for the worker pool in advance
+constexpr std::size_t queue_length = 1 << 14;  // items passed to the worker pool at a time
 
 }  // namespace
 
@@ -17,23 +17,23 @@ void SweepProgress::add(const ItemOutcome& o) {
     for (const auto& train : o.spikes) spikes += static_cast<std::int64_t>(train.size());
 }
 
-Result<void> run_sweep(const Sweep& sweep, SweepResults& results, const SweepRunOptions& run, SweepProgress& count) {
+Result<void> run_sweep(const Sweep& sweep, SweepResults& results, const SweepRunOptions& run, SweepProgress& progress) {
     auto missing = results.missing_ranges();
     if (!missing) return missing.error();
     ItemQueue queue(std::move(*missing), run.shard);
-    count = {.planned = queue.remaining()};
-    if (count.planned == 0) return {};
-    results.announce_run(count.planned);
+    progress = {.planned = queue.remaining()};
+    if (progress.planned == 0) return {};
+    results.announce_run(progress.planned);
     WorkerPool pool(sweep, run.threads);
     bool stopped = false;
     for (;;) {
         if (!stopped && pool.queued() < queue_length / 2) pool.add(queue.take(queue_length));
         auto outcomes = pool.collect(run.write_interval);
-        for (const auto& o : outcomes) count.add(o);
+        for (const auto& o : outcomes) progress.add(o);
         if (auto ok = results.add(sweep, std::move(outcomes)); !ok) return ok;
-        run.on_progress(count);
+        run.on_progress(progress);
         if (!stopped && run.should_stop()) stopped = true, pool.stop();
-        if (pool.is_done() && (stopped || queue.remaining() == 0 || !pool.sweep_error())) break;
+        if (pool.is_done() && (stopped || queue.remaining() == 0 || !pool.sweep_error())) break;  // the last term: there was an error
     }
     if (auto ok = pool.sweep_error(); !ok) return ok;
     if (stopped) return Error{ErrorCode::interrupted, "interrupted"};

@@ -10,10 +10,11 @@
 namespace corpuscle::sweeps {
 namespace {
 
-constexpr std::uint64_t sweep_key = 0x7377656570;  // a separate key, because chip samples use the seed itself
-constexpr unsigned rounds = 8;                     // of the Feistel network
+constexpr std::uint64_t sweep_key = 0x7377656570;  // changes the key, because the samples of chips use the seed itself as their key
+constexpr unsigned feistel_rounds = 8;
 
-std::uint64_t stream_named(std::string_view name) {  // FNV-1a
+/// The number of the random stream of this name: its FNV-1a hash.
+std::uint64_t stream_named(std::string_view name) {
     std::uint64_t hash = 0xcbf29ce484222325;
     for (const char c : name) hash = (hash ^ static_cast<unsigned char>(c)) * 0x100000001b3;
     return hash;
@@ -25,10 +26,12 @@ PhiloxCounter random_words(std::uint64_t key, std::uint64_t stream, std::uint64_
                   key);
 }
 
-double uniform_fraction(std::uint32_t high, std::uint32_t low) {  // 53 bits, never 0
+/// A number in (0, 1) from 53 of these 64 random bits.
+double uniform_fraction(std::uint32_t high, std::uint32_t low) {
     return (static_cast<double>((std::uint64_t{high} << 21) | (low >> 11)) + 0.5) * 0x1p-53;
 }
 
+/// c[0] + c[1] x + ... + c[7] x^7.
 double polynomial(const double (&c)[8], double x) {
     double y = c[7];
     for (int k = 6; k >= 0; --k) y = y * x + c[k];
@@ -45,12 +48,12 @@ UniformNumbers::UniformNumbers(Sampling method, std::uint64_t seed, std::string_
     shift_ = random_words(~key_, stream_, 0)[0];
 }
 
-/// A permutation of the sample indexes: a Feistel network over the next power of 4, repeated until the result is in range.
+/// A Feistel network permutes the numbers below the next power of 4; it is applied again until the result is an index of a sample.
 std::uint64_t UniformNumbers::shuffled(std::uint64_t sample) const {
     const std::uint64_t mask = (std::uint64_t{1} << half_bits_) - 1;
     do {
         std::uint64_t left = sample >> half_bits_, right = sample & mask;
-        for (unsigned round = 0; round < rounds; ++round) {
+        for (unsigned round = 0; round < feistel_rounds; ++round) {
             const auto mixed = random_words(~key_ + round, stream_, right)[0] & mask;
             const auto next = left ^ mixed;
             left = right, right = next;
@@ -62,7 +65,8 @@ std::uint64_t UniformNumbers::shuffled(std::uint64_t sample) const {
 
 double UniformNumbers::at(std::uint64_t sample) const {
     if (method_ == Sampling::sobol)
-        return (static_cast<double>(sobol_point(directions_, static_cast<std::uint32_t>(sample)) ^ shift_) + 0.5) * 0x1p-32;
+        return (static_cast<double>(sobol_point(directions_, static_cast<std::uint32_t>(sample)) ^ shift_) + 0.5) *
+               0x1p-32;  // digital shift
     const auto w = random_words(key_, stream_, sample);
     const double u = uniform_fraction(w[0], w[1]);
     if (method_ == Sampling::random) return u;
@@ -102,7 +106,7 @@ double normal_quantile(double u) {
                                     1.84631831751005468180e-5,
                                     1.42151175831644588870e-7,
                                     2.04426310338993978564e-15};
-    const double centred = u - 0.5;
+    const double centred = u - 0.5;  // a ... f and the ranges of r are those of the algorithm
     if (std::abs(centred) <= 0.425) {
         const double r = 0.180625 - centred * centred;
         return centred * polynomial(a, r) / polynomial(b, r);
@@ -116,7 +120,7 @@ double normal_probability(double deviate) {
     double low = 0, high = 1;
     for (int k = 0; k < 1100; ++k) {
         const double midpoint = low + (high - low) / 2;
-        if (!(midpoint > low && midpoint < high) || midpoint < 0x1p-1000) break;
+        if (!(midpoint > low && midpoint < high) || midpoint < 0x1p-1000) break;  // no number is between low and high
         (normal_quantile(midpoint) < deviate ? low : high) = midpoint;
     }
     return low;

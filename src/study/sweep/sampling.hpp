@@ -1,5 +1,6 @@
 #pragma once
-// Sampling of an axis: a number between 0 and 1 for each sample, each computed independently, and the distributions made from them.
+// Sampling of an axis: a number u between 0 and 1 for each sample, and the normal distribution, which turns u into a normal deviate. The
+// number of sample k is computed without those of the other samples.
 
 #include <array>
 #include <cstdint>
@@ -7,26 +8,30 @@
 
 namespace corpuscle::sweeps {
 
+/// Independent numbers, a Latin hypercube (one number in each of `count` equal intervals), or Sobol points with a random shift.
 enum class Sampling { random, latin, sobol };
 
-/// The numbers of one axis. They depend on seed, name and sample; for a Latin hypercube also on the number of samples, for Sobol points on
-/// the dimension.
+/// The uniformly distributed numbers of one axis. They depend on the seed, the axis's name and the index of the sample; for a Latin
+/// hypercube also on the number of samples, for Sobol points also on the axis's dimension of the Sobol sequence.
 class UniformNumbers {
     Sampling method_;
-    std::uint64_t key_, stream_, count_;
-    std::array<std::uint32_t, 32> directions_{};
-    std::uint32_t shift_ = 0;
-    unsigned half_bits_ = 1;  // of the permutation
+    std::uint64_t key_, stream_, count_;          // of the random numbers: key and stream; number of samples
+    std::array<std::uint32_t, 32> directions_{};  // for Sobol points
+    std::uint32_t shift_ = 0;                     // of Sobol points, by exclusive or
+    unsigned half_bits_ = 1;                      // half the number of bits of an index in the permutation
 
+    /// A random permutation of the sample indexes.
     std::uint64_t shuffled(std::uint64_t sample) const;
 
 public:
+    /// `axis`: name of the axis; `dimension`: from 0, only for Sobol points; `count`: number of samples.
     UniformNumbers(Sampling method, std::uint64_t seed, std::string_view axis, std::size_t dimension, std::uint64_t count);
-    /// The number of this sample, in (0, 1).
+    /// The number of the sample with this index (from 0), in (0, 1).
     double at(std::uint64_t sample) const;
 };
 
-/// Quantile of the standard normal distribution, 0 < u < 1: Wichura, algorithm AS 241, Appl. Stat. 37 (1988), to 1e-16.
+/// Quantile of the standard normal distribution, 0 < u < 1: Wichura, algorithm AS 241, Appl. Stat. 37 (1988), with a relative error of
+/// 1e-16.
 double normal_quantile(double u);
 /// The inverse: cumulative probability of a standard normal deviate, by bisection to full precision.
 double normal_probability(double deviate);

@@ -9,10 +9,10 @@
 namespace corpuscle {
 namespace {
 
-constexpr int max_rounds = 6;
+constexpr int max_rounds = 6;  // of adding factors
 constexpr std::size_t max_influences = 60;
 
-/// Values of these items, scaled to mean 0 and sum of squares 1; empty if they are all equal.
+/// The values of these items, shifted to mean 0 and scaled to sum of squares 1; empty if they are all equal.
 std::vector<double> standardised(std::span<const double> all, const std::vector<std::size_t>& items) {
     std::vector<double> out(items.size());
     double sum = 0, squares = 0;
@@ -28,8 +28,8 @@ double dot_product(const std::vector<double>& a, const std::vector<double>& b) {
     return std::inner_product(a.begin(), a.end(), b.begin(), 0.0);
 }
 
-/// Solves A x = b for a symmetric positive definite A and computes the diagonal of its inverse; returns false if A is not positive
-/// definite.
+/// Solves A x = b for a symmetric positive definite A. On return, b contains x, and `diagonal` the diagonal of A's inverse. Returns false
+/// if A is not positive definite.
 bool solve(std::vector<std::vector<double>> A, std::vector<double>& b, std::vector<double>& diagonal) {
     const std::size_t n = b.size();
     for (std::size_t j = 0; j < n; ++j)  // Cholesky: A = L L^T
@@ -60,12 +60,15 @@ bool solve(std::vector<std::vector<double>> A, std::vector<double>& b, std::vect
     return true;
 }
 
-/// The regression on the selected factors.
+/// The linear regression on the selected factors.
 struct Regression {
-    std::vector<std::size_t> selected;
+    std::vector<std::size_t> selected;   ///< indexes of the factors
     std::vector<std::vector<double>> x;  ///< standardised values of each selected factor
-    std::vector<double> slopes, diagonal, residual;
+    std::vector<double> slopes;          ///< of each selected factor, in standardised units
+    std::vector<double> diagonal;        ///< of the inverse of the factors' correlation matrix; slope i has a variance proportional to it
+    std::vector<double> residual;        ///< of each item, in standardised units
 
+    /// `y`: the standardised measure. Returns false if the selected factors are linearly dependent.
     bool fit(const std::vector<double>& y) {
         std::vector<std::vector<double>> A(x.size(), std::vector<double>(x.size()));
         slopes.resize(x.size());
@@ -81,13 +84,15 @@ struct Regression {
     }
 };
 
+/// A factor that may be added to the regression.
 struct Candidate {
     std::size_t factor;
     double p_value;
-    std::vector<double> x = {};
+    std::vector<double> x = {};  // its standardised values
 };
 
-/// Keeps the candidates accepted by the procedure of Benjamini and Hochberg, the most significant first.
+/// Keeps the candidates accepted by the procedure of Benjamini and Hochberg, the most significant first. `tried`: number of factors that
+/// were tested to find the candidates.
 void keep_discoveries(std::vector<Candidate>& all, std::size_t tried) {
     std::sort(all.begin(), all.end(),
               [](const auto& a, const auto& b) { return std::pair(a.p_value, a.factor) < std::pair(b.p_value, b.factor); });
@@ -97,8 +102,9 @@ void keep_discoveries(std::vector<Candidate>& all, std::size_t tried) {
     all.resize(accepted);
 }
 
-/// Adds all candidates; if the regression is then singular, adds them one at a time and skips those that depend on earlier ones. Returns
-/// false if none was added.
+/// Adds the candidates to the regression. If it had fewer than `limit` factors before, it has at most `limit` afterwards. If the regression
+/// is then singular, adds them one at a time and skips those that are linearly dependent on earlier ones. Returns false if no factor was
+/// added.
 bool add_factors(Regression& regression, std::vector<Candidate>&& found, std::size_t limit, const std::vector<double>& y) {
     const auto before = regression.selected.size();
     if (before < limit && found.size() > limit - before) found.resize(limit - before);
@@ -130,7 +136,7 @@ Sensitivity sensitivity_of(std::span<const double> measure, std::span<const Swee
 
     Regression regression;
     regression.residual = y;
-    double unexplained = 1;  // fraction of the sum of squares
+    double unexplained = 1;  // sum of the squared residuals, as a fraction of that of y
     for (int round = 0; round < max_rounds && regression.selected.size() < max_influences; ++round) {
         const double degrees_of_freedom = n - 2 - static_cast<double>(regression.selected.size());
         if (degrees_of_freedom < 4 || unexplained < 1e-9) break;
@@ -146,12 +152,13 @@ Sensitivity sensitivity_of(std::span<const double> measure, std::span<const Swee
             if (p_value <= false_discovery_rate) found.push_back({f, p_value, std::move(x)});
         }
         keep_discoveries(found, tried);
-        const auto max_factors = static_cast<std::size_t>(n / 4);  // as many factors as items would explain any measure
+        const auto max_factors = static_cast<std::size_t>(n / 4);  // with as many factors as items, any measure would be explained
         if (!add_factors(regression, std::move(found), std::min(max_factors, max_influences), y)) break;
         unexplained = dot_product(regression.residual, regression.residual);
     }
 
-    const double degrees_of_freedom = n - 1 - static_cast<double>(regression.selected.size()), noise = unexplained / degrees_of_freedom;
+    const double degrees_of_freedom = n - 1 - static_cast<double>(regression.selected.size()),
+                 noise = unexplained / degrees_of_freedom;  // variance of the residual
     const double t_limit = student_quantile(degrees_of_freedom, 1 - (1 - confidence) / 2);
     for (std::size_t i = 0; i < regression.selected.size(); ++i) {
         const double b = regression.slopes[i], error = std::sqrt(noise * regression.diagonal[i]),
@@ -169,22 +176,23 @@ Sensitivity sensitivity_of(std::span<const double> measure, std::span<const Swee
 
 GroupEffect group_effect(std::span<const double> measure, std::span<const std::size_t> group, std::size_t groups) {
     std::vector<double> sums(groups), counts(groups);
-    double sum = 0, n = 0, squares = 0, inside = 0;
+    double sum = 0, n = 0, squares = 0, inside = 0;  // squares, inside: sums of squares in total, and inside the groups
     for (std::size_t k = 0; k < measure.size(); ++k)
         if (std::isfinite(measure[k])) sum += measure[k], ++n, sums[group[k]] += measure[k], ++counts[group[k]];
-    const auto used = static_cast<double>(std::count_if(counts.begin(), counts.end(), [](double c) { return c > 0; }));
-    if (used < 2 || n <= used) return {};
+    const auto used_groups = static_cast<double>(std::count_if(counts.begin(), counts.end(), [](double c) { return c > 0; }));
+    if (used_groups < 2 || n <= used_groups) return {};
     for (std::size_t k = 0; k < measure.size(); ++k) {
         if (!std::isfinite(measure[k])) continue;
         const double deviation = measure[k] - sum / n, deviation_in_group = measure[k] - sums[group[k]] / counts[group[k]];
         squares += deviation * deviation, inside += deviation_in_group * deviation_in_group;
     }
     if (!(squares > 0)) return {};
-    const double noise = inside / (n - used), between = squares - inside;
-    return {std::max((between - (used - 1) * noise) / (squares + noise), 0.0),
-            noise > 0 ? fisher_upper(used - 1, n - used, between / (used - 1) / noise) : 0};
+    const double noise = inside / (n - used_groups), between = squares - inside;
+    return {std::max((between - (used_groups - 1) * noise) / (squares + noise), 0.0),
+            noise > 0 ? fisher_upper(used_groups - 1, n - used_groups, between / (used_groups - 1) / noise) : 0};
 }
 
+// Half the mismatch is a quarter of the variance due to the device.
 double relative_sigma_at_four_times_area(double fraction_of_device) { return std::sqrt(std::max(1 - 0.75 * fraction_of_device, 0.0)); }
 
 }  // namespace corpuscle

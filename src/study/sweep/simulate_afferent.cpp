@@ -1,4 +1,4 @@
-// Simulates one afferent with a complete force; also computes the measures of a reference model.
+// Simulates one afferent with a complete force, also for the measures of a reference model.
 
 #include <fmt/format.h>
 #include <algorithm>
@@ -15,6 +15,7 @@ constexpr std::size_t block_samples = 4096;
 
 Result<SimulatedResponse> simulate_afferent(const Afferent& afferent, const SweepForce& force, std::span<const std::size_t> probes,
                                             std::size_t every, const std::function<bool()>& stop) {
+    // The response to a sample comes `delay` samples later, so the last force is held for that time.
     const auto delay = static_cast<std::size_t>(afferent.delay());
     auto samples = force.samples;
     samples.insert(samples.end(), delay, samples.back());

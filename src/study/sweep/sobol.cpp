@@ -5,9 +5,9 @@
 namespace corpuscle::sweeps {
 namespace {
 
-/// A primitive polynomial over GF(2), with its highest power in the highest bit, and its initial direction numbers. From table
-/// new-joe-kuo-6 of Joe and Kuo, "Constructing Sobol sequences with better two-dimensional projections", SIAM J. Sci. Comput. 30 (2008),
-/// from dimension 2 on. Their licence is in NOTICE.
+/// One dimension: a primitive polynomial over GF(2), whose bit k is the coefficient of x^k, and the initial direction numbers. From the
+/// table new-joe-kuo-6 of Joe and Kuo, "Constructing Sobol sequences with better two-dimensional projections", SIAM J. Sci. Comput. 30
+/// (2008), beginning with the second dimension: the first one needs no table. The licence of the table is in NOTICE.
 struct InitialDirections {
     std::uint32_t polynomial;
     std::uint32_t m[9];
@@ -69,17 +69,17 @@ static_assert(std::size(initial_directions) + 1 == sobol_dimensions);
 
 std::array<std::uint32_t, 32> sobol_directions(std::size_t dimension) {
     std::array<std::uint32_t, 32> v{};
-    if (dimension == 0) {
+    if (dimension == 0) {  // gives the van der Corput sequence
         for (std::size_t k = 0; k < 32; ++k) v[k] = std::uint32_t{1} << (31 - k);
         return v;
     }
-    const auto& b = initial_directions[dimension - 1];
-    const auto degree = static_cast<std::size_t>(std::bit_width(b.polynomial)) - 1;
-    for (std::size_t k = 0; k < degree; ++k) v[k] = b.m[k] << (31 - k);
+    const auto& initial = initial_directions[dimension - 1];
+    const auto degree = static_cast<std::size_t>(std::bit_width(initial.polynomial)) - 1;
+    for (std::size_t k = 0; k < degree; ++k) v[k] = initial.m[k] << (31 - k);
     for (std::size_t k = degree; k < 32; ++k) {
         v[k] = v[k - degree] ^ (v[k - degree] >> degree);
         for (std::size_t j = 1; j < degree; ++j)
-            if (b.polynomial >> (degree - j) & 1) v[k] ^= v[k - j];
+            if (initial.polynomial >> (degree - j) & 1) v[k] ^= v[k - j];
     }
     return v;
 }

@@ -9,23 +9,25 @@
 namespace corpuscle::sql {
 namespace {
 
-constexpr int wait_ms = 10'000;           // for another program's short lock on the file
-constexpr int max_value_size = 64 << 20;  // bytes of one text or blob: a probe of 16 million samples
+constexpr int wait_ms = 10'000;           // longest wait for locks of other processes
+constexpr int max_value_size = 64 << 20;  // bytes of one text or blob, such as the 16 million samples of a probe
 
-/// Disables triggers and views in a file's schema. A quoted name that is not a column is an error, not a text.
-void disable_schema_code(sqlite3* file) {
+/// Disables triggers and views that a file contains, since another program may have written it. Also makes a name in double quotes that is
+/// not a column an error, not a text, and limits the size of values.
+void restrict_connection(sqlite3* file) {
     for (const int option : {SQLITE_DBCONFIG_DQS_DML, SQLITE_DBCONFIG_DQS_DDL, SQLITE_DBCONFIG_ENABLE_TRIGGER, SQLITE_DBCONFIG_ENABLE_VIEW,
                              SQLITE_DBCONFIG_TRUSTED_SCHEMA})
         sqlite3_db_config(file, option, 0, nullptr);
     sqlite3_limit(file, SQLITE_LIMIT_LENGTH, max_value_size);
 }
 
-/// The system's error number. SQLite does not keep it for a -wal that cannot be written.
+/// The errno of the failed system call. SQLite does not keep it for a -wal that cannot be written.
 int cause_of(sqlite3* file) {
     const int cause = sqlite3_system_errno(file);
     return cause == 0 && sqlite3_extended_errcode(file) == SQLITE_IOERR_WRITE ? errno : cause;
 }
 
+/// The system's message, or SQLite's if no system call failed.
 std::string error_reason(sqlite3* file) {
     const int cause = cause_of(file);
     return cause ? std::strerror(cause) : sqlite3_errmsg(file);
@@ -100,7 +102,7 @@ Result<Handle> open(const std::string& path, int flags) {
     if (code != SQLITE_OK) return error_of(opened, path);
     sqlite3_busy_timeout(opened, wait_ms);
     sqlite3_db_config(opened, SQLITE_DBCONFIG_NO_CKPT_ON_CLOSE, 1, nullptr);
-    disable_schema_code(opened);
+    restrict_connection(opened);
     return file;
 }
 

@@ -14,12 +14,13 @@ struct sqlite3_stmt;
 
 namespace corpuscle::sql {
 
-/// The error of the last call on this file.
+/// The error of the last SQLite call on this file; its message names the path.
 Error error_of(sqlite3*, const std::string& path);
 
 /// A table or column name, quoted for a statement.
 std::string quoted_name(std::string_view);
 
+/// Runs SQL statements that return no rows. In all functions, `path` is that of the file, for errors.
 Result<void> run(sqlite3*, const std::string& path, const std::string& statements);
 
 struct Deleter {
@@ -28,9 +29,11 @@ struct Deleter {
 };
 using Handle = std::unique_ptr<sqlite3, Deleter>;
 
-/// Opens a file with these flags (SQLITE_OPEN_...). Closing never writes into the file. Waits a while for other processes' locks.
+/// Opens a file with these flags (SQLITE_OPEN_...). Statements on it wait up to 10 s for locks of other processes. Closing it does not copy
+/// rows from the -wal to the file.
 Result<Handle> open(const std::string& path, int flags);
 
+/// A prepared SQL statement.
 class Statement {
     std::unique_ptr<sqlite3_stmt, Deleter> statement_;
     sqlite3* database_ = nullptr;
@@ -38,6 +41,7 @@ class Statement {
 
 public:
     Statement() = default;
+    /// `path` is kept by reference.
     static Result<Statement> make(sqlite3*, const std::string& path, const std::string& text);
 
     /// Bind a value to a parameter of the statement. Positions count from 1. Text and bytes must stay valid until the statement has run.
@@ -47,11 +51,11 @@ public:
     Statement& set(int position, std::span<const std::byte>);
     Statement& set_null(int position);
 
-    /// Returns true if there is a (further) row.
+    /// Runs the statement up to its next row. Returns false if there are no more rows.
     Result<bool> step();
-    /// Runs a statement that returns no rows, and resets it.
+    /// Runs the statement to its end, ignoring its rows, and resets it.
     Result<void> finish();
-    void reset();
+    void reset();  ///< the next step() runs the statement from its beginning; the bound values remain
 
     /// Values of the current row; columns count from 0.
     std::int64_t integer(int column) const;
@@ -61,7 +65,7 @@ public:
     std::span<const std::byte> bytes(int column) const;  ///< valid until the next step
 };
 
-/// The first column of the first row; 0 if there is no row.
+/// Runs a query: the first column of the first row; 0 if there is no row.
 Result<std::int64_t> query_integer(sqlite3*, const std::string& path, const std::string& text);
 
 }  // namespace corpuscle::sql

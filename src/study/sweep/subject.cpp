@@ -21,19 +21,19 @@ class PlanReader {
     const SweepText& spec_;
     const VariableQuantities& quantities_;
     const circuit::NetlistVariants* variants_;
-    circuit::ChipSpec chips_{0, 0, false, false};
+    circuit::ChipSpec chips_{0, 0, false, false};  // neither process nor mismatch is sampled yet
     SamplingSpec sampling_;
     std::vector<SweepAxis> axes_;
 
     bool netlist_samples_chips() const { return variants_ && variants_->has_chips(); }
-    /// The first axis of the file that samples chips, or null.
+    /// The first [[vary]] of the sweep file that samples process or mismatch, or null.
     const AxisSpec* chips_axis() const {
         for (const auto& a : spec_.axes)
             if (a.name.text == "process" || a.name.text == "mismatch") return &a;
         return nullptr;
     }
 
-    /// Reads whether process and mismatch are sampled: from the file, otherwise from the netlist's .mc.
+    /// Reads whether process and mismatch are sampled: from the sweep file; if it samples neither, from the netlist's .mc.
     Result<void> chips() {
         chips_.seed = sampling_.seed;
         const auto* spec = chips_axis();
@@ -56,18 +56,19 @@ class PlanReader {
         return {};
     }
 
-    /// Reads the number of samples.
+    /// Reads the number of samples of each point.
     Result<void> samples() {
-        const AxisSpec* sampled_axis = chips_axis();
+        const AxisSpec* sampled_axis = chips_axis();  // the first axis with random samples, or null
         for (const auto& a : spec_.axes)
             if (!sampled_axis && is_sampled(a)) sampled_axis = &a;
         if (spec_.samples) {
             const auto samples = parse_integer(*spec_.samples, "samples", 1, 1e9);
             if (!samples) return samples.error();
             if (!sampled_axis && !netlist_samples_chips() && *samples > 1)
-                return spec_.samples->error_here(fmt::format(
-                    "samples = {}, but nothing is sampled, so all would be equal; remove samples (a grid determines the number)",
-                    *samples));
+                return spec_.samples->error_here(
+                    fmt::format("samples = {}, but nothing is sampled, so all samples would be equal; remove samples (the number of items "
+                                "follows from the listed values)",
+                                *samples));
             sampling_.samples = static_cast<std::uint64_t>(*samples);
         } else if (netlist_samples_chips()) {
             sampling_.samples = static_cast<std::uint64_t>(variants_->chips().count);
@@ -78,11 +79,12 @@ class PlanReader {
         return {};
     }
 
+    /// True if the sweep file varies this quantity.
     bool is_in_file(std::string_view name) const {
         return std::any_of(spec_.axes.begin(), spec_.axes.end(), [&](const AxisSpec& a) { return equal_ignoring_case(a.name.text, name); });
     }
 
-    /// Axes of the netlist's own .step, except those that the file sets.
+    /// Adds the axes of the netlist's own .step, except those of quantities that the sweep file varies.
     Result<void> steps() {
         if (!variants_) return {};
         for (const auto& step : variants_->axes()) {
@@ -96,7 +98,7 @@ class PlanReader {
         return {};
     }
 
-    /// The unit written in the sweep file, for quantities whose subject has no unit for them.
+    /// The unit of the first value in the [[vary]], for quantities whose unit the subject does not know, such as netlist parameters.
     static std::string unit_in(const AxisSpec& spec) {
         const LocatedText* first = spec.list && !spec.list->empty() ? &spec.list->front()
                                    : spec.from                      ? &*spec.from
@@ -106,6 +108,7 @@ class PlanReader {
         return value ? std::string(value->unit) : "";
     }
 
+    /// Adds the axis of one [[vary]].
     Result<void> axis(const AxisSpec& spec) {
         for (const auto& other : axes_)
             if (equal_ignoring_case(other.column.name, spec.name.text))
@@ -158,6 +161,7 @@ Result<void> set_limit(const LimitSpec& limit, const MeasureLookup& lookup, std:
         const auto model = lookup.model_value(*limit.like, *at);
         if (!model) return model.error();
         if (std::isnan(*model)) return wrong(*limit.like, fmt::format("{} has no value for this force", limit.like->text));
+        // A percentage is relative to the model's value, also for a measure without unit, where read() turns "10%" into 0.1.
         const bool is_percentage = trimmed(limit.within->text).ends_with('%') && !column.unit.empty();
         auto within = is_percentage ? parse_quantity(limit.within->text, "") : read(*limit.within);
         if (!within) return wrong(*limit.within, within.error().message);
@@ -219,7 +223,8 @@ Result<std::size_t> probe_stride(const SweepText& spec, double T) {
     if (spec.every) {
         const auto value = parse_quantity(spec.every->text, "s");
         if (!value) return spec.every->error_here("every: " + value.error().message);
-        if (!(*value > 0 && *value < 1e9)) return spec.every->error_here(fmt::format("every = {} must be above 0", spec.every->text));
+        if (!(*value > 0 && *value < 1e9))
+            return spec.every->error_here(fmt::format("every = {} must be above 0 s and below 1e9 s", spec.every->text));
         every = *value;
     }
     return static_cast<std::size_t>(std::max(1.0, std::round(every / T)));

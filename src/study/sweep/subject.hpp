@@ -1,5 +1,6 @@
 #pragma once
-// Common parts of the subjects of sweeps: plan, columns, recorded outputs, and metadata.
+// Common parts of the sweeps of all subjects: plan, columns, recorded outputs, and metadata. The subject of a sweep is what it simulates: a
+// model, a netlist afferent, or a netlist with its own analyses.
 
 #include "signal/afferent.hpp"
 #include "study/sweep/afferent_measures.hpp"
@@ -10,9 +11,10 @@ namespace corpuscle::sweeps {
 /// Version of the computation: results with another version come from a program that computes differently.
 inline constexpr int results_format = 1;
 
-/// An item is stopped after this many times the nominal item's iterations, unless the file sets a limit.
+/// Unless the sweep file sets a limit, an item is truncated after this many times the Newton iterations of the nominal circuit.
 inline constexpr double iteration_limit_factor = 20;
 
+/// The part of a Sweep that is the same for all subjects.
 class PlannedSweep : public Sweep {
 protected:
     SweepPlan plan_;
@@ -21,7 +23,7 @@ protected:
     std::vector<double> probe_times_;
     std::vector<MetadataText> metadata_;
 
-    /// Adds the last metadata entry if mismatch is sampled: the mismatch of each transistor.
+    /// If mismatch is sampled, adds a metadata entry from which the mismatch of each transistor of each chip can be computed again.
     void add_mismatch_metadata(const std::string& subject, const circuit::Circuit&);
 
 public:
@@ -40,39 +42,45 @@ Result<std::unique_ptr<Sweep>> make_model_sweep(const SweepText&, const std::str
 Result<std::unique_ptr<Sweep>> make_chip_sweep(const SweepText&, const std::string& folder);
 Result<std::unique_ptr<Sweep>> make_analysis_sweep(const SweepText&, const std::string& folder);
 
-/// The quantities of a subject that can vary.
+/// Access to the quantities of a subject that can vary.
 struct VariableQuantities {
     std::function<Result<VariedQuantity>(const LocatedText& quantity)> find_quantity;
+    /// Tells the subject that this quantity takes its values from the axis with index `axis` in the plan.
     std::function<void(const SweepAxis&, const std::string& quantity, std::size_t axis)> vary;
-    bool can_sample_chips = false;  ///< process and mismatch can be sampled
-    std::string subject_name;
+    bool can_sample_chips = false;  ///< true if process and mismatch can be sampled
+    std::string subject_name;       ///< for messages
 };
+/// The seed in the sweep file; 0 if it has none.
 Result<std::uint64_t> seed_of(const SweepText&);
-/// `variants`: of the netlist's own .step and .mc lines; null: none.
+/// Reads the plan of a sweep file. `variants`: axes and chips of the .step and .mc lines in the netlist itself; null for a subject without
+/// such lines.
 Result<SweepPlan> plan_of(const SweepText&, const VariableQuantities&, const circuit::NetlistVariants* variants = nullptr);
 
-/// Looks up measures by name, and computes a model's values of them.
+/// Looks up the measures of a sweep by name, and computes a reference model's value of a measure.
 struct MeasureLookup {
-    std::function<Result<std::size_t>(const LocatedText& measure)> column;
+    std::function<Result<std::size_t>(const LocatedText& measure)> column;  ///< index of its column, which is added if necessary
     std::function<Result<double>(const LocatedText& model, std::size_t column)> model_value;
 };
+/// Sets min and max of the columns from [limits] in the sweep file.
 Result<void> set_limits(const SweepText&, const MeasureLookup&, std::vector<SweepColumn>&);
 
-/// True if spike trains are kept, which is the default.
+/// True if spike trains are written to the results (key keep), which is the default.
 Result<bool> keeps_spikes(const SweepText&);
-/// The sampling step of the kept probes, in samples.
+/// The sampling step of the probes in the results (key every), in samples of the force. T: step of the force, s.
 Result<std::size_t> probe_stride(const SweepText&, double T);
-/// The first metadata entries: title, results format and sweep file.
+/// The first metadata entries: title, results format and sweep file. `title` is used if the sweep file has none.
 std::vector<Sweep::MetadataText> first_metadata(const SweepText&, const std::string& title);
 
-/// Simulates a model afferent with a force and returns one measure of its response.
+/// Simulates a model with the nominal force and returns one measure of its response. An error if the force varies between items.
 Result<double> model_measure(const LocatedText& model, const ForceFactory&, const LocatedText& measure);
 
 /// The response of one afferent to a complete force.
 struct SimulatedResponse {
-    std::vector<double> spikes;                     ///< s
-    std::vector<std::vector<float>> probe_samples;  ///< each requested probe at every `every`-th sample
+    std::vector<double> spikes;                     ///< times since the first sample of the force, s
+    std::vector<std::vector<float>> probe_samples;  ///< [index in `probes`][sample]
 };
+/// `probes`: indexes of the probes to record, at samples 0, `every`, 2 * `every` ... of the force. If `stop` returns true: error
+/// `interrupted`.
 Result<SimulatedResponse> simulate_afferent(const Afferent&, const SweepForce&, std::span<const std::size_t> probes = {},
                                             std::size_t every = 0, const std::function<bool()>& stop = {});
 

@@ -11,7 +11,7 @@ using SummaryJson = nlohmann::ordered_json;
 
 SummaryJson optional_json(const std::optional<double>& x) { return x ? json_number(*x) : SummaryJson(nullptr); }
 
-/// The value and its confidence interval.
+/// The value and its confidence interval; NaN becomes null.
 SummaryJson estimate_json(const Estimate& e) {
     return {{"value", json_number(e.value)}, {"low", json_number(e.low)}, {"high", json_number(e.high)}};
 }
@@ -55,8 +55,8 @@ SummaryJson influence_json(const NamedInfluence& i) {
     return out;
 }
 
-SummaryJson device_json(const MismatchSamples& samples, const DeviceContribution& s) {
-    const auto& d = samples.subjects[static_cast<std::size_t>(s.subject)].devices[static_cast<std::size_t>(s.device)];
+SummaryJson device_json(const MismatchSamples& samples, const DeviceContribution& c) {
+    const auto& d = samples.subjects[static_cast<std::size_t>(c.subject)].devices[static_cast<std::size_t>(c.device)];
     return {{"device", d.name},
             {"type", d.pmos ? "pmos" : "nmos"},
             {"m", d.m},
@@ -64,10 +64,10 @@ SummaryJson device_json(const MismatchSamples& samples, const DeviceContribution
             {"W_m", d.W},
             {"L_m", d.L},
             {"area_m2", d.area()},
-            {"fraction_V_T", json_number(s.V_T)},
-            {"fraction_I_S", json_number(s.I_S)},
-            {"fraction", json_number(s.fraction())},
-            {"relative_sigma_at_4x_area", json_number(relative_sigma_at_four_times_area(s.fraction()))}};
+            {"fraction_V_T", json_number(c.V_T)},
+            {"fraction_I_S", json_number(c.I_S)},
+            {"fraction", json_number(c.fraction())},
+            {"relative_sigma_at_4x_area", json_number(relative_sigma_at_four_times_area(c.fraction()))}};
 }
 
 SummaryJson dependence_json(const SweepTable& table, const SweepSummary& summary, const Dependence& d) {
@@ -83,7 +83,7 @@ SummaryJson dependence_json(const SweepTable& table, const SweepSummary& summary
         effects.push_back({{"axis", table.axes[e.axis].name}, {"fraction", json_number(e.fraction)}, {"values", values}, {"means", means}});
     }
     for (const auto& i : d.influences) influences.push_back(influence_json(i));
-    for (const auto& s : d.devices) devices.push_back(device_json(*summary.mismatch, s));
+    for (const auto& c : d.devices) devices.push_back(device_json(*summary.mismatch, c));
     SummaryJson out = {{"measure", d.measure},
                        {"between_points", points},
                        {"chips", d.sensitivity.items},

@@ -7,6 +7,7 @@
 
 namespace corpuscle {
 
+/// `title`: of the sweep.
 nlohmann::ordered_json document_of(const SweepTable&, const SweepSummary&, const std::string& title);
 
 }  // namespace corpuscle

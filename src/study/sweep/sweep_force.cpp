@@ -12,9 +12,10 @@
 namespace corpuscle::sweeps {
 namespace {
 
-constexpr double max_samples = 5e7;  // of one force: 400 MB
+constexpr double max_samples = 5e7;  // of one force; 400 MB
 constexpr std::size_t max_cached_forces = 8;
 
+/// Reads the first channel to its end.
 Result<std::shared_ptr<const SweepForce>> read_force(ForceSource& source) {
     auto force = std::make_shared<SweepForce>();
     force->clock = source.clock(), force->clock.t0 = 0;
@@ -35,6 +36,7 @@ Result<std::shared_ptr<const SweepForce>> read_force(ForceSource& source) {
     return std::shared_ptr<const SweepForce>(std::move(force));
 }
 
+/// The number in a text with this unit; `fallback` if there is no text.
 Result<double> number_of(const OptionalLocatedText& text, std::string_view unit, double fallback) {
     if (!text) return fallback;
     const auto value = parse_quantity(text->text, unit);
@@ -43,10 +45,10 @@ Result<double> number_of(const OptionalLocatedText& text, std::string_view unit,
 
 }  // namespace
 
-/// Recent forces, because neighbouring items often have the same force.
+/// The most recent forces, because items with neighbouring indexes often have the same force.
 struct ForceFactory::Cache {
     std::mutex mutex;
-    std::map<std::vector<double>, std::shared_ptr<const SweepForce>> forces;
+    std::map<std::vector<double>, std::shared_ptr<const SweepForce>> forces;  // by their varied values
 };
 
 Result<ForceFactory> ForceFactory::of(const SweepText& spec, const std::string& folder, std::uint64_t seed) {
@@ -64,7 +66,7 @@ Result<ForceFactory> ForceFactory::of(const SweepText& spec, const std::string& 
     const auto path = (std::filesystem::path(folder) / out.text_).string();
     std::error_code status;
     if (!std::filesystem::exists(path, status)) {
-        // Neither a stimulus nor a file: the message says why it is not a stimulus.
+        // This is neither a stimulus nor a file; the error of make_stimulus() says why it is not a stimulus.
         auto error = make_stimulus(out.text_, {}, out.rate_, seed).error();
         return spec.force->error_here(fmt::format("{} (and there is no file '{}')", error.message, out.text_));
     }
@@ -120,7 +122,7 @@ Result<void> ForceFactory::set(const LocatedSetting& setting) {
             if (const auto ok = settings_for(stimulus.name, stimulus.parameters, settings); !ok)
                 return setting.value.error_here(ok.error().message);
     overrides_.push_back(std::move(settings[0]));
-    fixed_count_ = overrides_.size();
+    fixed_count_ = overrides_.size();  // vary() comes after all calls of set()
     return {};
 }
 
@@ -165,7 +167,7 @@ Result<std::shared_ptr<const SweepForce>> ForceFactory::at(std::span<const doubl
 
 std::string ForceFactory::recording_summary() const {
     if (!is_recording_) return "";
-    std::uint64_t hash = 0xcbf29ce484222325;
+    std::uint64_t hash = 0xcbf29ce484222325;  // as FNV-1a, but over numbers of 64 bits instead of bytes
     for (const double x : nominal_->samples) hash = (hash ^ std::bit_cast<std::uint64_t>(x)) * 0x100000001b3;
     return fmt::format("{} samples at {} Hz, {:016x}", nominal_->samples.size(), nominal_->clock.rate(), hash);
 }

@@ -1,5 +1,5 @@
 #pragma once
-// The force on a sweep's afferents: a stimulus, whose parameters may vary between items, or a channel of a recording.
+// The force of a sweep: a stimulus, whose parameters may vary between items, or one channel of a recording.
 
 #include <map>
 #include <memory>
@@ -11,49 +11,52 @@
 
 namespace corpuscle::sweeps {
 
-/// One complete force signal.
+/// One complete force.
 struct SweepForce {
     std::vector<double> samples;  ///< N
-    Clock clock;                  ///< with the first sample at 0 s
+    Clock clock;                  ///< the first sample is at 0 s, also that of a recording
     std::vector<Phase> phases;
-    double cycle_frequency = 0;  ///< Hz; 0 if the stimulus has no cycle
+    double cycle_frequency = 0;  ///< Hz; 0 if the force is not periodic
 
+    /// Duration, s.
     double end() const { return static_cast<double>(samples.size()) * clock.T(); }
 };
 
+/// Makes the force of each item.
 class ForceFactory {
-    std::string text_;
-    std::vector<ParameterOverride> overrides_;  // fixed settings, then varied ones, whose value is filled in
-    std::size_t fixed_count_ = 0;
-    std::vector<std::size_t> axes_;  // of each varied setting: index of its axis
-    double rate_ = 10e3;
-    std::uint64_t seed_ = 0;
-    std::shared_ptr<const SweepForce> nominal_;
+    std::string text_;                           // the stimulus, or the path of the recording, as in the sweep file
+    std::vector<ParameterOverride> overrides_;   // fixed settings, then varied ones, whose values make() fills in
+    std::size_t fixed_count_ = 0;                // number of fixed settings
+    std::vector<std::size_t> axes_;              // for each varied setting: index of its axis in the plan
+    double rate_ = 10e3;                         // of a stimulus, Hz
+    std::uint64_t seed_ = 0;                     // of a random stimulus
+    std::shared_ptr<const SweepForce> nominal_;  // without varied values; of a recording: its only force
     struct Cache;
     std::shared_ptr<Cache> cache_;
 
-    /// `varied_values`: of the varied settings, in their order; those without a value keep their default.
+    /// `varied_values`: for each varied setting, in their order; or none, for the nominal force.
     Result<std::shared_ptr<const SweepForce>> make(std::span<const double> varied_values) const;
 
 public:
-    /// A recording's path is relative to the folder of the sweep file.
+    /// Reads the force of a sweep file. `folder`: that of the sweep file, to which the path of a recording is relative.
     static Result<ForceFactory> of(const SweepText&, const std::string& folder, std::uint64_t seed);
 
     const std::string& name() const { return text_; }
-    /// True if "press.F_max" is a parameter of this force.
+    /// True if a name such as "press.F_max" means a parameter of this force.
     bool has_parameter(std::string_view name) const;
     Result<VariedQuantity> find_quantity(const LocatedText& quantity) const;
+    /// Adds a fixed setting.
     Result<void> set(const LocatedSetting&);
-    /// Call after all calls of set().
+    /// Takes the values of this parameter from the axis with index `axis` in the plan. Call after all calls of set().
     void vary(const std::string& name, std::size_t axis);
     bool varies() const { return !axes_.empty(); }
 
-    /// Call after all settings: makes the nominal force.
+    /// Makes the nominal force. Call after all calls of set(), and before nominal() and at().
     Result<void> prepare();
     const std::shared_ptr<const SweepForce>& nominal() const { return nominal_; }
     /// The force for an item's values on all axes. Thread-safe.
     Result<std::shared_ptr<const SweepForce>> at(std::span<const double> values) const;
-    /// A description of the recording, in a line; "" for a stimulus.
+    /// Number of samples, rate and a hash of the recording, in one line; "" for a stimulus.
     std::string recording_summary() const;
 
 private:

@@ -11,17 +11,20 @@
 namespace corpuscle {
 namespace {
 
-/// Divides the rows by the values of one axis: the index of each row's group, and the labels of the groups.
+/// The rows of a table, grouped by one axis.
 struct AxisGroups {
-    std::vector<std::size_t> group_of;
-    std::vector<std::string> labels;
+    std::vector<std::size_t> group_of;  // for each row, the index of its group
+    std::vector<std::string> labels;    // of the groups
 };
 
+/// The label of a value, or the value with its unit.
 std::string value_label(const SweepColumn& axis, double value) {
     const bool is_label = !axis.labels.empty() && value >= 0 && value < static_cast<double>(axis.labels.size());
     return is_label ? axis.labels[static_cast<std::size_t>(value)] : format_quantity(value, axis.unit);
 }
 
+/// One group for each of `values`, which are all distinct values of the axis, and one for rows without a value. `all`: the value in each
+/// row.
 AxisGroups points_of(const SweepColumn& axis, const std::vector<double>& all, const std::vector<double>& values) {
     AxisGroups out;
     out.group_of.reserve(all.size());
@@ -35,6 +38,7 @@ AxisGroups points_of(const SweepColumn& axis, const std::vector<double>& all, co
     return out;
 }
 
+/// Bands with about equal numbers of rows. Rows without a value are in the last band.
 AxisGroups bands_of(const SweepColumn& axis, const std::vector<double>& all) {
     auto sorted = all;
     std::erase_if(sorted, [](double x) { return std::isnan(x); });
@@ -73,10 +77,10 @@ SweepGroups group_rows_by_axes(const SweepTable& table, const std::vector<std::s
     if (table.rows() == 0) return out;
     std::vector<AxisGroups> axis_groups;
     for (const auto a : axes) axis_groups.push_back(groups_of_axis(table, a));
-    std::vector<std::size_t> key(table.rows());
+    std::vector<std::size_t> key(table.rows());  // of each row: its combination of groups, as one number
     for (const auto& p : axis_groups)
         for (std::size_t r = 0; r < key.size(); ++r) key[r] = key[r] * p.labels.size() + p.group_of[r];
-    std::map<std::size_t, std::size_t> number;  // index of each combination that occurs
+    std::map<std::size_t, std::size_t> number;  // by key: index in out.groups, for each combination that occurs
     for (std::size_t r = 0; r < key.size(); ++r)
         if (r == 0 || key[r] != key[r - 1]) number[key[r]] = 0;
     for (auto& [k, n] : number) {

@@ -17,14 +17,15 @@ namespace {
 namespace fs = std::filesystem;
 static_assert(std::endian::native == std::endian::little, "spikes and traces have the same byte order in the file and in memory");
 
-constexpr std::array<std::string_view, 3> item_ends = {"done", "truncated", "diverged"};
+constexpr std::array<std::string_view, 3> item_ends = {  // in the order of ItemEnd
+    "done", "truncated", "diverged"};
 
 ItemEnd end_of(std::string_view name) {
     const auto* at = std::find(item_ends.begin(), item_ends.end(), name);
     return at == item_ends.end() ? ItemEnd::diverged : static_cast<ItemEnd>(at - item_ends.begin());
 }
 
-/// The statement that inserts a row into the table items.
+/// The statement that inserts a row into the table items. `columns`: stored names of the axes and measures.
 std::string insert_statement(const std::vector<std::string>& columns) {
     std::string names = "item, ended, steps, iterations, alone, why", values = "?, ?, ?, ?, ?, ?";
     for (const auto& column : columns) names += ", " + sql::quoted_name(column), values += ", ?";
@@ -39,6 +40,7 @@ std::vector<T> numbers(std::span<const std::byte> bytes) {
     return out;
 }
 
+/// The numbers in the blob that a query selects by item and index; empty if there is no row.
 template <class T>
 Result<std::vector<T>> read_blob(sqlite3* file, const std::string& path, const char* query, std::int64_t item, std::size_t index) {
     auto row = sql::Statement::make(file, path, query);
@@ -48,6 +50,7 @@ Result<std::vector<T>> read_blob(sqlite3* file, const std::string& path, const c
     return *found ? numbers<T>(row->bytes(0)) : std::vector<T>{};
 }
 
+/// Creates the folder of a file.
 Result<void> make_folder(const std::string& path) {
     const auto folder = fs::path(path).parent_path();
     std::error_code failed;
@@ -146,7 +149,7 @@ Result<SweepResults> SweepResults::open_with_layout(const std::string& path, con
     impl->lock = std::move(*lock);
     ::unlink(impl->checkpoint_path().c_str());  // left by a killed run
     if (std::error_code status; !fs::exists(path, status)) {
-        impl->layout = expected;
+        impl->layout = expected;  // create_file() writes it
         if (auto ok = impl->create_file(); !ok) return ok.error();
     }
     if (auto ok = impl->open_file(SQLITE_OPEN_READWRITE); !ok) return ok.error();
@@ -173,7 +176,8 @@ Result<SweepResults> SweepResults::open_read_only(const std::string& path) {
     if (auto ok = impl->open_file(SQLITE_OPEN_READWRITE | SQLITE_OPEN_NOMUTEX); !ok) return ok.error();
     auto stored = ResultsLayout::read(impl->file.get(), path);
     if (!stored && (sqlite3_errcode(impl->file.get()) & 0xff) == SQLITE_CANTOPEN) {
-        // SQLite needs a file beside it, which cannot be created here. It is not needed if the -wal has no rows.
+        // SQLite needs a -shm file beside the results, which cannot be created in a read-only folder. Without rows in the -wal, the file
+        // can be opened as immutable instead.
         if (fs::exists(impl->wal_path(), status) && fs::file_size(impl->wal_path(), status) > 0) return needs_writable_folder(path);
         auto opened =
             sql::open("file:" + fs::absolute(path).string() + "?immutable=1", SQLITE_OPEN_READONLY | SQLITE_OPEN_URI | SQLITE_OPEN_NOMUTEX);
@@ -212,12 +216,12 @@ Result<void> SweepResults::add(const Sweep& sweep, std::vector<ItemOutcome>&& ou
     std::error_code status;
     const auto size = fs::file_size(impl.wal_path(), status);
     if (!status && static_cast<std::int64_t>(size) > impl.next_checkpoint_size && !impl.checkpoint(false))
-        impl.set_next_checkpoint_size();  // tried again later
+        impl.set_next_checkpoint_size();  // if it failed, it is tried again when the -wal has grown
     return {};
 }
 
-void SweepResults::announce_run(std::int64_t planned) const {
-    if (impl_->lock) impl_->lock->write_progress(finished_count(), planned);
+void SweepResults::announce_run(std::int64_t planned_items) const {
+    if (impl_->lock) impl_->lock->write_progress(finished_count(), planned_items);
 }
 
 const std::string& SweepResults::path() const { return impl_->path; }

@@ -10,6 +10,7 @@
 namespace corpuscle {
 namespace {
 
+/// All but the yield. `items`: number of items with and without a value.
 MeasureSummary measure_summary(const SortedSample& sorted, std::size_t items, const SweepSummaryOptions& options) {
     MeasureSummary out;
     out.count = static_cast<std::int64_t>(sorted.count());
@@ -22,14 +23,14 @@ MeasureSummary measure_summary(const SortedSample& sorted, std::size_t items, co
     return out;
 }
 
-/// Summarises one measure at each point, and then over all points.
+/// Summarises one measure at each point, and then over all points. `measure`: its index in the table.
 void put_measure(SweepSummary& out, const SweepTable& table, const SweepGroups& groups, std::size_t measure) {
-    std::vector<SortedSample> sorted;
+    std::vector<SortedSample> sorted;  // for each point
     std::int64_t total_passed = 0;
     const auto put = [&](PointSummary& point, const SortedSample& values, std::size_t items, std::int64_t passed) {
-        auto& at = point.measures[measure];
-        at = measure_summary(values, items, out.options);
-        if (table.has_limits(measure)) at.yield = estimate_proportion(passed, static_cast<std::int64_t>(items));
+        auto& summary = point.measures[measure];
+        summary = measure_summary(values, items, out.options);
+        if (table.has_limits(measure)) summary.yield = estimate_proportion(passed, static_cast<std::int64_t>(items));
     };
     for (std::size_t p = 0; p < groups.groups.size(); ++p) {
         const auto& rows = groups.groups[p].rows;
@@ -44,7 +45,7 @@ void put_measure(SweepSummary& out, const SweepTable& table, const SweepGroups& 
     put(out.all, sorted.size() == 1 ? sorted[0] : SortedSample::merged(sorted), table.rows(), total_passed);
 }
 
-/// Counts how the items of a point ended.
+/// Counts the items of a group by their ends. `passed`: for each row of the table.
 PointSummary point_summary(const SweepTable& table, const SweepGroup& group, const std::vector<char>& passed) {
     PointSummary out;
     out.label = group.label;
@@ -62,7 +63,7 @@ void finish_point(PointSummary& point, std::size_t measures) {
     point.measures.resize(measures);
 }
 
-/// Values minus the mean of their group.
+/// The value in each row, minus the mean over the rows of its group.
 std::vector<double> inside_groups(const std::vector<double>& values, const SweepGroups& points) {
     std::vector<double> sums(points.groups.size()), counts(points.groups.size()), out(values.size());
     for (std::size_t r = 0; r < values.size(); ++r)
@@ -71,28 +72,31 @@ std::vector<double> inside_groups(const std::vector<double>& values, const Sweep
     return out;
 }
 
-/// The chips of a sweep, with each chip's mean over the points: the same chip at several points has one mismatch sample.
+/// The first chips of a sweep, at most max_searched_chips, and for each chip the mean of a measure over the points. Chip k is sample k: a
+/// chip is simulated at each point with the same mismatch and the same values of the sampled axes.
 class ChipMeans {
-    std::vector<std::size_t> chip_of_;  // for each row, or none
-    std::vector<std::uint64_t> chips_;
+    std::vector<std::size_t> chip_of_;  // for each row: index in chips_, or none
+    std::vector<std::uint64_t> chips_;  // numbers of the chips
     static constexpr auto none = static_cast<std::size_t>(-1);
 
 public:
+    /// `samples`: number of samples of each point; 0: each item is a separate chip.
     ChipMeans(const SweepTable& table, std::int64_t samples) {
-        std::unordered_map<std::uint64_t, std::size_t> number;
+        std::unordered_map<std::uint64_t, std::size_t> index;  // by the number of the chip
         for (const auto item : table.items) {
             const auto chip = static_cast<std::uint64_t>(samples > 0 ? item % samples : item);
-            const auto known = number.find(chip);
-            if (known == number.end() && chips_.size() == max_searched_chips) {
+            const auto known = index.find(chip);
+            if (known == index.end() && chips_.size() == max_searched_chips) {
                 chip_of_.push_back(none);
                 continue;
             }
-            if (known == number.end()) number[chip] = chips_.size(), chips_.push_back(chip);
-            chip_of_.push_back(number[chip]);
+            if (known == index.end()) index[chip] = chips_.size(), chips_.push_back(chip);
+            chip_of_.push_back(index[chip]);
         }
     }
     const std::vector<std::uint64_t>& chips() const { return chips_; }
 
+    /// For each chip, the mean of the values in its rows; NaN if there are none.
     std::vector<double> of(const std::vector<double>& values) const {
         std::vector<double> out(chips_.size()), counts(chips_.size());
         for (std::size_t r = 0; r < values.size(); ++r)
@@ -102,7 +106,7 @@ public:
     }
 };
 
-/// The subject of a measure: from NAME.MEASURE, or the only subject; -1 if there is none.
+/// The index of the subject of a measure: the only subject, or the one that is named in NAME.MEASURE; -1 if there is none.
 std::ptrdiff_t subject_of(const std::string& measure, const MismatchSamples& mismatch) {
     if (mismatch.subjects.size() == 1) return 0;
     for (std::size_t s = 0; s < mismatch.subjects.size(); ++s)
@@ -110,7 +114,8 @@ std::ptrdiff_t subject_of(const std::string& measure, const MismatchSamples& mis
     return -1;
 }
 
-/// All factors that may influence a measure: sampled axes influence every measure, devices only the measures of their netlist.
+/// All factors that may influence a measure: sampled axes may influence every measure, devices only the measures of their subject. Each
+/// factor has a value for each chip, and a NamedInfluence whose `influence` is not yet set.
 struct Factors {
     std::vector<SweepFactor> axes;
     std::vector<NamedInfluence> axis_names;
@@ -147,6 +152,7 @@ Factors factors_of(const SweepTable& table, const std::optional<MismatchSamples>
     return out;
 }
 
+/// Sums the fractions of each device. Those of squares count as the quantity itself.
 std::vector<DeviceContribution> device_contributions(const std::vector<NamedInfluence>& influences) {
     std::vector<DeviceContribution> out;
     for (const auto& i : influences) {
@@ -161,16 +167,18 @@ std::vector<DeviceContribution> device_contributions(const std::vector<NamedInfl
     return out;
 }
 
+/// The parts of the search for dependences that all measures share.
 struct DependenceSearch {
     const SweepTable& table;
     const std::optional<MismatchSamples>& mismatch;
-    SweepGroups points;
-    std::vector<std::pair<std::size_t, SweepGroups>> by_axis;
+    SweepGroups points;                                        // by all axes with points
+    std::vector<std::pair<std::size_t, SweepGroups>> by_axis;  // index of an axis with two or more points, and its groups
     ChipMeans means;
     Factors factors;
 };
 
-/// Adds the square of each factor. A measure can have limits on both sides, so deviations in either direction lower the yield.
+/// Adds the square of each factor, for the yield. A measure can have limits on both sides, so deviations in either direction lower the
+/// yield.
 void add_squares(Factors::SubjectFactors& subject_factors) {
     const auto count = subject_factors.values.size();
     for (std::size_t f = 0; f < count; ++f) {
@@ -181,7 +189,7 @@ void add_squares(Factors::SubjectFactors& subject_factors) {
     }
 }
 
-/// Finds the dependences of one measure. During the search, the factors of its netlist's devices are appended to those of the axes.
+/// Finds what one measure depends on. During the search, the factors of its subject's devices are moved to the end of those of the axes.
 Dependence dependence_of(const std::string& name, const std::vector<double>& values, DependenceSearch& search) {
     Dependence out{name, {}, {}, {}, {}, {}};
     for (const auto& [axis, groups] : search.by_axis) {
@@ -208,15 +216,17 @@ Dependence dependence_of(const std::string& name, const std::vector<double>& val
     return out;
 }
 
+/// Also sets the number of chips from which the dependences were computed.
 std::vector<Dependence> dependences_of(const SweepTable& table, const std::optional<MismatchSamples>& mismatch,
-                                       const std::vector<char>& passed, std::size_t& chips) {
+                                       const std::vector<char>& passed, std::size_t& searched_chips) {
     std::vector<std::size_t> point_axes;
     for (std::size_t a = 0; a < table.axes.size(); ++a)
         if (table.has_points(a)) point_axes.push_back(a);
     auto points = group_rows_by_axes(table, point_axes);
     const auto count = static_cast<std::int64_t>(points.groups.size());
+    // Without the description of the mismatch, the number of samples follows from the numbers of items and points.
     const ChipMeans means(table, mismatch ? mismatch->chips : count > 0 && table.item_count % count == 0 ? table.item_count / count : 0);
-    chips = means.chips().size();
+    searched_chips = means.chips().size();
     DependenceSearch search{table, mismatch, std::move(points), {}, means, factors_of(table, mismatch, means)};
     for (const auto a : point_axes)
         if (auto groups = group_rows_by_axes(table, {a}); groups.groups.size() > 1) search.by_axis.emplace_back(a, std::move(groups));
@@ -228,7 +238,7 @@ std::vector<Dependence> dependences_of(const SweepTable& table, const std::optio
     return out;
 }
 
-/// A grid is complete, so it has no intervals, deviations or distributions.
+/// Removes what makes sense only for random samples: a grid is complete, so it has no confidence intervals, sigmas or tests of normality.
 void remove_statistics(PointSummary& point) {
     const auto remove_interval = [](Estimate& e) { e.low = e.high = Estimate::none; };
     remove_interval(point.yield);
@@ -240,6 +250,7 @@ void remove_statistics(PointSummary& point) {
     }
 }
 
+/// For a grid: the effects of the axes on all measures, and on the yield.
 std::vector<Dependence> effects_on_all(const SweepTable& table, const std::vector<char>& passed) {
     std::vector<Dependence> out;
     for (std::size_t m = 0; m < table.measures.size(); ++m)

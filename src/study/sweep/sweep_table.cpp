@@ -13,6 +13,7 @@
 namespace corpuscle {
 namespace {
 
+/// The indexes of the measures with these names, in this order, each once; without names: of all measures.
 Result<std::vector<std::size_t>> find_measures(const SweepResults& results, const std::vector<std::string>& names) {
     std::vector<std::size_t> out;
     std::vector<std::string_view> known;
@@ -29,8 +30,8 @@ Result<std::vector<std::size_t>> find_measures(const SweepResults& results, cons
     return out;
 }
 
-/// The distinct values of an axis in ascending order. Empty if there are more than `limit` values or, for an axis that is not listed,
-/// more values than half the number of rows.
+/// The distinct values of an axis in ascending order. Empty if there are more than `limit` or, unless the axis is known to be listed, more
+/// than half the number of rows. `all`: the value in each row.
 std::vector<double> few_values(const std::vector<double>& all, bool is_listed, std::size_t limit) {
     std::vector<double> known;
     double last = std::nan("");
@@ -45,14 +46,14 @@ std::vector<double> few_values(const std::vector<double>& all, bool is_listed, s
     return is_listed || 2 * known.size() <= all.size() ? known : std::vector<double>();
 }
 
-/// Columns read for a range of rows.
+/// The columns of a range of items.
 struct ReadPart {
     std::vector<std::int64_t> items;
     std::vector<ItemEnd> end;
-    std::vector<std::vector<double>> columns;
+    std::vector<std::vector<double>> columns;  // [column][row]
 };
 
-/// Reads the rows of items [from, to).
+/// Reads the rows of items [from, to). `columns_sql`: names of the columns, separated by commas; `columns`: their number.
 Result<ReadPart> read_part(const SweepResults& results, const std::string& columns_sql, std::size_t columns, std::int64_t from,
                            std::int64_t to) {
     auto rows = sql::Statement::make(
@@ -72,9 +73,9 @@ Result<ReadPart> read_part(const SweepResults& results, const std::string& colum
     }
 }
 
-/// Reads large tables in several parts in parallel, each with its own connection.
+/// Reads all rows; a large table in several parts in parallel, each with its own connection to the file.
 Result<std::vector<ReadPart>> read_parts(const SweepResults& results, const std::string& columns_sql, std::size_t columns) {
-    constexpr std::int64_t large = 100000;
+    constexpr std::int64_t large = 100000;  // rows
     const auto parts = results.finished_count() > large ? std::size_t{4} : std::size_t{1};
     std::vector<ReadPart> out(parts);
     std::vector<std::optional<Error>> errors(parts);
@@ -82,7 +83,8 @@ Result<std::vector<ReadPart>> read_parts(const SweepResults& results, const std:
         const auto first_item = [&](std::size_t part) {
             return part == parts ? std::numeric_limits<std::int64_t>::max() : results.item_count() / 4 * static_cast<std::int64_t>(part);
         };
-        const auto connection = parts == 1 ? Result<SweepResults>(Error{}) : SweepResults::open_read_only(results.path());
+        const auto connection =  // not needed for one part
+            parts == 1 ? Result<SweepResults>(Error{}) : SweepResults::open_read_only(results.path());
         if (parts > 1 && !connection) return void(errors[k] = connection.error());
         auto read = read_part(parts == 1 ? results : *connection, columns_sql, columns, first_item(k), first_item(k + 1));
         read ? void(out[k] = std::move(*read)) : void(errors[k] = read.error());

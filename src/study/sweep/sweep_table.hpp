@@ -1,5 +1,5 @@
 #pragma once
-// A sweep's results as columns of numbers, the input of the statistics. Uses 8 bytes for each item and column.
+// The results of a sweep in memory, as columns of numbers: the input of the statistics. Takes 8 bytes for each row and column.
 
 #include <string>
 #include <vector>
@@ -8,37 +8,40 @@
 
 namespace corpuscle {
 
+/// One row for each finished item, in ascending order of items.
 struct SweepTable {
-    std::int64_t item_count = 0;  ///< of the complete sweep; only finished items have rows
-    std::vector<std::int64_t> items;
-    std::vector<ItemEnd> ends;
+    std::int64_t item_count = 0;      ///< of the complete sweep, with unfinished items
+    std::vector<std::int64_t> items;  ///< for each row: index of the item in the sweep
+    std::vector<ItemEnd> ends;        ///< for each row
     std::vector<SweepColumn> axes, measures;
-    std::vector<std::vector<double>> axis_values, measure_values;  ///< [column][row]
+    std::vector<std::vector<double>> axis_values, measure_values;  ///< [column][row]; NaN: no value
 
-    /// For each axis with few values, such as a listed one, its values in ascending order, which are its points. Otherwise empty.
+    /// For each axis: its points, which are its distinct values in ascending order, if it has few, as a listed axis does. Otherwise empty.
     std::vector<std::vector<double>> points;
-    /// largest number of values of an axis with points: in a sampled sweep, and in a grid
+    /// Largest number of points of an axis: in a sampled sweep, and in a grid.
     static constexpr std::size_t max_points = 64, max_grid_points = 10'000;
-    bool is_grid = false;  ///< nothing is sampled, see grid.hpp
+    bool is_grid = false;  ///< true if the sweep samples nothing, see grid.hpp
 
     std::size_t rows() const { return items.size(); }
-    /// True if a row ended normally and meets a measure's limits; false if there are limits and the item has no value.
+    /// True if the item of this row ended normally and meets the limits of this measure, if it has limits. NaN does not meet a limit.
     bool meets_limits(std::size_t row, std::size_t measure) const;
     bool has_limits(std::size_t measure) const { return measures[measure].min || measures[measure].max; }
-    bool has_limits() const;
+    bool has_limits() const;  ///< of any measure
     bool has_points(std::size_t axis) const { return !points[axis].empty(); }
-    /// True if a row ended normally and meets all limits.
+    /// True if the item of this row ended normally and meets the limits of all measures.
     bool passes(std::size_t row) const;
 };
 
-/// All axes and the measures of these names, or all measures if there are no names; for circuits also the iterations of each item.
+/// Reads all axes and the measures of these names. Without names: all measures, and for circuits also the Newton iterations as a last
+/// measure.
 Result<SweepTable> read_table(const SweepResults&, const std::vector<std::string>& measure_names);
 
-/// Why an item failed; only the first items are listed.
+/// An item that did not end normally.
 struct FailedItem {
     std::int64_t item;
-    std::string reason;
+    std::string reason;  ///< or "truncated" or "diverged" if the results have no reason
 };
+/// The first `limit` failed items.
 Result<std::vector<FailedItem>> failed_items(const SweepResults&, std::size_t limit);
 
 }  // namespace corpuscle

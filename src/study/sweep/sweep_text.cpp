@@ -16,11 +16,12 @@ const Names known_keys = {"title",      "afferent", "netlist", "force", "channel
 const Names axis_keys = {"what", "how", "from", "to", "count", "log", "list", "mean", "sigma", "at_least", "at_most"};
 const Names limit_keys = {"at_least", "at_most", "like", "within"};
 
-/// Reads the tables of a sweep file.
+/// Reads the tables of a sweep file. The first error is kept in first_error.
 class SweepFileReader : public TomlReader {
 public:
     using TomlReader::TomlReader;
 
+    /// Reads [limits]. A measure with a dot in its name is a table inside a table, so this calls itself; `prefix`: the part before the dot.
     void limits(const toml::table& from, const std::string& prefix, std::vector<LimitSpec>& out) {
         for (const auto& [key, value] : from) {
             LimitSpec limit{{prefix + std::string(key.str()), location_of(key.source())}, {}, {}, {}, {}};
@@ -29,10 +30,10 @@ public:
                     return reject(value.source(), fmt::format("{}: a limit needs two numbers, [min, max]", limit.measure.text));
                 limit.min = scalar((*pair)[0], limit.measure.text), limit.max = scalar((*pair)[1], limit.measure.text);
             } else if (const auto* inner = value.as_table()) {
-                const bool has_limit_keys =
+                const bool is_limit =  // otherwise a table of further measures
                     inner->is_inline() || inner->empty() ||
                     std::any_of(inner->begin(), inner->end(), [](const auto& e) { return is_one_of(limit_keys, e.first.str()); });
-                if (!has_limit_keys) {
+                if (!is_limit) {
                     limits(*inner, limit.measure.text + ".", out);
                     continue;
                 }
@@ -49,6 +50,7 @@ public:
         }
     }
 
+    /// Reads one [[vary]].
     void axis(const toml::table& from, std::vector<AxisSpec>& out) {
         reject_unknown_keys(from, axis_keys, "[[vary]]: ");
         AxisSpec a;

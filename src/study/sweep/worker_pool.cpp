@@ -7,10 +7,11 @@
 namespace corpuscle {
 namespace {
 
+/// Approximate memory of an outcome.
 std::size_t bytes_of(const ItemOutcome& o) {
     auto sum = sizeof(ItemOutcome) + o.reason.size() + o.measures.size() * sizeof(double);
     for (const auto& train : o.spikes) sum += sizeof(train) + train.size() * sizeof(double);
-    for (const auto& trace : o.probes) sum += sizeof(trace) + trace.size() * sizeof(float);
+    for (const auto& samples : o.probes) sum += sizeof(samples) + samples.size() * sizeof(float);
     return sum;
 }
 
@@ -84,8 +85,8 @@ Result<void> WorkerPool::sweep_error() const {
     return sweep_error_;
 }
 
-// A call of Sweep::run_items may have other items in progress when it calls next(), so next() does not wait for items. When the queue is
-// empty, the call finishes its items and returns, and the thread waits here.
+// A call of Sweep::run_items may have other items in progress when it asks for the next one, so next_item() does not wait. If there is
+// none, the call finishes its items and returns, and the thread waits here for more.
 void WorkerPool::work() {
     std::unique_lock lock(mutex_);
     for (;;) {
@@ -94,16 +95,18 @@ void WorkerPool::work() {
         ++active_workers_;
         lock.unlock();
         auto ok = run_items_safely(
-            sweep_, [this] { return next(); }, [this](ItemOutcome&& o) { deliver(std::move(o)); }, [this] { return stopping_.load(); });
+            sweep_, [this] { return next_item(); }, [this](ItemOutcome&& o) { deliver(std::move(o)); },
+            [this] { return stopping_.load(); });
         lock.lock();
         --active_workers_;
+        // Keeps the first error, and stops the pool.
         if (!ok && sweep_error_ && !stopping_) sweep_error_ = std::move(ok);
         if (!sweep_error_) stopping_ = true, items_.clear();
         outcomes_ready_.notify_all();
     }
 }
 
-std::optional<std::int64_t> WorkerPool::next() {
+std::optional<std::int64_t> WorkerPool::next_item() {
     const std::lock_guard lock(mutex_);
     if (items_.empty()) return {};
     const auto item = items_.front();

@@ -16,6 +16,7 @@ namespace {
 
 std::string lock_path(const std::string& results) { return results + "-writer"; }
 
+/// `kind`: F_RDLCK or F_WRLCK.
 struct flock whole_file_lock(short kind) {
     struct flock lock = {};
     lock.l_type = kind;
@@ -23,14 +24,14 @@ struct flock whole_file_lock(short kind) {
     return lock;
 }
 
-/// True if the open file is still the one at this path; its previous owner may have removed it.
+/// True if the open file is still the one at this path: the process that had the lock before may have removed the file.
 bool is_file_at_path(int file, const std::string& path) {
     struct stat open_file = {}, file_at_path = {};
     return ::fstat(file, &open_file) == 0 && ::stat(path.c_str(), &file_at_path) == 0 && open_file.st_ino == file_at_path.st_ino &&
            open_file.st_dev == file_at_path.st_dev;
 }
 
-/// True if the file is empty or has the content of write_progress(). Any other file must not be truncated.
+/// True if the file is empty or looks as if write_progress() wrote it. Any other file must not be overwritten.
 bool is_ours(int file) {
     struct stat status = {};
     if (::fstat(file, &status) != 0 || !S_ISREG(status.st_mode) || status.st_nlink > 1 || status.st_size > 512) return false;
@@ -43,6 +44,7 @@ bool is_ours(int file) {
     return static_cast<bool>(words >> process >> since >> finished >> planned >> host) && !(words >> more);
 }
 
+/// `why`: a verb and its object, such as "is a link".
 Error not_ours(const std::string& path, std::string_view why) {
     return bad_input(fmt::format("is at the path of the results' lock file, but {}; move it away, or give another "
                                  "file with --out",
@@ -107,7 +109,7 @@ void WriterLock::write_progress(std::int64_t finished, std::int64_t planned) con
     ::gethostname(host.data(), host.size() - 1);
     const auto now = std::chrono::duration<double>(std::chrono::system_clock::now().time_since_epoch()).count();
     const auto text = fmt::format("{} {:.3f} {} {} {}\n", ::getpid(), now, finished, planned, host[0] ? host.data() : "-");
-    // The content is only informative; on a full disk it is left out.
+    // The content is only for messages, so errors, such as a full disk, are ignored.
     if (::ftruncate(file_, 0) == 0) [[maybe_unused]]
         const auto written = ::pwrite(file_, text.data(), text.size(), 0);
 }
@@ -116,11 +118,11 @@ std::optional<WriterLock::Writer> WriterLock::holder(const std::string& results)
     const int file = ::open(lock_path(results).c_str(), O_RDONLY | O_CLOEXEC | O_NOFOLLOW | O_NONBLOCK);
     if (file < 0) return {};
     auto lock_range = whole_file_lock(F_RDLCK);
-    const bool free = ::fcntl(file, F_OFD_GETLK, &lock_range) == 0 && lock_range.l_type == F_UNLCK;
+    const bool is_free = ::fcntl(file, F_OFD_GETLK, &lock_range) == 0 && lock_range.l_type == F_UNLCK;
     std::array<char, 512> text = {};
     const auto size = ::read(file, text.data(), text.size() - 1);
     ::close(file);
-    if (free) return {};
+    if (is_free) return {};
     Writer out;
     if (size > 0) std::istringstream(text.data()) >> out.process >> out.since >> out.finished >> out.planned >> out.host;
     return out;
