@@ -1,5 +1,7 @@
-// The fraction of the published ranges of current, supply and temperature that the bias generator covers, by a criterion fixed in advance.
-// It also gives the reasons for the limits, and the effect of thresholds lower than the process card's.
+// The fraction of the published ranges of current, supply and temperature that the bias generator covers, by a criterion fixed in advance
+// (bias_sweep.hpp). It also gives the reasons for the limits, and the effect of thresholds lower than the process card's.
+// Symbols. V_BN and V_BP are the body voltages that the generator sets, V_REF is half the supply, V_Q and I_Q are voltage and current of
+// the replica, an inverter with its output tied to its input.
 
 #include <fmt/format.h>
 #include <cmath>
@@ -12,19 +14,20 @@ namespace corpuscle::studies::bias_valid {
 
 using Range = BiasSweep::Range;
 
-/// A published range; fractions of a current range are in decades.
+/// A published working range. The covered fraction of a range of currents is computed from their logarithms.
 struct PublishedRange {
     BiasAxis axis;
     const char *name, *unit, *sweep;  ///< sweep: from, to, step
-    double typical[2], corners[2];
+    double typical[2], corners[2];    ///< from and to, in the typical corner and over all corners; NaN: not published
 };
 constexpr PublishedRange published_ranges[] = {
     {BiasAxis::current, "I_BIAS", "A", "5n 4u 1n", {100e-9, 2e-6}, {100e-9, 700e-9}},
     {BiasAxis::supply, "V_DD", "V", "0.4 1 2m", {0.55, 0.8}, {0.65, 0.75}},
     {BiasAxis::temperature, "temperature", "C", "-100 150 5", {-55, 95}, {Claim::none, Claim::none}},
 };
-constexpr double threshold_shift = 35e-3;  // V: the threshold shift that is tried
+constexpr double threshold_shift = 35e-3;  // V: how much all thresholds are lowered in claim_lower_thresholds
 
+/// Percentage of the published `range` of p that our range r covers.
 double covered_percent(const PublishedRange& p, const Range& r, const double (&range)[2]) {
     if (p.axis != BiasAxis::current) return 100 * r.covered_fraction(range[0], range[1]);
     return 100 * Range{std::log(r.from), std::log(r.to), false, false}.covered_fraction(std::log(range[0]), std::log(range[1]));
@@ -39,8 +42,8 @@ std::string range_text(const PublishedRange& p, const Range& r) {
     return fmt::format("{} to {}", text(r.from), text(r.to));
 }
 
-/// Adds the covered fraction of a published range, and the reasons for both ends of our range. `low` and `high` are the sweeps of the
-/// corners that set the two ends.
+/// Adds the percentage of the published `range` of p that our range r covers, and the reason for each end of r that lies within `range`.
+/// `low` and `high` are the sweeps of the corners that limit r at its lower and its upper end.
 Result<void> claim_coverage(StudyResult& out, const std::string& prefix, const PublishedRange& p, const Range& r, const BiasSweep& low,
                             const BiasSweep& high, const double (&range)[2]) {
     auto& c = out.claim(fmt::format("{}: covered fraction of the published {}{}", prefix, p.name,
@@ -53,7 +56,7 @@ Result<void> claim_coverage(StudyResult& out, const std::string& prefix, const P
         if (below ? end <= published_end : end >= published_end) continue;
         const auto why = explain_range_end(below ? low : high, end, false);
         if (!why) return why.error();
-        note += fmt::format("; {}: {}", below ? "below" : "above", *why);
+        note += fmt::format("; at its {} end: {}", below ? "lower" : "upper", *why);
     }
     c.explain(note);
     return {};
@@ -69,6 +72,7 @@ Result<void> claim_axis(StudyResult& out, const PublishedRange& p) {
     }
     if (auto ok = claim_coverage(out, "typical", p, working_ranges[0], sweeps[0], sweeps[0], p.typical); !ok) return ok;
     const auto all = range_intersection(range_intersection(working_ranges[0], working_ranges[1]), working_ranges[2]);
+    // index in sweeps of the corner that limits the intersection at its lower or its upper end
     const auto limiting_corner = [&](bool low) {
         for (std::size_t k = 0; k < 3; ++k)
             if ((low ? working_ranges[k].from : working_ranges[k].to) == (low ? all.from : all.to)) return k;
@@ -76,7 +80,7 @@ Result<void> claim_axis(StudyResult& out, const PublishedRange& p) {
     };
     if (!std::isnan(p.corners[0]))
         return claim_coverage(out, "all corners", p, all, sweeps[limiting_corner(true)], sweeps[limiting_corner(false)], p.corners);
-    out.claim_true("FF is the first corner to leave the published temperature range", limiting_corner(false) == 2,
+    out.claim_true("FF is the first corner to stop working as the temperature rises", limiting_corner(false) == 2,
                    "thesis E.2: \"in special for the FF corner\"");
     return claim_coverage(out, "FF", p, working_ranges[2], sweeps[2], sweeps[2], p.typical);
 }
@@ -90,20 +94,22 @@ Result<void> claim_causes(StudyResult& out) {
                high = simulate_bias_state({bias_setting(BiasAxis::current, r.to)}), state_at_2_uA = simulate_bias_state({"i_bias=2u"});
     for (const auto* state : {&low, &high, &state_at_2_uA})
         if (!*state) return state->error();
-    out.claim_true("at the lower end M4A is in the linear region and the bulk current is below a thousandth of I_BIAS",
-                   low->V_M4A < low->V_sat_M4A && low->bulk_current < 1e-3 * low->I_BIAS,
-                   "thesis E.2: below, these transistors operate in the linear region");
-    out.claim_true("at the upper end M3B is in the linear region", high->V_M3B < high->V_sat_M3B, "thesis E.2: as above");
-    out.claim("at the upper end: bulk junction current over I_BIAS", 100 * high->bulk_current / high->I_BIAS, "%");
-    out.claim("at 2 uA: bulk junction current over I_BIAS", 100 * state_at_2_uA->bulk_current / state_at_2_uA->I_BIAS, "%");
-    out.claim("V_BN at 2 uA", state_at_2_uA->V_BN, "V").published_as(0.6, "thesis E.2: up to 600 mV");
-    out.claim("I_Q at 2 uA", state_at_2_uA->I_Q, "A")
-        .derived_as(2e-6, "thesis E.2: I_Q = I_BIAS up to there")
+    out.claim_true(
+        "at the lower end of the range of I_BIAS M4A is in the linear region and the bulk current is below a thousandth of I_BIAS",
+        low->V_M4A < low->V_sat_M4A && low->bulk_current < 1e-3 * low->I_BIAS,
+        "thesis E.2: for currents below the range these transistors operate in the linear region");
+    out.claim_true("at the upper end of the range of I_BIAS M3B is in the linear region", high->V_M3B < high->V_sat_M3B,
+                   "thesis E.2: the same statement, for currents above the range");
+    out.claim("at the upper end of the range of I_BIAS: bulk junction current over I_BIAS", 100 * high->bulk_current / high->I_BIAS, "%");
+    out.claim("at I_BIAS = 2 uA: bulk junction current over I_BIAS", 100 * state_at_2_uA->bulk_current / state_at_2_uA->I_BIAS, "%");
+    out.claim("V_BN at I_BIAS = 2 uA", state_at_2_uA->V_BN, "V").published_as(0.6, "thesis E.2: up to 600 mV");
+    out.claim("I_Q at I_BIAS = 2 uA", state_at_2_uA->I_Q, "A")
+        .derived_as(2e-6, "thesis E.2: I_Q = I_BIAS up to 2 uA")
         .explain(state_at_2_uA->description());
     return {};
 }
 
-/// Bulk current over I_BIAS, and both drain-source voltages.
+/// Plots the bulk junction current, and the drain-source voltages of M4A and M3B, over I_BIAS.
 Result<void> add_plots(StudyResult& out) {
     auto found = run_study_netlist({"bias", {}, ".dc ibias 50n 3u 10n\n.save i(m3b) i(m4a)"});
     if (!found) return found.error();
@@ -128,7 +134,7 @@ Result<void> add_plots(StudyResult& out) {
     return {};
 }
 
-/// With all thresholds lower by the shift the working ranges are the published ones, but the current without biasing is not.
+/// With all thresholds lower by threshold_shift, the working ranges are the published ones, but I_Q of the inverter without biasing is not.
 Result<void> claim_lower_thresholds(StudyResult& out) {
     const std::vector<std::string> shift = {fmt::format("vtn_shift={}", -threshold_shift), fmt::format("vtp_shift={}", -threshold_shift)};
     const auto prefix = fmt::format("thresholds {:g} mV lower", 1e3 * threshold_shift);
@@ -168,7 +174,8 @@ Result<StudyResult> compute(const StudyOptions& options) {
     if (auto ok = add_plots(out); !ok) return ok.error();
     out.note(
         "Criterion: V_Q within 5 mV of half the supply and I_Q within a tenth of I_BIAS; fixed in advance, as the thesis gives none. The "
-        "corners are three standard deviations of the process spread in tables 17 and 18 without biasing: 40 mV and 9 %.");
+        "corners are three standard deviations of the process spread in tables 17 and 18 without biasing: thresholds 40 mV and specific "
+        "currents 9 % higher or lower.");
     out.note("A saturated transistor has more than phi_t (sqrt(1 + i_f) + 3) between drain and source. M3B has V_DD - V_BN, M4A has V_BN.");
     return out;
 }

@@ -1,4 +1,6 @@
 // Statements of section 4.4 on the oscillator: its switching delay, its leak near the supply, its window under body bias.
+// Symbols. V_H and V_L are the input voltages at which the trigger switches. The membrane voltage u falls from the supply to V_L, where a
+// spike occurs, and is then charged to V_H.
 
 #include <fmt/format.h>
 #include <algorithm>
@@ -14,22 +16,24 @@ constexpr auto source = "thesis 4.4";
 
 /// Overshoot of the membrane voltage beyond the trigger's window at several currents, and the switching delay that it implies.
 Result<void> report_delay(const Hysteresis& t, StudyResult& out) {
-    StudyCurve below, above;
+    StudyCurve below, above;  // mV over the current in pA: undershoot below V_L, overshoot above V_H
     double delay = 0, overshoot = 0;
     for (const double I : {20e-12, 100e-12, 300e-12, 600e-12, 850e-12}) {
+        // long enough for several spikes
         const auto found = simulate_oscillator({.current = I, .stop_time = 20e-3 + 2.25e-12 * 2 / I, .has_high_threshold_switches = true});
         if (!found) return found.error();
         const auto u = found->curve("tran", "v(u)").between(found->number("first_spike") - 1e-3, 1);
         below.x.push_back(1e12 * I), below.y.push_back(1e3 * (t.V_L - u.min()));
         const auto filled = u.between(found->number("first_spike") + 50e-6, 1);
         above.x.push_back(1e12 * I), above.y.push_back(1e3 * (filled.max() - t.V_H));
-        if (I > 20e-12) continue;
+        if (I > 20e-12) continue;  // the claims are on 20 pA
+        // after the spike the membrane is charged, so it rises through 0.35 V
         const double speed = u.slope_at(filled.crossing(0.35));
         overshoot = filled.max() - t.V_H, delay = overshoot / speed;
     }
     out.claim("at 20 pA: overshoot of the charged membrane beyond V_H", overshoot, "V");
-    out.claim("at 20 pA: overshoot over the window", 100 * overshoot / (t.V_H - t.V_L), "%");
-    out.claim("at 20 pA: delay of the trigger from this overshoot", delay, "s");
+    out.claim("at 20 pA: overshoot over the window V_H - V_L", 100 * overshoot / (t.V_H - t.V_L), "%");
+    out.claim("at 20 pA: delay of the trigger that causes this overshoot", delay, "s");
     out.claim_true("switching takes time, so the swing is not exactly the window: at 20 pA more than 1 mV beyond V_H", overshoot > 1e-3,
                    source);
     out.claim_true("the faster the membrane falls, the larger the undershoot below V_L", std::is_sorted(below.y.begin(), below.y.end()),
@@ -39,7 +43,8 @@ Result<void> report_delay(const Hysteresis& t, StudyResult& out) {
     return {};
 }
 
-/// The current that pulls the membrane up, over the membrane voltage, in the state in which the trigger waits for it to fall.
+/// The leak current, which pulls the membrane up, over the membrane voltage. Until the next spike it is the only current besides the
+/// input's, if the switches do not leak.
 Result<void> report_leak(StudyResult& out) {
     const auto found = run_study_netlist({R"(The leak over the membrane voltage, without switches, for 2 and for 200 pA
 .lib '../process/tsmc180.lib' tt
@@ -62,28 +67,29 @@ voff off 0 0.35
     const double middle = leak.at(0.35), off = found->curve("dc", "i(voff)").absolute().at(0.35);
     out.claim("pull-up current for I_LEAK 2 pA, at 350 mV", middle, "A")
         .published_as(O::I_LEAK, "thesis 4.4, fig. 39")
-        .explain(fmt::format("M1A and M1B carry {:.2f} pA at V_GS = 0. As a diode of 2 pA, M1A is therefore within three thermal voltages "
-                             "of the supply and not saturated, while M1B is saturated",
+        .explain(fmt::format("transistors of the size of M1A and M1B carry {:.2f} pA at V_GS = 0. As a diode of 2 pA, M1A is therefore "
+                             "within three thermal voltages of the supply and not saturated, while M1B is saturated",
                              1e12 * off));
-    out.claim("pull-up current for I_LEAK 200 pA, at 350 mV", larger_leak.at(0.35), "A").derived_as(200e-12, "1:1, table 9");
+    out.claim("pull-up current for I_LEAK 200 pA, at 350 mV", larger_leak.at(0.35), "A")
+        .derived_as(200e-12, "table 9: the mirror is 1 to 1");
     const auto remainder = [&](const StudyCurve& line, double below) { return 100 * line.at(0.7 - below) / line.at(0.35); };
     for (const double below : {100e-3, 50e-3, 25e-3, 10e-3})
-        out.claim(fmt::format("remainder of the leak {:.0f} mV below the supply", 1e3 * below), remainder(leak, below), "%");
+        out.claim(fmt::format("leak {:.0f} mV below the supply over that at 350 mV", 1e3 * below), remainder(leak, below), "%");
     const double g = leak.at(0.7 - 10e-3) / 10e-3;
     out.claim_true("100 mV below the supply the leak is within a tenth of its value at 350 mV, 25 mV below the supply it is not",
                    std::abs(remainder(leak, 100e-3) - 100) < 10 && std::abs(remainder(leak, 25e-3) - 100) > 10, source);
     out.claim("resistance of the leak close to the supply", 1 / g, "ohm");
     const double linearity = leak.at(0.7 - 5e-3) / 5e-3 / g;
-    out.claim("change of its conductance between 5 and 10 mV below the supply", 100 * std::abs(linearity - 1), "%")
-        .allow_max(20, "thesis 4.4: it behaves as a resistor; a fifth is our choice");
+    out.claim("change of the leak's conductance between 5 and 10 mV below the supply", 100 * std::abs(linearity - 1), "%")
+        .allow_max(20, "thesis 4.4: the leak behaves as a resistor; a fifth is our choice");
     out.plot("The leak as the membrane nears the supply", "u (V)", "pA")
         .describe_published("constant, then resistive")
         .add("I_LEAK 2 pA", leak.scaled(1, 1e12));
     return {};
 }
 
-/// The trigger with separate bulk nodes: N bulks above VSS and P bulks below VDD by the same voltage. The devices in feedback have
-/// their own bulk nodes.
+/// The trigger with separate bulk nodes: N bulks are above VSS and P bulks below VDD by the voltage `all`; for the devices in feedback, M3B
+/// and M4B, by `all` plus `feedback`.
 constexpr auto netlist = R"(The trigger's window under forward body bias
 .lib '../process/tsmc180.lib' tt
 .param all=0 feedback=0
@@ -113,7 +119,8 @@ Result<void> report_body_bias(const Hysteresis& t, StudyResult& out) {
             high.x.push_back(bias), high.y.push_back(h.V_H), low.x.push_back(bias), low.y.push_back(h.V_L);
         }
         const double window = 100 * ((high.y.back() - low.y.back()) / (t.V_H - t.V_L) - 1);
-        out.claim(fmt::format("forward body bias of 370 mV, as in the transconductors, on {}: change of the window", name), window, "%");
+        out.claim(fmt::format("forward body bias of 370 mV, as in the transconductors, on {}: change of the window V_H - V_L", name),
+                  window, "%");
         out.claim(fmt::format("change of V_H, body bias on {}", name), high.y.back() - t.V_H, "V"),
             out.claim(fmt::format("change of V_L, body bias on {}", name), low.y.back() - t.V_L, "V");
         if (name == std::string_view("the feedback devices"))

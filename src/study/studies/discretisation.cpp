@@ -10,12 +10,14 @@
 
 namespace corpuscle::studies::discretisation {
 
-constexpr double steps[] = {1e-3, 1e-4, 1e-5}, fine = 1e-5;  // s
+constexpr double steps[] = {1e-3, 1e-4, 1e-5}, fine = 1e-5;  // s; the exact solution is sampled at `fine`
 constexpr const char* tenfold = "thesis 3.2: Euler's backward method, of first order: a tenth of the step gives a tenth of the error";
-/// theta and u_rst, V: fig. 16's, our choice, and a third pair (errata B10a).
+/// Threshold theta and reset voltage u_rst, V: those of fig. 16, our choice, and a third pair. The thesis gives none for SA-I and FA-I
+/// (errata B10a).
 constexpr std::pair<double, double> threshold_pairs[] = {{1, 0.5}, {0.5, 0.25}, {0.2, 0}};
 
-/// Largest difference of a coarse trace from the exact one, at the samples of the coarse one, over the largest exact value.
+/// Largest difference of a coarse trace from the exact one (sampled at `fine`), at the samples of the coarse trace, over the largest
+/// absolute value of the exact one.
 double relative_error(const StudyCurve& rough, const StudyCurve& exact) {
     const auto stride = static_cast<std::size_t>(std::lround((rough.x[1] - rough.x[0]) / fine));
     double largest = 0;
@@ -23,7 +25,7 @@ double relative_error(const StudyCurve& rough, const StudyCurve& exact) {
     return largest / exact.absolute().max();
 }
 
-/// Largest time difference of two trains of equal count; NaN if the counts differ.
+/// Largest time difference (s) between the spikes of two trains, k-th against k-th; NaN if the trains have different numbers of spikes.
 double largest_time_difference(const std::vector<double>& a, const std::vector<double>& b) {
     if (a.size() != b.size()) return Claim::none;
     double out = 0;
@@ -32,21 +34,22 @@ double largest_time_difference(const std::vector<double>& a, const std::vector<d
 }
 
 Result<TrialResult> simulate_at_step(const char* afferent, double T, bool exact, const std::pair<double, double>& thresholds,
-                                     std::vector<std::string> traces = {}) {
+                                     std::vector<std::string> probes = {}) {
     return run_trial(
         {.afferent = afferent,
          .settings = {fmt::format("{}.V_th={}", afferent, thresholds.first), fmt::format("{}.V_reset={}", afferent, thresholds.second)},
          .rate = 1 / T,
-         .probes = std::move(traces),
+         .probes = std::move(probes),
          .method = exact ? Method::exact : Method::backward_euler,
          .sampled = !exact});
 }
 
+/// `errors` at the three steps, in `unit`.
 void add_claims(StudyResult& out, StudyPlot& plot, const std::string& quantity, const double (&errors)[3], const char* unit) {
     StudyCurve line;
     for (int k = 0; k < 3; ++k) {
         auto& c = out.claim(fmt::format("{}, T = {} ms", quantity, 1e3 * steps[k]), errors[k], unit);
-        if (std::isnan(errors[k])) c.explain("the numbers of spikes differ");
+        if (std::isnan(errors[k])) c.explain("this step gives another number of spikes than the exact solution");
         line.x.push_back(1e3 * steps[k]), line.y.push_back(unit == std::string_view("s") ? errors[k] * 1e3 : errors[k]);
     }
     out.claim(quantity + ": error at 1 ms over error at 0.1 ms", errors[0] / errors[1])
@@ -56,15 +59,15 @@ void add_claims(StudyResult& out, StudyPlot& plot, const std::string& quantity, 
     plot.add(quantity, line);
 }
 
-/// One recorded current at three steps.
-Result<void> report_current(StudyResult& out, StudyPlot& plot, const char* afferent, const char* trace, const std::string& quantity) {
-    const auto exact = simulate_at_step(afferent, fine, true, threshold_pairs[1], {trace});
+/// Error of one recorded current at the three steps.
+Result<void> report_current(StudyResult& out, StudyPlot& plot, const char* afferent, const char* probe, const std::string& quantity) {
+    const auto exact = simulate_at_step(afferent, fine, true, threshold_pairs[1], {probe});
     if (!exact) return exact.error();
     double errors[3];
     for (int k = 0; k < 3; ++k) {
-        const auto rough = simulate_at_step(afferent, steps[k], false, threshold_pairs[1], {trace});
+        const auto rough = simulate_at_step(afferent, steps[k], false, threshold_pairs[1], {probe});
         if (!rough) return rough.error();
-        errors[k] = 100 * relative_error(rough->probes.at(trace), exact->probes.at(trace));
+        errors[k] = 100 * relative_error(rough->probes.at(probe), exact->probes.at(probe));
     }
     add_claims(out, plot, quantity, errors, "%");
     return {};
@@ -79,8 +82,8 @@ Result<void> report_spikes(StudyResult& out, StudyPlot& plot, const char* affere
         for (int k = 0; k < 3; ++k) {
             const auto rough = simulate_at_step(afferent, steps[k], false, thresholds);
             if (!rough) return rough.error();
-            const double w = largest_time_difference(rough->spikes, exact->spikes);
-            errors[k] = std::isnan(w) || std::isnan(errors[k]) ? Claim::none : std::max(errors[k], w);
+            const double difference = largest_time_difference(rough->spikes, exact->spikes);
+            errors[k] = std::isnan(difference) || std::isnan(errors[k]) ? Claim::none : std::max(errors[k], difference);
         }
     }
     add_claims(out, plot, fmt::format("{}: largest spike time error, three pairs of theta and u_rst", afferent), errors, "s");
@@ -104,7 +107,7 @@ Result<StudyResult> compute(const StudyOptions& options) {
         "FA-I's largest error is at the last spike of a decay, where the current is little above the leak, so that a small error of charge "
         "is a large error of time.");
     out.note(
-        "The numbers of spikes must be equal at all three steps; otherwise no error is defined. The exact reference is the model at 0.01 "
+        "Each step must give as many spikes as the exact solution; otherwise no error is defined. The exact reference is the model at 0.01 "
         "ms, whose error falls with the square of its step (test/model/thesis_test.cpp compares it with the closed form).");
     return out;
 }

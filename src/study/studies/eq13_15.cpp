@@ -1,4 +1,6 @@
 // Equations 13 to 15, corrected by the errata, compared with the netlists; and the error of the printed forms (errata F1, F4, F5).
+// Symbols. V_X is the sensor's voltage, which the amplifier holds at the reference V_Y. V_Z is the amplifier's output, I_F the transducer's
+// output current, G_FSR (or G) the sensor's conductance, S_n the aspect ratio of M_n.
 
 #include <fmt/format.h>
 #include <cmath>
@@ -10,7 +12,7 @@ namespace corpuscle::studies::eq13_15 {
 
 const ForceSensor sensor;
 
-/// The largest relative difference (%) between a curve over the force in gf and a formula, in the transducer's range.
+/// The largest relative difference (%) of a curve over the force (gf) from a formula of the force, from min_gf to max_gf.
 template <class Formula>
 double percent_difference(const StudyCurve& line, Formula formula) {
     double largest = 0;
@@ -19,6 +21,7 @@ double percent_difference(const StudyCurve& line, Formula formula) {
     return 100 * largest;
 }
 
+/// A curve of this netlist over the force, from 1 to 500 gf.
 Result<StudyCurve> force_sweep(const std::string& circuit, const std::string& curve) {
     const auto found = run_study_netlist({circuit, {}, ".dc vgf 1 500 1"});
     if (!found) return found.error();
@@ -28,6 +31,7 @@ Result<StudyCurve> force_sweep(const std::string& circuit, const std::string& cu
 Result<StudyResult> compute(const StudyOptions&) {
     StudyResult out;
     const auto G = [](double gf) { return sensor.conductance(gf); };
+    // Below, 0.1 V is V_Y, which V_X follows; 9.1 and 3.6 kohm are the netlist's R_F without and with a follower; G_0 is 1/R_0.
     const auto without_G0 = [](double gf) { return std::pow(gf, sensor.m) / sensor.a; };
     const auto ideal = force_sweep("force_to_voltage", "par('v(z)-v(x)')"),
                follower = force_sweep("force_to_voltage", "par('v(zb)-v(xb)')");
@@ -62,11 +66,13 @@ Result<StudyResult> compute(const StudyOptions&) {
     out.claim("eq. 15, (V_Z - V_X) / R_F over V_X, fig. 20 with a follower" + range, percent_difference(*fig20_G, G), "%")
         .allow_max(0.1, "thesis eq. 15" + bound);
     out.claim("eq. 15, I_F over V_X, fig. 21" + range, percent_difference(*fig21_G, G), "%").allow_max(0.1, "thesis eq. 15" + bound);
-    out.claim("I_F against V_Y G, 16x1" + range, percent_difference(*fig21_I_F, [&](double gf) { return 0.1 * G(gf); }), "%")
+    out.claim("fig. 21 with M_1 16x1, I_F against V_Y G" + range, percent_difference(*fig21_I_F, [&](double gf) { return 0.1 * G(gf); }),
+              "%")
         .allow_max(5, "V_X follows V_Y" + bound);
-    out.claim("I_F against V_Y G, 64x1" + range, percent_difference(*fig21_I_F_64x1, [&](double gf) { return 0.1 * G(gf); }), "%")
+    out.claim("fig. 21 with M_1 64x1, I_F against V_Y G" + range,
+              percent_difference(*fig21_I_F_64x1, [&](double gf) { return 0.1 * G(gf); }), "%")
         .allow_max(5, "V_X follows V_Y" + bound);
-    out.claim("eq. 15 and the split, I_F against V_Y G / 17, fig. 22" + range,
+    out.claim("eq. 15 and the split of the current by 17, I_F against V_Y G / 17, fig. 22" + range,
               percent_difference(*I_F, [&](double gf) { return 0.1 * G(gf) / 17; }), "%")
         .allow_max(10, "thesis 4.2" + bound);
     out.claim("V_X against V_Y, fig. 22" + range, percent_difference(*V_X, [](double) { return 0.1; }), "%")

@@ -1,4 +1,6 @@
 // Equations 1 to 12 of the thesis, corrected by the errata, compared with the catalogue's models.
+// Symbols. F is the force, F' its derivative. beta, k_s and k_d are offset, static and dynamic gain of SA-IA. theta is a neuron's
+// threshold, u_rst its reset voltage, u_rest its rest voltage.
 
 #include <fmt/format.h>
 #include <cmath>
@@ -14,7 +16,7 @@ using Complex = std::complex<double>;
 
 constexpr double K_B = 8e-6, f_B = 20;  // A/N, Hz: thesis 3.3, interpreted as in errata B10
 
-/// The largest |a - b| as a percentage of the largest |b|.
+/// The largest |a - b| as a percentage of the largest |b|; b(k) is the value at sample k of a.
 template <class At>
 double largest_difference(const StudyCurve& a, At&& b) {
     double worst = 0, largest = 0;
@@ -23,7 +25,7 @@ double largest_difference(const StudyCurve& a, At&& b) {
     return 100 * worst / largest;
 }
 
-/// (1): a ramp of 10 N/s with a constant slope.
+/// (1): under a ramp of 10 N/s. It starts at 0.25 s, so the force is 0.5 N at 0.3 s.
 Result<void> equation_1(StudyResult& out) {
     const auto response =
         run_trial({.afferent = "sa1a+lif-a", .stimulus = "ramp-hold", .settings = {"sa1a+lif-a.beta=100nA"}, .probes = {"I"}});
@@ -49,8 +51,8 @@ Result<void> equations_2_to_4(StudyResult& out) {
     return {};
 }
 
-/// The frequency of a neuron with fig. 16's parameters under a constant current. The window ends before the last sample of the step, in
-/// which the current falls.
+/// The frequency (Hz) of a neuron with fig. 16's parameters under a constant current (A), from a step of force through a receptor of 1
+/// uA/N. The window ends before the end of the step, 10 s, at which the current falls.
 Result<double> frequency(const std::string& neuron, double current, double u_rest) {
     const std::string afferent = "sa1a+" + neuron;
     const auto train = simulate_train(
@@ -66,7 +68,7 @@ Result<double> frequency(const std::string& neuron, double current, double u_res
 /// (5) to (7): frequencies under constant currents, compared with the exact solutions.
 Result<void> equations_5_to_7(StudyResult& out) {
     StudyCurve A, B, exact_A, exact_B;
-    double error_A = 0, error_B = 0, error_raised = 0;
+    double error_A = 0, error_B = 0, error_raised = 0;  // largest relative errors; raised: u_rest is 0.2 V
     for (const double I : {1.05e-6, 1.2e-6, 1.5e-6, 2e-6, 3e-6, 5e-6, 10e-6, 30e-6}) {
         const auto a = frequency("lif-a", I, 0), raised = frequency("lif-a", I, 0.2), b = frequency("lif-b", I, 0);
         for (const auto* f : {&a, &raised, &b})
@@ -84,9 +86,10 @@ Result<void> equations_5_to_7(StudyResult& out) {
     const std::string solution = "solution of (5), errata B5b";
     out.claim("(5): LIF-A's frequency against 1 / {RC ln[(R I - u_rst) / (R I - theta)]}, 1.05 to 30 uA", 100 * error_A, "%")
         .allow_max(0.1, solution);
-    out.claim("(5): the same with u_rest = 0.2 V", 100 * error_raised, "%").allow_max(0.1, solution);
+    out.claim("(5): LIF-A's frequency with u_rest = 0.2 V against the same solution with u_rest", 100 * error_raised, "%")
+        .allow_max(0.1, solution);
     out.claim("(6), (7): LIF-B's frequency against (I - I_leak0) / [C (theta - u_rst)]", 100 * error_B, "%")
-        .allow_max(0.1, "thesis 3.2: equal");
+        .allow_max(0.1, "thesis 3.2: equal to this formula");
     out.plot("Frequency under a constant current", "current (uA)", "frequency (Hz)", true, true)
         .points("LIF-A", A)
         .add("solution of (5)", exact_A)
@@ -95,8 +98,8 @@ Result<void> equations_5_to_7(StudyResult& out) {
     return {};
 }
 
-/// (8) and (9) under the press stimulus, and (10) and (11) as printed, I = alpha F' - beta I', sampled at 10 kHz.
-Result<void> equations_8_to_10(StudyResult& out) {
+/// (8) and (9) under the press stimulus, and (10) and (11) as printed, I = alpha F' - beta I', with slopes from samples at 10 kHz.
+Result<void> equations_8_to_11(StudyResult& out) {
     const auto response = run_trial({.afferent = "sa1", .probes = {"I", "I_A", "I_B", "I_C"}});
     if (!response) return response.error();
     const auto force = press::force_curve(1e-4);
@@ -115,7 +118,7 @@ Result<void> equations_8_to_10(StudyResult& out) {
         StudyCurve combination = slope_F;
         for (std::size_t k = 0; k < combination.y.size(); ++k) combination.y[k] = alpha * slope_F.y[k] - beta * slope_I.y[k];
         out.claim(fmt::format("{} against alpha F' - beta I', alpha = K / 2 pi f, beta = 1 / 2 pi f", name),
-                  largest_difference(combination, [&](std::size_t k) { return I->y[k + 1]; }), "%")
+                  largest_difference(combination, [&](std::size_t k) { return I->y[k + 1]; }), "%")  // slopes omit the first sample
             .allow_max(
                 1,
                 "thesis 3.3; a hundredth is our choice; slopes are differences over 0.1 ms, which are inexact at the corners of the force");
@@ -123,7 +126,7 @@ Result<void> equations_8_to_10(StudyResult& out) {
     return {};
 }
 
-/// Response of I_B (A/N) to a sine of force at `f` (Hz): amplitude and phase relative to the force.
+/// Response of I_B to a sine of force at `f` (Hz): the ratio of their complex amplitudes, A/N.
 Result<Complex> sine_response(double f) {
     const auto response = run_trial({.afferent = "sa1",
                                      .stimulus = "sine",
@@ -135,7 +138,7 @@ Result<Complex> sine_response(double f) {
     if (!force) return force.error();
     const auto& I = response->probes.at("I_B");
     Complex of_I = 0, of_F = 0;
-    for (std::size_t k = I.x.size() / 2; k < I.x.size(); ++k) {  // an integer number of periods in the last second
+    for (std::size_t k = I.x.size() / 2; k < I.x.size(); ++k) {  // the last of two seconds holds an integer number of periods
         const auto rotation = std::polar(1.0, -2 * M_PI * f * I.x[k]);
         of_I += I.y[k] * rotation, of_F += (force->force[k] - 2) * rotation;
     }
@@ -148,6 +151,7 @@ Result<void> equation_12(StudyResult& out, const StudyOptions& options) {
     for (const double f : {1.0, 2.0, 5.0, 10.0, 20.0, 50.0, 100.0, 200.0, 500.0}) {
         const auto H = sine_response(f);
         if (!H) return H.error();
+        // both frequencies without the factor 2 pi, which cancels
         const Complex s{0, f}, expected = K_B * s / (s + f_B);
         worst = std::max(worst, std::abs(*H - expected) / K_B);
         computed.x.push_back(f), computed.y.push_back(1e6 * std::abs(*H));
@@ -157,11 +161,11 @@ Result<void> equation_12(StudyResult& out, const StudyOptions& options) {
                 .derived_as(45, "thesis 3.3, eq. 12");
         if (auto ok = options.report_progress(0.5 + f / 1100); !ok) return ok.error();
     }
-    out.claim("(12): I_B / F under sines of 1 to 500 Hz against K s / (s + 2 pi f), largest difference over K", 100 * worst, "%")
-        .allow_max(1, "thesis 3.3, eq. 12; a hundredth is our choice, at 20 samples a period");
+    out.claim("(12): I_B / F under sines of 1 to 500 Hz against K s / (s + 2 pi f), largest difference, relative to K", 100 * worst, "%")
+        .allow_max(1, "thesis 3.3, eq. 12; a hundredth is our choice, at 20 samples per period (500 Hz)");
     out.claim("(12): gain at 500 Hz", computed.y.back() * 1e-6, "A/N").derived_as(K_B, "thesis 3.3: limited above the corner");
     out.claim("(12): gain at 2 Hz over that at 1 Hz", computed.at(2) / computed.at(1))
-        .derived_as(2, "thesis 3.3: far below it a differentiator");
+        .derived_as(2, "thesis 3.3: far below the corner a differentiator");
     const double T = 1e-3, beta = 1 / (2 * M_PI * f_B);
     out.claim("k_x2 = 1 / (1 + 2 pi f T), from alpha and beta: beta / (T + beta)", beta / (T + beta))
         .derived_as(algorithms::k2(f_B, T), "thesis 3.3; B9a");
@@ -178,10 +182,10 @@ Result<StudyResult> compute(const StudyOptions& options) {
     if (auto ok = equation_1(out); !ok) return ok.error();
     if (auto ok = equations_2_to_4(out); !ok) return ok.error();
     if (auto ok = equations_5_to_7(out); !ok) return ok.error();
-    if (auto ok = equations_8_to_10(out); !ok) return ok.error();
+    if (auto ok = equations_8_to_11(out); !ok) return ok.error();
     if (auto ok = options.report_progress(0.5); !ok) return ok.error();
     if (auto ok = equation_12(out, options); !ok) return ok.error();
-    out.note("alpha_C1 in (11) is alpha_C (B9). The studies errata-models and errata-neurons run the printed forms that do not hold.");
+    out.note("alpha_C1 in (11) is alpha_C (B9). The studies errata-models and errata-neurons simulate the printed forms that are wrong.");
     return out;
 }
 

@@ -19,9 +19,11 @@ struct SubArray {
     std::string text() const { return fmt::format("{}x{}", m, n); }
 };
 constexpr SubArray rectangles[] = {{1, 2}, {1, 4}, {2, 2}, {4, 1}, {1, 8}, {2, 8}, {16, 1}};
-/// Sub-array at the source, sub-array at the drain: G2 and G3 of table 13, the op amp's (errata U19), the splitting mirror's.
+/// Pairs of the sub-array at the source and the one at the drain: G2 and G3 of table 13, the amplifier's (errata U19), the splitting
+/// mirror's.
 constexpr std::pair<SubArray, SubArray> trapezoids[] = {{{1, 4}, {4, 1}}, {{1, 1}, {7, 1}}, {{4, 4}, {16, 1}}, {{2, 4}, {8, 1}}};
-/// The array's current over S_eq times the current of array A, from tables 11 and 14; NaN if the tables do not have it.
+/// The published current of this array over S (its S_eq) times that of array A, a single unit transistor; from tables 11 and 14. NaN if the
+/// array is not in the tables. `name` is as in Array.
 double published_ratio(const std::string& name, double S) {
     constexpr std::pair<const char*, const char*> rows[] = {{"1x4", "B2"}, {"2x2", "C2"},           {"4x1", "D2"},
                                                             {"1x8", "G1"}, {"1x4 under 4x1", "G2"}, {"1x1 under 7x1", "G3"}};
@@ -33,7 +35,8 @@ double published_ratio(const std::string& name, double S) {
 
 constexpr double W = 0.42, L = 0.18;  // um: the unit transistor of tables 10 and 13
 
-/// The array's current over that of one transistor of aspect ratio S_eq, at several bias points.
+/// The current of an array (netlist lines) over that of one transistor of aspect ratio S, at the bias points of the .step lines `steps`; at
+/// V_G = V_D = 0.5 V if there are none.
 Result<std::vector<double>> ratios(std::string_view card, const std::string& model, const std::string& array, double S,
                                    const std::string& steps) {
     const auto all = run_study_variants(
@@ -47,11 +50,12 @@ Result<std::vector<double>> ratios(std::string_view card, const std::string& mod
     return out;
 }
 
+/// An array of the study: rectangular, or two rectangular ones in series.
 struct Array {
     std::string name, equation;
-    double S;
-    std::string (*text)(const Array&, const std::string& rest);
-    SubArray low, high;  ///< at the source and at the drain
+    double S;                                                    ///< S_eq by the equation
+    std::string (*text)(const Array&, const std::string& rest);  ///< its netlist lines; rest: as in array_lines
+    SubArray low, high;                                          ///< at the source and at the drain; a rectangle uses only `low`
 };
 
 std::string rectangle(const Array& a, const std::string& rest) { return array_lines("a", "d", "g", "0", a.low.m, a.low.n, rest); }

@@ -15,6 +15,7 @@ constexpr int sizes[] = {4, 8, 16};
 
 constexpr double unit_length = 0.5e-6;  // m
 
+/// V_E (V/m) of the model nch: Early voltage over channel length.
 double V_E_of(const circuit::Circuit& circuit) {
     for (const auto& m : circuit.models)
         if (m.name == "nch") return m.values.at("ve");
@@ -26,7 +27,7 @@ std::string common_lines(std::string_view card, double current) {
     return fmt::format("mirror\n{}iin 0 in {:g}\nvdd vdd 0 {:g}\nvout out 0 {:g}\n", card, current, supply, V_out);
 }
 
-/// M_A is n unit transistors in parallel, M_B n in series.
+/// A parallel-series mirror: M_A, the input, is n unit transistors in parallel; M_B, the output, is n in series. `current` is I_in (A).
 Result<NetlistResult> simulate_parallel_series(std::string_view card, const std::string& model, int n, double current = I_in) {
     const auto unit = unit_transistor(model);
     return run_study_netlist(
@@ -35,10 +36,11 @@ Result<NetlistResult> simulate_parallel_series(std::string_view card, const std:
          ".op\n.tf i(vout) vout"});
 }
 
-/// M_A and M_C are n in parallel, M_B and M_D n in series. The currents of M_C and M_D are those of vdd and vout.
+/// Drain currents (A) of M_B, M_C and M_D in a current-splitting mirror; the thesis writes I_DB, I_DC and I_DD.
 struct SplitCurrents {
     double I_B, I_C, I_out;
 };
+/// M_A and M_C are n unit transistors in parallel, M_B and M_D n in series. The currents of M_C and M_D are those of vdd and vout.
 Result<SplitCurrents> simulate_split(std::string_view card, const std::string& model, int n) {
     const auto unit = unit_transistor(model);
     const auto found =
@@ -78,7 +80,7 @@ Result<void> add_parallel_series(StudyResult& out) {
 
 Result<void> add_split(StudyResult& out) {
     StudyPlot plot{"Attenuation of a current-splitting mirror over N", "N", "I_in/I_out over N^4", {}};
-    StudyCurve by_40, exact, simple_line, process_line;
+    StudyCurve by_40, exact, simple_line, process_line;  // over N^4
     for (const int n : sizes) {
         const auto simple = simulate_split(simple_card, "plain", n), with_process_card = simulate_split(process_card, "nch", n);
         if (!simple || !with_process_card) return simple ? with_process_card.error() : simple.error();
@@ -104,7 +106,8 @@ Result<void> add_split(StudyResult& out) {
         by_40.x.push_back(n), by_40.y.push_back(1), exact.x.push_back(n), exact.y.push_back(by_38_39 / (N2 * N2));
         simple_line.x.push_back(n), simple_line.y.push_back(I_in / simple->I_out / (N2 * N2)), process_line.x.push_back(n),
             process_line.y.push_back(I_in / with_process_card->I_out / (N2 * N2));
-        const double units = 4.0 * n, of_parallel_series = 2.0 * n * n;  // of the same attenuation: N^2 in parallel and in series
+        // for an attenuation of N^4 a parallel-series mirror needs N^2 in parallel and N^2 in series
+        const double units = 4.0 * n, of_parallel_series = 2.0 * n * n;
         auto& count_claim = out.claim(fmt::format("number of unit transistors of a current-splitting mirror over that of a parallel-series "
                                                   "mirror of the same attenuation, N = {}",
                                                   n),
@@ -120,7 +123,7 @@ Result<void> add_split(StudyResult& out) {
     return {};
 }
 
-/// (35) as corrected: at V_out = V_in the mirror is exact, so the difference of the voltages counts.
+/// (35) as corrected, for a 1 to 1 mirror (A_I = 1): at V_out = V_in the mirror is exact, so G_o multiplies V_out - V_in, not V_out.
 Result<void> add_output(StudyResult& out) {
     const auto found = run_study_netlist(
         {fmt::format("mirror\n{}iin 0 in {:g}\nma in in 0 0 nch w=1.5u l=0.5u\nmb out in 0 0 nch w=1.5u l=0.5u\nvout out 0 0.35\n",
@@ -134,7 +137,8 @@ Result<void> add_output(StudyResult& out) {
     out.claim("1 to 1: I_out at 0.65 V from A_I I_in + G_o (V_out - V_in), over that of the simulated mirror",
               (I_in + G_o * (at - V_in)) / I.at(at))
         .derived_as(1, "eq. 35 as corrected by errata C2");
-    out.claim("1 to 1: the same from A_I I_in + G_o V_out", (I_in + G_o * at) / I.at(at)).derived_as(1, "thesis eq. 35");
+    out.claim("1 to 1: I_out at 0.65 V from A_I I_in + G_o V_out, over that of the simulated mirror", (I_in + G_o * at) / I.at(at))
+        .derived_as(1, "thesis eq. 35");
     out.claim_true("eq. 35 as corrected is closer",
                    std::abs((I_in + G_o * (at - V_in)) - I.at(at)) < std::abs((I_in + G_o * at) - I.at(at)), "errata C2");
     return {};

@@ -11,10 +11,10 @@
 
 namespace corpuscle::studies::eq42_44 {
 
-constexpr double W_by_L = 3;  // of 1.5/0.5 um
+constexpr double W_by_L = 3;  // of a unit transistor of 1.5/0.5 um
 const double phi_t = circuit::thermal_voltage(300.15);
 
-/// (42), for a drain at 0.6 V: its relative error is of the order of i_f, so it holds in weak inversion only.
+/// (42) in saturation (V_D = 0.6 V). Its relative error is of the order of the inversion level i_f, so it holds in weak inversion only.
 Result<void> add_42(StudyResult& out) {
     const auto found = run_study_variants(
         {fmt::format("weak\n{}vd d 0 0.6\nvg g 0 {{vg}}\nvb b 0 {{vb}}\nm1 d g 0 b plain w=1.5u l=0.5u\n.param vg=0.2 vb=0\n", simple_card),
@@ -35,13 +35,13 @@ Result<void> add_42(StudyResult& out) {
     }
     out.claim("(42): largest error against the complete equations where i_f < 0.01", 100 * worst, "%")
         .allow_max(1, "thesis eq. 42, its factor 2 e (errata I1); i_f << 1");
-    out.claim("(42) without the factor 2, as printed in (45a) and (45b): largest error", 100 * worst_without_2, "%")
+    out.claim("(42) without the factor 2, as printed in (45a) and (45b): largest error where i_f < 0.01", 100 * worst_without_2, "%")
         .allow_range(49, 51, "errata I1: a factor of two");
     out.plots.push_back(plot.add("eq. 42", weak).add("complete equations", complete));
     return {};
 }
 
-/// The junction from bulk to source, with both junction areas of the process card.
+/// The bulk-source junction with the process card's saturation currents (area and sidewall). n_dio is its emission coefficient.
 Result<void> add_43(StudyResult& out) {
     const auto found =
         run_study_netlist({fmt::format("junction\n{}vd d 0 0.9\nvb b 0 0\nm1 d 0 0 b nch w=1.5u l=0.5u\n.options gmin=0\n", process_card),
@@ -63,7 +63,8 @@ Result<void> add_43(StudyResult& out) {
     return {};
 }
 
-/// At equal current in weak inversion V_X = n V_Y: exact in the simple model, because the exponents are equal.
+/// (44): the voltage V_X of a diode-connected transistor with a grounded bulk, and V_Y of one with its bulk at its gate. At equal currents
+/// in weak inversion V_X = n V_Y: exact in the simple model, because the exponents are equal.
 Result<void> add_44(StudyResult& out) {
     const auto found = run_study_netlist(
         {fmt::format("diodes\n{}ix 0 x 1n\niy 0 y 1n\nmx x x 0 0 plain w=1.5u l=0.5u\nmy y y 0 y plain w=1.5u l=0.5u\n", simple_card),
@@ -74,7 +75,7 @@ Result<void> add_44(StudyResult& out) {
     out.claim("(44): V_X/V_Y at 1 nA, equations only", V_X / V_Y).derived_as(simple_n, "thesis eq. 44");
     out.claim("(44): i_fX/i_fY at 1 nA", found->operating_info("mx", "i_f") / found->operating_info("my", "i_f"))
         .derived_as(1, "thesis app. D: about the same");
-    out.claim_true("the second diode's voltage is V_Y, the lower one", V_Y < V_X, "errata C8");
+    out.claim_true("the voltage of the body-biased diode is V_Y, the lower one", V_Y < V_X, "errata C8");
     return {};
 }
 

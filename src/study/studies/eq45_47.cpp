@@ -1,5 +1,7 @@
-// Equations 45 to 47, corrected by the errata, compared with the simulated circuits; where an erratum matters the printed form is compared
-// as well.
+// Equations 45 to 47, corrected by the errata, compared with the simulated circuits. Equations with a misprint are also compared
+// as printed.
+// Symbols. V_Q and I_Q are voltage and current of an inverter with its output tied to its input, V_Q0 is V_Q with the bulks at the output.
+// G_m, G_o and G_mb are the slopes of the output current over input, output and bulk voltage. A_V is G_m / G_o.
 
 #include <fmt/format.h>
 #include <cmath>
@@ -12,9 +14,10 @@ namespace corpuscle::studies::eq45_47 {
 
 constexpr double phi_t = 1.380649e-23 * 300.15 / 1.602176634e-19, e = 2.718281828459045;  // V at 27 C
 constexpr double low = 0.4;        // V: a supply at which all transistors are in weak inversion
-constexpr double saturated = 0.6;  // V: a supply at which they almost are, and at which the drains are saturated, as eq. 46 needs
+constexpr double saturated = 0.6;  // V: a supply at which they are almost in weak inversion, and saturated, as eq. 46 needs
 
-// An array and a unit transistor, and inverters of 2x8 arrays: with the output tied to the input, held at v_q, and open.
+// An array and a unit transistor; and inverters of 2x8 arrays, with the output tied to the input, held at v_q, or open. `low` is the
+// supply, `stronger` a factor on the PMOS current of one inverter.
 constexpr const char* circuit = R"(Arrays and inverters in weak inversion
 .lib '../process/tsmc180.lib' tt
 .param low=0.4 v_q=0.2 stronger=1
@@ -50,7 +53,8 @@ Result<NetlistResult> run(const std::vector<std::string>& settings, const std::s
     return run_study_netlist({circuit, settings, directives});
 }
 
-/// The process card's parameters of an array; V_A is that of a transistor as long as the complete stack.
+/// An array's parameters from the process card: slope factor, threshold (V, a magnitude), specific current (A), Early voltage (V). V_A is
+/// that of a transistor as long as the complete stack.
 struct Array {
     double n, V_T, I_S, V_A;
     Array(const circuit::Circuit& c, const char* name) {
@@ -62,9 +66,11 @@ struct Array {
         I_S = value_of(values, "isq") * value_of(m.values, "w") / value_of(m.values, "l") * value_of(m.values, "m") /
               value_of(m.values, "stack");
     }
+    /// Saturation current (A) by eq. 45 as printed; the corrected equation has twice this current (errata I1).
     double weak(double V_GS, double V_BS) const { return I_S * e * std::exp((V_GS + (n - 1) * V_BS - V_T) / (n * phi_t)); }
 };
 
+/// Claims on a simulated quantity over that of the equation, as corrected and as printed.
 void claim_both(StudyResult& out, const std::string& quantity, double by_corrected, double by_printed, const char* equation,
                 const char* erratum) {
     out.claim(fmt::format("{}, over eq. {} as corrected", quantity, equation), by_corrected)
@@ -93,9 +99,10 @@ Result<void> claim_currents(StudyResult& out) {
     return {};
 }
 
-/// G_m, G_o and G_mb of the inverter with its output held, as slopes.
+/// G_m, G_o and G_mb (S) of the inverter with its output held: absolute slopes of its output current over input, output and bulk voltage.
 struct Slopes {
-    double I_Q = 0, G_m = 0, G_o = 0, G_mb = 0;
+    double G_m = 0, G_o = 0, G_mb = 0;
+    /// With input and output at V_Q (V), the bulks at the rails.
     static Result<Slopes> at(double V_Q, double supply) {
         const std::vector<std::string> settings = {fmt::format("v_q={}", V_Q), fmt::format("low={}", supply)};
         Slopes out;
@@ -117,10 +124,13 @@ Result<void> claim_gain(StudyResult& out) {
     const Array N(*rest->circuit, "mnq"), P(*rest->circuit, "mpq");
     const auto s = Slopes::at(V_Q, saturated);
     if (!s) return s.error();
-    out.claim(fmt::format("G_m at {:g} V", saturated), s->G_m, "S").derived_as(I_Q / phi_t * (1 / P.n + 1 / N.n), "eq. 46b with this I_Q");
-    out.claim("G_o", s->G_o, "S").derived_as(I_Q * (1 / P.V_A + 1 / N.V_A), "eq. 46c with this I_Q and V_A = V_E L of the process card");
+    out.claim(fmt::format("G_m at {:g} V", saturated), s->G_m, "S")
+        .derived_as(I_Q / phi_t * (1 / P.n + 1 / N.n), "eq. 46b with the simulated I_Q");
+    out.claim(fmt::format("G_o at {:g} V", saturated), s->G_o, "S")
+        .derived_as(I_Q * (1 / P.V_A + 1 / N.V_A), "eq. 46c with the simulated I_Q and V_A = V_E L of the process card");
     const double by_printed = 1 / (N.n * phi_t * (1 / P.V_A + 1 / N.V_A));
-    claim_both(out, "A_V = G_m / G_o", s->G_m / s->G_o / (2 * by_printed), s->G_m / s->G_o / by_printed, "46d", "I2");
+    claim_both(out, fmt::format("A_V = G_m / G_o at {:g} V", saturated), s->G_m / s->G_o / (2 * by_printed), s->G_m / s->G_o / by_printed,
+               "46d", "I2");
     const double step = 20e-6;
     const auto open = run(settings, fmt::format(".dc vin {} {} 1u", V_Q - step, V_Q + step));
     if (!open) return open.error();
@@ -130,7 +140,7 @@ Result<void> claim_gain(StudyResult& out) {
     const auto inverters = InverterSweep::run(1e-3);
     if (!inverters) return inverters.error();
     auto& c = out.claim("INVA biased at 200 nA and 0.7 V: G_m", inverters->transconductance_at_zero('a'), "S")
-                  .derived_as(2 * inverters->supply_current('a').at(0) / (N.n * phi_t), "eq. 46b with its I_Q");
+                  .derived_as(2 * inverters->supply_current('a').at(0) / (N.n * phi_t), "eq. 46b with INVA's simulated I_Q");
     if (c.needs_explanation()) c.explain("eq. 46b holds in weak inversion; 200 nA in these arrays is moderate inversion");
     return {};
 }
@@ -142,7 +152,7 @@ Result<void> claim_rest(StudyResult& out) {
     const Array N(*f->circuit, "mn2a"), P(*f->circuit, "mp1a");
     const auto s = Slopes::at(low / 2, low);
     if (!s) return s.error();
-    const double offset = V_Q0 - V_DD / 2;
+    const double offset = V_Q0 - V_DD / 2;  // V_Q0: rest voltage with the bulks at the output
     out.claim("V_Q with bulks at the rails", V_Q, "V")
         .derived_as(V_Q0 + (N.n - 1) * offset, "eq. 47a, second line, with the simulated V_Q0 (errata I4: as printed)");
     out.claim("V_Q - V_Q0", V_Q - V_Q0, "V").derived_as((N.n - 1) * offset, "eq. 47a, second line");
@@ -150,6 +160,7 @@ Result<void> claim_rest(StudyResult& out) {
     for (const double stronger : {1.0, 2.0, 4.0}) {
         const auto result = run({fmt::format("stronger={}", stronger)}, ".op");
         if (!result) return result.error();
+        // P.V_T is the magnitude of V_TP
         const double middle = low / 2 + (N.V_T - P.V_T) / (2 * N.n), shift = phi_t / 2 * std::log(stronger * P.I_S / N.I_S);
         out.claim(fmt::format("V_Q0 at {:g} V with I_SP = {:g} I_SN", low, stronger), result->operating_point("v(q0)"), "V")
             .derived_as(middle + shift, "eq. 47b with + and V_TP < 0 (errata I5)");

@@ -1,4 +1,4 @@
-// Errata U1 to U19 and C1 to C9 that no other study covers.
+// Errata of the thesis's appendices A to D (numbers U1 to U19 and C1 to C9) that no other study covers.
 
 #include <fmt/format.h>
 #include <cmath>
@@ -17,11 +17,12 @@ void add_tables(StudyResult& out) {
     out.claim_true("A: g_md/I_D, as B.1 defines V_A, is not 2.10 V", std::abs(a.g_md / a.I_D / a.V_A - 1) > 0.5, "errata U6");
     out.claim("B2's V_A over A's, as printed", find_published(rectangles, "B2").V_A / a.V_A)
         .published_as(4, "thesis B.1, 4 times \"A1\"; by errata U15 A is meant");
-    out.claim("C2's V_A over A's, as printed", find_published(rectangles, "C2").V_A / a.V_A).published_as(2, "the same");
+    out.claim("C2's V_A over A's, as printed", find_published(rectangles, "C2").V_A / a.V_A)
+        .published_as(2, "thesis B.1, 2 times \"A1\"; by errata U15 A is meant");
     out.claim("C1: A_T as an area", 1e12 * circuit::rectangle_area(1.12e-6, 0.90e-6, 1, 1), "um^2")
         .published_as(find_published(rectangles, "C1").A_T, "table 10; errata U16");
     using Rule = circuit::RectangleRule;
-    out.claim("C1: perimeter of the same rectangle, um", 1e6 * 2 * (1.12e-6 + Rule::around_W + 0.90e-6 + Rule::around_L));
+    out.claim("C1: perimeter of that area's rectangle, um", 1e6 * 2 * (1.12e-6 + Rule::around_W + 0.90e-6 + Rule::around_L));
 }
 
 /// (U14) Published standard deviations of I_D over area, for arrays of equal inversion level.
@@ -39,8 +40,9 @@ void add_mismatch_by_area(StudyResult& out) {
         .explain("3.63 times the area, and E is in stronger inversion with a lower g_mg/I_D");
 }
 
-/// (U14) Mismatch falls with inversion; (U13) V_T does not depend on the drain.
+/// (U14) Mismatch of the current falls as the inversion level rises.
 Result<void> add_mismatch_by_inversion(StudyResult& out) {
+    // standard deviation of I_D (%) of A at this gate voltage: A_VT / sqrt(W L) times g_mg/I_D
     const auto sigma = [&](double V_G) -> Result<double> {
         const auto found = run_study_netlist(
             {fmt::format("slope\n{}vd d 0 1\nvg g 0 {}\nm1 d g 0 0 nch018 w=0.42u l=0.18u\n", process_card, V_G), {}, ".op"});
@@ -53,10 +55,12 @@ Result<void> add_mismatch_by_inversion(StudyResult& out) {
     const auto weak = sigma(0.25), strong = sigma(0.9);
     if (!weak || !strong) return weak ? strong.error() : weak.error();
     out.claim("A: standard deviation of I_D caused by threshold mismatch, at V_G = 0.25 V", *weak, "%");
-    out.claim("A: the same at 0.9 V", *strong, "%").allow_max(*weak, "errata U14: it falls with inversion");
+    out.claim("A: standard deviation of I_D caused by threshold mismatch, at V_G = 0.9 V", *strong, "%")
+        .allow_max(*weak, "errata U14: it falls as the inversion level rises");
     return {};
 }
 
+/// (U13) V_T does not depend on the drain voltage.
 Result<void> add_threshold(StudyResult& out) {
     const auto found = run_study_variants(
         {fmt::format("drain\n{}vd d 0 {{vd}}\nvg g 0 0.3\nm1 d g 0 0 nch018 w=0.42u l=0.18u\n.param vd=0\n", process_card),
@@ -64,7 +68,7 @@ Result<void> add_threshold(StudyResult& out) {
          ".op\n.step param vd list 0 0.5"});
     if (!found) return found.error();
     const double at_0 = found->front().operating_info("m1", "v_t"), at_half = found->back().operating_info("m1", "v_t");
-    out.claim("short unit transistor: V_T at V_D = 0.5 V minus that at 0", at_half - at_0, "V")
+    out.claim("short unit transistor: V_T at V_D = 0.5 V minus V_T at V_D = 0", at_half - at_0, "V")
         .allow_range(-16e-3, 0, "errata U13: the largest drain-induced barrier lowering that g_md allows; the fit gives 0");
     const auto V_T = [](const PublishedArrays& all, const char* name) { return 1e-3 * find_published(all, name).V_T; };
     out.claim_true(
@@ -74,7 +78,7 @@ Result<void> add_threshold(StudyResult& out) {
     return {};
 }
 
-/// (C9) A bulk above the source needs a well; (C7) with the bulk at the drain the plain diode would be the body-biased one.
+/// (C7) Appendix D prints V_B = V_D for the plain diode of fig. 48a; that would be the body-biased diode of fig. 48b.
 Result<void> add_bulk(StudyResult& out) {
     const auto found = run_study_netlist(
         {fmt::format("diodes\n{}va a 0 0.3\nvs s a 0\nvd e a 0\nm1 s s 0 0 nch w=1.5u l=0.5u\nm2 e e 0 e nch w=1.5u l=0.5u\n",
@@ -82,6 +86,7 @@ Result<void> add_bulk(StudyResult& out) {
          {},
          ".op"});
     if (!found) return found.error();
+    // m1: bulk at the source; m2: bulk at the drain
     out.claim("current of a diode with V_B = V_D, as appendix D prints for fig. 48a, over that with V_B = V_S, at 0.3 V",
               found->operating_point("i(vd)") / found->operating_point("i(vs)"))
         .allow_min(2, "errata C7: V_B = V_D would be fig. 48b already");

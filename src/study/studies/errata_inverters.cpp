@@ -1,5 +1,5 @@
-// Errata of appendix E that a computation can show and no study of its figures and equations covers: I5's numbers, I6, I9, I13, I14, I16,
-// I18.
+// Errata of the thesis's appendix E (numbers I1 to I18) that a computation can show and that no study of its figures and equations covers:
+// I5's numbers, I6, I9, I13, I14, I16, I18.
 
 #include <fmt/format.h>
 #include <cmath>
@@ -12,7 +12,7 @@ namespace corpuscle::studies::errata_inverters {
 
 constexpr double pi = 3.141592653589793;
 
-/// I5: V_TN = 480 mV, V_TP = -450 mV, I_SP = 2 I_SN at 0.7 V, n = 1.27.
+/// I5: V_Q0, the rest voltage with the bulks at the output, for V_TN = 480 mV, V_TP = -450 mV, I_SP = 2 I_SN and n = 1.27 at 0.7 V.
 Result<void> add_sign_claims(StudyResult& out) {
     constexpr double V_TN = 0.48, V_TP = 0.45;  // V, magnitudes
     const auto circuit = elaborate_study_netlist({"quiescent"});
@@ -29,19 +29,21 @@ Result<void> add_sign_claims(StudyResult& out) {
          ".op"});
     if (!found) return found.error();
     const double V_Q0 = found->operating_point("v(qb)");
-    out.claim("I5: V_Q0 of transistors with these parameters", V_Q0, "V").derived_as(370.775e-3, "eq. 47b with +: errata I5");
-    out.claim("I5: its difference from V_DD/2 + (V_TP + V_TN)/2n", V_Q0 - 0.35 - (V_TN - V_TP) / (2 * 1.27), "V")
+    out.claim("I5: simulated V_Q0 for V_TN 480 mV, V_TP -450 mV, I_SP = 2 I_SN", V_Q0, "V")
+        .derived_as(370.775e-3, "eq. 47b with +: errata I5");
+    out.claim("I5: V_Q0 minus [V_DD/2 + (V_TP + V_TN)/2n]", V_Q0 - 0.35 - (V_TN - V_TP) / (2 * 1.27), "V")
         .derived_as(352.847e-3 - 0.35 - (V_TN - V_TP) / (2 * 1.27), "eq. 47b as printed, 352.847 mV")
         .explain("the sign is misprinted; moderate inversion at 0.7 V causes the remaining difference from eq. 47b with +");
     return {};
 }
 
-/// I18: the generator with the sizes of table 4, compared with table 16.
+/// I18: the bias generator with the sizes of table 4, compared with those of table 16.
 Result<void> add_generator_claims(StudyResult& out) {
     const auto by_4 = run_study_netlist({"bias_table4", {}, ".dc vi 0.1 8 0.02"});
     if (!by_4) return by_4.error();
     const auto by_16 = simulate_bias_state({});
     if (!by_16) return by_16.error();
+    // bias_table4 has two generators: as printed (6), and with NMOS arrays of 1.5 um (1); vi is I_BIAS, 1 V per uA
     const auto I_Q6 = by_4->curve("dc", "i(vis6)"), V_BN6 = by_4->curve("dc", "v(bn6)"), I_Q1 = by_4->curve("dc", "i(vis1)"),
                V_BN1 = by_4->curve("dc", "v(bn1)");
     constexpr double I_BIAS = 200e-9, min_V_BN = 0.1;  // A; V: fig. 53a's smallest V_BN
@@ -79,15 +81,16 @@ Result<StudyResult> compute(const StudyOptions& options) {
                    "errata I6; the text names M4A and M5C, which table 16 does not list");
     const auto state = simulate_bias_state({});
     if (!state) return state.error();
-    out.claim("I9: table 17's 350.1 as V_Q", state->V_Q, "V").published_as(350.1e-3, "errata I9; the table's head says I_D in nA");
-    auto& current = out.claim("I9: table 17's 350.1 as I_D", state->I_Q, "A").published_as(350.1e-9, "table 17's head");
+    out.claim("I9: simulated V_Q; table 17's 350.1 read as mV", state->V_Q, "V")
+        .published_as(350.1e-3, "errata I9; the table's head says I_D in nA");
+    auto& current = out.claim("I9: simulated I_Q; table 17's 350.1 read as nA", state->I_Q, "A").published_as(350.1e-9, "table 17's head");
     if (current.needs_explanation()) current.explain("the head is table 18's: errata I9");
     const auto inverters = InverterSweep::run(10e-3);
     if (!inverters) return inverters.error();
     const double G_B = inverters->transconductance_at_zero('b'), G_C = inverters->transconductance_at_zero('c'), C = G_B / (2 * pi * 2);
     out.claim("I13: capacitor of a 2 Hz filter with INVB", C, "F").derived_as(0.2e-6, "errata I13: from 2.5 uS");
-    out.claim("I13: the same over one microfarad", C / 1e-6)
-        .allow_max(1, "E.4: would need micro Farad capacitors; a fifth of a microfarad is enough");
+    out.claim("I13: this capacitor over one microfarad", C / 1e-6)
+        .allow_max(1, "E.4: \"micro Farad\" capacitors would be needed; by errata I13 a fifth of a microfarad is enough");
     out.claim_true("I14: INVC, not INVB, has the very small transconductance", G_C < 1e-3 * G_B, "errata I14");
     const auto fine_sweep = InverterSweep::run_with_directives(".dc vin 0.345 0.355 20u");
     if (!fine_sweep) return fine_sweep.error();

@@ -1,5 +1,5 @@
-// Errata S1 to S20 that a computation can show: the printed and the intended form, both computed. (S1, S2, S5, S7b and S10 are in eq16-20,
-// S4 in fig30, S18 in fig40.)
+// Errata of the thesis's sections 4.3 and 4.4 (numbers S1 to S20) that a computation can show: the printed and the intended form, both
+// computed. S1, S2, S5, S7b and S10 are in the study eq16-20, S4 in fig30, S18 in fig40.
 
 #include <fmt/format.h>
 #include <cmath>
@@ -12,10 +12,9 @@
 
 namespace corpuscle::studies::errata_signal {
 
-namespace P = press;
 constexpr auto M6 = "M6 8x2 to 2x4 is 1/8 where M5 is 1/64: the N side of the push-pull output is eight times too strong (errata S7)";
 
-/// S7, S8: INVC with the printed and the corrected M6.
+/// S7, S8: INVC with the printed and the corrected sizes of its mirror M6.
 Result<void> report_M6(StudyResult& out) {
     const auto corrected = run_study_netlist({"invc", {}, ".dc vin 0 0.7 0.5m"});
     const auto as_printed = run_study_netlist({"invc", {"xl.mn6a=8x2", "xl.mn6b=2x4", "xh.mn6a=8x2", "xh.mn6b=2x4"}, ".dc vin 0 0.7 0.5m"});
@@ -35,7 +34,7 @@ Result<void> report_M6(StudyResult& out) {
         .explain(M6);
     out.claim("S7: resistance at 350 mV, M6 corrected", corrected_load.resistance.at(0.35), "ohm")
         .published_as(6.6e9, "thesis 4.3.1")
-        .explain("see fig30");
+        .explain("the reasons are those of the study fig30");
     out.claim("S7: resistance at 350 mV, M6 as printed", printed_load.resistance.at(0.35), "ohm")
         .published_as(6.6e9, "thesis 4.3.1")
         .explain(M6);
@@ -49,7 +48,7 @@ Result<void> report_M6(StudyResult& out) {
     return {};
 }
 
-/// S9a, S10a: the relative weights of the three components.
+/// S9a, S10a: the relative weights of SA-I's three components: the ratios of K_B, K_C and k_A.
 Result<void> report_weights(StudyResult& out) {
     const auto sources = run_study_netlist({"rectifier_sa", {}, ".dc vhp 0.37 0.39 1m"}),
                summer = run_study_netlist({"summer", {}, ".dc iin 0.1u 2.6u 0.1u"});
@@ -59,12 +58,13 @@ Result<void> report_weights(StudyResult& out) {
     const auto gain = [&](const char* curve) {
         return sources->curve("dc", curve).slope_at(0.38) / sources->curve("dc", "i(vn)").slope_at(0.38);
     };
-    const double B = gain("i(vb)"), C = gain("i(vc)"), C_corrected = gain("i(vc2)");
+    const double B = gain("i(vb)"), C = gain("i(vc)"), C_corrected = gain("i(vc2)");  // gains of I_B and I_C
     out.claim("S9a: K_B / K_C by table 6", B / C, "times")
         .derived_as(4, "thesis 3.3: 8 and 2")
         .explain("table 6 gives M2 of I_C the sizes for a gain of 1 (errata S9a)");
     out.claim("S9a: K_B / K_C with M2 of I_C 4x8, as intended here", B / C_corrected, "times").derived_as(4, "thesis 3.3: 8 and 2");
-    // I_F/2 flows through INVB's conductance to give V_F, which gives I_N: I_N is I_F/2 over INVC's division ratio
+    // k_A relative to the gains above, which relate to the filter's current I_N. INVB turns I_F/2 into V_F, and INVC turns V_F into I_N, so
+    // I_N is I_F/2 over INVC's division ratio.
     const double division_ratio = invc->curve("dc", "i(vb)").slope_at(0.35) / invc->curve("dc", "i(vhalf)").slope_at(0.35);
     const auto k_A = [&](const char* curve) { return summer->curve("dc", curve).at(1.2e-6) / 1.2e-6 * division_ratio; };
     out.claim("S10a: K_B / k_A by tables 6 and 7", B / k_A("i(va)"), "times")
@@ -72,14 +72,15 @@ Result<void> report_weights(StudyResult& out) {
         .explain("one of the summer's divisions, M2 (1/64) or M3 (1/8), is superfluous (errata S10a)");
     auto& corrected = out.claim("S10a: K_B / k_A with M3B 12x4, as intended here", B / k_A("i(va2)"), "times")
                           .derived_as(8, "thesis 3.3: 8 uA/N and 1 uA/N");
-    if (corrected.needs_explanation()) corrected.explain("M3B was chosen six times as wide, so that the plateau fires like the model's");
+    if (corrected.needs_explanation())
+        corrected.explain("M3B was chosen six times as wide, so that the chip fires on the plateau as the model does");
     return {};
 }
 
-/// S16: the membrane is charged by I_CHARGE + I_LEAK - I, not by I_CHARGE - I; shown with a large leak.
+/// S16: the membrane is charged by I_CHARGE + I_LEAK - I, not by I_CHARGE - I. A large leak shows the difference.
 Result<void> report_charging(StudyResult& out) {
     constexpr double I = 300e-12, large_leak = 200e-12;
-    double speed[2];
+    double speed[2];  // V/s, charging rate at 0.35 V
     for (const auto& [k, leak] : {std::pair{0, IsolatedOscillator::I_LEAK}, {1, large_leak}}) {
         const auto found = simulate_oscillator({.current = I, .stop_time = 30e-3, .has_high_threshold_switches = true, .leak = leak});
         if (!found) return found.error();
@@ -90,17 +91,19 @@ Result<void> report_charging(StudyResult& out) {
     const double by_errata = (charge + large_leak - I) / (charge + IsolatedOscillator::I_LEAK - I);
     out.claim("S16: at 300 pA, charging rate with I_LEAK 200 pA over that with 2 pA", speed[1] / speed[0], "times")
         .derived_as(by_errata, "errata S16: I_CHARGE + I_LEAK - I");
-    out.claim("S16: the same by the printed I_CHARGE - I", speed[1] / speed[0], "times")
+    out.claim("S16: at 300 pA, charging rate with I_LEAK 200 pA over that with 2 pA, against the printed I_CHARGE - I", speed[1] / speed[0],
+              "times")
         .derived_as(1, "thesis 4.4: I_CHARGE - I")
-        .explain("the leak also pulls to the supply");
+        .explain("the leak, too, pulls the membrane to the supply");
     return {};
 }
 
+/// Claims on the spike counts of a chip, phase by phase, beside its model's. `why` explains deviations.
 void report_chip(const std::string& name, const std::vector<double>& chip, const std::vector<double>& model, const std::string& why,
                  StudyResult& out) {
     const std::string source = "the model's, computed here; thesis 4.4: similar";
     for (const auto& [phase, window] :
-         {std::pair{"rising", P::protraction}, {"holding", P::plateau}, {"falling", P::retraction}, {"after", P::after}}) {
+         {std::pair{"rising", press::protraction}, {"holding", press::plateau}, {"falling", press::retraction}, {"after", press::after}}) {
         auto& c = out.claim(fmt::format("{}: spikes, {}", name, phase), press::spike_count(chip, window))
                       .derived_as(press::spike_count(model, window), source);
         if (c.needs_explanation()) c.explain(why);
@@ -111,6 +114,7 @@ Result<void> report_chips(const StudyOptions& options, StudyResult& out) {
     const auto sa1 = simulate_train({"sa1"}), fa1 = simulate_train({"fa1"});
     if (!sa1) return sa1.error();
     if (!fa1) return fa1.error();
+    // as_printed: all sizes of the tables; printed_M6: the intended circuit with only M6 of both filters as printed
     const auto& M6_everywhere = {"hpb.res.mn6a=8x2", "hpb.res.mn6b=2x4", "hpc.res.mn6a=8x2", "hpc.res.mn6b=2x4"};
     TrialSpec printed_M6{.afferent = "sa1-circuit", .probes = {"v(hpb)", "v(hpc)"}};
     for (const char* setting : M6_everywhere) printed_M6.settings.push_back(fmt::format("sa1-circuit.{}", setting));
@@ -122,12 +126,12 @@ Result<void> report_chips(const StudyOptions& options, StudyResult& out) {
         if (!*train) return train->error();
     if (!with_M6) return with_M6.error();
     if (auto ok = options.report_progress(0.9); !ok) return ok;
-    report_chip("SA-I, tables' sizes, 5 pA, 1.8 pF", *as_printed, *sa1,
+    report_chip("SA-I, tables' sizes, leak of 5 pA, membrane of 1.8 pF", *as_printed, *sa1,
                 "I_A is hardly more than the leak of 5 pA plus the leakage of the switches, so it does not sustain firing on the plateau; "
-                "I_C's gain is half (errata S9a, S10a)",
+                "I_C has half of the intended gain (errata S9a, S10a)",
                 out);
-    report_chip("SA-I as intended", *as_intended, *sa1, "see fig40", out);
-    report_chip("FA-I, table 8's sizes, 5 pA, 5.4 pF", *fa_printed, *fa1,
+    report_chip("SA-I as intended", *as_intended, *sa1, "the reasons are those of the study fig40", out);
+    report_chip("FA-I, table 8's sizes, leak of 5 pA, membrane of 5.4 pF", *fa_printed, *fa1,
                 "the ratio of its gains is 8 to 3, the model's is 3.5 to 2.75 (errata S15); its membrane and leak are smaller than these "
                 "gains require",
                 out);

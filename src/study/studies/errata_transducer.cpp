@@ -1,5 +1,7 @@
-// Errors and open points of 4.1 and 4.2 that a computation can show: the printed form compared with our circuit, which follows the
-// interpretation in errata F1 to F12. Nothing depends on F6 and F11.
+// Errors and open points of the thesis's 4.1 and 4.2 that a computation can show: the printed form compared with our circuit, which follows
+// the errata F1 to F12. Of these, F6, F10 and F11 change no number.
+// Symbols. V_X is the sensor's voltage, which the amplifier holds at the reference V_Y. V_Z is the amplifier's output, I_F the transducer's
+// output current, G_FSR (or G) the sensor's conductance, S_n the aspect ratio of M_n.
 
 #include <fmt/format.h>
 #include <cmath>
@@ -13,13 +15,13 @@ const ForceSensor sensor;
 
 /// F1 to F5: the sensor and its equations.
 void report_sensor(StudyResult& out) {
-    const double press = 4 / gram_force;
+    const double press = 4 / gram_force;  // gf, the largest force of the press stimulus
     out.claim("F1: sensor current at 4 N and 0.1 V, a = 170 kohm", 0.1 * sensor.conductance(press), "A");
-    out.claim("F1: with a = 170 ohm, as printed", 0.1 * ForceSensor{.a = 170}.conductance(press), "A")
+    out.claim("F1: sensor current at 4 N and 0.1 V, a = 170 ohm as printed", 0.1 * ForceSensor{.a = 170}.conductance(press), "A")
         .allow_max(1e-3, "thesis 4.2: I_F is 1/17 of it and drives a mirror of 100 nA unit transistors; a milliampere is our choice")
         .explain_if_needed("a misprint for 170 kohm");
-    out.claim("F1: with a = 170 as a conductance (a F^m)", 0.1 * 170 * std::pow(press, sensor.m), "A")
-        .allow_max(1e-3, "as above")
+    out.claim("F1: sensor current at 4 N and 0.1 V, a = 170 as a conductance (a F^m)", 0.1 * 170 * std::pow(press, sensor.m), "A")
+        .allow_max(1e-3, "thesis 4.2: I_F is 1/17 of it and drives a mirror of 100 nA unit transistors; a milliampere is our choice")
         .explain_if_needed("a is a resistance, used where a conductance is meant");
     out.claim("F2: smallest force of the press stimulus; the fit is stated to be fair from 50 gf on", 0.2 / gram_force, "gf")
         .allow_min(50, "thesis 4.1")
@@ -32,12 +34,12 @@ void report_sensor(StudyResult& out) {
         .explain_if_needed("12 and 4 are round numbers from a figure");
     out.claim_true("F4: the largest force gives the smallest conductance", sensor.conductance(press) < sensor.conductance(0.2 / gram_force),
                    "thesis 4.2, as printed")
-        .explain_if_needed("it gives the largest conductance: resistance falls with force");
+        .explain_if_needed("the largest force gives the largest conductance: resistance falls with force");
     out.claim("F5: G_0, which eq. 14's last line omits, over G at 20 gf", 100 / sensor.R_0 / sensor.conductance(20), "%")
         .allow_max(1, "printed as approximate; the bound is our choice");
 }
 
-/// F7 to F9: fig. 22's transistors.
+/// F7 to F9: the transistors of figs. 21 and 22.
 Result<void> report_transistors(StudyResult& out) {
     const std::string swapped =
         "mn1 if vz vx tb nch w=1.5u l=0.5u m=16\nmn2 vdd vz vx tb nch w=1.5u l=0.5u m=4 stack=4\nmn3 vz vdd tb tb nch w=1.5u l=0.5u m=8\n";
@@ -46,6 +48,7 @@ Result<void> report_transistors(StudyResult& out) {
         {"built", improved_cell()}, {"swapped", swapped}, {"without", bulk_at_vss}, {"plain", single_transistor_cell(16)}};
     const auto found = run_study_netlist({transducer_netlist(cells, "4"), {}, ".op"});
     if (!found) return found.error();
+    // I_F of a cell over I_F0, the sensor's current at this V_X
     const auto current = [&](const char* name) {
         return found->operating_point(fmt::format("i(x{}.vif)", name)) /
                (found->operating_point(fmt::format("v(x{}.vx)", name)) * sensor.conductance(4 / gram_force));
@@ -53,7 +56,7 @@ Result<void> report_transistors(StudyResult& out) {
     out.claim("F7: V_BS of fig. 21's M_1 with its bulk at vss", -found->operating_point("v(xplain.vx)"), "V")
         .derived_as(-0.1, "thesis 4.2: V_BS = -V_X, at V_Y = 0.1 V; it is the bulk that is at vss");
     out.claim("F8: I_F over I_F0 with S_1 = 4/4, S_2 = 16", current("built")).derived_as(1.0 / 17, "S_1 / (S_1 + S_2) by table 1");
-    out.claim("F8: the same against S_1 / S_2, as printed", current("built"))
+    out.claim("F8: I_F over I_F0 with S_1 = 4/4, S_2 = 16, against S_1 / S_2 as printed", current("built"))
         .derived_as(1.0 / 16, "thesis 4.2: I_F = (S_1/S_2) I_D2, taken as the fraction of I_F0")
         .explain_if_needed("S_1 / S_2 is I_F over I_D2, not over I_F0, and M_2's single transistors take a little more");
     out.claim("F8: I_F over I_F0 with the \"maximum\" S_1 / S_2 (16x1 and 4x4)", current("swapped"))
@@ -68,7 +71,7 @@ Result<void> report_transistors(StudyResult& out) {
     return {};
 }
 
-/// F10a: tests whether the amplifier's input pair could be NMOS, 1.5 um wide, as in table 2.
+/// F10a: can the amplifier's input pair (M3) be NMOS, or have the width of table 2, 1.5 um?
 Result<void> report_pair(StudyResult& out) {
     const auto found = run_study_netlist({R"(Current of a transistor of table 2's M3 with its gate at V_Y
 .lib '../process/tsmc180.lib' tt
@@ -88,7 +91,7 @@ mnb db g 0 b nch w=1.5u l=0.5u m=16
     out.claim("F10a: current of an N transistor 16x1 at V_G = 0.1 V, its source at vss", found->operating_point("i(va)"), "A")
         .allow_min(100e-9, needs)
         .explain_if_needed(reason);
-    out.claim("F10a: the same with its bulk at 0.4 V", found->operating_point("i(vc)"), "A")
+    out.claim("F10a: current of an N transistor 16x1 at V_G = 0.1 V, its bulk at 0.4 V", found->operating_point("i(vc)"), "A")
         .allow_min(100e-9, needs)
         .explain_if_needed(reason);
     const auto narrow =
@@ -102,7 +105,7 @@ mnb db g 0 b nch w=1.5u l=0.5u m=16
         const auto pair = run_study_netlist({*netlist});
         if (!pair) return pair.error();
         out.claim(fmt::format("F10a: {}: transconductance at V_Y", description), pair->number("g_m"), "S");
-        out.claim(fmt::format("F10a: {}: common-mode input up to", description), pair->number("up_to"), "V");
+        out.claim(fmt::format("F10a: {}: common-mode input up to (half of the transconductance)", description), pair->number("up_to"), "V");
     }
     return {};
 }
@@ -116,12 +119,13 @@ Result<void> report_reference(StudyResult& out) {
     out.claim("F12: V_Y that gives 4 nA/gf at 400 gf", V_400, "V")
         .derived_as(0.1, "V_Y of our circuit")
         .explain_if_needed("no single V_Y gives both published slopes");
+    // A: I_F of which half is I_BIASF; I_F at 400 gf
     const double I_mid = 2 * 700e-9, max_I_F = 0.1 * sensor.conductance(400) / 17;
     out.claim("F12: force at which half of I_F is I_BIASF, at 0.1 V",
               ForceSensor{.R_0 = 1e30}.conductance_curve(1, 400).scaled(1, 0.1 / 17).crossing(I_mid), "gf")
-        .allow_range(100, 300, "thesis 4.3.1: V_F is at half the supply there; the middle half of 0 to 400 gf is our choice");
+        .allow_range(100, 300, "thesis 4.3.1: V_F is at half the supply at that force; the middle half of 0 to 400 gf is our choice");
     out.claim("F12: I_F at 400 gf, at 0.1 V", max_I_F, "A");
-    StudyCurve at_20, at_400, V_Z;
+    StudyCurve at_20, at_400, V_Z;  // over V_Y: slopes of I_F at 20 and 400 gf (nA/gf), V_Z at 400 gf (V)
     for (const double V_Y : {0.06, 0.07, 0.08, 0.09, 0.1, 0.11, 0.12, 0.13, 0.14}) {
         const auto found = run_study_netlist({"transducer", {fmt::format("vy={}", V_Y)}, ".dc vgf 18 402 2"});
         if (!found) return found.error();
@@ -151,8 +155,9 @@ Result<StudyResult> compute(const StudyOptions& options) {
         if (auto ok = options.report_progress(done += 0.3); !ok) return ok.error();
     }
     out.note(
-        "Each printed form has its own row; the row does not hold or differs where the errata list a misprint. Eq. 13 is exact (F1a, "
-        "eq13-15). Nothing depends on F6, F10 and F11 (a caption, names of transistors, \"are\" for \"and\"); fig20 covers F11a.");
+        "Each printed form has its own row, with the verdict \"does not hold\" or \"differs\" where the errata list a misprint. Eq. 13 is "
+        "exact (F1a, eq13-15). Nothing depends on F6, F10 and F11 (a caption, names of transistors, \"are\" for \"and\"); fig20 covers "
+        "F11a.");
     return out;
 }
 

@@ -1,5 +1,6 @@
-// A press on an electronic skin of 21 optical sensors, recorded with the spikes of its authors' network of 900 neurons and of their haptic
-// display. The same press is applied to a sheet of our afferents, and the times and places of the spikes are compared.
+// A press on an electronic skin of 21 optical sensors. Its authors recorded it together with the spikes of their network of 900 neurons and
+// of their haptic display (its motors). The same press is applied to a sheet of our afferents, and the times and places of the spikes are
+// compared.
 
 #include <fmt/format.h>
 #include <algorithm>
@@ -15,18 +16,18 @@
 namespace corpuscle::studies::eskin_press {
 
 constexpr const char* folder = "fbg_eskin_press";
-constexpr double rate = 100.04;                      // Hz, the mean; timestamps are arrival times, in bursts, up to 163 ms apart
-constexpr double scale = 40;                         // N/nm; our choice, as none is published: 8.9 N at most, as in doc/real-recordings.md
-constexpr double sigma = 20e-3;                      // m, the spacing of sensors in a row; our choice
-constexpr double from = 17.3, to = 21.1, bin = 0.1;  // s: while pressed, without the two edges
-constexpr double arrival_gap = 0.163;                // s, the longest gap between two arrivals
+constexpr double rate = 100.04;  // Hz, the mean sample rate; the recording's timestamps are arrival times, in bursts
+constexpr double scale = 40;     // N/nm; our choice, as none is published; the largest force is then 8.9 N (doc/real-recordings.md)
+constexpr double sigma = 20e-3;  // m, of the afferents' receptive fields: the spacing of sensors in a row; our choice
+constexpr double from = 17.3, to = 21.1, bin = 0.1;  // s, recording's clock: while the skin is pressed, without onset and release
+constexpr double arrival_gap = 0.163;                // s, the longest gap between two timestamps
 
 /// Spike counts of the neurons that fired, by neuron number.
 using Counts = std::map<std::size_t, double>;
 
 struct Published {
-    std::vector<SheetSpike> network;  ///< neurons numbered from 0
-    std::map<std::string, std::vector<double>> motors;
+    std::vector<SheetSpike> network;                    ///< in order of time; afferent_index: the published neuron number - 1
+    std::map<std::string, std::vector<double>> motors;  ///< spike times (s) of each motor of the display, by its name
 };
 
 Counts counts_of(const std::vector<SheetSpike>& spikes) {
@@ -35,16 +36,17 @@ Counts counts_of(const std::vector<SheetSpike>& spikes) {
     return out;
 }
 
+/// The sensors' force and positions. `layout` is the file of the positions.
 Result<SheetForce> read_force(const std::string& path, const std::string& layout) {
     auto source = open_recording(path, {.rate = rate, .scale = scale, .layout = layout});
     if (!source) return source.error();
     SheetForce out{(*source)->clock().T(), {}, {}};
-    for (const auto& c : (*source)->channels()) out.positions.push_back({c.position->x * 1e-3, c.position->y * 1e-3});  // mm
+    for (const auto& c : (*source)->channels()) out.positions.push_back({c.position->x * 1e-3, c.position->y * 1e-3});  // mm to m
     out.force.resize(out.positions.size());
     for (Frames block(out.positions.size(), 1024);;) {
         if (auto ok = (*source)->read(block); !ok) return ok.error();
         if (block.count == 0) return out;
-        for (std::size_t s = 0; s < out.positions.size(); ++s)  // negative readings are not forces
+        for (std::size_t s = 0; s < out.positions.size(); ++s)  // negative readings are taken as 0
             for (std::size_t k = 0; k < block.count; ++k) out.force[s].push_back(std::max(0.0, block.force[s][k]));
     }
 }
@@ -62,7 +64,8 @@ Result<Published> read_published(const std::string& from_folder) {
     return out;
 }
 
-/// Spread of the neurons that fired about their centre, for a sheet with this number of columns: root mean square distance, in neurons.
+/// Root mean square distance of the neurons that fired from their centre, in neurons, if the neurons are numbered row by row on a sheet
+/// with this number of columns.
 double extent(const Counts& counts, std::size_t columns) {
     double n = 0, row_sum = 0, c = 0, square = 0;
     const auto row = [&](std::size_t u) { return static_cast<double>(u / columns); };
@@ -72,7 +75,7 @@ double extent(const Counts& counts, std::size_t columns) {
     return std::sqrt(square / n);
 }
 
-/// The number of columns of the sheet for which the neurons that fired are closest together.
+/// The number of columns of the sheet for which the neurons that fired have the smallest extent.
 std::size_t columns_of(const Counts& counts) {
     std::size_t best = 2;
     for (std::size_t c = 2; c <= 450; ++c)
@@ -85,7 +88,8 @@ std::size_t most_active(const Counts& counts) {
     return std::max_element(counts.begin(), counts.end(), [](const auto& a, const auto& b) { return a.second < b.second; })->first;
 }
 
-/// Difference between the two halves of the map on either side of the middle row, as a fraction of all spikes.
+/// How much the spike counts differ between the two sides of the row `middle`: half of the sum of |count - count of the mirrored neuron|
+/// over the neurons that fired, as a fraction of all spikes. A mirrored neuron that is silent or outside the sheet has the count 0.
 double asymmetry(const Counts& counts, std::size_t columns, std::size_t middle) {
     double difference = 0, total = 0;
     for (const auto& [u, n] : counts) {
@@ -102,6 +106,7 @@ std::vector<double> times_of(const std::vector<SheetSpike>& spikes) {
     return out;
 }
 
+/// Spike counts of all neurons of the sheet, by number; 0 for those that did not fire.
 std::vector<double> dense_counts(const Counts& counts, const AfferentSheet& sheet) {
     std::vector<double> out(sheet.rows * sheet.columns);
     for (const auto& [u, n] : counts)
@@ -109,7 +114,7 @@ std::vector<double> dense_counts(const Counts& counts, const AfferentSheet& shee
     return out;
 }
 
-/// Start and end (s) of the time in which the most loaded sensor is above a twentieth of its maximum.
+/// The first and the last time (s) at which the sensor with the largest force is above a twentieth of its maximum.
 std::pair<double, double> press_interval(const SheetForce& force) {
     std::size_t strongest = 0;
     const auto peak_force = [&](std::size_t s) { return *std::max_element(force.force[s].begin(), force.force[s].end()); };
@@ -129,6 +134,7 @@ double longest_silence(const std::vector<double>& t) {
     return longest;
 }
 
+/// Our sheet with its response to the sensors' force, and the published spikes.
 struct Comparison {
     AfferentSheet sheet;
     SheetForce force;
@@ -136,7 +142,7 @@ struct Comparison {
     std::vector<SheetSpike> sa1, fa1;
 };
 
-/// Properties of the network's neuron numbers.
+/// How the network's neuron numbers are arranged on a sheet.
 void report_numbers(StudyResult& out, const Comparison& a) {
     const auto counts = counts_of(a.published.network);
     const std::size_t columns = columns_of(counts), top = most_active(counts);
@@ -144,22 +150,24 @@ void report_numbers(StudyResult& out, const Comparison& a) {
     out.claim("network: spikes", static_cast<double>(a.published.network.size()), "spikes").published_as(42156, "the recording's README");
     out.claim("width of the sheet for which the neurons that fired are closest together", static_cast<double>(columns), "neurons")
         .derived_as(30, "900 neurons are 30 x 30 if the sheet is square, which is not stated");
-    out.claim("spread of these neurons for this width", extent(counts, columns), "neurons");
-    out.claim("spread of these neurons for a sheet two columns narrower", extent(counts, columns - 2), "neurons")
+    out.claim("spread of the neurons that fired, for this width", extent(counts, columns), "neurons");
+    out.claim("spread of the neurons that fired, for a sheet two columns narrower", extent(counts, columns - 2), "neurons")
         .allow_min(1.5 * extent(counts, columns), "check: no other width gives a disc");
     out.claim("most active neuron: row, from 0", static_cast<double>(top / columns));
     out.claim("most active neuron: column, from 0", static_cast<double>(top % columns));
-    out.claim("difference between the halves on either side of its row", asymmetry(counts, columns, top / columns))
+    out.claim("difference between the spike counts on either side of the most active neuron's row, over all spikes",
+              asymmetry(counts, columns, top / columns))
         .allow_max(0.05, "check: the press is in the middle of the skin's width");
 }
 
+/// When the spikes begin and end, relative to the press.
 void report_time(StudyResult& out, const Comparison& a) {
     const auto [on, off] = press_interval(a.force);
     const auto add_edge_claims = [&](const char* source, const std::vector<double>& t) {
         if (t.empty()) return;
-        out.claim(fmt::format("{}: delay of the first spike after the sensor exceeds 5 %", source), t.front() - on, "s")
+        out.claim(fmt::format("{}: delay of the first spike after sensor 11 exceeds 5 % of its maximum", source), t.front() - on, "s")
             .allow_range(-arrival_gap, arrival_gap, "the recording's timestamps: gaps of up to 163 ms");
-        out.claim(fmt::format("{}: delay of the last spike after the sensor falls below 5 %", source), t.back() - off, "s")
+        out.claim(fmt::format("{}: delay of the last spike after sensor 11 falls below 5 % of its maximum", source), t.back() - off, "s")
             .allow_range(-arrival_gap, arrival_gap, "the recording's timestamps: gaps of up to 163 ms");
     };
     out.claim("sensor 11: above a twentieth of its maximum from", on, "s");
@@ -185,7 +193,7 @@ void report_time(StudyResult& out, const Comparison& a) {
         .allow_max(0.5 * fraction_away_from_edges(a.published.network), "a fast afferent responds at the edges");
 }
 
-/// Spike rate of the display in each bin.
+/// Number of spikes of all motors of the display in each bin.
 std::vector<double> display_rate(const Published& published) {
     std::vector<SheetSpike> display_spikes;
     for (const auto& [name, t] : published.motors)
@@ -193,6 +201,7 @@ std::vector<double> display_rate(const Published& published) {
     return centroid_track(AfferentSheet{}, display_spikes, from, to, bin).weight;
 }
 
+/// Where the spikes are, over time, relative to the press.
 void report_place(StudyResult& out, const Comparison& a) {
     const auto sensors = centroid_track(a.force, from, to, bin), published = centroid_track(a.sheet, a.published.network, from, to, bin),
                ours = centroid_track(a.sheet, a.sa1, from, to, bin);
@@ -207,9 +216,9 @@ void report_place(StudyResult& out, const Comparison& a) {
         out.claim(fmt::format("{}: mean position across the skin", source), mean(track->x), "m");
         out.claim(fmt::format("{}: mean position along the skin", source), mean(track->y), "m");
     }
-    const auto add_correlation = [&](const char* label, const std::vector<double>& v, const std::vector<double>& w,
+    const auto add_correlation = [&](const char* label, const std::vector<double>& first, const std::vector<double>& second,
                                      double min_r) -> Claim& {
-        return out.claim(label, correlation(v, w)).allow_min(min_r, "check: rates follow the position");
+        return out.claim(label, correlation(first, second)).allow_min(min_r, "check: rates follow the position");
     };
     add_correlation("our SA-I follow the sensors across the skin: r", ours.x, sensors.x, 0.8);
     add_correlation("our SA-I follow the sensors along the skin: r", ours.y, sensors.y, 0.8)
@@ -266,12 +275,12 @@ Result<StudyResult> compute(const StudyOptions& options) {
         "drifts along the skin, both towards higher numbers. The spacing of the neurons in millimetres and the origin of the sheet remain "
         "unknown, because only one place was pressed.",
         "Our sheet is also 30 x 30, with a spacing of 4.5 mm (our choice), centred on the skin's width and starting at its origin. These "
-        "two choices put the network's patch at the place of the press, so only the drift is evidence, not the place.",
+        "choices put the network's patch at the place of the press, so only the drift is evidence, not the place.",
         "Times: sensors are sampled at an even 100.04 Hz, because their timestamps are arrival times in bursts; the published spikes use "
         "the timestamps' clock. At the onset the timestamps are 17 ms behind the even clock, elsewhere up to 163 ms. Onset and release are "
         "not known more precisely.",
-        "Around 18.15 s the published network is silent for a while, although the skin is pressed and its frames arrive. This is the main "
-        "difference between its rate and that of our SA-I. The display stops as well.",
+        "Around 18.15 s of the recording the published network is silent for a while, although the skin is pressed and its frames arrive. "
+        "This is the main difference between its rate and that of our SA-I. The display stops as well.",
         "The network has slowly adapting neurons; FA-I fire at the edges only.",
         "Force: 40 N per nanometre, our choice. An afferent's force is the sum over all sensors, each weighted by exp(-d^2 / 2 sigma^2), "
         "with sigma of 20 mm, the spacing of sensors in a row."};

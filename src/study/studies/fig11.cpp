@@ -24,7 +24,7 @@ xc c c gpc gnc vdd bp bn invc
 .save i(ea) i(ec)
 .end
 )";
-/// Filter C after a voltage step about half the supply, with INVC and with a resistor.
+/// Filter C (8.8 pF) with INVC and with a resistor r, under a step of voltage of `size` from half the supply, at 50 ms.
 constexpr auto steps = R"(High-passes under a step
 .lib '../process/tsmc180.lib' tt
 .include 'parts/transconductor.inc'
@@ -43,8 +43,9 @@ vmid mid 0 0.35
 .end
 )";
 constexpr double half = 0.35, offset = 0.1,
-                 on = 50.1e-3;  // V, half the supply; V, distance from it at which loads are compared; s, time of the step
+                 on = 50.1e-3;  // V: half the supply; V: distance from it at which loads are compared; s: end of the step's rise
 
+/// Largest absolute difference between two curves with the same x.
 double largest_difference(const StudyCurve& a, const StudyCurve& b) {
     double out = 0;
     for (std::size_t k = 0; k < a.x.size(); ++k) out = std::max(out, std::abs(a.y[k] - b.y[k]));
@@ -68,7 +69,7 @@ void add_ideal_claims(StudyResult& out, const NetlistResult& ideal) {
         .describe_published("the same high-pass, with 1 / G_m instead of R");
 }
 
-/// A load's current times its resistance at half the supply, over the voltage relative to half the supply.
+/// A load's current times its resistance at half the supply (V), over the voltage relative to half the supply (V). A resistor gives y = x.
 StudyCurve normalised_current(const StudyCurve& current) {
     const double slope = current.slope_at(half), middle = current.at(half);
     StudyCurve out;
@@ -76,6 +77,7 @@ StudyCurve normalised_current(const StudyCurve& current) {
         out.x.push_back(current.x[k] - half), out.y.push_back((current.y[k] - middle) / slope);
     return out;
 }
+/// Largest deviation (%) of a normalised current from a resistor's, at the voltages +offset and -offset.
 double nonlinearity(const StudyCurve& normalised) {
     return 100 * std::max(std::abs(normalised.at(-offset) / offset + 1), std::abs(normalised.at(offset) / offset - 1));
 }
@@ -84,7 +86,7 @@ void add_load_claims(StudyResult& out, const NetlistResult& found) {
     const auto plain = normalised_current(found.curve("dc", "i(ea)")), invc = normalised_current(found.curve("dc", "i(ec)"));
     out.claim("a plain inverter as a load: nonlinearity of its current at 100 mV", nonlinearity(plain), "%")
         .allow_min(5, "thesis 2.3: active devices are very non-linear by nature; more than 5 % is our choice");
-    out.claim("INVC as a load: the same", nonlinearity(invc), "%")
+    out.claim("INVC as a load: nonlinearity of its current at 100 mV", nonlinearity(invc), "%")
         .allow_max(nonlinearity(plain), "thesis 2.3: techniques that balance linearity and low transconductance");
     out.plot("Current times the resistance at half the supply", "voltage from half the supply (V)", "current times resistance (V)")
         .add("plain inverter", plain)
@@ -93,13 +95,15 @@ void add_load_claims(StudyResult& out, const NetlistResult& found) {
         .describe_published("a resistor obeys Ohm's law; a transconductor of transistors does not");
 }
 
-/// Fraction of a voltage step that remains 50 ms after it, for v(hp) and v(a).
+/// Fraction of a voltage step that remains at the filter's output 50 ms later, with INVC, v(hp), and with the resistor, v(a).
 struct Remainder {
     double invc, resistor;
 };
+/// For a step of `size` (V) and a resistor of `resistance` (ohm). Adds the responses to `plot`, unless it is null.
 Result<Remainder> remainder_after_step(double size, double resistance, StudyPlot* plot) {
     const auto found = run_study_netlist({steps, {fmt::format("size={}", size), fmt::format("r={}", resistance)}, {}});
     if (!found) return found.error();
+    // relative to the voltage before the step, as a fraction of the voltage at its end
     const auto normalised_step = [&](const char* node) {
         auto v = found->curve("tran", node);
         const double before = v.at(on - 2e-4), top = v.at(on + 1e-4) - before;
@@ -120,14 +124,14 @@ Result<StudyResult> compute(const StudyOptions& options) {
     add_ideal_claims(out, *ideal), add_load_claims(out, *real_loads);
     if (auto ok = options.report_progress(0.5); !ok) return ok.error();
     const double resistance = 1 / real_loads->curve("dc", "i(ec)").absolute().slope().absolute().at(half + 10e-3);
-    StudyPlot plot{"Response to a step, relative to its start", "time (s)", "fraction of the step", {}};
+    StudyPlot plot{"Response to a step, relative to the voltage before it", "time (s)", "fraction of the step", {}};
     const auto small = remainder_after_step(20e-3, resistance, &plot), large = remainder_after_step(200e-3, resistance, &plot),
                resistor = remainder_after_step(20e-3, resistance, nullptr);
     for (const auto* p : {&small, &large, &resistor})
         if (!*p) return p->error();
     out.claim("resistor: remainder of 200 mV after 50 ms, over that of 20 mV", large->resistor / small->resistor)
         .derived_as(1, "thesis 2.3: linear");
-    out.claim("INVC: the same", large->invc / small->invc)
+    out.claim("INVC: remainder of 200 mV after 50 ms, over that of 20 mV", large->invc / small->invc)
         .allow_max(1, "thesis 2.3: large signals are distorted; beyond its linear range INVC takes more current than a resistor");
     out.plots.push_back(std::move(plot));
     out.note(

@@ -20,20 +20,20 @@ Result<TransconductorCurve> simulate_without(const std::vector<std::string>& lin
     return simulate_transconductor({*text});
 }
 
-/// Current of M_M over that of M_1.
+/// The current of M_M over that of M_1, at rest.
 Result<double> simulate_split() {
     const auto found = run_study_netlist({"ota_cancelling", {}, ".save i(mma) i(m1a)\n.op"});
     if (!found) return found.error();
     return found->operating_point("i(mma)") / found->operating_point("i(m1a)");
 }
 
-/// The thesis's statements on any pair: low transconductance by small currents and small aspect ratios, better linearity in stronger
-/// inversion.
+/// The thesis's statements on any differential pair: its transconductance is low for small currents and small aspect ratios, and it is more
+/// linear in stronger inversion.
 Result<void> add_pair_claims(StudyResult& out, const StudyOptions& options) {
     const std::string source = "thesis 2.3, text";
     StudyPlot& plot = out.plot("Linear range of a pair without load (slope within 5 %)", "transconductance over tail current (1/V)", "V");
     plot.describe_published("\"the transconductance linearity is also proportional to the transistor inversion\"");
-    StudyCurve linear_ranges, g_m;
+    StudyCurve linear_ranges, g_m;  // V over g_m / i_b, which falls as i_b rises; S over i_b
     for (const double i_b : {1e-9, 3e-9, 10e-9, 30e-9, 100e-9, 300e-9, 1e-6, 3e-6, 10e-6, 30e-6}) {
         const auto pair = simulate_isolated_pair(i_b, 2, 8);
         if (!pair) return pair.error();
@@ -53,7 +53,7 @@ Result<void> add_pair_claims(StudyResult& out, const StudyOptions& options) {
     return options.report_progress(0.5);
 }
 
-/// Transconductances from bulk and drain compared with that from the gate.
+/// The bulk and the drain transconductance of a transistor, compared with its gate transconductance.
 Result<void> add_terminal_claims(StudyResult& out) {
     const auto found = run_study_netlist({R"(One transistor three times, driven at its gate, bulk and drain
 .lib '../process/tsmc180.lib' tt
@@ -93,22 +93,22 @@ Result<StudyResult> compute(const StudyOptions& options) {
     out.claim("current of M_M over that of M_1", *split, "times")
         .derived_as(S_M / S_1, source + ": \"proportionally to their dimensions\"")
         .explain_if_needed("M_M's drain is at vss, M_1's at the load: the single transistors of M_M have the lower Early voltage");
-    out.claim("splitting only: G_m with M_M over that without", without_N->g_m / pair_only->g_m)
+    out.claim("splitting only: G_m with M_M over G_m without M_M", without_N->g_m / pair_only->g_m)
         .derived_as(S_1 / (S_1 + S_M), source + ": lower by the split of the current, in weak inversion")
-        .explain_if_needed("the error of the current ratio above");
-    out.claim("cancellation only: G_m with M_N over that without", without_M->g_m / pair_only->g_m)
+        .explain_if_needed("the error of the current of M_M over that of M_1");
+    out.claim("cancellation only: G_m with M_N over G_m without M_N", without_M->g_m / pair_only->g_m)
         .derived_as((S_1 - S_N) / (S_1 + S_N), source + ": the difference of two transconductances, in weak inversion")
         .explain_if_needed("a difference of nearly equal numbers amplifies the error of each");
-    out.claim("both techniques: G_m over that of the pair without either", all->g_m / pair_only->g_m)
+    out.claim("both techniques: G_m over that of the pair alone", all->g_m / pair_only->g_m)
         .derived_as((S_1 - S_N) / (S_1 + S_N + S_M), source + ", in weak inversion")
-        .explain_if_needed("the product of the two errors above");
-    out.claim("linear range (slope within 5 %) up to", all->linear_range, "V");
-    out.claim("linear range of the pair without either technique up to", pair_only->linear_range, "V");
+        .explain_if_needed("the errors of splitting and of cancellation multiply");
+    out.claim("linear range (slope within 5 %) up to plus and minus", all->linear_range, "V");
+    out.claim("linear range of the pair alone up to plus and minus", pair_only->linear_range, "V");
     out.claim_true("with both techniques the linear range stays within a tenth of the pair's",
                    std::abs(all->linear_range / pair_only->linear_range - 1) < 0.1,
                    "thesis 2.3: they balance linearity and transconductance; the bound is our choice");
-    out.claim("power", all->power, "W");
-    StudyPlot& plot = out.plot("Output current relative to its largest positive value", "V_+ - V_- (V)", "I / largest");
+    out.claim("power of the complete circuit", all->power, "W");
+    StudyPlot& plot = out.plot("Output current relative to the largest current that both signs reach", "V_+ - V_- (V)", "I / largest");
     for (const auto& [name, t] : {std::pair{"complete", &*all}, {"without M_N", &*without_N}, {"pair only", &*pair_only}})
         plot.add(name, t->current.between(-0.15, 0.15).scaled(1, t->sign() / t->max_current));
     out.note(

@@ -10,6 +10,7 @@
 
 namespace corpuscle::studies::fig13 {
 
+/// The netlist with mirrors of N transistors and a tail current of i_b (A).
 Result<TransconductorCurve> simulate_mirrors(int N, double i_b) {
     const auto text = substitute_in_embedded_text("circuits/ota_series_parallel.cir",
                                                   {{"nch_hv w=1.5u l=0.5u m=8\n", fmt::format("nch_hv w=1.5u l=0.5u m={}\n", N)},
@@ -22,8 +23,8 @@ Result<StudyResult> compute(const StudyOptions& options) {
     StudyResult out;
     const std::string source = "thesis 2.3, fig. 13";
     constexpr double i_b = 502e-12,
-                     strong = 100e-9;  // A: the netlist's current, and a larger one for which the mirrors' voltages matter more
-    StudyCurve weak_divisor, strong_divisor;
+                     strong = 100e-9;         // A: the netlist's tail current; a larger one, for which the mirrors' voltages matter more
+    StudyCurve weak_divisor, strong_divisor;  // G_m at N = 1 over G_m, over N, for the two tail currents
     TransconductorCurve with_8;
     double plain = 0, plain_strong = 0;
     for (const int N : {1, 2, 3, 4, 6, 8}) {
@@ -40,7 +41,7 @@ Result<StudyResult> compute(const StudyOptions& options) {
         "length modulation: the parallel diode has all of its voltage across one unit transistor, the series array across N of them, so "
         "the diode carries more current than its ratio gives";
     for (const double N : {2.0, 4.0, 8.0})
-        out.claim(fmt::format("N = {}: G_m is divided by", N), weak_divisor.at(N), "times")
+        out.claim(fmt::format("N = {}: G_m is divided by (relative to N = 1)", N), weak_divisor.at(N), "times")
             .derived_as(N * N, source + ": N^2, for both current and transconductance")
             .explain_if_needed(why);
     const auto pair_only = simulate_isolated_pair(i_b, 2, 8);
@@ -49,11 +50,11 @@ Result<StudyResult> compute(const StudyOptions& options) {
         .derived_as(64, source + ": N^2")
         .explain_if_needed(why);
     out.claim("N = 8: G_m (chosen equal to INVC's of circuits/invc.cir)", with_8.g_m, "S");
-    out.claim("linear range (slope within 5 %) up to", with_8.linear_range, "V");
-    out.claim("linear range of the pair without load up to", pair_only->linear_range, "V");
+    out.claim("N = 8: linear range (slope within 5 %) up to plus and minus", with_8.linear_range, "V");
+    out.claim("linear range of the pair without load up to plus and minus", pair_only->linear_range, "V");
     out.claim_true("with the mirrors the linear range stays within a tenth of the pair's",
                    std::abs(with_8.linear_range / pair_only->linear_range - 1) < 0.1, "thesis 2.3: the mirrors attenuate only the output");
-    out.claim("power", with_8.power, "W");
+    out.claim("N = 8: power", with_8.power, "W");
 
     const auto cancelling = simulate_transconductor({"ota_cancelling"}),
                invc = simulate_transconductor({R"(INVC under the conditions of fig. 13
@@ -69,12 +70,13 @@ vout out 0 0.35
 )"});
     if (!cancelling) return cancelling.error();
     if (!invc) return invc.error();
-    out.claim("INVC, the thesis's own: linear range up to", invc->linear_range, "V");
+    out.claim("INVC, the thesis's own: linear range up to plus and minus", invc->linear_range, "V");
     out.claim("INVC: power", invc->power, "W");
-    out.claim_true("INVC has a larger linear range than either",
+    out.claim_true("INVC has a larger linear range than the circuits of figs. 12 and 13",
                    invc->linear_range > with_8.linear_range && invc->linear_range > cancelling->linear_range,
                    "thesis 2.3: it \"combines the two techniques\"; app. E: linearised");
-    out.claim_true("INVC takes less power than either", invc->power < with_8.power && invc->power < cancelling->power,
+    out.claim_true("INVC takes less power than the circuits of figs. 12 and 13",
+                   invc->power < with_8.power && invc->power < cancelling->power,
                    "thesis 2.3: \"to decrease the ... total power consumption\"")
         .explain_if_needed(
             "at the same transconductance the pairs take less: their tails carry nanoamperes, INVC's linear stage the bias of 200 nA. In "

@@ -8,11 +8,13 @@
 
 namespace corpuscle::studies::fig16 {
 
-constexpr double C = 1e-6, R = 1e6, leak = 500e-9, theta = 1, reset = 0.5;  // F, ohm, A, V, V: thesis 3.2; u_rest is 0
-constexpr double on = 0.5, off = 4;    // s; these times and the 2.03 uA below are not published (errata B7)
+constexpr double C = 1e-6, R = 1e6, leak = 500e-9, theta = 1,
+                 reset = 0.5;          // F, ohm, A, V, V: thesis 3.2; `reset` is u_rst, u_rest is 0 by default
+constexpr double on = 0.5, off = 4;    // s: start and end of the step; these times and the 2.03 uA below are not published (errata B7)
 constexpr double amplitude = 2.03e-6;  // A
 
-/// Through SA-IA without its dynamic component a step of force becomes a step of current.
+/// The response to a step of current (A) of duration `hold` (s). The receptor SA-IA without its dynamic component turns a step of force
+/// into a step of current, 1 uA/N.
 Result<TrialResult> simulate_step(const std::string& neuron, double current, double hold = off - on, double rate = 2e3, double u_rest = 0) {
     const std::string afferent = "sa1a+" + neuron;
     return run_trial({.afferent = afferent,
@@ -38,10 +40,10 @@ Result<double> rheobase(const std::string& neuron, double u_rest = 0) {
     return high;
 }
 
-/// The membrane voltage from the end of the step, after the last reset, until the membrane is at rest again.
+/// The membrane voltage after the step, to the end of the simulation. It begins 1 ms after the step, when no more spikes occur.
 StudyCurve after_step(const StudyCurve& u) { return u.between(off + 1e-3, 6); }
 
-/// The first time (s) at which the membrane is at rest.
+/// The first time (s) at which the membrane voltage is 0, u_rest.
 double time_of_rest(const StudyCurve& u) {
     for (std::size_t k = 0; k < u.x.size(); ++k)
         if (u.y[k] <= 0) return u.x[k];
@@ -59,7 +61,8 @@ Result<void> report_rheobases(StudyResult& out, const StudyOptions& options) {
     out.claim(fmt::format("LIF-A with u_rest = {} V: smallest current that makes it fire", u_rest), *raised_rest, "A")
         .derived_as(theta / R, "thesis 3.2: theta / R")
         .explain("it is (theta - u_rest) / R (errata B5a), which equals theta / R only for u_rest = 0");
-    out.claim("the same, compared with the corrected formula", *raised_rest, "A")
+    out.claim(fmt::format("LIF-A with u_rest = {} V: smallest current that makes it fire, against the corrected formula", u_rest),
+              *raised_rest, "A")
         .derived_as((theta - u_rest) / R, "errata B5a: (theta - u_rest) / R");
     return options.report_progress(0.8);
 }
@@ -75,7 +78,7 @@ Result<StudyResult> compute(const StudyOptions& options) {
     out.claim("LIF-A: frequency", f_A, "Hz")
         .derived_as(approximate_rate, "thesis 3.2: I / [C (theta - u_rst)] for I much above I_R")
         .explain("the approximation holds for currents far above the leak; this current is about twice the leak (errata B5b)");
-    out.claim("LIF-A: frequency, by the solution of (5)", f_A, "Hz")
+    out.claim("LIF-A: frequency, against the solution of (5)", f_A, "Hz")
         .derived_as(1 / (R * C * std::log((R * amplitude - reset) / (R * amplitude - theta))),
                     "errata B5b: 1 / {RC ln[(R I - u_rst) / (R I - theta)]}");
     out.claim("LIF-B: frequency", f_B, "Hz")
@@ -98,7 +101,7 @@ Result<StudyResult> compute(const StudyOptions& options) {
     out.claim("u_B: slope of its fall", line.slope, "V/s").derived_as(-leak / C, "thesis 3.2: linearly, by (6) and (7)");
     out.claim("u_B: largest difference from a straight line while it falls", line.max_deviation, "V")
         .allow_max(1e-3, "thesis 3.2: linearly; within 1 mV here");
-    out.claim_true("u_B: stays at u_rest from then on", fall_B.between(rest_from, 6).max() == 0, "thesis 3.2: until it reaches u_rest");
+    out.claim_true("u_B: stays at u_rest after its fall", fall_B.between(rest_from, 6).max() == 0, "thesis 3.2: until it reaches u_rest");
     out.claim("spikes of LIF-A over those of LIF-B", static_cast<double>(A->spikes.size()) / static_cast<double>(B->spikes.size()))
         .allow_range(0.8, 1.25, "thesis 3.2: similar pulse patterns; the range is our choice");
     out.plot("Membrane", "time (s)", "u (V)")

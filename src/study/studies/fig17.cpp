@@ -8,7 +8,7 @@
 
 namespace corpuscle::studies::fig17 {
 
-/// theta and u_rst are not published: three possible pairs of values (errata B10a). V.
+/// Three possible pairs of the threshold theta and the reset voltage u_rst (V), which are not published (errata B10a).
 struct ThresholdCase {
     const char* name;
     double theta, reset;
@@ -16,6 +16,7 @@ struct ThresholdCase {
 constexpr ThresholdCase threshold_cases[] = {
     {"1 and 0.5 V as in fig. 16", 1, 0.5}, {"0.5 and 0.25 V (our choice)", 0.5, 0.25}, {"0.2 and 0 V", 0.2, 0}};
 
+/// Sum of two curves with the same x.
 StudyCurve sum(const StudyCurve& a, const StudyCurve& b) {
     StudyCurve out = a;
     for (std::size_t k = 0; k < a.y.size(); ++k) out.y[k] += b.y[k];
@@ -26,6 +27,7 @@ StudyCurve positive(StudyCurve a) {
     return a;
 }
 
+/// The receptor's currents I_A, I_B, I_C, and their sum I without negative I_B and I_C.
 struct Currents {
     StudyCurve A, B, C, I;
     explicit Currents(const TrialResult& response)
@@ -47,17 +49,16 @@ void report_currents(StudyResult& out, const Currents& i, const StudyCurve& forc
     const double w = 2 * M_PI * 4, corner = 2 * M_PI * 20;  // the half-cosine of 125 ms is half a period of 4 Hz
     out.claim("high-pass of 20 Hz at 4 Hz: amplitude below a derivative's", 100 * (1 - corner / std::hypot(w, corner)), "%");
     out.claim("high-pass of 20 Hz at 4 Hz: phase lag behind a derivative", std::atan(w / corner) * 180 / M_PI, "degrees");
-    const auto value_at = [&](const StudyCurve& x, double t) { return x.at(t); };
     const double from = press::plateau.from + 50e-3, to = press::plateau.to - 1e-3;  // I_B has decayed by then
     out.claim("fraction of the decay of I in the plateau that is due to I_C, from 50 ms on",
-              100 * (value_at(i.C, from) - value_at(i.C, to)) / (value_at(i.I, from) - value_at(i.I, to)), "%")
+              100 * (i.C.at(from) - i.C.at(to)) / (i.I.at(from) - i.I.at(to)), "%")
         .allow_range(95, 105, "thesis 3.3: I_C is responsible for the slow decay; the range is our choice");
     const double t = (press::retraction.from + press::retraction.to) / 2 + 20e-3;
-    out.claim("I_B + I_C late in retraction, before rectification", value_at(i.B, t) + value_at(i.C, t), "A")
-        .allow_max(0, "thesis 3.3: negative there");
-    out.claim("their contribution to I at that time", value_at(i.I, t) - value_at(i.A, t), "A")
+    out.claim("I_B + I_C late in retraction (20 ms after its middle), before rectification", i.B.at(t) + i.C.at(t), "A")
+        .allow_max(0, "thesis 3.3: negative while the force falls");
+    out.claim("contribution of I_B and I_C to I late in retraction", i.I.at(t) - i.A.at(t), "A")
         .allow_range(0, 0, "thesis 3.3: negative values do not contribute");
-    out.claim("I: peak", i.I.max(), "A");
+    out.claim("I: largest value", i.I.max(), "A");
     out.plot("Receptor currents, T = 1 ms", "time (s)", "current (uA)")
         .add("I", i.I.scaled(1, 1e6))
         .add("I_A", i.A.scaled(1, 1e6))
@@ -98,7 +99,7 @@ Result<StudyResult> compute(const StudyOptions& options) {
         for (std::size_t k = 0; k < std::min(algorithm->size(), exact->size()); ++k)
             worst_difference = std::max(worst_difference, std::abs((*algorithm)[k] - (*exact)[k]));
         auto& c = out.claim(named("largest spike time difference between T = 1 ms and the exact solution"), worst_difference, "s");
-        if (std::isnan(worst_difference)) c.explain("the numbers of spikes differ");
+        if (std::isnan(worst_difference)) c.explain("T = 1 ms and the exact solution give different numbers of spikes");
         frequencies.points(r.name, press::frequency_at_start(*algorithm));
     }
     out.plots.push_back(frequencies.describe_published("points, one per discharge, close to the curve of the nerve (which is lost)"));

@@ -8,10 +8,10 @@
 
 namespace corpuscle::studies::fig18 {
 
-constexpr double leak = 1e-6, C = 500e-9;  // A, F: thesis 3.4
-constexpr TimeWindow rising{0.25, 0.625}, falling{0.625, 1.0};
+constexpr double leak = 1e-6, C = 500e-9;                       // A, F: thesis 3.4
+constexpr TimeWindow rising{0.25, 0.625}, falling{0.625, 1.0};  // s: protraction and plateau; retraction and the time after it
 
-/// I_A and I_B; one of them is always zero.
+/// The receptor's currents I_A and I_B, of which one is always zero, and their sum I.
 struct Currents {
     StudyCurve A, B, I;
     explicit Currents(const TrialResult& response) : A(response.probes.at("I_A")), B(response.probes.at("I_B")), I(A) {
@@ -19,7 +19,7 @@ struct Currents {
     }
 };
 
-/// Charge (C) of the current above the leak in a window.
+/// Charge (coulombs) of the part of the current that exceeds the leak, in a window.
 double net_charge(const StudyCurve& current, const TimeWindow& window) {
     const auto part = current.between(window.from, window.to);
     double out = 0;
@@ -28,6 +28,7 @@ double net_charge(const StudyCurve& current, const TimeWindow& window) {
     return out;
 }
 
+/// The exact response of fa1 to the press stimulus.
 Result<TrialResult> simulate(const std::vector<std::string>& settings, double rate = 10e3) {
     return run_trial({.afferent = "fa1", .settings = settings, .rate = rate, .probes = {"I_A", "I_B", "u"}});
 }
@@ -41,7 +42,8 @@ void report_currents(StudyResult& out, const Currents& i, const StudyCurve& forc
     auto& ratio = out.claim("largest I_A over largest I_B", up / down).derived_as(3.5 / 2.75, "thesis 3.4: k_A and k_B");
     if (ratio.needs_explanation())
         ratio.explain("the filter still holds charge from the rise when the force begins to fall, which reduces I_B");
-    out.claim("the same ratio, above the leak", (up - leak) / (down - leak)).derived_as(3.5 / 2.75, "thesis 3.4: k_A and k_B");
+    out.claim("largest I_A over largest I_B, both minus the leak", (up - leak) / (down - leak))
+        .derived_as(3.5 / 2.75, "thesis 3.4: k_A and k_B");
     out.claim("I_A: delay of its peak after the peak of the slope", i.A.x_of_max() - force.slope().x_of_max(), "s")
         .allow_min(1e-3, "thesis 3.4: slightly delayed in protraction; at least one sample of 1 ms");
     out.claim("I stays above the leak after protraction for", i.A.crossing(leak, i.A.x_of_max()) - press::protraction.to, "s");
@@ -55,7 +57,7 @@ void report_currents(StudyResult& out, const Currents& i, const StudyCurve& forc
         .describe_published("two components with unequal peaks, one in protraction and one in retraction");
 }
 
-/// Claims that the train discharges in protraction and retraction only.
+/// Claims that the train has spikes in protraction and retraction only. `why` explains the claims that do not hold.
 void report_train(StudyResult& out, const std::string& name, const std::vector<double>& train, const char* why) {
     out.claim(name + ": discharges in protraction", press::spike_count(train, press::protraction), "spikes")
         .allow_min(1, "thesis 3.4, fig. 18c");
@@ -83,11 +85,13 @@ Result<StudyResult> compute(const StudyOptions& options) {
     const Currents i(*response);
     report_currents(out, i, *force);
     const double up = measure<PeakRate>(response->spikes, rising), down = measure<PeakRate>(response->spikes, falling);
-    out.claim("peak of the frequency, rising", up, "Hz"), out.claim("peak of the frequency, falling", down, "Hz");
-    out.claim("ratio of the two peaks", up / down).allow_min(1, "thesis 1.2 and 3.4: asymmetrical, protraction above retraction");
+    out.claim("peak of the frequency while the force rises", up, "Hz"),
+        out.claim("peak of the frequency while the force falls", down, "Hz");
+    out.claim("peak of the frequency, rising over falling force", up / down)
+        .allow_min(1, "thesis 1.2 and 3.4: asymmetrical, protraction above retraction");
     report_train(
         out, "f = 2 Hz as printed, theta 0.5 V", response->spikes,
-        "the charge of a filter of 2 Hz at the end of a ramp keeps the current above the leak for the time given above (errata B13)");
+        "the charge of a filter of 2 Hz at the end of a ramp keeps the current above the leak after the ramp has ended (errata B13)");
     report_train(
         out, "theta 1 V and u_rst 0.5 V as in fig. 16", with_fig16_threshold->spikes,
         "the charge above the leak in protraction is less than C times 1 V (errata B10a), so the first discharge falls in the plateau");
@@ -102,7 +106,7 @@ Result<StudyResult> compute(const StudyOptions& options) {
         .add("force, 10 Hz per newton", force->scaled(1, 10))
         .describe_published(
             "in protraction, slightly late, and in retraction; \"the maximum amplitude for the protraction and retraction phase matches\" "
-            "data that are lost");
+            "the data, which are lost");
     return out;
 }
 

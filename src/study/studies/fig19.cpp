@@ -10,6 +10,7 @@ namespace corpuscle::studies::fig19 {
 
 constexpr double from = 50, to = 4000;  // gf: the range in which the thesis calls the model fairly accurate
 
+/// A quantity of the sensor from 10 gf to 10 kgf, 20 points in a decade.
 StudyCurve sample_logarithmically(const ForceSensor& sensor, double (ForceSensor::*quantity)(double) const) {
     StudyCurve out;
     for (double gf = 10; gf <= 1e4; gf *= std::pow(10, 1.0 / 20)) out.x.push_back(gf), out.y.push_back((sensor.*quantity)(gf));
@@ -19,7 +20,7 @@ StudyCurve sample_logarithmically(const ForceSensor& sensor, double (ForceSensor
 /// Largest difference of a curve from its fitted straight line, as a fraction of its range.
 double nonlinearity(const StudyCurve& line) { return line.fit_line().max_deviation / (line.max() - line.min()); }
 
-/// The netlist's sensor at 1 V: its current (A), equal to its conductance (S), over the force in gf.
+/// The netlist's sensor at 1 V: its current (A), numerically equal to its conductance (S), over the force in gf.
 Result<StudyCurve> simulate_sensor() {
     const auto found =
         run_study_netlist({"The sensor\n.lib '../process/tsmc180.lib' tt\n.include 'parts/transducer.inc'\n"
@@ -44,11 +45,11 @@ Result<StudyResult> compute(const StudyOptions&) {
     out.claim("resistance without force", sensor.resistance(0), "ohm").published_as(10e6, source + ": R_0; \"> 10 Mohms\" in the " + sheet);
     for (const double gf : {min_gf, from, 100.0, max_gf, 1000.0, to})
         out.claim(fmt::format("resistance at {:g} gf", gf), sensor.resistance(gf), "ohm");
-    out.claim("with a = 170 ohm gf: resistance at 100 gf", as_printed.resistance(100), "ohm")
+    out.claim("with a = 170 ohm, as printed: resistance at 100 gf", as_printed.resistance(100), "ohm")
         .allow_min(100, "a sensor of some kilohms, by the " + sheet + "; the bound is our choice")
         .explain_if_needed("170 ohm is a misprint for 170 kohm (errata F1)");
-    out.claim("with a as printed, 170 times F^m as a conductance: resistance at 100 gf", 1 / (170 * std::pow(100, sensor.m)), "ohm")
-        .allow_min(100, "as above")
+    out.claim("with a as printed, and 170 times F^m as a conductance: resistance at 100 gf", 1 / (170 * std::pow(100, sensor.m)), "ohm")
+        .allow_min(100, "a sensor of some kilohms, by the " + sheet + "; the bound is our choice")
         .explain_if_needed("a of eq. 13 is used as a conductance and has the unit of a resistance (errata F1)");
     const auto G = sensor.conductance_curve(min_gf, max_gf);
     StudyCurve R = G;

@@ -1,5 +1,5 @@
-// Fig. 20: force to voltage. A transimpedance amplifier holds the sensor at V_Y and gives V_Z = V_X + V_FSR G_FSR R_F. R_F is not
-// published; circuits/force_to_voltage.cir chooses values.
+// Fig. 20: force to voltage. A transimpedance amplifier holds the sensor's voltage V_X at V_Y, so V_FSR, across the sensor, is V_Y. Its
+// output is V_Z = V_X + V_FSR G_FSR R_F. R_F is not published; circuits/force_to_voltage.cir chooses values.
 
 #include <fmt/format.h>
 #include <cmath>
@@ -16,9 +16,10 @@ Result<StudyCurve> ideal_output(std::vector<std::string> settings) {
     return found->curve("dc", "par('v(z)-v(x)')");
 }
 
-/// V_Z - V_X (V) by eq. 14 over the force in gf.
+/// V_Z - V_X (V) by eq. 14 over the force in gf, for a sensor voltage V (V) and R_F (ohm).
 StudyCurve equation(double V, double R_F) { return ForceSensor().conductance_curve(1, 500).scaled(1, V * R_F); }
 
+/// Largest relative difference (a fraction) of a from b, from min_gf to max_gf.
 double worst_error(const StudyCurve& a, const StudyCurve& b) {
     double worst = 0;
     for (std::size_t k = 0; k < a.x.size(); ++k)
@@ -39,15 +40,16 @@ Result<StudyResult> compute(const StudyOptions& options) {
         .allow_max(1, eq14 + " (with the G_0 that its last line drops, errata F5); the bound is our choice");
     out.claim("V_Z - V_X at 400 gf: with twice V_Y over that with V_Y", twice_V->at(400) / nominal->at(400), "times")
         .derived_as(2, source + ": V_Y controls the gain");
-    out.claim("V_Z - V_X at 400 gf: with half R_F over that with R_F", half_R->at(400) / nominal->at(400), "times")
+    out.claim("V_Z - V_X at 400 gf: with half of R_F over that with R_F", half_R->at(400) / nominal->at(400), "times")
         .derived_as(0.5, source + ": R_F controls the gain");
     const auto G = ForceSensor().conductance(400);
     out.claim("output current that the amplifier needs at 400 gf", 0.1 * G, "A");
+    // nodes: za, xa with fig. 23's amplifier; zb, xb with this amplifier and a follower; z, x with an ideal amplifier
     const auto i_a = found->curve("dc", "par('(v(za)-v(xa))/9.1k')"), x_a = found->curve("dc", "v(xa)");
     out.claim("output current of fig. 23's amplifier at 400 gf", i_a.at(400), "A")
         .allow_min(0.95 * 0.1 * G, "thesis eq. 15: \"must be able to output\" it")
         .explain_if_needed(
-            "its output branch has I_BIASA of 100 nA and mirrors of one to one; it was designed to drive gates (figs. 22, 23)");
+            "the amplifier's output branch has I_BIASA of 100 nA and mirrors of one to one; it was designed to drive gates (figs. 22, 23)");
     out.claim_true("with this amplifier only, \"the circuit will not function properly\": V_X at 20 gf is below half of V_Y",
                    x_a.at(20) < 0.05, "thesis 4.2, below eq. 15");
     const auto z_b = found->curve("dc", "v(zb)"), x_b = found->curve("dc", "v(xb)");
@@ -55,13 +57,13 @@ Result<StudyResult> compute(const StudyOptions& options) {
         .derived_as(0.1 + equation(0.1, 3.6e3).at(400), eq14 + " with 3.6 kohm");
     out.claim("with a follower: V_X at 400 gf", x_b.at(400), "V").derived_as(0.1, source + ": \"forces V_X to follow V_Y\"");
     const auto z = found->curve("dc", "v(z)");
-    out.claim_true("V_Z and the current are largest at the largest force", z.x_of_max() == 500 && z_b.x_of_max() == 500,
-                   "thesis 4.2: \"for the maximum applied force\"");
-    out.claim_true("the conductance is largest there, not smallest", ForceSensor().conductance(500) > ForceSensor().conductance(1),
-                   "printed: \"minimum ... conductance\", errata F4");
+    out.claim_true("V_Z is largest at the largest force, with the ideal amplifier and with the follower",
+                   z.x_of_max() == 500 && z_b.x_of_max() == 500, "thesis 4.2: \"for the maximum applied force\"");
+    out.claim_true("at the largest force the conductance is largest, not smallest",
+                   ForceSensor().conductance(500) > ForceSensor().conductance(1), "printed: \"minimum ... conductance\", errata F4");
     if (auto ok = options.report_progress(0.4); !ok) return ok.error();
 
-    StudyCurve lowest;
+    StudyCurve lowest;  // lowest supply (V) over V_FSR G_FSR R_F at 400 gf (V), for several R_F
     std::vector<TransducerCell> cells;
     for (const double R : {500.0, 1e3, 2e3, 3e3, 3.6e3, 5e3, 7e3, 9.1e3}) {
         cells.push_back({fmt::format("r{:g}", R), voltage_cell(R)});
@@ -82,8 +84,8 @@ Result<StudyResult> compute(const StudyOptions& options) {
         .add("fig. 23's amplifier, 9.1 kohm", found->curve("dc", "v(za)"))
         .add("with a follower, 3.6 kohm", z_b)
         .describe_published("V_Z proportional to the conductance");
-    auto& eq = out.plots.back().series[0];
-    for (double& v : eq.y) v += 0.1;
+    auto& V_Z_by_14 = out.plots.back().series[0];  // eq. 14 gives V_Z - V_X; V_X is 0.1 V
+    for (double& v : V_Z_by_14.y) v += 0.1;
     out.plot("Lowest supply at 4 N over the rise of V_Z", "V_FSR G_FSR R_F at 400 gf (mV)", "lowest V_DD (mV)")
         .add("follower of 64 unit transistors behind fig. 23's amplifier", lowest.scaled(1e3, 1e3));
     out.note("Lowest supply: V_X at least 95 % of V_Y. The study fig22 compares the three transducers.");

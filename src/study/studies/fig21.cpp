@@ -1,5 +1,7 @@
 // Fig. 21: force to current by one transistor with its bulk at vss. No size is published; this study shows the benefit of a larger
 // transistor.
+// Symbols. V_X is the sensor's voltage, which the amplifier holds at the reference V_Y. V_Z is the amplifier's output, I_F the transducer's
+// output current, G_FSR (or G) the sensor's conductance, S_n the aspect ratio of M_n.
 
 #include <fmt/format.h>
 #include <cmath>
@@ -14,7 +16,7 @@ Result<StudyResult> compute(const StudyOptions& options) {
     const std::string source = "thesis 4.2, fig. 21";
     const auto found = run_study_netlist({"force_to_current_plain", {}, ".dc vgf 1 500 1"});
     if (!found) return found.error();
-    const auto I = found->curve("dc", "i(vif)"), I_4 = found->curve("dc", "i(vif4)"), V_X = found->curve("dc", "v(vx)");
+    const auto I = found->curve("dc", "i(vif)"), I_64x1 = found->curve("dc", "i(vif4)"), V_X = found->curve("dc", "v(vx)");
     double worst_error = 0;
     for (double gf = min_gf; gf <= max_gf; ++gf)
         worst_error = std::max(worst_error, std::abs(I.at(gf) / (V_X.at(gf) * ForceSensor().conductance(gf)) - 1));
@@ -29,13 +31,13 @@ Result<StudyResult> compute(const StudyOptions& options) {
     const int columns[] = {8, 16, 32, 64, 128, 256, 512};
     std::vector<TransducerCell> cells;
     for (const int m : columns) cells.push_back({fmt::format("m{}", m), single_transistor_cell(m)});
-    cells.push_back({"improved", improved_cell()});
+    cells.push_back({"improved", improved_cell()});  // fig. 22; the last one
     const auto at_4N = run_study_netlist({transducer_netlist(cells, "4"), {}, ".op"});
     if (!at_4N) return at_4N.error();
     const auto lowest = find_lowest_supplies(cells, 4);
     if (!lowest) return lowest.error();
     if (auto ok = options.report_progress(0.8); !ok) return ok.error();
-    StudyCurve V_Z, supply;
+    StudyCurve V_Z, supply;  // V_Z at 0.7 V and the lowest supply, V, over the number of unit transistors
     for (std::size_t k = 0; k < std::size(columns); ++k) {
         V_Z.x.push_back(columns[k]), V_Z.y.push_back(at_4N->operating_point(fmt::format("v(x{}.vz)", cells[k].name)));
         supply.x.push_back(columns[k]), supply.y.push_back((*lowest)[k]);
@@ -51,7 +53,7 @@ Result<StudyResult> compute(const StudyOptions& options) {
     out.claim("doubling S_1 at 256x1 lowers V_Z by", V_Z.at(256) - V_Z.at(512), "V");
     out.plot("21: I_F", "force (gf)", "uA")
         .add("16x1", I.scaled(1, 1e6))
-        .add("64x1", I_4.scaled(1, 1e6))
+        .add("64x1", I_64x1.scaled(1, 1e6))
         .describe_published("all of the sensor's current");
     StudyPlot& plot = out.plot("Benefit of a larger M_1 at 4 N", "unit transistors of M_1", "V");
     plot.log_x = true;

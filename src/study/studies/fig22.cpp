@@ -1,5 +1,7 @@
 // Fig. 22: force to current with current splitting and forward-biased bulks, and the benefit of each. Compares the three transducers by the
 // lowest supply at which they still regulate the sensor's voltage at 4 N.
+// Symbols. V_X is the sensor's voltage, which the amplifier holds at the reference V_Y. V_Z is the amplifier's output, I_F the transducer's
+// output current, G_FSR (or G) the sensor's conductance, S_n the aspect ratio of M_n.
 
 #include <fmt/format.h>
 #include <cmath>
@@ -11,6 +13,7 @@ namespace corpuscle::studies::fig22 {
 
 const std::string source = "thesis 4.2, fig. 22";
 
+/// A transducer: the name of its cell, its description in labels, its netlist lines.
 struct Variant {
     const char *name, *description;
     std::string lines;
@@ -31,7 +34,7 @@ std::vector<TransducerCell> cells() {
     return out;
 }
 
-/// Effect of the two techniques at 4 N and 0.9 V, where all transducers regulate the sensor's voltage.
+/// Effect of current splitting and of forward-biased bulks at 4 N and 0.9 V, where all transducers regulate the sensor's voltage.
 Result<void> report_techniques(StudyResult& out) {
     const auto found = run_study_netlist({transducer_netlist(cells(), "4"),
                                           {"vdd=0.9"},
@@ -45,15 +48,16 @@ Result<void> report_techniques(StudyResult& out) {
         .explain_if_needed(
             "the single transistors of M_2 have the lower Early voltage and carry more current than their ratio gives; the effect is "
             "smaller at 0.7 V, where their drain is lower");
-    out.claim("I_F over fig. 21's", at("i(ximproved.vif)") / at("i(xplain.vif)"))
+    out.claim("4 N, 0.9 V: I_F of fig. 22 over I_F of fig. 21", at("i(ximproved.vif)") / at("i(xplain.vif)"))
         .derived_as(1.0 / 17, source + ": I_F = I_F0 S_1 / (S_1 + S_2), errata F8")
-        .explain_if_needed("as above");
-    out.claim("V_BS of M_1 and M_2, set by M_3", at("v(ximproved.tb)") - at("v(ximproved.vx)"), "V").allow_min(0, source + ": forward");
-    out.claim("current of M_3, through the bulks", at("i(ximproved.mn3)"), "A")
+        .explain_if_needed("the single transistors of M_2 carry more current than their ratio gives");
+    out.claim("4 N, 0.9 V: V_BS of M_1 and M_2, set by M_3", at("v(ximproved.tb)") - at("v(ximproved.vx)"), "V")
+        .allow_min(0, source + ": forward");
+    out.claim("4 N, 0.9 V: current of M_3, which flows through the bulks", at("i(ximproved.mn3)"), "A")
         .allow_max(0.01 * at("i(ximproved.vif)"), "thesis app. D: M_3 limits it; a hundredth of I_F is our choice");
-    out.claim("V_Z, fig. 22", at("v(ximproved.vz)"), "V");
-    out.claim("V_Z without M_3, bulks at the source", at("v(xatsource.vz)"), "V");
-    out.claim("V_Z without M_3, bulks at vss", at("v(xatvss.vz)"), "V")
+    out.claim("4 N, 0.9 V: V_Z, fig. 22", at("v(ximproved.vz)"), "V");
+    out.claim("4 N, 0.9 V: V_Z without M_3, bulks at the source", at("v(xatsource.vz)"), "V");
+    out.claim("4 N, 0.9 V: V_Z without M_3, bulks at vss", at("v(xatvss.vz)"), "V")
         .allow_min(at("v(ximproved.vz)"), source + ": forward bias decreases V_GS1 \"without increasing the transistor size\"");
     return {};
 }
@@ -86,9 +90,10 @@ Result<void> report_supplies(StudyResult& out) {
     return {};
 }
 
+/// The lowest supply over the force, and in the process corners, with and without the forward-biased bulks.
 Result<void> report_forces_and_corners(StudyResult& out, const StudyOptions& options) {
     const std::vector<TransducerCell> two_cells = {{"lifted", improved_cell()}, {"atvss", improved_cell_with_bulks("0")}};
-    StudyCurve lifted, at_vss;
+    StudyCurve lifted, at_vss;  // lowest supply (V) over the force (N), with and without the forward-biased bulks
     for (const double newtons : {0.05, 0.1, 0.2, 0.5, 1.0, 2.0, 4.0, 6.0, 8.0}) {
         const auto lowest = find_lowest_supplies(two_cells, newtons);
         if (!lowest) return lowest.error();
@@ -104,14 +109,14 @@ Result<void> report_forces_and_corners(StudyResult& out, const StudyOptions& opt
         if (!lowest) return lowest.error();
         out.claim(fmt::format("corner {}: lowest supply at 4 N, fig. 22", corner), (*lowest)[0], "V")
             .allow_max(0.7, "thesis 4.2: works \"at worst case process corners\"");
-        out.claim(fmt::format("corner {}: without M_3, bulks at vss", corner), (*lowest)[1], "V");
+        out.claim(fmt::format("corner {}: lowest supply at 4 N, fig. 22 without M_3, bulks at vss", corner), (*lowest)[1], "V");
     }
     return {};
 }
 
-/// The fraction of the current over the ratio of the aspect ratios (errata F8).
+/// I_F over S_1 / S_2, the ratio of the aspect ratios (errata F8).
 Result<void> report_split(StudyResult& out) {
-    StudyCurve simulated, expected;
+    StudyCurve simulated, expected;  // I_F (uA) over S_1 / S_2
     std::vector<TransducerCell> all;
     const int columns[] = {1, 2, 4, 8, 16};
     for (const int m : columns)
@@ -127,7 +132,7 @@ Result<void> report_split(StudyResult& out) {
         expected.x.push_back(S / 16), expected.y.push_back(1e6 * I_F0 * S / (S + 16));
     }
     out.claim_true("a smaller S_1 / S_2 gives a smaller I_F", simulated.y.front() < simulated.y.back(),
-                   "printed: \"maximum S_1/S_2\", errata F8: minimum");
+                   "printed: \"maximum S_1/S_2\"; by errata F8 the minimum is meant");
     StudyPlot& plot = out.plot("I_F at 4 N over S_1 / S_2, with sixteen unit transistors in each M_1", "S_1 / S_2", "I_F (uA)");
     plot.log_x = plot.log_y = true;
     plot.add("netlist", simulated, StudyPlot::Style::points)
@@ -144,8 +149,9 @@ Result<StudyResult> compute(const StudyOptions& options) {
     if (auto ok = report_forces_and_corners(out, options); !ok) return ok.error();
     if (auto ok = report_split(out); !ok) return ok.error();
     out.note(
-        "Lowest supply: V_X, which eq. 14 and 15 set equal to V_Y, is at least 95 % of V_Y. The output is held at the supply except in the "
-        "last row. The result for fig. 20 depends on R_F (fig20), that for fig. 21 on the size (fig21); neither is published.");
+        "Lowest supply: V_X, which eq. 14 and 15 set equal to V_Y, is at least 95 % of V_Y. The output is held at the supply, except "
+        "where it is loaded by the diode of table 3. The result for fig. 20 depends on R_F (fig20), that for fig. 21 on the size (fig21); "
+        "neither is published.");
     out.note(
         "M_3 is table 1's second M_1 (errata F9). Its drain and bulk connections are our interpretation: it lifts the bulks towards the "
         "supply.");

@@ -12,11 +12,12 @@ namespace corpuscle::studies::fig23 {
 using Changes = std::vector<std::pair<std::string, std::string>>;
 const std::string source = "thesis 4.2, fig. 23";
 
+// Changes of circuits/parts/transducer.inc, as pairs of an old and a new text: the bulks of some transistors are connected elsewhere.
 const Changes pair_at_supply = {{" t b3 pch", " t vdd pch"}, {" t b4 pch", " t vdd pch"}};
 const Changes pair_at_source = {{" t b3 pch", " t t pch"}, {" t b4 pch", " t t pch"}};
 const Changes n_bulks_at_vss = {{" 0 b5 nch", " 0 0 nch"}, {" f1 b6 nch", " f1 0 nch"}, {" f2 b6 nch", " f2 0 nch"}};
 const Changes p_bulks_at_supply = {{" vdd b1 pch", " vdd vdd pch"}, {" b2 pch w=6u l=0.5u m=16", " vdd pch w=6u l=0.5u m=16"}};
-/// The input pair's bulks directly at vss, each through a source that measures the bulk current.
+/// Without M_3C and M_3D: the input pair's bulks at vss, each through a source that measures the bulk current.
 const Changes bulks_at_vss = {{"mp3c plus  0 b3 b3 pch w=6u l=0.5u m=16", "vb3 b3 0 0"},
                               {"mp3d minus 0 b4 b4 pch w=6u l=0.5u m=16", "vb4 b4 0 0"}};
 
@@ -29,7 +30,8 @@ Result<NetlistResult> simulate_amplifier(const Changes& changes, const std::stri
     return run_study_netlist({std::move(*netlist), {}, directives});
 }
 
-/// Transconductance over the common mode, from the pair of cells in circuits/amplifier.cir with inputs of +0.1 mV and -0.1 mV.
+/// Transconductance (S) over the common-mode input (V), from the pair of cells in circuits/amplifier.cir with inputs of +0.1 mV and -0.1
+/// mV.
 Result<StudyCurve> transconductance(const Changes& changes) {
     const auto found = simulate_amplifier(changes, ".dc vs 0 0.7 2m");
     if (!found) return found.error();
@@ -54,30 +56,31 @@ Result<void> report_amplifier(StudyResult& out) {
     out.claim("phase margin with this load at unity feedback", found->number("margin"), "degrees")
         .allow_min(45, "not published; the bound is our choice");
     out.claim("input transconductance at V_Y", found->number("g_m"), "S");
-    out.claim("offset", found->number("offset"), "V");
-    out.claim("supply current", I, "A").derived_as(500e-9, "five trapezoidal arrays of I_BIASA, fig. 23 and table 2");
-    out.claim("power at 0.7 V", 0.7 * I, "W");
+    out.claim("input offset", found->number("offset"), "V");
+    out.claim("supply current of the amplifier", I, "A").derived_as(500e-9, "five trapezoidal arrays of I_BIASA, fig. 23 and table 2");
+    out.claim("power of the amplifier at 0.7 V", 0.7 * I, "W");
     const auto g_m = found->curve("dc", "par('(i(v1)-i(v2))/0.2m')");
     StudyCurve gain = found->curve("dc", "i(v3)").slope().absolute();
     for (double& g : gain.y) g = g_m.at(0.1) / g;
     const double half = gain.max() / 2;
     out.claim("common-mode input up to (half of the transconductance)", common_mode_limit(g_m), "V")
-        .allow_min(0.1, "V_Y, which must be in its input range (errata F12)");
-    out.claim("output from (half of the gain)", gain.crossing(half), "V");
-    out.claim("output to", gain.crossing(half, gain.x_of_max()), "V")
+        .allow_min(0.1, "V_Y, which must be in the amplifier's input range (errata F12)");
+    out.claim("output range from (half of the largest gain)", gain.crossing(half), "V");
+    out.claim("output range to (half of the largest gain)", gain.crossing(half, gain.x_of_max()), "V")
         .allow_min(525e-3, "thesis 4.2, fig. 24c: the largest V_Z")
-        .explain_if_needed("half of the gain is our bound; beyond it the gain that remains is enough for the loop (transducer-loop)");
-    out.claim("gain at 525 mV", 20 * std::log10(gain.at(525e-3)), "dB");
+        .explain_if_needed("half of the largest gain is our bound; less gain is enough for the loop (study transducer-loop)");
+    out.claim("gain at an output voltage of 525 mV", 20 * std::log10(gain.at(525e-3)), "dB");
     out.plot("Gain over the output voltage", "V_Z (V)", "gain").add("g_m over the output conductance", gain);
     return {};
 }
 
+/// The effect of the input pair's bulk connection on the common-mode range, and the bulk current.
 Result<void> report_input_pair(StudyResult& out) {
     const auto lifted = transconductance({}), at_supply = transconductance(pair_at_supply), at_source = transconductance(pair_at_source);
     for (const auto* r : {&lifted, &at_supply, &at_source})
         if (!*r) return r->error();
     out.claim("common-mode input up to, bulks of the pair at the supply", common_mode_limit(*at_supply), "V");
-    out.claim("common-mode input up to, bulks at the source", common_mode_limit(*at_source), "V");
+    out.claim("common-mode input up to, bulks of the pair at the source", common_mode_limit(*at_source), "V");
     out.claim("increase of the common-mode range by the biased bulks, compared with bulks at the supply",
               common_mode_limit(*lifted) - common_mode_limit(*at_supply), "V")
         .allow_min(0, source + ": \"to increase the OTA common-mode input voltage excursion\"");
@@ -98,17 +101,19 @@ Result<void> report_input_pair(StudyResult& out) {
     if (!limited) return limited.error();
     const auto limited_current = limited->curve("dc", "i(vm)").absolute();
     out.claim("bulk current with both inputs at 0.4 V, bulk directly at vss", free_current.at(0.4), "A");
-    out.claim("the same limited by M_3C, D; it flows out of the input", limited_current.at(0.4), "A")
+    out.claim("bulk current with both inputs at 0.4 V, limited by M_3C, D; it flows out of the input", limited_current.at(0.4), "A")
         .allow_max(free_current.at(0.4), source + ": M_3C, D limit the parasitic substrate current");
-    out.claim("current out of an input at V_Y", limited_current.at(0.1), "A");
+    out.claim("bulk current with both inputs at V_Y, limited by M_3C, D", limited_current.at(0.1), "A");
     return {};
 }
 
-/// Lowest supplies: of the amplifier (half of its transconductance at 0.7 V, inputs at V_Y, output at half the supply), of I_BIASA's
-/// diode, and of the transducer at 0.2 N.
+/// Supply voltages, V.
 struct Supplies {
-    double amplifier, diode, transducer;
+    double amplifier;   ///< at which its transconductance is half of that at 0.7 V, with inputs at V_Y and output at half the supply
+    double diode;       ///< voltage across I_BIASA's diode
+    double transducer;  ///< its lowest supply at 0.2 N
 };
+/// With these changes in the amplifier.
 Result<Supplies> find_supplies(const Changes& changes) {
     const TransducerCell cell{"t", improved_cell()};
     const auto parts = substitute_in_embedded_text("circuits/parts/transducer.inc", changes);
@@ -128,6 +133,7 @@ Result<Supplies> find_supplies(const Changes& changes) {
     return Supplies{g_m.crossing(g_m.at(0.7) / 2), diode.at(0.7), transducer->front()};
 }
 
+/// The effect of the mirrors' bulk connections on the lowest supplies.
 Result<void> report_supply(StudyResult& out) {
     const auto lifted = find_supplies({}), n_at_vss = find_supplies(n_bulks_at_vss), p_at_supply = find_supplies(p_bulks_at_supply);
     for (const auto* r : {&lifted, &n_at_vss, &p_at_supply})
@@ -141,8 +147,8 @@ Result<void> report_supply(StudyResult& out) {
     out.claim("lowest supply of the transducer at 0.2 N, N mirrors' bulks at vss", n_at_vss->transducer, "V")
         .allow_min(lifted->transducer, lower)
         .explain_if_needed(
-            "V_Z limits it, not the mirrors: both branches then have too little supply. With the bulks at vss the end of the left branch "
-            "is about as high as V_Z, so both branches lack the same voltage and stay matched");
+            "V_Z limits the supply, not the mirrors: at this supply both branches have too little voltage. With the bulks at vss the end "
+            "of the left branch is about as high as V_Z, so both branches lack the same voltage and stay matched");
     return {};
 }
 

@@ -1,5 +1,5 @@
-// The mirrors of fig. 23's amplifier compared with alternatives: a conventional cascode, bulks without bias, an array without its
-// trapezoid.
+// The mirrors of fig. 23's amplifier compared with alternatives: a conventional cascode, bulks without bias, and a 4x4
+// array instead of the trapezoidal one.
 
 #include <cmath>
 
@@ -10,7 +10,8 @@ namespace corpuscle::studies::fig23_mirrors {
 
 const std::string source = "thesis 4.2, fig. 23";
 
-/// Mirrors of 100 nA with equal inputs: the output voltage from which the resistance is at least half of that at 0.5 V.
+/// Simulates mirrors with an input current of 100 nA each. The output range of a mirror begins at the output voltage at which its output
+/// resistance is half of that at 0.5 V.
 Result<StudyResult> compute(const StudyOptions&) {
     StudyResult out;
     const auto found = run_study_netlist({R"(Mirrors of fig. 23 and alternatives
@@ -66,12 +67,13 @@ vq oq out 0
     };
     const auto resistance = [&](const char* current) { return 1 / std::abs(found->curve("dc", current).slope_at(0.35)); };
     out.claim("self-cascode mirror of 100 nA: output from (half of its resistance at 0.5 V)", output_from("i(va)"), "V");
-    out.claim("conventional cascode, two stacked diodes: output from", output_from("i(vd)"), "V")
+    out.claim("conventional cascode, two stacked diodes: output from (half of its resistance at 0.5 V)", output_from("i(vd)"), "V")
         .allow_min(output_from("i(va)"), source + ": the self-cascode \"allows a larger output voltage excursion\"");
+    // output conductance of the self-cascode over that of the conventional cascode
     StudyCurve ratio = found->curve("dc", "i(va)").slope().absolute();
     const auto conventional = found->curve("dc", "i(vd)").slope().absolute();
     for (std::size_t k = 0; k < ratio.x.size(); ++k) ratio.y[k] /= conventional.y[k];
-    out.claim("the conventional cascode has the higher resistance from", ratio.crossing(1, 0.2), "V");
+    out.claim("the conventional cascode has a higher resistance than the self-cascode from", ratio.crossing(1, 0.2), "V");
     out.claim("voltage of the conventional cascode's diodes", found->curve("dc", "v(d)").at(0.35), "V")
         .allow_min(0.7, source + ": the self-cascode's advantage at \"similar ... power supplies\"; at 0.7 V no output range would remain");
     out.claim("self-cascode: input voltage, bulks at vss", found->curve("dc", "v(c)").at(0.35), "V");

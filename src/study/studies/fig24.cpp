@@ -1,4 +1,6 @@
 // Fig. 24: the improved transducer at 0.7 V: I_F (a) and its slope (b) over force, the voltages (c), and the press stimulus over time (d).
+// Symbols. V_X is the sensor's voltage, which the amplifier holds at the reference V_Y. V_Z is the amplifier's output, I_F the transducer's
+// output current, G_FSR (or G) the sensor's conductance, S_n the aspect ratio of M_n.
 
 #include <fmt/format.h>
 #include <cmath>
@@ -8,8 +10,9 @@
 
 namespace corpuscle::studies::fig24 {
 
-constexpr double V_DD = 0.7, headroom = 175e-3;  // V, published
+constexpr double V_DD = 0.7, headroom = 175e-3;  // V: supply, and the published V_DD - V_Z at 400 gf
 
+// Reasons for deviations of the slopes; the second at 20 gf.
 const std::string inconsistent_slopes = "no single V_Y gives both published slopes (errata F12); V_Y is 0.1 V here";
 const std::string slope_reason =
     inconsistent_slopes +
@@ -27,7 +30,7 @@ Result<void> report_curves(StudyResult& out) {
     out.claim("24b: dI_F/dF by eq. 13 and 15 and the split, at 20 gf", 0.1 * ForceSensor().slope(20) / 17, "A/gf")
         .published_as(12e-9, "thesis 4.2, fig. 24b")
         .explain_if_needed(inconsistent_slopes);
-    out.claim("24b: dI_F/dF by the same equations, at 400 gf", 0.1 * ForceSensor().slope(400) / 17, "A/gf")
+    out.claim("24b: dI_F/dF by eq. 13 and 15 and the split, at 400 gf", 0.1 * ForceSensor().slope(400) / 17, "A/gf")
         .published_as(4e-9, "thesis 4.2, fig. 24b")
         .explain_if_needed(inconsistent_slopes);
     out.claim("24a: I_F at 20 gf", I.at(20), "A");
@@ -87,7 +90,7 @@ Result<void> report_press(StudyResult& out) {
     out.claim("24d: largest force", force.max(), "N").published_as(4, "thesis 1.2, fig. 4");
     out.claim("24d: I_F against its static characteristic, largest difference, relative to I_F in the plateau",
               100 * worst_error / I.at(0.5), "%")
-        .allow_max(1, "not published: the loop is fast compared with the stimulus; the bound is our choice");
+        .allow_max(1, "not published; the loop is fast compared with the stimulus, and the bound is our choice");
     out.plot("24d: the press stimulus", "time (s)", "I_F (uA)")
         .add("I_F", I.scaled(1, 1e6))
         .describe_published("the force of fig. 4 as a current");

@@ -11,7 +11,7 @@ namespace corpuscle::studies::fig28 {
 
 constexpr auto source = "thesis 4.3.1, fig. 28";
 
-/// Voltage at which the input current is zero, in a corner.
+/// Input voltage (V) at which the input current is zero, in a process corner.
 Result<double> zero_current_voltage_in(const char* corner) {
     const auto found = run_study_netlist({"invb", {fmt::format("corner={}", corner)}, ".dc vin 0.3 0.4 2m"});
     if (!found) return found.error();
@@ -24,12 +24,13 @@ void add_claims(const ActiveLoad& load, StudyResult& out) {
     out.claim("largest resistance at", load.max_resistance_at, "V").published_as(350e-3, source);
     out.claim("linear range from", load.linear_from, "V").published_as(300e-3, source);
     auto& end = out.claim("linear range to", load.linear_to, "V").published_as(500e-3, source);
-    for (auto* c = &end - 1; c <= &end; ++c)
+    for (auto* c = &end - 1; c <= &end; ++c)  // the claims on both ends of the range are adjacent
         if (c->needs_explanation())
             c->explain(
                 fmt::format("the thesis does not define the linear range; here it is where the resistance is at most a tenth below its "
                             "largest. The simulated curve is almost symmetric about {:.3g} mV, which a range from 300 to 500 mV is not",
                             1e3 * load.max_resistance_at));
+    // of the resistance at v (V) from its largest value
     const auto deviation_percent = [&](double v) { return 100 * (load.resistance.at(v) / load.max_resistance - 1); };
     out.claim("resistance at 300 mV, relative to its largest", deviation_percent(300e-3), "%");
     out.claim("resistance at 500 mV, relative to its largest", deviation_percent(500e-3), "%");
@@ -47,8 +48,8 @@ Result<StudyResult> compute(const StudyOptions& options) {
     for (const char* corner : {"ss", "ff", "sf", "fs"}) {
         const auto rest = zero_current_voltage_in(corner);
         if (!rest) return rest.error();
-        out.claim(fmt::format("{}: zero input current at", corner), *rest, "V")
-            .published_as(350e-3, "thesis 4.3.1: even with process variability");
+        out.claim(fmt::format("corner {}: zero input current at", corner), *rest, "V")
+            .published_as(350e-3, "thesis 4.3.1: 350 mV even with process variability");
         if (auto ok = options.report_progress(0.5); !ok) return ok.error();
     }
     out.plot("28a, input current over input voltage", "V_IN (mV)", "current (nA)")

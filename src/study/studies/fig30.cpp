@@ -13,23 +13,25 @@ namespace corpuscle::studies::fig30 {
 constexpr auto source = "thesis 4.3.1, fig. 30";
 constexpr double C_B = 0.8e-12, C_C = 8.8e-12;  // F, table 5's text, errata S4
 
+/// Both transconductors as loads, each with its output tied to its input.
 struct Loads {
     ActiveLoad b, c;  ///< INVB and INVC
     double ratio() const { return c.max_resistance / b.max_resistance; }
 };
-Result<Loads> simulate_loads(const circuit::Values& of_models = {}) {
-    const auto found = run_study_netlist({"invc", {}, ".dc vin 0 0.7 0.5m", of_models});
+/// `model_parameters` are set in all models.
+Result<Loads> simulate_loads(const circuit::Values& model_parameters = {}) {
+    const auto found = run_study_netlist({"invc", {}, ".dc vin 0 0.7 0.5m", model_parameters});
     if (!found) return found.error();
-    // INVB's output is held at half the supply like its input, so that the load's curve equals that of invb.cir.
-    const auto b = run_study_netlist({"invb", {}, ".dc vin 0 0.7 0.5m", of_models});
+    // invc.cir holds the output of its INVB at half the supply, so INVB as a load is taken from invb.cir.
+    const auto b = run_study_netlist({"invb", {}, ".dc vin 0 0.7 0.5m", model_parameters});
     if (!b) return b.error();
     return Loads{analyse_load(b->curve("dc", "i(vin)").scaled(1, -1)), analyse_load(found->curve("dc", "i(vl)"))};
 }
 
 struct CornerFrequencies {
-    double B, C;              ///< Hz
-    double alone_B, alone_C;  ///< Hz: with the filter's capacitor alone, G / (2 pi C), from the gain far below the corners
-    double top_B, top_C;      ///< gain far above the corners
+    double B, C;              ///< Hz: of filters B and C, at a phase of 45 degrees
+    double alone_B, alone_C;  ///< Hz: without parasitic capacitance, G / (2 pi C); from the gain at 1 mHz, which is 1 mHz over it
+    double top_B, top_C;      ///< largest gain, which is reached far above the corners
 };
 Result<CornerFrequencies> simulate_corners(const std::vector<std::string>& settings = {}) {
     const auto found = run_study_netlist({"high_pass", settings,
@@ -41,7 +43,8 @@ Result<CornerFrequencies> simulate_corners(const std::vector<std::string>& setti
                              1e-3 / found->number("low_c"), found->number("top_b"), found->number("top_c")};
 }
 
-/// Largest difference between INVC's and INVB's resistances, each as a fraction of its largest, between two voltages.
+/// Largest difference between the resistances of INVC and INVB, each as a fraction of its own largest, from one input voltage to another
+/// (V).
 double largest_difference(const Loads& loads, double from, double to) {
     double largest = 0;
     const auto c = loads.c.resistance.between(from, to);
@@ -50,22 +53,27 @@ double largest_difference(const Loads& loads, double from, double to) {
     return largest;
 }
 
+/// ideal: without length modulation.
 void add_claims(const Loads& loads, const Loads& ideal, StudyResult& out) {
     const auto why = fmt::format(
-        "by their ratios its mirrors divide by 288 x 64 = 18432 (eq. 38, 39; errata S7b); simulated without length modulation they divide "
-        "by {:.0f}. With length modulation the mirrors' diodes have a larger drain-source voltage than the series arrays, so the currents "
-        "are divided by more. Why the foundry's mirrors divide by less than the ratios is not known",
+        "by their ratios INVC's mirrors divide by 288 x 64 = 18432 (eq. 38, 39; errata S7b); simulated without length modulation they "
+        "divide by {:.0f}. With length modulation the mirrors' diodes have a larger drain-source voltage than the series arrays, so the "
+        "currents are divided by more. Why the foundry's mirrors divide by less than the ratios is not known",
         ideal.ratio());
     out.claim("largest resistance", loads.c.max_resistance, "ohm").published_as(6.6e9, source).explain(why);
-    out.claim("ratio to INVB's", loads.ratio(), "times").published_as(16000, source).explain(why);
-    out.claim("without length modulation: ratio to INVB's", ideal.ratio(), "times").derived_as(18432, "eq. 38 and 39, errata S7b");
-    out.claim("zero input current at", loads.c.zero_current_voltage, "V").derived_as(350e-3, "thesis 4.3.1: the same shape as fig. 28a");
-    out.claim("largest resistance at", loads.c.max_resistance_at, "V").derived_as(350e-3, "thesis 4.3.1: the same shape as fig. 28b");
+    out.claim("largest resistance over INVB's", loads.ratio(), "times").published_as(16000, source).explain(why);
+    out.claim("without length modulation: largest resistance over INVB's", ideal.ratio(), "times")
+        .derived_as(18432, "eq. 38 and 39, errata S7b");
+    out.claim("zero input current at", loads.c.zero_current_voltage, "V")
+        .derived_as(350e-3, "thesis 4.3.1: the same shape as fig. 28a, which is zero at 350 mV");
+    out.claim("largest resistance at", loads.c.max_resistance_at, "V")
+        .derived_as(350e-3, "thesis 4.3.1: the same shape as fig. 28b, whose maximum is at 350 mV");
     out.claim("resistance as a fraction of its largest, largest difference from INVB's, 200 to 500 mV", largest_difference(loads, 0.2, 0.5))
         .allow_max(0.1, "thesis 4.3.1: \"a similar shape\"; a tenth is our choice");
 }
 
 void add_claims(const CornerFrequencies& f, StudyResult& out) {
+    // F: in parallel with C_B; it lowers the corner from alone_B to B
     const double parasitic = C_B * (f.alone_B / f.B - 1);
     const auto why = fmt::format(
         "INVC's resistance is larger than published, and its node has a parasitic capacitance in parallel: {:.2g} pF for filter B, from "
@@ -75,15 +83,17 @@ void add_claims(const CornerFrequencies& f, StudyResult& out) {
     out.claim("corner of filter C", f.C, "Hz").published_as(2.7, source).explain(why);
     out.claim("corner of filter B by its capacitor only, G_m / 2 pi C", f.alone_B, "Hz")
         .published_as(30, source)
-        .explain("the resistance of INVC");
-    out.claim("corner of filter C by its capacitor only", f.alone_C, "Hz").published_as(2.7, source).explain("the resistance of INVC");
+        .explain("the resistance of INVC is larger than published");
+    out.claim("corner of filter C by its capacitor only, G_m / 2 pi C", f.alone_C, "Hz")
+        .published_as(2.7, source)
+        .explain("the resistance of INVC is larger than published");
     out.claim("with the published 6.6 Gohm and the capacitor only: corner of filter B", 1 / (2 * std::numbers::pi * 6.6e9 * C_B), "Hz")
         .published_as(30, source);
     out.claim("with the published 6.6 Gohm and the capacitor only: corner of filter C", 1 / (2 * std::numbers::pi * 6.6e9 * C_C), "Hz")
         .published_as(2.7, source);
     out.claim("parasitic capacitance of filter B's node", parasitic, "F");
-    out.claim("signal lost by this capacitance far above the corner: B", 100 * (1 - f.top_B), "%");
-    out.claim("signal lost by this capacitance far above the corner: C", 100 * (1 - f.top_C), "%");
+    out.claim("filter B: signal lost by the parasitic capacitance far above the corner", 100 * (1 - f.top_B), "%");
+    out.claim("filter C: signal lost by the parasitic capacitance far above the corner", 100 * (1 - f.top_C), "%");
 }
 
 Result<StudyResult> compute(const StudyOptions& options) {

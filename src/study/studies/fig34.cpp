@@ -1,4 +1,6 @@
 // Fig. 34: SA-I's analog signal processing under the press stimulus: the currents of its three paths.
+// Symbols. I_F is the transducer's output current, V_F the voltage made of it, V_HPB and V_HPC are the outputs of the high-pass filters.
+// I_A is the static component, I_B and I_C are the rectified currents of the filters, I is the sum of all three.
 
 #include <fmt/format.h>
 #include <algorithm>
@@ -11,9 +13,10 @@
 namespace corpuscle::studies::fig34 {
 
 constexpr auto source = "thesis 4.3.1";
-constexpr double at_rest = 0.2, at_hold = 0.6, mid_rise = 0.3125;  // s, in the press stimulus
-constexpr double step = 0.5e-3;  // s, sampling step for currents, to separate them from pulses of microseconds
+constexpr double at_rest = 0.2, at_hold = 0.6, mid_rise = 0.3125;  // s: times of the press stimulus: at 0.2 N, at 4 N, steepest rise
+constexpr double step = 0.5e-3;  // s, step at which currents are resampled, so that pulses of microseconds drop out
 
+/// Claims on V_F and the static component I_A.
 void report_static(const NetlistResult& found, StudyResult& out) {
     const auto V_F = found.curve("tran", "v(vf)"), I_A = found.curve("tran", "i(via)");
     const auto I_F = found.curve("tran", "i(xccvs.mp3a)").absolute();
@@ -30,27 +33,28 @@ void report_static(const NetlistResult& found, StudyResult& out) {
         .derived_as(100 * expected, source);
 }
 
-/// Claims on a rectified component: its largest value and when it occurs, its value at rest, and the effects of its switch.
+/// Claims on a rectified component: its largest value and when it occurs, its value at rest, and the effects of its switch. `enable` is the
+/// comparator's output, which is high while the switch is closed.
 void report_dynamic(const NetlistResult& found, const std::string& name, const char* curve, const char* enable, StudyResult& out) {
     const auto all = found.curve("tran", curve), I = all.resampled(step), en = found.curve("tran", enable);
     const auto rise = I.between(0.26, 0.5);
     out.claim(name + ": largest value", rise.max(), "A"),
         out.claim(name + ": delay of its peak after the steepest point of the ramp", rise.x_of_max() - mid_rise, "s");
-    out.claim(name + ": at rest", I.at(at_rest), "A")
+    out.claim(name + ": value at 0.2 s, at rest", I.at(at_rest), "A")
         .allow_range(-0.1e-12, 0.1e-12, "thesis 4.3.1, eq. 4 and 8: otherwise I_X = 0; 0.1 pA is our choice");
     auto& not_negative = out.claim_true(name + " is never negative", I.min() >= -0.1e-12, "thesis 4.3.1, max{I_X, 0}");
-    const double opening = en.between(0.63, 1).crossing(0.35);
+    const double opening = en.between(0.63, 1).crossing(0.35);  // s; the force falls from 0.625 s on
     if (not_negative.needs_explanation())
         not_negative.explain(fmt::format(
             "while its switch is closed it outputs the leakage of M5A as a negative current ({:.1f} pA at 620 ms). The comparator has to "
-            "charge capacitances with picoamperes, so it opens the switch only {:.0f} ms after the force begins to fall; the current is "
-            "then {:.1f} pA",
+            "charge capacitances with picoamperes, so it opens the switch only {:.0f} ms after the force begins to fall; the lowest "
+            "current is {:.1f} pA",
             1e12 * I.at(0.62), 1e3 * (opening - 0.625), 1e12 * I.min()));
     const double closing = en.crossing(0.35, 0.25);
-    out.claim(name + ": largest glitch when its switch closes, for microseconds",
+    out.claim(name + ": largest glitch when its switch closes (lasts microseconds)",
               all.between(closing - 1e-3, closing + 1e-3).absolute().max(), "A");
     out.claim(name + ": largest glitch when its switch opens", all.between(opening - 1e-3, opening + 1e-3).absolute().max(), "A");
-    out.claim(name + ": 25 ms after its switch has opened", I.at(opening + 25e-3), "A")
+    out.claim(name + ": value 25 ms after its switch has opened", I.at(opening + 25e-3), "A")
         .allow_range(-0.1e-12, 0.1e-12, "thesis 4.3.1: the switch is open");
 }
 
@@ -62,6 +66,7 @@ double largest_step(const StudyCurve& line) {
     return largest;
 }
 
+/// The filter outputs at which the comparator of I_B's rectifier closes and opens the switch.
 Result<void> report_comparator(StudyResult& out) {
     const auto found = run_study_netlist({R"(The comparator of I_B's rectifier
 .lib '../process/tsmc180.lib' tt
@@ -79,7 +84,8 @@ xb gp gn u vdd rectifier_sa
 )"});
     if (!found) return found.error();
     const auto en = find_hysteresis(*found, "v(xb.en)");
-    out.claim("comparator: closes at a filter output of", en.V_H, "V"), out.claim("comparator: opens at a filter output of", en.V_L, "V");
+    out.claim("comparator: closes the switch at a filter output of", en.V_H, "V"),
+        out.claim("comparator: opens the switch at a filter output of", en.V_L, "V");
     out.claim("comparator: hysteresis", en.V_H - en.V_L, "V")
         .allow_range(0.1e-3, 10e-3, "thesis 4.3.1: a small hysteresis; 0.1 to 10 mV, compared with signals of 30 to 200 mV, is our choice");
     return {};

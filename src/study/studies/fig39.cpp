@@ -1,5 +1,7 @@
 // Fig. 39: the isolated oscillator: its membrane and spikes under a constant current, its trigger's curve, and its frequency over the
 // current.
+// Symbols. V_H and V_L are the input voltages at which the trigger switches. The input current I discharges the membrane u, I_LEAK opposes
+// it, I_CHARGE charges u after a spike. s is the output.
 
 #include <fmt/format.h>
 #include <algorithm>
@@ -14,15 +16,16 @@ constexpr auto source = "thesis 4.4, fig. 39";
 using O = IsolatedOscillator;
 constexpr double I_shown = 20e-12;  // A: our choice, the current of fig. 39a is not published
 
+/// Claims on one cycle under I_shown: the swing of the membrane, its rates, and the duration of a spike.
 void report_swing(const NetlistResult& found, const Hysteresis& t, StudyResult& out) {
     const auto u = found.curve("tran", "v(u)"), s = found.curve("tran", "v(s)");
     const double first = found.number("first_spike"), low = u.min(), high = u.between(first + 5e-3, u.x.back()).max();
     out.claim("rest voltage of the membrane", found.operating_point("v(u)"), "V").derived_as(0.7, "thesis 4.4: u_rest is the supply");
     out.claim("the membrane falls to", low, "V"), out.claim("V_L of the trigger", t.V_L, "V");
     out.claim("the membrane is charged to", high, "V"), out.claim("V_H of the trigger", t.V_H, "V");
-    out.claim_true("the swing equals the hysteresis window only approximately: it is larger at one end at least",
+    out.claim_true("the swing equals the hysteresis window only approximately: at least at its upper end it is larger",
                    high > t.V_H + 1e-3 && high < t.V_H + 0.1 * (t.V_H - t.V_L) && std::abs(low - t.V_L) < 0.1 * (t.V_H - t.V_L),
-                   "thesis 4.4: not exactly defined by the window, since there is a switching delay");
+                   "thesis 4.4: the swing is not exactly defined by the window, since there is a switching delay");
     const double middle = (t.V_L + t.V_H) / 2, fall_time = u.crossing(middle, first + 5e-3);
     const auto rise = s.between(first, first + 5e-3);
     const double rise_time = u.between(first, first + 5e-3).crossing(middle, first);
@@ -45,13 +48,16 @@ double ideal_frequency(double I, double leak, double C, double swing) {
 
 constexpr double currents[] = {4e-12, 8e-12, 20e-12, 60e-12, 200e-12, 500e-12, 800e-12};  // A
 
-/// The frequency (Hz) and the rate (V/s) at which the membrane voltage falls at 350 mV, over the current (A), where the oscillator fires.
+/// The frequency (Hz), and the rate (V/s, positive) at which the membrane voltage falls at 350 mV, over the current (A). Only currents at
+/// which the oscillator fires twice.
 struct CurrentSweep {
     StudyCurve frequency, fall_rate;
 };
+/// `swing` (V) is the trigger's window, from which the simulated time follows.
 Result<CurrentSweep> sweep_current(bool high_threshold_switches, double swing) {
     CurrentSweep out;
     for (const double I : currents) {
+        // long enough for several spikes: about six discharges of the swing, and the first one from the supply
         const double until = 30e-3 + 2.5e-12 * (6 * swing + 0.25) / (I - O::I_LEAK);
         const auto found = simulate_oscillator({.current = I, .stop_time = until, .has_high_threshold_switches = high_threshold_switches});
         if (!found) return found.error();
@@ -70,7 +76,9 @@ Result<void> report_frequency(const Hysteresis& t, const StudyOptions& options, 
     if (!standard) return standard.error();
     if (!high_threshold) return high_threshold.error();
     if (auto ok = options.report_progress(0.9); !ok) return ok;
+    // from the rates at 8 and 20 pA
     const Membrane m(currents[1], high_threshold->fall_rate.at(currents[1]), currents[2], high_threshold->fall_rate.at(currents[2]));
+    // largest error (%) of ideal_frequency with this leak and capacitance, for currents up to `to` (A)
     const auto worst_error = [&](double leak, double C, double to) {
         double worst = 0;
         for (const double I : currents)
@@ -83,12 +91,14 @@ Result<void> report_frequency(const Hysteresis& t, const StudyOptions& options, 
     out.claim("leak of the membrane, with high-threshold switches", m.leak, "A")
         .published_as(O::I_LEAK, source)
         .explain(
-            "2 pA is only a little more than the current of M1A at V_GS = 0, so M1A as a diode is not saturated, while M1B is (see cco)");
-    out.claim("frequency against (6) with these two values, 4 to 60 pA: largest difference", worst_error(m.leak, m.C, 60e-12), "%")
+            "2 pA is only a little more than the current of M1A at V_GS = 0, so M1A as a diode is not saturated, while M1B is (study cco)");
+    out.claim("frequency against (6) with this capacitance and leak, 4 to 60 pA: largest difference", worst_error(m.leak, m.C, 60e-12), "%")
         .allow_max(10, "thesis 4.4: it implements the leaky integrate-and-fire sub-model B, (6); a tenth is our choice");
-    auto& fast_range = out.claim("the same up to 800 pA", worst_error(m.leak, m.C, 1e-9), "%").allow_max(10, "as above");
+    auto& fast_range = out.claim("frequency against (6) with this capacitance and leak, 4 to 800 pA: largest difference",
+                                 worst_error(m.leak, m.C, 1e-9), "%")
+                           .allow_max(10, "thesis 4.4: it implements the leaky integrate-and-fire sub-model B, (6); a tenth is our choice");
     if (fast_range.needs_explanation())
-        fast_range.explain("the delay of the trigger increases the swing, more so the faster the membrane falls (see cco)");
+        fast_range.explain("the delay of the trigger increases the swing, more so the faster the membrane falls (study cco)");
     out.claim("frequency against (6) with the published 2 pA and 1.8 pF, 4 to 800 pA: largest difference",
               worst_error(O::I_LEAK, O::C, 1e-9), "%");
     StudyCurve expected;
@@ -111,10 +121,10 @@ Result<StudyResult> compute(const StudyOptions& options) {
     if (!below_leak) return below_leak.error();
     report_swing(*shown_case, *t, out);
     const auto u = shown_case->curve("tran", "v(u)");
-    out.claim("with half of I_LEAK the membrane stays at", below_leak->curve("tran", "v(u)").min(), "V")
+    out.claim("with an input of half of I_LEAK the membrane stays at", below_leak->curve("tran", "v(u)").min(), "V")
         .derived_as(0.7, "thesis 4.4: I < I_LEAK");
-    out.claim("with half of I_LEAK: spikes", below_leak->number("spikes")).allow_range(0, 0, source);
-    out.claim("V_H - V_L", t->V_H - t->V_L, "V");
+    out.claim("with an input of half of I_LEAK: spikes", below_leak->number("spikes")).allow_range(0, 0, source);
+    out.claim("hysteresis window V_H - V_L", t->V_H - t->V_L, "V");
     out.plot("39a, membrane and spikes at 20 pA", "time (s)", "V")
         .describe_published("u falls from the supply to theta and is charged fast to u_rst; s is high meanwhile")
         .add("u", u)

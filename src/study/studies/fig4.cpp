@@ -9,10 +9,10 @@ namespace corpuscle::studies::fig4 {
 
 constexpr auto source = "thesis 1.2, fig. 4";
 
-/// Time (s) within a window during which the force changes.
-double ramp_duration(const StudyCurve& force, const TimeWindow& s) {
+/// Time (s) from the first to the last change of the force within a window.
+double ramp_duration(const StudyCurve& force, const TimeWindow& window) {
     double from = Claim::none, to = Claim::none;
-    const auto part = force.between(s.from, s.to);
+    const auto part = force.between(window.from, window.to);
     for (std::size_t k = 1; k < part.x.size(); ++k)
         if (part.y[k] != part.y[k - 1]) {
             if (std::isnan(from)) from = part.x[k - 1];
@@ -49,15 +49,17 @@ Result<StudyResult> compute(const StudyOptions&) {
     const double up = ramp_duration(*force, {0, mid_plateau}), down = ramp_duration(*force, {mid_plateau, end});
     out.claim("smallest force", force->min(), "N").published_as(0.2, source);
     out.claim("largest force", force->max(), "N").published_as(4, source);
-    out.claim("rest before protraction", force->crossing(force->min() + 1e-9), "s").published_as(250e-3, source);
-    out.claim("protraction", up, "s").published_as(125e-3, source);
-    out.claim("plateau", ramp_duration(*force, {0, end}) - up - down, "s").published_as(250e-3, source);
-    out.claim("retraction", down, "s")
+    out.claim("duration of the rest before protraction", force->crossing(force->min() + 1e-9), "s").published_as(250e-3, source);
+    out.claim("duration of protraction", up, "s").published_as(125e-3, source);
+    // from the first to the last change of the whole stimulus, without both ramps
+    out.claim("duration of the plateau", ramp_duration(*force, {0, end}) - up - down, "s").published_as(250e-3, source);
+    out.claim("duration of retraction", down, "s")
         .published_as(250e-3, source)
         .explain(
             "\"symmetrical to the protraction phase\" and 250 ms contradict each other; symmetry is used here (errata B1). A later paper "
             "of the same group has forces that rise in 125 ms");
-    out.claim("retraction, if symmetrical", down, "s").published_as(125e-3, "thesis 1.2: \"symmetrical to the protraction phase\"");
+    out.claim("duration of retraction, if symmetrical", down, "s")
+        .published_as(125e-3, "thesis 1.2: \"symmetrical to the protraction phase\"");
     out.claim("retraction against time-reversed protraction, largest difference", asymmetry(*force), "N")
         .allow_max(1e-3, "thesis 1.2: symmetrical; within 1 mN here");
     out.claim("protraction against half a cosine, largest difference", cosine_error(*force), "N")

@@ -1,5 +1,6 @@
-// Fig. 46: the conventional mirror and the mirror of parallel and series arrays: ratio and output conductance over the output voltage. It
-// also shows the reason for arrays: different lengths have different thresholds, so the ratio differs from that of the aspect ratios.
+// Fig. 46: the conventional mirror and the mirror of parallel and series arrays: ratio and output conductance over the output voltage. The
+// study also shows the reason for arrays: transistors of different lengths have different thresholds, so the ratio of their currents
+// differs from the ratio of their aspect ratios.
 
 #include <fmt/format.h>
 #include <cmath>
@@ -12,11 +13,11 @@
 
 namespace corpuscle::studies::fig46 {
 
-constexpr double I_in = 100e-9, V_out = 0.35;  // A, V
-constexpr int sizes[] = {1, 2, 4, 8};
+constexpr double I_in = 100e-9, V_out = 0.35;  // A, V: of all mirrors
+constexpr int sizes[] = {1, 2, 4, 8};          // N: unit transistors in parallel and in series
 
-/// Compares a mirror of a short and a long transistor, each with its own threshold (B1 of table 11), with a mirror of the same ratio made
-/// of arrays.
+/// Compares a mirror of a short and a long transistor, each with its own threshold (A and B1 of table 11), with a mirror of the same ratio
+/// whose long transistor is an array of short ones in series.
 Result<void> add_lengths(StudyResult& out) {
     const auto b1 = elaborate_study_netlist({"rectangular_arrays"});
     if (!b1) return b1.error();
@@ -35,16 +36,19 @@ Result<void> add_lengths(StudyResult& out) {
     out.claim(fmt::format("0.18 um to {:g} um: I_in/I_out over the ratio of aspect ratios", 1e6 * L), long_transistor / ratio)
         .derived_as(1, "thesis eq. 33");
     if (auto& c = out.claims.back(); c.needs_explanation()) c.explain("their thresholds differ (table 11, A and B1)");
-    out.claim(fmt::format("0.18 um to {} unit transistors of 0.18 um in series: the same", n), array / ratio)
+    out.claim(fmt::format("0.18 um to {} unit transistors of 0.18 um in series: I_in/I_out over the ratio of aspect ratios", n),
+              array / ratio)
         .derived_as(1, "thesis C.1: a better mirror");
     out.claim_true("the ratio of the array is closer to the ratio of sizes than that of the long transistor",
                    std::abs(array / ratio - 1) < std::abs(long_transistor / ratio - 1), "thesis C.1");
     return {};
 }
 
-/// Spread over chips of a ratio of 1/16, made by 4 unit transistors in parallel to 4 in series, and by 16 in parallel to one.
+/// Spread over chips of the output current of a mirror of ratio 1/16: 4 unit transistors in parallel to 4 in series, and 16 in parallel to
+/// one.
 Result<void> add_spread(StudyResult& out) {
     const std::string unit = "0 nch w=1.5u l=0.5u";
+    // standard deviation of I_out (%), m in parallel at the input, n in series at the output
     const auto deviation = [&](int m, int n) -> Result<double> {
         const auto chips =
             run_study_variants({fmt::format("mirror\n{}iin 0 in 100n\nvo out 0 {}\n", process_card, V_out) +
@@ -76,7 +80,7 @@ Result<StudyResult> compute(const StudyOptions&) {
         out.claim(fmt::format("{}: I_in/I_out at 0.35 V", name), I_in / I.at(V_out))
             .derived_as(N2, n == 1 ? "thesis eq. 33, 1 to 1" : "thesis eq. 34");
         auto& c = out.claim(
-            fmt::format("{}: I_out/G_o over that of 1 to 1", name),
+            fmt::format("{}: I_out/G_o over I_out/G_o of the 1 to 1 mirror", name),
             I.at(V_out) / slope.at(V_out) / (found->curve("dc", "i(v1)").at(V_out) / found->curve("dc", "i(v1)").slope().at(V_out)));
         c.derived_as(n, "thesis eq. 36: V_A = V_E L");
         if (c.needs_explanation())

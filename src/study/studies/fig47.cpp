@@ -8,12 +8,12 @@
 
 namespace corpuscle::studies::fig47 {
 
-constexpr double I_in = 100e-9, supply = 0.7, step = 0.1;  // A, V, V; step: the change of the supply
-constexpr double S_A = 8, S_B = 0.5, S_C = 8, S_D = 0.5;   // in unit transistors: 8x1 and 2x4
+constexpr double I_in = 100e-9, supply = 0.7, step = 0.1;  // A, V, V; step: a change of the supply
+constexpr double S_A = 8, S_B = 0.5, S_C = 8, S_D = 0.5;   // aspect ratios of M_A to M_D (8x1 or 2x4), relative to a unit transistor's
 
 Result<StudyResult> compute(const StudyOptions&) {
     const auto nominal = run_study_netlist({"split_mirror", {}, ".op\n.tf i(vout) vout\n.tf i(vout) vdd"});
-    const auto over_supply = run_study_netlist({"split_mirror", {"iin2=0"}, ".dc vdd 0.4 1.2 5m"});  // only M_C is connected to vdd
+    const auto over_supply = run_study_netlist({"split_mirror", {"iin2=0"}, ".dc vdd 0.4 1.2 5m"});  // iin2=0: vdd then supplies M_C only
     const auto over_input = run_study_netlist({"split_mirror", {}, ".dc iin 1n 1u 1n"});
     if (!nominal || !over_input || !over_supply) return !nominal ? nominal.error() : !over_input ? over_input.error() : over_supply.error();
     StudyResult out;
@@ -26,7 +26,7 @@ Result<StudyResult> compute(const StudyOptions&) {
         .derived_as(exact, "thesis eq. 38 and 39, exact (errata C5, C6)");
     auto& approximate = out.claim("I_in/I_out, equations only, against eq. 40", I_in / -nominal->operating_point("i(vout2)"))
                             .derived_as(256, "thesis eq. 40; INVC, E.4");
-    if (approximate.needs_explanation()) approximate.explain("eq. 40 assumes S_C >> S_B + S_D; here it is 8 against 1");
+    if (approximate.needs_explanation()) approximate.explain("eq. 40 assumes S_C >> S_B + S_D; here S_C is 8 and S_B + S_D is 1");
     auto& with_card = out.claim("I_in/I_out, with the process card", I_in / I).derived_as(exact, "thesis eq. 38 and 39");
     if (with_card.needs_explanation()) with_card.explain(length_modulation);
 
@@ -39,7 +39,7 @@ Result<StudyResult> compute(const StudyOptions&) {
     out.claim("change of I_out for a supply higher by 0.1 V", 100 * (out_over_supply.at(supply + step) / out_over_supply.at(supply) - 1),
               "%");
     auto& supply_effect =
-        out.claim("change of I_DC for the same step, over I_out", (I_DC.at(supply + step) - I_DC.at(supply)) / I)
+        out.claim("change of I_DC for a supply higher by 0.1 V, over I_out", (I_DC.at(supply + step) - I_DC.at(supply)) / I)
             .allow_range(0.1, 10, source + ": \"can be in the same order of I_out magnitude\" (a tenth to ten times here)");
     if (supply_effect.needs_explanation())
         supply_effect.explain(

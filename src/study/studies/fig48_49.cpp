@@ -1,4 +1,6 @@
-// Figs. 48 and 49: a transistor as a diode with its bulk at the source (X), at the gate (Y), and at the gate through a second diode (Z).
+// Figs. 48 and 49: a transistor as a diode with its bulk at the source (X), at the gate (Y), and at the gate through a second transistor,
+// M_Z0, which limits the bulk current (Z).
+// I_DY, I_BY and I_SY are drain, bulk and source current of Y; V_Y is its voltage; in the same way for X and Z.
 
 #include <fmt/format.h>
 #include <cmath>
@@ -8,10 +10,10 @@
 
 namespace corpuscle::studies::fig48_49 {
 
-constexpr double plot_to = 0.9, min_plotted_current = 1e-13;  // V, A
+constexpr double plot_to = 0.9, min_plotted_current = 1e-13;  // V, A: limits of the plots
 constexpr double weak = 10e-9, moderate = 1e-6;               // A: currents at which X and Y are compared
 
-/// Sum of two curves over one sweep.
+/// Sum of two curves with the same x.
 StudyCurve sum(const StudyCurve& a, const StudyCurve& b) {
     StudyCurve out = a;
     for (std::size_t k = 0; k < out.y.size(); ++k) out.y[k] += b.y[k];
@@ -26,9 +28,9 @@ StudyCurve plotted_part(const StudyCurve& I) {
     return out;
 }
 
-StudyCurve swap_axes(const StudyCurve& of) { return {of.y, of.x}; }
+StudyCurve swap_axes(const StudyCurve& curve) { return {curve.y, curve.x}; }
 
-/// Curves over the voltage of the diodes.
+/// Curves over the voltage across the diodes, V.
 struct Diodes {
     StudyCurve X, Y, B_Y, Z, B_Z;  ///< A: drain currents of X, Y and Z, bulk currents of Y and Z
     StudyCurve bulk;               ///< V: bulk voltage of Z
@@ -39,7 +41,8 @@ void add_currents(StudyResult& out, const Diodes& d) {
     const double at = d.Y.crossing(weak);
     out.claim("I_BY over I_DY in weak inversion, at 10 nA", d.B_Y.at(at) / d.Y.at(at))
         .allow_max(0.01, source + ": I_DY is much larger (a hundredth here)");
-    out.claim("I_SY over I_DY at the same voltage", sum(d.Y, d.B_Y).at(at) / d.Y.at(at)).derived_as(1, source + ": approximately");
+    out.claim("I_SY over I_DY in weak inversion, at 10 nA", sum(d.Y, d.B_Y).at(at) / d.Y.at(at)).derived_as(1, source + ": approximately");
+    // voltage (V) for a factor of ten in the current, from the slope at `from` (V)
     const auto decade = [](const StudyCurve& I, double from) { return 0.06 / std::log10(I.at(from + 0.06) / I.at(from)); };
     out.claim("I_BY: voltage per decade of current at 0.4 V", decade(d.B_Y, 0.4), "V")
         .allow_range(0.055, 0.07, source + ": increases exponentially (60 mV times an ideality factor)");
@@ -67,10 +70,11 @@ void add_augmented(StudyResult& out, const Diodes& d) {
     const std::string source = "thesis app. D, fig. 48c: M_Z0 limits the parasitic bulk current";
     out.claim("Z: largest I_BZ up to the supply of 0.7 V", d.B_Z.between(0, 0.7).max(), "A")
         .allow_max(d.B_Y.at(0.7) / 10, source + " (a tenth of I_BY here)");
-    out.claim("Z: largest bulk voltage up to 0.7 V", d.bulk.between(0, 0.7).max(), "V").allow_max(0.7, "as above");
-    out.claim("Z: I_DZ over I_DY at 0.2 V", d.Z.at(0.2) / d.Y.at(0.2)).derived_as(1, "the same as 48b while the bulk current is small");
+    out.claim("Z: largest bulk voltage up to 0.7 V", d.bulk.between(0, 0.7).max(), "V").allow_max(0.7, source);
+    out.claim("Z: I_DZ over I_DY at 0.2 V", d.Z.at(0.2) / d.Y.at(0.2))
+        .derived_as(1, "Z acts as Y (fig. 48b) while the bulk current is small");
     out.claim("Z: I_DZ over I_DY at 0.6 V, where the limit takes effect", d.Z.at(0.6) / d.Y.at(0.6))
-        .allow_range(0.5, 1, "as above, with less body bias");
+        .allow_range(0.5, 1, "Z acts as Y with less body bias");
 }
 
 Result<StudyResult> compute(const StudyOptions&) {

@@ -13,6 +13,7 @@ using press::spike_count;
 constexpr auto source = "thesis 1.2, fig. 5";
 constexpr auto inferred = "Birznieks et al. 2001, population mean, inferred from the thesis's parameters, not read in the paper";
 
+/// True if each value is smaller than the one before.
 bool is_falling(const StudyCurve& line) {
     for (std::size_t k = 1; k < line.y.size(); ++k)
         if (line.y[k] >= line.y[k - 1]) return false;
@@ -36,12 +37,12 @@ void add_fa1_claims(StudyResult& out, const std::vector<double>& train) {
     const double up = measure<PeakRate>(train, {0.25, 0.5}), down = measure<PeakRate>(train, {0.625, 1.0});
     press::set_reference(out.claim("FA-I: peak of the rising force", up, "Hz"), 25, inferred);
     press::set_reference(out.claim("FA-I: peak of the falling force", down, "Hz"), 19, inferred);
-    out.claim("FA-I: ratio of the two peaks", up / down)
+    out.claim("FA-I: peak of the rising over peak of the falling force", up / down)
         .allow_range(1.2, 1.5, "thesis 1.2: asymmetrical, protraction above retraction; the range is our choice");
     out.claim("FA-I: spikes in the plateau's last 100 ms", spike_count(train, press::plateau_end), "spikes").allow_range(0, 0, source);
     const double other_spikes = spike_count(train, press::plateau) + spike_count(train, press::after);
     auto& c = out.claim("FA-I: spikes outside protraction and retraction", other_spikes, "spikes")
-                  .allow_range(0, 0, fmt::format("{}: only there", source));
+                  .allow_range(0, 0, fmt::format("{}: spikes only in protraction and retraction", source));
     if (c.needs_explanation())
         c.explain(
             "the corner frequency of the filter is 2 Hz, and the charge it holds at the end of a ramp keeps driving the neuron (errata "
@@ -59,7 +60,7 @@ Result<StudyResult> compute(const StudyOptions& options) {
     add_sa1_claims(out, *sa1), add_fa1_claims(out, *fa1);
     const auto at_interval_start = press::frequency_at_start(*sa1), at_interval_end = press::frequency_at_end(*sa1);
     out.claim("SA-I: time of the peak, frequency at the start of each interval", at_interval_start.x_of_max(), "s");
-    out.claim("the same, frequency at the end of each interval", at_interval_end.x_of_max(), "s");
+    out.claim("SA-I: time of the peak, frequency at the end of each interval", at_interval_end.x_of_max(), "s");
     for (const auto& [name, train] : {std::pair{"SA-I", &*sa1}, {"FA-I", &*fa1}})
         out.plot(fmt::format("{}: instantaneous frequency", name), "time (s)", "frequency (Hz)")
             .points("at the first spike of the interval", press::frequency_at_start(*train))

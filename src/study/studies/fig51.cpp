@@ -1,4 +1,5 @@
-// Fig. 51: the circuits that extract V_Q and V_Q0: V_Q over the body voltages, V_Q0 over process and temperature.
+// Fig. 51: inverters with output tied to input. V_Q, their voltage with separate bulks, over the body voltages; V_Q0, their voltage with
+// the bulks at the output, over process and temperature.
 
 #include <fmt/format.h>
 #include <cmath>
@@ -8,9 +9,9 @@
 
 namespace corpuscle::studies::fig51 {
 
-constexpr double n = 1.27, V_DD = 0.7;  // n of tables 11 and 12, and of the process card
+constexpr double n = 1.27, V_DD = 0.7;  // slope factor of tables 11 and 12 and of the process card; V
 
-/// V_Q0, and V_Q without bias, under some settings.
+/// V_Q0, and V_Q with the bulks at the rails (V).
 struct QuiescentPoint {
     double V_Q0, V_Q;
 };
@@ -21,7 +22,7 @@ Result<QuiescentPoint> quiescent_point(const std::vector<std::string>& settings)
 }
 
 Result<void> claim_sensitivity(StudyResult& out, const QuiescentPoint& nominal) {
-    double largest = 0;
+    double largest = 0;  // V, change of V_Q0
     for (const char* corner : {"ss", "ff", "sf", "fs"}) {
         const auto in_corner = quiescent_point({fmt::format("corner={}", corner)});
         if (!in_corner) return in_corner.error();
@@ -29,7 +30,7 @@ Result<void> claim_sensitivity(StudyResult& out, const QuiescentPoint& nominal) 
     }
     const auto hot = quiescent_point({"temp=95"}), cold = quiescent_point({"temp=-55"});
     if (!hot || !cold) return (hot ? cold : hot).error();
-    out.claim("largest change of V_Q0 over the five corners", largest, "V")
+    out.claim("largest change of V_Q0 from the typical corner to another", largest, "V")
         .allow_min(5e-3, "E.1: sensitive to process; 5 mV is our choice");
     auto& c = out.claim("change of V_Q0 from -55 to 95 C", std::abs(hot->V_Q0 - cold->V_Q0), "V")
                   .allow_min(5e-3, "E.1: sensitive to temperature variations; 5 mV is our choice");
@@ -60,7 +61,7 @@ Result<StudyResult> compute(const StudyOptions& options) {
     const auto nominal = quiescent_point({});
     if (!nominal) return nominal.error();
     if (auto ok = claim_sensitivity(out, *nominal); !ok) return ok.error();
-    StudyCurve by_47a;
+    StudyCurve by_47a;  // a straight line, so two points are enough
     for (const double V_BN : {0.0, 0.4}) {
         const double V_0 = V_Q0.at(0);
         by_47a.x.push_back(V_BN), by_47a.y.push_back(V_0 + (n - 1) * (V_0 - (V_DD + V_BN) / 2));

@@ -1,4 +1,6 @@
-// Fig. 53: the bias generator over its current.
+// Fig. 53: the bias generator over I_BIAS. M3B and M4A are the transistors at its node BN.
+// Symbols. V_BN and V_BP are the body voltages that the generator sets, V_REF is half the supply, V_Q and I_Q are voltage and current of
+// the replica, an inverter with its output tied to its input.
 
 #include "study/studies.hpp"
 #include "study/thesis/bias_figure.hpp"
@@ -29,8 +31,8 @@ Result<StudyResult> compute(const StudyOptions& options) {
         if (c.needs_explanation()) c.explain(why);
     }
     out.claim_true("V_BN rises with I_BIAS", V_BN.slope().between(20e-9, 2e-6).min() > 0, figure.source());
-    const auto inside = is_saturated(200e-9), below = is_saturated(0.5 * typical.working_range.from),
-               above = is_saturated(2 * typical.working_range.to);
+    const auto inside = is_saturated(200e-9),  // inside, below and above the working range
+        below = is_saturated(0.5 * typical.working_range.from), above = is_saturated(2 * typical.working_range.to);
     for (const auto* s : {&inside, &below, &above})
         if (!*s) return s->error();
     const char* source = "E.2: saturated in the range, in the linear region below and above it";

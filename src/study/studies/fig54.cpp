@@ -1,4 +1,6 @@
 // Fig. 54: the bias generator over its supply.
+// Symbols. V_BN and V_BP are the body voltages that the generator sets, V_REF is half the supply, V_Q and I_Q are voltage and current of
+// the replica, an inverter with its output tied to its input.
 
 #include <algorithm>
 #include <cmath>
@@ -15,13 +17,13 @@ Result<StudyResult> compute(const StudyOptions& options) {
     const auto corners = simulate_bias_figure(figure, out, options);
     if (!corners) return corners.error();
     const auto& typical = corners->front();
-    double largest_error = 0;
+    double largest_error = 0;  // of V_REF, as a fraction of the supply
     const auto V_REF = typical.sweep.curve("v(ref)");
     for (std::size_t k = 0; k < V_REF.x.size(); ++k) largest_error = std::max(largest_error, std::abs(V_REF.y[k] / V_REF.x[k] - 0.5));
-    out.claim_true("V_REF is half the supply, within a thousandth of it, from 0.4 to 0.9 V", largest_error < 1e-3, "thesis E.2");
+    out.claim_true("V_REF is half the supply within a thousandth of the supply, from 0.4 to 0.9 V", largest_error < 1e-3, "thesis E.2");
     const auto from = typical.working_range.from, to = typical.working_range.to;
     out.claim_true("V_BP rises with the supply", typical.sweep.curve("v(bp)").between(from, to).slope().min() > 0,
-                   "E.2: as V_DD increases, so does V_REF, and V_BP and V_BN");
+                   "E.2: as V_DD increases, so do V_REF, V_BP and V_BN");
     out.claim_true("V_BN falls as the supply rises", typical.sweep.curve("v(bn)").between(from, to).slope().max() < 0,
                    "follows from E.2: V_REF drives M4A, whose current is constant, so its bulk needs less bias");
     out.note(

@@ -1,4 +1,6 @@
 // Fig. 55: the bias generator over temperature.
+// Symbols. V_BN and V_BP are the body voltages that the generator sets, V_REF is half the supply, V_Q and I_Q are voltage and current of
+// the replica, an inverter with its output tied to its input.
 
 #include <cmath>
 
@@ -9,17 +11,18 @@ namespace corpuscle::studies::fig55 {
 
 constexpr BiasFigure figure{BiasAxis::temperature, "55", "temperature (C)", "C", 1, {-55, 95}, {Claim::none, Claim::none}};
 
-/// Largest relative error of I_Q.
+/// Largest relative error of I_Q in the sweep, as a fraction of I_BIAS.
 double largest_error(const BiasCorner& c) { return c.sweep.current_error().max() * bias_current_margin; }
 
 Result<StudyResult> compute(const StudyOptions& options) {
     StudyResult out;
     const auto corners = simulate_bias_figure(figure, out, options);
     if (!corners) return corners.error();
-    const auto& c = *corners;
+    const auto& c = *corners;  // tt, ss, ff
     out.claim_true("V_BN falls as the temperature rises", c[0].sweep.curve("v(bn)").slope().max() < 0,
                    "E.2: V_T decreases, V_BP and V_BN compensate");
-    out.claim_true("V_BP rises, so the body bias decreases", c[0].sweep.curve("v(bp)").slope().min() > 0, "E.2: as above");
+    out.claim_true("V_BP rises with the temperature, so the body bias decreases", c[0].sweep.curve("v(bp)").slope().min() > 0,
+                   "E.2: V_T decreases, V_BP and V_BN compensate");
     for (const auto& corner : c) out.claim(std::string(corner.name) + ": largest error of I_Q", 100 * largest_error(corner), "%");
     out.claim_true("the error of I_Q is largest in the FF corner",
                    largest_error(c[2]) > largest_error(c[1]) && largest_error(c[2]) > largest_error(c[0]),

@@ -1,4 +1,4 @@
-// Fig. 58: the curves of fig. 57, each divided by its transconductance at V_IN = 0.
+// Fig. 58: the curves of fig. 57, each divided by the inverter's transconductance at V_IN = 0, which is half the supply.
 
 #include <fmt/format.h>
 #include <cmath>
@@ -10,7 +10,7 @@ namespace corpuscle::studies::fig58 {
 
 StudyCurve normalise(const StudyCurve& line, double by) { return line.scaled(1, 1 / by); }
 
-/// Largest deviation from 1 of a normalised transconductance within a range about V_IN = 0.
+/// Largest deviation from 1 of a normalised transconductance, for V_IN from -within to within (V).
 double largest_deviation(const StudyCurve& G, double within) {
     const auto part = G.between(-within, within);
     return std::max(part.max() - 1, 1 - part.min());
@@ -23,7 +23,7 @@ Result<StudyResult> compute(const StudyOptions& options) {
         if (!*s) return s->error();
     out.plot("Fig. 58a: output current over G_m(0)", "V_IN (mV)", "I_o / G_m(0) (mV)");
     out.plot("Fig. 58b: transconductance over its value at 0", "V_IN (mV)", "G_m / G_m(0)");
-    StudyCurve G[2];
+    StudyCurve G[2];  // normalised transconductances of INVA and INVB at 0.7 V
     for (int k = 0; k < 2; ++k) {
         const char inverter = inverter_letters[k];
         G[k] = normalise(at_700_mV->transconductance(inverter), at_700_mV->transconductance_at_zero(inverter));
@@ -37,7 +37,7 @@ Result<StudyResult> compute(const StudyOptions& options) {
         for (int k = 0; k < 2; ++k)
             out.claim(fmt::format("{}: deviation of G_m from its value at 0 within {:g} mV", inverter_names[k], 1e3 * within),
                       100 * largest_deviation(G[k], within), "%");
-        out.claim_true(fmt::format("INVB's deviation is smaller within {:g} mV", 1e3 * within),
+        out.claim_true(fmt::format("INVB's deviation is smaller than INVA's within {:g} mV", 1e3 * within),
                        largest_deviation(G[1], within) < largest_deviation(G[0], within), "E.3: INVB is still non-linear, but better");
     }
     const auto G_at_800_mV = normalise(at_800_mV->transconductance('b'), at_800_mV->transconductance_at_zero('b'));

@@ -12,6 +12,7 @@ namespace corpuscle::studies::fig6 {
 struct Implementation {
     const char *name, *description;
 };
+/// An afferent type: its model, and its implementations from digital to the chip. compute() relies on this order.
 struct Class {
     const char* model;
     std::vector<Implementation> implementations;
@@ -25,7 +26,7 @@ const Class classes[] = {{"sa1",
                            {"fa1-macro", "(b) of ideal blocks"},
                            {"fa1-circuit", "(b), the chip"}}}};
 
-/// Compares the spikes of an implementation with the model's, phase by phase.
+/// Compares the spikes of an implementation with those of the model. Adds three claims; the second is the rms error.
 Result<void> add_comparison(StudyResult& out, StudyPlot& raster, const Implementation& implementation, const std::vector<double>& model) {
     const auto train = simulate_train({implementation.name});
     if (!train) return train.error();
@@ -37,13 +38,14 @@ Result<void> add_comparison(StudyResult& out, StudyPlot& raster, const Implement
     out.claim(named("number of spikes over the model's"), static_cast<double>(train->size()) / static_cast<double>(model.size()))
         .explain(explanation);
     out.claim(named("rms error of spike times"), timing_error->rms, "s")
-        .explain(fmt::format("{:g} spikes have no partner within 50 ms", timing_error->unmatched));
+        .explain(fmt::format("{:g} spikes of the two trains have no partner within 50 ms", timing_error->unmatched));
     out.claim(named("median delay of spikes"), timing_error->median, "s");
     raster.raster_row(implementation.name, *train);
     return {};
 }
 
-/// One converter for ten sensors: each is converted at a tenth of the rate. The delay between channels is left out.
+/// One converter for ten sensors: each sensor is converted at a tenth of the rate. The delays between the sensors' conversions are left
+/// out.
 Result<void> add_shared_converter(StudyResult& out) {
     const std::string name = "fsr+f2v+adc+sa1";
     const auto single = simulate_train({name});
@@ -53,7 +55,8 @@ Result<void> add_shared_converter(StudyResult& out) {
     const auto timing_error = spike_timing_error(*single, *shared);
     if (!timing_error) return timing_error.error();
     out.claim("a converter of 1 kHz shared by ten sensors: rms change of spike times", timing_error->rms, "s")
-        .explain(fmt::format("each sensor is then converted at 100 Hz; {:g} spikes have no partner", timing_error->unmatched));
+        .explain(fmt::format("each sensor is then converted at 100 Hz; {:g} spikes of the two trains have no partner within 50 ms",
+                             timing_error->unmatched));
     return {};
 }
 
@@ -69,6 +72,7 @@ Result<StudyResult> compute(const StudyOptions& options) {
             if (auto ok = add_comparison(out, raster, implementation, *model); !ok) return ok.error();
             if (auto ok = options.report_progress(done += 1.0 / 7); !ok) return ok.error();
         }
+        // Each of the three implementations has three claims, so n - 8 is the rms error of the first one and n - 2 that of the last.
         const auto n = out.claims.size();
         out.claim_true(
             fmt::format("{}: spike times of the digital implementation are closer to the model's than those of the chip", c.model),

@@ -1,4 +1,4 @@
-// Fig. 61: transfer curves and voltage gains of the three inverters, outputs open.
+// Fig. 61: transfer curves and voltage gains of the three inverters, outputs open. V_IN and V_OUT are relative to half the supply.
 
 #include <fmt/format.h>
 #include <cmath>
@@ -18,29 +18,31 @@ struct Curves {
         if (!fine) return fine.error();
         return Curves{std::move(*coarse), std::move(*fine)};
     }
-    double V_Q(char inverter) const {  // relative to V_SS
+    /// Voltage (V, relative to V_SS) at which the output equals the input.
+    double V_Q(char inverter) const {
         auto distance = fine.transfer_curve(inverter);
         for (std::size_t k = 0; k < distance.x.size(); ++k) distance.y[k] -= distance.x[k];
         return 0.35 + distance.crossing(0);
     }
+    /// Output range (V) for inputs from rail to rail.
     double swing(char inverter) const {
         const auto curve = coarse.transfer_curve(inverter);
         return curve.max() - curve.min();
     }
     double largest_gain(char inverter) const { return fine.voltage_gain(inverter).max(); }
     /// Output range (V) in which the gain is at least half of its largest.
-    double excursion(char inverter) const {
+    double half_gain_range(char inverter) const {
         const auto gain = fine.voltage_gain(inverter);
         const double half = 0.5 * gain.max();
         double from = Claim::none, to = Claim::none;
         for (std::size_t k = 0; k < gain.x.size(); ++k)
-            if (gain.y[k] >= half) (from == from ? to : from) = gain.x[k];
+            if (gain.y[k] >= half) (from == from ? to : from) = gain.x[k];  // the first one is `from`, which is NaN before
         return to - from;
     }
 };
 
-/// The gain is G_m / I times half an Early voltage; in the process card arrays of eight unit transistors have the same Early voltage at any
-/// current.
+/// Compares INVC's gain with those of INVA and INVB. A gain is G_m / I times half an Early voltage, with the current I of the branch. With
+/// the process card all arrays of eight unit transistors in series have the same Early voltage, so G_m / I decides.
 void claim_gains(StudyResult& out, const Curves& c) {
     const auto per_current = [&](char inverter, double branch_current) {
         return c.coarse.transconductance_at_zero(inverter) / branch_current;
@@ -48,7 +50,7 @@ void claim_gains(StudyResult& out, const Curves& c) {
     const double ratio_A = per_current('a', c.coarse.supply_current('a').at(0)),
                  ratio_C = per_current('b', 0.5 * c.coarse.supply_current('b').at(0));
     out.claim("INVA: G_m over the current of one branch", ratio_A, "1/V");
-    out.claim("INVC: the same for its INVB, in each of the two mirrored branches", ratio_C, "1/V");
+    out.claim("INVC: G_m over the current of one branch, of its INVB, in each of the two mirrored branches", ratio_C, "1/V");
     for (const char inverter : {'b', 'a'}) {
         const auto statement = fmt::format("INVC's gain is larger than {}'s", inverter_names[inverter - 'a']);
         auto& claim = out.claim_true(statement, c.largest_gain('c') > c.largest_gain(inverter),
@@ -58,7 +60,7 @@ void claim_gains(StudyResult& out, const Curves& c) {
                 inverter == 'a'
                     ? "degeneration reduces G_m over current, and by the process card its output has the same Early voltage as INVA's. A "
                       "larger Early voltage of the foundry's transistors at picoamperes would explain it, but is not known"
-                    : "degeneration raises INVB's output resistance more than it lowers G_m over current here; see above");
+                    : "degeneration raises INVB's output resistance more than it lowers G_m over current here");
     }
 }
 
@@ -78,21 +80,21 @@ Result<StudyResult> compute(const StudyOptions& options) {
         if (inverter == 'c') out.claims.back().published_as(347e-3, "E.4, fig. 61a (-3 mV in fig. 57's terms, errata I16)");
         out.claim(name + ": largest gain", c.largest_gain(inverter), "times");
         out.claim(name + ": output swing for V_IN from rail to rail", c.swing(inverter), "V");
-        out.claim(name + ": output range with at least half of the largest gain", c.excursion(inverter), "V");
+        out.claim(name + ": output range with at least half of the largest gain", c.half_gain_range(inverter), "V");
     }
-    out.claim_true("INVB's output excursion is smaller than INVA's", c.swing('b') < c.swing('a'),
-                   "E.4: slightly smaller, by its source degeneration (errata I15)");
-    out.claim_true("INVC is displaced more than INVA", std::abs(c.V_Q('c') - 0.35) > std::abs(c.V_Q('a') - 0.35),
+    out.claim_true("INVB's output swing is smaller than INVA's", c.swing('b') < c.swing('a'),
+                   "E.4: INVB's excursion is slightly smaller, by its source degeneration (errata I15)");
+    out.claim_true("INVC's V_Q is farther from half the supply than INVA's", std::abs(c.V_Q('c') - 0.35) > std::abs(c.V_Q('a') - 0.35),
                    "E.4: INVC's characteristic curve is slightly displaced");
-    auto& down = out.claim_true("INVC is displaced downwards", c.V_Q('c') < 0.35, "E.4: V_Q is about 347 mV");
+    auto& down = out.claim_true("INVC's V_Q is below half the supply", c.V_Q('c') < 0.35, "E.4: V_Q is about 347 mV");
     if (down.needs_explanation())
         down.explain(
             "the simulated curve is displaced by less and in the other direction. The displacement is the difference between the division "
             "ratios of the N and P mirrors, for which the thesis has no numbers");
     claim_gains(out, c);
-    auto& same = out.claim("INVC's swing over INVA's", c.swing('c') / c.swing('a'), "times")
-                     .derived_as(1, "E.4: its output excursion is similar to INVA's");
-    if (same.needs_explanation()) same.explain("reason unknown");
+    auto& swing_ratio = out.claim("INVC's swing over INVA's", c.swing('c') / c.swing('a'), "times")
+                            .derived_as(1, "E.4: INVC's output excursion is similar to INVA's");
+    if (swing_ratio.needs_explanation()) swing_ratio.explain("reason unknown");
     out.plots[0].describe_published("INVB's excursion slightly smaller; INVC's curve slightly displaced, V_Q about 347 mV");
     out.plots[1].describe_published("INVC's gain bigger, its excursion like INVA's");
     return options.report_progress(0.9) ? Result<StudyResult>(out) : options.report_progress(0.9).error();

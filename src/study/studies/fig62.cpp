@@ -1,4 +1,4 @@
-// Fig. 62: input-referred noise of the three inverters, outputs held.
+// Fig. 62: input-referred noise of the three inverters, outputs held. V_IN is relative to half the supply.
 
 #include <fmt/format.h>
 #include <cmath>
@@ -11,7 +11,7 @@ namespace corpuscle::studies::fig62 {
 constexpr double min_frequency = 1e-3, max_frequency = 1e5;  // Hz
 constexpr double largest_signal = 0.35;                      // V: half the supply, the largest excursion of a filter's node
 
-/// V/sqrt(Hz) over Hz; without_bias: leaves out the noise of the bias generator.
+/// Input-referred noise, V/sqrt(Hz) over Hz. without_bias: capacitors of 1000 F suppress the noise of the bias generator.
 Result<StudyCurve> input_noise(char inverter, bool without_bias) {
     const auto found =
         InverterSweep::run_with_directives(fmt::format(".noise v(i{}) vin dec 10 {} {}", inverter, min_frequency, max_frequency),
@@ -20,7 +20,7 @@ Result<StudyCurve> input_noise(char inverter, bool without_bias) {
     return found->netlist_result.curve("noise", "inoise_spectrum");
 }
 
-/// Corner frequency (Hz): 1/f noise equals the thermal noise, which is the smallest density.
+/// Corner frequency (Hz), at which 1/f noise and thermal noise are equal. The smallest density of the curve is the thermal noise.
 double corner_frequency(const StudyCurve& noise) { return noise.crossing(std::sqrt(2) * noise.min()); }
 
 Result<StudyResult> compute(const StudyOptions& options) {
@@ -34,15 +34,16 @@ Result<StudyResult> compute(const StudyOptions& options) {
         const std::string name = inverter_names[k];
         out.plots[0].add(name, *without_bias).add(name + " with its bias generator", *with_bias);
         out.claim(name + ": thermal noise", without_bias->min(), "V/sqrt(Hz)");
-        out.claim(name + ": at 1 mHz", without_bias->y.front(), "V/sqrt(Hz)");
+        out.claim(name + ": noise at 1 mHz", without_bias->y.front(), "V/sqrt(Hz)");
         out.claim(name + ": corner frequency of thermal and 1/f noise", corner_frequency(*without_bias), "Hz");
-        out.claim(name + ": at 100 Hz, with over without the noise of the bias generator", with_bias->at(100) / without_bias->at(100),
+        out.claim(name + ": noise at 100 Hz, with over without the bias generator's noise", with_bias->at(100) / without_bias->at(100),
                   "times");
         noise[k] = std::move(*without_bias);
         if (auto ok = options.report_progress(0.3 * (k + 1)); !ok) return ok.error();
     }
     out.plots[0].log_x = out.plots[0].log_y = true;
     out.plots[0].describe_published("INVC's thermal noise is orders of magnitude larger, its 1/f noise is larger as well");
+    // of thermal noises, or of the noises at 1 mHz
     const auto ratio = [](const StudyCurve& a, const StudyCurve& b, bool thermal) {
         return thermal ? a.min() / b.min() : a.y.front() / b.y.front();
     };
@@ -56,7 +57,7 @@ Result<StudyResult> compute(const StudyOptions& options) {
     if (!filter) return filter.error();
     const double total = filter->netlist_result.number("onoise_total");
     out.claim("INVC as a load of 0.8 pF (filter B): noise from 1 mHz to 100 kHz", total, "V");
-    out.claim("half the supply over this noise", 20 * std::log10(largest_signal / total), "dB")
+    out.claim("half the supply over the noise of this load", 20 * std::log10(largest_signal / total), "dB")
         .allow_min(40, "E.4: adequate for its application; 40 dB is our choice");
     const auto at_rest = InverterSweep::run(0.35);
     if (!at_rest) return at_rest.error();

@@ -8,10 +8,12 @@
 
 namespace corpuscle::studies::fig8 {
 
-/// SA-IA under a ramp to a force: the static and dynamic components in the middle of the ramp and in the hold.
+/// Components (A) of SA-IA's current: the dynamic one in the middle of the rising ramp, both in the hold, and the dynamic one in the middle
+/// of the falling ramp.
 struct Components {
-    double ramp_dynamic = 0, hold_static = 0, hold_dynamic = 0, down_dynamic = 0;  // A
+    double ramp_dynamic = 0, hold_static = 0, hold_dynamic = 0, down_dynamic = 0;
 };
+/// Under ramps of this duration (s) from 0 to a force (N) and back, with a hold of 1 s.
 Result<Components> components_under(double force, double seconds) {
     const auto response = run_trial({.afferent = "sa1a+lif-a",
                                      .stimulus = "ramp-hold",
@@ -29,11 +31,12 @@ Result<void> add_component_claims(StudyResult& out) {
     const auto once = components_under(1, 0.1), twice = components_under(2, 0.1), slower = components_under(1, 0.2);
     for (const auto* p : {&once, &twice, &slower})
         if (!*p) return p->error();
-    out.claim("static component at twice the force", twice->hold_static / once->hold_static)
+    out.claim("static component at twice the force, over that at the force", twice->hold_static / once->hold_static)
         .derived_as(2, "thesis 2.2: proportional to the force");
-    out.claim("dynamic component at half the slope", slower->ramp_dynamic / once->ramp_dynamic)
+    out.claim("dynamic component at half the slope of the ramp, over that at the full slope", slower->ramp_dynamic / once->ramp_dynamic)
         .derived_as(0.5, "thesis 2.2: proportional to its rate of change");
-    out.claim("dynamic component in the hold", once->hold_dynamic, "A").allow_range(0, 0, "thesis 2.2: due to the ramp");
+    out.claim("dynamic component in the hold", once->hold_dynamic, "A")
+        .allow_range(0, 0, "thesis 2.2: the dynamic component is due to the ramp");
     out.claim("dynamic component of falling force over that of rising force", once->down_dynamic / once->ramp_dynamic)
         .derived_as(1, "thesis 3.1: for both positive and negative changes");
     return {};
@@ -63,7 +66,7 @@ Result<StudyResult> compute(const StudyOptions& options) {
     out.claim("mean frequency in retraction over that of the second half of the plateau",
               measure<MeanRate>(spikes, press::retraction) / measure<MeanRate>(spikes, plateau_late))
         .allow_min(1, "thesis 3.1: the output also increases for negative changes (printed \"at the protraction phase\"; errata B11a)");
-    out.claim("spikes in retraction minus those of sa1", down - press::spike_count(sa1->spikes, press::retraction), "spikes")
+    out.claim("spikes in retraction minus those of sa1 in retraction", down - press::spike_count(sa1->spikes, press::retraction), "spikes")
         .allow_min(1, "thesis 3.1 and 3.3: SA-IA fires in retraction, the nerve and SA-IB hardly do");
     const TimeWindow steady_plateau{press::plateau.from + 50e-3, press::plateau.to};
     out.claim("last frequency of the plateau over its first, from 50 ms on",

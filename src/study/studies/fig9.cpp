@@ -9,6 +9,7 @@
 
 namespace corpuscle::studies::fig9 {
 
+/// Lee's system with its two neurons: currents I, membrane voltages u and threshold rises a, for rising (+) and falling (-) force.
 Result<TrialResult> simulate_lee(std::vector<std::string> settings = {}, const char* stimulus = "press") {
     return run_trial({.afferent = "fa1-lee",
                       .stimulus = stimulus,
@@ -23,11 +24,11 @@ double count_resets(const StudyCurve& u) {
     return out;
 }
 
-/// Charge (C) of a current within a window.
-double charge(const StudyCurve& i, const TimeWindow& s) {
+/// Charge (coulombs) of a current within a window.
+double charge(const StudyCurve& current, const TimeWindow& window) {
     double out = 0;
-    for (std::size_t k = 1; k < i.x.size(); ++k)
-        if (i.x[k] >= s.from && i.x[k] < s.to) out += i.y[k] * (i.x[k] - i.x[k - 1]);
+    for (std::size_t k = 1; k < current.x.size(); ++k)
+        if (current.x[k] >= window.from && current.x[k] < window.to) out += current.y[k] * (current.x[k] - current.x[k - 1]);
     return out;
 }
 
@@ -41,14 +42,15 @@ void add_component_claims(StudyResult& out, const TrialResult& response) {
     out.claim("I+ and I- in the last 100 ms of the plateau", charge(plus, press::plateau_end) + charge(minus, press::plateau_end), "C")
         .allow_range(0, 0, "thesis 2.2: no static component");
     const double up = count_resets(response.probes.at("u_+")), down = count_resets(response.probes.at("u_-"));
-    out.claim("spikes of the first neuron over all spikes until the middle of the plateau",
+    out.claim("spikes of the neuron for rising force, over all spikes until the middle of the plateau",
               up / press::spike_count(response.spikes, rising))
         .allow_range(1, 1, "thesis 3.1: two independent neurons");
-    out.claim("spikes of the second neuron over all spikes after it", down / press::spike_count(response.spikes, falling))
+    out.claim("spikes of the neuron for falling force, over all spikes after the middle of the plateau",
+              down / press::spike_count(response.spikes, falling))
         .allow_range(1, 1, "thesis 3.1: two independent neurons");
 }
 
-/// Under a long slope the rising threshold lengthens the intervals.
+/// Under a long slope each spike raises the threshold, which lengthens the intervals.
 Result<void> add_inhibition_claims(StudyResult& out) {
     const std::vector<std::string> ramp = {"ramp-hold.F_max=5", "ramp-hold.t_up=500ms", "ramp-hold.t_hold=100ms", "fa1-lee.k=2e-6"};
     auto without_jump = ramp;
@@ -56,13 +58,14 @@ Result<void> add_inhibition_claims(StudyResult& out) {
     const auto with = simulate_lee(ramp, "ramp-hold"), without = simulate_lee(without_jump, "ramp-hold");
     if (!with) return with.error();
     if (!without) return without.error();
-    const TimeWindow slope{0.25, 0.75};
+    const TimeWindow slope{0.25, 0.75};  // s: the ramp
+    // first frequency over last frequency of the slope
     const auto slowdown = [&](const TrialResult& t) { return measure<FirstRate>(t.spikes, slope) / measure<LastRate>(t.spikes, slope); };
-    out.claim("first frequency of a long slope over its last", slowdown(*with))
+    out.claim("first frequency of a long slope over its last frequency", slowdown(*with))
         .allow_min(1.1, "thesis 2.2: inhibited after each spike by a feedback to the threshold; a tenth is our choice");
-    out.claim("the same without the threshold feedback", slowdown(*without))
+    out.claim("first frequency of a long slope over its last frequency, without the threshold feedback", slowdown(*without))
         .allow_range(0.95, 1.05, "a regular train except for its grid of 1 ms; the range is our choice");
-    out.claim("spikes of the slope without the feedback over those with it",
+    out.claim("spikes of the slope without the threshold feedback over those with it",
               press::spike_count(without->spikes, slope) / press::spike_count(with->spikes, slope))
         .allow_min(1.1, "thesis 2.2: inhibition; a tenth is our choice");
     out.plot("Rise of the threshold under a long slope, ten times the gain", "time (s)", "a (V)").add("a_+", with->probes.at("a_+"));
@@ -93,7 +96,7 @@ Result<StudyResult> compute(const StudyOptions& options) {
     out.plot("Currents of the fixed-point model", "time (s)", "current (uA)")
         .add("I+", response->probes.at("I_+").scaled(1, 1e6))
         .add("I-", response->probes.at("I_-").scaled(1, 1e6))
-        .describe_published("one current from rising and one from falling force, each to its own neuron");
+        .describe_published("one current from rising and one from falling force, each drives its own neuron");
     out.plot("Instantaneous frequency", "time (s)", "frequency (Hz)")
         .points("fa1-lee", press::frequency_at_start(response->spikes))
         .points("fa1", press::frequency_at_start(*fa1))

@@ -12,8 +12,8 @@ namespace corpuscle::studies::invc_loop {
 
 constexpr auto source = "thesis E.4";
 
-/// The loop is open for small signals and closed for the operating point. At its end are the capacitor and a second cell, which is the
-/// same load as the input of the first cell.
+/// The loop is open for small signals and closed for the operating point. Its end carries the capacitor and a second cell, whose input is
+/// the same load as that of the first cell.
 constexpr auto opened = R"(INVC's loop, opened
 .lib '../process/tsmc180.lib' tt
 .include 'parts/transconductor.inc'
@@ -32,11 +32,14 @@ vnext next 0 0.35
 )";
 
 struct Loop {
-    StudyCurve dB, phase;                         ///< phase: of the return ratio, plus 180 degrees; at `unity`, the phase margin
-    double gain, unity, margin, phase_crossover;  ///< dB, Hz, degrees, Hz; phase_crossover: where `phase` is zero
-    double gain_margin;                           ///< dB below unity at that frequency
-    double inner;                                 ///< Hz: where the inner poles add 45 degrees to the 90 degrees of the outer pole
+    StudyCurve dB, phase;           ///< over frequency (Hz): gain of the open loop; its phase, degrees, 0 if it is positive feedback
+    double gain;                    ///< dB, at 0.1 mHz
+    double unity, phase_crossover;  ///< Hz, where the gain is 1, and where `phase` is 0
+    double margin;                  ///< degrees: `phase` at unity
+    double gain_margin;             ///< dB: how far the gain is below 1 at phase_crossover
+    double inner;                   ///< Hz: where the poles of the inner nodes add 45 degrees of lag to the 90 degrees of the outer pole
 };
+/// The loop with this capacitor of the filter.
 Result<Loop> loop_with(double farad) {
     const auto found = run_study_netlist({opened, {fmt::format("c_hp={}", farad)}});
     if (!found) return found.error();
@@ -55,14 +58,14 @@ void add_claims(const std::string& name, const Loop& loop, StudyResult& out) {
     out.claim(name + ": phase margin", loop.margin, "degrees").allow_min(60, "thesis E.4: inherently stable; 60 degrees is our choice");
     out.claim(name + ": gain margin", loop.gain_margin, "dB").allow_min(20, "thesis E.4: inherently stable; 20 dB is our choice");
     out.claim(name + ": poles of the inner nodes over the unity-gain frequency", loop.inner / loop.unity, "times")
-        .allow_min(10, "thesis E.4: its output impedance is very large compared with the inner nodes'; ten times is our choice");
+        .allow_min(10, "thesis E.4: INVC's output impedance is very large compared with the inner nodes'; ten times is our choice");
 }
 
 Result<StudyResult> compute(const StudyOptions& options) {
     StudyResult out;
     auto& gain = out.plot("Gain of the loop", "frequency (Hz)", "dB");
     gain.log_x = true;
-    StudyPlot phase{"Phase above -180 degrees", "frequency (Hz)", "degrees", {}, true};
+    StudyPlot phase{"Phase of the loop; the margin is its value at gain 1", "frequency (Hz)", "degrees", {}, true};
     for (const auto& [name, farad] : {std::pair{"filter B, 0.8 pF", 0.8e-12}, {"filter C, 8.8 pF", 8.8e-12}, {"no capacitor", 1e-18}}) {
         const auto loop = loop_with(farad);
         if (!loop) return loop.error();
@@ -77,8 +80,8 @@ Result<StudyResult> compute(const StudyOptions& options) {
     out.plots.push_back(std::move(phase));
     out.note(
         "An inductance between output and input opens the loop for small signals and closes it for the operating point. The margins are "
-        "those of the filter, whose capacitor makes the outer pole. Up to a hundred times the unity-gain frequency the loop's gain rolls "
-        "off with first order only.");
+        "those of the filter, whose capacitor makes the outer pole. Up to a hundred times the corner the gain has only a first-order "
+        "roll-off.");
     return out;
 }
 

@@ -1,5 +1,6 @@
-// Kim et al. 2012: intervals of mouse SA-I afferents under ramp and hold, published with their standard deviations. The equation is
-// published (thesis eq. 1), its parameters are not. Two of them, beta and k_s, are fitted here to three intervals of the hold.
+// Kim et al. 2012: intervals between spikes of mouse SA-I afferents under ramp and hold, published with their standard deviations. The
+// model's equation is published (thesis eq. 1), its parameters are not. Two of them, beta and k_s, are fitted here to three intervals of
+// the hold.
 
 #include <fmt/format.h>
 
@@ -11,10 +12,10 @@
 namespace corpuscle::studies::kim {
 
 struct Hold {
-    double depth, interval, spread;  ///< mm, s, s (published mean and SD)
+    double depth, interval, spread;  ///< mm; s, published mean; s, its standard deviation
 };
 constexpr Hold holds[] = {{1.2, 98.8e-3, 24.7e-3}, {1.3, 54.5e-3, 6.9e-3}, {1.4, 41.1e-3, 6.1e-3}};
-constexpr double ramps[] = {21.9e-3, 20.0e-3, 15.4e-3};  // s, for faster and faster ramps
+constexpr double ramps[] = {21.9e-3, 20.0e-3, 15.4e-3};  // s: published intervals during three ramps, from the slowest to the fastest
 constexpr auto source = "Kim et al. 2012, abstract";
 
 // LIF-A with the defaults of the catalogue: V_th 0.5 V, V_reset 0.25 V, R_m 1 Mohm, C_m 500 nF.
@@ -38,7 +39,7 @@ std::pair<double, double> fit_current() {
 Result<StudyResult> compute(const StudyOptions&) {
     StudyResult out;
     const auto [beta, slope] = fit_current();
-    const double contact = -beta / slope;  // mm: below it the fitted current is negative
+    const double contact = -beta / slope;  // mm: the depth at which the fitted current is zero
     StudyPlot plot{"Interval in the hold",
                    "depth (mm)",
                    "interval (ms)",
@@ -57,19 +58,22 @@ Result<StudyResult> compute(const StudyOptions&) {
         plot.series[0].x.push_back(h.depth), plot.series[0].y.push_back(1e3 * h.interval);
         plot.series[1].x.push_back(h.depth), plot.series[1].y.push_back(1e3 * computed);
     }
-    const double hold_current = beta + slope * holds[2].depth;  // the ramp ends in the deepest hold: half of its current at mid-ramp
-    const double first = current_for(ramps[0]) - hold_current / 2;
+    // Assumes that the ramps end at the deepest hold and that their intervals are those at mid-ramp, with half of the hold's static
+    // current.
+    const double hold_current = beta + slope * holds[2].depth;
+    const double first = current_for(ramps[0]) - hold_current / 2;  // A: dynamic current of the first ramp, proportional to its slope
     for (const double ramp : ramps)
-        out.claim(fmt::format("slope of the ramp that gives {:.1f} ms, over that of the first ramp", 1e3 * ramp),
+        out.claim(fmt::format("slope of the ramp that gives an interval of {:.1f} ms, over that of the first ramp", 1e3 * ramp),
                   (current_for(ramp) - hold_current / 2) / first)
             .explain("the abstract does not give the ramps");
     out.plots.push_back(std::move(plot));
-    out.notes = {fmt::format("A current linear in depth (contact at {:.3f} mm, {:.3g} A/mm) gives all three intervals within their "
-                             "published standard deviations: two parameters fitted to three values.",
-                             contact, slope),
-                 "The ramps cannot be checked: their speeds are not published with the intervals. One k_d fits one of them; the others "
-                 "only give the required ratio of the speeds.",
-                 "The abstract does not say which intervals are the model's and which are the mouse's."};
+    out.notes = {
+        fmt::format("A current linear in depth (contact at {:.3f} mm, {:.3g} A/mm) gives all three intervals within their "
+                    "published standard deviations: two parameters fitted to three values.",
+                    contact, slope),
+        "The ramps cannot be checked: their speeds are not published with the intervals. One k_d fits one of their intervals; the others "
+        "only give the required ratio of the speeds.",
+        "The abstract does not say which intervals are the model's and which are the mouse's."};
     return out;
 }
 

@@ -1,4 +1,5 @@
-// Published properties of the nerve compared with the named afferents. Bounds are our choice where a paper gives a shape and no number.
+// Published properties of the nerve compared with the named afferents. Where a paper gives a shape and no number, the bounds are our
+// choice.
 
 #include <fmt/format.h>
 #include <algorithm>
@@ -12,7 +13,8 @@ namespace corpuscle::studies::nerve {
 
 constexpr double none = std::numeric_limits<double>::quiet_NaN();
 
-/// The smallest amplitude (N) of a sine of `f` (Hz) that evokes a spike after the first 0.5 s, by bisection on a logarithmic scale.
+/// The smallest amplitude (N) of a sine of `f` (Hz) that evokes a spike after the first 0.5 s, by bisection on a logarithmic scale;
+/// 4 N if no amplitude below does. `rate` is in Hz.
 Result<double> detection_threshold(const std::string& afferent, double f, double rate) {
     double low = 1e-4, high = 4;
     for (int k = 0; k < 14; ++k) {
@@ -28,6 +30,8 @@ Result<double> detection_threshold(const std::string& afferent, double f, double
     return high;
 }
 
+/// The detection threshold (mN) over the frequency (Hz), without the frequencies that have none. `done` is the completed fraction of the
+/// study.
 Result<StudyPlot::Series> tuning_curve(const std::string& afferent, const StudyOptions& options, double& done) {
     StudyPlot::Series curve{afferent, {}, {}, StudyPlot::Style::line};
     for (const double f : {4.0, 8.0, 16.0, 32.0, 64.0, 128.0, 200.0, 250.0, 300.0, 400.0, 600.0}) {
@@ -39,7 +43,7 @@ Result<StudyPlot::Series> tuning_curve(const std::string& afferent, const StudyO
     return curve;
 }
 
-/// The frequency range (Hz) in which the threshold is at most a tenth above its minimum; NaN if there is no threshold.
+/// The lowest and the highest frequency (Hz) at which the threshold is at most a tenth above its minimum; NaN for an empty curve.
 std::pair<double, double> most_sensitive_band(const StudyPlot::Series& curve) {
     std::pair band{none, none};
     if (curve.y.empty()) return band;
@@ -72,7 +76,8 @@ Result<StudyResult> compute(const StudyOptions& options) {
     out.notes = {
         "The papers displace the skin; here the stimulus is a force that oscillates about 0.2 N, the smallest that the models are fitted "
         "to. The skin's mechanics, which relate displacement and force, are not modelled.",
-        "Most sensitive: at most a tenth above the smallest amplitude. A response is a spike between 0.5 and 1 s.",
+        "An afferent counts as most sensitive where its threshold is at most a tenth above its smallest one. A response is a spike between "
+        "0.5 and 1 s.",
         "sa1 and fa1 are the thesis's models. They rectify behind their high-passes, so any vibration above the corner adds the same mean "
         "current and they are equally sensitive to all such frequencies. The nerve is not: the skin and the receptor are low-passes, which "
         "these models leave out."};

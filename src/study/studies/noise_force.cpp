@@ -9,11 +9,12 @@
 
 namespace corpuscle::studies::noise_force {
 
-constexpr double from = 1, to = 100;  // Hz
-constexpr double boltzmann = 1.380649e-23, kelvin = 300.15;
-constexpr double repeatability = 0.02;  // relative: the sensor's repeatability, from its data sheet
+constexpr double from = 1, to = 100;                         // Hz
+constexpr double boltzmann = 1.380649e-23, kelvin = 300.15;  // J/K; K
+constexpr double repeatability = 0.02;                       // fraction of the force: the sensor's repeatability, from its data sheet
 
-/// Sensor, transducer and signal processing as in circuits/sa1.cir; the membrane is held at half the supply.
+/// Sensor, transducer and signal processing as in circuits/sa1.cir; the membrane is held at half the supply. Nodes i_f and i_m have I_F and
+/// the membrane current as voltages, 1 V per A.
 const std::string chain = R"(Force to membrane current
 .lib '../process/tsmc180.lib' tt
 .include 'parts/transducer.inc'
@@ -34,6 +35,7 @@ rf i_f 0 1g
 ri i_m 0 1g
 .nodeset v(xrectb.en)=0 v(xrectc.en)=0 v(xrectb.cmp)=0.5 v(xrectc.cmp)=0.5
 )";
+/// The oscillator with its membrane held; node out has the noise current as a voltage, 1 V per A.
 const std::string oscillator = R"(Noise current of the oscillator's input
 .lib '../process/tsmc180.lib' tt
 .include 'parts/trigger.inc'
@@ -48,7 +50,7 @@ ro out 0 1g
 .nodeset v(s)=0 v(xcco.sb)=0.7
 )";
 
-/// Force noise in the band (N rms) at a node of a netlist with a source vforce.
+/// The noise in the band at node `output` of a netlist, expressed as a force (N rms) at its source vforce, at a mean force of `newtons`.
 Result<double> force_noise(const std::string& circuit, const std::string& output, double newtons, const std::string& extra_lines = "") {
     const auto found = run_study_netlist(
         {circuit, {fmt::format("vforce={}", newtons)}, extra_lines + fmt::format(".noise v({}) vforce dec 20 {} {}", output, from, to)});
@@ -56,14 +58,14 @@ Result<double> force_noise(const std::string& circuit, const std::string& output
     return found->number("inoise_total");
 }
 
-/// dI/dF of the membrane current, A/N.
+/// dI/dF of the membrane current (A/N) at this force.
 Result<double> gain(double newtons) {
     const auto found = run_study_netlist({chain, {}, fmt::format(".dc vforce {} {} {}", 0.99 * newtons, 1.01 * newtons, 0.005 * newtons)});
     if (!found) return found.error();
     return found->curve("dc", "i(vi)").slope_at(newtons);
 }
 
-/// Thermal noise of the sensor as a resistor, N rms.
+/// Thermal noise of the sensor, taken as a resistor with 0.1 V across it, in the band, N rms.
 double sensor_noise(double newtons) {
     const ForceSensor sensor;
     const double gf = newtons / gram_force;
@@ -71,7 +73,7 @@ double sensor_noise(double newtons) {
 }
 
 struct NoiseParts {
-    // N rms; `chain`: transducer and signal processing together
+    // N rms. chain: transducer and signal processing together; filter_B, filter_C: the same up to the output of the filter
     double sensor, transducer, processing, oscillator, chain, filter_B, filter_C;
 };
 Result<NoiseParts> noise_parts(double newtons) {
@@ -91,19 +93,19 @@ Result<NoiseParts> noise_parts(double newtons) {
 Result<void> add_claims(StudyResult& out, double newtons) {
     const auto p = noise_parts(newtons);
     if (!p) return p.error();
-    const auto label = [&](const char* quantity) { return fmt::format("{:g} N: {}", newtons, quantity); };
+    const auto label = [&](const char* quantity) { return fmt::format("noise at {:g} N: {}", newtons, quantity); };
     const double total = std::hypot(p->sensor, p->chain, p->oscillator);
     out.claim(label("sensor, as a resistor (4 k T G)"), p->sensor, "N");
     out.claim(label("transducer, at I_F"), p->transducer, "N");
     out.claim(label("signal processing, at I_A"), p->processing, "N");
     out.claim(label("transducer and signal processing, at the membrane"), p->chain, "N");
     out.claim(label("oscillator's input, from dI/dF"), p->oscillator, "N");
-    out.claim(label("total"), total, "N")
+    out.claim(label("total of sensor, transducer, signal processing and oscillator"), total, "N")
         .allow_max(repeatability * newtons,
                    "thesis E.4: \"adequate for its application\"; taken here as below the sensor's own repeatability, 2 % of the force "
                    "(FSR 400 series data sheet, Interlink)");
-    out.claim(label("at filter B's output"), p->filter_B, "N").allow_max(repeatability * newtons, "as above");
-    out.claim(label("at filter C's output"), p->filter_C, "N").allow_max(repeatability * newtons, "as above");
+    out.claim(label("at filter B's output"), p->filter_B, "N").allow_max(repeatability * newtons, "the sensor's own repeatability");
+    out.claim(label("at filter C's output"), p->filter_C, "N").allow_max(repeatability * newtons, "the sensor's own repeatability");
     out.claim(label("total, over the 3.8 N range of the press stimulus"), 100 * total / 3.8, "%");
     return {};
 }
@@ -144,9 +146,10 @@ Result<StudyResult> compute(const StudyOptions& options) {
     return out;
 }
 
-const Study study{"noise-force", "The circuits' noise as a force",
-                  "The thesis names noise as the price of analog processing (1.3) and calls INVC's adequate for its application (E.4). How "
-                  "large is it as a force?",
-                  compute};
+const Study study{
+    "noise-force", "The circuits' noise as a force",
+    "The thesis names noise as the price of analog processing (1.3) and calls INVC's noise adequate for its application (E.4). "
+    "How large is the noise as a force?",
+    compute};
 
 }  // namespace corpuscle::studies::noise_force

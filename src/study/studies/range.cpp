@@ -13,46 +13,46 @@
 
 namespace corpuscle::studies::range {
 
-namespace P = press;
 constexpr const char *chips[] = {"sa1-circuit", "fa1-circuit"}, *corner_names[] = {"tt", "ss", "ff", "sf", "fs"};
 constexpr double nominal_supply = 0.7, nominal_temperature = 27;  // V, C
-// steps away from the nominal point
+// values of the axes, in order of their distance from the nominal point
 const std::vector<double> lower_supplies = {0.65, 0.6, 0.55, 0.5}, higher_supplies = {0.75, 0.8, 0.85, 0.9},
                           lower_temperatures = {0, -25, -55}, higher_temperatures = {50, 75, 100, 125};
 
 /// One chip under the press stimulus at one operating condition.
 struct Condition {
     double supply = nominal_supply, celsius = nominal_temperature;
-    bool high_threshold = false;
+    bool high_threshold = false;  // with high-threshold switches (hv_switches=1)
     TrialResult response{};
     std::string failed{};  // error text if it did not converge, else ""
-    bool works = false;
+    bool works = false;    // is_working
 };
 
 /// True if the chip is silent at rest and fires as designed. SA-I: while the force rises and at the end of the plateau, not after
 /// retraction. FA-I: in both ramps, not at the end of the plateau.
 bool is_working(std::string_view chip, const std::vector<double>& t) {
-    if (press::spike_count(t, P::rest) > 0 || press::spike_count(t, P::protraction) == 0) return false;
-    if (chip.starts_with("sa1")) return press::spike_count(t, P::plateau_end) > 0 && press::spike_count(t, P::after) == 0;
-    return press::spike_count(t, P::plateau_end) == 0 && press::spike_count(t, P::retraction) > 0;
+    if (press::spike_count(t, press::rest) > 0 || press::spike_count(t, press::protraction) == 0) return false;
+    if (chip.starts_with("sa1")) return press::spike_count(t, press::plateau_end) > 0 && press::spike_count(t, press::after) == 0;
+    return press::spike_count(t, press::plateau_end) == 0 && press::spike_count(t, press::retraction) > 0;
 }
 
+/// Spike counts: "protraction / plateau / retraction / after".
 std::string phase_counts(const std::vector<double>& t) {
-    return fmt::format("{:g} / {:g} / {:g} / {:g}", press::spike_count(t, P::protraction), press::spike_count(t, P::plateau),
-                       press::spike_count(t, P::retraction), press::spike_count(t, P::after));
+    return fmt::format("{:g} / {:g} / {:g} / {:g}", press::spike_count(t, press::protraction), press::spike_count(t, press::plateau),
+                       press::spike_count(t, press::retraction), press::spike_count(t, press::after));
 }
 
-/// The last condition on an axis at which the chip works (NaN: none), and the reason why it fails beyond it.
+/// How far along an axis the chip works.
 struct Limit {
-    double last = Claim::none;
-    std::size_t count = 0;  ///< number of conditions on the axis at which it works
-    std::string beyond = "works in the whole range tried";
+    double last = Claim::none;  ///< V or C: last value at which it works; NaN: it does not work at the nominal point
+    std::size_t count = 0;      ///< number of values of the axis at which it works
+    std::string beyond = "works in the whole range tried";  ///< spike counts and reason of the failure at the next value
 };
 
-/// A chip in a corner at several conditions; results are cached.
+/// Simulates a chip in a process corner under several conditions. Each condition is simulated once.
 class ChipExplorer {
     const char *chip_, *corner_;
-    std::deque<Condition> conditions_;  // references stay valid
+    std::deque<Condition> conditions_;  // a deque, so that references returned by at() stay valid
 
     std::string setting(const char* parameter, auto value) const { return fmt::format("{}.{}={}", chip_, parameter, value); }
     Condition run(Condition condition) const {
@@ -64,14 +64,14 @@ class ChipExplorer {
         condition.response = std::move(*response), condition.works = is_working(chip_, condition.response.spikes);
         return condition;
     }
-    /// The reason why the chip does not work under a condition, as far as another trial can show it.
+    /// The reason why the chip does not work under a condition, from its warnings or from another trial with high-threshold switches.
     std::string reason(const Condition& condition) {
         if (!condition.failed.empty()) return condition.failed;
         std::string out;
         for (const auto& warning : condition.response.range_warnings) out += (out.empty() ? "" : "; ") + warning;
         if (out.empty() && !condition.high_threshold && at(condition.supply, condition.celsius, true).works)
             return "switches that are off leak as much as the membrane's own leak; it works with hv_switches=1";
-        return out.empty() ? "its currents are too small or too large, but nothing is saturated" : out;
+        return out.empty() ? "the chip's currents are too small or too large, but no voltage or current leaves its range" : out;
     }
 
 public:
@@ -85,12 +85,12 @@ public:
         conditions_.push_back(run({supply, celsius, high_threshold}));
         return conditions_.back();
     }
-    /// The limit of the working range along an axis from the nominal condition, by bisection. `end_first`: tries the end of the axis first.
-    /// `good`: number of conditions already known to work.
+    /// The limit of the working range along an axis, by bisection. `run_at` simulates the condition at a value of the axis. `end_first`:
+    /// tries the end of the axis first. `good`: the number of values, from the nominal point on, at which the chip is known to work.
     using RunAt = std::function<const Condition&(double)>;
     Limit find_limit(const std::vector<double>& axis_values, double nominal, const RunAt& run_at, bool end_first = false,
                      std::size_t good = 0) {
-        std::size_t bad = axis_values.size() + 1;
+        std::size_t bad = axis_values.size() + 1;  // count of values up to the first one known to fail
         if (end_first) (run_at(axis_values.back()).works ? good : bad) = axis_values.size();
         while (bad - good > 1) {
             const auto middle = (good + bad) / 2;
@@ -103,7 +103,7 @@ public:
         return out.beyond = fmt::format("{}: {}", spikes, reason(beyond_limit)), out;
     }
 
-    struct Ends {
+    struct Ends {  // low, high: supply; the others: temperature
         Limit low, high, cold, hot, hot_with_high_threshold;
     } ends;
     void search() {
@@ -137,7 +137,7 @@ void report(ChipExplorer& t, StudyResult& out) {
     add("works at 0.7 V with hv_switches=1 up to", t.ends.hot_with_high_threshold, "C");
 }
 
-/// The spikes of all conditions on one axis, in the typical corner.
+/// Plots the spikes of all conditions on one axis: those at which the `other` quantity has its nominal value.
 void add_plot(const ChipExplorer& t, const char* axis_name, const char* unit, double Condition::* axis, double Condition::* other,
               double nominal, StudyResult& out) {
     StudyCurve standard, with_high_threshold;
@@ -175,7 +175,7 @@ Result<StudyResult> compute(const StudyOptions& options) {
         failed_runs += static_cast<std::size_t>(
             std::count_if(t.conditions().begin(), t.conditions().end(), [](const Condition& s) { return !s.failed.empty(); }));
     }
-    for (const std::size_t k : {std::size_t{0}, std::size(corner_names)}) {
+    for (const std::size_t k : {std::size_t{0}, std::size(corner_names)}) {  // the typical corner of each chip
         add_plot(all[k], "supplies", "V", &Condition::supply, &Condition::celsius, nominal_temperature, out);
         add_plot(all[k], "temperatures", "C", &Condition::celsius, &Condition::supply, nominal_supply, out);
     }

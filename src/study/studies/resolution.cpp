@@ -9,6 +9,7 @@
 
 namespace corpuscle::studies::resolution {
 
+/// The timing error of an afferent behind a converter, relative to the same afferent without converter. `rate` is the sampling rate, Hz.
 Result<SpikeTimingError> digital_timing_error(const std::string& name, double bits, double rate) {
     const auto exact = simulate_train({name});
     if (!exact) return exact.error();
@@ -21,13 +22,13 @@ Result<SpikeTimingError> digital_timing_error(const std::string& name, double bi
 
 std::string frequency_text(double f) { return f < 1e3 ? fmt::format("{:g} Hz", f) : fmt::format("{:g} kHz", f / 1e3); }
 
-/// Adds one point of a curve, and its claim.
+/// Adds the claim on the rms error for these bits and this rate, and the point (x, error in ms) of a curve.
 Result<void> add_point(StudyResult& out, StudyCurve& curve, double x, const std::string& name, double bits, double rate) {
     const auto a = digital_timing_error(name, bits, rate);
     if (!a) return a.error();
     curve.x.push_back(x), curve.y.push_back(1e3 * a->rms);
     out.claim(fmt::format("{}: {:g} bits, {}: rms error of spike times", name, bits, frequency_text(rate)), a->rms, "s")
-        .explain(fmt::format("{:g} spikes have no partner", a->unmatched));
+        .explain(fmt::format("{:g} spikes of the two trains have no partner within 50 ms", a->unmatched));
     return {};
 }
 
@@ -47,7 +48,7 @@ Result<StudyResult> compute(const StudyOptions& options) {
             if (auto ok = add_point(out, rate, f, name, 16, f); !ok) return ok.error();
             if (auto ok = options.report_progress(done += 1.0 / 28); !ok) return ok.error();
         }
-        out.claim_true(fmt::format("{}: fewer bits or samples reduce the resolution", name),
+        out.claim_true(fmt::format("{}: fewer bits and a lower sampling rate increase the error of spike times", name),
                        bits.y.front() > bits.y.back() && rate.y.front() > rate.y.back(),
                        "thesis 1.3: signal resolution loss due to conversion and quantization");
         by_bits.add(name, bits), by_rate.add(name, rate);

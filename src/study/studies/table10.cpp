@@ -8,7 +8,7 @@
 
 namespace corpuscle::studies::table10 {
 
-/// The published active area of C1 against the same area computed from other published numbers.
+/// C1's active area from other published numbers; table 10 prints a different one.
 void add_erratum(StudyResult& out, const SimulatedArrays& ours) {
     const auto& c1 = find_published(rectangles, "C1");
     const std::string source = "errata U11, C1's A = 1.0800";
@@ -45,7 +45,7 @@ Result<StudyResult> compute(const StudyOptions&) {
                    std::abs(arrays("B2").A / arrays("C2").A - 1) < 1e-9 && std::abs(arrays("D2").A / arrays("C2").A - 1) < 1e-9 &&
                        arrays("B2").A < std::min({arrays("B1").A, arrays("C1").A, arrays("D1").A}),
                    source);
-    out.claim("S_eq of A over S_eq of C2", arrays("A").S / arrays("C2").S).derived_as(1, source + ": the same");
+    out.claim("S_eq of A over S_eq of C2", arrays("A").S / arrays("C2").S).derived_as(1, source + ": the same S_eq");
     out.note(
         "A_T is the area of a rectangle around polysilicon and diffusion (errata U16: not its perimeter). Its margins are inferred from "
         "this table and table 13 as one rule: r rows by c columns take (r W + (r - 1) 0.28 um + 0.5 um)(c L + (c - 1) 0.54 um + 0.96 um).");

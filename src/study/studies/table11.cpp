@@ -23,7 +23,7 @@ Result<StudyResult> compute(const StudyOptions&) {
     out.claim("A's current over C2's", I("A") / I("C2"))
         .derived_as(find_published(rectangles, "A").I_D / find_published(rectangles, "C2").I_D, "table 11");
     out.claim_true("A carries more current than C2, which has the same S_eq", I("A") > I("C2"), source);
-    const double V_T = ours("A").V_T;
+    const double V_T = ours("A").V_T;  // shifts below are relative to it
     out.claim_true("A, B2, C2 and D2 have the same threshold", ours("B2").V_T == V_T && ours("C2").V_T == V_T && ours("D2").V_T == V_T,
                    source);
     const auto shift = [&](const char* name) { return ours(name).V_T - V_T; };
@@ -46,12 +46,13 @@ Result<StudyResult> compute(const StudyOptions&) {
 
     add_sum_rule(out, rectangles, 1e-9, "errata U7: g_md in uS, not nS");
     const auto& d2 = find_published(rectangles, "D2");
-    out.claim("D2: g_ms from its sum", 1e-6 * (d2.g_mg + d2.g_md + d2.g_mb), "S")
+    out.claim("D2: g_ms from the printed g_mg + g_md + g_mb", 1e-6 * (d2.g_mg + d2.g_md + d2.g_mb), "S")
         .published_as(1e-6 * d2.g_ms, "table 11; errata U10: 165.1 is meant");
-    out.claim("D2: g_ms from four times A's", 4e-6 * find_published(rectangles, "A").g_ms, "S").published_as(1e-6 * d2.g_ms, "as above");
+    out.claim("D2: g_ms from four times A's printed g_ms", 4e-6 * find_published(rectangles, "A").g_ms, "S")
+        .published_as(1e-6 * d2.g_ms, "table 11; errata U10: 165.1 is meant");
     double worst = 0;
     for (const auto& a : ours) worst = std::max(worst, std::abs((a.g_mg + a.g_md + a.g_mb) / a.g_ms - 1));
-    out.claim("simulated: largest error of the sum against g_ms", 100 * worst, "%")
+    out.claim("simulated: largest difference of g_mg + g_md + g_mb from g_ms", 100 * worst, "%")
         .allow_max(1e-4, "eq. 27, to the accuracy of the solution");
     return out;
 }

@@ -9,7 +9,7 @@
 
 namespace corpuscle::studies::table12 {
 
-/// The definitions of the columns, from the numbers of table 11.
+/// Errata of table 12: what its columns contain, computed from the printed numbers of table 11.
 void add_errata(StudyResult& out) {
     add_ratio_rule(out, rectangles, 1e-9, "errata U6 and U7: V_A is I_D/g_md, and g_md in uS");
     for (const auto& a : published_rectangles)
@@ -24,7 +24,7 @@ void add_text(StudyResult& out, const SimulatedArrays& ours) {
     const auto V_A = [&](const char* name) { return ours(name).V_A(); };
     const auto printed_V_A = [&](const char* name) { return find_published(rectangles, name).V_A; };
     for (const auto& [name, factor] : {std::pair{"B2", 4.0}, {"C2", 2.0}}) {
-        auto& c = out.claim(fmt::format("{}: V_A over A's, like L_eq", name), V_A(name) / V_A("A"))
+        auto& c = out.claim(fmt::format("{}: V_A over A's, as the equivalent length", name), V_A(name) / V_A("A"))
                       .published_as(factor, source + fmt::format("; {:.2f} by its table", printed_V_A(name) / printed_V_A("A")));
         if (c.needs_explanation())
             c.explain(
@@ -33,13 +33,13 @@ void add_text(StudyResult& out, const SimulatedArrays& ours) {
     }
     const auto gain = [](const SimulatedArray& a, const SimulatedArray& b) { return a.gain() < b.gain(); };
     const auto highest_gain = std::max_element(ours.begin(), ours.end(), gain);
-    out.claim_true("B1 has the highest V_A and the largest g_mg/g_md; B2's is lower at the same total area",
+    out.claim_true("B1 has the largest g_mg/g_md; B2 has a lower V_A than B1 at the same total area",
                    highest_gain->published->name == std::string_view("B1") && V_A("B1") > V_A("B2"), source);
     const double a = ours("A").g_by_I();
     double worst_difference = 0;
     for (const char* name : {"B2", "C2", "D2"}) worst_difference = std::max(worst_difference, std::abs(ours(name).g_by_I() / a - 1));
     out.claim("largest difference of g_mg/I_D of B2, C2 and D2 from A's", 100 * worst_difference, "%")
-        .allow_max(5, source + ": the same (5 % here)");
+        .allow_max(5, source + ": the same g_mg/I_D (5 % here)");
     if (auto& c = out.claims.back(); c.needs_explanation())
         c.explain(
             "with velocity saturation and length modulation of the process card a unit transistor differs more from a stack than in the "
@@ -54,6 +54,7 @@ void add_text(StudyResult& out, const SimulatedArrays& ours) {
                     source + ": widely different; table 12");
 }
 
+/// sigma: from simulate_mismatch, in the order of published_rectangles.
 void add_mismatch_text(StudyResult& out, const SimulatedArrays& ours, const std::vector<double>& sigma) {
     const std::string source = "thesis B.1";
     const auto sigma_of = [&](const char* name) {
@@ -66,8 +67,8 @@ void add_mismatch_text(StudyResult& out, const SimulatedArrays& ours, const std:
     auto& c = out.claim_true("C1 has the smallest standard deviation", sigma_of("C1") == smallest, source);
     if (c.needs_explanation())
         c.explain(fmt::format(
-            "B1's standard deviation is {:.2f} % and C1's {:.2f} %; their uncertainty of {:.1f} % does not separate them. By the card's "
-            "law they are {:.2f} and {:.2f} %",
+            "B1's standard deviation is {:.2f} % and C1's {:.2f} %; their uncertainty of {:.1f} % does not separate them. By A_VT "
+            "and A_IS of the model card they are {:.2f} and {:.2f} %",
             sigma_of("B1"), sigma_of("C1"), mismatch_uncertainty(), ours("B1").predicted_mismatch(ours("B1").g_by_I()),
             ours("C1").predicted_mismatch(ours("C1").g_by_I())));
 }

@@ -29,7 +29,8 @@ Result<StudyResult> compute(const StudyOptions&) {
     out.claim("G3's S_eq over A's", ours("G3").S / (*rectangular)("A").S).allow_range(0.8, 1.25, source + ": similar (0.8 to 1.25 here)");
     out.note(
         "F's two transistors have different lengths. Its rectangle is computed as two transistors of their mean length with the usual "
-        "spacing. F's two channels are closer together, so the computed rectangle is too wide, and the published A_T is smaller.");
+        "spacing. F's two channels are closer together than that, so the computed rectangle is too wide, and the published A_T is "
+        "smaller.");
     out.note(
         "Table 13 calls F's transistor of 4.79 um M_D, and G1's single unit transistor above its seven M_S (errata U17, U17a). S_eq and "
         "areas are the same for both namings.");

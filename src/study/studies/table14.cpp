@@ -20,7 +20,8 @@ Result<void> add_f(StudyResult& out) {
         out.claim(fmt::format("{}: I_D", names[k]), a.I_D, "A").published_as(1e-6 * f.I_D, "table 14");
         auto& c =
             out.claim(fmt::format("{}: g_md", names[k]), a.g_md, "S").published_as(1e-10 * f.g_md, "table 14, divided by ten: errata U8");
-        if (c.needs_explanation()) c.explain("one V_E for all lengths is too simple; with this error neither orientation is ruled out");
+        if (c.needs_explanation())
+            c.explain("one V_E for all lengths is too simple; the error is so large that neither orientation is ruled out");
     }
     return {};
 }
@@ -37,13 +38,14 @@ Result<StudyResult> compute(const StudyOptions&) {
     add_sum_rule(out, trapezoids, 1e-9, "errata U8: a tenth of the printed value, in nS");
     double worst = 0;
     for (const auto& a : *found) worst = std::max(worst, std::abs((a.g_mg + a.g_md + a.g_mb) / a.g_ms - 1));
-    out.claim("simulated: largest error of the sum against g_ms", 100 * worst, "%")
+    out.claim("simulated: largest difference of g_mg + g_md + g_mb from g_ms", 100 * worst, "%")
         .allow_max(1e-4, "eq. 27, to the accuracy of the solution");
     return out;
 }
 
 const Study study{
     "table14", "Currents and small signals of the trapezoidal arrays",
-    "Five arrays at V_G = V_D = 0.5 V; the sums of their slopes show that a column is ten times too large. Thesis B.2, table 14", compute};
+    "Five arrays at V_G = V_D = 0.5 V; the sums of their slopes show that the column g_md is ten times too large. Thesis B.2, table 14",
+    compute};
 
 }  // namespace corpuscle::studies::table14

@@ -27,13 +27,14 @@ void add_text(StudyResult& out, const SimulatedArrays& ours, const SimulatedArra
     out.claim("G3's V_A over A's", V_A("G3") / rectangular("A").V_A()).published_as(10, source);
     out.claim("F's V_A over E's", V_A("F") / V_A("E"))
         .derived_as(33.38 / 37.82, source + ": similar; table 15")
-        .explain("the ratio is closer with the short transistor at the source, see below");
+        .explain("the ratio is closer with F's short transistor at the source");
     out.claim_true("F's gain is slightly lower than E's", gain("F") < gain("E"), source);
     out.claim_true("G1's gain is considerably smaller than E's", gain("G1") < gain("E") - 3, source + "; 3 dB here, 7 dB published");
     const auto highest_gain = std::max_element(ours.begin(), ours.end(), [](const auto& a, const auto& b) { return a.gain() < b.gain(); });
     out.claim_true("G2 has the largest gain", highest_gain->published->name == std::string_view("G2"), source);
 }
 
+/// sigma: from simulate_mismatch, in the order of published_trapezoids; sigma_of_A: of A of table 12. All in %.
 void add_mismatch_text(StudyResult& out, const std::vector<double>& sigma, double sigma_of_A) {
     const std::string source = "thesis B.2";
     const auto sigma_of = [&](const char* name) {
@@ -49,12 +50,13 @@ void add_mismatch_text(StudyResult& out, const std::vector<double>& sigma, doubl
                    sigma_of("G3") > 1.5 * std::max(sigma_of("G1"), sigma_of("G2")), source + "; a factor of 1.5 here, 2 as published");
     auto& g3 = out.claim("G3's standard deviation over A's", sigma_of("G3") / sigma_of_A)
                    .derived_as(14.9 / 15.6, source + ": similar; tables 15 and 12");
-    if (g3.needs_explanation()) g3.explain("as for G3 itself: its unit transistor at the source is not fully saturated");
+    if (g3.needs_explanation()) g3.explain("G3's unit transistor at the source is not fully saturated");
     out.claim("G2's standard deviation over G1's", sigma_of("G2") / sigma_of("G1"))
         .derived_as(7.46 / 5.77, source + ": slightly more; table 15");
 }
 
-/// Claims on F in both orientations (errata U17). The last array has the short transistor at the source, as labelled in table 13.
+/// Claims on F in both orientations (errata U17). The arrays are those of the tables (E first, then F with the short transistor at the
+/// drain, as in the text), and at the end F with the short transistor at the source, as labelled in table 13.
 void add_f(StudyResult& out, const SimulatedArrays& orientations, const std::vector<double>& sigma) {
     const auto &e = orientations[0], &text = orientations[1], &table = orientations.back();
     const auto& f = *text.published;
@@ -66,7 +68,7 @@ void add_f(StudyResult& out, const SimulatedArrays& orientations, const std::vec
     out.claim("F, short transistor at the source as in table 13: standard deviation of I_D", sigma_of_table, "%")
         .published_as(f.sigma, "table 15");
     if (auto& c = add_gain_claim("source as in table 13", table); c.needs_explanation())
-        c.explain("a small difference of gains, whose V_A differ as above");
+        c.explain("a small difference of two gains, which depend on V_A");
     if (auto& c = add_gain_claim("drain as in the text", text); c.needs_explanation())
         c.explain(
             "the short transistor has the drain voltage and full length modulation; it is not known why the thesis's transistor does not "
@@ -74,7 +76,7 @@ void add_f(StudyResult& out, const SimulatedArrays& orientations, const std::vec
     out.claim_true("table 15's standard deviation and gain of F are closer with the short transistor at the source",
                    std::abs(sigma_of_table - f.sigma) < std::abs(sigma_of_text - f.sigma) &&
                        std::abs(table.gain() - f.gain) < std::abs(text.gain() - f.gain),
-                   "table 13's labels, against the text of B.2 and errata U17");
+                   "the labels of table 13, which the text of B.2 and errata U17 contradict");
 }
 
 /// "The solution is to increase M_D width": F's short transistor at the drain, eight times as wide.
@@ -91,7 +93,7 @@ Result<void> add_wider(StudyResult& out, double gain_of_f, double gain_of_e) {
 }
 
 Result<StudyResult> compute(const StudyOptions&) {
-    auto matches = all_matches(trapezoids);
+    auto matches = all_matches(trapezoids);  // and F in the other orientation, at the end
     matches.push_back({&find_published(trapezoids, "F"), "xf_printed"});
     auto ours = simulate_arrays(trapezoids.circuit, matches);
     const auto rectangular = simulate_arrays(rectangles);

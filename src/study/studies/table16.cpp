@@ -41,9 +41,10 @@ constexpr SizeRow rows[] = {
 const circuit::Element& element_of(const circuit::Circuit& c, const std::string& name) {
     return c.elements[static_cast<std::size_t>(c.find_element(name))];
 }
+/// A value of a transistor. Only m and stack can be missing, and then are 1.
 double value_or_1(const circuit::Element& e, const char* name) {
     const auto found = e.values.find(name);
-    return found == e.values.end() ? 1 : found->second;  // m, stack
+    return found == e.values.end() ? 1 : found->second;
 }
 /// Gate area, um^2.
 double gate_area(const circuit::Element& e) {
@@ -64,9 +65,9 @@ bool has_printed_sizes(const SizeRow& row, const circuit::Circuit& c, double& ar
     return all;
 }
 
-/// Effect of M6 on INVC: the ratio of its currents at both rails.
+/// Effect of M6 on INVC: the ratio of its output currents at V_IN = V_DD and at V_IN = 0.
 Result<void> add_symmetry(StudyResult& out) {
-    double ratios[2];
+    double ratios[2];  // with M6 as built, as printed
     for (const bool printed : {false, true}) {
         std::vector<std::string> settings;
         if (printed) settings = {"xh.mn6a=8x2", "xh.mn6b=2x4"};
@@ -76,9 +77,9 @@ Result<void> add_symmetry(StudyResult& out) {
         ratios[printed] = std::abs(I.y.back() / I.y.front());
     }
     out.claim("INVC with M6 as built: output current at V_IN = V_DD over that at 0", ratios[0], "times")
-        .derived_as(1, "fig. 60a: the exact same shape as INVB's");
-    out.claim("INVC with M6 as printed: the same", ratios[1], "times")
-        .allow_range(0.9, 1.1, "fig. 60a: as INVB's, which is symmetric")
+        .derived_as(1, "fig. 60a: the exact same shape as INVB's, which is symmetric");
+    out.claim("INVC with M6 as printed: output current at V_IN = V_DD over that at 0", ratios[1], "times")
+        .allow_range(0.9, 1.1, "fig. 60a: the exact same shape as INVB's, which is symmetric")
         .explain("M6 as printed divides by 8, but M5 by 64: errata S7");
     return {};
 }
@@ -86,7 +87,7 @@ Result<void> add_symmetry(StudyResult& out) {
 Result<StudyResult> compute(const StudyOptions& options) {
     StudyResult out;
     std::map<std::string, std::shared_ptr<const circuit::Circuit>> circuits;
-    std::map<std::string, double> areas;
+    std::map<std::string, double> areas;  // um^2, of "INVA", "INVB", "table 16", "table 20"
     for (const auto& row : rows) {
         auto& c = circuits[row.circuit];
         if (!c) {
@@ -99,7 +100,7 @@ Result<StudyResult> compute(const StudyOptions& options) {
         auto& claim =
             out.claim_true(fmt::format("table {}: {} is {:g}x{:g} of {:g}/{:g} um", row.table, row.name, row.m, row.n, row.W, row.L),
                            has_printed_sizes(row, *c, area), source);
-        if (claim.needs_explanation()) claim.explain(fmt::format("errata {}", row.erratum));
+        if (claim.needs_explanation()) claim.explain(fmt::format("our netlist follows errata {}", row.erratum));
     }
     out.claim("gate area of the bias generator", areas["table 16"], "um^2");
     out.claim("gate area of INVA", areas["INVA"], "um^2");

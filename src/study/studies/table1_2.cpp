@@ -9,9 +9,9 @@
 namespace corpuscle::studies::table1_2 {
 
 struct SizeRow {
-    const char *table, *name, *devices;  // devices: their names in the netlist end with these words
-    double m, n, W;                      // columns, unit transistors in series, um
-    const char* reason = "";
+    const char *table, *name, *devices;  // name as printed; the ends of the device names in our netlist
+    double m, n, W;                      // columns, unit transistors in series, um: as printed
+    const char* reason = "";             // why our netlist has another size
 };
 constexpr SizeRow rows[] = {
     {"1", "M_1", "x.mn1", 4, 4, 1.5},
@@ -22,13 +22,14 @@ constexpr SizeRow rows[] = {
     {"2", "M_1F", "xamp.mp1f", 8, 1, 6},
     {"2", "M_2F", "xamp.mp2f", 8, 1, 6},
     {"2", "M_3A-B", "xamp.mp3a xamp.mp3b", 16, 1, 1.5, "an NMOS width, but V_CM of 0.1 V requires a PMOS pair (errata F10a)"},
-    {"2", "M_3C-D", "xamp.mp3c xamp.mp3d", 16, 1, 1.5, "same as the pair whose bulks they bias"},
+    {"2", "M_3C-D", "xamp.mp3c xamp.mp3d", 16, 1, 1.5, "as wide as the pair whose bulks they bias"},
     {"2", "M_4A, B (printed A-E, errata F10)", "xamp.mn4a xamp.mn4b", 4, 4, 1.5},
     {"2", "M_5A, B (printed A-E, errata F10)", "xamp.mn5a xamp.mn5b", 16, 1, 1.5},
     {"2", "M_4C", "xamp.mn4c", 8, 1, 1.5},
     {"2", "M_5C", "xamp.mn5c", 8, 1, 1.5},
 };
 
+/// A value of a transistor. Only m and stack can be missing, and then are 1.
 double value_or_1(const circuit::Element& e, const char* name) {
     const auto at = e.values.find(name);
     return at == e.values.end() ? 1 : at->second;
@@ -51,7 +52,7 @@ Result<StudyResult> compute(const StudyOptions&) {
     const auto circuit = elaborate_study_netlist({"transducer"});
     if (!circuit) return circuit.error();
     for (const auto& row : rows) {
-        double m = Claim::none, n = Claim::none, W = Claim::none;
+        double m = Claim::none, n = Claim::none, W = Claim::none;  // of the row's first device
         bool matches = true;
         for (const auto& name : split_words(row.devices)) {
             const auto* e = find_device(**circuit, name);

@@ -13,15 +13,15 @@ namespace corpuscle::studies::touchsim {
 
 constexpr auto measured = "TouchSim's response, measured: median, noise on";
 constexpr double E_star = 1.19 / (2 * 5e-3 * 2e-3);  // Pa: from TouchSim's 1.19 N for a flat punch of 5 mm, 2 mm deep, on a half-space
-constexpr TimeWindow end_of_hold{0.575, 0.625};      // s, the last 50 ms
+constexpr TimeWindow end_of_hold{0.575, 0.625};      // s, the last 50 ms of the hold
 
-/// Peak and mean of protraction, mean and end of the hold, peak and mean of retraction; Hz.
+/// Firing rates (Hz): peak and mean of protraction, mean of the hold and of its last 50 ms, peak and mean of retraction.
 struct Rates {
     double up_peak = 0, up = 0, hold = 0, end = 0, down_peak = 0, down = 0;
 };
 struct RateRow {
     const char* name;
-    double Rates::*rate;
+    double Rates::* rate;
 };
 constexpr RateRow rows[] = {
     {"protraction, peak", &Rates::up_peak}, {"protraction, mean", &Rates::up},       {"hold, mean", &Rates::hold},
@@ -29,30 +29,32 @@ constexpr RateRow rows[] = {
 
 struct Contact {
     const char* name;
-    double radius, depth;  // m
-    Rates sa1, ra;         // TouchSim's
-    double Rates::* matched;
+    double radius, depth;     // m: of the punch, of its indentation
+    Rates sa1, ra;            // of TouchSim's SA1 and RA afferents
+    double Rates::* matched;  // the rate in which find_matching_force matches our SA-I to TouchSim's SA1
 };
 constexpr Contact contacts[] = {
     {"probe of 0.5 mm, 1 mm deep", 0.5e-3, 1e-3, {92, 60, 43, 43, 41, 13}, {33, 21, 0, 0, 37, 23}, &Rates::hold},
     {"flat of 5 mm, 2 mm deep", 5e-3, 2e-3, {133, 79, 4.9, 5.0, 0, 0.6}, {62, 40, 0, 0, 67, 44}, &Rates::up_peak}};
 
 Rates rates_of(const std::vector<double>& train) {
-    const auto mean = [&](const TimeWindow& s) { return press::spike_count(train, s) / (s.to - s.from); };
-    const auto peak = [&](const TimeWindow& s) {
-        const double x = measure<PeakRate>(train, s);
+    const auto mean = [&](const TimeWindow& window) { return press::spike_count(train, window) / (window.to - window.from); };
+    const auto peak = [&](const TimeWindow& window) {
+        const double x = measure<PeakRate>(train, window);  // NaN if the window has no frequency
         return std::isfinite(x) ? x : 0;
     };
     return {peak(press::protraction), mean(press::protraction), mean(press::plateau),
             mean(end_of_hold),        peak(press::retraction),  mean(press::retraction)};
 }
 
+/// The larger one of the two middle values if their number is even.
 double median(std::vector<double> v) {
     const auto middle = v.begin() + static_cast<std::ptrdiff_t>(v.size() / 2);
     std::nth_element(v.begin(), middle, v.end());
     return *middle;
 }
 
+/// The reason for a deviation of our rate from TouchSim's.
 const char* reason(const std::string& afferent, const RateRow& row, bool wide_contact) {
     const bool is_retraction = row.rate == &Rates::down_peak || row.rate == &Rates::down,
                is_hold = row.rate == &Rates::hold || row.rate == &Rates::end;
@@ -64,12 +66,13 @@ const char* reason(const std::string& afferent, const RateRow& row, bool wide_co
                "component";
     if (afferent == "sa1") return "the current must exceed the leak first, so firing begins later in the ramp than in TouchSim's SA1";
     if (is_hold) return "the high-pass of 2 Hz continues for about 130 ms after a ramp (errata B13)";
-    return "the current must exceed the leak first, so firing begins later than in TouchSim's RA and is then faster; the gains are the "
-           "thesis's (3.4)";
+    return "the current must exceed the leak first, so firing begins later than in TouchSim's RA, and is faster afterwards; the gains are "
+           "the thesis's (3.4)";
 }
 
-constexpr double max_distance = 1.5e-3;  // m, distance from the centre of the punch
+constexpr double max_distance = 1.5e-3;  // m: afferents within this distance from the centre of the punch are compared
 
+/// The rates of all afferents of this type within max_distance.
 std::vector<Rates> rates_within_distance(const std::vector<FingertipTrain>& trains, const std::string& afferent) {
     std::vector<Rates> out;
     for (const auto& t : trains)
@@ -77,13 +80,13 @@ std::vector<Rates> rates_within_distance(const std::vector<FingertipTrain>& trai
     return out;
 }
 
-double median_of(const std::vector<Rates>& all, double Rates::*rate) {
+double median_of(const std::vector<Rates>& all, double Rates::* rate) {
     std::vector<double> values;
     for (const auto& r : all) values.push_back(r.*rate);
     return values.empty() ? 0 : median(std::move(values));
 }
 
-/// The force (N) at which our SA-I match TouchSim's SA1 in the selected rate, by bisection on a logarithmic scale.
+/// The force (N) at which the median rate `contact.matched` of our SA-I equals that of TouchSim's SA1, by bisection on a logarithmic scale.
 Result<double> find_matching_force(const Contact& contact) {
     double low = 0.01, high = 100;
     for (int k = 0; k < 14; ++k) {
@@ -103,28 +106,32 @@ void report_row(StudyResult& out, const std::string& name, const RateRow& row, c
     if (theirs.*row.rate == 0 && claim.computed > 0) claim.explain(reason_text);
 }
 
+/// Claims at two forces: the equivalent force of TouchSim's indentation, and the force at which our SA-I match its SA1.
 Result<void> report_touch(StudyResult& out, const Contact& contact) {
+    // N: force of a flat punch of this radius and depth on a half-space
     const double equivalent_force = 2 * E_star * contact.radius * contact.depth;
     const auto matching_force = find_matching_force(contact);
     if (!matching_force) return matching_force.error();
-    const auto at = simulate_fingertip({contact.radius, equivalent_force}), matched = simulate_fingertip({contact.radius, *matching_force});
-    if (!at) return at.error();
+    const auto equivalent = simulate_fingertip({contact.radius, equivalent_force}),
+               matched = simulate_fingertip({contact.radius, *matching_force});
+    if (!equivalent) return equivalent.error();
     if (!matched) return matched.error();
     out.claim(fmt::format("{}: equivalent force", contact.name), equivalent_force, "N");
     for (const auto& [afferent, theirs] : {std::pair{"sa1", &contact.sa1}, {"fa1", &contact.ra}})
-        report_row(out, fmt::format("{}, {}", contact.name, afferent == std::string("sa1") ? "SA-I" : "FA-I"), rows[0],
-                   rates_within_distance(*at, afferent), *theirs,
-                   "the thesis's models are made for 0.2 to 4 N and their leak is a fraction of the current at these forces (fig3); the "
-                   "nerve and TouchSim respond to millinewtons");
+        report_row(
+            out, fmt::format("{} at the equivalent force, {}", contact.name, afferent == std::string("sa1") ? "SA-I" : "FA-I"), rows[0],
+            rates_within_distance(*equivalent, afferent), *theirs,
+            "the thesis's models are made for 0.2 to 4 N and their leak is a fraction of the current at these forces (study fig3); the "
+            "nerve and TouchSim respond to millinewtons");
     out.claim(fmt::format("{}: force at which our SA-I match TouchSim's {}", contact.name,
                           contact.matched == &Rates::hold ? "mean of the hold" : "peak"),
               *matching_force, "N")
         .derived_as(equivalent_force, "the equivalent force")
-        .explain_if_needed("as above: the models' range is that of the thesis's stimulus");
+        .explain_if_needed("the models are made for the range of the thesis's stimulus, 0.2 to 4 N");
     for (const auto& [afferent, theirs] : {std::pair{"sa1", &contact.sa1}, {"fa1", &contact.ra}})
         for (const auto& row : rows)
-            report_row(out, fmt::format("{} at that force, {}", contact.name, afferent == std::string("sa1") ? "SA-I" : "FA-I"), row,
-                       rates_within_distance(*matched, afferent), *theirs, reason(afferent, row, contact.radius > 1e-3));
+            report_row(out, fmt::format("{} at the matching force, {}", contact.name, afferent == std::string("sa1") ? "SA-I" : "FA-I"),
+                       row, rates_within_distance(*matched, afferent), *theirs, reason(afferent, row, contact.radius > 1e-3));
     return {};
 }
 
@@ -136,8 +143,8 @@ Result<void> report_touches(StudyResult& out, const StudyOptions& options) {
     return {};
 }
 
-/// The smallest amplitude (N) about a mean of 0.2 N that gives at least the requested spikes per period between 0.5 and 1 s; 4 N if none
-/// does.
+/// The smallest amplitude (N) of a sine of `f` (Hz) about a mean of 0.2 N that gives at least one spike, and at least `spikes_per_period`,
+/// between 0.5 and 1 s; 4 N if no amplitude below does.
 Result<double> detection_threshold(const std::string& afferent, const std::vector<std::string>& settings, double f,
                                    double spikes_per_period) {
     double low = 1e-4, high = 4;
@@ -175,6 +182,7 @@ Result<void> report_tuning(StudyResult& out, const StudyOptions& options) {
             if (*smallest < 3.99) line.x.push_back(f), line.y.push_back(1e3 * *smallest);
             if (auto ok = options.report_progress(0.4 + 0.6 * (done += 1.0 / 64)); !ok) return ok;
         }
+        // mN at one of the frequencies; NaN if the afferent has no threshold there
         const auto at = [&](double f) {
             const auto found = std::find(line.x.begin(), line.x.end(), f);
             return found == line.x.end() ? Claim::none : line.y[static_cast<std::size_t>(found - line.x.begin())];
@@ -194,9 +202,9 @@ Result<void> report_tuning(StudyResult& out, const StudyOptions& options) {
             };
             add_ratio(8), add_ratio(200);
         } else {
-            const auto one = std::count_if(line.x.begin(), line.x.end(), [](double f) { return f >= 8 && f <= 64; });
+            const auto count = std::count_if(line.x.begin(), line.x.end(), [](double f) { return f >= 8 && f <= 64; });
             out.claim("FA-I: number of the frequencies 8, 16, 24, 32, 40, 50 and 64 Hz with one spike per period, up to 4 N",
-                      static_cast<double>(one))
+                      static_cast<double>(count))
                 .allow_min(1, "RA most excitable at 8 to 64 Hz, entrained: Johansson et al. 1982, Jarvilehto 1976; the bound is our choice")
                 .explain_if_needed("the 2 Hz filter and the leak limit the charge, and so the firing rate");
         }
@@ -206,19 +214,20 @@ Result<void> report_tuning(StudyResult& out, const StudyOptions& options) {
     return {};
 }
 
+/// Claims under the press stimulus, 4 N, for which the thesis's models are made.
 Result<void> report_press(StudyResult& out) {
     const auto sa1 = simulate_train({"sa1"}), fa1 = simulate_train({"fa1"});
     if (!sa1) return sa1.error();
     if (!fa1) return fa1.error();
     constexpr auto bound = "our bound after Birznieks et al. 2001, as described in thesis 1.2";
-    const auto peak = [](const std::vector<double>& t, const TimeWindow& s) { return measure<PeakRate>(t, s); };
+    const auto peak = [](const std::vector<double>& t, const TimeWindow& window) { return measure<PeakRate>(t, window); };
     out.claim("4 N: SA-I, peak of protraction over the end of the hold",
               peak(*sa1, press::protraction) / measure<LastRate>(*sa1, press::plateau))
         .allow_range(2, 3, bound);
     out.claim("4 N: SA-I, spikes after 40 % of retraction",
               press::spike_count(*sa1, {press::retraction.from + 0.4 * 0.125, press::after.to}), "spikes")
         .allow_max(1, bound);
-    out.claim("4 N: FA-I, peak of protraction over that of retraction", peak(*fa1, press::protraction) / peak(*fa1, press::retraction))
+    out.claim("4 N: FA-I, peak of protraction over the peak of retraction", peak(*fa1, press::protraction) / peak(*fa1, press::retraction))
         .allow_range(1.2, 1.5, bound);
     out.claim("4 N: FA-I, spikes in the last 100 ms of the hold", press::spike_count(*fa1, press::plateau_end), "spikes")
         .allow_max(0, bound);

@@ -10,11 +10,10 @@
 
 namespace corpuscle::studies::transducer_loop {
 
-/// The loop's gain at 10 Hz and its phase margin over the force, for possible capacitances of the sensor and its wire (the netlist has
-/// none).
+/// The loop's gain at 10 Hz and its phase margin over the force, for possible capacitances of the sensor and its wire.
 struct Loops {
-    static constexpr const char* capacitances[] = {"1f", "10p", "100p"};
-    StudyCurve gain, margins[3];
+    static constexpr const char* capacitances[] = {"1f", "10p", "100p"};  ///< F; 1 fF stands for none
+    StudyCurve gain, margins[3];  ///< over the force (N): dB without capacitance; degrees, for each capacitance
 
     static std::string description(std::size_t k) {
         return k == 0 ? "without capacitance" : fmt::format("with {}F at the sensor", capacitances[k]);
@@ -29,6 +28,7 @@ struct Loops {
         gain.x.push_back(newtons), gain.y.push_back(20 * std::log10(found->curve("ac", "vm(f0)").at(10)));
         for (std::size_t k = 0; k < 3; ++k) {
             const double f = found->curve("ac", fmt::format("vm(f{})", k)).crossing(1);
+            // the loop is opened at the inverting input, so the phase itself, at gain 1, is the margin
             const auto angle = found->curve("ac", fmt::format("vp(f{})", k));
             if (f == f) margins[k].x.push_back(newtons), margins[k].y.push_back(angle.at(f) * 180 / std::numbers::pi);
         }
@@ -53,8 +53,8 @@ Result<StudyResult> compute(const StudyOptions& options) {
                 "sensor and its wire is not published, and the netlists have none");
     }
     const double min_gain = 20 * std::log10(20);
-    out.claim("loop gain at 0.2 N", loops.gain.at(0.2), "dB").allow_min(min_gain, "V_X within 5 % of V_Y, as in fig22");
-    out.claim("loop gain at 4 N", loops.gain.at(4), "dB").allow_min(min_gain, "V_X within 5 % of V_Y, as in fig22");
+    out.claim("loop gain at 0.2 N", loops.gain.at(0.2), "dB").allow_min(min_gain, "V_X within 5 % of V_Y, as in the study fig22");
+    out.claim("loop gain at 4 N", loops.gain.at(4), "dB").allow_min(min_gain, "V_X within 5 % of V_Y, as in the study fig22");
     out.claim("loop gain at 40 N", loops.gain.at(40), "dB");
     StudyPlot& gain = out.plot("Loop gain at 10 Hz", "force (N)", "dB");
     gain.log_x = true;
@@ -62,9 +62,9 @@ Result<StudyResult> compute(const StudyOptions& options) {
     return out;
 }
 
-const Study study{
-    "transducer-loop", "The transducer's loop over the force",
-    "The amplifier \"provides a feedback loop control to force V_X to follow V_Y\" (thesis 4.2); its gain and stability are not published",
-    compute};
+const Study study{"transducer-loop", "The transducer's loop over the force",
+                  "The amplifier \"provides a feedback loop control to force V_X to follow V_Y\" (thesis 4.2); the loop's gain and "
+                  "stability are not published",
+                  compute};
 
 }  // namespace corpuscle::studies::transducer_loop

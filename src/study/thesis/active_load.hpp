@@ -6,13 +6,15 @@
 namespace corpuscle {
 
 struct ActiveLoad {
-    StudyCurve current, resistance;                    ///< input current, A, and dV/dI, ohm, over the voltage
-    double zero_current_voltage = 0;                   ///< V: input voltage at zero current
-    double max_resistance = 0, max_resistance_at = 0;  ///< largest resistance, ohm, and its voltage, V
-    double linear_from = 0, linear_to = 0;             ///< V: linear range, in which the resistance is close to its largest
+    StudyCurve current, resistance;                    ///< current into the input, A, and dV/dI, ohm; both over the input voltage, V
+    double zero_current_voltage = 0;                   ///< V: input voltage at which the current is zero
+    double max_resistance = 0, max_resistance_at = 0;  ///< largest resistance, ohm, and the voltage at which it occurs, V
+    /// V: the range around max_resistance_at in which the resistance is at least (1 - tolerance) of max_resistance
+    double linear_from = 0, linear_to = 0;
 };
 
-/// Analyses the input current over the voltage. The linear range ends where the resistance is a fraction `tolerance` below its largest.
+/// Analyses the input current over the input voltage. If the linear range extends beyond the curve, linear_from is the curve's first
+/// voltage, and linear_to is NaN.
 ActiveLoad analyse_load(StudyCurve current, double tolerance = 0.1);
 
 }  // namespace corpuscle

@@ -9,16 +9,17 @@ namespace corpuscle {
 namespace {
 
 using Rule = circuit::RectangleRule;
-constexpr double um = 1e6, gap_between_arrays = 0.8;  // um per m; um
+constexpr double um = 1e6, gap_between_arrays = 0.8;  // um per m; um: chosen for the drawing
 
-/// Appends a rectangle (um) to a path.
+/// Appends a rectangle (um) to a path; NaN separates it from the next one.
 void append_rectangle(StudyCurve& path, double left, double bottom, double width, double height) {
     const double x[] = {left, left + width, left + width, left, left, Claim::none};
     const double y[] = {bottom, bottom, bottom + height, bottom + height, bottom, Claim::none};
     path.x.insert(path.x.end(), std::begin(x), std::end(x)), path.y.insert(path.y.end(), std::begin(y), std::end(y));
 }
 
-/// Appends the channels (W in rows, L in columns) and the total area; returns the array's width (um).
+/// Appends the array's channels and its total area, with the left edge at `left` (um). Its columns follow one another along x, in the
+/// direction of L; its rows along y, in the direction of W. Returns the width of the total area (um).
 double append_array(const SimulatedArray& a, double left, StudyCurve& channels, StudyCurve& total) {
     const auto rows = static_cast<std::size_t>(a.published->rows), columns = static_cast<std::size_t>(a.published->columns);
     const double W = um * a.W, pitch = W + um * Rule::between_W;

@@ -13,10 +13,11 @@
 namespace corpuscle {
 namespace {
 
-constexpr double um2 = 1e-12, half_volt = 0.5;
-constexpr int chips = 2000;  // the thesis has 1000
+constexpr double um2 = 1e-12, half_volt = 0.5;  // m^2; V, the gate and drain voltage of all tables
+constexpr int chips = 2000;                     // sampled for the mismatch; the thesis has 1000
 
-/// The netlist has three copies of each array. Source vi varies the gate, the drain or the bulk; source vh varies gate and drain.
+/// The netlist has three copies of each array, with drain currents i(vg), i(vd) and i(vb). Source vi is added to the gate of the first
+/// copy, the drain of the second and the bulk of the third. Source vh is V_G and V_D of the third copy.
 std::string slope_directives(const std::string& array) {
     return fmt::format(".tf i({0}.vg) vi\n.tf i({0}.vd) vi\n.tf i({0}.vb) vi\n.tf i({0}.vb) vh\n", array);
 }
@@ -26,7 +27,7 @@ double value(const circuit::Element& e, const char* name, double otherwise) {
     return found == e.values.end() ? otherwise : found->second;
 }
 
-/// Reads the sizes of the copy whose gate is varied; its transistors are in series.
+/// Reads the sizes from the transistors (mg1, mg2, ...) of the copy whose gate is varied. They are in series, beginning at the drain.
 void measure_size(SimulatedArray& out, const circuit::Circuit& circuit, const std::string& array) {
     double inverse_S = 0;
     for (const auto& e : circuit.elements) {
@@ -96,6 +97,7 @@ Result<SimulatedArrays> simulate_arrays(const char* circuit, std::span<const Arr
         SimulatedArray a{.published = published, .g_md = g('d', "vi"), .g_mg = g('g', "vi"), .g_mb = g('b', "vi")};
         a.g_ms = g('b', "vh") + a.g_mb;  // raising gate, drain and bulk together is the same as lowering the source
         a.I_D = found->operating_point(fmt::format("i({}.vg)", array));
+        // F's two transistors have different thresholds; mg2 is the one at the source. An array of one transistor has only mg1.
         a.V_T = found->operating_info(array + ".mg2", "v_t");
         if (std::isnan(a.V_T)) a.V_T = found->operating_info(array + ".mg1", "v_t");
         measure_size(a, *found->circuit, array);
@@ -137,7 +139,7 @@ void add_sizes(StudyResult& out, const PublishedArrays& all, const SimulatedArra
 void add_small_signals(StudyResult& out, const PublishedArrays& all, const SimulatedArrays& ours) {
     using P = PublishedArray;
     const TableColumn columns[] = {
-        {"g_md", "S", [](const SimulatedArray& a) { return a.g_md; }, &P::g_md, all.g_md, early_voltage_reason, all.g_md_note},
+        {"g_md", "S", [](const SimulatedArray& a) { return a.g_md; }, &P::g_md, all.g_md_unit, early_voltage_reason, all.g_md_note},
         {"g_mg", "S", [](const SimulatedArray& a) { return a.g_mg; }, &P::g_mg, 1e-6},
         {"g_ms", "S", [](const SimulatedArray& a) { return a.g_ms; }, &P::g_ms, 1e-6},
         {"g_mb", "S", [](const SimulatedArray& a) { return a.g_mb; }, &P::g_mb, 1e-6},
@@ -160,7 +162,7 @@ void add_ratios(StudyResult& out, const PublishedArrays& all, const SimulatedArr
          1,
          {},
          "the column g_mg/g_mb is inverted: errata U5"},
-        {"g_mg/A", "S/um^2", [](const SimulatedArray& a) { return a.g_by_A(); }, &P::g_by_A, all.g_by_A, {}, all.g_by_A_note},
+        {"g_mg/A", "S/um^2", [](const SimulatedArray& a) { return a.g_by_A(); }, &P::g_by_A, all.g_by_A_unit, {}, all.g_by_A_note},
     };
     for (const auto& column : columns) add_column(out, column, ours, all.ratios_table);
 }
@@ -173,11 +175,12 @@ std::string mismatch_reason(const SimulatedArray& a) {
         return "in the equations the unit transistor at the source is not fully saturated (i_r is one eighth of i_f), so the seven above "
                "it contribute to the mismatch";
     if (name == "F")
-        return "the short transistor at the drain has a large mismatch and contributes to the total; at the source it contributes less "
-               "(below)";
+        return "the short transistor at the drain has a large mismatch and contributes to the total; at the source it contributes "
+               "less";
     return fmt::format(
-        "one A_VT is used for all arrays. For a single transistor of this area the card's law gives {:.2f} % with the published g_mg/I_D "
-        "and {:.2f} % with the simulated one. The statistical uncertainty of a standard deviation is {:.1f} % here, 2.2 % with 1000 chips",
+        "one A_VT is used for all arrays. For a single transistor of this area the model card's A_VT and A_IS give {:.2f} % with the "
+        "published g_mg/I_D and {:.2f} % with the simulated one. The statistical uncertainty of a standard deviation is {:.1f} % here, 2.2 "
+        "% with 1000 chips",
         a.predicted_mismatch(a.published->g_by_I), a.predicted_mismatch(a.g_by_I()), mismatch_uncertainty());
 }
 
@@ -193,35 +196,38 @@ void add_mismatch(StudyResult& out, const PublishedArrays& all, const SimulatedA
 
 namespace {
 
-double sum_residual(const PublishedArray& a, double g_md) {
-    return std::abs(1e-6 * (a.g_mg + a.g_mb - a.g_ms) + g_md * a.g_md) / (1e-6 * a.g_ms);
+/// How much the printed numbers violate g_mg + g_md + g_mb = g_ms, as a fraction of g_ms, if the column g_md is in g_md_unit (S).
+double sum_residual(const PublishedArray& a, double g_md_unit) {
+    return std::abs(1e-6 * (a.g_mg + a.g_mb - a.g_ms) + g_md_unit * a.g_md) / (1e-6 * a.g_ms);
 }
 
-double ratio_residual(const PublishedArray& a, double g_md) { return std::abs(1e-6 * a.I_D / (g_md * a.g_md * a.V_A) - 1); }
+/// Relative difference of I_D/g_md from the printed column V_A, if the column g_md is in g_md_unit (S).
+double ratio_residual(const PublishedArray& a, double g_md_unit) { return std::abs(1e-6 * a.I_D / (g_md_unit * a.g_md * a.V_A) - 1); }
 
-void add_rule(StudyResult& out, const PublishedArrays& all, double head, const std::string& erratum, const std::string& statement,
+void add_rule(StudyResult& out, const PublishedArrays& all, double printed_unit, const std::string& erratum, const std::string& statement,
               double (*residual)(const PublishedArray&, double)) {
-    double with_ours = 0, with_head = 0;
+    double with_corrected = 0, with_printed = 0;  // largest residuals with either unit of g_md
     bool all_closer = true;
     for (const auto& a : all.arrays) {
-        with_ours = std::max(with_ours, residual(a, all.g_md)), with_head = std::max(with_head, residual(a, head));
-        all_closer = all_closer && residual(a, all.g_md) < residual(a, head);
+        with_corrected = std::max(with_corrected, residual(a, all.g_md_unit)),
+        with_printed = std::max(with_printed, residual(a, printed_unit));
+        all_closer = all_closer && residual(a, all.g_md_unit) < residual(a, printed_unit);
     }
     out.claim_true(
-        fmt::format("Published numbers only: {} by up to {:.2g} % with the unit of g_md used here, and by up to {:.2g} % with the unit "
-                    "in the table's head. The difference is smaller with our unit in every row",
-                    statement, 100 * with_ours, 100 * with_head),
+        fmt::format("Published numbers only: {} by up to {:.2g} % with the corrected unit of g_md, and by up to {:.2g} % with the unit "
+                    "in the table's head. The difference is smaller with the corrected unit in every row",
+                    statement, 100 * with_corrected, 100 * with_printed),
         all_closer, erratum);
 }
 
 }  // namespace
 
-void add_sum_rule(StudyResult& out, const PublishedArrays& all, double head, const std::string& erratum) {
-    add_rule(out, all, head, erratum, "g_mg + g_md + g_mb differs from g_ms", sum_residual);
+void add_sum_rule(StudyResult& out, const PublishedArrays& all, double printed_unit, const std::string& erratum) {
+    add_rule(out, all, printed_unit, erratum, "g_mg + g_md + g_mb differs from g_ms", sum_residual);
 }
 
-void add_ratio_rule(StudyResult& out, const PublishedArrays& all, double head, const std::string& erratum) {
-    add_rule(out, all, head, erratum, "I_D/g_md differs from its printed column", ratio_residual);
+void add_ratio_rule(StudyResult& out, const PublishedArrays& all, double printed_unit, const std::string& erratum) {
+    add_rule(out, all, printed_unit, erratum, "I_D/g_md differs from its printed column", ratio_residual);
 }
 
 }  // namespace corpuscle

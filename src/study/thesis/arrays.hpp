@@ -9,22 +9,23 @@
 
 namespace corpuscle {
 
-/// A row of tables 10 to 12 or 13 to 15 exactly as printed, misprints included. Lengths in um, areas in um^2, S_eq as a ratio; the rest in
-/// the units of the table's head.
+/// An array's row of tables 10 to 12 or 13 to 15 exactly as printed, misprints included; areas in um^2, the rest in the units of the
+/// table's head.
 struct PublishedArray {
-    const char *name, *subcircuit;  ///< subcircuit: its name in the netlist
-    double rows, columns;           ///< as drawn; inferred from A_T
-    double S, A, A_T, area_ratio;
-    double g_md, g_mg, g_ms, g_mb, I_D, V_T;
-    double g_by_I, V_A, gain, bulk_ratio, g_by_A, sigma;
+    const char *name, *subcircuit;                        ///< subcircuit: its name in the netlist
+    double rows, columns;                                 ///< unit transistors along W and along L as drawn; inferred from A_T
+    double S, A, A_T, area_ratio;                         ///< S_eq; channel area, total area, A/A_T
+    double g_md, g_mg, g_ms, g_mb, I_D, V_T;              ///< transconductances of drain, gate, source and bulk; drain current; threshold
+    double g_by_I, V_A, gain, bulk_ratio, g_by_A, sigma;  ///< g_mg/I_D, I_D/g_md, g_mg/g_md, g_mb/g_mg, g_mg/A, spread of I_D
 };
 
-/// Tables of one kind of array. g_md and g_by_A are the correct units of the columns g_md and g_mg/A, in S and S/um^2.
+/// The tables of one kind of array, rectangular or trapezoidal. g_md_unit and g_by_A_unit are the correct units of the columns g_md and
+/// g_mg/A, in S and S/um^2; they differ from the printed ones.
 struct PublishedArrays {
-    const char* circuit;
+    const char* circuit;  ///< netlist with all these arrays
     std::span<const PublishedArray> arrays;
     const char *sizes_table, *small_signal_table, *ratios_table;  ///< "table 10"
-    double g_md, g_by_A;
+    double g_md_unit, g_by_A_unit;
     const char *g_md_note, *g_by_A_note;  ///< remark if the correct unit differs from the printed one; else ""
 };
 
@@ -40,7 +41,7 @@ inline constexpr PublishedArray published_rectangles[] = {
     // clang-format on
 };
 
-/// F with the short transistor at the drain, as in the thesis's text.
+/// F has its short transistor at the drain, as in the thesis's text.
 inline constexpr PublishedArray published_trapezoids[] = {
     // clang-format off
     {"E", "xe", 1, 1, 0.0805, 2.1924, 5.6856, 0.386, 31.73, 1.550, 1.963, 0.410, 0.120, 441.4, 12.96, 37.82, 53.8, 0.264, 0.709, 2.36},
@@ -57,25 +58,26 @@ inline constexpr PublishedArrays trapezoids = {
     "trapezoidal_arrays",        published_trapezoids,           "table 13", "table 14", "table 15", 1e-10, 1e-6,
     "divided by ten: errata U8", "nS corrected to uS: errata U9"};
 
+/// The array of this name, which must exist.
 const PublishedArray& find_published(const PublishedArrays&, std::string_view name);
 
 /// Our simulation of an array; SI units.
 struct SimulatedArray {
     const PublishedArray* published = nullptr;
     double W = 0;                                      ///< channel width of a unit transistor
-    std::vector<double> lengths{};                     ///< channel length of each unit transistor, from the drain down
-    double S = 0, A = 0, A_T = 0, A_VT = 0, A_IS = 0;  ///< A_VT and A_IS are from its model card
+    std::vector<double> lengths{};                     ///< channel length of each unit transistor, beginning at the drain
+    double S = 0, A = 0, A_T = 0, A_VT = 0, A_IS = 0;  ///< S_eq; channel and total area; mismatch, from the card
     double g_md = 0, g_mg = 0, g_ms = 0, g_mb = 0, I_D = 0, V_T = 0;
     double g_by_I() const { return g_mg / I_D; }
     double V_A() const { return I_D / g_md; }
     double gain() const;  ///< dB
     double bulk_ratio() const { return g_mb / g_mg; }
     double g_by_A() const { return 1e-12 * g_mg / A; }  ///< S/um^2
-    /// Mismatch (%) of one transistor of the same area, by the card's law at this g_mg/I_D.
-    double predicted_mismatch(double g_by_I) const;
+    /// Standard deviation of I_D (% of I_D) of one transistor of the same area, by A_VT and A_IS, with this g_mg/I_D (1/V).
+    double predicted_mismatch(double with_g_by_I) const;
 };
 struct SimulatedArrays : std::vector<SimulatedArray> {
-    const SimulatedArray& operator()(std::string_view name) const;
+    const SimulatedArray& operator()(std::string_view name) const;  ///< the array of this name, which must exist
 };
 
 /// Simulates the arrays at V_G = V_D = 0.5 V; every unit transistor is solved.
@@ -85,35 +87,37 @@ struct ArrayMatch {
     const PublishedArray* published;
     std::string subcircuit;
 };
+/// All arrays of the tables, each matched with its own subcircuit.
 std::vector<ArrayMatch> all_matches(const PublishedArrays&);
 Result<SimulatedArrays> simulate_arrays(const char* circuit, std::span<const ArrayMatch>);
-/// sigma/mu of the drain currents (%), in the order of the matches.
+/// Standard deviation over mean (%) of each array's drain current over simulated chips, in the order of the matches.
 Result<std::vector<double>> simulate_mismatch(const char* circuit, std::span<const ArrayMatch>);
 Result<std::vector<double>> simulate_mismatch(const PublishedArrays&);
-/// Relative statistical uncertainty of a simulated standard deviation, %.
+/// Relative statistical uncertainty (%) of a standard deviation from simulate_mismatch.
 double mismatch_uncertainty();
 
-/// A column of a table: the published number in its unit, and the simulated one.
+/// A column of a table: the published number, and the function that computes the same quantity in `unit`.
 struct TableColumn {
     const char *quantity, *unit;
     double (*computed)(const SimulatedArray&);
     double PublishedArray::* published;
-    double factor = 1;                                  ///< published number to SI
-    std::string (*reason)(const SimulatedArray&) = {};  ///< reason for a difference
+    double factor = 1;                                  ///< published number times factor is in `unit`
+    std::string (*reason)(const SimulatedArray&) = {};  ///< reason for a deviation; null: none
     const char* source_note = "";                       ///< remark on the unit if the head of the table is wrong
 };
-/// Adds one claim for each array.
+/// Adds one claim for each array. `source` is the table.
 void add_column(StudyResult&, const TableColumn&, const SimulatedArrays&, const std::string& source);
 
+/// Add the columns of the three tables. `sigmas` is the result of simulate_mismatch for the same arrays.
 void add_sizes(StudyResult&, const PublishedArrays&, const SimulatedArrays&);
 void add_small_signals(StudyResult&, const PublishedArrays&, const SimulatedArrays&);
 void add_ratios(StudyResult&, const PublishedArrays&, const SimulatedArrays&);
 void add_mismatch(StudyResult&, const PublishedArrays&, const SimulatedArrays&, const std::vector<double>& sigmas);
 
-/// The identity g_mg + g_md + g_mb = g_ms (eq. 27) gives the unit of the printed g_md. Adds the residual of the sum with the unit used here
-/// and with `head`, the unit in the table's head (S).
-void add_sum_rule(StudyResult&, const PublishedArrays&, double head, const std::string& erratum);
-/// The same check with the ratio I_D/g_md.
-void add_ratio_rule(StudyResult&, const PublishedArrays&, double head, const std::string& erratum);
+/// The identity g_mg + g_md + g_mb = g_ms (eq. 27) gives the unit of the printed g_md. Adds a claim that the published sum
+/// fits better with this unit than with `printed_unit` (S), the one in the table's head.
+void add_sum_rule(StudyResult&, const PublishedArrays&, double printed_unit, const std::string& erratum);
+/// The same check with the ratio I_D/g_md, which has a printed column of its own (V_A).
+void add_ratio_rule(StudyResult&, const PublishedArrays&, double printed_unit, const std::string& erratum);
 
 }  // namespace corpuscle

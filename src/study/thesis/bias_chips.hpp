@@ -1,16 +1,16 @@
 #pragma once
-// A thousand chips of the inverter, without and with its bias generator, and the means and spreads of tables 17 and 18.
+// A thousand chips of the inverter, without and with its bias generator, and the published means and spreads of tables 17 and 18.
 
 #include "study/sample_statistics.hpp"
 
 namespace corpuscle::bias_chips {
 
 struct InverterCase {
-    const char *circuit, *name, *voltage, *current;  ///< voltage, current: of the output, in the netlist
+    const char *circuit, *name, *voltage, *current;  ///< voltage, current: the netlist's names of V_Q and I_Q
     struct PublishedSpread {
         double mean, percent;  // V or A; % of the mean
     } V[3], I[3];              ///< one for each of `variations`
-    bool is_fitted;  ///< true: the spread of the process card was fitted to this row
+    bool is_fitted;            ///< true: the process card's spread was fitted to these numbers
 };
 inline constexpr InverterCase inverter_cases[] = {
     {"quiescent",
@@ -28,6 +28,7 @@ inline constexpr InverterCase inverter_cases[] = {
      {{199.6e-9, 0.77}, {199.4e-9, 2.56}, {199.0e-9, 2.59}},
      false},
 };
+/// The random quantities that a .mc directive samples: the process by corner mc, the mismatch unless it is switched off.
 struct Variation {
     const char *name, *corner, *mc_options;
 };
@@ -37,9 +38,9 @@ using Chips = std::vector<NetlistResult>;
 /// Simulates 1000 chips of a circuit.
 Result<Chips> simulate_chips(const std::string& circuit, const Variation&);
 
-/// A parameter of a transistor's model card: "avt", V m.
+/// A parameter of the model card of the element with this index, which must be a transistor: "avt", V m.
 double model_parameter(const circuit::Circuit&, std::size_t element, const char* name);
-/// Total channel area of the unit transistors of an array, m^2.
+/// Channel area of an array, summed over its unit transistors, m^2.
 double channel_area(const circuit::Element&);
 
 }  // namespace corpuscle::bias_chips

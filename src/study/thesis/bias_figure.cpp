@@ -6,7 +6,8 @@
 namespace corpuscle {
 namespace {
 
-/// Adds a claim on one end of a working range, and what limits the generator there. `reaches_sweep_end`: as in explain_range_end.
+/// Adds a claim on the start or the end of a working range, and explains what limits the generator there. `end` and `reaches_sweep_end`: as
+/// in explain_range_end.
 Result<void> claim_end(StudyResult& out, const std::string& claim_label, const BiasSweep& sweep, double end, bool reaches_sweep_end,
                        double published, const BiasFigure& figure) {
     auto& claim = out.claim(claim_label, end, figure.unit).published_as(published, figure.source());
@@ -17,7 +18,7 @@ Result<void> claim_end(StudyResult& out, const std::string& claim_label, const B
 }
 
 Result<void> claim_ranges(const BiasFigure& figure, std::span<const BiasCorner> corners, StudyResult& out) {
-    const auto& typical = corners[0];
+    const auto& typical = corners[0];  // simulate_bias_figure begins with tt
     if (auto ok = claim_end(out, "typical: works from", typical.sweep, typical.working_range.from,
                             typical.working_range.reaches_sweep_start, figure.typical_range[0], figure);
         !ok)
@@ -54,7 +55,7 @@ void add_plots(const BiasFigure& figure, std::span<const BiasCorner> corners, St
     for (const auto& c : corners) currents.add(c.name, c.sweep.I_Q().scaled(figure.plot_scale, 1e9));
     if (log) currents.add("I_Q = I_BIAS", {{10, 3000}, {10, 3000}});
     auto& errors =
-        out.plot("Error over its margin (5 mV of V_Q, a tenth of I_BIAS), the larger of the two", figure.x_label, "error over margin");
+        out.plot("Error over its margin (V_Q: 5 mV, I_Q: a tenth of I_BIAS), the larger of the two", figure.x_label, "error over margin");
     errors.log_x = log, errors.log_y = true;
     for (const auto& c : corners) errors.add(c.name, c.sweep.worst_error().scaled(figure.plot_scale, 1));
     errors.add("limit",
@@ -69,7 +70,7 @@ Result<std::string> explain_range_end(const BiasSweep& sweep, double end, bool r
     settings.push_back(bias_setting(sweep.axis, end));
     const auto state = simulate_bias_state(settings);
     if (!state) return state.error();
-    if (reaches_sweep_end) return "works to the end of the sweep; " + state->description();
+    if (reaches_sweep_end) return "works where the sweep begins or ends; " + state->description();
     const bool current_is_worse = sweep.current_error().at(end) > sweep.voltage_error().at(end);
     return fmt::format("{} leaves its margin; {}", current_is_worse ? "I_Q" : "V_Q", state->description());
 }

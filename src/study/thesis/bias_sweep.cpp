@@ -15,11 +15,11 @@ constexpr double k_over_q = 1.380649e-23 / 1.602176634e-19;  // V/K
 double parameter(const NetlistResult& found, std::string_view name) { return found.circuit->parameters.find(name)->second; }
 
 std::string dc_directive(BiasAxis axis, const std::string& range) {
-    constexpr const char* swept[] = {"ibias", "vdd", "temp"};
+    constexpr const char* swept[] = {"ibias", "vdd", "temp"};  // in the order of BiasAxis
     return fmt::format(".dc {} {}", swept[static_cast<int>(axis)], range);
 }
 
-/// Drain-source saturation voltage of a transistor at this current.
+/// Drain-source saturation voltage (V) of a transistor whose forward current is `current` (A): phi_t (sqrt(1 + i_f) + 3).
 double saturation_voltage(const circuit::Circuit& c, std::string_view name, double current) {
     const auto& element = c.elements[static_cast<std::size_t>(c.find_element(name))];
     const auto& card = c.models[static_cast<std::size_t>(element.model)].values;
@@ -70,17 +70,19 @@ StudyCurve BiasSweep::worst_error() const {
 }
 
 BiasSweep::Range BiasSweep::working_range() const {
-    const auto m = worst_error();
-    const auto best = static_cast<std::size_t>(std::min_element(m.y.begin(), m.y.end()) - m.y.begin());
-    if (m.y.empty() || m.y[best] > 1) return {Claim::none, Claim::none, false, false};
+    const auto error = worst_error();
+    const auto best = static_cast<std::size_t>(std::min_element(error.y.begin(), error.y.end()) - error.y.begin());
+    if (error.y.empty() || error.y[best] > 1) return {Claim::none, Claim::none, false, false};
     std::size_t low = best, high = best;
-    while (low > 0 && m.y[low - 1] <= 1) --low;
-    while (high + 1 < m.y.size() && m.y[high + 1] <= 1) ++high;
+    while (low > 0 && error.y[low - 1] <= 1) --low;
+    while (high + 1 < error.y.size() && error.y[high + 1] <= 1) ++high;
+    // interpolates where the error is 1, between a point in the range and its neighbour out of it
     const auto edge = [&](std::size_t in, std::size_t out) {
-        return m.x[in] + (m.x[out] - m.x[in]) * (1 - m.y[in]) / (m.y[out] - m.y[in]);
+        return error.x[in] + (error.x[out] - error.x[in]) * (1 - error.y[in]) / (error.y[out] - error.y[in]);
     };
-    const bool reaches_start = low == 0, reaches_end = high + 1 == m.x.size();
-    return {reaches_start ? m.x[low] : edge(low, low - 1), reaches_end ? m.x[high] : edge(high, high + 1), reaches_start, reaches_end};
+    const bool reaches_start = low == 0, reaches_end = high + 1 == error.x.size();
+    return {reaches_start ? error.x[low] : edge(low, low - 1), reaches_end ? error.x[high] : edge(high, high + 1), reaches_start,
+            reaches_end};
 }
 
 double BiasSweep::Range::covered_fraction(double min, double max) const {
@@ -114,11 +116,11 @@ Result<BiasState> simulate_bias_state(const std::vector<std::string>& settings) 
 }
 
 std::string BiasState::description() const {
-    const auto mV = [](double v) { return format_quantity(v, "V"); };
+    const auto volts = [](double v) { return format_quantity(v, "V"); };
     return fmt::format(
-        "at this point V_Q is {} and I_Q is {}; M4A has V_DS {} and saturates at {}, M3B has {} and saturates at {}; the bulk junctions "
-        "take {:.2g} % of I_BIAS from BN",
-        mV(V_Q), format_quantity(I_Q, "A"), mV(V_M4A), mV(V_sat_M4A), mV(V_M3B), mV(V_sat_M3B), 100 * bulk_current / I_BIAS);
+        "at this point V_Q is {} and I_Q is {}; M4A has V_DS {} and saturates at {}, M3B has V_DS {} and saturates at {}; the bulk "
+        "junctions take {:.2g} % of I_BIAS from BN",
+        volts(V_Q), format_quantity(I_Q, "A"), volts(V_M4A), volts(V_sat_M4A), volts(V_M3B), volts(V_sat_M3B), 100 * bulk_current / I_BIAS);
 }
 
 std::string bias_setting(BiasAxis axis, double value) {

@@ -7,6 +7,7 @@
 namespace corpuscle {
 namespace {
 
+/// The same curve with x relative to `half`.
 StudyCurve relative_to_half_supply(StudyCurve line, double half) {
     for (double& x : line.x) x -= half;
     return line;
@@ -40,6 +41,8 @@ StudyCurve InverterSweep::transfer_curve(char letter) const {
 StudyCurve InverterSweep::voltage_gain(char letter) const {
     const auto curve = transfer_curve(letter), slope = curve.slope().absolute();
     StudyCurve out;
+    // Backwards, because the output falls as the input rises. slope() omits the first pair of the curve, so its pair k belongs to pair k
+    // + 1.
     for (std::size_t k = slope.x.size(); k-- > 0;) out.x.push_back(curve.y[k + 1]), out.y.push_back(slope.y[k]);
     return out;
 }

@@ -8,7 +8,7 @@ namespace corpuscle {
 
 namespace {
 
-/// Half the width of the range about the middle in which the slope is within 5 % of g_m.
+/// Half the width of the range around `middle` in which the slope is within 5 % of g_m.
 double half_width(const StudyCurve& slope, double middle, double g_m) {
     double from = slope.x.front(), to = slope.x.back();
     for (std::size_t k = 0; k < slope.x.size(); ++k) {
