@@ -32,8 +32,9 @@ vnext next 0 0.35
 )";
 
 struct Loop {
-    StudyCurve dB, phase;           ///< over frequency (Hz): gain of the open loop; its phase, degrees, 0 if it is positive feedback
-    double gain;                    ///< dB, at 0.1 mHz
+    StudyCurve dB,
+        phase;    ///< over frequency (Hz): gain of the open loop; phase of the return ratio plus 180, degrees: at `unity`, the phase margin
+    double gain;  ///< dB, at 0.1 mHz
     double unity, phase_crossover;  ///< Hz, where the gain is 1, and where `phase` is 0
     double margin;                  ///< degrees: `phase` at unity
     double gain_margin;             ///< dB: how far the gain is below 1 at phase_crossover
@@ -80,8 +81,8 @@ Result<StudyResult> compute(const StudyOptions& options) {
     out.plots.push_back(std::move(phase));
     out.note(
         "An inductance between output and input opens the loop for small signals and closes it for the operating point. The margins are "
-        "those of the filter, whose capacitor makes the outer pole. Up to a hundred times the corner the gain has only a first-order "
-        "roll-off.");
+        "those of the filter, whose capacitor makes the outer pole. Up to a hundred times the unity-gain frequency the loop's gain "
+        "has only a first-order roll-off.");
     return out;
 }
 
