@@ -14,16 +14,20 @@ struct CloseFile {
     void operator()(zip_file_t* f) const { zip_fclose(f); }
 };
 
+/// The uncompressed bytes of one member of an archive.
 class MemberBytes final : public SeekableBytes {
     std::shared_ptr<zip> zip_;
-    std::uint64_t index_, size_, at_ = 0;
-    std::string name_;
+    std::uint64_t index_;   // of the member in the archive
+    std::uint64_t size_;    // uncompressed, in bytes
+    std::uint64_t at_ = 0;  // position of the next byte to read
+    std::string name_;      // for messages
     std::unique_ptr<zip_file_t, CloseFile> file_;
 
     Error read_error(zip_error_t* error) const {
         return bad_input(fmt::format("cannot be decompressed: {}", zip_error_strerror(error)), {name_});
     }
 
+    /// Reads and discards `count` bytes.
     Result<void> skip(std::uint64_t count) {
         for (std::array<std::byte, 1 << 16> skipped; count > 0;) {
             const auto count_now = std::min<std::uint64_t>(count, skipped.size());
@@ -37,6 +41,7 @@ public:
     MemberBytes(std::shared_ptr<zip> archive, std::uint64_t index, std::uint64_t size, std::string name)
         : zip_(std::move(archive)), index_(index), size_(size), name_(std::move(name)) {}
 
+    /// Opens the member at its beginning, again if it was open.
     Result<void> open() {
         file_.reset();
         file_.reset(zip_fopen_index(zip_.get(), index_, 0));
@@ -56,7 +61,7 @@ public:
             out = out.subspan(static_cast<std::size_t>(got));
         }
         if (at_ != size_) return {};
-        std::byte beyond;  // libzip checks the checksum when the end is read
+        std::byte beyond;  // reading past the end makes libzip verify the member's checksum
         const auto more = zip_fread(file_.get(), &beyond, 1);
         if (more < 0) return read_error(zip_file_get_error(file_.get()));
         if (more > 0)
@@ -67,8 +72,8 @@ public:
 
     Result<void> seek(std::uint64_t at) override {
         if (at == at_) return {};
-        if (zip_fseek(file_.get(), static_cast<zip_int64_t>(at), SEEK_SET) == 0)
-            return at_ = at, Result<void>{};  // works for uncompressed members
+        if (zip_fseek(file_.get(), static_cast<zip_int64_t>(at), SEEK_SET) == 0) return at_ = at, Result<void>{};
+        // libzip cannot seek in a compressed member: read on to the position, if it is behind from the beginning.
         if (at < at_)
             if (auto ok = open(); !ok) return ok;
         return skip(at - at_);
@@ -78,7 +83,7 @@ public:
 }  // namespace
 
 Result<Archive> Archive::open(const std::string& path) {
-    if (auto file = open_bytes(path); !file) return file.error();
+    if (auto file = open_bytes(path); !file) return file.error();  // its messages are clearer than those of libzip
     int code = 0;
     Archive archive;
     archive.path_ = path;
@@ -117,7 +122,7 @@ Result<std::string> make_archive(const std::vector<ArchiveEntry>& members) {
     zip_source_t* buffer = zip_source_buffer_create(nullptr, 0, 0, &error);
     zip* archive = buffer ? zip_open_from_source(buffer, ZIP_CREATE | ZIP_TRUNCATE, &error) : nullptr;
     if (!archive) return zip_source_free(buffer), failed(&error);
-    zip_source_keep(buffer);
+    zip_source_keep(buffer);  // a reference of our own: zip_close() and zip_discard() release one
     const auto discard = [&] {
         auto failure = bad_input(fmt::format("the archive cannot be created: {}", zip_strerror(archive)));
         zip_discard(archive), zip_source_free(buffer);

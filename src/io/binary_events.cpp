@@ -13,17 +13,17 @@ namespace {
 
 namespace aer = address_events;
 
-/// The run of a single afferent. Splits its name: "sa1#17" has the name sa1 and the number 17. A name without a number has number 0.
+/// The run of a single afferent. Splits its name: "sa1#17" has the name sa1 and the number 17. The number is 0 if the name has none.
 aer::NameRun run_of(const std::string& name, std::uint32_t address) {
     const auto sign = name.rfind('#');
-    std::uint32_t number = 0;
+    std::uint32_t number = 0;  // a number such as 017 is part of the name, because it would be written back as 17
     if (sign == name.npos || name.size() == sign + 1 || name[sign + 1] == '0') return {address, 1, 0, 1, name};
     const auto [end, status] = std::from_chars(name.data() + sign + 1, name.data() + name.size(), number);
     if (status != std::errc{} || end != name.data() + name.size()) return {address, 1, 0, 1, name};
     return {address, 1, number, 1, name.substr(0, sign)};
 }
 
-/// Extends the run by the next afferent if its number and address continue the run. Otherwise returns false.
+/// Adds the afferent of `next`, a run of one afferent, to `run` if its number and address continue that run. Otherwise returns false.
 bool extend(aer::NameRun& run, const aer::NameRun& next) {
     if (run.first_number == 0 || next.first_number != run.first_number + run.count || next.name != run.name ||
         next.first_address <= run.first_address)
@@ -34,6 +34,7 @@ bool extend(aer::NameRun& run, const aer::NameRun& next) {
     return true;
 }
 
+/// The names of all afferents as runs.
 std::vector<aer::NameRun> runs_of(const EventAddressing& addressing) {
     std::vector<aer::NameRun> runs;
     for (std::size_t u = 0; u < addressing.names.size(); ++u) {
@@ -43,11 +44,11 @@ std::vector<aer::NameRun> runs_of(const EventAddressing& addressing) {
     return runs;
 }
 
-/// The channels of the afferents as runs of addresses, sorted by address. Empty if the names of the afferents identify their channels, or
-/// if all channels have default names (ch1, ch2 ...), which the numbers of the afferents identify.
+/// The channels as runs of addresses, sorted by address. Empty if the file does not need them: if EventAddressing::names and afferents are
+/// equal, or if each afferent's number is that of its channel, such as sa1#17 on ch17.
 std::vector<aer::NameRun> channel_runs_of(const EventAddressing& addressing) {
     std::vector<std::pair<std::uint32_t, const std::string*>> channel_at;
-    bool any_named = false;
+    bool any_named = false;  // true if a channel has a name other than "ch" and the afferent's number
     for (std::size_t u = 0; u < addressing.afferents.size() && u < addressing.channels.size(); ++u) {
         if (addressing.afferents[u] == addressing.names[u]) return {};
         channel_at.emplace_back(addressing.addresses[u], &addressing.channels[u]);
@@ -74,12 +75,13 @@ std::string addresses_of(const aer::NameRun& run) {
                             : fmt::format("addresses {}, {} ... {}", run.first_address, run.first_address + run.stride, last);
 }
 
+/// The text with a blank for each control character, such as a line break.
 std::string one_line(std::string text) {
     std::replace_if(text.begin(), text.end(), [](unsigned char c) { return c < ' ' || c == 0x7f; }, ' ');
     return text;
 }
 
-/// The meaning of the addresses as comments of at most 32 kB. Readers expect the events within the first 64 kB.
+/// The meaning of the addresses as comments. They are cut off at 32 kB, because readers expect the first event within the first 64 kB.
 std::string comments_of(const EventAddressing& addressing) {
     constexpr std::size_t limit = std::size_t{1} << 15;
     std::string text;
@@ -88,21 +90,23 @@ std::string comments_of(const EventAddressing& addressing) {
         text += "# " + one_line(comment) + "\r\n";
         return true;
     };
-    bool all = true;
+    bool all = true;  // false if the comments were cut off
     for (const auto& r : runs_of(addressing))
         all = all && add(r.first_number == 0 ? fmt::format("{}: {}", addresses_of(r), r.name)
                          : r.count == 1      ? fmt::format("{}: {}#{}", addresses_of(r), r.name, r.first_number)
                                              : fmt::format("{}: {}#{} ... {}#{}", addresses_of(r), r.name, r.first_number, r.name,
                                                            std::uint64_t{r.first_number} + r.count - 1));
     for (const auto& r : channel_runs_of(addressing)) all = all && add(fmt::format("{}: channel {}", addresses_of(r), r.name));
-    return all ? text : text + "# and others\r\n";
+    return all ? text : text + "# and others\r\n";  // addresses that are not listed
 }
 
+/// Appends the bytes of a number, little-endian.
 template <class T>
 void add_number(std::string& text, T number) {
     text.append(reinterpret_cast<const char*>(&number), sizeof number);
 }
 
+/// Appends runs as they are in the header of address events, see address_events.hpp.
 void add_runs(std::string& text, const std::vector<aer::NameRun>& runs) {
     for (const auto& r : runs) {
         for (const auto number : {r.first_address, r.stride, r.first_number, r.count, static_cast<std::uint32_t>(r.name.size())})

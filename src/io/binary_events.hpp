@@ -1,5 +1,5 @@
 #pragma once
-// The two binary event formats. Use make_event_format() to create a format by name.
+// The two binary event formats, address events and AEDAT 2. Use make_event_format() in events.hpp to create a format by name.
 
 #include "io/events.hpp"
 

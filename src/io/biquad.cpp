@@ -8,6 +8,7 @@
 namespace corpuscle {
 namespace {
 
+/// Returns an error if f is not between 0 and half the sample rate. `option` is the option that gives f, for the message.
 Result<void> check_frequency(double f, const Clock& clock, const char* option) {
     if (f > 0 && f < clock.rate() / 2) return {};
     return bad_input(
@@ -17,11 +18,12 @@ Result<void> check_frequency(double f, const Clock& clock, const char* option) {
 }  // namespace
 
 // Both filters use the bilinear transform, prewarped so that f is exact. Source: R. Bristow-Johnson, "Cookbook formulae for audio EQ
-// biquad filter coefficients"; alpha = sin(w) / (2 Q).
+// biquad filter coefficients". With the angular frequency w = 2 pi f / rate: alpha = sin(w) / (2 Q), c = -2 cos(w) for the notch, and
+// c = cos(w) for the low-pass filter.
 
 Result<Biquad> Biquad::notch(double f, const Clock& clock) {
     if (auto ok = check_frequency(f, clock, "--notch"); !ok) return ok.error();
-    const double turns = f / clock.rate(), Q = f / std::min(4.0, f / 2);
+    const double turns = f / clock.rate(), Q = f / std::min(4.0, f / 2);  // Q: f over the -3 dB bandwidth
     const double alpha = num::sin_turns(turns) / (2 * Q), c = -2 * num::cos_turns(turns);
     return Biquad(1, c, 1, 1 + alpha, c, 1 - alpha);
 }

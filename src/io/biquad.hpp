@@ -1,27 +1,30 @@
 #pragma once
-// Causal filters for recordings. The output depends only on earlier samples, so a stream and a file give the same result.
+// Causal filters for recordings. The output depends only on the current and earlier samples, so a stream and a file give the same result.
 
 #include "signal/clock.hpp"
 #include "signal/error.hpp"
 
 namespace corpuscle {
 
-/// A second-order section, y = b0 x + b1 x' + b2 x'' - a1 y' - a2 y'', in transposed direct form II.
-/// The initial state is the steady state for the first sample.
+/// A second-order section, y[k] = b0 x[k] + b1 x[k-1] + b2 x[k-2] - a1 y[k-1] - a2 y[k-2], in transposed direct form II. It begins in the
+/// steady state of a constant input equal to the first sample.
 class Biquad {
     double b0_, b1_, b2_, a1_, a2_;
-    double s1_ = 0, s2_ = 0;
-    bool is_started_ = false;
+    double s1_ = 0, s2_ = 0;   // state
+    bool is_started_ = false;  // true after the first sample
 
     Biquad(double b0, double b1, double b2, double a0, double a1, double a2)
         : b0_(b0 / a0), b1_(b1 / a0), b2_(b2 / a0), a1_(a1 / a0), a2_(a2 / a0) {}
 
 public:
-    /// Removes a frequency f (Hz). The -3 dB points are at f +- 2 Hz, or at f +- f/4 if that is closer.
+    // A frequency f that is not between 0 and half the sample rate is an error.
+
+    /// A filter that removes the frequency f (Hz). The -3 dB points are at f +- 2 Hz, or at f +- f/4 if f is below 8 Hz.
     static Result<Biquad> notch(double f, const Clock&);
     /// A second-order Butterworth low-pass filter, -3 dB at f (Hz).
     static Result<Biquad> lowpass(double f, const Clock&);
 
+    /// The output for the next sample x.
     double next(double x) {
         if (!is_started_) {  // steady state for x: y = x, because both filters have unit gain at 0 Hz
             is_started_ = true;

@@ -7,7 +7,7 @@
 namespace corpuscle {
 
 void ForceLevels::add(std::span<const double> force) {
-    double low = min, high = max;  // local variables, which stay in registers
+    double low = min, high = max;  // local variables stay in registers, members would not
     std::int64_t below_count = 0, above_count = 0, negative_count = 0;
     for (const double F : force) {
         low = F < low ? F : low, high = F > high ? F : high;
@@ -17,14 +17,14 @@ void ForceLevels::add(std::span<const double> force) {
     count += static_cast<std::int64_t>(force.size());
 }
 
-ChannelPipeline::ChannelPipeline(const RecordingOptions& options, double gain, bool filter_early, const HumTable& table)
-    : offset_(options.offset), gain_(gain), filters_rows_(filter_early), hum(table) {
+ChannelPipeline::ChannelPipeline(const RecordingOptions& options, double gain, bool filters_rows, const HumTable& table)
+    : offset_(options.offset), gain_(gain), filters_rows_(filters_rows), hum(table) {
     if (options.despike) outlier_filter_.emplace(*options.despike);
 }
 
-Result<ChannelPipeline> ChannelPipeline::make(const RecordingOptions& options, double gain, const Clock& filter_clock, bool filter_early,
+Result<ChannelPipeline> ChannelPipeline::make(const RecordingOptions& options, double gain, const Clock& filter_clock, bool filters_rows,
                                               const HumTable& table) {
-    ChannelPipeline pipeline(options, gain, filter_early, table);
+    ChannelPipeline pipeline(options, gain, filters_rows, table);
     for (const double f : options.notch) {
         const auto filter = Biquad::notch(f, filter_clock);
         if (!filter) return filter.error();
@@ -47,7 +47,8 @@ Result<void> ChannelPipeline::repair(std::span<const double> values) {
     return gaps_.push(values, repaired_);
 }
 
-/// Converts the repaired samples to newtons and appends them. The detectors examine them before the filters, because filters hide faults.
+/// Converts the repaired samples to newtons and appends them to `out`. The detectors examine the samples before they are filtered, because
+/// the filters hide faults.
 void ChannelPipeline::append(std::vector<double>& out) {
     for (double& x : repaired_) x = gain_ * (x - offset_);
     outliers.add(repaired_);

@@ -5,8 +5,8 @@
 namespace corpuscle {
 namespace {
 
-/// Removes every second point between the ends. There are more than max_points points, so this changes the largest distance from a
-/// straight line only by a rounding error.
+/// Removes every second point of one side of the hull, except the first and the last point. There are more than max_points points, so the
+/// largest distance of a point from a straight line changes very little.
 template <class Points>
 void thin(Points& side) {
     std::size_t kept = 1;
@@ -29,8 +29,9 @@ void ClockAnalysis::add(double t) {
         steps_.add(step);
     }
     has_samples_ = true;
+    // Adds p to one side of the hull. `sign` is 1 for the upper and -1 for the lower side.
     const auto push = [&](std::vector<Point>& side, double sign) {
-        // True if b is not a corner of the hull of a, b and the new point.
+        // True if b is not a corner of the hull of a, b and the new point p.
         const auto inside = [&](Point a, Point b) { return sign * ((b.k - a.k) * (p.t - a.t) - (b.t - a.t) * (p.k - a.k)) >= 0; };
         while (side.size() >= 2 && inside(side[side.size() - 2], side.back())) side.pop_back();
         side.push_back(p);
@@ -46,14 +47,14 @@ double ClockAnalysis::peak_to_peak_jitter() const {
     if (last_.k == first_.k) return 0;
     const double step = mean_step();
     const auto deviation = [&](Point p) { return p.t - first_.t - p.k * step; };
-    double late = 0, early = 0;
+    double late = 0, early = 0;  // s, the largest deviations in both directions
     for (const auto& p : upper_) late = std::max(late, deviation(p));
     for (const auto& p : lower_) early = std::min(early, deviation(p));
     return late - early;
 }
 
 Result<Clock> ClockAnalysis::clock() const {
-    const double length = last_.t - first_.t;
+    const double length = last_.t - first_.t;  // s
     return make_clock(1 / mean_step(), first_.t, std::clamp(peak_to_peak_jitter() / length, 1e-12, 1e-2));
 }
 

@@ -7,16 +7,18 @@
 namespace corpuscle {
 namespace {
 
-constexpr std::size_t min_index_rows = 8;  // rows needed to recognise an index by its values
+constexpr std::size_t min_index_rows = 8;  // rows needed to recognise a row number by its values alone
 
+/// Implements assign_roles(). c is the index of a column.
 struct Roles {
     std::vector<Column>& columns;
-    const std::vector<FirstFields>& first;
+    const std::vector<FirstFields>& first;  // for each column
     ColumnRoles out = {};
 
+    /// True if the inspected fields are numbers or empty, and at least one is a number.
     bool holds_numbers(std::size_t c) const { return first[c].value_count > 0 && first[c].word_count == 0 && first[c].stamp_count == 0; }
 
-    /// True if the numbers of the column never decrease and are not constant.
+    /// True if the numbers of the column never decrease and are not all equal.
     bool rises(std::size_t c) const {
         double last = -std::numeric_limits<double>::infinity(), begin = last;
         for (const double x : first[c].numbers) {
@@ -28,7 +30,7 @@ struct Roles {
         return last > begin && !std::isinf(begin);
     }
 
-    /// True if all values are integers, and all differences satisfy `step`.
+    /// True if all fields are integers, the second is greater than the first, and `step` is true for each difference to the row before.
     template <class Step>
     bool is_counter(std::size_t c, const Step& step) const {
         const auto& x = first[c].numbers;
@@ -40,9 +42,9 @@ struct Roles {
     static bool is_one(double step) { return step == 1; }
     static bool is_positive(double step) { return step > 0; }
     static bool is_one_or_restart(double step) { return step == 1 || step < 0; }  // an index that restarts at each trial
-    static bool is_positive_or_restart(double step) { return step != 0; }         // packets may be lost, and their number may restart
+    static bool is_positive_or_restart(double step) { return step != 0; }         // packets may be missing, and their number may restart
 
-    /// True if the numbers increase in steps within 50 % of their mean.
+    /// True if the numbers increase, and each step is between 50 % and 150 % of the mean step.
     bool evenly_rises(std::size_t c) const {
         const auto& x = first[c].numbers;
         if (x.size() < 3 || first[c].value_count != x.size()) return false;
@@ -52,12 +54,14 @@ struct Roles {
         return even;
     }
 
+    /// Marks the columns of dates or times of day, and those that are not channels because they hold words or nothing.
     void mark_stamps_and_words() {
         for (std::size_t c = 0; c < columns.size(); ++c) {
             const auto& f = first[c];
             const auto rows = f.numbers.size();
             if (f.stamp_count > 0 && f.value_count == 0 && f.word_count == 0) columns[c].holds_time_stamps = true;
             if (f.word_count > 0 && f.value_count == 0 && f.stamp_count == 0) columns[c].exclusion_reason = "holds words, not numbers";
+            // With fewer rows, the fields may be empty by chance.
             if (rows >= 3 && f.empty_count == rows) columns[c].exclusion_reason = "is empty";
         }
     }
@@ -70,6 +74,9 @@ struct Roles {
         return false;
     }
 
+    /// Finds the time column of a table with headings. A name that is certainly the time comes first. Then follow, in this order: a name
+    /// that may be the time with a unit of time, such a name without a unit, time stamps, a unit of time, and a first column without a
+    /// name.
     void find_named_time() {
         const auto may_be_time = [&](std::size_t c) {
             return columns[c].holds_time_stamps || (holds_numbers(c) && (first[c].numbers.size() < 2 || rises(c)));
@@ -97,6 +104,7 @@ struct Roles {
         }
     }
 
+    /// True if the column holds row, sample or packet numbers.
     bool is_index(std::size_t c) const {
         const auto& column = columns[c];
         if (!column.unit.empty() || !holds_numbers(c)) return false;
@@ -111,7 +119,8 @@ struct Roles {
                std::all_of(first[c].numbers.begin(), first[c].numbers.end(), [](double x) { return std::floor(x) == x; });
     }
 
-    /// Excludes columns of numbers that are not measurements: row numbers, trial numbers, second clocks. Keeps all if none would remain.
+    /// Excludes columns of times, row numbers and trial numbers, and second clocks. If no other column remains, only columns of time stamps
+    /// are excluded.
     void exclude_non_measurements() {
         std::vector<std::pair<std::size_t, std::string>> excluded;
         std::size_t remaining = 0;
@@ -145,7 +154,7 @@ ColumnRoles assign_roles(std::vector<Column>& columns, const std::vector<FirstFi
     Roles roles{columns, first, {.time_column = time}};
     roles.mark_stamps_and_words();
     if (time)
-        columns[*time].exclusion_reason.clear();
+        columns[*time].exclusion_reason.clear();  // the file states the time column, so its content does not matter
     else if (named)
         roles.find_named_time();
     else if (roles.use_as_time([&](std::size_t c) { return columns[c].holds_time_stamps; }))

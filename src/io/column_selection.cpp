@@ -27,29 +27,31 @@ bool matches_name(const Column& column, std::string_view name) {
     return !heading.unit.empty() && column.name == heading.name && column.unit == heading.unit;
 }
 
-/// True for the unit written as a word. Symbols such as N and mN are left to parse_unit().
+/// True for the word "newton" in its spellings. parse_unit() reads symbols such as N and mN.
 bool is_newton_word(std::string_view unit) {
     constexpr std::string_view spellings[] = {"Newton", "newton", "Newtons", "newtons"};
     return std::find(std::begin(spellings), std::end(spellings), unit) != std::end(spellings);
 }
 
+/// True for a unit of force.
 bool is_force(std::string_view unit) {
     if (is_newton_word(unit)) return true;
     const auto parsed = unit.empty() || unit == "raw" ? Result<Unit>(bad_input("")) : parse_unit(unit);
     return parsed && parsed->has_same_dimension(*parse_unit("N"));
 }
 
+/// The text without blanks around it, and without single or double quotes around the rest.
 std::string_view without_quotes(std::string_view s) {
     s = trimmed(s);
     return s.size() > 2 && (s.front() == '\'' || s.front() == '"') && s.back() == s.front() ? s.substr(1, s.size() - 2) : s;
 }
 
-/// Selects the channels of a table.
+/// Selects the channels of a table. k is an index in `data`; as a number of --channel it is k + 1.
 struct ChannelSelector {
     const Table& table;
     std::optional<std::size_t> time;
     std::string path;
-    std::vector<std::size_t> data;  // columns other than the time
+    std::vector<std::size_t> data;  // the columns other than the time, as indices in the table
 
     ChannelSelector(const Table& t, std::optional<std::size_t> time_column, std::string p)
         : table(t), time(time_column), path(std::move(p)) {
@@ -57,6 +59,7 @@ struct ChannelSelector {
             if (c != time) data.push_back(c);
     }
 
+    /// The error for a channel that does not exist. Lists the first of those that do.
     Error unknown(std::string_view wanted) const {
         std::vector<std::string_view> names;
         for (const auto c : data) names.push_back(table.columns()[c].name);
@@ -73,7 +76,7 @@ struct ChannelSelector {
         return {};
     }
 
-    /// The argument of --channel that selects a column: its number, or its name if another column is named by that number.
+    /// The argument of --channel that selects column k: its number, or its name if that number is the name of another column.
     std::string option_of(std::size_t k) const {
         auto number = std::to_string(k + 1);
         const auto other = named(number);
@@ -82,7 +85,8 @@ struct ChannelSelector {
 
     std::string name_of(std::size_t k) const { return fmt::format("'{}'", table.columns()[data[k]].name); }
 
-    /// Adds a range of `data`, without the columns that the table excludes.
+    /// Adds the columns `from` to `to` of `data` (both included) to `chosen`. A range of several columns leaves out those that the table
+    /// excludes; a single column is always added.
     void add_range(std::size_t from, std::size_t to, std::vector<std::size_t>& chosen) const {
         for (std::size_t k = from; k <= to; ++k)
             if (from == to || table.columns()[data[k]].exclusion_reason.empty()) chosen.push_back(data[k]);
@@ -97,6 +101,7 @@ struct ChannelSelector {
         return false;
     }
 
+    /// Adds the columns that one part of the argument of --channel selects: a name, a range of names, a number, or a range of numbers.
     Result<void> add(std::string_view wanted, std::vector<std::size_t>& chosen, std::vector<std::string>* notes) const {
         for (const auto name : {wanted, without_quotes(wanted)})
             if (const auto k = named(name)) return chosen.push_back(data[*k]), Result<void>{};
@@ -112,8 +117,8 @@ struct ChannelSelector {
         return {};
     }
 
-    /// The default selection: all columns that may be forces. If a column has a unit of force, columns with other known units are
-    /// excluded.
+    /// The default selection: all columns that may be forces. If at least one column has a unit of force, columns in other known units are
+    /// left out. If all columns would be left out because of their units, all are selected.
     Result<std::vector<std::size_t>> default_selection(std::vector<std::string>* notes) const {
         const auto has_force_unit = [&](std::size_t c) {
             return table.columns()[c].exclusion_reason.empty() && is_force(table.columns()[c].unit);
@@ -122,7 +127,7 @@ struct ChannelSelector {
         const auto is_other = [&](const Column& c) {
             return is_never_force(c.unit) || (any_force_unit && !c.unit.empty() && is_unit(c.unit) && !is_force(c.unit));
         };
-        std::vector<std::size_t> chosen, other;  // other: columns whose unit is not a force
+        std::vector<std::size_t> chosen, other;  // other: columns with a unit that is not a force
         for (const auto c : data)
             if (table.columns()[c].exclusion_reason.empty()) (is_other(table.columns()[c]) ? other : chosen).push_back(c);
         if (chosen.empty() && other.empty()) {
@@ -156,6 +161,7 @@ struct ChannelSelector {
         return chosen;
     }
 
+    /// The columns that the arguments of --channel select, each once, in the order of the arguments.
     Result<std::vector<std::size_t>> choose(const std::vector<std::string>& wanted, std::vector<std::string>* notes) const {
         std::vector<std::size_t> chosen;
         if (data.empty()) return bad_input("there is no channel, only the time column", {path});

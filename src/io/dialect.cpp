@@ -9,12 +9,13 @@
 namespace corpuscle {
 namespace {
 
+/// The field without blanks around it, and without double quotes around the rest.
 std::string_view unquoted(std::string_view s) {
     s = trimmed(s);
     return s.size() >= 2 && s.front() == '"' && s.back() == '"' ? s.substr(1, s.size() - 2) : s;
 }
 
-/// The end of the field that begins at `at`. A separator within quotes does not end it.
+/// The position of the separator after the field that begins at `at`; npos for the last field. A separator within quotes does not end it.
 std::size_t end_of_field(std::string_view line, std::size_t at, char separator) {
     const auto quote = line.find_first_not_of(" \t", at);
     if (quote != std::string_view::npos && line[quote] == '"') {
@@ -63,7 +64,7 @@ bool Dialect::parse_number(std::string_view field, double& value, bool any) cons
     return status == std::errc{} && end == field.data() + field.size() && (any || std::isfinite(value));
 }
 
-/// Like parse_plain_number(), but digit by digit.
+/// Like parse_plain_number() after the sign, but reads digit by digit, so that it can read up to fifteen digits.
 bool Dialect::parse_longer_number(const char*& p, const char* end, double& value) const {
     std::uint64_t digits = 0;
     const auto read_digits = [&] {

@@ -1,4 +1,4 @@
-// Reads address events of Corpuscle and AEDAT 2 files as spike trains.
+// Reads spike trains from the binary event formats: address events (address_events.hpp) and AEDAT 2.
 
 #include <fmt/format.h>
 #include <algorithm>
@@ -17,19 +17,20 @@ namespace {
 namespace aer = address_events;
 
 constexpr std::int64_t last_event_step = std::int64_t{1} << 53;  // a double holds integers up to here exactly
-constexpr std::size_t events_at_once = 4096;
+constexpr std::size_t events_at_once = 4096;                     // events in one block that is read
 
-/// The trains, by address. `name` returns the names of an address; it is called at the first event of the address.
+/// The spike trains of all addresses.
 class AddressTrains {
     std::unordered_map<std::uint32_t, std::vector<double>*> by_address_;
     TrainCollector trains_;
 
 public:
-    template <class Name>
-    std::vector<double>& train_at(std::uint32_t address, const Name& name) {
+    /// The train of an address. `names_of` returns the names of its afferent and channel; it is called only at the first event.
+    template <class NamesOf>
+    std::vector<double>& train_at(std::uint32_t address, const NamesOf& names_of) {
         auto& train = by_address_[address];
         if (!train) {
-            const auto [afferent, channel] = name(address);
+            const auto [afferent, channel] = names_of(address);
             train = &trains_.train(afferent, channel);
         }
         return *train;
@@ -37,7 +38,7 @@ public:
     std::vector<NamedTrain> sorted() && { return std::move(trains_).sorted(); }
 };
 
-/// Calls `handle_event` for every event of a file, `size` bytes each, from position `at` on.
+/// Calls `handle_event` with each event of a file. Every event has `size` bytes; the first one is at position `at`, where the file must be.
 template <class Handler>
 Result<void> each_event(SeekableBytes& file, std::uint64_t at, std::size_t size, const Handler& handle_event) {
     if ((file.size() - at) % size != 0)
@@ -61,15 +62,17 @@ T number_at(std::span<const std::byte> bytes, std::size_t at) {
     return number;
 }
 
+/// A file of address events.
 class AerFile {
     std::unique_ptr<SeekableBytes> file_;
     Clock clock_;
-    std::vector<aer::NameRun> runs_, channels_;
-    std::uint64_t begin_ = 0;  // position of the first spike
+    std::vector<aer::NameRun> runs_, channels_;  // of afferents, and of channels
+    std::uint64_t begin_ = 0;                    // position of the first spike
 
     Error format_error(std::string message) const { return bad_input(std::move(message), {file_->name()}); }
 
-    Result<void> read_header(std::uint32_t& runs, std::uint32_t& bytes) {
+    /// Reads the header up to its runs. Stores the number of runs of afferents, and the number of bytes of the header that follow.
+    Result<void> read_header_start(std::uint32_t& runs, std::uint32_t& bytes) {
         std::byte header[aer::header_bytes];
         if (file_->size() < sizeof header) return format_error("the header of the address events is incomplete");
         if (auto ok = file_->read(header); !ok) return ok;
@@ -83,10 +86,11 @@ class AerFile {
         return {};
     }
 
-    Result<void> read_runs() {
+    /// Reads the complete header.
+    Result<void> read_complete_header() {
         std::uint32_t runs = 0, bytes = 0;
-        if (auto ok = read_header(runs, bytes); !ok) return ok;
-        std::vector<std::byte> names(bytes);
+        if (auto ok = read_header_start(runs, bytes); !ok) return ok;
+        std::vector<std::byte> names(bytes);  // the runs, as in the file
         if (auto ok = file_->read(names); !ok) return ok;
         std::size_t at = 0;
         if (auto ok = read_runs(names, at, runs, "afferents", runs_); !ok) return ok;
@@ -95,10 +99,12 @@ class AerFile {
         return read_runs(names, at, runs, "channels", channels_);
     }
 
-    /// Reads `count` runs from position `at` of `names` on, and moves `at` after them. `kind` is for messages.
+    /// Reads `count` runs from position `at` of `names` on, and moves `at` to the end of them. `kind` is the kind of run for messages:
+    /// "afferents" or "channels".
     Result<void> read_runs(std::span<const std::byte> names, std::size_t& at, std::uint32_t count, std::string_view kind,
                            std::vector<aer::NameRun>& out) const {
         for (std::uint32_t k = 0; k < count; ++k) {
+            // Field 0 is the first address, 1 the stride, 2 the first number, 3 the count, 4 the length of the name.
             const auto number = [&](std::size_t field) { return number_at<std::uint32_t>(names, at + 4 * field); };
             if (names.size() - at < aer::run_bytes || names.size() - at - aer::run_bytes < number(4))
                 return format_error(fmt::format("the names of the {} end within run {} of {}", kind, k + 1, count));
@@ -112,6 +118,7 @@ class AerFile {
         return {};
     }
 
+    /// The run that contains an address; null if none does.
     static const aer::NameRun* run_at(const std::vector<aer::NameRun>& runs, std::uint32_t address) {
         for (const auto& r : runs)
             if (address >= r.first_address && (address - r.first_address) % r.stride == 0 &&
@@ -120,7 +127,8 @@ class AerFile {
         return nullptr;
     }
 
-    /// The names of afferent and channel: {"sa1", "fz"}. Without a channel {"sa1#17", ""}; without a name the address is the name.
+    /// The names of the afferent and the channel of an address: {"sa1", "fz"}. If the file names no channel of this address: {"sa1#17",
+    /// ""}. If it names no afferent, the address as text is the name.
     std::pair<std::string, std::string> names_of(std::uint32_t address) const {
         const auto *const run = run_at(runs_, address), *const channel = run_at(channels_, address);
         if (!run) return {std::to_string(address), channel ? channel->name : ""};
@@ -133,9 +141,9 @@ public:
     explicit AerFile(std::unique_ptr<SeekableBytes> file) : file_(std::move(file)) {}
 
     Result<std::vector<NamedTrain>> read() {
-        if (auto ok = read_runs(); !ok) return ok.error();
+        if (auto ok = read_complete_header(); !ok) return ok.error();
         AddressTrains trains;
-        std::int64_t count = 0;
+        std::int64_t count = 0;  // spikes read so far
         const auto ok = each_event(*file_, begin_, aer::spike_bytes, [&](const std::byte* at) -> Result<void> {
             aer::EncodedSpike spike;
             std::memcpy(&spike, at, sizeof spike);
@@ -151,13 +159,14 @@ public:
     }
 };
 
+/// The big-endian number of four bytes.
 std::uint32_t big_endian_at(const std::byte* at) {
     std::uint32_t number = 0;
     for (int k = 0; k < 4; ++k) number = number << 8 | std::to_integer<std::uint32_t>(at[k]);
     return number;
 }
 
-/// The position after the lines that begin with #.
+/// Moves the file to the first event, after the comment lines (which begin with #). Returns its position.
 Result<std::uint64_t> skip_comments(SeekableBytes& file) {
     std::vector<std::byte> head(std::min<std::uint64_t>(file.size(), 65536));
     if (auto ok = file.read(head); !ok) return ok.error();
@@ -185,11 +194,11 @@ Result<std::vector<NamedTrain>> read_aedat2_spikes(const std::string& path) {
     const auto begin = skip_comments(**file);
     if (!begin) return begin.error();
     AddressTrains trains;
-    std::int64_t now = 0;  // us, of the last event
+    std::int64_t now = 0;  // time of the previous event, us
     bool first = true;
     const auto ok = each_event(**file, *begin, 8, [&](const std::byte* at) -> Result<void> {
         const auto stamp = big_endian_at(at + 4);
-        // Time stamps have 32 bits. Among the times with these lowest bits, use the one closest to the previous time.
+        // A time stamp has the lowest 32 bits of the time. Of all times with these bits, the one closest to the previous time is meant.
         now = std::exchange(first, false) ? stamp : now + static_cast<std::int32_t>(stamp - static_cast<std::uint32_t>(now));
         trains.train_at(big_endian_at(at), [](std::uint32_t a) { return std::pair(std::to_string(a), std::string()); })
             .push_back(static_cast<double>(now) * 1e-6);

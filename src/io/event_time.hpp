@@ -1,5 +1,5 @@
 #pragma once
-// Spike times as integer nanoseconds, with a precision that does not depend on the length of the stream.
+// Spike times as integer nanoseconds. Their precision does not depend on the length of the stream.
 
 #include <cmath>
 
@@ -10,7 +10,7 @@ namespace corpuscle {
 /// A cycle is rate_numerator samples, which last rate_denominator seconds. Complete cycles are counted as integers, and only the
 /// remainder is a double, so a spike after a year is as precise as the first one.
 class EventTime {
-    std::int64_t samples_per_cycle_, cycle_ns_, start_ns_;  // start_ns_: time of sample 0
+    std::int64_t samples_per_cycle_, cycle_ns_, start_ns_;  // cycle_ns_: length of a cycle; start_ns_: time of sample 0
     double sample_ns_;                                      // sample period
 
 public:

@@ -31,20 +31,23 @@ char* put_seconds(std::int64_t ns, char* at) {
     return at + 10;
 }
 
-/// A text format. A spike is its time between two texts that depend on the afferent.
+/// A text format. The line of a spike consists of its time, and of one text before and one after it that depend only on the afferent.
 class TextEvents final : public EventFormat {
-    static constexpr std::size_t max_time = 21 + 10;
+    static constexpr std::size_t max_time = 21 + 10;  // bytes of a time: sign and seconds, then the point and nine decimals
     std::string_view name_;
     EventTime time_;
-    std::string header_, texts_;
-    std::vector<std::size_t> begin_ = {0};  // start of the two texts of each afferent in texts_
+    std::string header_;
+    std::string texts_;                     // for each afferent, the text before the time and the text after it
+    std::vector<std::size_t> begin_ = {0};  // positions in texts_ at which these texts begin, and the end of the last one
     std::size_t max_bytes_ = 0;
 
+    /// Text number k of texts_: 2 a is the text before the time of afferent a, 2 a + 1 the text after it.
     std::string_view text(std::size_t k) const { return std::string_view(texts_).substr(begin_[k], begin_[k + 1] - begin_[k]); }
 
 public:
     TextEvents(std::string_view name, const Clock& clock, std::string header) : name_(name), time_(clock), header_(std::move(header)) {}
 
+    /// Adds the next afferent, in the order of the afferent indices.
     void add(const std::string& before, const std::string& after) {
         for (const auto* text : {&before, &after}) {
             texts_ += *text;
@@ -65,6 +68,7 @@ public:
     }
 };
 
+/// The text as a JSON string. Bytes that are not UTF-8 are replaced.
 std::string json_text(const std::string& text) {
     return nlohmann::json(text).dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);
 }

@@ -9,7 +9,7 @@
 namespace corpuscle {
 namespace {
 
-/// True for all of the first 256 chunks, then for every second, every fourth ...
+/// True if chunk number `chunk` is examined: each of the first 256 chunks, then every second one up to 512, every fourth up to 1024 ...
 bool is_examined(std::int64_t chunk) {
     const auto spacing = static_cast<std::uint64_t>(std::max<std::int64_t>(chunk / 128, 1));
     return chunk % static_cast<std::int64_t>(std::bit_floor(spacing)) == 0;
@@ -18,7 +18,7 @@ bool is_examined(std::int64_t chunk) {
 /// The median of seven by a branch-free sorting network of thirteen exchanges.
 inline double median_of_seven(const double* x) {
     double a = x[0], b = x[1], c = x[2], d = x[3], e = x[4], f = x[5], g = x[6];
-    const auto order = [](double& low, double& high) {
+    const auto order = [](double& low, double& high) {  // swaps them if the first one is larger
         const double smaller = low < high ? low : high, larger = low < high ? high : low;
         low = smaller, high = larger;
     };
@@ -31,9 +31,11 @@ constexpr std::int64_t samples_per_chunk = 4096;  // windows of seven samples do
 
 }  // namespace
 
+/// Examines the next samples of the current chunk. A sample is examined together with the three samples before and after it, so the last
+/// samples wait in chunk_ for the next call.
 void OutlierDetector::examine(std::span<const double> more) {
     chunk_.insert(chunk_.end(), more.begin(), more.end());
-    const std::size_t n = chunk_.size() > 6 ? chunk_.size() - 6 : 0;
+    const std::size_t n = chunk_.size() > 6 ? chunk_.size() - 6 : 0;  // number of complete windows; window k is centred on sample k + 3
     double deviation[samples_per_chunk + 6], isolation[samples_per_chunk + 6];
     const double* const x = chunk_.data();
     for (std::size_t k = 0; k < n; ++k) {
@@ -41,7 +43,7 @@ void OutlierDetector::examine(std::span<const double> more) {
         deviation[k] = std::abs(middle - median_of_seven(x + k));
         const double nearer = std::abs(left) < std::abs(right) ? std::abs(left) : std::abs(right);
         const double smallest = nearer < deviation[k] ? nearer : deviation[k];
-        isolation[k] = left * right > 0 ? smallest : 0;
+        isolation[k] = left * right > 0 ? smallest : 0;  // 0 unless the sample is above both neighbours, or below both
     }
     for (std::size_t k = 0; k < n; ++k) {
         if (deviation[k] > 0) deviations_.add(deviation[k]);
@@ -53,7 +55,7 @@ void OutlierDetector::examine(std::span<const double> more) {
     if (n > 0) chunk_.erase(chunk_.begin(), chunk_.end() - 6);
 }
 
-/// Retains every stride_-th sample. When there are 128, removes every second one and doubles the stride.
+/// Retains every stride_-th sample. When 128 samples are retained, removes every second one of them and doubles the stride.
 void OutlierDetector::retain(std::span<const double> x) {
     for (std::int64_t k = next_retained_ - seen_; k < static_cast<std::int64_t>(x.size()); k = next_retained_ - seen_) {
         retained_.push_back(x[static_cast<std::size_t>(k)]);
@@ -93,7 +95,7 @@ void SaturationDetector::add(std::span<const double> x) {
     for (const double value : x) min = value < min ? value : min, max = value > max ? value : max;
     lowest_ = min;
     seen_ += static_cast<std::int64_t>(x.size());
-    if (max < highest_) {  // the block does not reach the maximum
+    if (max < highest_) {  // no sample of the block reaches the highest value so far
         if (!x.empty()) run_ = 0;
         return;
     }
@@ -101,7 +103,7 @@ void SaturationDetector::add(std::span<const double> x) {
         if (value > highest_) highest_ = value, run_ = 0, runs_ = 0, at_highest_ = 0;
         run_ = value == highest_ ? run_ + 1 : 0;
         at_highest_ += value == highest_;
-        runs_ += run_ == 3;
+        runs_ += run_ == 3;  // counts a run once, at its third sample
     }
 }
 
@@ -113,7 +115,7 @@ void SumDetector::add(const std::vector<std::vector<double>>& block, std::size_t
         for (std::size_t k = 0; k < block[c].size() && first_[c].size() < rows; ++k) first_[c].push_back(block[c][k]);
 }
 
-/// True if channel `c` is the sum of channels `from` to `to` in every row, to within 0.1 %.
+/// True if channel `c` is the sum of the channels `from` to `to` in every stored row, to within 0.1 %, and is not constant.
 bool SumDetector::is_sum(std::size_t c, std::size_t from, std::size_t to) const {
     bool varies = false;
     for (std::size_t k = 0; k < first_[c].size(); ++k) {
@@ -125,8 +127,8 @@ bool SumDetector::is_sum(std::size_t c, std::size_t from, std::size_t to) const 
     return varies;
 }
 
-/// Requires at least two channels in a sum that are not zero. Otherwise a channel equal to another one would count as a sum, because
-/// most channels of a tactile skin are zero.
+/// At least two of the summed channels must have values other than zero. Otherwise two equal channels would count as a sum if the channels
+/// next to one of them are zero, as most channels of a tactile skin are.
 std::vector<SumDetector::Sum> SumDetector::find_sums() const {
     std::vector<Sum> sums;
     std::vector<std::size_t> active(first_.size() + 1);  // active[c]: number of channels before c that have a value other than 0
@@ -141,11 +143,12 @@ std::vector<SumDetector::Sum> SumDetector::find_sums() const {
 
 HumTable::HumTable(const Clock& clock) {
     decimation = std::max<std::int64_t>(1, static_cast<std::int64_t>(clock.rate() / 1000));
-    const double rate = clock.rate() / static_cast<double>(decimation);
+    const double rate = clock.rate() / static_cast<double>(decimation);  // of the decimated samples, Hz
     if (rate < 2) return;
     const auto length = static_cast<std::size_t>(rate);
     for (std::size_t n = 0; n < length; ++n) {
-        const double at = static_cast<double>(n), window = 1 - num::cos_turns(at / static_cast<double>(length));  // Hann, mean 1
+        const double at = static_cast<double>(n),
+                     window = 1 - num::cos_turns(at / static_cast<double>(length));  // Hann window with a mean of 1
         Phasors phasors{};
         for (std::size_t l = 0; l < line_count; ++l) {
             const double f = mains[l / 3] + 6 * (static_cast<double>(l % 3) - 1), turns = f / rate * at;
@@ -160,7 +163,7 @@ void HumDetector::end_second() {
     const auto n = static_cast<double>(table_.phasors_of_second.size());
     if (is_examined(second_)) {
         variance_ += squares_ / n - total_ / n * (total_ / n);
-        for (std::size_t l = 0; l < HumTable::line_count; ++l) {  // a sinusoid of amplitude A gives A^2 / 2
+        for (std::size_t l = 0; l < HumTable::line_count; ++l) {  // a sinusoid of amplitude A has the power A^2 / 2, its variance
             const double re = sum_.re[l] / n, im = sum_.im[l] / n;
             power_[l] += 2 * (re * re + im * im);
         }
@@ -190,7 +193,7 @@ void HumDetector::add(std::span<const double> x) {
 }
 
 bool HumDetector::is_significant(std::size_t mains_index) const {
-    const double* p = power_ + 3 * mains_index;
+    const double* p = power_ + 3 * mains_index;  // p[1]: at the mains frequency; p[0], p[2]: 6 Hz below and above it
     return table_.covers(mains_index) && p[1] > 4 * (p[0] + p[2]);
 }
 

@@ -19,7 +19,8 @@ std::size_t length_of_number(std::string_view text) {
     return status == std::errc{} && end > text.data() && is_decimal_digit(end[-1]) ? static_cast<std::size_t>(end - text.data()) : 0;
 }
 
-/// True for one to three digits, then groups of three digits after `separator`, then decimals after `point`: 1.016,21 or 12,345.
+/// True for a number with thousands separators: one to three digits, then groups of `separator` and three digits, then optional decimals
+/// after `point`. "1.016,21" has the separator . and the point , (comma).
 bool has_groups(std::string_view text, char separator, char point) {
     if (text.starts_with('-') || text.starts_with('+')) text.remove_prefix(1);
     const auto point_at = text.find(point);
@@ -41,13 +42,13 @@ bool has_groups(std::string_view text, char separator, char point) {
 }  // namespace
 
 FieldAdvice advise_on_field(std::string_view field) {
-    constexpr std::string_view minus = "\u2212";
+    constexpr std::string_view minus = "\u2212";  // the minus sign of typesetting, which is not the hyphen of ASCII
     if (has_groups(field, '.', ',') || has_groups(field, ',', '.') || has_groups(field, '\'', '.') || has_groups(field, ' ', '.'))
         return {"a thousands separator", "", "save the table without it"};
     if (field.starts_with(minus) && length_of_number(field.substr(minus.size())) > 0)
         return {"a typographic minus sign (U+2212)", "sed 's/\u2212/-/g'"};
     if (field.find('|') != field.npos) return {"'|' as a separator", "sed 's/ *| */;/g'"};
-    const auto number = length_of_number(field);
+    const auto number = length_of_number(field);  // in bytes; for 0x1F it is 1, the length of the zero
     if (number == 1 && field.size() > 2 && (field[1] == 'x' || field[1] == 'X'))
         return {"hexadecimal digits", "", "save the table with decimal numbers"};
     if (number == 0) {

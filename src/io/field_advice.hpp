@@ -1,5 +1,5 @@
 #pragma once
-// Advice on fields that are meant as numbers but are written in a format that is not supported.
+// Advice for fields of a text file that are meant as numbers, but are written in a form that is not supported.
 
 #include <string>
 #include <string_view>
@@ -7,9 +7,9 @@
 namespace corpuscle {
 
 struct FieldAdvice {
-    std::string feature = {};  ///< the unusual feature, such as "a thousands separator"; "": not recognised
-    std::string filter = {};   ///< a shell command that converts such a text; "": there is no safe one
-    std::string remedy = {};   ///< the remedy if there is no command
+    std::string feature = {};  ///< the unsupported form, such as "a thousands separator"; "": the field is of no known form
+    std::string filter = {};   ///< a shell command that reads the file and writes it in a supported form; "": no command does this safely
+    std::string remedy = {};   ///< what the user can do if there is no command
 };
 
 FieldAdvice advise_on_field(std::string_view field);

@@ -10,18 +10,23 @@
 namespace corpuscle {
 namespace {
 
+/// An unsupported format of other programs, with a command that converts it.
 struct ForeignFormat {
-    std::string_view first;      ///< the first bytes of the file
-    std::string_view within;     ///< a text that must also occur in the first bytes
-    std::string_view extension;  ///< the file extension, which can replace `within`
+    std::string_view first;  ///< the bytes with which the file begins
+    /// For formats that are zip archives: a text that must also occur in the first 512 bytes, unless the file has the extension of the
+    /// format.
+    /// "": "[Content_Types]", which occurs in files of Microsoft Office.
+    std::string_view within;
+    std::string_view extension;  ///< the usual file extension
     std::string_view description;
-    std::string_view needs;  ///< Python packages, or programs, that the command needs
+    std::string_view needs;  ///< Python packages or programs that the command requires
     /// {0} is the file as a Python string. {1} is the new name without extension, as the beginning of a Python string: the command adds the
     /// extension and the closing quote. {2} and {3} are the same names for a shell.
     std::string_view command;
 };
 
-// In Python the names are in single quotes. An index column is kept if there can be one, because it may be the time.
+// Commands; see ForeignFormat::command for their arguments. The index of a pandas table is written as a column if the format can have one,
+// because it may be the time.
 constexpr std::string_view workbook = R"py(python3 -c "import pandas; pandas.read_excel({0}).to_csv({1}.csv', index=False)")py";
 constexpr std::string_view feather = R"py(python3 -c "import pandas; pandas.read_feather({0}).to_csv({1}.csv', index=False)")py";
 constexpr std::string_view pickle = R"py(python3 -c "import pandas; pandas.read_pickle({0}).to_csv({1}.csv')")py";
@@ -52,7 +57,8 @@ constexpr ForeignFormat foreign_formats[] = {
      "rostopic echo -p -b {2} /TOPIC > {3}.csv"},
 };
 
-/// Compressed formats, with the program that decompresses them and the extension that it expects.
+/// A compressed format: the bytes with which its files begin, the program that decompresses it, and the extension that this program
+/// expects.
 struct PackedFormat {
     std::string_view first, program, extension;
 };
@@ -62,7 +68,7 @@ constexpr PackedFormat packed_formats[] = {
     {"\x28\xb5\x2f\xfd", "zstd", ".zst"},
 };
 
-/// Supported binary formats, which are recognised by their file extension.
+/// A supported binary format: the bytes with which its files begin, and the file extension that is required.
 struct BinaryFormat {
     std::string_view first, description, extension;
 };
@@ -71,7 +77,7 @@ constexpr BinaryFormat binary_formats[] = {
     {"RIFF", "a WAV file", ".wav"},     {"fLaC", "a FLAC file", ".flac"},
 };
 
-/// True if the path needs no quotes in a shell and cannot be taken for an option.
+/// True if the path needs no quotes in a shell and does not begin like an option.
 bool is_safe_in_shell(const std::string& path) {
     return !path.empty() && path.front() != '-' && std::all_of(path.begin(), path.end(), [](unsigned char c) {
         return (c >= '0' && c <= '9') || (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || c == '.' || c == '_' || c == '/' || c == '-' ||
@@ -82,12 +88,14 @@ bool is_safe_in_shell(const std::string& path) {
 /// The file name without its extension.
 std::string stem_of(const std::string& path) { return std::filesystem::path(path).stem().string(); }
 
-/// The file name for a command. Standard input must be saved to a file first.
+/// The file name for a command. Standard input ("-") is called FILE: the user must save it to a file first.
 std::string named_file(const std::string& path) { return path == "-" ? "FILE" : path; }
 
+/// The message for a file in a foreign format.
 std::string message_for(const ForeignFormat& f, const std::string& path) {
     const auto name = named_file(path);
-    // A name that cannot be quoted in Python within a double-quoted shell word is replaced by FILE.
+    // The command has Python code in double quotes, and in it the name in single quotes. A name that would break this is replaced
+    // by FILE.
     const bool simple = std::all_of(name.begin(), name.end(), [](unsigned char c) { return c >= ' ' && !std::strchr("'\"\\$`!", c); });
     const std::string file = simple ? name : "FILE", stem = simple ? stem_of(name) : "FILE";
     return fmt::format("this is {}, which is not supported; with {}, convert it like this: {}", f.description, f.needs,

@@ -19,18 +19,20 @@ bool contains_any(std::string_view text, std::initializer_list<std::string_view>
     return std::any_of(words.begin(), words.end(), [&](auto w) { return text.find(w) != text.npos; });
 }
 
+/// Units besides those that parse_unit() reads.
 constexpr std::string_view unit_words[] = {"counts",  "count",  "raw",  "adc",     "lsb",   "bits",    "ticks",  "digits",  "px",
                                            "kg",      "g",      "Pa",   "kPa",     "mmHg",  "bar",     "psi",    "sec",     "seconds",
                                            "msec",    "millis", "usec", "micros",  "nsec",  "nanos",   "newton", "newtons", "Newton",
                                            "Newtons", "sek",    "Sek",  "minutes", "hours", "samples", "dB",     "kgf",     "gf"};
+/// Units that a force sensor never has, besides those whose dimension is_never_force() recognises.
 constexpr std::string_view never_force[] = {"hex",     "deg", "\u00b0", "rad",      "degC",   "degF",  "\u00b0C", "\u00b0F", "celsius",
                                             "Celsius", "C",   "K",      "kelvin",   "Kelvin", "Nm",    "Nmm",     "mNm",     "Ncm",
                                             "kNm",     "N.m", "N.mm",   "N\u00b7m", "rpm",    "deg/s", "rad/s",   "m/s^2",   "m/s\u00b2"};
 
-/// Suffixes that are usually not units (left_F, sensor_A).
+/// Suffixes of column names that could be units, but usually are not (left_F, sensor_A).
 constexpr std::string_view ambiguous_units[] = {"", "1", "F", "A", "S", "T", "C", "K", "h", "min"};
 
-/// True if the name shows that an ambiguous suffix is a unit: temp_C, motor_current_A.
+/// True if the name before an ambiguous suffix shows that the suffix is a unit: temp_C, motor_current_A.
 bool shows_unit(std::string_view name, std::string_view suffix) {
     const auto n = lower(name);
     if (suffix == "C" || suffix == "K" || suffix == "F") return contains_any(n, {"temp", "therm"}) || (n == "t" && suffix != "F");
@@ -44,7 +46,7 @@ bool is_suffix_unit(std::string_view name, std::string_view s) {
     return is_unit(s);
 }
 
-/// Replaces doubled quotes by single ones.
+/// Replaces each pair of double quotes ("") by one, as in quoted fields of CSV.
 std::string with_single_quotes(std::string text) {
     std::size_t kept = 0;
     for (std::size_t k = 0; k < text.size(); ++k) {
@@ -55,7 +57,8 @@ std::string with_single_quotes(std::string text) {
     return text;
 }
 
-/// The unit of a column whose name is a unit of time: millis, header.stamp.nsecs. "" for other names.
+/// The unit of time that the name of a column is, or that follows its last point: "ms" for millis, "ns" for header.stamp.nsecs. "" for
+/// other names.
 std::string_view time_unit_named(std::string_view name) {
     constexpr std::pair<std::string_view, std::string_view> words[] = {
         {"sec", "s"}, {"secs", "s"},    {"seconds", "s"},   {"sekunden", "s"},      {"msec", "ms"},    {"msecs", "ms"},
@@ -63,12 +66,13 @@ std::string_view time_unit_named(std::string_view name) {
         {"us", "us"}, {"micros", "us"}, {"microsec", "us"}, {"microseconds", "us"}, {"nsec", "ns"},    {"nsecs", "ns"},
         {"ns", "ns"}, {"nanos", "ns"},  {"nanosec", "ns"},  {"nanoseconds", "ns"},  {"minutes", "min"}};
     if (const auto dot = name.rfind('.'); dot != name.npos) name.remove_prefix(dot + 1);
-    if (name.size() == 2 && name != lower(name)) return "";  // MS may be the name of a sensor
+    if (name.size() == 2 && name != lower(name)) return "";  // "MS" may be the name of a sensor
     for (const auto& [word, unit] : words)
         if (equal_ignoring_case(name, word)) return unit;
     return "";
 }
 
+/// The name without a slash at its end: "fz" for "fz / [N]".
 std::string_view without_slash(std::string_view name) {
     name = trimmed(name);
     return name.size() > 1 && name.ends_with('/') ? trimmed(name.substr(0, name.size() - 1)) : name;
@@ -90,7 +94,7 @@ Column parse_heading(std::string_view written) {
     if (const auto at = field.rfind('_');
         at != std::string_view::npos && at > 0 && is_suffix_unit(field.substr(0, at), field.substr(at + 1)))
         return {std::string(field.substr(0, at)), std::string(field.substr(at + 1))};
-    // The DIN notation "Fz/mN". In a path such as "wrench/force/x" the slash is not followed by a unit.
+    // "Fz/mN", as the German standard DIN 461 labels axes. In a path such as "wrench/force/x" no unit follows the slash.
     if (const auto at = field.find('/'); at != std::string_view::npos && at > 0) {
         const auto name = trimmed(field.substr(0, at)), unit = trimmed(field.substr(at + 1));
         if (unit.find('/') == unit.npos || is_never_force(unit))

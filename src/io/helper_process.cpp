@@ -17,11 +17,13 @@
 namespace corpuscle {
 namespace {
 
+/// `error` is a value of errno.
 Error cannot_start(const std::string& program, int error) {
     return bad_input(fmt::format("{} cannot be started: {}", program, std::strerror(error)));
 }
 
-/// A duplicate of a descriptor, with a number of at least 10. The child's descriptors 3 and 4 are then created without overwriting it.
+/// A duplicate of a file descriptor, with a number of at least 10. It is thus not overwritten when the descriptors 3 and 4 of the child are
+/// created.
 class HighDescriptor {
     int number_;
 
@@ -35,8 +37,8 @@ public:
     int number() const { return number_; }
 };
 
-/// The environment variables for the dynamic linker and sanitizers. Others are removed, because they could make a library load or write
-/// files.
+/// The environment of the child: only the variables for the dynamic linker and the sanitizers. Other variables could make a library load or
+/// write files.
 std::vector<char*> environment() {
     std::vector<char*> kept;
     for (char** variable = environ; *variable; ++variable)
@@ -46,8 +48,8 @@ std::vector<char*> environment() {
     return kept;
 }
 
-/// Starts the program with default signal handling. Its descriptors are /dev/null (0 to 2), the socket and the file. Returns an error
-/// number, or 0.
+/// Starts the program with default signal handling and stores its process id in `child`. Its descriptors are /dev/null (0 to 2), the socket
+/// (3) and the file (4). Returns 0, or the error number of posix_spawn().
 int spawn(const std::string& program, const std::string& argument, int socket, int file, pid_t& child) {
     posix_spawn_file_actions_t actions;
     posix_spawnattr_t attributes;
@@ -90,7 +92,7 @@ HelperProcess::~HelperProcess() {
 }
 
 Result<HelperProcess> HelperProcess::start(const std::string& program, int file, const std::string& argument) {
-    int ends[2];
+    int ends[2];  // of the socket: ours, and the child's
     if (::socketpair(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC, 0, ends) != 0) return cannot_start(program, errno);
     HelperProcess helper;
     helper.socket_ = ends[0];
@@ -112,6 +114,7 @@ Result<Message> HelperProcess::receive(const std::string& path, const std::strin
     return failure(path, library);
 }
 
+/// The error for a child that sent no message. Ends the child. errno must still be that of Message::receive().
 Error HelperProcess::failure(const std::string& path, const std::string& library) {
     const bool timed_out = errno == EAGAIN || errno == EWOULDBLOCK;
     int status = 0;

@@ -1,4 +1,5 @@
-// Finds the helper programs. A separate file, because its compile options contain the libexec directory.
+// Finds the helper programs. This is a separate file because only its compile options define the names of the libexec directory:
+// CORPUSCLE_LIBEXEC_DIRECTORY (complete path) and CORPUSCLE_LIBEXEC_NAME (relative to the install prefix).
 
 #include <fmt/format.h>
 #include <unistd.h>
@@ -11,10 +12,11 @@
 namespace corpuscle {
 namespace {
 
+/// The directories to search, in this order.
 std::vector<std::filesystem::path> directories() {
     if (const char* set = ::secure_getenv("CORPUSCLE_LIBEXEC"); set && *set) return {set};
     std::vector<std::filesystem::path> out;
-    std::error_code unknown;
+    std::error_code unknown;  // set if the path of the running program is not known; `self` is then empty
     if (const auto self = std::filesystem::read_symlink("/proc/self/exe", unknown).parent_path(); !self.empty()) {
         out.push_back(self);
         out.push_back(self.parent_path() / CORPUSCLE_LIBEXEC_NAME / "corpuscle");

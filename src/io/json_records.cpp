@@ -15,10 +15,10 @@ namespace {
 using OrderedJson = nlohmann::ordered_json;
 
 constexpr std::size_t max_document = std::size_t{64} << 20;  // bytes
-constexpr int max_depth = 16;
+constexpr int max_depth = 16;                                // nested brackets
 
-/// Replaces NaN and Infinity, which Python writes but JSON does not have, by null. Returns nullopt if brackets are nested too deep.
-/// Stops after `max_bytes` bytes of output, and stores the number of bytes read in `read`.
+/// The text with null instead of NaN and Infinity, which Python writes but JSON does not have. nullopt if brackets are nested too deep.
+/// Stops after `max_bytes` bytes of the result; stores in `read` how many bytes of `text` these are.
 std::optional<std::string> strict_json(std::string_view text, std::size_t max_bytes = std::string_view::npos, std::size_t* read = nullptr) {
     std::string out;
     out.reserve(std::min(text.size(), max_bytes));
@@ -48,16 +48,17 @@ std::optional<std::string> strict_json(std::string_view text, std::size_t max_by
     return out;
 }
 
-/// Builds the document like nlohmann's parser, but appends members without a search for duplicate names, which would take quadratic
-/// time for an object with many members.
+/// Receives the events of nlohmann's SAX parser and builds the document. Unlike nlohmann's own builder, it appends members to an object
+/// without a search for duplicate names, which would take quadratic time for an object with many members.
 class DocumentBuilder {
     using Members = std::vector<std::pair<const std::string, OrderedJson>>;
     static constexpr std::size_t values_between_checks = 4096;
     const std::function<bool()>& should_continue_;
-    std::vector<OrderedJson*> open_;  // the containers around the next value
-    std::string key_;
-    std::size_t values_ = 0;
+    std::vector<OrderedJson*> open_;  // the objects and arrays around the next value, outermost first
+    std::string key_;                 // name of the next member of an object
+    std::size_t values_ = 0;          // number of values so far
 
+    /// Adds the next value. Returns false to stop the parser.
     bool add(OrderedJson value) {
         if (++values_ % values_between_checks == 0 && !should_continue_()) return interrupted = true, false;
         const bool is_container = value.is_structured();
@@ -80,8 +81,8 @@ class DocumentBuilder {
 public:
     explicit DocumentBuilder(const std::function<bool()>& should_continue) : should_continue_(should_continue) {}
     OrderedJson document;
-    std::optional<std::size_t> syntax_error_at;  ///< position in bytes
-    bool interrupted = false;
+    std::optional<std::size_t> syntax_error_at;  ///< number of bytes read when the parser met a syntax error; nullopt: no syntax error
+    bool interrupted = false;                    ///< true if should_continue returned false
 
     bool null() { return add(nullptr); }
     bool boolean(bool x) { return add(x); }
@@ -96,22 +97,25 @@ public:
     bool end_object() { return open_.pop_back(), true; }
     bool end_array() { return open_.pop_back(), true; }
     bool parse_error(std::size_t byte, const std::string&, const nlohmann::json::exception& e) {
-        constexpr int first_syntax_error = 100, end_of_syntax_errors = 200;  // nlohmann's ids of syntax errors
+        constexpr int first_syntax_error = 100, end_of_syntax_errors = 200;  // range of nlohmann's ids of syntax errors
         if (e.id >= first_syntax_error && e.id < end_of_syntax_errors) syntax_error_at = byte;
         return false;
     }
 };
 
+/// Implements read_json_records().
 class JsonReader {
     using RecordHandler = std::function<Result<void>(std::span<const JsonField>, long)>;
     LineReader& lines_;
     const RecordHandler& on_record_;
     const std::function<bool()>& should_continue_;
-    JsonMetadata* metadata_;
-    std::vector<JsonField> fields_;
+    JsonMetadata* metadata_;         // may be null
+    std::vector<JsonField> fields_;  // of the current record
 
+    /// An error at a line; 0 for an error of the entire document.
     Error error_at(std::string message, long line = 0) const { return bad_input(std::move(message), {lines_.path(), line}); }
 
+    /// Parses a text that begins in line `line`.
     Result<OrderedJson> parse(std::string_view text, long line) const {
         const auto strict = strict_json(text);
         if (!strict) return error_at(fmt::format("this JSON is nested more than {} deep, so it is not a table", max_depth), line);
@@ -119,15 +123,16 @@ class JsonReader {
         if (OrderedJson::sax_parse(*strict, &builder)) return std::move(builder.document);
         if (builder.interrupted) return Error{ErrorCode::interrupted, "interrupted"};
         if (!builder.syntax_error_at) return error_at("this JSON contains a number that is too large", line);
-        std::size_t at = 0;  // position in the original text
+        std::size_t at = 0;  // position of the syntax error in `text`; the parser's position is in `strict`
         static_cast<void>(strict_json(text, std::min(*builder.syntax_error_at, strict->size()), &at));
         const auto before = text.substr(0, at);
-        const auto above = std::count(before.begin(), before.end(), '\n');
+        const auto above = std::count(before.begin(), before.end(), '\n');  // lines of `text` above the error
         const auto column = at - (above > 0 ? before.rfind('\n', at - 1) + 1 : 0);
         return bad_input("this JSON is not valid: unexpected text or end here",
                          {lines_.path(), std::max(line, 1L) + static_cast<long>(above), static_cast<long>(column)});
     }
 
+    /// Appends the scalars in `value` to fields_. `name` is the path of `value` in its record, "" for the record itself.
     void flatten(const std::string& name, const OrderedJson& value) {
         if (value.is_object()) {
             for (const auto& [key, member] : value.items()) flatten(name.empty() ? key : name + "." + key, member);
@@ -139,6 +144,7 @@ class JsonReader {
         }
     }
 
+    /// Passes a record to on_record_. `line` is its line number, or 0.
     Result<void> emit_record(const OrderedJson& record, long line) {
         fields_.clear();
         flatten("", record);
@@ -175,11 +181,12 @@ class JsonReader {
                std::all_of(j.begin(), j.end(), [](const OrderedJson& v) { return !v.is_structured(); });
     }
 
-    /// Finds lists of scalars in nested objects. A list is a column with its path as its name.
+    /// Finds the lists of scalars in an object and in the objects inside it. Each list is a column, named by its path.
     void find_columns(const std::string& name, const OrderedJson& object, std::vector<JsonColumn>& out) const {
         for (const auto& [key, member] : object.items()) {
             const auto full = name.empty() ? key : name + "." + key;
-            if (member.is_array() ? is_list(member) : is_list(member) && member.contains("0")) {  // {"0": ..., "1": ...} of pandas
+            if (member.is_array() ? is_list(member)
+                                  : is_list(member) && member.contains("0")) {  // pandas writes a column as {"0": ..., "1": ...}
                 out.push_back({full, {}});
                 for (const auto& v : member) out.back().values.push_back(&v);
             } else if (member.is_object()) {
@@ -188,7 +195,7 @@ class JsonReader {
         }
     }
 
-    /// Reads a rate and a unit outside the table.
+    /// Reads the rate and the unit among the members of the document, outside its table.
     void read_metadata(const OrderedJson& object) {
         for (const auto& [key, value] : object.items()) {
             if (value.is_number() && is_rate_name(key) && value.get<double>() > 0 && std::isfinite(value.get<double>()))
@@ -198,7 +205,8 @@ class JsonReader {
         }
     }
 
-    /// Removes lists of strings that are not as long as the lists of numbers, because they do not belong to the table.
+    /// Removes lists without numbers whose length differs from that of the first list with numbers, because they do not belong to the
+    /// table.
     void exclude_unrelated_lists(std::vector<JsonColumn>& columns) const {
         const auto has_numbers = [](const JsonColumn& c) {
             return std::any_of(c.values.begin(), c.values.end(), [](const OrderedJson* v) { return v->is_number(); });
@@ -215,6 +223,7 @@ class JsonReader {
         });
     }
 
+    /// Passes on the records of an object of columns.
     Result<void> emit_columns(const OrderedJson& object) {
         std::vector<JsonColumn> columns;
         find_columns("", object, columns);
@@ -235,20 +244,23 @@ class JsonReader {
         return {};
     }
 
+    /// Passes on the records of a document. A list is a list of records. In an object, the table is `columns` and `data` if it has both,
+    /// otherwise its only list if the elements of that are objects or lists, otherwise its lists of scalars, which are the columns.
     Result<void> emit_document(const OrderedJson& all) {
         if (all.is_array()) return emit_records(all);
         if (!all.is_object()) return error_at("no table in this JSON: it holds a single value");
         if (all.contains("columns") && all["columns"].is_array() && all.contains("data") && all["data"].is_array())
             return emit_split_records(all["columns"], all["data"]);
         if (metadata_) read_metadata(all);
-        const OrderedJson* records = nullptr;
-        std::size_t lists = 0;
+        const OrderedJson* records = nullptr;  // the last list whose elements are objects or lists
+        std::size_t lists = 0;                 // number of lists that are not empty
         for (const auto& member : all)
             if (member.is_array() && !member.empty()) ++lists, records = member[0].is_structured() ? &member : records;
         return lists == 1 && records ? emit_records(*records) : emit_columns(all);
     }
 
-    /// True if the first line is a complete record, followed by another one or by nothing.
+    /// True if the text has one record on each line: its first line is a complete record, and the next line, if there is one, begins with
+    /// the same bracket. A single line is a record only if it is an object of scalars; otherwise it is a document. Rewinds the text.
     Result<bool> are_json_lines() {
         std::string_view line;
         std::string first;
@@ -274,6 +286,7 @@ class JsonReader {
         return record->is_object() && std::none_of(record->begin(), record->end(), [](const OrderedJson& v) { return v.is_structured(); });
     }
 
+    /// Reads one record from each line.
     Result<void> read_lines() {
         for (std::string_view line;;) {
             const auto more = lines_.next(line);
@@ -288,6 +301,7 @@ class JsonReader {
         }
     }
 
+    /// Reads the complete text as one document.
     Result<void> read_document() {
         std::string text;
         for (std::string_view line;;) {
@@ -301,7 +315,7 @@ class JsonReader {
                     "\"import pandas; pandas.read_json('FILE').to_json('FILE.jsonl', orient='records', lines=True)\"",
                     max_document >> 20));
         }
-        if (!text.empty()) text.pop_back();  // the last line ending, which the file may not have
+        if (!text.empty()) text.pop_back();  // the last line break, which the file may not have
         const auto all = parse(text, 1);
         return all ? emit_document(*all) : all.error();
     }

@@ -1,5 +1,6 @@
 #pragma once
-// JSON as a table: one record on each line (JSON lines), a list of records or of rows, or an object of columns.
+// Reads JSON as records, which are the rows of a table. The text has one record on each line (JSON lines), or it is a document: a list of
+// records or of rows, or an object of columns.
 
 #include <functional>
 #include <nlohmann/json_fwd.hpp>
@@ -12,26 +13,26 @@
 
 namespace corpuscle {
 
-/// A field of a record. Nested members are called "wrench.force.x", list elements "taxels.1".
+/// A field of a record. A member of a nested object is called "wrench.force.x", an element of a list "taxels.1" (counted from 1).
 struct JsonField {
     std::string name;
     const nlohmann::ordered_json* value;  ///< a number, a string, true, false or null
 };
 
-/// Information in a document outside its table.
+/// Properties that a document states outside its table.
 struct JsonMetadata {
-    std::optional<double> rate = {};  ///< Hz, from a number called fs, rate ...
-    std::string unit = {};            ///< unit of columns without a unit in their name, from a string called unit
-    std::vector<std::string> notes = {};
+    std::optional<double> rate = {};      ///< Hz, from a number called fs, rate ...; nullopt: not stated
+    std::string unit = {};                ///< unit of the columns without a unit in their name, from a string called unit; "": not stated
+    std::vector<std::string> notes = {};  ///< notes for the user about lists that were ignored
 };
 
-/// Calls `on_record` for each record, with the line number for JSON lines and 0 otherwise. Stops if `on_record` returns an error, or if
-/// `should_continue`, which is called every few thousand values, returns false.
+/// Calls `on_record` for each record. `line` is the line number of the record for JSON lines, and 0 for a document. Stops with an error if
+/// `on_record` returns an error, or if `should_continue`, which is called every few thousand values, returns false.
 Result<void> read_json_records(
     LineReader&, const std::function<Result<void>(std::span<const JsonField>, long line)>& on_record,
     const std::function<bool()>& should_continue = [] { return true; }, JsonMetadata* metadata = nullptr);
 
-/// True if the text begins like JSON. Rewinds the text.
+/// True if the first line that is not empty begins like JSON. Rewinds the text.
 Result<bool> looks_like_json(LineReader&);
 
 }  // namespace corpuscle

@@ -14,29 +14,32 @@
 namespace corpuscle {
 namespace {
 
+// Upper bounds on a table, which is kept in memory: numbers in all columns (one gigabyte), and columns.
 constexpr std::size_t max_json_numbers = std::size_t{1} << 27, max_json_columns = std::size_t{1} << 17;
 
 class JsonTable final : public Table {
+    /// The values of one column.
     struct Values {
-        std::vector<double> numbers;  // NaN if a record has no number
-        FirstFields first;
-        std::optional<TimeStamp> stamp;  // the first time stamp
+        std::vector<double> numbers;     // for each record; NaN if its field is missing or not a number
+        FirstFields first;               // of the inspected records
+        std::optional<TimeStamp> stamp;  // the first time stamp of the column
     };
     std::string path_;
     std::vector<Column> columns_;
-    std::vector<Values> values_;
-    std::unordered_map<std::string, std::size_t> column_indices_;
-    std::vector<long> lines_;  // line number of each record, for JSON lines
+    std::vector<Values> values_;                                   // for each column
+    std::unordered_map<std::string, std::size_t> column_indices_;  // by the name of the field
+    std::vector<long> lines_;                                      // line number of each record for JSON lines; empty for a document
     ColumnRoles roles_;
     JsonMetadata metadata_;
-    std::size_t rows_ = 0, numbers_ = 0;  // numbers_: values in all columns
+    std::size_t rows_ = 0, numbers_ = 0;  // number of records, and of values in all columns
     std::size_t next_ = 0, block_ = 0;    // next row to read, first row of the last block
 
     static constexpr double missing = std::numeric_limits<double>::quiet_NaN();
 
     Error error_at(std::string message, long line) const { return bad_input(std::move(message), {path_, line}); }
 
-    /// The value of a string: a number in quotes, a time stamp, or NaN.
+    /// The number that a string stands for. It is a number in quotes, or a time stamp, in seconds from the first one of the column. NaN for
+    /// other words. Counts the field in `first` unless this is null.
     double number_of(const std::string& word, Values& v, FirstFields* first) {
         double x = 0;
         const auto [end, status] = std::from_chars(word.data(), word.data() + word.size(), x);
@@ -51,6 +54,7 @@ class JsonTable final : public Table {
         return seconds_between(*v.stamp, *stamp);
     }
 
+    /// The number that a field of the next record stands for, or NaN.
     double number_of(const nlohmann::ordered_json& value, Values& v) {
         FirstFields* const first = rows_ < inspected_rows ? &v.first : nullptr;
         if (value.is_string()) return number_of(value.get_ref<const std::string&>(), v, first);
@@ -59,6 +63,7 @@ class JsonTable final : public Table {
         return x;
     }
 
+    /// Adds a record. A column without a field in the record is filled with NaN when its next field comes, or at the end.
     Result<void> add(std::span<const JsonField> fields, long line) {
         for (const auto& f : fields) {
             const auto [at, is_new] = column_indices_.try_emplace(f.name, columns_.size());

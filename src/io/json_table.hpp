@@ -6,7 +6,8 @@
 
 namespace corpuscle {
 
-/// `should_continue` is called while reading; if it returns false, the result is an error (interrupted).
+/// Reads the entire text. `should_continue` is called now and then while reading; if it returns false, the result is an error with the code
+/// ErrorCode::interrupted.
 Result<std::unique_ptr<Table>> open_json_table(LineReader, const std::function<bool()>& should_continue);
 
 }  // namespace corpuscle

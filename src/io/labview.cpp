@@ -11,19 +11,21 @@ namespace {
 
 constexpr std::string_view end_of_header = "***End_of_Header***";
 
+/// Implements read_labview_header(). k is an index in lines_.
 class LabviewReader {
     const std::vector<std::string>& lines_;
     std::string path_;
     LabviewHeader head_;
-    Fields fields_;
-    std::vector<std::string> units_;
-    double step_ = 0;
-    bool is_time_axis_ = true;
-    std::string x_columns_ = "One";  // "One", "Multi" or "No": how many columns X_Value has
+    Fields fields_;                   // of the current line
+    std::vector<std::string> units_;  // of the channels
+    double step_ = 0;                 // s, the sample period (Delta_X)
+    bool is_time_axis_ = true;        // true if X_Value is the time
+    std::string x_columns_ = "One";   // "One": X_Value is one column; "Multi": each channel has its own; "No": it is empty
 
+    /// Splits line k into fields_.
     void split(std::size_t k) { head_.dialect.split(lines_[k], fields_); }
 
-    /// Reads a line of the header: a name, followed by a value for the file or one for each channel.
+    /// Reads a line of the header: a name, followed by one value for the file or by one value for each channel.
     void read_entry(std::size_t k) {
         split(k);
         if (fields_.size() < 2) return;
@@ -37,12 +39,13 @@ class LabviewReader {
             has_delta_ = true;
         }
     }
-    bool has_delta_ = false;
+    bool has_delta_ = false;  // true if the header has Delta_X
 
-    /// Reads the column names: X_Value, one for each channel, Comment. If every channel has its own X_Value, only the first is the time.
+    /// Reads the line with the names of the columns: X_Value, the channels, and Comment. If every channel has its own X_Value, only the
+    /// first X_Value is the time.
     void read_names(std::size_t k) {
         split(k);
-        std::size_t channel = 0;
+        std::size_t channel = 0;  // index of the next channel
         for (const auto name : fields_) {
             Column column{std::string(name), ""};
             if (name == "X_Value") {
@@ -67,11 +70,12 @@ public:
     LabviewReader(const std::vector<std::string>& lines, std::string path) : lines_(lines), path_(std::move(path)) {}
 
     Result<LabviewHeader> read() {
+        // The separator follows from the first line, unless an entry "Separator" among the first lines states it.
         head_.dialect = {lines_[0].find(',') != std::string::npos && lines_[0].find('\t') == std::string::npos ? ',' : '\t', false};
         for (std::size_t k = 1; k < std::min<std::size_t>(lines_.size(), 12); ++k)
             if (lines_[k].starts_with("Separator"))
                 head_.dialect.separator = lower(lines_[k]).find("comma") != std::string::npos ? ',' : '\t';
-        std::size_t ends = 0;
+        std::size_t ends = 0;  // number of lines ***End_of_Header*** so far: one after the file's header, one after that of the segment
         for (std::size_t k = 1; k < lines_.size(); ++k) {
             if (!trimmed(lines_[k]).starts_with(end_of_header)) {
                 read_entry(k);
@@ -84,7 +88,9 @@ public:
             if (head_.columns.empty()) break;
             return std::move(head_);
         }
-        return bad_input("this LabVIEW file has no table: expected two lines ***End_of_Header*** and the column names before it", {path_});
+        return bad_input(
+            "this LabVIEW file has no table: expected two lines ***End_of_Header***, and the column names in the line after the second one",
+            {path_});
     }
 };
 

@@ -20,6 +20,7 @@ Result<LineReader> LineReader::open(const std::string& path) {
     return lines;
 }
 
+/// Reads the next block of the file into the buffer, after moving the unused bytes to its beginning. Returns false at the end of the file.
 Result<bool> LineReader::fill() {
     constexpr std::size_t block = std::size_t{1} << 20;
     if (ended_) return false;
@@ -39,7 +40,7 @@ Result<bool> LineReader::fill() {
 }
 
 Result<bool> LineReader::next(std::string_view& line) {
-    std::size_t searched = position_, end;
+    std::size_t searched = position_, end;  // positions: of the first byte not yet searched, and of the end of the line
     const auto found = [&] {
         const void* const at = std::memchr(buffer_.data() + searched, '\n', filled_ - searched);
         return at ? (end = static_cast<std::size_t>(static_cast<const char*>(at) - buffer_.data()), true) : false;
@@ -78,11 +79,11 @@ std::string LineReader::copy_command(const std::string& filter, const std::strin
     auto name = fs::path(path_).filename();
     if (lower(name.extension().string()) == ".gz") name = name.stem();
     const auto stem = name.stem().string() + mark, extension = name.extension().string();
-    const auto is_there = [&](const fs::path& file) {  // in the working directory or in the recording's folder
+    const auto exists = [&](const fs::path& file) {  // in the working directory, or in the directory of the recording
         return fs::exists(fs::symlink_status(file, status)) || fs::exists(fs::symlink_status(fs::path(path_).parent_path() / file, status));
     };
     std::string copy = stem + extension;
-    for (int k = 2; is_there(copy); ++k) copy = fmt::format("{}-{}{}", stem, k, extension);
+    for (int k = 2; exists(copy); ++k) copy = fmt::format("{}-{}{}", stem, k, extension);
     auto commands = input_->shell_commands();
     commands.push_back(filter);
     std::string line = fmt::format("{} < {}", commands[0], quote_shell_word(path_));

@@ -1,5 +1,6 @@
 #pragma once
-// A histogram of magnitudes in bounded memory: four bins per octave, from 2^-44 to 2^20.
+// A histogram of magnitudes in bounded memory: four bins per octave, from 2^-44 to 2^20. The first and the last bin also count smaller and
+// larger numbers.
 
 #include <algorithm>
 #include <array>
@@ -10,10 +11,11 @@
 namespace corpuscle {
 
 class LogHistogram {
-    static constexpr std::int64_t bins = 256, first_key = (std::int64_t{1023 - 44}) << 2;
+    static constexpr std::int64_t bins = 256;
+    static constexpr std::int64_t first_key = (std::int64_t{1023 - 44}) << 2;  // key of bin 0: exponent and two mantissa bits of 2^-44
     std::array<std::uint32_t, bins> counts_{};
 
-    /// The bin is given by the exponent and the first two bits of the mantissa. Numbers <= 0 are in bin 0.
+    /// The index of the bin of x. It is given by the exponent of x and the first two bits of its mantissa. Numbers <= 0 are in bin 0.
     static std::size_t bin(double x) {
         if (!(x > 0)) return 0;
         const auto key = static_cast<std::int64_t>(std::bit_cast<std::uint64_t>(x) >> 50) - first_key;
@@ -23,9 +25,11 @@ class LogHistogram {
 public:
     void add(double x) { ++counts_[bin(x)]; }
 
+    /// The number of numbers added.
     std::int64_t count() const { return std::accumulate(counts_.begin(), counts_.end(), std::int64_t{0}); }
 
-    /// The lower edge of the bin that contains the median of `all` numbers; 0 for bin 0. Numbers that were not added count as 0.
+    /// The median of `all` numbers: those that were added, and zeros for the rest. Returns the lower edge of the bin that contains the
+    /// median; 0 for bin 0.
     double median(std::int64_t all) const {
         std::int64_t seen = all - count();
         std::size_t b = 0;
@@ -33,7 +37,7 @@ public:
         return b == 0 ? 0 : std::bit_cast<double>(static_cast<std::uint64_t>(static_cast<std::int64_t>(b) + first_key) << 50);
     }
 
-    /// The count of numbers above x, without those in the bin of x.
+    /// The number of numbers in the bins above the bin of x.
     std::int64_t count_above(double x) const {
         std::int64_t count = 0;
         for (std::size_t b = bin(x) + 1; b < counts_.size(); ++b) count += counts_[b];

@@ -9,8 +9,9 @@ namespace corpuscle {
 namespace {
 
 constexpr std::uint64_t max_message = std::uint64_t{1} << 30;  // bytes
-constexpr std::size_t chunk_bytes = std::size_t{1} << 20;
+constexpr std::size_t chunk_bytes = std::size_t{1} << 20;      // memory is allocated in chunks, in case the stated size is wrong
 
+/// Returns false and sets errno on failure.
 bool send_all(int socket, const void* data, std::size_t size) {
     for (const char* at = static_cast<const char*>(data); size > 0;) {
         const auto sent = ::send(socket, at, size, MSG_NOSIGNAL);
@@ -21,6 +22,7 @@ bool send_all(int socket, const void* data, std::size_t size) {
     return true;
 }
 
+/// Returns false and sets errno on failure; ECONNRESET if the other end is closed.
 bool receive_all(int socket, void* data, std::size_t size) {
     for (char* at = static_cast<char*>(data); size > 0;) {
         const auto got = ::recv(socket, at, size, 0);

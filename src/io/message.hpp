@@ -1,15 +1,16 @@
 #pragma once
-// A message of numbers and texts, for a socket or another MPI rank.
+// A message of numbers and texts to another process, over a socket or to another MPI rank.
 
 #include <cstdint>
 #include <string>
 
 namespace corpuscle {
 
-/// Values are read in the order in which they were written.
+/// put() appends values, get() reads them in the same order. Both processes run on the same kind of machine, so that numbers have the same
+/// bytes.
 class Message {
     std::string bytes_;
-    std::size_t position_ = 0;
+    std::size_t position_ = 0;  // of the next value to read
 
 public:
     Message() = default;
@@ -22,13 +23,15 @@ public:
         put(s.size());
         put(s.data(), s.size());
     }
-    /// Returns false if fewer bytes are left.
+    /// Reads the next value. Returns false if the message has too few bytes left.
     bool get(void* data, std::size_t size);
     bool get(std::uint64_t& n) { return get(&n, sizeof n); }
     bool get(std::string& s);
 
+    /// Sends the size and the bytes of the message. Returns false on failure.
     bool send(int socket) const;
-    /// Returns false if the other end is closed, or sends nothing within the socket's timeout (errno is then EAGAIN).
+    /// Replaces this message by the next one from the socket. Returns false if the other end is closed, sends nothing within the socket's
+    /// timeout (errno is then EAGAIN), or states a size that is too large.
     bool receive(int socket);
 };
 

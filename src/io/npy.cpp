@@ -13,12 +13,12 @@
 namespace corpuscle {
 namespace {
 
-static_assert(std::endian::native == std::endian::little);
+static_assert(std::endian::native == std::endian::little, "elements are decoded as on a little-endian machine");
 
 constexpr std::string_view magic = "\x93NUMPY";
-constexpr std::size_t max_header = std::size_t{1} << 20;
+constexpr std::size_t max_header = std::size_t{1} << 20;  // bytes; also the largest size of an element
 
-/// Reads a T from a file, with its bytes reversed if `swap`.
+/// The T whose bytes are at `at`, in reversed order if `swap`.
 template <class T, bool swap>
 T stored(const std::byte* at) {
     std::array<std::byte, sizeof(T)> bytes;
@@ -32,7 +32,7 @@ double number(const std::byte* at) {
     return static_cast<double>(stored<T, swap>(at));
 }
 
-/// IEEE half precision: 5 exponent bits, 10 mantissa bits.
+/// A number in IEEE half precision: 5 exponent bits, 10 mantissa bits.
 template <bool swap>
 double half(const std::byte* at) {
     const unsigned bits = stored<std::uint16_t, swap>(at), mantissa = bits & 0x3ff;
@@ -45,6 +45,7 @@ double half(const std::byte* at) {
 
 double boolean(const std::byte* at) { return *at == std::byte{0} ? 0 : 1; }
 
+/// The function that decodes an element of this kind and size (in bytes); see NpyField::kind.
 template <bool swap>
 double (*decoder_of(char kind, std::size_t size))(const std::byte*) {
     switch (kind) {
@@ -65,7 +66,8 @@ double (*decoder_of(char kind, std::size_t size))(const std::byte*) {
     }
 }
 
-/// Parses byte order, kind and size: "<f8", "|b1", ">u2", "<U12". The size of U is in characters of four bytes.
+/// Parses a NumPy type: byte order, kind and size in bytes, as in "<f8", "|b1", ">u2". For U the text states the number of characters of
+/// four bytes, as in "<U12". nullopt if the type is unknown.
 std::optional<NpyField> parse_type(std::string_view text) {
     constexpr std::string_view kinds = "biufcUSOVMm";
     NpyField field;
@@ -83,7 +85,7 @@ std::optional<NpyField> parse_type(std::string_view text) {
     return field;
 }
 
-/// The number of elements of this shape. Returns max_header if it is too large for std::size_t.
+/// The number of elements of an array of this shape. Returns max_header, which the caller rejects, if it is too large for std::size_t.
 std::size_t elements_of(const PythonLiteral& shape) {
     std::size_t product = 1;
     for (const auto& n : shape.items)
@@ -91,8 +93,8 @@ std::size_t elements_of(const PythonLiteral& shape) {
     return product;
 }
 
-/// Parses a type name, or the list of fields of a structured type: (name, type) or (name, type, shape). Sets the size of an element in
-/// bytes.
+/// Parses the type in the header: a type such as "<f8", or the list of the fields of a structured type, each of which is (name, type) or
+/// (name, type, shape). Adds the size of an element in bytes to `element_size`, which must be 0.
 std::optional<std::vector<NpyField>> parse_fields(const PythonLiteral& type, std::size_t& element_size) {
     std::vector<NpyField> fields;
     if (type.kind == PythonLiteral::text) {
@@ -106,7 +108,8 @@ std::optional<std::vector<NpyField>> parse_fields(const PythonLiteral& type, std
         if (item.items.size() < 2 || item.items[1].kind != PythonLiteral::text) return {};
         auto field = parse_type(item.items[1].characters);
         if (!field || field->size > max_header) return {};
-        if (item.items.size() > 2) field->kind = 'V', field->size *= elements_of(item.items[2]);  // an array in each element
+        if (item.items.size() > 2)
+            field->kind = 'V', field->size *= elements_of(item.items[2]);  // each element holds an array, which is not read
         if (field->size > max_header) return {};
         field->name = item.items[0].kind == PythonLiteral::text ? item.items[0].characters : "";
         field->offset = element_size;
@@ -117,7 +120,7 @@ std::optional<std::vector<NpyField>> parse_fields(const PythonLiteral& type, std
     return fields;
 }
 
-/// Parses the dictionary of the header.
+/// Parses the dictionary of the header. `name` is the file's name for messages.
 Result<NpyHeader> parse_header(std::string_view text, const std::string& name) {
     const auto dictionary = parse_python_literal(text);
     const PythonLiteral *type = nullptr, *order = nullptr, *shape = nullptr;
@@ -139,6 +142,7 @@ Result<NpyHeader> parse_header(std::string_view text, const std::string& name) {
     return header;
 }
 
+/// Reads the length of the dictionary in bytes.
 Result<std::size_t> header_length(SeekableBytes& bytes, int version) {
     std::array<std::byte, 4> length{};
     if (auto ok = bytes.read(std::span(length).first(version == 1 ? 2 : 4)); !ok) return ok.error();

@@ -10,10 +10,11 @@
 namespace corpuscle {
 namespace {
 
-/// The name of an afferent or channel that the file identifies by a number.
+/// The name of an afferent or channel that is identified by a number: the number as text.
 std::string name_of_number(double x) { return std::floor(x) == x ? fmt::format("{:.0f}", x) : fmt::format("{}", x); }
 
-/// True if the times look like sample numbers, as in spike_times.npy of Phy, which does not contain the rate.
+/// True if the times look like sample numbers instead of seconds. spike_times.npy of Phy (a program for spike sorting) has sample numbers,
+/// and does not contain the rate.
 bool are_sample_numbers(const std::vector<double>& times) {
     return times.size() > 1 && *std::max_element(times.begin(), times.end()) >= 1000 &&
            std::all_of(times.begin(), times.end(), [](double t) { return std::floor(t) == t; });
@@ -26,7 +27,8 @@ Result<std::vector<NamedTrain>> read_npy_spikes(const std::string& path, const S
     if (!table) return table.error();
     std::vector<std::string> headings;
     for (const auto& c : (*table)->columns()) headings.push_back(c.unit.empty() ? c.name : c.name + "_" + c.unit);
-    if (headings.size() == 1) headings[0].clear();
+    if (headings.size() == 1) headings[0].clear();  // a single column holds the times; its name does not matter
+    // ch1, ch2 ... are the default names of columns without names.
     const bool is_unnamed = headings.size() > 1 && headings[0] == "ch1";
     if (is_unnamed && !(wanted.time && wanted.train))
         return bad_input(

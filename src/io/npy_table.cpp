@@ -11,7 +11,7 @@
 namespace corpuscle {
 namespace {
 
-/// True if there are several channels and the elements of each are contiguous in the file.
+/// True if there are several channels and the samples of each channel are contiguous in the file.
 bool is_column_major(const NpyHeader& header, const ArrayExtent& extent) {
     return extent.columns > 1 && header.is_column_major != extent.is_transposed;
 }
@@ -20,28 +20,31 @@ class NpySamples final : public Samples {
     std::unique_ptr<SeekableBytes> bytes_;
     NpyHeader header_;
     ArrayExtent extent_;
-    bool by_columns_;               // is_column_major() of this array
-    std::vector<NpyField> fields_;  // one for each column; a single one if the array is not structured
+    bool by_columns_;               // true if the samples of each channel are contiguous, see is_column_major()
+    std::vector<NpyField> fields_;  // the field of each column; if the array is not structured, a single field for all columns
     SamplesInfo info_;
-    std::vector<std::byte> buffer_;
+    std::vector<std::byte> buffer_;  // the elements that were read last
 
     bool is_structured() const { return !header_.fields[0].name.empty(); }
+    /// The index in fields_ of the field of a column.
     std::size_t field_of(std::size_t column) const { return is_structured() ? column : 0; }
     std::uint64_t element_offset(std::uint64_t number) const { return header_.data_offset + number * header_.element_size; }
 
+    /// Reads elements `first` to `first` + `count` - 1, in the order of the file, into the buffer.
     Result<void> read_elements(std::uint64_t first, std::size_t count) {
         buffer_.resize(count * header_.element_size);
         if (auto ok = bytes_->seek(element_offset(first)); !ok) return ok;
         return bytes_->read(buffer_);
     }
 
-    /// Decodes every `stride`-th element of the buffer, from index `from` on.
+    /// Decodes `field` of every `stride`-th element of the buffer, from index `from` on, until `out` is full.
     void decode(const NpyField& field, std::size_t from, std::size_t stride, std::span<double> out) const {
         const auto number = field.decoder();
         const auto* at = buffer_.data() + from * header_.element_size + field.offset;
         for (auto& x : out) x = number(at), at += stride * header_.element_size;
     }
 
+    /// fetch() for an array in which the samples of each channel are contiguous.
     Result<void> fetch_columns(std::uint64_t first, std::size_t rows, std::span<const std::size_t> wanted,
                                std::vector<std::vector<double>>& out) {
         for (std::size_t i = 0; i < wanted.size(); ++i) {
@@ -58,6 +61,7 @@ public:
         info_.rows = static_cast<std::int64_t>(extent_.rows);
     }
 
+    /// Defines the columns. `name` is the name of the array, "" if it has none.
     void name_columns(std::string_view name) {
         if (!is_structured()) {
             fields_ = header_.fields;
@@ -86,10 +90,12 @@ public:
     }
 };
 
+/// True if at least one field of the elements is numeric.
 bool has_numbers(const NpyHeader& header) {
     return std::any_of(header.fields.begin(), header.fields.end(), [](const auto& f) { return f.is_numeric(); });
 }
 
+/// The error for an array that cannot be read as numbers. `name` is the name of the file and array.
 Error no_numbers(const NpyHeader& header, const std::string& name) {
     const bool pickled = std::any_of(header.fields.begin(), header.fields.end(), [](const auto& f) { return f.kind == 'O'; });
     const bool complex = header.fields[0].kind == 'c';
@@ -101,7 +107,7 @@ Error no_numbers(const NpyHeader& header, const std::string& name) {
         {name});
 }
 
-/// One array as samples. `bytes` must be positioned after its header.
+/// One array as samples. `bytes` are those of the array, including its header; if `in_archive`, they are a member of an archive.
 Result<std::unique_ptr<NpySamples>> samples_of(std::unique_ptr<SeekableBytes> bytes, NpyHeader header, const ArrayInfo& array,
                                                const ExtentHints& hints, bool in_archive = false) {
     const auto name = bytes->name();
@@ -109,7 +115,7 @@ Result<std::unique_ptr<NpySamples>> samples_of(std::unique_ptr<SeekableBytes> by
         return no_numbers(header, name);
     const auto extent = extent_of(array, name, hints);
     if (!extent) return extent.error();
-    if (in_archive && is_column_major(header, *extent)) {  // seeking in an archive is slow
+    if (in_archive && is_column_major(header, *extent)) {  // seeking in an archive is slow, and each channel needs it
         auto copy = copy_to_temporary_file(*bytes);
         if (!copy) return copy.error();
         bytes = *std::move(copy);
@@ -122,12 +128,13 @@ Result<std::unique_ptr<NpySamples>> samples_of(std::unique_ptr<SeekableBytes> by
     return samples;
 }
 
-/// The arrays of an NPZ file and their headers.
+/// The arrays of an NPZ file and their headers. k is the index of an array.
 struct Npz {
     NpzReader file;
     std::vector<ArrayInfo> arrays = {};
     std::vector<NpyHeader> headers = {};
 
+    /// Reads the headers of all arrays. An array with an invalid header counts as not numeric, so that another array can still be read.
     void read_headers() {
         for (const auto& name : file.names()) {
             const auto bytes = file.bytes(name);
@@ -137,6 +144,7 @@ struct Npz {
         }
     }
 
+    /// Array k as samples.
     Result<std::unique_ptr<NpySamples>> samples(std::size_t k, const ExtentHints& hints) const {
         auto bytes = file.bytes(arrays[k].name);
         if (!bytes) return bytes.error();
@@ -145,7 +153,7 @@ struct Npz {
         return samples_of(*std::move(bytes), *std::move(header), arrays[k], hints, true);
     }
 
-    /// Hints about array number `chosen` from the lists of times in the file.
+    /// Hints about the orientation of array `chosen`, from the lists of times among the other arrays.
     ExtentHints hints(std::size_t chosen, std::optional<bool> transpose) const {
         ExtentHints out{transpose};
         for (std::size_t k = 0; k < arrays.size(); ++k)
@@ -153,6 +161,7 @@ struct Npz {
         return out;
     }
 
+    /// The sample rate in Hz, if one of the arrays is a single number with the name of a rate.
     std::optional<double> rate() const {
         for (std::size_t k = 0; k < arrays.size(); ++k)
             if (is_rate_name(arrays[k].name) && arrays[k].is_numeric && headers[k].element_count() == 1)
@@ -160,7 +169,7 @@ struct Npz {
         return {};
     }
 
-    /// The index of a list of times with `rows` elements, other than array number `chosen`.
+    /// The index of a list of times with `rows` elements, other than array `chosen`; nullopt if there is none.
     std::optional<std::size_t> times(std::size_t chosen, std::int64_t rows) const {
         for (std::size_t k = 0; k < arrays.size(); ++k)
             if (k != chosen && time_list_length(arrays[k]) == static_cast<std::uint64_t>(rows) && headers[k].fields[0].name.empty())

@@ -5,11 +5,12 @@
 
 namespace corpuscle {
 
-/// Reads an array of one or two dimensions and any numeric type. Each numeric field of a structured array is a column.
+/// Reads the array of an NPY file. It has one or two dimensions and any real type of numbers up to 64 bits. Each numeric field of a
+/// structured array is a column.
 Result<std::unique_ptr<Table>> open_npy_table(const std::string& path, const TableOptions& = {});
 
-/// Reads the requested array, or the only one. A number called rate or fs is the rate. A list called time or t with the same number of
-/// rows is the time.
+/// Reads one array of an NPZ file: the one that the options request, otherwise the only one that can be a recording. A single number called
+/// rate or fs is its sample rate in Hz. A list called time or t with as many elements as the array has rows is its time column.
 Result<std::unique_ptr<Table>> open_npz_table(const std::string& path, const TableOptions& = {});
 
 }  // namespace corpuscle

@@ -9,8 +9,9 @@
 namespace corpuscle {
 namespace {
 
-constexpr std::string_view ending = ".npy";
+constexpr std::string_view ending = ".npy";  // of the name of a member: array `t` is the member t.npy
 
+/// The bytes of a list as in memory.
 template <class T>
 std::string raw(std::span<const T> list) {
     return {reinterpret_cast<const char*>(list.data()), list.size_bytes()};
@@ -20,6 +21,7 @@ std::string raw(std::span<const T> list) {
 std::u32string code_points(std::string_view s) {
     std::u32string out;
     for (std::size_t k = 0; k < s.size();) {
+        // `more` is the number of bytes that follow the first one; -1 if no character begins with it.
         const auto first = static_cast<unsigned char>(s[k++]);
         const int more = first < 0x80                    ? 0
                          : first >= 0xc2 && first < 0xe0 ? 1
@@ -30,13 +32,14 @@ std::u32string code_points(std::string_view s) {
         int left = more;
         for (; left > 0 && k < s.size() && (static_cast<unsigned char>(s[k]) & 0xc0) == 0x80; --left)
             c = c << 6 | (static_cast<unsigned char>(s[k++]) & 0x3f);
-        constexpr char32_t min_value[] = {0, 0x80, 0x800, 0x10000};
+        constexpr char32_t min_value[] = {0, 0x80, 0x800, 0x10000};  // by `more`; smaller code points have a shorter encoding
         const bool invalid = more < 0 || left > 0 || c < min_value[more] || c > 0x10ffff || (c >= 0xd800 && c < 0xe000);
         out.push_back(invalid ? U'\ufffd' : c);
     }
     return out;
 }
 
+/// Appends a code point as UTF-8; U+FFFD if it is invalid.
 void append_utf8(std::string& out, std::uint32_t c) {
     if (c > 0x10ffff || (c >= 0xd800 && c < 0xe000)) c = 0xfffd;
     const int more = c < 0x80 ? 0 : c < 0x800 ? 1 : c < 0x10000 ? 2 : 3;
@@ -50,11 +53,12 @@ struct NpyArray {
     NpyHeader header;
     std::vector<std::byte> elements;
 
+    /// The bytes of element k.
     const std::byte* at(std::size_t k) const { return elements.data() + k * header.element_size; }
 };
 
-/// Reads an array whose elements are of one of these kinds. Reads in chunks, so that a wrong length in the archive causes no large
-/// allocation.
+/// Reads an array whose elements are of one of `kinds` (letters as in NpyField::kind). `expected` names these kinds in messages. Reads in
+/// chunks, so that a wrong length in the archive causes no large allocation.
 Result<NpyArray> read_array(const NpzReader& npz, const std::string& name, std::string_view kinds, std::string_view expected) {
     const auto bytes = npz.bytes(name);
     if (!bytes) return bytes.error();
@@ -82,7 +86,7 @@ std::int64_t integer_at(const NpyField& field, const std::byte* at) {
     return field.big_endian ? static_cast<std::int64_t>(__builtin_bswap64(static_cast<std::uint64_t>(value))) : value;
 }
 
-/// A string element without its zero padding.
+/// The string in an element of kind S (bytes) or U (code points), without the zeros at its end.
 std::string string_at(const NpyField& field, const std::byte* at) {
     std::string out;
     if (field.kind == 'S') {

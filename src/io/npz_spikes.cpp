@@ -7,17 +7,20 @@
 namespace corpuscle {
 namespace {
 
-/// Reads NPZ files of SpikeInterface. Those of Corpuscle also contain exact times and names.
+/// Reads an NPZ file in the format of SpikeInterface: for each segment of the recording, the sample numbers of the spikes
+/// (spike_indexes_segK, K = 0, 1 ...) and the units that fired (spike_labels_segK). Files of Corpuscle also contain the times in s
+/// (spike_times_segK) and the names of the units' afferents and channels.
 class NpzSpikes {
     NpzReader npz_;
-    std::vector<std::int64_t> ids_;
-    std::vector<std::string> afferents_, channels_;
-    bool has_exact_times_ = false;
-    double rate_ = 1;
+    std::vector<std::int64_t> ids_;                  // of the units
+    std::vector<std::string> afferents_, channels_;  // of each unit, in files of Corpuscle
+    bool has_exact_times_ = false;                   // true for a file of Corpuscle
+    double rate_ = 1;                                // Hz, converts sample numbers to seconds
     TrainCollector trains_;
 
     Error format_error(std::string message) const { return bad_input(std::move(message), {npz_.path()}); }
 
+    /// Reads the ids of the units and, in files of Corpuscle, their names. A named unit has a train even if it does not fire.
     Result<void> read_units() {
         auto ids = npz_.integers("unit_ids");
         if (!ids) return ids.error();
@@ -34,6 +37,7 @@ class NpzSpikes {
         return {};
     }
 
+    /// The times of all spikes of a segment, in s.
     Result<std::vector<double>> times(std::int64_t segment) const {
         if (has_exact_times_) return npz_.numbers(fmt::format("spike_times_seg{}", segment));
         const auto indexes = npz_.integers(fmt::format("spike_indexes_seg{}", segment));
@@ -43,11 +47,13 @@ class NpzSpikes {
         return out;
     }
 
+    /// The train of a unit, given by its index. Outside files of Corpuscle, each segment after the first is a channel of its own.
     std::vector<double>& train(std::size_t unit, std::int64_t segment) {
         if (has_exact_times_) return trains_.train(afferents_[unit], channels_[unit]);
         return trains_.train(std::to_string(ids_[unit]), segment == 0 ? "" : fmt::format("segment {}", segment + 1));
     }
 
+    /// Reads the spikes of a segment, counted from 0.
     Result<void> read_segment(std::int64_t segment) {
         const auto labels = npz_.integers(fmt::format("spike_labels_seg{}", segment));
         if (!labels) return labels.error();

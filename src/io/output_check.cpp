@@ -15,6 +15,7 @@
 namespace corpuscle {
 namespace {
 
+/// The kind of file at a path, following links: nothing, an empty or another regular file, a device or pipe, a directory, or a broken link.
 enum class FileKind { nothing, empty, regular, device, directory, broken_link };
 
 FileKind kind_of_file(const std::string& path) {
@@ -34,9 +35,10 @@ Result<FileKind> check_not_input(const std::string& path) {
     return kind_of_file(path);
 }
 
+/// True if replacing a file of this kind could destroy data that this program did not write.
 bool may_be_foreign(FileKind kind) { return kind == FileKind::regular || kind == FileKind::broken_link; }
 
-/// True for a regular file without a lock: the process that created it has ended.
+/// True for a regular file that no process has locked, so that the process that created it has ended.
 bool is_abandoned(const std::string& path) {
     const int file = ::open(path.c_str(), O_RDONLY | O_NOFOLLOW | O_NONBLOCK | O_CLOEXEC);
     if (file < 0) return false;
@@ -56,6 +58,7 @@ std::string_view output_of_part(std::string_view name) {
     return is_number ? name.substr(0, at) : "";
 }
 
+/// Removes the abandoned temporary files in a directory that belong to outputs for whose names `is_output` is true.
 void remove_stale_parts_in(const std::string& directory, const std::function<bool(std::string_view)>& is_output) {
     struct Close {
         void operator()(::DIR* d) const { ::closedir(d); }
@@ -87,7 +90,7 @@ void remove_stale_parts(const std::string& path) {
     remove_stale_parts_in(output.parent_path().string(), [&](std::string_view name) { return name == output.filename().string(); });
 }
 
-/// Adds an output. Two outputs of one command with the same path are an error.
+/// Adds an output of the command. Two outputs with the same path are an error, except for a device.
 Result<void> OutputCheck::add_output(const std::string& path) {
     std::error_code status;
     const std::filesystem::path output(path);

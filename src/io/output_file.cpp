@@ -33,7 +33,7 @@ OutputFile::~OutputFile() {
     for (const auto& directory : created_directories_) ::rmdir(directory.c_str());  // fails if the directory is not empty
 }
 
-/// Creates the missing directories of the path.
+/// Creates the missing directories of the path, and an OutputFile without an open file.
 Result<OutputFile> OutputFile::prepare(const std::string& path) {
     std::error_code status;
     const auto parent = std::filesystem::path(path).parent_path();
@@ -55,13 +55,14 @@ Error OutputFile::write_error() const {
 
 namespace {
 
+/// True if the path exists and is not a regular file.
 bool is_device(const std::string& path) {
     struct ::stat file_status = {};
     return ::stat(path.c_str(), &file_status) == 0 && !S_ISREG(file_status.st_mode);
 }
 
-/// Creates a temporary file: path.part-PID, or path.part-PID-2 ... Does not follow links. A lock shows other runs that the file is in
-/// use. Returns -1 and sets errno on failure.
+/// Creates a temporary file, path.part-PID or path.part-PID-2 ..., and stores its path in `part`. Does not follow links. Locks the file,
+/// which shows other runs that it is in use. Returns its descriptor, or -1 with errno on failure.
 int create_part(const std::string& path, std::string& part) {
     constexpr int max_tries = 1000;
     for (int k = 1; k <= max_tries; ++k) {
@@ -70,7 +71,8 @@ int create_part(const std::string& path, std::string& part) {
         if (file < 0 && errno == EEXIST) continue;
         if (file < 0) return file;
         struct ::stat file_status = {};
-        (void)::flock(file, LOCK_EX | LOCK_NB);  // without locks in the file system, temporary files are never removed as abandoned
+        (void)::flock(file, LOCK_EX | LOCK_NB);  // if the file system has no locks, temporary files are never taken for abandoned
+        // The number of links is 0 if another run removed the file before it was locked.
         if (::fstat(file, &file_status) == 0 && file_status.st_nlink > 0) return file;
         ::close(file);
     }
@@ -78,8 +80,9 @@ int create_part(const std::string& path, std::string& part) {
     return -1;
 }
 
-/// Opens the file of this name, locks it for this process and empties it. Returns -1 and sets errno on failure. Retries if another
-/// program replaces the file between opening and locking.
+/// Opens or creates the file of this name, locks it for this process and empties it. Returns its descriptor, or -1 with errno on failure:
+/// EWOULDBLOCK if another process has locked it, ELOOP if it is a link or not a regular file. Retries if another program replaces the file
+/// between opening and locking.
 int open_exclusively(const char* name) {
     while (true) {
         const int file = ::open(name, O_RDWR | O_CREAT | O_NOFOLLOW | O_NONBLOCK | O_CLOEXEC, 0666);
@@ -97,11 +100,11 @@ int open_exclusively(const char* name) {
     }
 }
 
-/// Synchronises a file to disk. A file system or device without fsync counts as success.
+/// Synchronises a file to disk. Returns false and sets errno on failure. If the file system or device has no fsync, this counts as success.
 bool sync_to_disk(int file) { return ::fsync(file) == 0 || errno == EINVAL || errno == ENOTSUP || errno == EROFS; }
 
-/// Starts writing the bytes to disk without waiting, which takes 0.05 ms. On a file system with ordered data (the default of ext4) the
-/// file then never appears under its name without its bytes.
+/// Starts writing the bytes of a file to disk and does not wait for the end, so it takes only 0.05 ms. On a file system that writes data
+/// before metadata (the default of ext4), the file then never appears under its final name without its bytes.
 void start_writing_back(int file) { (void)::sync_file_range(file, 0, 0, SYNC_FILE_RANGE_WRITE); }
 
 }  // namespace
@@ -172,7 +175,7 @@ Result<void> OutputFile::commit(SyncPolicy sync) {
     if (std::ferror(file_) != 0) return bad_input("could not be written completely", {path_});
     const auto close = [&] { return std::fclose(std::exchange(file_, nullptr)) == 0; };
     if (temporary_path_.empty()) return close() ? Result<void>() : write_error();
-    constexpr auto slow = std::chrono::seconds(1);
+    constexpr auto slow = std::chrono::seconds(1);  // since the file was created
     is_synced_ = sync == SyncPolicy::always || std::chrono::steady_clock::now() - start_time_ > slow;
     if (is_synced_ && !sync_to_disk(::fileno(file_))) return write_error();
     if (!is_synced_) start_writing_back(::fileno(file_));

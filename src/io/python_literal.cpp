@@ -13,6 +13,7 @@ class Parser {
         while (at_ < text_.size() && std::string_view(" \t\r\n").find(text_[at_]) != std::string_view::npos) ++at_;
     }
 
+    /// Moves past blanks, and past `word` if it comes next. Returns false if it does not.
     bool accept(std::string_view word) {
         skip_blanks();
         if (!text_.substr(at_).starts_with(word)) return false;
@@ -20,6 +21,7 @@ class Parser {
         return true;
     }
 
+    /// Parses the rest of a string, after its first quote. Escapes are not supported.
     std::optional<PythonLiteral> quoted(char quote) {
         const auto end = text_.find(quote, at_);
         if (end == std::string_view::npos) return {};
@@ -33,11 +35,11 @@ class Parser {
         const auto [end, status] = std::from_chars(text_.data() + at_, text_.data() + text_.size(), out.number);
         if (status != std::errc{}) return {};
         at_ = static_cast<std::size_t>(end - text_.data());
-        accept("L");  // Python 2
+        accept("L");  // Python 2 writes long integers as 12L
         return out;
     }
 
-    /// Values separated by commas up to `close`. A dictionary has a colon in each pair.
+    /// Parses values separated by commas up to the bracket `close`. A dictionary has a colon after each key.
     std::optional<PythonLiteral> sequence(PythonLiteral::Kind kind, std::string_view close, int depth) {
         PythonLiteral out{kind};
         while (!accept(close)) {
@@ -50,6 +52,7 @@ class Parser {
         return out;
     }
 
+    /// `depth` is the number of brackets around the literal.
     std::optional<PythonLiteral> literal(int depth) {
         if (depth > 8) return {};
         if (accept("'")) return quoted('\'');
@@ -65,6 +68,7 @@ class Parser {
 public:
     explicit Parser(std::string_view text) : text_(text) {}
 
+    /// Parses a literal and stores its text.
     std::optional<PythonLiteral> value(int depth) {
         skip_blanks();
         const auto from = at_;

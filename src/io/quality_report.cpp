@@ -10,8 +10,9 @@
 namespace corpuscle {
 namespace {
 
+// Above these fractions a fault is reported, or is a warning: of the samples for outliers, of the variance for hum.
 constexpr double min_outliers_note = 1e-3, min_outliers_warning = 0.01, min_hum_note = 0.02, min_hum_warning = 0.1;
-constexpr double max_plausible_force = 40;  // N: ten times the upper end of the range that the models are fitted to
+constexpr double max_plausible_force = 40;  // N, ten times the upper end of the range to which the models are fitted
 
 std::string percent(double fraction) { return fmt::format("{:.3g} %", 100 * fraction); }
 
@@ -22,17 +23,18 @@ double outlier_fraction(const ChannelPipeline& p) {
 
 /// The channels that have a fault, and the worst of them.
 struct AffectedChannels {
-    std::vector<std::size_t> channels;
-    std::size_t worst = 0;
-    std::string names;  ///< "'fz'", "'ch3' (the worst of 5 channels)"
+    std::vector<std::size_t> channels;  ///< indices
+    std::size_t worst = 0;              ///< index of the worst channel
+    std::string names;                  ///< for messages: "'fz'", "'ch3' (the worst of 5 channels)"
 };
 
+/// Implements assess_quality().
 class ReportWriter {
     const std::vector<Channel>& channels_;
     const std::vector<ChannelPipeline>& pipelines_;
     RecordingQuality out_;
 
-    /// The channels for which `severity` is above 0. The channel with the highest value is the worst.
+    /// The channels for which `severity` is above 0. The channel with the highest severity is the worst one.
     AffectedChannels affected_channels(const std::function<double(const ChannelPipeline&)>& severity) const {
         AffectedChannels c;
         for (std::size_t k = 0; k < pipelines_.size(); ++k) {
@@ -52,6 +54,8 @@ class ReportWriter {
     void add_metric(std::size_t channel, std::string_view name, double value, std::string_view unit = "") {
         out_.metrics.push_back({channels_[channel].id, name, value, unit});
     }
+
+    // Each of the following functions adds the messages about one kind of fault.
 
     void outliers() {
         const auto c = affected_channels([](const auto& p) { return outlier_fraction(p) > min_outliers_note ? outlier_fraction(p) : 0; });
@@ -84,21 +88,22 @@ class ReportWriter {
                                c.names, s.highest(), percent(s.fraction())));
     }
 
-    /// Warns if the maximum is 255, 1023, 4095 ..., the full-scale code of a converter.
+    /// Warns if the highest value in the file is 255, 1023, 4095 ..., the full-scale code of a converter, and occurs at least three times.
     void full_scale() {
-        const auto code = [](const ChannelPipeline& p) {
-            const double raw = p.saturation.highest() / p.gain() + p.offset(), next = std::round(raw) + 1;
+        // The number of codes of the converter, 256, 1024 ...; 0 if the highest value is not its full-scale code.
+        const auto codes = [](const ChannelPipeline& p) {
+            const double raw = p.saturation.highest() / p.gain() + p.offset(), next = std::round(raw) + 1;  // raw: value in the file
             const bool power = next >= 256 && next <= 0x1p32 && std::exp2(std::round(std::log2(next))) == next;
             return power && std::abs(raw - (next - 1)) < 1e-6 * next && p.saturation.fraction() * static_cast<double>(p.levels.count) >= 3
                        ? next
                        : 0;
         };
-        const auto c = affected_channels(code);
+        const auto c = affected_channels(codes);
         if (c.channels.empty()) return;
         const auto& worst = pipelines_[c.worst];
         add(true, fmt::format("{} is {:g}, the full scale of a {:g}-bit converter, for {} of the time; it is saturated, or not a force. "
                               "Use --channel to select other columns",
-                              c.names, code(worst) - 1, std::log2(code(worst)), percent(worst.saturation.fraction())));
+                              c.names, codes(worst) - 1, std::log2(codes(worst)), percent(worst.saturation.fraction())));
     }
 
     void sums(const SumDetector& sum_detector) {
@@ -134,10 +139,10 @@ class ReportWriter {
     }
 
     void repaired(const RowCounts& rows) {
-        std::int64_t outliers = 0, filled = 0;
+        std::int64_t outliers = 0, filled = 0;  // numbers of samples, summed over all channels
         for (const auto& p : pipelines_) outliers += p.outliers_removed(), filled += p.filled();
         if (rows.dropped > 0) add(false, fmt::format("{} rows with a bad field were dropped", rows.dropped));
-        std::int64_t samples = 0;
+        std::int64_t samples = 0;  // of all channels
         for (const auto& p : pipelines_) samples += p.levels.count;
         constexpr std::int64_t min_warning = 20;  // warn if more than one sample in this number was interpolated
         if (filled > 0)

@@ -32,19 +32,21 @@ class Recording final : public ForceSource {
     std::unique_ptr<Table> table_;
     RecordingOptions options_;
     std::string path_, name_;
-    RowClock row_clock_;
-    Clock clock_;
+    RowClock row_clock_;  // of the rows of the file
+    Clock clock_;         // of the samples that read() returns; differs from row_clock_.clock after resampling
     std::vector<Channel> channels_;
     std::unordered_map<std::string, int> name_counts_;  // number of channels with each name
     std::vector<std::string> notes_, selection_notes_;  // selection_notes_: about the selected columns
     std::unique_ptr<HumTable> hum_table_;
     std::optional<ForceRows> rows_;
-    std::int64_t row_number_ = 0, samples_ = 0;  // rows read and samples returned so far
-    // for resampling: the rows before and at (or after) the next sample time
-    std::vector<double> before_, at_;
-    double t_before_ = 0, t_at_ = 0;
-    std::int64_t next_ = 0;  // number of the next sample
+    std::int64_t samples_ = 0;  // samples returned so far
+    // For resampling. The next sample is interpolated between the last two rows.
+    std::int64_t next_ = 0;            // index of the next sample
+    std::int64_t row_number_ = 0;      // number of rows used so far
+    std::vector<double> before_, at_;  // forces of the last row but one, and of the last row, N
+    double t_before_ = 0, t_at_ = 0;   // their times, s
 
+    /// The columns that are channels, with their sensors' names and positions if a layout gives them. `time` is the time column.
     Result<std::vector<SensorPlacement>> choose_sensors(std::optional<std::size_t> time) {
         std::vector<SensorPlacement> chosen;
         if (!options_.layout.empty()) {
@@ -53,7 +55,7 @@ class Recording final : public ForceSource {
             if (!layout->has_length_unit)
                 notes_.push_back("the layout has no unit of length, so only the relative positions of the sensors are used");
             if (options_.channels.empty()) return std::move(layout->sensors);
-            chosen = std::move(layout->sensors);
+            chosen = std::move(layout->sensors);  // --channel selects some of them below
         }
         const auto columns = select_columns(*table_, time, options_.channels, path_, &selection_notes_);
         if (!columns) return columns.error();
@@ -65,6 +67,7 @@ class Recording final : public ForceSource {
         return out;
     }
 
+    /// Determines the clocks of the rows and of the samples.
     Result<void> set_clock(std::optional<std::size_t> time, const std::vector<std::size_t>& columns) {
         auto rows = find_row_clock(*table_, options_, path_, time, columns);
         if (!rows) return rows.error();
@@ -78,6 +81,7 @@ class Recording final : public ForceSource {
         return {};
     }
 
+    /// Adds a channel. If neither the file nor an option gives its unit, appends its name to `unitless`.
     void add_channel(const SensorPlacement& placed, std::vector<std::string>& unitless) {
         const auto& column = table_->columns()[placed.column];
         if (column.unit.empty() && !options_.unit && !options_.scale) unitless.push_back("'" + column.name + "'");
@@ -90,7 +94,8 @@ class Recording final : public ForceSource {
                              occurrence == 1 ? name : fmt::format("{} ({})", name, occurrence), placed.position});
     }
 
-    /// Newtons per unit of each channel. Computed before reading, so that a unit that is not a force is reported at once.
+    /// For each channel, the newtons per unit of its values. Computed before the file is read, so that a unit that is not a force is
+    /// reported at once.
     Result<std::vector<double>> gains_of(const std::vector<SensorPlacement>& chosen) const {
         std::vector<double> gains;
         for (const auto& placed : chosen) {
@@ -101,12 +106,12 @@ class Recording final : public ForceSource {
         return gains;
     }
 
-    /// Warns if there are more channels than samples and the columns have no names: the table may have to be transposed.
+    /// Warns if there are more columns than samples and the columns have no names of their own: the table may have to be transposed.
     void warn_about_orientation(RecordingQuality& quality) const {
         const auto& columns = table_->columns();
         const auto samples = samples_;
         if (options_.table.transpose || options_.resample || static_cast<std::int64_t>(columns.size()) <= samples || samples == 0) return;
-        const auto is_numbered = [this](const Column& c) {
+        const auto is_numbered = [this](const Column& c) {  // ch1, ch2 ... or 1, 2 ...
             if (table_->is_time_guessed() && c.name == "time") return true;
             const std::string_view digits = std::string_view(c.name).substr(c.name.starts_with("ch") ? 2 : 0);
             return !digits.empty() && digits.find_first_not_of("0123456789") == std::string_view::npos;
@@ -118,7 +123,7 @@ class Recording final : public ForceSource {
                         columns.size(), samples));
     }
 
-    /// True if the table has the columns of a spike file: a time, and the afferent or unit that fired.
+    /// True if the table has the columns of a spike file, which are a time and the afferent or unit that fired.
     bool holds_spikes(std::optional<std::size_t> time) const {
         const auto& columns = table_->columns();
         return time && options_.channels.empty() && columns.size() <= 3 && std::any_of(columns.begin(), columns.end(), [](const Column& c) {
@@ -127,6 +132,7 @@ class Recording final : public ForceSource {
                });
     }
 
+    /// Adds the channels, and a note about those whose unit is not known.
     void add_channels(const std::vector<SensorPlacement>& chosen) {
         std::vector<std::string> unitless;
         for (const auto& placed : chosen) add_channel(placed, unitless);
@@ -134,19 +140,20 @@ class Recording final : public ForceSource {
         if (!unitless.empty()) notes_.push_back(fmt::format("no unit for {}: assuming newtons", fmt::join(unitless, ", ")));
     }
 
-    /// Creates the pipelines. The filters run on the rows if these are evenly spaced, otherwise on the resampled rows.
+    /// Creates the pipelines of all channels. The filters run on the rows if these are evenly spaced, otherwise on the resampled samples.
     Result<std::vector<ChannelPipeline>> make_pipelines(const std::vector<double>& gains) {
         hum_table_ = std::make_unique<HumTable>(clock_);
-        const bool even = !row_clock_.uses_row_times;
+        const bool rows_are_even = !row_clock_.uses_row_times;
         std::vector<ChannelPipeline> pipelines;
         for (const double gain : gains) {
-            auto pipeline = ChannelPipeline::make(options_, gain, even ? row_clock_.clock : clock_, even, *hum_table_);
+            auto pipeline = ChannelPipeline::make(options_, gain, rows_are_even ? row_clock_.clock : clock_, rows_are_even, *hum_table_);
             if (!pipeline) return pipeline.error();
             pipelines.push_back(std::move(*pipeline));
         }
         return pipelines;
     }
 
+    /// Moves at_ to before_ and the next row to at_. Returns false at the end of the file.
     Result<bool> advance_to_next_row() {
         const auto has_row = rows_->fetch_row();
         if (!has_row || !*has_row) return has_row;
@@ -160,16 +167,18 @@ class Recording final : public ForceSource {
         return true;
     }
 
+    /// Fills the block with samples that are interpolated between rows.
     Result<void> read_resampled(Frames& block) {
         if (row_number_ == 0)
             if (const auto first = advance_to_next_row(); !first || !*first) return first ? Result<void>() : first.error();
         for (; block.count < block.capacity; ++block.count, ++next_) {
             const double t = clock_.time(next_);
-            while (t_at_ < t - 1e-9 * clock_.T()) {
+            while (t_at_ < t - 1e-9 * clock_.T()) {  // a row at the time of the sample, apart from rounding, is not before it
                 const auto next = advance_to_next_row();
                 if (!next) return next.error();
                 if (!*next) return {};
             }
+            // The position between the last two rows, 0 to 1. If there is only one row so far, its force is used.
             const double x = row_number_ == 1 ? 1 : std::clamp((t - t_before_) / (t_at_ - t_before_), 0.0, 1.0);
             for (std::size_t c = 0; c < channels_.size(); ++c)
                 block.force[c][block.count] = row_number_ == 1 ? at_[c] : before_[c] + (at_[c] - before_[c]) * x;
@@ -177,6 +186,7 @@ class Recording final : public ForceSource {
         return {};
     }
 
+    /// Fills the block with the rows as they are.
     Result<void> read_rows(Frames& block) {
         while (block.count < block.capacity) {
             const auto has_row = rows_->fetch_row();
@@ -195,6 +205,7 @@ public:
     Recording(std::string path, std::unique_ptr<Table> table, RecordingOptions options)
         : table_(std::move(table)), options_(std::move(options)), path_(std::move(path)), name_(name_of_recording(path_)) {}
 
+    /// Selects the columns, determines the clock and prepares reading.
     Result<void> open() {
         const auto time = select_time_column(*table_, options_.time, path_);
         if (!time) return time.error();
@@ -219,6 +230,7 @@ public:
         if (!pipelines) return pipelines.error();
         std::vector<std::string> names;
         for (const auto& c : channels_) names.push_back(c.name);
+        // The times are read with the rows if each row has its own time, or if rows without a time are dropped.
         const bool with_times = row_clock_.uses_row_times || row_clock_.drops_untimed;
         rows_.emplace(RowReader(*table_, options_, columns, with_times ? *time : std::nullopt), std::move(*pipelines), path_,
                       std::move(names), row_clock_.uses_row_times);
@@ -232,7 +244,7 @@ public:
     std::vector<MetadataEntry> metadata() const override {
         std::vector<MetadataEntry> all;
         for (std::size_t c = 0; c < channels_.size(); ++c)
-            all.push_back({channels_[c].name + ": newtons per unit", rows_->paths()[c].gain(), "N"});
+            all.push_back({channels_[c].name + ": newtons per unit", rows_->pipelines()[c].gain(), "N"});
         all.push_back({"absolute value", options_.absolute ? 1.0 : 0.0, ""});
         if (options_.offset != 0) all.push_back({"offset", options_.offset, ""});
         if (options_.range)
@@ -250,7 +262,7 @@ public:
     std::vector<std::string> notes() const override { return notes_; }
     RecordingQuality quality() const override {
         auto found =
-            assess_quality(channels_, rows_->paths(), row_clock_, {rows_->rows().dropped, rows_->rows().out_of_range}, rows_->sums());
+            assess_quality(channels_, rows_->pipelines(), row_clock_, {rows_->rows().dropped, rows_->rows().out_of_range}, rows_->sums());
         warn_about_orientation(found);
         return found;
     }
@@ -260,7 +272,7 @@ public:
         if (auto ok = options_.resample ? read_resampled(block) : read_rows(block); !ok) return ok;
         for (std::size_t c = 0; c < channels_.size(); ++c) {
             const std::span<double> force(block.force[c].data(), block.count);
-            rows_->paths()[c].finish_force(force);
+            rows_->pipelines()[c].finish_force(force);
             if (const auto bad = first_non_finite(force); bad < force.size())
                 return bad_input(
                     fmt::format("'{}': sample {} is not finite after processing: a value in the file is too large for --scale or the "
@@ -273,6 +285,7 @@ public:
     }
 };
 
+/// The format with the file extension of `path`; text if no format has it.
 const RecordingFormat& format_of_recording(const std::string& path) {
     const auto extension = lower(std::filesystem::path(path).extension().string());
     if (!extension.empty())

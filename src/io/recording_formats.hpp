@@ -1,5 +1,5 @@
 #pragma once
-// The recording formats, chosen by file extension. To add one, put its file into io/ and its row into the list below.
+// The recording formats. The file extension selects one. To add a format, put its source file into io/ and its row into the list below.
 
 #include <span>
 
@@ -13,7 +13,7 @@ namespace corpuscle {
 
 struct RecordingFormat {
     std::string_view name;
-    std::string_view extensions;  ///< separated by blanks
+    std::string_view extensions;  ///< file extensions of the format, separated by blanks
     std::string_view description;
     Result<std::unique_ptr<Table>> (*open)(const std::string& path, const TableOptions&);
 };

@@ -15,13 +15,14 @@
 namespace corpuscle {
 namespace {
 
-constexpr std::size_t max_numbers_in_response = std::size_t{1} << 17;  // at least one row is sent
+constexpr std::size_t max_numbers_in_response = std::size_t{1} << 17;  // exceeded only if a single row has more numbers
 
 class RemoteSamples final : public Samples {
     std::string path_, library_;
     HelperProcess helper_;
     SamplesInfo info_;
 
+    /// Requests rows from the helper and stores them in the columns of `out` from position `done` on.
     Result<void> fetch_part(const FetchRequest& request, std::size_t done, std::vector<std::vector<double>>& out) {
         helper_.send(encode(request));
         auto response = helper_.receive(path_, library_);
@@ -48,7 +49,7 @@ public:
     Result<void> fetch(std::int64_t first, std::size_t rows, std::span<const std::size_t> wanted,
                        std::vector<std::vector<double>>& out) override {
         const std::size_t max_rows = std::max<std::size_t>(1, max_numbers_in_response / std::max<std::size_t>(1, wanted.size()));
-        FetchRequest request{0, 0, {wanted.begin(), wanted.end()}};
+        FetchRequest request{0, 0, {wanted.begin(), wanted.end()}};  // first row and number of rows are set below
         for (std::size_t done = 0; done < rows; done += request.rows) {
             request.first = static_cast<std::uint64_t>(first) + done;
             request.rows = std::min(max_rows, rows - done);
@@ -58,7 +59,7 @@ public:
     }
 };
 
-/// An open file descriptor, until it is passed to the child.
+/// A file descriptor that is closed at the end of its scope; the child then has a duplicate of it.
 class OpenedFile {
     int number_;
 
@@ -86,7 +87,7 @@ SamplesResult open_remote_samples_with(const std::string& program, const std::st
 }
 
 SamplesResult open_remote_samples(const std::string& path, const HelperProgram& reader, const TableOptions& options) {
-    if (auto file = open_bytes(path); !file) return file.error();
+    if (auto file = open_bytes(path); !file) return file.error();  // for its clear messages, and to register the file as an input
     const auto program = find_helper_program(reader.program);
     if (!program) return bad_input(program.error().message, {path});
     return open_remote_samples_with(*program, path, reader, options);

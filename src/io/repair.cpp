@@ -6,10 +6,10 @@
 
 namespace corpuscle {
 
-/// The sample at center_, or NaN if it is an outlier.
+/// The sample last_[center_], or NaN if it is an outlier.
 double HampelFilter::filtered() {
     const double x = last_[center_], median = sorted_.empty() ? x : sorted_[sorted_.size() / 2], deviation = std::abs(x - median);
-    if (!(deviation > 0)) return x;
+    if (!(deviation > 0)) return x;  // also for a missing sample, whose deviation is NaN
     double limit = limit_.value_or(0);
     if (!limit_) {
         std::vector<double> deviations;
@@ -37,6 +37,7 @@ void HampelFilter::push(double x, std::vector<double>& out) {
 }
 
 void HampelFilter::finish(std::vector<double>& out) {
+    // push() has filtered the samples before these.
     for (center_ = last_.size() > half_window ? last_.size() - half_window : 0; center_ < last_.size(); ++center_)
         out.push_back(filtered());
 }

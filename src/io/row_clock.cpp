@@ -13,17 +13,19 @@
 namespace corpuscle {
 namespace {
 
+/// A rate as text.
 std::string hertz(double rate) { return fmt::format("{:.5g} Hz", rate); }
 
+/// The smallest and the largest time step as text.
 std::string step_range(const ClockAnalysis& c) {
     return fmt::format("steps from {} to {}", format_quantity(c.min_step(), "s"), format_quantity(c.max_step(), "s"));
 }
 
 struct TimeCheck : ClockAnalysis {
-    std::optional<Error> duplicate;  ///< an error for the first time that occurs twice
+    std::optional<Error> duplicate;  ///< the error for the first time that occurs in two consecutive rows; nullopt: none does
 };
 
-/// Reads all times once. They may decrease only if --rate replaces them.
+/// Reads all times, the last column of `rows`, and rewinds the table. A time that decreases is an error unless --rate replaces the times.
 Result<TimeCheck> check_times(Table& table, RowReader rows, const RowClock& clock, const RecordingOptions& options) {
     TimeCheck check;
     std::vector<std::vector<double>> block;
@@ -54,6 +56,7 @@ Result<TimeCheck> check_times(Table& table, RowReader rows, const RowClock& cloc
     return check;
 }
 
+/// The error message for uneven times. `name` is the name of the time column.
 std::string uneven_message(const std::string& name, const ClockAnalysis& c) {
     const double mean = 1 / c.mean_step();
     return fmt::format(
@@ -63,7 +66,8 @@ std::string uneven_message(const std::string& name, const ClockAnalysis& c) {
         c.min_step() > 0 ? fmt::format(", or --resample {:g}Hz to interpolate between their times", std::max(1.0, std::round(mean))) : "");
 }
 
-/// The clock of the given rate. Adds a note if the times contradict it.
+/// The clock of the given rate, in Hz, that begins at the first time. Adds a note if the times contradict the rate. `name` is the name of
+/// the time column.
 Result<Clock> clock_by_rate(double rate, const std::string& name, const ClockAnalysis& times, std::vector<std::string>& notes) {
     if (times.count() > 1 && times.min_step() < 0)
         notes.push_back(
@@ -79,7 +83,8 @@ Result<Clock> clock_by_rate(double rate, const std::string& name, const ClockAna
     return make_clock(rate, times.first());
 }
 
-/// The clock that follows from the times. Sets out.uses_row_times if the rows must be interpolated.
+/// The clock that follows from the times. Sets out.uses_row_times if the times are uneven, so that the rows must be interpolated. `name` is
+/// the name of the time column.
 Result<Clock> clock_by_times(const std::string& name, const TimeCheck& times, const RecordingOptions& options, RowClock& out) {
     if (times.count() == 1) return bad_input("a single sample has no rate; give one, such as --rate 1kHz");
     if (!(times.mean_step() > 0))
@@ -93,7 +98,8 @@ Result<Clock> clock_by_times(const std::string& name, const TimeCheck& times, co
     return make_clock(*options.resample, times.first());
 }
 
-/// With --rate the times need not be readable. Notes the problem, and the rows start at 0 s.
+/// The clock of a table whose times cannot be read because of `problem`, if --rate is given: the rows start at 0 s. Adds a note with the
+/// problem, but without the remedy at the end of its message.
 Result<RowClock> without_times(Table& table, double rate, const Error& problem, RowClock& out) {
     if (auto ok = table.rewind(); !ok) return ok.error();
     out.notes.push_back(fmt::format("the times were ignored ({}); the recording starts at 0 s",
@@ -105,7 +111,8 @@ Result<RowClock> without_times(Table& table, double rate, const Error& problem, 
     return out;
 }
 
-/// Times without a unit are taken as seconds. Adds a note if that gives an implausible rate for a force sensor.
+/// Times without a unit are read as seconds. Adds a note if this gives a rate that is implausible for a force sensor. `is_dated` is true if
+/// the times are known to be dates.
 void note_implausible_seconds(const Column& column, const RecordingOptions& options, const Clock& clock, bool is_dated,
                               std::vector<std::string>& notes) {
     const double rate = clock.rate();
@@ -118,13 +125,13 @@ void note_implausible_seconds(const Column& column, const RecordingOptions& opti
                                 column.name, hertz(rate), unit, word, rate > 1e6 ? ", or give the true rate with --rate" : ""));
 }
 
-/// Recognises serial days of spreadsheets (1968 to 2118) or MATLAB (1889 to 2160), if the same numbers in seconds would give a rate
-/// above 100 kHz.
+/// Recognises times that are serial days of spreadsheets (from 1968 to 2118) or MATLAB (from 1889 to 2160). As seconds, such numbers would
+/// give a rate above 100 kHz. `step` is the mean step of the times, `name` the name of their column.
 bool find_serial_days(const std::vector<double>& times, double step, const std::string& name, RowClock& out) {
     const double first = times[0];
     const bool spreadsheet = first >= 25'000 && first < 80'000, matlab = first >= 690'000 && first < 790'000;
     if (!(spreadsheet || matlab) || !(step > 0 && step < 1e-5)) return false;
-    constexpr double day = 86'400;
+    constexpr double day = 86'400;  // s
     out.seconds_per_unit = day, out.origin = first;
     out.notes.push_back(fmt::format("the times in '{}' are serial days of {}; 0 s is {}, the first time", name,
                                     spreadsheet ? "a spreadsheet" : "MATLAB",
@@ -132,8 +139,9 @@ bool find_serial_days(const std::vector<double>& times, double step, const std::
     return true;
 }
 
-/// Recognises times since 1970 (from 2001 to 2065) in s, ms, us or ns by their magnitude and step, and serial days. The first time
-/// becomes 0 s.
+/// Recognises times since 1970 in s, ms, us or ns by their magnitude (dates from 2001 to 2065) and their step, and serial days. Sets the
+/// origin in `out` so that the first time becomes 0 s. `unit` is the unit of the column in s; if `unit_is_known` is false, the times
+/// determine it.
 Result<void> find_epoch(Table& table, std::size_t column, double unit, bool unit_is_known, RowClock& out) {
     std::vector<std::vector<double>> first(1);
     const auto rows = table.read({column}, 64, first);
@@ -200,7 +208,7 @@ Result<RowClock> find_row_clock(Table& table, const RecordingOptions& options, c
     if (times->count() < 1 && options.rate && drops_rows)
         return without_times(table, *options.rate, bad_input(fmt::format("'{}' holds no times", table.columns()[*column].name)), out);
     out.drops_untimed = drops_rows;
-    if (times->gap_count() * 20 < times->count()) out.gap_count = times->gap_count();  // many long steps are a property of the clock
+    if (times->gap_count() * 20 < times->count()) out.gap_count = times->gap_count();  // long steps are not gaps if they are frequent
     if (times->count() < 1) return bad_input("no data in this file", {path});
     const auto& name = table.columns()[*out.time_column].name;
     auto clock = options.rate ? clock_by_rate(*options.rate, name, *times, out.notes) : clock_by_times(name, *times, options, out);

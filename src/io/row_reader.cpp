@@ -7,7 +7,7 @@
 namespace corpuscle {
 namespace {
 
-/// The number of rows per block. It is smaller for many columns, so that a block takes about 32 MB at most.
+/// The number of rows in a block of this many columns. It is smaller for many columns, so that a block needs at most about 32 MB.
 std::size_t rows_for(std::size_t columns) { return std::clamp<std::size_t>((std::size_t{1} << 22) / (columns + 1), 1, rows_per_block); }
 
 }  // namespace
@@ -18,7 +18,7 @@ RowReader::RowReader(Table& table, const RecordingOptions& options, std::vector<
     table_.allow_gaps(options_.bad_fields.value_or(BadFields::error) != BadFields::error);
 }
 
-/// Values out of range become gaps, or an error with --bad-fields error.
+/// Replaces the values outside --range by gaps (NaN). With --bad-fields error, such a value is an error.
 Result<void> RowReader::apply_range(std::size_t rows, std::vector<std::vector<double>>& block) {
     if (!options_.range) return {};
     const auto [low, high] = *options_.range;

@@ -14,18 +14,20 @@ namespace corpuscle {
 namespace {
 
 constexpr std::uint64_t max_columns = std::uint64_t{1} << 20;
-constexpr std::size_t max_inspected_numbers = std::size_t{1} << 22;
+constexpr std::size_t max_inspected_numbers = std::size_t{1} << 22;  // in the rows that are read to find the roles of the columns
 
+/// Samples as a table.
 class SamplesTable final : public Table {
     std::string path_;
     std::unique_ptr<Samples> samples_;
     std::vector<Column> columns_;
     ColumnRoles roles_;
-    std::int64_t block_ = 0, next_ = 0;  // first row of the last block and of the next block
+    std::int64_t block_ = 0, next_ = 0;  // indices of the first row of the last block, and of the next row to read
 
     const SamplesInfo& info() const { return samples_->info(); }
 
-    /// Replaces infinities by gaps (NaN). If gaps are not allowed, returns an error for the first value that is not finite.
+    /// Checks the values of a column in the rows from next_ on. Replaces infinities by gaps (NaN). If gaps are not allowed, returns an
+    /// error for the first value that is not finite.
     Result<void> check_values(std::vector<double>& values, std::size_t column) {
         for (std::size_t k = 0; k < values.size(); ++k) {
             if (std::isfinite(values[k])) continue;
@@ -48,7 +50,7 @@ public:
     SamplesTable(std::string path, std::unique_ptr<Samples> samples)
         : path_(std::move(path)), samples_(std::move(samples)), columns_(info().columns), roles_{.time_column = info().time_column} {}
 
-    /// Determines the roles of the columns from their names and first rows, as for a text file.
+    /// Finds the time column and the columns that are not channels by their names and first rows, as for a text file.
     Result<void> find_roles() {
         if (!has_named_columns(columns_)) return {};
         const auto rows = std::min({inspected_rows, static_cast<std::size_t>(info().rows), max_inspected_numbers / columns_.size()});
@@ -71,6 +73,7 @@ public:
     bool is_time_guessed() const override { return roles_.is_time_guessed; }
     std::vector<std::string> time_notes() const override { return roles_.notes; }
     double progress() const override { return static_cast<double>(next_) / static_cast<double>(info().rows); }
+    /// The file has no lines, so the number of the row (counted from 1) takes their place.
     SourceLocation location(std::size_t row) const override { return {path_, block_ + static_cast<long>(row) + 1}; }
     Result<void> rewind() override { return next_ = 0, Result<void>{}; }
 
@@ -104,9 +107,9 @@ public:
 
     Result<void> fetch(std::int64_t first, std::size_t rows, std::span<const std::size_t> wanted,
                        std::vector<std::vector<double>>& out) override {
-        std::vector<std::size_t> others;
-        std::vector<std::vector<double>> values;
-        const auto exchange = [&] {  // moves the columns of the samples between `out` and `values`
+        std::vector<std::size_t> others;          // the wanted columns other than the time, as columns of samples_
+        std::vector<std::vector<double>> values;  // of these columns
+        const auto exchange = [&] {               // moves the columns of the samples between `out` and `values`
             for (std::size_t i = 0, k = 0; i < wanted.size(); ++i)
                 if (wanted[i] != 0) std::swap(values[k++], out[i]);
         };
@@ -124,6 +127,7 @@ public:
     }
 };
 
+/// The first arrays with their shapes, for messages.
 std::string list_arrays(std::span<const ArrayInfo> arrays) {
     constexpr std::size_t limit = 24;
     std::vector<std::string> texts;
@@ -131,25 +135,28 @@ std::string list_arrays(std::span<const ArrayInfo> arrays) {
     return fmt::format("{}{}", fmt::join(texts, ", "), arrays.size() > limit ? " ..." : "");
 }
 
+/// True if the array can be a recording, by its type and number of dimensions.
 bool is_usable(const ArrayInfo& a) { return a.is_numeric && (a.shape.size() == 1 || a.shape.size() == 2); }
 
 bool is_single_value(const ArrayInfo& a) {
     return std::all_of(a.shape.begin(), a.shape.end(), [](auto n) { return n == 1; });
 }
 
-/// True for arrays of times and rates, which belong to another array.
+/// True for a list of times, a rate or another scalar, which belong to another array.
 bool is_accessory(const ArrayInfo& a) {
     const auto name = last_path_component(a.name);
     return is_time_name(parse_heading(name).name) || (is_single_value(a) && (is_rate_name(name) || a.shape.empty()));
 }
 
-/// Decides which dimension of an array is time.
+/// Decides which dimension of an array of two dimensions is the samples, and sets `e`, in which the first dimension is the rows,
+/// accordingly.
 Result<void> orient(ArrayExtent& e, const ArrayInfo& a, const std::string& path, const ExtentHints& hints) {
     const auto flip = [&e] { std::swap(e.rows, e.columns), e.is_transposed = !e.is_transposed; };
     if (e.rows == 1 && e.columns > 1 && hints.transpose != false) return flip(), Result<void>{};
     if (hints.is_column_major && e.columns > 1) flip();
     if (hints.transpose) return *hints.transpose ? flip() : void(), Result<void>{};
     if (e.columns <= e.rows || e.rows == 1) return {};
+    // True if n is the length of a list of times.
     const auto is_length = [&](std::uint64_t n) {
         return std::find(hints.time_lengths.begin(), hints.time_lengths.end(), n) != hints.time_lengths.end();
     };
@@ -172,8 +179,8 @@ bool ends_in(std::string_view path, std::string_view names) {
     return path == names || (path.ends_with(names) && path.size() > names.size() && path[path.size() - names.size() - 1] == '/');
 }
 
-/// The arrays that match `wanted`: the complete path (with or without the first slash), otherwise the end of a path. The path of a
-/// group selects its member `data`.
+/// The indices of the arrays that match `wanted`: those whose complete path it is (with or without the first slash); if there is none,
+/// those whose path ends with it. The path of a group stands for its member `data`.
 std::vector<std::size_t> matching_arrays(std::string_view wanted, std::span<const ArrayInfo> arrays) {
     if (wanted.starts_with('/')) wanted.remove_prefix(1);
     const auto find_all = [&](const auto& fits) {
@@ -191,6 +198,7 @@ std::vector<std::size_t> matching_arrays(std::string_view wanted, std::span<cons
     return find_all([&](auto name) { return ends_in(name, wanted) || ends_in(name, data); });
 }
 
+/// The index of the only array that matches `wanted`.
 Result<std::size_t> array_by_name(const std::string& wanted, std::span<const ArrayInfo> arrays, const std::string& path) {
     std::vector<std::string_view> names;
     for (const auto& a : arrays) names.push_back(a.name);
@@ -209,9 +217,10 @@ Result<std::size_t> array_by_name(const std::string& wanted, std::span<const Arr
                      {path});
 }
 
+/// The index of the only array that can be a recording.
 Result<std::size_t> only_array(std::span<const ArrayInfo> arrays, const std::string& path) {
-    std::vector<std::size_t> usable, likely;
-    std::vector<ArrayInfo> candidates;
+    std::vector<std::size_t> usable, likely;  // likely: usable, and neither times nor a rate
+    std::vector<ArrayInfo> candidates;        // the arrays of `likely`
     for (std::size_t k = 0; k < arrays.size(); ++k) {
         if (!is_usable(arrays[k])) continue;
         usable.push_back(k);

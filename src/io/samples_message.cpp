@@ -7,7 +7,7 @@ namespace {
 
 Error broken_response(const std::string& path) { return bad_input("invalid response of the helper process that reads this file", {path}); }
 
-/// Reads the first number of a response. Returns the error if the response is one.
+/// Reads the first number of a response. If it states that the response is an error, returns this error.
 Result<void> read_status(Message& m, const std::string& path) {
     std::uint64_t code = 1;
     if (!m.get(code)) return broken_response(path);
@@ -19,6 +19,7 @@ Result<void> read_status(Message& m, const std::string& path) {
     return error;
 }
 
+/// An optional number is sent as 0 if it is missing, otherwise as the number plus 1.
 void put_optional(Message& m, std::optional<std::size_t> n) { m.put(n ? *n + 1 : 0); }
 
 bool get_optional(Message& m, std::optional<std::size_t>& out) {
@@ -48,7 +49,8 @@ bool get_texts(Message& m, std::vector<std::string>& texts) {
 Message encode(const OpenRequest& request) {
     Message m;
     m.put(request.path);
-    m.put(request.options.transpose ? 1 + static_cast<std::uint64_t>(*request.options.transpose) : 0);
+    m.put(request.options.transpose ? 1 + static_cast<std::uint64_t>(*request.options.transpose)
+                                    : 0);  // 0 if not set, 1 for false, 2 for true
     m.put(request.options.dataset ? 1 : 0);
     m.put(request.options.dataset.value_or(""));
     return m;
@@ -72,7 +74,7 @@ Message encode(const FetchRequest& request) {
 
 bool decode(Message& m, FetchRequest& request) {
     std::uint64_t count = 0;
-    if (!m.get(request.first) || !m.get(request.rows) || !m.get(count) || count > m.bytes().size()) return false;
+    if (!m.get(request.first) || !m.get(request.rows) || !m.get(count) || count > m.bytes().size()) return false;  // a wrong count
     request.wanted.resize(count);
     return m.get(request.wanted.data(), count * sizeof(std::size_t));
 }

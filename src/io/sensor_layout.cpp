@@ -15,26 +15,28 @@ namespace {
 
 /// The columns of the layout file.
 struct Headings {
-    std::optional<std::size_t> channel, name, axes[3];
-    double metres[3] = {1, 1, 1};  ///< unit of each axis
-    std::size_t count = 0;
-    bool unitless = false;
+    std::optional<std::size_t> channel, name, axes[3];  ///< indices of these columns; axes: x, y, z
+    double metres[3] = {1, 1, 1};                       ///< the unit of each axis, in m
+    std::size_t count = 0;                              ///< number of columns
+    bool unitless = false;                              ///< true: an axis has no unit
 };
 
 class LayoutReader {
-    LineReader lines_;
+    LineReader lines_;  // of the layout file
     Dialect dialect_;
-    const Table& table_;
-    std::optional<std::size_t> time_;
+    const Table& table_;               // of the recording
+    std::optional<std::size_t> time_;  // its time column
     Headings headings_;
-    Fields fields_;
-    std::string_view line_;
+    Fields fields_;          // of the current line
+    std::string_view line_;  // the current line
 
+    /// An error in the current line, at the field with this index if it is given.
     Error error_at(std::string message, std::size_t field = std::string::npos) const {
         const long column = field < fields_.size() ? fields_[field].data() - line_.data() + 1 : 0;
         return bad_input(std::move(message), {lines_.path(), lines_.line_number(), column});
     }
 
+    /// Reads the next line that is neither empty nor a comment. Returns false at the end of the file.
     Result<bool> next_line() {
         for (;;) {
             const auto more = lines_.next(line_);
@@ -43,6 +45,7 @@ class LayoutReader {
         }
     }
 
+    /// Stores the column and the unit of an axis: 0 is x, 1 is y, 2 is z. `field` is the index of its column.
     Result<void> read_axis(std::size_t axis, std::size_t field, const Column& heading) {
         headings_.axes[axis] = field;
         if (heading.unit.empty()) return headings_.unitless = true, Result<void>{};
@@ -76,6 +79,7 @@ class LayoutReader {
         return {};
     }
 
+    /// The position in the current line; nullopt if the file has no coordinates.
     Result<std::optional<Position>> position() const {
         Position p;
         double* const coordinates[] = {&p.x, &p.y, &p.z};
@@ -92,6 +96,7 @@ class LayoutReader {
         return any ? std::optional(p) : std::nullopt;
     }
 
+    /// The sensor in the current line. A channel that is in `layout_so_far` is an error.
     Result<SensorPlacement> sensor(const SensorLayout& layout_so_far) const {
         if (fields_.size() != headings_.count)
             return error_at(fmt::format("{} columns where {} are expected", fields_.size(), headings_.count));

@@ -10,15 +10,18 @@
 namespace corpuscle {
 namespace {
 
+/// Headings of columns that identify the trains, the most likely first.
 constexpr std::string_view train_headings[] = {"unit",  "unit_id", "cluster",        "cluster_id", "clusters", "neuron", "neuron_id",
                                                "cell",  "cell_id", "spike_clusters", "id",         "ids",      "label",  "train",
                                                "units", "index",   "address",        "spike_unit", "senders"};
 
+/// `name` is in lower case.
 bool is_spike_time_name(std::string_view name) {
     return is_time_name(name) || name == "spike_time" || name == "spike_times" || name == "spiketime" || name == "spiketimes" ||
            name == "spike time";
 }
 
+/// The headings as a list for messages.
 std::string listed_headings(const std::vector<std::string>& headings) {
     std::vector<std::string> names;
     if (headings.empty()) return "none";
@@ -27,7 +30,7 @@ std::string listed_headings(const std::vector<std::string>& headings) {
     return fmt::format("{}", fmt::join(names, ", "));
 }
 
-/// The column requested by its heading, its name or its number.
+/// The index of the column with this heading, name (the heading without its unit) or number (counted from 1). nullopt if there is none.
 std::optional<std::size_t> requested_column(const std::vector<std::string>& headings, const std::string& wanted) {
     for (std::size_t c = 0; c < headings.size(); ++c)
         if (headings[c] == wanted || (!headings[c].empty() && parse_heading(headings[c]).name == wanted)) return c;

@@ -11,13 +11,13 @@
 namespace corpuscle {
 
 struct ResolvedSpikeColumns {
-    std::size_t time = 0;
-    double seconds_per_unit = 1;  ///< unit of the time column
-    std::optional<std::size_t> afferent = {}, channel = {};
+    std::size_t time = 0;                                    ///< index of the column of spike times
+    double seconds_per_unit = 1;                             ///< the unit of the spike times, in s
+    std::optional<std::size_t> afferent = {}, channel = {};  ///< indices of the columns that identify the train; nullopt: no such column
 };
 
-/// `headings` are the header fields of the file, "" without a header. If a column is missing or wrong, returns an error. Sets `column` to
-/// the number of a wrong column, counted from 1.
+/// Finds the columns by their headings, or as the user requests in `wanted`. `headings` has one element for each column, "" if the file has
+/// no header. A missing or wrong column is an error. If the error concerns one column, sets `column` to its number, counted from 1.
 Result<ResolvedSpikeColumns> find_spike_columns(const std::vector<std::string>& headings, const SpikeColumns& wanted, std::size_t& column);
 
 }  // namespace corpuscle

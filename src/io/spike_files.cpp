@@ -12,8 +12,9 @@
 namespace corpuscle {
 namespace {
 
-/// Natural order: "ch2" before "ch10". Compares runs of digits by value, and other characters by byte.
+/// True if a is before b in natural order, in which "ch2" is before "ch10": runs of digits are compared by value, other characters by byte.
 bool natural_less(std::string_view a, std::string_view b) {
+    // The number of digits at the beginning of s.
     const auto digits = [](std::string_view s) { return std::min(s.find_first_not_of("0123456789"), s.size()); };
     while (!a.empty() && !b.empty()) {
         auto m = digits(a), n = digits(b);

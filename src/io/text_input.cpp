@@ -15,15 +15,16 @@
 namespace corpuscle {
 namespace {
 
-constexpr std::size_t packed_block = std::size_t{1} << 17;
+constexpr std::size_t packed_block = std::size_t{1} << 17;  // compressed bytes that are read at once
 
+/// A file as it is.
 class PlainText final : public TextInput {
     struct Close {
         void operator()(std::FILE* f) const { std::fclose(f); }
     };
     std::string path_;
     std::unique_ptr<std::FILE, Close> file_;
-    double size_ = 0, read_ = 0;  // bytes
+    double size_ = 0, read_ = 0;  // bytes of the file (0: not known), and bytes read so far
 
     Result<std::size_t> fetch(char* to, std::size_t max_bytes) override {
         const auto got = read_input(file_.get(), {to, max_bytes}, path_);
@@ -47,12 +48,14 @@ public:
     double progress() const override { return size_ > 0 ? std::min(1.0, read_ / size_) : 1; }
 };
 
+/// The decompressed text of a gzip file, which is a sequence of members.
 class GzipText final : public TextInput {
     std::string path_;
-    std::unique_ptr<TextInput> packed_;
-    std::vector<unsigned char> block_ = std::vector<unsigned char>(packed_block);
+    std::unique_ptr<TextInput> packed_;                                            // the compressed file
+    std::vector<unsigned char> block_ = std::vector<unsigned char>(packed_block);  // compressed bytes
     z_stream stream_{};
-    bool within_ = false, packed_ended_ = false;  // within_: inside a gzip member
+    bool within_ = false;        // true inside a member
+    bool packed_ended_ = false;  // true after the last compressed byte was read
 
     Result<void> refill() {
         const auto got = packed_->read(reinterpret_cast<char*>(block_.data()), block_.size());
@@ -62,7 +65,7 @@ class GzipText final : public TextInput {
         return {};
     }
 
-    /// Skips zeros after the last member, which tapes add.
+    /// Skips zeros between and after members: files from tapes are padded with them.
     void skip_zeros() {
         while (stream_.avail_in > 0 && *stream_.next_in == 0) ++stream_.next_in, --stream_.avail_in;
     }
@@ -97,7 +100,7 @@ class GzipText final : public TextInput {
 
 public:
     GzipText(std::string path, std::unique_ptr<TextInput> packed) : path_(std::move(path)), packed_(std::move(packed)) {
-        ::inflateInit2(&stream_, 15 + 16);
+        ::inflateInit2(&stream_, 15 + 16);  // 15: the largest window; 16: gzip, not zlib, format
     }
     GzipText(const GzipText&) = delete;
     GzipText& operator=(const GzipText&) = delete;
@@ -106,6 +109,7 @@ public:
     std::vector<std::string> shell_commands() const override { return {"zcat"}; }
 };
 
+/// Appends a code point as UTF-8.
 void append_code_point(std::string& out, unsigned long c) {
     const auto byte = [&](unsigned long b) { out += static_cast<char>(b); };
     if (c < 0x80) return byte(c);
@@ -114,15 +118,17 @@ void append_code_point(std::string& out, unsigned long c) {
     byte(0xf0 | c >> 18), byte(0x80 | (c >> 12 & 0x3f)), byte(0x80 | (c >> 6 & 0x3f)), byte(0x80 | (c & 0x3f));
 }
 
+/// A UTF-16 text as UTF-8. U+FFFD replaces a surrogate without its partner.
 class Utf16Text final : public TextInput {
     std::string path_;
-    std::unique_ptr<TextInput> units_;
+    std::unique_ptr<TextInput> units_;  // the file, in code units of two bytes
     bool big_endian_;
-    std::string out_;
+    std::string out_;           // converted text
     std::size_t returned_ = 0;  // bytes of out_ that have been returned
-    unsigned long high_ = 0;    // a high surrogate without its low surrogate yet
-    bool ended_ = false;
+    unsigned long high_ = 0;    // a high surrogate whose low surrogate has not come yet; 0: none
+    bool ended_ = false;        // true after the last code unit was read
 
+    /// Converts the next code unit.
     void append_unit(unsigned long unit) {
         const bool low = unit >= 0xdc00 && unit < 0xe000;
         if (high_ != 0) {
@@ -182,12 +188,13 @@ public:
     }
 };
 
-/// 'L' or 'B' for UTF-16 with a byte order mark, or if every other byte is 0. Otherwise '\0'.
+/// The byte order of a UTF-16 text that begins with these bytes: 'L' for little-endian, 'B' for big-endian, '\0' if it is not UTF-16.
+/// UTF-16 has a byte order mark, or every other byte at the beginning is 0.
 char utf16_order(std::string_view first) {
     if (first.starts_with("\xff\xfe")) return 'L';
     if (first.starts_with("\xfe\xff")) return 'B';
     const std::size_t pairs = std::min<std::size_t>(first.size() / 2, 64);
-    std::size_t zeros[2] = {0, 0};
+    std::size_t zeros[2] = {0, 0};  // number of bytes 0 at even and at odd positions
     for (std::size_t k = 0; k < 2 * pairs; ++k) zeros[k % 2] += first[k] == '\0';
     if (pairs >= 3 && zeros[1] == pairs && zeros[0] == 0) return 'L';
     return pairs >= 3 && zeros[0] == pairs && zeros[1] == 0 ? 'B' : '\0';
@@ -226,7 +233,7 @@ Result<std::unique_ptr<TextInput>> open_text_input(const std::string& path) {
     auto plain = std::make_unique<PlainText>(path);
     if (!plain->is_open()) return bad_input(fmt::format("cannot be opened: {}", std::strerror(errno)), {path});
     std::unique_ptr<TextInput> input = std::move(plain);
-    constexpr std::size_t signature_bytes = 512;
+    constexpr std::size_t signature_bytes = 512;  // at the beginning of the file, to recognise its format
     auto first = input->peek(signature_bytes);
     const bool packed = first && first->starts_with("\x1f\x8b");
     if (packed) {

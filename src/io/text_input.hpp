@@ -1,5 +1,6 @@
 #pragma once
-// Reads a text file as UTF-8. The file may be in UTF-8 or UTF-16, and compressed with gzip. Memory is bounded for any uncompressed size.
+// Reads a text file and returns it as UTF-8. The file may be in UTF-8 or UTF-16, and compressed with gzip. The memory needed does not grow
+// with the size of the file.
 
 #include <cstddef>
 #include <memory>
@@ -12,27 +13,30 @@
 namespace corpuscle {
 
 class TextInput {
-    std::string lookahead_;  // bytes read by peek() but not yet by read()
+    std::string lookahead_;  // bytes that peek() returned and read() has not
 
-    /// Reads like read(), but after the lookahead.
+    /// Implements read() for the bytes after lookahead_.
     virtual Result<std::size_t> fetch(char* to, std::size_t max_bytes) = 0;
+    /// Implements rewind().
     virtual Result<void> restart() = 0;
 
 public:
     virtual ~TextInput() = default;
-    /// Reads up to `max_bytes` bytes. Returns fewer only at the end.
+    /// Reads up to `max_bytes` bytes of UTF-8. Returns their number, which is smaller only at the end of the file.
     Result<std::size_t> read(char* to, std::size_t max_bytes);
-    /// Returns the next bytes without consuming them. Fewer than `count` only at the end.
+    /// The next `count` bytes, which the next read() returns again. There are fewer only at the end of the file.
     Result<std::string_view> peek(std::size_t count);
+    /// Continues at the beginning of the file.
     Result<void> rewind();
     /// The fraction of the file's bytes that has been read, 0 to 1.
     virtual double progress() const = 0;
-    /// Shell commands that convert the file to this text, in order: "zcat", "iconv -f UTF-16LE -t UTF-8".
+    /// The shell commands that convert the file to this text, one after another: "zcat", "iconv -f UTF-16LE -t UTF-8". Empty if it is plain
+    /// UTF-8.
     virtual std::vector<std::string> shell_commands() const { return {}; }
 };
 
-/// A file that is not text (workbooks, binary files of other programs, archives) is an error, which names its format and a command to
-/// convert it.
+/// Opens a text file. A file that is not text (a workbook, a binary file, an archive) is an error; if its format is known, the message
+/// names it and a command that converts it.
 Result<std::unique_ptr<TextInput>> open_text_input(const std::string& path);
 
 }  // namespace corpuscle

@@ -11,17 +11,18 @@
 namespace corpuscle {
 namespace {
 
-constexpr std::size_t max_preamble = 200;               // lines before the table, without comments
+constexpr std::size_t max_preamble = 200;               // lines before the table, without comments and empty lines
 constexpr std::size_t max_head = std::size_t{1} << 19;  // bytes that are inspected; the limit allows a pipe to be rewound
 
+/// One of the first lines of a file that is neither empty nor a comment.
 struct HeadLine {
-    long number;
+    long number;  // in the file, counted from 1
     std::string text;
-    std::string comment;     // the last comment before the line, without # or %
-    bool gap_above = false;  // follows an empty line or a comment
+    std::string comment;     // the last comment between this line and the one before, without # or %; "": none
+    bool gap_above = false;  // true: the line before this one in the file is empty or a comment
 };
 
-/// Reads the first lines of a file that are neither empty nor comments.
+/// Reads the first lines of a file that are neither empty nor comments, after the first `skip` lines. Rewinds the file.
 Result<std::vector<HeadLine>> read_head(LineReader& lines, std::size_t skip) {
     std::vector<HeadLine> head;
     std::string_view line;
@@ -52,7 +53,7 @@ Result<std::vector<HeadLine>> read_head(LineReader& lines, std::size_t skip) {
     return head;
 }
 
-/// The separator in Excel's first line, "sep=;".
+/// The separator that a first line such as "sep=;" states, which Excel reads; nullopt if the line is a different one.
 std::optional<char> named_separator(std::string_view line) {
     while (line.ends_with(' ') && line.size() > 5) line.remove_suffix(1);
     if (line.size() >= 2 && line.front() == '"' && line.back() == '"') line = line.substr(1, line.size() - 2);
@@ -61,13 +62,16 @@ std::optional<char> named_separator(std::string_view line) {
     return line.size() == 6 && lower(line.substr(0, 4)) == "sep=" && line.substr(4) == "\\t" ? std::optional('\t') : std::nullopt;
 }
 
+/// Implements detect_text_layout(). k is an index in head_. A value is a number or a time stamp.
 class LayoutDetector {
     std::vector<HeadLine> head_;
-    std::optional<char> separator_;
-    Fields fields_;
+    std::optional<char> separator_;  // stated by a first line "sep=;"
+    Fields fields_;                  // of the line that was split last
     TextLayout layout_;
-    std::size_t row_ = 0, skipped_ = 0;  // indices into head_: the first row of the table, and the first line of its header
+    std::size_t row_ = 0;      // index in head_ of the first row of the table
+    std::size_t skipped_ = 0;  // number of lines of head_ before the table and its header
 
+    /// The dialect of a line: with the stated separator, or with the one that Dialect::detect() finds.
     Dialect dialect_of(std::string_view line) const {
         return separator_ ? Dialect{*separator_, *separator_ != ','} : Dialect::detect(line);
     }
@@ -81,7 +85,7 @@ class LayoutDetector {
         return is_number(field, d) || (!field.empty() && field[0] >= '0' && field[0] <= '9' && (parse_time_stamp(field) || is_date(field)));
     }
 
-    /// For each field of a line, true if it holds a value.
+    /// For each field of line k, true if it holds a value. Leaves the fields in fields_.
     std::vector<bool> values_in(std::size_t k, const Dialect& d, std::size_t columns = 0) {
         split_row(d, head_[k].text, columns, fields_);
         std::vector<bool> out;
@@ -89,7 +93,7 @@ class LayoutDetector {
         return out;
     }
 
-    /// True if all lines from `from` to the end of head_ have `columns` fields, and at least one column has values in all of them.
+    /// True if all lines from `from` to the end of head_ have `columns` fields, and in at least one column each field is a value or empty.
     bool are_rows(std::size_t from, std::size_t columns, const Dialect& d) {
         std::vector<bool> common(columns, true);
         for (std::size_t k = from; k < head_.size(); ++k) {
@@ -100,6 +104,7 @@ class LayoutDetector {
         return std::find(common.begin(), common.end(), true) != common.end();
     }
 
+    /// True if line k is a row of units: it has `columns` fields, none is a value, and most of those that are not empty are units.
     bool is_unit_row(std::size_t k, std::size_t columns, const Dialect& d) {
         split_row(d, head_[k].text, columns, fields_);
         std::size_t units = 0, others = 0;
@@ -112,11 +117,13 @@ class LayoutDetector {
         return fields_.size() == columns && units > others;
     }
 
+    /// Defines the columns by the fields of the header.
     void set_header(const Fields& names) {
         for (const auto f : names) layout_.columns.push_back(parse_heading(f));
         layout_.has_header = true;
     }
 
+    /// Takes the units of the columns from line k, which is a row of units with as many fields as there are columns.
     void set_units(std::size_t k) {
         split_row(layout_.dialect, head_[k].text, layout_.columns.size(), fields_);
         for (std::size_t c = 0; c < layout_.columns.size(); ++c) {
@@ -126,8 +133,8 @@ class LayoutDetector {
         }
     }
 
-    /// Uses a comment as the header, as numpy.savetxt and rostopic echo -p write it. `columns` is the number of fields of the row
-    /// below it. Returns false if the comment has another number of fields.
+    /// Uses the comment above line k as the header, as numpy.savetxt and rostopic echo -p write it. `columns` is the number of fields of
+    /// line k. Returns false if there is no comment, or if it has another number of fields.
     bool use_commented_header(std::size_t k, std::size_t columns) {
         if (head_[k].comment.empty()) return false;
         Fields names;
@@ -137,7 +144,7 @@ class LayoutDetector {
         return true;
     }
 
-    /// True if the first line is a row although it contains words, because a comment above it is the header.
+    /// True if line k is a row of the table although it contains words, because the comment above it is the header.
     bool is_row_under_comment(std::size_t k, std::size_t columns) {
         Fields names;
         if (head_[k].comment.empty() || columns < 2) return false;
@@ -149,14 +156,15 @@ class LayoutDetector {
         return k + 1 == head_.size() || values_in(k + 1, layout_.dialect, columns) == first;
     }
 
-    /// True for a header of numbers, as pandas writes it for columns without names: empty above the index, then 0, 1, 2 ...
+    /// True for a header of numbers, as pandas writes it for columns without names: the first field, above the index, is empty, and the
+    /// others are 0, 1, 2 ...
     static bool are_numbered(const Fields& fields) {
         bool numbered = fields.size() > 1 && fields[0].empty();
         for (std::size_t c = 1; c < fields.size(); ++c) numbered = numbered && fields[c] == std::to_string(c - 1);
         return numbered;
     }
 
-    /// The number of fields if every row is a word followed by values, otherwise 0.
+    /// The number of fields in each row if every line of head_ is a row that begins with a word, followed by values; otherwise 0.
     std::size_t field_count_of_named_rows() {
         const auto d = dialect_of(head_[0].text);
         const auto columns = values_in(0, d).size();
@@ -164,13 +172,13 @@ class LayoutDetector {
         for (std::size_t k = 0; k < head_.size(); ++k) {
             const auto values = values_in(k, d, columns);
             if (values.size() != columns || fields_[0].empty() || !std::isalpha(static_cast<unsigned char>(fields_[0][0]))) return 0;
-            for (std::size_t c = 0; c < columns; ++c)
+            for (std::size_t c = 0; c < columns; ++c)  // field 0 must not be a value, the others must be values or empty
                 if (values[c] == (c == 0) && !(c > 0 && fields_[c].empty())) return 0;
         }
         return columns;
     }
 
-    /// Uses the layout of a table without a header whose rows begin with their names. Returns false if the table is different.
+    /// If every row begins with its name and there is no header, sets this layout. Otherwise returns false.
     bool use_named_rows() {
         const auto columns = field_count_of_named_rows();
         if (columns == 0) return false;
@@ -179,7 +187,7 @@ class LayoutDetector {
         return layout_.has_row_names = true;
     }
 
-    /// True if the first row is named as the time and the other rows are named too, so that rows are channels.
+    /// True if every row begins with its name, and the first row is named as the time: each row is a channel.
     bool are_rows_channels() {
         const auto d = dialect_of(head_[0].text);
         d.split(head_[0].text, fields_);
@@ -188,10 +196,12 @@ class LayoutDetector {
 
     /// The common layout: the table begins at the first line, with or without a header.
     struct PlainLayout {
-        std::size_t columns = 0;
-        bool has_header = false, has_units = false;  ///< has_units: a row of units follows the header
-        bool fits = false;                           ///< all following lines are rows of this layout
+        std::size_t columns = 0;  ///< number of columns
+        bool has_header = false;  ///< true: the first line is the header
+        bool has_units = false;   ///< true: a row of units follows the header
+        bool fits = false;        ///< true: all other lines of head_ are rows of this layout
     };
+    /// Determines this layout from the first line, and sets the dialect.
     PlainLayout plain_layout() {
         PlainLayout p;
         layout_.dialect = dialect_of(head_[0].text);
@@ -206,6 +216,7 @@ class LayoutDetector {
         return p;
     }
 
+    /// Sets this layout, with the comment above the first line as the header if it fits.
     void use_plain_layout(const PlainLayout& p) {
         if (p.has_header) {
             split_row(layout_.dialect, head_[0].text, 0, fields_);
@@ -217,12 +228,12 @@ class LayoutDetector {
         }
     }
 
-    /// True if the entire line is the heading of a single column: "Force N".
+    /// True if line k can be the heading of a table with a single column, "Force N", because it has no separator except blanks.
     bool is_single_heading(std::size_t k) const { return head_[k].text.find_first_of(",;\t") == std::string::npos; }
 
-    /// True if the lines before `k` can be a preamble: at most one of them consists of a single value, and none of several values.
+    /// True if the lines before line k can be a preamble: at most one of them consists of a single value, and none of several values.
     bool may_be_preamble(std::size_t k, const Dialect& plain) {
-        std::size_t rows = 0;
+        std::size_t rows = 0;  // lines of a single value, and twice the lines of several values
         for (std::size_t j = 0; j < k; ++j) {
             const auto values = values_in(j, plain);
             if (std::find(values.begin(), values.end(), false) == values.end()) rows += values.size() > 1 ? 2 : 1;
@@ -230,7 +241,8 @@ class LayoutDetector {
         return rows < 2;
     }
 
-    /// True if a line is certainly a header, even if the first line has as many fields: it contains only words, with a time or a unit.
+    /// True if line k is certainly a header with `columns` fields, even if the first line has as many fields: no field is a value, and at
+    /// least one may be the name of a time or has a unit.
     bool is_sure_header(std::size_t k, std::size_t columns, const Dialect& d) {
         const auto values = values_in(k, d, columns);
         if (columns < 2 || values.size() != columns || std::find(values.begin(), values.end(), true) != values.end()) return false;
@@ -240,7 +252,8 @@ class LayoutDetector {
         });
     }
 
-    /// Finds the first line from which all lines are rows, below a header or a preamble of another shape. Returns false if there is none.
+    /// Finds the first line from which on all lines are rows, below a header or below a preamble with another number of fields or another
+    /// separator. Sets the layout of this table. Returns false if there is no such line.
     bool find_table_after_preamble(const PlainLayout& plain) {
         const auto plain_dialect = layout_.dialect;
         for (std::size_t k = 1; k < std::min(head_.size(), max_preamble); ++k) {
@@ -276,8 +289,8 @@ class LayoutDetector {
         return false;
     }
 
-    /// Decides whether a letter after a name is a unit. If it occurs in one column only, C and K are units (skin_C). Letters in several
-    /// columns distinguish sensors (left_C, left_A).
+    /// Decides whether a single letter at the end of a column's name is a unit. If only one column ends with a letter, C and K are units
+    /// (skin_C). If several columns do, the letters distinguish sensors (left_C, left_A).
     void resolve_letter_suffixes() {
         const auto letter_of = [](const Column& c) {
             const auto n = c.name.size();
@@ -292,6 +305,7 @@ class LayoutDetector {
             }
     }
 
+    /// For each column, the fields of the rows that are inspected.
     std::vector<FirstFields> first_fields() {
         std::vector<FirstFields> first(layout_.columns.size());
         const auto end = std::min(head_.size(), row_ + inspected_rows);
@@ -312,6 +326,7 @@ class LayoutDetector {
         return first;
     }
 
+    /// Finds the columns that may identify trials: first those with the name of a trial, then those of words.
     void find_trial_columns() {
         const auto add = [&](const auto& matches) {
             for (std::size_t c = 0; c < layout_.columns.size(); ++c)
@@ -322,6 +337,7 @@ class LayoutDetector {
             add([](const Column& c) { return !is_trial_name(c.name) && c.exclusion_reason.starts_with("holds words"); });
     }
 
+    /// Finds the first time stamp of the time column. If this holds no time stamps, that of the first column that does.
     void find_first_stamp() {
         auto column = layout_.roles.time_column;
         for (std::size_t c = 0; !(column && layout_.columns[*column].holds_time_stamps) && c < layout_.columns.size(); ++c)
@@ -342,6 +358,7 @@ class LayoutDetector {
 public:
     explicit LayoutDetector(std::vector<HeadLine> head) : head_(std::move(head)) {}
 
+    /// Detects the layout. `path` is the path of the file, for messages; `rows_are_channels` as for detect_text_layout().
     Result<TextLayout> find(const std::string& path, bool rows_are_channels) {
         if (!head_.empty())
             if ((separator_ = named_separator(head_[0].text))) head_.erase(head_.begin());

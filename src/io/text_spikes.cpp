@@ -17,10 +17,11 @@ namespace {
 
 struct CsvField {
     std::string text;
-    long column = 1;  // 1-based, in bytes
+    long column = 1;  // position of the field in its line, in bytes, counted from 1
 };
 
-/// Splits a line into fields. Quoted fields may contain separators and doubled quotes. Returns false if a quote is not closed.
+/// Splits a line into fields. A quoted field may contain separators, and quotes that are written twice. Returns false if a quote is not
+/// closed; the last field is then the one with that quote.
 bool split(std::string_view line, char separator, std::vector<CsvField>& out) {
     out.clear();
     if (separator == ' ') {
@@ -57,6 +58,7 @@ bool split(std::string_view line, char separator, std::vector<CsvField>& out) {
     }
 }
 
+/// Parses a number. If `separator` is not a comma, a comma is read as a decimal point.
 bool parse_time(std::string_view text, char separator, double& value) {
     return Dialect{separator, separator != ','}.parse_number(text, value);
 }
@@ -66,17 +68,19 @@ class TextSpikes {
     LineReader lines_;
     SpikeColumns wanted_;
     char separator_ = ',';
-    std::vector<CsvField> fields_;
-    std::string comment_;  // the last comment before the table
+    std::vector<CsvField> fields_;  // of the current line
+    std::string comment_;           // the last comment before the table, without # or %
     ResolvedSpikeColumns found_;
-    std::size_t columns_ = 0;
+    std::size_t columns_ = 0;  // number of columns; 0 until the first line of the table is read
     TrainCollector trains_;
 
+    /// An error in the current line; `column` as in CsvField, 0: not known.
     Error error_at(std::string message, long column = 0) const {
         return bad_input(std::move(message), {lines_.path(), lines_.line_number(), column});
     }
 
-    /// Blanks are the separator only if the line begins with a number or the name of the time. Other names may contain blanks.
+    /// The separator of a line: a tab, otherwise a semicolon, otherwise a comma, otherwise blanks. Blanks are the separator only if the
+    /// line begins with a number or with a name of the time, because other names may contain blanks.
     static char separator_of(std::string_view line) {
         for (const char c : {'\t', ';', ','})
             if (line.find(c) != line.npos) return c;
@@ -88,7 +92,7 @@ class TextSpikes {
         return blanks ? ' ' : ',';
     }
 
-    /// Reads the next line that is not empty or a comment, and splits it.
+    /// Reads the next line that is neither empty nor a comment, and splits it. Returns false at the end of the file.
     Result<bool> next() {
         std::string_view line;
         for (;;) {
@@ -104,7 +108,8 @@ class TextSpikes {
         return true;
     }
 
-    /// Reads the header from the first line or from a comment above it, if there is one. Returns true if the first line is a row.
+    /// Finds the columns. fields_ is the first line of the table, which is the header unless all its fields are numbers. If they are, the
+    /// comment above the line is the header if it has as many fields. Returns true if the first line is a row of the table.
     Result<bool> read_header() {
         columns_ = fields_.size();
         double value;
@@ -125,6 +130,7 @@ class TextSpikes {
         return row;
     }
 
+    /// Adds the spike in the current line.
     Result<void> add_row() {
         if (fields_.size() != columns_) return error_at(fmt::format("{} columns where {} are expected", fields_.size(), columns_));
         const auto& [text, column] = fields_[found_.time];
@@ -160,12 +166,14 @@ public:
 class JsonSpikes {
     LineReader& lines_;
     SpikeColumns wanted_;
-    std::vector<std::string> headings_;
+    std::vector<std::string> headings_;  // the names of the fields of the first record
     ResolvedSpikeColumns found_;
     TrainCollector trains_;
 
+    /// A JSON value as the name of an afferent or channel.
     static std::string word_of(const nlohmann::ordered_json& value) { return value.is_string() ? value.get<std::string>() : value.dump(); }
 
+    /// Adds the spike of a record. The first record defines the columns.
     Result<void> add(std::span<const JsonField> fields, long line) {
         const auto error_here = [&](std::string message) { return bad_input(std::move(message), {lines_.path(), line}); };
         if (headings_.empty()) {

@@ -20,25 +20,29 @@ class TextTable final : public Table {
     TextLayout layout_;
     Dialect dialect_;
     std::vector<Column> columns_;
-    std::optional<std::size_t> time_;
-    std::size_t skip_;
-    bool rows_are_channels_;
-    Fields fields_;
-    std::vector<long> line_numbers_;                        // line numbers of the last block's rows
-    std::vector<double*> destinations_;                     // for each column: the destination of its numbers, or null
-    std::size_t wanted_end_ = 0;                            // one past the last requested column
-    double last_stamp_ = 0, days_ = 0;                      // s: the last time of day, and the complete days before it
-    bool quoted_rows_ = false, quoted_separators_ = false;  // set by find_trials(): quotes in rows, separators within quotes
+    std::optional<std::size_t> time_;    // index of the time column
+    std::size_t skip_;                   // lines to ignore at the beginning of the file
+    bool rows_are_channels_;             // true: --transpose was given
+    Fields fields_;                      // of the current line
+    std::vector<long> line_numbers_;     // line numbers of the last block's rows
+    std::vector<double*> destinations_;  // for each column: the array to which its numbers are written; null: not requested
+    std::size_t wanted_end_ = 0;         // one past the last requested column
+    double last_stamp_ = 0;              // the latest time of day in the time column, as seconds from the first one
+    double days_ = 0;                    // the midnights passed before it, times the length of a day, s
+    bool quoted_rows_ = false;           // set by find_trials(): true if a row contains quotes
+    bool quoted_separators_ = false;     // set by find_trials(): true if a field contains the separator
 
+    /// An error in the current line; `column` is a position in bytes, counted from 1, 0: not known.
     Error error_at(std::string message, long column = 0) const {
         return bad_input(std::move(message), {lines_.path(), lines_.line_number(), column});
     }
 
+    /// A column for messages: its name, or its number (counted from 1) if the file has no header.
     std::string column_label(std::size_t c) const {
         return layout_.has_header ? fmt::format("'{}'", columns_[c].name) : fmt::format("{}", c + 1);
     }
 
-    /// Reads the next line that holds data.
+    /// Reads the next line of the table that is a row. Returns false at the end of the file.
     Result<bool> next_row(std::string_view& line) {
         for (;;) {
             const auto more = lines_.next(line);
@@ -47,7 +51,8 @@ class TextTable final : public Table {
         }
     }
 
-    /// Seconds from the first time stamp. Times of day continue after midnight.
+    /// The time stamp in field c of the current line, as seconds from the first one; nullopt if the field is none. In the time column,
+    /// times of day without a date continue after midnight.
     std::optional<double> stamp_in(std::size_t c) {
         const auto stamp = parse_time_stamp(fields_[c]);
         if (!stamp || !layout_.first_stamp || stamp->has_date != layout_.first_stamp->has_date) return {};
@@ -58,7 +63,7 @@ class TextTable final : public Table {
         return last_stamp_ = t;
     }
 
-    /// Options that help with a field that cannot be read.
+    /// The end of a message: the options that help with a field in column c that cannot be read.
     std::string remedy(std::size_t c) const {
         const bool first = lines_.line_number() <= layout_.first_row_line;
         if (c == time_)
@@ -68,6 +73,7 @@ class TextTable final : public Table {
                            first ? ", or --skip LINES to skip lines before the table" : "");
     }
 
+    /// The number in field c of `line`, whose fields are in fields_.
     Result<double> number_in(std::string_view line, std::size_t c) {
         double value = 0;
         if (columns_[c].holds_time_stamps) {
@@ -76,7 +82,7 @@ class TextTable final : public Table {
             return value;
         }
         if (allows_gaps_) return std::numeric_limits<double>::quiet_NaN();
-        const auto column = fields_[c].data() ? fields_[c].data() - line.data() + 1 : 0;
+        const auto column = fields_[c].data() ? fields_[c].data() - line.data() + 1 : 0;  // in bytes; 0 for a missing optional field
         const auto found = fields_[c].empty() ? std::string("an empty field") : fmt::format("'{}'", fields_[c].substr(0, 40));
         const auto advice = columns_[c].holds_time_stamps ? "" : advice_for(fields_[c]);
         return error_at(
@@ -85,7 +91,7 @@ class TextTable final : public Table {
             column);
     }
 
-    /// The unusual feature of a field that should be a number, and how to convert the file. "" if it is not recognised.
+    /// The unsupported form of a field that should be a number, and how to convert the file. "" if the form is not recognised.
     std::string advice_for(std::string_view field) const {
         const auto advice = advise_on_field(field);
         if (advice.feature.empty()) return "";
@@ -94,9 +100,9 @@ class TextTable final : public Table {
         return fmt::format("{}; {}", advice.feature, advice.remedy.empty() ? "save the table without it" : advice.remedy);
     }
 
-    /// Stores the first word of columns that hold words, for the error message if no column holds numbers.
+    /// Stores Column::exclusion_evidence of the columns that hold words, for the error message if no column holds numbers.
     void store_evidence() {
-        constexpr std::size_t max_evidence = 8;  // only one is reported, and only if no column holds numbers
+        constexpr std::size_t max_evidence = 8;  // columns; only one is reported
         std::size_t count = 0;
         for (std::size_t c = 0; c < std::min(columns_.size(), layout_.first_fields.size()) && count < max_evidence; ++c) {
             const auto& word = layout_.first_fields[c];
@@ -108,12 +114,14 @@ class TextTable final : public Table {
         }
     }
 
+    /// Splits a row into fields_, with an empty field for a missing optional one.
     void split(std::string_view line) {
         split_row(dialect_, line, columns_.size(), fields_);
         if (layout_.is_last_field_optional && fields_.size() + 1 == columns_.size()) fields_.emplace_back();
     }
 
-    /// For a table without a header: takes the first column as the time if it increases in similar steps over the first rows.
+    /// For a table without a header: the first of several columns is the time if it increases over the first rows, each step between 50 %
+    /// and 150 % of the mean step.
     Result<void> find_unnamed_time() {
         if (!columns_[0].exclusion_reason.empty()) return {};
         std::vector<std::vector<double>> first(1);
@@ -129,20 +137,22 @@ class TextTable final : public Table {
         return rewind();
     }
 
+    /// Sets the destinations of the requested columns.
     void set_columns(const std::vector<std::size_t>& wanted, std::vector<std::vector<double>>& out) {
         destinations_.assign(columns_.size(), nullptr);
         for (std::size_t i = 0; i < wanted.size(); ++i) destinations_[wanted[i]] = out[i].data();
         wanted_end_ = wanted.empty() ? 0 : *std::max_element(wanted.begin(), wanted.end()) + 1;
     }
 
-    /// True if the rest of a line has `fields` fields, without quotes and without an empty field at the end.
+    /// True if the rest of a line, from `p` to `end`, has `fields` fields, without quotes and without an empty field at the end.
     bool ends_after(const char* p, const char* end, std::size_t fields) const {
         const auto left = static_cast<std::size_t>(end - p);
         return left > 0 && end[-1] != dialect_.separator && !std::memchr(p, '"', left) &&
                static_cast<std::size_t>(std::count(p, end, dialect_.separator)) + 1 == fields;
     }
 
-    /// A fast path for common lines. Returns false if the line needs the general parser.
+    /// Reads the common form of a line fast into row `row` of the destinations. Returns false if the line has another form, which
+    /// read_row() reads.
     bool read_plain_row(std::string_view line, std::size_t row) const {
         const char *p = line.data(), *const end = p + line.size();
         const char separator = dialect_.separator;
@@ -164,10 +174,11 @@ class TextTable final : public Table {
         return p == end;
     }
 
+    /// Reads a line into row `row` of the columns of `out`.
     Result<void> read_row(std::string_view line, std::size_t row, const std::vector<std::size_t>& wanted,
                           std::vector<std::vector<double>>& out) {
         if (read_plain_row(line, row)) return {};
-        if (layout_.is_last_field_optional && line.starts_with("Channels")) {
+        if (layout_.is_last_field_optional && line.starts_with("Channels")) {  // only LabVIEW files have an optional last field
             const auto command = lines_.copy_command(fmt::format("head -n {}", lines_.line_number() - 1), "-first");
             return error_at(fmt::format("another segment of the measurement begins here, but only one can be read; keep the first{}{}",
                                         command.empty() ? "" : ": ", command));
@@ -188,20 +199,22 @@ class TextTable final : public Table {
         return {};
     }
 
+    /// A column that identifies trials.
     struct TrialColumn {
-        std::size_t column;  ///< the column that identifies trials
+        std::size_t column;  ///< its index
         std::string first;   ///< its field in the first row
-        bool changes;        ///< true: changes at the row where the time decreases, false: constant up to that row
+        bool changes;        ///< true: changes at the row where the time decreases; false: constant up to that row
     };
 
-    /// The columns that distinguish the trial that begins in line `trial_line` from the first trial. Reads the rows again. Empty if no
-    /// column changes there.
+    /// The columns that distinguish the first trial from the others. Line `trial_line`, where the time decreases, begins another trial.
+    /// Reads the rows up to this line again. Empty if no column changes there.
     Result<std::vector<TrialColumn>> find_trials(long trial_line) {
         std::vector<TrialColumn> found;
         if (layout_.trial_columns.empty()) return found;
         if (auto ok = lines_.rewind(); !ok) return ok.error();
-        std::vector<std::string> first, last, current;
-        std::vector<bool> constant(layout_.trial_columns.size(), true);
+        // The fields of the trial columns in the first row, in the current row, and in the row before it.
+        std::vector<std::string> first, current, last;
+        std::vector<bool> constant(layout_.trial_columns.size(), true);  // of each trial column, before `trial_line`
         quoted_rows_ = quoted_separators_ = false;
         for (std::string_view line; lines_.line_number() < trial_line;) {
             const auto more = next_row(line);
@@ -226,7 +239,7 @@ class TextTable final : public Table {
             if (changes || (constant[k] && is_trial_name(columns_[layout_.trial_columns[k]].name)))
                 found.push_back({layout_.trial_columns[k], first[k], changes});
         }
-        // Keep the most likely column that changes, and the constant columns, which may change later.
+        // Keep the most likely one of the columns that change, and the constant columns, because they may change later in the file.
         const auto changing = std::find_if(found.begin(), found.end(), [](const TrialColumn& t) { return t.changes; });
         if (changing == found.end()) return std::vector<TrialColumn>();
         const auto changing_column = changing->column;
@@ -234,12 +247,14 @@ class TextTable final : public Table {
         return found;
     }
 
-    /// An awk command that keeps the lines before the table and the rows of the first trial. "" if awk cannot split the fields.
+    /// An awk command that keeps the lines before the table and the rows of the first trial. "" if awk could not split or compare the
+    /// fields.
     std::string trial_filter(const std::vector<TrialColumn>& trials) const {
         const char separator = dialect_.separator;
         if (std::string_view("\"'\\^]").find(separator) != std::string_view::npos || quoted_separators_) return "";
-        std::string wanted;
+        std::string wanted;  // the condition for a row of the first trial
         for (const auto& t : trials) {
+            // Other characters would need quoting.
             const bool is_safe = !t.first.empty() && std::all_of(t.first.begin(), t.first.end(), [](unsigned char c) {
                 return (c >= '0' && c <= '9') || (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || c == '.' || c == '_' || c == '-';
             });
@@ -256,6 +271,7 @@ class TextTable final : public Table {
                             : fmt::format("awk{} '{{sub(/\\r$/, \"\")}} NR<{} || ({})'", fields, layout_.first_row_line, wanted);
     }
 
+    /// Names the columns without a name: "time" for the time, otherwise ch1, ch2 ... The numbers count all columns but the time.
     void name_columns() {
         std::size_t number = 0;
         for (std::size_t c = 0; c < columns_.size(); ++c) {

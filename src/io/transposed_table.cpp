@@ -10,13 +10,14 @@
 namespace corpuscle {
 namespace {
 
-constexpr std::size_t max_transposed_numbers = std::size_t{1} << 27;  // one gigabyte
+constexpr std::size_t max_transposed_numbers = std::size_t{1} << 27;  // they need one gigabyte
 
+/// Samples of a transposed text table, in memory.
 class MemorySamples final : public Samples {
     SamplesInfo info_;
-    std::vector<std::vector<double>> channels_;
-    std::vector<SourceLocation> locations_;  // locations of the rows, which are the channels
-    std::size_t names_;                      // number of fields before the samples
+    std::vector<std::vector<double>> channels_;  // for each channel, its samples
+    std::vector<SourceLocation> locations_;      // for each channel, the location of its row in the file
+    std::size_t names_;  // number of fields before the first sample of a row: 1 if rows begin with a name, otherwise 0
 
 public:
     MemorySamples(SamplesInfo info, std::vector<std::vector<double>> channels, std::vector<SourceLocation> locations, std::size_t names)
@@ -47,7 +48,7 @@ Result<std::unique_ptr<Table>> transpose_table(std::unique_ptr<Table> table, con
     std::iota(all.begin(), all.end(), names);
     std::vector<std::vector<double>> block(all.size()), channels;
     std::vector<SourceLocation> locations;
-    table->allow_gaps(true);  // gaps are checked when the channels are read
+    table->allow_gaps(true);  // the new table treats gaps when the channels are read
     for (;;) {
         const auto rows = table->read(all, 64, block);
         if (!rows) return rows.error();

@@ -1,4 +1,5 @@
 #pragma once
+// Recognition of, and conversion to, UTF-8.
 
 #include <string>
 #include <string_view>

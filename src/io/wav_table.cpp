@@ -15,6 +15,7 @@
 namespace corpuscle {
 namespace {
 
+/// The unsigned integer that the bytes form.
 std::uint64_t integer_of(std::string_view bytes, bool big_endian) {
     std::uint64_t n = 0;
     for (std::size_t k = 0; k < bytes.size(); ++k)
@@ -22,20 +23,20 @@ std::uint64_t integer_of(std::string_view bytes, bool big_endian) {
     return n;
 }
 
-/// The position of the samples in a sound file, and their size in bytes according to the header.
+/// The position of the first sample in a sound file, and the size of all samples, in bytes, as the header states them.
 struct SoundData {
     std::uint64_t begin, size;
 };
 
 /// Finds the samples of a WAV, AIFF or AU file. nullopt for other formats, and for the header of a stream, which has no length.
 std::optional<SoundData> find_sound_data(std::ifstream& file) {
-    constexpr std::uint64_t no_length =
-        0x7fff'0000;  // a size of at least this value is unknown: streams write the largest number or one close to it
-    constexpr int max_chunks = 1000;
+    // A size of at least this value means that the length is not known: streams write the largest number or one close to it.
+    constexpr std::uint64_t no_length = 0x7fff'0000;
+    constexpr int max_chunks = 1000;  // chunks that are searched for the samples
     std::string file_header(12, '\0');
     if (!file.read(file_header.data(), 12)) return {};
     const std::string_view container = std::string_view(file_header).substr(0, 4), form_type = std::string_view(file_header).substr(8);
-    if (container == ".snd") {
+    if (container == ".snd") {  // AU: the header has the position of the samples, then their size
         const SoundData data{integer_of(std::string_view(file_header).substr(4, 4), true), integer_of(form_type, true)};
         return data.size < no_length ? std::optional(data) : std::nullopt;
     }
@@ -54,8 +55,8 @@ std::optional<SoundData> find_sound_data(std::ifstream& file) {
     return {};
 }
 
-/// A note if the file is shorter than its header states, as an incomplete copy is; otherwise "". libsndfile reads such a file without a
-/// warning.
+/// A note for the user if the file is shorter than its header states, as an incomplete copy is; otherwise "". libsndfile reads such a file
+/// without a warning.
 std::string missing_samples_note(const std::string& path) {
     std::error_code status;
     const auto size = std::filesystem::file_size(path, status);

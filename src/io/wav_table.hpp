@@ -5,7 +5,7 @@
 
 namespace corpuscle {
 
-/// Integers are read as fractions of full scale, from -1 to 1. Floating-point samples are unchanged.
+/// Opens a sound file. Integer samples are read as fractions of full scale, from -1 to 1. Floating-point samples are unchanged.
 Result<std::unique_ptr<Table>> open_wav_table(const std::string& path, const TableOptions& = {});
 
 }  // namespace corpuscle

@@ -18,6 +18,7 @@ MeasureAccumulator::MeasureAccumulator(std::vector<TimeWindow> windows, std::siz
 
 void MeasureAccumulator::spike(std::size_t train_index, double t) {
     auto& train = trains_[train_index];
+    // The window of the spike before this one, if that spike was in a window (train.last is then not NaN).
     const std::size_t previous_window = train.window;
     while (train.window < windows_.size() && t >= windows_[train.window].to) ++train.window;
     const bool is_inside = train.window < windows_.size() && t >= windows_[train.window].from;
@@ -28,8 +29,8 @@ void MeasureAccumulator::spike(std::size_t train_index, double t) {
 }
 
 void MeasureAccumulator::set_end(double t) {
-    for (auto& s : windows_)
-        if (std::isinf(s.to)) s.to = t;
+    for (auto& window : windows_)
+        if (std::isinf(window.to)) window.to = t;
 }
 
 std::vector<double> MeasureAccumulator::values(std::size_t train, std::size_t window) const {

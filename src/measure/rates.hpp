@@ -1,5 +1,5 @@
 #pragma once
-// Spike counts and frequencies.
+// Numbers of spikes and firing rates.
 
 #include <cmath>
 
@@ -8,9 +8,10 @@
 
 namespace corpuscle {
 
-/// The instantaneous frequency of the thesis (3.3) in Hz, 1 / (t[k+1] - t[k]), plotted at t[k]. No value for two spikes at the same time.
+/// The instantaneous frequency in Hz at a spike at time `from`, if the next spike is at time `to` (both in s): one over the interval, as in
+/// section 3.3 of the thesis. no_value if both are at the same time.
 inline double rate_between(double from, double to) { return to > from ? 1 / (to - from) : no_value; }
-/// The same, but no value for an interval longer than PauseDetector::max_interval.
+/// The same, but no_value if the interval is longer than PauseDetector::max_interval.
 inline double firing_rate_between(double from, double to) {
     return to - from > PauseDetector::max_interval ? no_value : rate_between(from, to);
 }
@@ -26,12 +27,12 @@ struct MeanRate : MeasureBase {
     static constexpr MeasureInfo info{"mean_rate", "mean", "Hz", 1, "spikes in the phase divided by its length"};
     double count = 0;
     void spike(double, const TimeWindow&) { ++count; }
-    double value(const TimeWindow& s) const { return s.to > s.from ? count / (s.to - s.from) : no_value; }
+    double value(const TimeWindow& window) const { return window.to > window.from ? count / (window.to - window.from) : no_value; }
 };
 
 struct PeakRate : MeasureBase {
     static constexpr MeasureInfo info{"peak_rate", "peak", "Hz", 1, "highest instantaneous frequency at a spike of the phase"};
-    double peak = no_value;
+    double peak = no_value;  // Hz
     void interval(double from, double to, bool) {
         if (const double rate = firing_rate_between(from, to); rate > peak || std::isnan(peak)) peak = rate;
     }
@@ -40,18 +41,18 @@ struct PeakRate : MeasureBase {
 
 struct FirstRate : MeasureBase {
     static constexpr MeasureInfo info{"first_rate", "first", "Hz", 1, "instantaneous frequency at the phase's first spike"};
-    bool seen = false;
-    double first = no_value;
+    bool has_interval = false;  // true after the first interval, even if that has no rate
+    double first = no_value;    // Hz
     void interval(double from, double to, bool) {
-        if (!seen) first = firing_rate_between(from, to);
-        seen = true;
+        if (!has_interval) first = firing_rate_between(from, to);
+        has_interval = true;
     }
     double value(const TimeWindow&) const { return first; }
 };
 
 struct LastRate : MeasureBase {
     static constexpr MeasureInfo info{"last_rate", "last", "Hz", 1, "last instantaneous frequency between two spikes of the phase"};
-    double last = no_value;
+    double last = no_value;  // Hz; no_value if the latest interval is a pause
     PauseDetector pauses;
     void interval(double from, double to, bool inside) {
         if (inside) last = pauses.add(to - from) ? no_value : rate_between(from, to);

@@ -1,5 +1,5 @@
 #pragma once
-// Text as people type it, with blanks around it and letters of either case.
+// Functions for text that the user typed: removal of blanks around it, and comparison without regard to case.
 
 #include <algorithm>
 #include <string>

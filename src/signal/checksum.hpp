@@ -9,9 +9,9 @@
 
 namespace corpuscle {
 
-/// A 64-bit checksum of a byte sequence, computed eight bytes at a time. Each step is a bijection of the value so far, so sequences
-/// that differ in a single eight-byte word never have the same checksum. If bytes are added in chunks, all chunks except the last must be
-/// multiples of eight bytes.
+/// A 64-bit checksum of a byte sequence, computed in words of eight bytes. Each step is a bijection of the checksum so far, so sequences of
+/// equal length that differ in a single word never have the same checksum. Bytes after the last complete word are words of their own. The
+/// bytes can therefore be added in several calls only if all calls but the last add a multiple of eight bytes.
 class Checksum {
     std::uint64_t value_ = 0xcbf29ce484222325U;
 
@@ -29,7 +29,7 @@ public:
         }
         for (; size > 0; ++at, --size) add_word(*at);
     }
-    /// Adds a text and its length, so that moving letters between adjacent texts changes the checksum.
+    /// Adds the length of a text and the text, so that moving letters between two consecutive texts changes the checksum.
     void add(std::string_view text) {
         add_word(text.size());
         add(text.data(), text.size());

@@ -1,22 +1,24 @@
 #pragma once
-// exp, log, sin and cos from + - * / and bit operations only. Every processor, instruction set and lane width gives the same bytes;
-// the C library's functions differ between machines. The error is at most a few units in the last place.
+// exp, log, sin and cos, computed with + - * / and bit operations only. The results are therefore identical on every processor,
+// instruction set and lane width, unlike those of the C library. The error is at most a few units in the last place.
 
 #include "signal/number.hpp"
 
 namespace corpuscle::num {
 
+// Overloads for dual numbers, defined at the end. They are declared first, so that calls with a Dual do not select the templates.
 Dual exp(Dual x);
 Dual log(Dual x);
 Dual sin_turns(Dual x);
 Dual cos_turns(Dual x);
 
-/// e^x, with x limited to +- exp_limit (700 for double).
+/// e^x, with x limited to +- exp_limit (700 for double, 87 for float).
 template <class T>
 T exp(T x) {
     x = num::min(num::max(x, T(-exp_limit<T>)), T(exp_limit<T>));
-    const T k = num::nearest(x * T(1.4426950408889634));
-    const T r = (x - k * T(6.93147180369123816490e-01)) - k * T(1.90821492927058770002e-10);  // ln 2 as a sum of two constants
+    const T k = num::nearest(x * T(1.4426950408889634));  // x / ln 2
+    // r = x - k ln 2. ln 2 is the sum of two constants, so that k times the first one is exact.
+    const T r = (x - k * T(6.93147180369123816490e-01)) - k * T(1.90821492927058770002e-10);
     // Taylor series to r^13; |r| <= 0.347, so the remainder is below 4e-18. Estrin's scheme gives short dependency chains.
     const T r2 = r * r, r4 = r2 * r2, r8 = r4 * r4;
     const auto pair = [r](double low, double high) { return T(1.0 / low) + T(1.0 / high) * r; };
@@ -30,7 +32,7 @@ T exp(T x) {
 template <class T>
 T log(T x) {
     T m = num::mantissa(x), k = num::exponent(x);
-    const auto high = m > T(1.4142135623730951);
+    const auto high = m > T(1.4142135623730951);  // above sqrt 2: halve m, so that it is in (0.7071, 1.4142]
     m = num::select(high, m * T(0.5), m);
     k = num::select(high, k + T(1.0), k);
     const T s = (m - T(1.0)) / (m + T(1.0)), z = s * s;  // log m = 2 artanh s, |s| <= 0.172
@@ -48,7 +50,7 @@ T sin_taylor(T y) {  // |y| <= pi/4
     return y + y * z * p;
 }
 template <class T>
-T cos_taylor(T y) {
+T cos_taylor(T y) {  // |y| <= pi/4
     const T z = y * y;
     T p = T(-1.0 / 6402373705728000.0);
     for (const double f : {20922789888000.0, -87178291200.0, 479001600.0, -3628800.0, 40320.0, -720.0, 24.0}) p = p * z + T(1.0 / f);
@@ -56,20 +58,20 @@ T cos_taylor(T y) {
 }
 }  // namespace detail
 
-// Signs are changed by multiplying by -1: some lanes compute -x as 0 - x, which loses the sign of a zero.
+// Signs are changed by multiplying by -1, not by negation: xsimd can negate by 0 - x, which loses the sign of a zero (see simd_lanes.hpp).
 
 /// sin(2 pi turns) for |turns| < 2^49; exact at quarter turns.
 template <class T>
 T sin_turns(T turns) {
     const T quarter = num::nearest(turns * T(4.0));
-    const T y = (turns - quarter * T(0.25)) * T(6.283185307179586);
-    const T q = quarter - T(4.0) * num::nearest(quarter * T(0.25));  // -2 ... 2
+    const T y = (turns - quarter * T(0.25)) * T(6.283185307179586);  // angle from the nearest quarter turn, radians
+    const T q = quarter - T(4.0) * num::nearest(quarter * T(0.25));  // that quarter turn modulo 4: -2 ... 2
     const T s = detail::sin_taylor(y), c = detail::cos_taylor(y);
     const T odd = num::select(q > T(0.0), c, T(-1.0) * c), even = num::select(num::abs(q) > T(1.5), T(-1.0) * s, s);
     return num::select(num::abs(num::abs(q) - T(1.0)) < T(0.5), odd, even);
 }
 
-/// cos(2 pi turns).
+/// cos(2 pi turns), computed like sin_turns().
 template <class T>
 T cos_turns(T turns) {
     const T quarter = num::nearest(turns * T(4.0));
@@ -83,13 +85,14 @@ T cos_turns(T turns) {
 /// (e^x - 1) / x without loss of digits for small x; 1 at x = 0.
 template <class T>
 T exprel(T x) {
-    T series = T(1.0 / 5040);  // to x^6: the remainder is below 3e-19 for |x| < 0.01, and below 6e-9 for |x| < 0.3
+    // Taylor series to x^6. Below series_limit the remainder is at most 3e-19 for double (|x| < 0.01), and 6e-9 for float (|x| < 0.3).
+    T series = T(1.0 / 5040);
     for (const double f : {720.0, 120.0, 24.0, 6.0, 2.0, 1.0}) series = series * x + T(1.0 / f);
     const auto small = num::abs(x) < T(series_limit<T>);
     return num::select(small, series, (num::exp(x) - T(1.0)) / num::select(small, T(1.0), x));
 }
 
-// The derivatives for dual numbers. The value equals that of the double to the last bit.
+// Functions of dual numbers: value and derivative. The value is identical to the result for a double.
 inline Dual exp(Dual x) {
     const double e = exp(x.v);
     return {e, e * x.d};

@@ -9,7 +9,7 @@
 
 namespace corpuscle {
 
-/// The text of an embedded file, by its path: "circuits/bias.cir".
+/// The text of the embedded file with this path in the source tree: "circuits/bias.cir". An unknown path is an error.
 Result<std::string> embedded_text(const std::string& path);
 
 /// The paths of all embedded files, such as "process/tsmc180.lib".

@@ -22,7 +22,7 @@ struct Error {
     std::string message;  ///< states what is wrong, its value, and what is expected
     SourceLocation location = {};
 
-    /// "file:line:column: message", as compilers write it.
+    /// "file:line:column: message", without the unknown parts of the location.
     std::string text() const;
 };
 
@@ -31,7 +31,7 @@ inline Error bad_input(std::string message, SourceLocation location = {}) {
 }
 inline Error bad_usage(std::string message) { return {ErrorCode::bad_usage, std::move(message)}; }
 
-/// A value, or the error that prevented it.
+/// A value, or the error that prevented it. Check with `if (result)` first: * and -> require a value, error() requires an error.
 template <class T>
 class [[nodiscard]] Result {
     std::variant<T, Error> value_or_error_;

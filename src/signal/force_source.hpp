@@ -13,19 +13,19 @@
 
 namespace corpuscle {
 
-/// Position of a sensor in m, or as written in the layout file if this has no unit of length.
+/// Position of a sensor in m. If the layout file states no unit of length, the numbers are as in the file.
 struct Position {
     double x = 0, y = 0, z = 0;
 };
 
-/// One channel of force. Id, name and position appear in every output.
+/// One channel of force.
 struct Channel {
-    std::uint32_t id = 0;
-    std::string name;  ///< from the file's header or the stimulus; otherwise ch1, ch2 ...
-    std::optional<Position> position = {};
+    std::uint32_t id = 0;                   ///< index of the channel in its source, counted from 0
+    std::string name;                       ///< of the column in the file's header, or of the stimulus; otherwise ch1, ch2 ...
+    std::optional<Position> position = {};  ///< of the channel's sensor, from the layout file
 };
 
-/// A named time window [from, to) in seconds, such as a phase of the thesis's experiment.
+/// A named time window [from, to), in seconds from the start of the stimulus.
 struct Phase {
     std::string name;
     double from = 0, to = 0;
@@ -40,8 +40,8 @@ struct MetadataEntry {
 
 /// A measure of a channel's recording quality.
 struct QualityMetric {
-    std::uint32_t channel = 0;
-    std::string_view name;  ///< such as "hum"
+    std::uint32_t channel = 0;  ///< Channel::id
+    std::string_view name;      ///< such as "hum"
     double value = 0;
     std::string_view unit;
 };
@@ -52,34 +52,35 @@ struct RecordingQuality {
     std::vector<std::string> descriptions = {}, warnings = {};
 };
 
-/// A block of samples, at the same times for all channels: force[channel][sample], newtons.
+/// A block of consecutive samples of all channels: force[channel][sample], in newtons. All channels have the same sample times.
 struct Frames {
     explicit Frames(std::size_t channels, std::size_t capacity) : force(channels, std::vector<double>(capacity)), capacity(capacity) {}
     std::vector<std::vector<double>> force;
-    std::size_t capacity;
-    std::size_t count = 0;  ///< number of samples filled
+    std::size_t capacity;   ///< samples of each channel for which there is memory
+    std::size_t count = 0;  ///< number of samples that read() has filled, equal for all channels
 };
 
+/// A source of force. All its channels have the same clock.
 class ForceSource {
 public:
     virtual ~ForceSource() = default;
     virtual const std::string& name() const = 0;
     virtual const Clock& clock() const = 0;
     virtual const std::vector<Channel>& channels() const = 0;
-    /// The fraction that has been read, 0 to 1, for a progress display.
+    /// The fraction of the source that has been read, 0 to 1, for a progress display.
     virtual double progress() const = 0;
     /// The phases of a stimulus; empty if it has none.
     virtual std::vector<Phase> phases() const { return {}; }
-    /// Frequency of repetition, Hz; 0 if the force is not periodic.
+    /// Frequency at which the force repeats, Hz; 0 if the force is not periodic.
     virtual double cycle_frequency() const { return 0; }
-    /// A short description.
+    /// A short description of the source for the user.
     virtual std::string description() const = 0;
     virtual std::vector<MetadataEntry> metadata() const { return {}; }
     /// Notes for the user about how the source was read.
     virtual std::vector<std::string> notes() const { return {}; }
     /// The recording quality of the part read so far.
     virtual RecordingQuality quality() const { return {}; }
-    /// Fills the next block; a count of 0 marks the end.
+    /// Reads the next samples, up to the capacity of the block, and sets its count. A count of 0 marks the end of the source.
     virtual Result<void> read(Frames&) = 0;
 };
 

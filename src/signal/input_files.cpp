@@ -17,9 +17,10 @@
 namespace corpuscle {
 namespace {
 
+/// The registered inputs.
 struct InputFiles {
     std::mutex mutex;
-    std::map<std::pair<dev_t, ino_t>, std::string> paths;
+    std::map<std::pair<dev_t, ino_t>, std::string> paths;  // by device and inode
 };
 
 InputFiles& input_files() {
@@ -27,7 +28,7 @@ InputFiles& input_files() {
     return all;
 }
 
-/// Device and inode of a regular file.
+/// Device and inode of a regular file; nullopt if `path` is not one.
 std::optional<std::pair<dev_t, ino_t>> identity_of(const std::string& path) {
     struct ::stat file_status = {};
     const bool found = path == "-" ? ::fstat(0, &file_status) == 0 : ::stat(path.c_str(), &file_status) == 0;
@@ -35,16 +36,16 @@ std::optional<std::pair<dev_t, ino_t>> identity_of(const std::string& path) {
     return std::pair{file_status.st_dev, file_status.st_ino};
 }
 
-std::atomic<bool (*)()> interruption = nullptr;
+std::atomic<bool (*)()> interruption_check = nullptr;  // null: no function was set
 
 bool is_interrupted() {
-    const auto check = interruption.load();
+    const auto check = interruption_check.load();
     return check && check();
 }
 
 constexpr int poll_ms = 100;  // a signal that arrives just before poll() is noticed after at most this time
 
-/// Like read(), but returns -1 with errno EINTR at an interruption.
+/// Like read(), but returns -1 with errno EINTR as soon as is_interrupted() is true. Other signals do not end it.
 ssize_t read_when_ready(int file, std::span<char> to) {
     for (;;) {
         if (is_interrupted()) return errno = EINTR, -1;
@@ -76,12 +77,12 @@ std::optional<std::string> known_input_path(const std::string& path) {
     return {};
 }
 
-void set_interruption_check(bool (*is_interrupted)()) { interruption = is_interrupted; }
+void set_interruption_check(bool (*is_interrupted)()) { interruption_check = is_interrupted; }
 
 std::FILE* open_input(const std::string& path) {
     const int file = ::open(path.c_str(), O_RDONLY | O_NONBLOCK | O_NOCTTY | O_CLOEXEC);
     if (file < 0) return nullptr;
-    ::fcntl(file, F_SETFL, ::fcntl(file, F_GETFL) & ~O_NONBLOCK);
+    ::fcntl(file, F_SETFL, ::fcntl(file, F_GETFL) & ~O_NONBLOCK);  // only open() must not wait; reads do
     remember_input(path);
     return ::fdopen(file, "rb");
 }

@@ -1,6 +1,6 @@
 #pragma once
-// Input files. The process stores their devices and inodes, so that no output file replaces an input. A read that waits for a pipe or a
-// terminal ends at an interruption, such as Ctrl-C.
+// Opening and reading of input files. The device and inode of every input are stored, so that no output file replaces an input. A read that
+// waits for a pipe or a terminal ends at an interruption, such as Ctrl-C.
 
 #include <cstdio>
 #include <optional>
@@ -11,26 +11,30 @@
 
 namespace corpuscle {
 
-/// Registers a file as an input. "-" is standard input. A path without a regular file is ignored.
+/// Registers a file as an input. "-" is standard input. Does nothing if the path is not that of a regular file.
 void remember_input(const std::string& path);
 
-/// The path by which the file at `path` was read, possibly under another name. nullopt if it was not read.
+/// If the file at `path` is a registered input: the path under which it was registered first, which differs from `path` if the file has
+/// several paths. nullopt if it is not an input.
 std::optional<std::string> known_input_path(const std::string& path);
 
-/// Sets the function that is called while a read waits. If it returns true, the read ends. Without it, reads wait without limit.
+/// Sets the function that read_input() calls again and again while it waits. If the function returns true, the read ends with an error.
+/// Without a function, reads wait without limit.
 void set_interruption_check(bool (*is_interrupted)());
 
-/// Opens a file for reading and registers it as an input. Never waits, not even for the writer of a named pipe. On failure returns null and
-/// sets errno.
+/// Opens a file for reading and registers it as an input. Does not wait, not even until a named pipe has a writer. On failure returns null
+/// and sets errno.
 std::FILE* open_input(const std::string& path);
 
-/// Like fread(), but an interruption is an error. Fewer bytes than requested mark the end. Do not read the same file with other functions.
-Result<std::size_t> read_input(std::FILE*, std::span<char>, const std::string& name);
+/// Fills `to` and returns the number of bytes read. Fewer bytes than the size of `to` mark the end of the file; an interruption is an
+/// error. `name` is the file's name for messages. Do not mix with fread(): the data of pipes do not pass through the buffer of the FILE.
+Result<std::size_t> read_input(std::FILE*, std::span<char> to, const std::string& name);
 
-/// Reads an entire file. A file larger than `max_bytes` is an error, which names the expected `kind` ("population file").
+/// Reads an entire file. A file larger than `max_bytes` is an error. `kind` is the expected kind of file, for messages: "population file".
 Result<std::string> read_entire_input(const std::string& path, std::size_t max_bytes, const std::string& kind);
 
-/// The first bytes of a regular file. "" for a pipe or similar, which can be read only once, and for a file that cannot be opened.
+/// The first `count` bytes of a regular file, or all bytes of a shorter file. "" for a pipe or similar, which can be read only once, and
+/// for a file that cannot be opened.
 std::string peek_input(const std::string& path, std::size_t count);
 
 }  // namespace corpuscle

@@ -7,7 +7,7 @@
 namespace corpuscle {
 
 std::string_view name_of(InstructionSet set) {
-    constexpr std::string_view names[] = {"scalar", "baseline", "avx2", "avx512"};
+    constexpr std::string_view names[] = {"scalar", "baseline", "avx2", "avx512"};  // in the order of the enumerators
     return names[static_cast<int>(set)];
 }
 

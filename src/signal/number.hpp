@@ -1,7 +1,7 @@
 #pragma once
-// The number types that a model's equations run on, and the few operations that they may use.
-// A model writes num::select, num::any, num::exp ..., always qualified: unqualified names are ambiguous on
-// SIMD batches. To add a number type, add its overloads here, before any model is included.
+// The number types with which the equations of a model can be computed (double, SIMD lanes, dual numbers), and the operations that the
+// equations may use. A model always writes num::select, num::any, num::exp ... with the namespace, because the names alone are ambiguous
+// for SIMD batches. To add a number type, add its overloads here: they must be declared before the models that use them.
 
 #include <bit>
 #include <cmath>
@@ -9,41 +9,43 @@
 
 namespace corpuscle::num {
 
-// ---- double ----
+/// exp() in elementary.hpp limits its argument to +- this value, so that it never returns infinity. The values here are those for double;
+/// simd_lanes.hpp has those for float.
+template <class T>
+inline constexpr double exp_limit = 700;
+/// For |x| below this value exprel() in elementary.hpp uses a short series, because e^x - 1 would lose digits.
+template <class T>
+inline constexpr double series_limit = 0.01;
 
 template <class T>
 struct MaskOf {
     using type = bool;
 };
-/// exp() limits its argument to +- this value, so that it never returns infinity.
-template <class T>
-inline constexpr double exp_limit = 700;
-/// For |x| below this value exprel() uses a short series, because e^x - 1 would lose digits.
-template <class T>
-inline constexpr double series_limit = 0.01;
-/// The type of a comparison of two T: bool, or a mask of lanes.
+/// The type of a comparison of two T: bool for one number, a mask with one bit for each lane for lanes.
 template <class T>
 using Mask = typename MaskOf<T>::type;
 
 }  // namespace corpuscle::num
 
-#ifdef CORPUSCLE_ISA  // in a file compiled for one instruction set
+#ifdef CORPUSCLE_ISA  // defined in the files that are compiled once for each instruction set
 #include "signal/simd_lanes.hpp"
 #endif
 
 namespace corpuscle::num {
 
-inline bool any(bool m) { return m; }
-inline double select(bool m, double yes, double no) { return m ? yes : no; }
-inline double sqrt(double x) { return std::sqrt(x); }  // IEEE: correctly rounded everywhere
-inline double value(double x) { return x; }
+// ---- double ----
 
-/// Nearest integer, ties to even, for |x| < 2^51. The sum rounds; no rounding instruction is needed.
+inline bool any(bool m) { return m; }  // of lanes: true if any lane of the mask is set
+inline double select(bool m, double yes, double no) { return m ? yes : no; }
+inline double sqrt(double x) { return std::sqrt(x); }  // the same on every machine: IEEE 754 requires correct rounding
+inline double value(double x) { return x; }            // of a dual number: the value without the derivative
+
+/// Nearest integer, ties to even, for |x| < 2^51. Adding `big` rounds, because doubles of this size are integers.
 inline double nearest(double x) {
     constexpr double big = 6755399441055744.0;  // 1.5 * 2^52
     return (x + big) - big;
 }
-/// x 2^k for an integral k with a normal result.
+/// x 2^k for an integer k. 2^k and the result must be normal numbers.
 inline double times_power_of_two(double x, double k) { return x * std::bit_cast<double>((static_cast<std::int64_t>(k) + 1023) << 52); }
 /// mantissa() and exponent() split a normal x > 0 into a factor in [1, 2) and a power of two.
 inline double mantissa(double x) {
@@ -54,7 +56,7 @@ inline double exponent(double x) { return static_cast<double>(static_cast<std::i
 // ---- dual number: a value and its derivative along one direction ----
 
 struct Dual {
-    double v = 0, d = 0;
+    double v = 0, d = 0;  // value and derivative
     constexpr Dual() = default;
     constexpr Dual(double value, double slope = 0) : v(value), d(slope) {}
     friend constexpr Dual operator+(Dual a, Dual b) { return {a.v + b.v, a.d + b.d}; }
@@ -77,13 +79,13 @@ inline Dual sqrt(Dual x) {
 }
 inline double value(Dual x) { return x.v; }
 
-/// A mask with no lane set.
+/// The mask in which no lane is set; false for one number.
 template <class T>
 Mask<T> empty_mask() {
     return T(0.0) > T(0.0);
 }
 
-// ---- every number type ----
+// ---- all number types ----
 
 template <class T>
 T max(T a, T b) {
@@ -97,7 +99,7 @@ template <class T>
 T abs(T a) {
     return num::select(a < T(0.0), -a, a);
 }
-/// max{x, 0}, the rectifier of the thesis (eq. 4).
+/// max(x, 0), the rectifier of the thesis (eq. 4).
 template <class T>
 T positive_part(T x) {
     return num::max(x, T(0.0));

@@ -9,14 +9,15 @@
 namespace corpuscle {
 namespace {
 
+/// Levenshtein distance: the number of letters to replace, insert or remove. Upper and lower case are equal.
 std::size_t edit_distance(std::string_view a, std::string_view b) {
     std::vector<std::size_t> row(b.size() + 1);
     std::iota(row.begin(), row.end(), std::size_t{0});
     for (std::size_t i = 0; i < a.size(); ++i) {
         std::size_t diagonal = std::exchange(row[0], i + 1);
         for (std::size_t j = 0; j < b.size(); ++j) {
-            const std::size_t swapped = diagonal + (lower(a[i]) != lower(b[j]));
-            diagonal = std::exchange(row[j + 1], std::min({swapped, row[j] + 1, row[j + 1] + 1}));
+            const std::size_t replaced = diagonal + (lower(a[i]) != lower(b[j]));
+            diagonal = std::exchange(row[j + 1], std::min({replaced, row[j] + 1, row[j + 1] + 1}));
         }
     }
     return row.back();
@@ -40,6 +41,7 @@ Result<void> check_order(std::string_view owner, std::string_view lower_name, do
 std::string did_you_mean(std::string_view typed, std::span<const std::string_view> names) {
     if (typed.empty() || typed.size() > 64) return "";
     std::string_view best;
+    // A name is similar if at most half of the typed letters are changed, or one letter of a short name.
     std::size_t best_distance = std::max<std::size_t>(1, typed.size() / 2) + 1;
     for (const auto name : names)
         if (const auto n = edit_distance(typed, name); n < best_distance) best_distance = n, best = name;

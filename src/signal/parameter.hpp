@@ -1,5 +1,5 @@
 #pragma once
-// Parameters are declared once, in a table row. Command line, JSON, reference, checks and defaults are generated from that row.
+// Each parameter is declared once, in a row of a table. Command line, JSON, reference pages and checks are generated from these rows.
 
 #include <optional>
 #include <span>
@@ -11,45 +11,45 @@
 
 namespace corpuscle {
 
-/// Declares one parameter of the struct P.
+/// Declares one parameter: a member of the struct P. Its default is the member's initial value in P.
 template <class P>
 struct ParameterDef {
     std::string_view name;
     double P::* member;
     std::string_view unit;  ///< an SI unit; "" for a dimensionless number
-    double low, high;       ///< the allowed range, ends included
+    double low, high;       ///< the allowed range in `unit`, ends included
     std::string_view description;
-    std::string_view source = {};      ///< source of the default, if it is not the model's source
-    bool is_shared_by_copies = false;  ///< true if all copies of an afferent share the value, as for numerical or measurement options
+    std::string_view source = {};      ///< publication of the default; "": the source of the model or stimulus
+    bool is_shared_by_copies = false;  ///< true if all copies of an afferent must have the same value, as for numerical options
 };
 
-/// Requires that one parameter is below another.
+/// Requires that one parameter is below another parameter of the struct P.
 template <class P>
 struct OrderConstraint {
     std::string_view lower_name;
     double P::* lower_member;
     std::string_view upper_name;
     double P::* upper_member;
-    bool or_equal = false;
+    bool or_equal = false;  ///< true: equal values are allowed
 };
 
-/// A parameter without its struct type, for lists, pages and settings.
+/// The declaration of a parameter without the type of its struct. The members are those of ParameterDef.
 struct ParameterInfo {
     std::string_view name, unit;
     double default_value;
     double low, high;
     std::string_view description;
-    std::string_view source;           ///< source of the default; "": the source of the catalogue entry
-    bool is_shared_by_copies = false;  ///< true if all copies of an afferent share the value
+    std::string_view source;  ///< publication of the default; "": the source of the catalogue entry
+    bool is_shared_by_copies = false;
 };
 
-/// An entry of a catalogue: a name, a description and parameters.
+/// An entry of a catalogue, for example of the stimuli.
 struct CatalogEntry {
-    std::string_view name, description, source;
+    std::string_view name, description, source;  ///< source: publication of the model or stimulus
     std::vector<ParameterInfo> parameters;
 };
 
-/// A parameter and its new value, in SI.
+/// The name of a parameter and its new value, in the parameter's unit.
 struct Setting {
     std::string_view name;
     double value;
@@ -64,15 +64,17 @@ std::vector<ParameterInfo> parameters_of(std::span<const ParameterDef<P>> fields
     return rows;
 }
 
-template <class M>  // a model or a stimulus with name, description, source, Params and fields
+template <class M>  // M: a component of a model, or a stimulus, with the members name, description, source, Params and fields
 CatalogEntry catalog_entry_of() {
     return {M::name, M::description, M::source, parameters_of<typename M::Params>(M::fields)};
 }
 
-/// Returns an error if the value is outside the parameter's range: "lif-b: C_m = -1 F is outside [1e-15, 1]".
+/// Returns an error if the value is outside the parameter's range: "lif-b: C_m = -1 F is outside [1e-15, 1]". `owner` is the component or
+/// stimulus that has the parameter.
 Result<void> check_range(std::string_view owner, const ParameterInfo&, double value);
 
-/// Returns an error if two parameters are in the wrong order: "lif-b: V_reset = 0.6 must be below V_th = 0.5".
+/// Returns an error if the value `lower` is not below `upper` (with `or_equal`: if it is above `upper`): "lif-b: V_reset = 0.6 must be
+/// below V_th = 0.5".
 Result<void> check_order(std::string_view owner, std::string_view lower_name, double lower, std::string_view upper_name, double upper,
                          bool or_equal);
 
@@ -83,11 +85,12 @@ Result<void> check_order(std::string_view owner, std::span<const OrderConstraint
     return {};
 }
 
-/// Suggests the name that is closest to a mistyped one, as "; did you mean 'out'?". "" if none is close.
+/// The end of an error message that suggests the one of `names` that is most similar to the mistyped name: "; did you mean 'out'?". "" if
+/// none is similar.
 std::string did_you_mean(std::string_view typed, std::span<const std::string_view> names);
 
-/// The default parameters with the settings applied. Settings for other parameters are ignored, because they may belong to the
-/// other component of the model.
+/// The default parameters with the settings applied. Settings of parameters that P does not have are ignored: they may belong to the other
+/// component of the model.
 template <class P>
 P with_settings(std::span<const ParameterDef<P>> fields, std::span<const Setting> settings) {
     P p;

@@ -14,10 +14,10 @@ std::string names_of(std::span<const ParameterInfo> parameters) {
     return names;
 }
 
-std::string unknown_parameter(const ParameterOverride& w, std::span<const ParameterInfo> parameters) {
+std::string unknown_parameter(const ParameterOverride& given, std::span<const ParameterInfo> parameters) {
     std::vector<std::string_view> names;
     for (const auto& r : parameters) names.push_back(r.name);
-    return fmt::format("{}: unknown parameter '{}'{} (it has {})", w.target, w.parameter, did_you_mean(w.parameter, names),
+    return fmt::format("{}: unknown parameter '{}'{} (it has {})", given.target, given.parameter, did_you_mean(given.parameter, names),
                        names_of(parameters));
 }
 
@@ -32,23 +32,23 @@ Result<ParameterOverride> parse_override(std::string_view text) {
                              std::string(text.substr(equals + 1))};
 }
 
-Result<const ParameterInfo*> find_parameter(const ParameterOverride& w, std::span<const ParameterInfo> parameters) {
+Result<const ParameterInfo*> find_parameter(const ParameterOverride& given, std::span<const ParameterInfo> parameters) {
     const auto parameter =
-        std::find_if(parameters.begin(), parameters.end(), [&](const ParameterInfo& r) { return r.name == w.parameter; });
-    if (parameter == parameters.end()) return bad_input(unknown_parameter(w, parameters));
+        std::find_if(parameters.begin(), parameters.end(), [&](const ParameterInfo& r) { return r.name == given.parameter; });
+    if (parameter == parameters.end()) return bad_input(unknown_parameter(given, parameters));
     return &*parameter;
 }
 
 Result<std::vector<Setting>> settings_for(std::string_view name, std::span<const ParameterInfo> parameters,
                                           std::span<const ParameterOverride> overrides) {
     std::vector<Setting> settings;
-    for (const auto& w : overrides) {
-        if (w.target != name) continue;
-        w.is_used = true;
-        const auto parameter = find_parameter(w, parameters);
+    for (const auto& given : overrides) {
+        if (given.target != name) continue;
+        given.is_used = true;
+        const auto parameter = find_parameter(given, parameters);
         if (!parameter) return parameter.error();
-        const auto value = parse_quantity(w.value, (*parameter)->unit);
-        if (!value) return bad_input(fmt::format("{}.{}: {}", w.target, w.parameter, value.error().message));
+        const auto value = parse_quantity(given.value, (*parameter)->unit);
+        if (!value) return bad_input(fmt::format("{}.{}: {}", given.target, given.parameter, value.error().message));
         if (const auto ok = check_range(name, **parameter, *value); !ok) return ok.error();
         settings.push_back({(*parameter)->name, *value});
     }

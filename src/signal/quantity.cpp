@@ -15,7 +15,7 @@ struct NamedUnit {
     std::string_view name;
     Unit unit;
 };
-// The factor to SI, and the exponents of s, m, N, V, A.
+// For each unit: the factor to SI, and the exponents of s, m, N, V and A.
 constexpr NamedUnit units[] = {
     {"s", {1, 1, 0, 0, 0, 0}},    {"min", {60, 1, 0, 0, 0, 0}},        {"Hz", {1, -1, 0, 0, 0, 0}},
     {"m", {1, 0, 1, 0, 0, 0}},    {"cm", {0.01, 0, 1, 0, 0, 0}},       {"N", {1, 0, 0, 1, 0, 0}},
@@ -39,10 +39,11 @@ std::optional<double> prefix_factor(std::string_view s) {
     return {};
 }
 
+/// A symbol, possibly with a prefix: "mN".
 std::optional<Unit> unit_of_symbol(std::string_view s) {
     for (const auto& u : units)
         if (u.name == s) return u.unit;
-    for (const auto& p : prefixes)  // all units except five have prefixes
+    for (const auto& p : prefixes)  // with a prefix; %, 1, min, lbf and cm take none
         if (s.starts_with(p.text))
             for (const auto& u : units)
                 if (u.name == s.substr(p.text.size()) && u.name != "%" && u.name != "1" && u.name != "min" && u.name != "lbf" &&
@@ -64,7 +65,7 @@ std::optional<Unit> unit_of_powered_symbol(std::string_view s) {
     return Unit{factor, by(base->second), by(base->metre), by(base->newton), by(base->volt), by(base->ampere)};
 }
 
-/// The name of a quantity of this dimension, for messages.
+/// The kind of quantity that has this dimension, for messages; empty if it has no name here.
 std::string_view dimension_name(const Unit& u) {
     struct Kind {
         std::string_view unit, name;
@@ -78,6 +79,7 @@ std::string_view dimension_name(const Unit& u) {
     return {};
 }
 
+/// The error for a quantity whose unit, `found`, has not the dimension of the `wanted` unit.
 Error wrong_unit(std::string_view text, std::string_view wanted, const std::optional<Unit>& found) {
     const auto name = found ? dimension_name(*found) : std::string_view{};
     const auto problem = name.empty() ? fmt::format("'{}' has another unit", text) : fmt::format("'{}' is {}", text, name);
@@ -90,7 +92,7 @@ Error wrong_unit(std::string_view text, std::string_view wanted, const std::opti
 Result<Unit> parse_unit(std::string_view text) {
     if (text.size() > 64) return bad_input("the unit has more than 64 letters");
     Unit total;
-    double power = 1;
+    double power = 1;  // of the next symbol: 1, or -1 after a slash
     std::string_view rest = trimmed(text);
     if (rest.starts_with('/')) power = -1, rest = trimmed(rest.substr(1));  // "/cm2" is per square centimetre
     if (rest.empty() && power < 0) return bad_input(fmt::format("unit '{}' is incomplete: a symbol is missing at the end", text));
@@ -112,7 +114,7 @@ Result<Unit> parse_unit(std::string_view text) {
             rest = trimmed(rest.substr(next + 1));
             if (rest.empty()) return bad_input(fmt::format("unit '{}' is incomplete: a symbol is missing at the end", text));
         } else {
-            rest = rest.substr(next);  // a blank keeps the current operation: A s/N
+            rest = rest.substr(next);  // a blank keeps the power: in "A/N s" both N and s are divided by
         }
     }
     return total;
@@ -127,7 +129,7 @@ Result<double> parse_quantity(std::string_view text, std::string_view unit) {
     if (status != std::errc{} || end == begin)
         return bad_input(fmt::format("'{}' is not a quantity; write a number and a unit, such as '{}'", text, example));
     const auto written = trimmed(t.substr(static_cast<std::size_t>(end - t.data())));
-    const Unit wanted = *parse_unit(unit);
+    const Unit wanted = *parse_unit(unit);  // `unit` is a constant of the program, so it is valid
     double factor = 1;
     if (!written.empty()) {
         const auto found = parse_unit(written);
@@ -148,16 +150,16 @@ Result<double> parse_quantity(std::string_view text, std::string_view unit) {
 }
 
 std::string format_quantity(double value, std::string_view unit) {
-    const bool square = unit.ends_with('2') || unit.ends_with('3');  // a prefix is squared too: 1 um2 is 1e-12 m2
-    const bool prefixed = !unit.empty() && !unit.starts_with("1/") && !square && value != 0 && std::isfinite(value);
-    constexpr std::string_view names[] = {"f", "p", "n", "u", "m", "", "k", "M", "G", "T"};
-    int i = 5;
+    const bool has_power = unit.ends_with('2') || unit.ends_with('3');  // without prefix, as the power applies to it too: 1 um2 is 1e-12 m2
+    const bool prefixed = !unit.empty() && !unit.starts_with("1/") && !has_power && value != 0 && std::isfinite(value);
+    constexpr std::string_view prefix_names[] = {"f", "p", "n", "u", "m", "", "k", "M", "G", "T"};
+    int i = 5;  // no prefix
     if (prefixed) {
-        const auto rounded = std::abs(value) * (1 + 5e-5);  // 999.96 is 1 k, not 1000
+        const auto rounded = std::abs(value) * (1 + 5e-5);  // so that 999.96 is written as 1 k, not as 1000
         i = std::clamp(static_cast<int>(std::floor(std::log10(rounded) / 3)) + 5, 0, 9);
         value /= std::pow(10.0, 3 * (i - 5));
     }
-    return fmt::format("{:.4g}{}{}{}", value + 0.0, unit.empty() ? "" : " ", names[i], unit);
+    return fmt::format("{:.4g}{}{}{}", value + 0.0, unit.empty() ? "" : " ", prefix_names[i], unit);
 }
 
 }  // namespace corpuscle

@@ -22,7 +22,7 @@ inline xsimd::batch<float> xsimd::batch<float>::operator-() const noexcept {
 
 namespace corpuscle::num {
 
-/// One register of this instruction set.
+/// One register of the instruction set for which the file is compiled, with elements of type V.
 template <class V>
 using Lanes = xsimd::batch<V>;
 
@@ -39,23 +39,23 @@ template <class V>
 bool all(xsimd::batch_bool<V> m) {
     return xsimd::all(m);
 }
-/// True if any lane of several masks is set. AVX-512 tests two masks at once, because a bitwise or would move each mask through a
-/// general register.
+/// True if any lane of any of J masks is set. For AVX-512, one instruction tests two masks at once, because a bitwise or would move each
+/// mask through a general register.
 template <std::size_t J, class V>
 [[gnu::always_inline]] inline bool any_of(const xsimd::batch_bool<V> (&m)[J]) {
     bool any = false;
 #ifdef __AVX512F__
     for (std::size_t j = 0; j < J; j += 2) {
-        const auto first = m[j].data, second = m[j + 1 < J ? j + 1 : j].data;
+        const auto first = m[j].data, second = m[j + 1 < J ? j + 1 : j].data;  // an odd last mask is paired with itself
         if constexpr (sizeof(V) == 8)
             any = any || !_kortestz_mask8_u8(first, second);
         else
             any = any || !_kortestz_mask16_u8(first, second);
     }
 #else
-    auto all = m[0];
-    for (std::size_t j = 1; j < J; ++j) all = all | m[j];
-    any = xsimd::any(all);
+    auto combined = m[0];
+    for (std::size_t j = 1; j < J; ++j) combined = combined | m[j];
+    any = xsimd::any(combined);
 #endif
     return any;
 }
@@ -68,7 +68,8 @@ Lanes<V> sqrt(Lanes<V> x) {
     return xsimd::sqrt(x);
 }
 
-/// max() is a > b ? a : b and min() is a < b ? a : b, as the instructions compute them, also for zeros of different sign and NaN.
+/// max() is a > b ? a : b and min() is a < b ? a : b, also for NaN and for zeros of different sign, because the processor's instructions
+/// are defined so.
 template <class V>
 Lanes<V> max(Lanes<V> a, Lanes<V> b) {
     return xsimd::max(a, b);
@@ -91,13 +92,13 @@ std::uint64_t mask_bits(xsimd::batch_bool<V> m) {
 #else
     alignas(64) bool lanes[Lanes<V>::size];
     m.store_aligned(lanes);
-    std::uint64_t all = 0;
-    for (std::size_t l = 0; l < Lanes<V>::size; ++l) all |= std::uint64_t{lanes[l]} << l;
-    return all;
+    std::uint64_t bits = 0;
+    for (std::size_t l = 0; l < Lanes<V>::size; ++l) bits |= std::uint64_t{lanes[l]} << l;
+    return bits;
 #endif
 }
 
-/// Loads one 16-bit integer for each lane.
+/// Loads one 16-bit integer for each lane and converts it to V.
 template <class V>
 Lanes<V> load_int16(const std::int16_t* words) {
 #if defined(__AVX512F__)
@@ -117,7 +118,7 @@ Lanes<V> load_int16(const std::int16_t* words) {
 #endif
 }
 
-/// Loads one float for each lane.
+/// Loads one float for each lane and converts it to V.
 template <class V>
 Lanes<V> load_float(const float* floats) {
 #if defined(__AVX512F__)
@@ -160,7 +161,8 @@ xsimd::batch<To> bits_as(xsimd::batch<V> x) {
         return xsimd::bitwise_cast<xsimd::batch<To>>(x);
 }
 
-// The bit layout of each precision, which the functions below use.
+// The bit layout of the two precisions. integer_offset is 2^mantissa_bits: the sum of it and a smaller integer that is not negative has
+// that integer in its lowest bits.
 template <class V>
 struct FloatLayout;
 template <>
@@ -176,6 +178,8 @@ struct FloatLayout<float> {
     static constexpr float integer_offset = 0x1p23F;
 };
 
+// The functions of number.hpp with the same names, for lanes.
+
 template <class V>
 Lanes<V> nearest(Lanes<V> x) {
     const Lanes<V> big(V(1.5) * FloatLayout<V>::integer_offset);
@@ -183,23 +187,23 @@ Lanes<V> nearest(Lanes<V> x) {
 }
 template <class V>
 Lanes<V> times_power_of_two(Lanes<V> x, Lanes<V> k) {
-    using Bits = typename FloatLayout<V>::Bits;  // 2^52 plus a smaller integer has that integer in its lowest bits
+    using Bits = typename FloatLayout<V>::Bits;
     const auto shifted = bits_as<Bits>(k + Lanes<V>(FloatLayout<V>::integer_offset + V(FloatLayout<V>::bias)));
     return x * bits_as<V>(shifted << FloatLayout<V>::mantissa_bits);
 }
 template <class V>
 Lanes<V> mantissa(Lanes<V> x) {
     using Bits = typename FloatLayout<V>::Bits;
-    const xsimd::batch<Bits> below((Bits{1} << FloatLayout<V>::mantissa_bits) - 1),
+    const xsimd::batch<Bits> mantissa_mask((Bits{1} << FloatLayout<V>::mantissa_bits) - 1),
         one(Bits{FloatLayout<V>::bias} << FloatLayout<V>::mantissa_bits);
-    return bits_as<V>((bits_as<Bits>(x) & below) | one);
+    return bits_as<V>((bits_as<Bits>(x) & mantissa_mask) | one);
 }
 template <class V>
 Lanes<V> exponent(Lanes<V> x) {
     using Bits = typename FloatLayout<V>::Bits;
-    const auto integers = bits_as<Bits>(Lanes<V>(FloatLayout<V>::integer_offset));
-    const auto raised = (bits_as<Bits>(x) >> FloatLayout<V>::mantissa_bits) | integers;
-    return bits_as<V>(raised) - Lanes<V>(FloatLayout<V>::integer_offset + V(FloatLayout<V>::bias));
+    const auto offset_bits = bits_as<Bits>(Lanes<V>(FloatLayout<V>::integer_offset));
+    const auto biased_exponent = (bits_as<Bits>(x) >> FloatLayout<V>::mantissa_bits) | offset_bits;  // plus integer_offset
+    return bits_as<V>(biased_exponent) - Lanes<V>(FloatLayout<V>::integer_offset + V(FloatLayout<V>::bias));
 }
 
 template <>

@@ -15,8 +15,9 @@ static_assert(std::endian::native == std::endian::little, "packed states are lit
 /// "corpst", the version and a line break. Version 2 ends with a checksum of everything before it. Version 1 has none and can still be
 /// read.
 constexpr std::array<char, 8> magic = {'c', 'o', 'r', 'p', 's', 't', '2', '\n'};
-constexpr std::size_t version_at = 6;
-constexpr std::uint64_t max_length = 1U << 26;  // upper bound on the length of the format and of the values, to reject corrupt headers
+constexpr std::size_t version_at = 6;  // position of the version in `magic`
+constexpr std::uint64_t max_length =
+    1U << 26;  // upper bound on the bytes of the format and on the number of values, to reject corrupt sizes
 
 constexpr std::int64_t max_step = std::int64_t{1} << 53;  // a double counts samples exactly up to here
 
@@ -26,6 +27,7 @@ void put(std::vector<std::byte>& out, const T* data, std::size_t count) {
     out.insert(out.end(), bytes, bytes + count * sizeof(T));
 }
 
+/// Moves values from the front of `in` to `data`. Returns false if `in` has too few bytes.
 template <class T>
 bool get(std::span<const std::byte>& in, T* data, std::size_t count) {
     if (in.size() < count * sizeof(T)) return false;
@@ -34,7 +36,8 @@ bool get(std::span<const std::byte>& in, T* data, std::size_t count) {
     return true;
 }
 
-/// Checks the version and the checksum of a packed state. Removes the checksum from the end of `in`.
+/// Checks the version and the checksum of a packed state. `all` are all its bytes, `head` the first eight of them, and `in` those after
+/// `head`. Removes the checksum from the end of `in`.
 Result<void> check_checksum(std::span<const std::byte> all, const std::array<char, 8>& head, std::span<const std::byte>& in) {
     if (head[version_at] == '1' && head.back() == '\n') return {};
     if (head != magic)
@@ -50,11 +53,12 @@ Result<void> check_checksum(std::span<const std::byte> all, const std::array<cha
     return {};
 }
 
-/// A format split at its version: "sa1b+lif-b/2, T = 0.0001 s".
+/// State::format split at its version: "sa1b+lif-b/2, T = 0.0001 s" has before = "sa1b+lif-b", version = "2", after = ", T = 0.0001 s".
 struct SplitFormat {
     std::string_view before, version, after;
 };
 
+/// Everything is in `before` if the format has no version.
 SplitFormat split_format(std::string_view format) {
     const auto slash = format.rfind('/');
     if (slash == format.npos) return {format, {}, {}};
@@ -62,7 +66,7 @@ SplitFormat split_format(std::string_view format) {
     return {format.substr(0, slash), format.substr(slash + 1, end - slash - 1), format.substr(end)};
 }
 
-/// The error for a state whose format is not that of the afferent that should resume from it.
+/// The error for a state whose format, `found`, is not the `format` of the afferent that should resume from it.
 Error format_mismatch(std::string_view name, std::string_view format, std::string_view found) {
     const auto expected = split_format(format), actual = split_format(found);
     if (expected.before != actual.before || expected.after != actual.after || expected.version == actual.version)
@@ -76,8 +80,8 @@ Error format_mismatch(std::string_view name, std::string_view format, std::strin
 }  // namespace
 
 std::size_t first_non_finite(std::span<const double> x) {
-    constexpr std::uint64_t exponent = 0x7ff0000000000000U;
-    std::uint64_t found = 0;  // no branch in the loop, because almost always all values are finite
+    constexpr std::uint64_t exponent = 0x7ff0000000000000U;  // all bits of the exponent are 1 in infinity and NaN
+    std::uint64_t found = 0;                                 // no branch in the loop, because almost always all values are finite
     for (const double v : x) found |= (std::bit_cast<std::uint64_t>(v) & exponent) == exponent;
     if (!found) return x.size();
     return static_cast<std::size_t>(std::find_if(x.begin(), x.end(), [](double v) { return !std::isfinite(v); }) - x.begin());
@@ -121,7 +125,7 @@ Result<State> unpack(std::span<const std::byte> in) {
         return bad_input("the saved afferent state is incomplete or too long");
     s.format.resize(sizes[0]);
     s.values.resize(sizes[1]);
-    get(in, s.format.data(), s.format.size());
+    get(in, s.format.data(), s.format.size());  // cannot fail: the sizes were checked above
     get(in, s.values.data(), s.values.size());
     if (s.step < 0 || s.step > max_step)
         return bad_input("the saved afferent state is damaged: its sample number is " + std::to_string(s.step));

@@ -10,11 +10,12 @@
 namespace corpuscle {
 namespace {
 
-/// One member of a sum, with its type erased.
+/// One member of a sum, without its type.
 struct ErasedStimulus {
-    double duration = 0, cycle = 0;
+    double duration = 0;         // s
+    double cycle_frequency = 0;  // Hz; 0: not periodic
     std::vector<Phase> phases;
-    std::function<double(double)> at;
+    std::function<double(double)> at;  // the force in N at a time in s
 };
 
 template <class S>
@@ -22,11 +23,12 @@ ErasedStimulus erase_stimulus(std::span<const Setting> settings, std::uint64_t s
     S s;
     s.p = with_settings<typename S::Params>(S::fields, settings);
     if constexpr (requires { s.seed; }) s.seed = seed;
-    double cycle = 0;
-    if constexpr (requires { s.cycle(); }) cycle = s.cycle();
-    return {s.duration(), cycle, s.phases(), [s](double t) { return s.at(t); }};
+    double cycle_frequency = 0;
+    if constexpr (requires { s.cycle(); }) cycle_frequency = s.cycle();
+    return {s.duration(), cycle_frequency, s.phases(), [s](double t) { return s.at(t); }};
 }
 
+/// The stimulus with this name; nullopt if the list has none.
 template <class... S>
 std::optional<ErasedStimulus> make_member(StimulusList<S...>, std::string_view name, std::span<const Setting> settings,
                                           std::uint64_t seed) {
@@ -52,7 +54,8 @@ class StimulusSum final : public ForceSource {
     std::vector<ErasedStimulus> members_;
     std::vector<MetadataEntry> metadata_;
     std::vector<Channel> channels_;
-    std::int64_t samples_, next_ = 0;
+    std::int64_t samples_;   // total number
+    std::int64_t next_ = 0;  // index of the next sample to read
 
 public:
     StimulusSum(std::string name, Clock clock, std::vector<ErasedStimulus> members, std::vector<MetadataEntry> metadata,
@@ -64,7 +67,8 @@ public:
     const std::vector<Channel>& channels() const override { return channels_; }
     std::string description() const override {
         std::vector<std::string_view> all;
-        for (const auto member : stimulus_members(name_)) all.push_back(find_stimulus(member)->description);
+        for (const auto member : stimulus_members(name_))
+            all.push_back(find_stimulus(member)->description);  // exists: make_stimulus() has checked the names
         return fmt::format("{}", fmt::join(all, "; "));
     }
     double progress() const override { return static_cast<double>(next_) / static_cast<double>(samples_); }
@@ -79,11 +83,11 @@ public:
         }
         return {};
     }
-    /// The frequency of the only periodic member; 0 if there are several.
+    /// The frequency of the periodic member; 0 if no member is periodic, or several are.
     double cycle_frequency() const override {
         double found = 0;
         for (const auto& s : members_)
-            if (s.cycle > 0 && std::exchange(found, s.cycle) > 0) return 0;
+            if (s.cycle_frequency > 0 && std::exchange(found, s.cycle_frequency) > 0) return 0;
         return found;
     }
     Result<void> read(Frames& block) override {
@@ -134,11 +138,12 @@ Result<std::unique_ptr<ForceSource>> make_stimulus(std::string_view text, std::s
         const auto settings = settings_for(name, entry->parameters, overrides);
         if (!settings) return settings.error();
         for (const auto& row : entry->parameters) {
+            // The last override of a parameter counts.
             const auto setting = std::find_if(settings->rbegin(), settings->rend(), [&](const Setting& s) { return s.name == row.name; });
             metadata.push_back({fmt::format("{}.{}", name, row.name), setting == settings->rend() ? row.default_value : setting->value,
                                 std::string(row.unit)});
         }
-        members.push_back(*make_member(Stimuli{}, name, *settings, seed));
+        members.push_back(*make_member(Stimuli{}, name, *settings, seed));  // exists: its catalogue entry was found above
         duration = std::max(duration, members.back().duration);
     }
     const double samples = std::round(duration * clock->rate());

@@ -6,8 +6,8 @@
 namespace corpuscle {
 
 ThreadPool::ThreadPool(unsigned threads) {
-    const unsigned all = threads > 0 ? threads : std::max(1U, std::thread::hardware_concurrency());
-    for (unsigned t = 1; t < all; ++t) workers_.emplace_back([this, t] { worker_loop(t); });
+    const unsigned total = threads > 0 ? threads : std::max(1U, std::thread::hardware_concurrency());
+    for (unsigned t = 1; t < total; ++t) workers_.emplace_back([this, t] { worker_loop(t); });
 }
 
 ThreadPool::~ThreadPool() {
@@ -24,7 +24,7 @@ void ThreadPool::for_each(std::size_t count, const Task& task) {
         for (std::size_t k = 0; k < count; ++k) task(k, 0);
         return;
     }
-    const bool is_single = count < 2;
+    const bool is_single = count < 2;  // then the caller runs the task, and no worker is woken
     {
         const std::lock_guard lock(mutex_);
         task_ = &task, count_ = count, next_ = 0;
@@ -38,7 +38,7 @@ void ThreadPool::for_each(std::size_t count, const Task& task) {
 }
 
 void ThreadPool::worker_loop(unsigned thread) {
-    for (std::size_t seen = 0;;) {
+    for (std::size_t seen = 0;;) {  // seen: the last round in which this worker took part
         {
             std::unique_lock lock(mutex_);
             round_started_.wait(lock, [&] { return is_stopping_ || round_ != seen; });
@@ -57,7 +57,7 @@ void ThreadPool::run_tasks(unsigned thread) {
         } catch (...) {
             const std::lock_guard lock(mutex_);
             exception_ = std::current_exception();
-            next_ = count_;
+            next_ = count_;  // skips the tasks that have not begun
         }
 }
 

@@ -1,6 +1,6 @@
 #pragma once
-// A thread pool that runs numbered tasks. The caller divides the work into tasks, not the pool, so results do not depend on the
-// number of threads.
+// A thread pool that runs numbered tasks. The caller divides the work into tasks, so that the results do not depend on the number of
+// threads.
 
 #include <atomic>
 #include <condition_variable>
@@ -15,10 +15,11 @@ namespace corpuscle {
 
 class ThreadPool {
 public:
-    /// Called with the index of the task and the index of its thread (below threads()). The thread index can select scratch memory.
+    /// Called with the index of the task and the index of the thread that runs it, which is below threads() and 0 for the caller's thread.
+    /// A task can use the thread index to select memory that no other thread uses.
     using Task = std::function<void(std::size_t, unsigned)>;
 
-    /// `threads` is the total, including the caller's thread; 0: one for each core.
+    /// `threads` is the number of threads that run tasks, including the caller of for_each(); 0: one for each core.
     explicit ThreadPool(unsigned threads = 0);
     ~ThreadPool();
     ThreadPool(const ThreadPool&) = delete;
@@ -26,22 +27,25 @@ public:
 
     unsigned threads() const { return static_cast<unsigned>(workers_.size()) + 1; }
 
-    /// Calls task(k, thread) once for each k below `count`, on all threads, and returns when all are done. If tasks throw, those not
-    /// yet started are skipped, and one of the exceptions is rethrown.
+    /// Calls task(k, thread) once for each k below `count`, in parallel, and returns when all calls have returned. If a task throws, tasks
+    /// that have not begun are skipped, and one of the exceptions is rethrown.
     void for_each(std::size_t count, const Task& task);
 
 private:
     void worker_loop(unsigned thread);
     void run_tasks(unsigned thread);
 
-    std::mutex mutex_;
+    std::mutex mutex_;  // protects all members below except next_ and workers_
+    // A round is a call of for_each() in which the workers take part.
     std::condition_variable round_started_, round_ended_;
-    const Task* task_ = nullptr;
-    std::size_t count_ = 0, round_ = 0, busy_workers_ = 0;
-    std::atomic<std::size_t> next_ = 0;
-    bool is_stopping_ = false;
-    std::exception_ptr exception_;
-    std::vector<std::thread> workers_;
+    const Task* task_ = nullptr;         // of the current call of for_each()
+    std::size_t count_ = 0;              // its number of tasks
+    std::size_t round_ = 0;              // number of rounds started so far
+    std::size_t busy_workers_ = 0;       // workers that have not yet ended the current round
+    std::atomic<std::size_t> next_ = 0;  // index of the next task to begin
+    bool is_stopping_ = false;           // true: workers return
+    std::exception_ptr exception_;       // the latest exception of a task; null: none
+    std::vector<std::thread> workers_;   // threads 1, 2, ...; thread 0 is the caller
 };
 
 }  // namespace corpuscle

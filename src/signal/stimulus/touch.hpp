@@ -9,7 +9,7 @@
 
 namespace corpuscle {
 
-/// The progress at time t of a movement that starts at `from` and takes `length`: 0 before, 1 after, linear between.
+/// The progress of a movement at time t: 0 before the time `from`, 1 after `from` + `length`, linear between. All are in s.
 inline double ramp_fraction(double t, double from, double length) {
     if (t < from) return 0;
     return t < from + length ? (t - from) / length : 1;
@@ -22,7 +22,8 @@ inline std::vector<Phase> five_phases(double rest, double up, double hold, doubl
 }
 
 /// The experiment of the thesis (1.2, after Birznieks et al. 2001): half a cosine up, hold, half a cosine down.
-///     F = F_min + (F_max - F_min) (1 - cos(pi x)) / 2,   x = (t - t_rest) / t_up
+///     F = F_min + (F_max - F_min) (1 - cos(pi x)) / 2,   x = (t - t_rest) / t_up during protraction, 1 on the plateau,
+///     falling from 1 to 0 during retraction
 struct Press {
     struct Params {
         double F_min = 0.2, F_max = 4, t_rest = 0.25, t_up = 0.125, t_hold = 0.25, t_down = 0.125, t_post = 0.25;
@@ -49,7 +50,7 @@ struct Press {
     }
 };
 
-/// Linear ramps with a hold between, as used by Kim et al. 2012 and most physiologists.
+/// Linear ramps with a hold between them, as used by Kim et al. 2012 and most physiologists.
 struct RampHold {
     struct Params {
         double F_min = 0, F_max = 1, t_rest = 0.25, t_up = 0.1, t_hold = 1, t_down = 0.1, t_post = 0.25;
@@ -94,7 +95,7 @@ struct Step {
         return {{"rest", 0, on}, {"hold", on, off}, {"post", off, off + p.t_post}};
     }
     double at(double t) const {
-        const double later = t + 1e-9;  // a sample at the time of an edge counts as after it in spite of rounding
+        const double later = t + 1e-9;  // s; a sample exactly at an edge counts as after it, in spite of rounding
         return later >= p.t_rest && later < p.t_rest + p.t_hold ? p.F_max : p.F_min;
     }
 };

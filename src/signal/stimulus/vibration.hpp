@@ -52,7 +52,7 @@ struct Chirp {
     }
 };
 
-/// Gaussian noise: independent deviates at intervals of 1 / (2 f_max), linearly interpolated, for any sample rate.
+/// Gaussian noise: independent deviates at intervals of 1 / (2 f_max), linearly interpolated. It does not depend on the sample rate.
 struct Noise {
     struct Params {
         double F_mean = 1, F_sd = 0.2, f_max = 100, duration = 1;
@@ -72,13 +72,14 @@ struct Noise {
         constexpr std::uint32_t purpose = 0x6e6f6973;  // "nois" in ASCII: separates these random numbers from those of other purposes
         const double position = t * 2 * p.f_max;
         const auto k = static_cast<std::uint64_t>(position);
-        const double x = position - static_cast<double>(k);
+        const double x = position - static_cast<double>(k);  // position between deviates k and k + 1
         const double a = normal(seed, 0, purpose, k), b = normal(seed, 0, purpose, k + 1);
         return p.F_mean + p.F_sd * (a + (b - a) * x);
     }
 };
 
-/// A grating of rounded ridges that moves over the skin: F = F_contact + F_ridge (((1 + cos(2 pi v t / period)) / 2)^2 - 3/8)
+/// A grating of rounded ridges that moves over the skin. 3/8 is the mean of the squared term, so the mean force is F_contact.
+///     F = F_contact + F_ridge (((1 + cos(2 pi v t / period)) / 2)^2 - 3/8)
 struct Grating {
     struct Params {
         double F_contact = 1, F_ridge = 0.5, period = 2e-3, speed = 40e-3, duration = 1;
