@@ -1,4 +1,4 @@
-// Decodes frames from bytes and puts them in order.
+// A source of frames that decodes them from bytes and fills gaps in their sequence.
 
 #include "live/frame_decoder.hpp"
 #include "live/frame_source.hpp"
@@ -11,14 +11,15 @@ class ByteFrames final : public FrameSource {
     FrameDecoder decoder_;
     FrameSequence order_;
     FrameCounts counts_;
-    std::int64_t hold_ = 0, release_ = 0;  // frames to insert before the found one: with the last force, then with none
-    bool found_ = false;
-    std::size_t unnumbered_errors_ = 0;  // unreadable datagrams without frame numbers; each is replaced by one filled frame
+    std::int64_t hold_ = 0, release_ = 0;  // numbers of frames to insert before the found one: with the last force, then without force
+    bool found_ = false;                   // true: the decoder has found a frame that has not been passed on yet
+    std::size_t unnumbered_errors_ = 0;    // unreadable datagrams, if frames are not numbered; one frame is inserted for each
 
+    /// True if the only sender's header was refused, so that the stream must end.
     bool has_header_error() const { return decoder_.header_error() && source_->has_one_sender(); }
     bool is_numbered() const { return decoder_.layout().stamp != FrameStamp::none; }
 
-    /// Reads the number of the next frame and decides if it is used, and how many frames are inserted before it.
+    /// Decides if the frame that the decoder has found is used, and how many frames are inserted before it.
     void classify_frame() {
         if (!is_numbered()) {
             found_ = true;
@@ -28,6 +29,7 @@ class ByteFrames final : public FrameSource {
         found_ = decision.take, hold_ = decision.hold, release_ = decision.release;
     }
 
+    /// Prepares for the next sender; bytes of an incomplete frame are counted and discarded.
     void end_sender() {
         if (decoder_.has_partial_frame())
             ++counts_.partial_frames, counts_.partial_bytes = static_cast<std::int64_t>(decoder_.partial_bytes());
@@ -35,6 +37,8 @@ class ByteFrames final : public FrameSource {
         order_.restart();
     }
 
+    /// Takes a datagram from the decoder's buffer. The buffer contains nothing else, because earlier datagrams consisted of whole frames,
+    /// which have been decoded.
     void take_datagram(const ReadResult& received) {
         if (received.is_new_sender) end_sender();
         if (decoder_.add_datagram(received.count)) return;
@@ -69,7 +73,7 @@ public:
     Result<bool> receive() override {
         if (has_header_error()) return *decoder_.header_error();
         auto space = decoder_.buffer();
-        if (source_->has_datagrams()) space = space.first(space.size() - 1);  // space for a line end
+        if (source_->has_datagrams()) space = space.first(space.size() - 1);  // keeps space for a line end
         const auto received = source_->read(space);
         if (!received) return received.error();
         if (received->status == ReadResult::bytes && source_->has_datagrams())

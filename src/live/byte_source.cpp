@@ -35,14 +35,17 @@ public:
     }
 };
 
+/// A server for one client at a time.
 class Listener final : public ByteSource {
-    static constexpr std::int64_t check_interval = 200'000'000;  // ns between checks if another client waits, once this one is idle
+    static constexpr std::int64_t check_interval = 200'000'000;  // ns; once the client is idle, time between checks if another one waits
     Endpoint at_;
-    Descriptor listener_, client_;
+    Descriptor listener_, client_;  // client_: empty if no client is connected
     SenderLimits limits_;
-    std::int64_t clients_ = 0, idle_clients_ = 0, due_ = steady_never;
-    int low_watermark_ = 1;
+    std::int64_t clients_ = 0, idle_clients_ = 0;  // clients so far; those that were replaced because they were idle
+    std::int64_t due_ = steady_never;              // steady_now() of the next check_idle()
+    int low_watermark_ = 1;                        // bytes
 
+    /// Accepts a client if one waits.
     ReadResult accept() {
         client_ = Descriptor(::accept4(listener_.get(), nullptr, nullptr, SOCK_CLOEXEC | SOCK_NONBLOCK));
         if (!client_) return {ReadResult::nothing};
@@ -50,7 +53,7 @@ class Listener final : public ByteSource {
         enable_keepalive(client_.get());
         apply_low_watermark();
         restart_idle_timer();
-        return {ReadResult::nothing};
+        return {ReadResult::nothing};  // the next read() reads from the client
     }
     void apply_low_watermark() const { ::setsockopt(client_.get(), SOL_SOCKET, SO_RCVLOWAT, &low_watermark_, sizeof low_watermark_); }
     void restart_idle_timer() {
@@ -68,7 +71,8 @@ class Listener final : public ByteSource {
         return ::poll(&listener, 1, 0) == 1;
     }
 
-    /// Called when the client is connected but has sent nothing. Disconnects it if it has been idle for the limit and another client waits.
+    /// Called if the client is connected, but nothing has arrived. Disconnects it if it has been idle for the limit and another client
+    /// waits.
     ReadResult check_idle() {
         const auto now = steady_now();
         if (now < due_) return {ReadResult::nothing};

@@ -13,13 +13,14 @@ namespace {
 
 constexpr int receive_buffer = 4 << 20;  // requested receive buffer, bytes; the system may grant less
 
-/// One datagram as received.
+/// A datagram that has been received.
 struct Datagram {
-    ssize_t bytes = -1;
+    ssize_t bytes = -1;  ///< its size; negative: nothing was received, see errno
     SocketAddress from;
-    std::optional<std::uint32_t> total_dropped;  ///< datagrams that the system has dropped on this socket so far
+    std::optional<std::uint32_t> total_dropped;  ///< number of datagrams that the system has dropped on this socket so far
 };
 
+/// Receives a datagram into `out`, if one has arrived.
 Datagram receive_one(int fd, std::span<char> out) {
     Datagram datagram;
     iovec to = {out.data(), out.size()};
@@ -43,31 +44,33 @@ class DatagramSource final : public ByteSource {
     Endpoint at_;
     Descriptor fd_;
     SenderLimits limits_;
-    std::optional<SocketAddress> sender_;
-    std::int64_t senders_ = 0, last_received_ = 0;
+    std::optional<SocketAddress> sender_;           // the current sender, from its first datagram on
+    std::int64_t senders_ = 0, last_received_ = 0;  // senders so far; steady_now() of the current sender's last datagram
     SenderCounts counts_;
 
     bool is_idle(std::int64_t now) const { return limits_.idle > 0 && now - last_received_ >= limits_.idle; }
 
+    /// Ends the current sender. If it was the last one that SenderLimits::clients allows, the source ends, too.
     ReadResult end_sender() {
         sender_.reset();
         return {limits_.clients > 0 && senders_ >= limits_.clients ? ReadResult::end : ReadResult::disconnected};
     }
 
+    /// Decides about a datagram: uses it, or ignores it because another sender is current.
     ReadResult accept(const Datagram& datagram) {
         const auto now = steady_now();
-        bool from_another = false;
+        bool is_new_sender = false;
         if (!sender_ || !(*sender_ == datagram.from)) {
             if (sender_ && !is_idle(now)) return ++counts_.ignored, ReadResult{ReadResult::nothing};
             if (sender_) {
                 ++counts_.idle;
                 if (end_sender().status == ReadResult::end) return {ReadResult::end};
             }
-            sender_ = datagram.from, ++senders_, from_another = true;
+            sender_ = datagram.from, ++senders_, is_new_sender = true;
         }
         last_received_ = now;
         if (datagram.bytes == 0) return end_sender();
-        return {ReadResult::bytes, static_cast<std::size_t>(datagram.bytes), from_another};
+        return {ReadResult::bytes, static_cast<std::size_t>(datagram.bytes), is_new_sender};
     }
 
 public:

@@ -7,7 +7,7 @@
 namespace corpuscle {
 
 class Descriptor {
-    int fd_ = -1;
+    int fd_ = -1;  // -1: empty
 
 public:
     Descriptor() = default;

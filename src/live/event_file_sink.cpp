@@ -23,15 +23,16 @@ using WriteFunction = std::function<Result<void>(std::string_view)>;
 class FileEventSink final : public EventSink {
     std::string name_;
     WriteFunction write_;
-    std::function<Result<void>()> commit_;
-    std::atomic<bool> ending_ = false, failed_ = false;
-    std::optional<Error> error_;  // set by the writing thread; read when failed_ is set
-    // Used only when the ring is full: wakes the writing thread, and lets the thread that puts events sleep until there is space.
+    std::function<Result<void>()> commit_;               // called once, after all events have been written
+    std::atomic<bool> ending_ = false, failed_ = false;  // set by join(), by the writing thread
+    std::optional<Error> error_;                         // set by the writing thread before failed_, and only read after it
+    // Used only when the ring is full: wake_writer_ wakes the writing thread, and space_ wakes the thread that puts events.
     std::mutex full_;
     std::condition_variable wake_writer_, space_;
     std::atomic<bool> is_space_awaited_ = false;
     std::thread thread_;
 
+    /// Wakes the thread that waits for space, or for the news that writing has failed.
     void notify_space() {
         const std::lock_guard lock(full_);
         is_space_awaited_ = false;
@@ -40,7 +41,8 @@ class FileEventSink final : public EventSink {
 
     void write_loop() {
         for (;;) {
-            const bool last = ending_.load(std::memory_order_acquire);  // read before the ring: all events put before join() are then seen
+            // Read before the ring, so that all events put before join() are written.
+            const bool last = ending_.load(std::memory_order_acquire);
             for (auto chunk = ring_.readable(); !chunk.empty(); chunk = ring_.readable()) {
                 if (auto ok = write_(chunk); !ok) {
                     error_ = ok.error();
@@ -51,11 +53,13 @@ class FileEventSink final : public EventSink {
                 if (is_space_awaited_) notify_space();
             }
             if (last) return;
+            // A new event does not wake this thread, so it looks at the ring every 2 ms.
             std::unique_lock lock(full_);
             wake_writer_.wait_for(lock, std::chrono::milliseconds(2), [this] { return is_space_awaited_.load(); });
         }
     }
 
+    /// The error of the writing thread, if writing has failed.
     Result<void> state() const { return failed_.load(std::memory_order_acquire) ? Result<void>(*error_) : Result<void>(); }
 
     void join() {
@@ -110,6 +114,7 @@ Result<std::unique_ptr<EventSink>> make_file_sink(int fd, const std::string& nam
 
 Result<std::unique_ptr<EventSink>> create_event_file(const std::string& path, const EventFormat& format, std::size_t ring) {
     struct ::stat info = {};
+    // An existing path that is not a regular file is a named pipe or a device: it is written directly.
     if (::stat(path.c_str(), &info) == 0 && !S_ISREG(info.st_mode) && !S_ISDIR(info.st_mode)) {
         Descriptor own(::open(path.c_str(), O_WRONLY | O_NOCTTY | O_CLOEXEC));
         if (!own) return bad_input(fmt::format("cannot be written: {}", std::strerror(errno)), {path});

@@ -1,4 +1,4 @@
-// Writes events to standard output and to a socket, in the loop's own thread, without blocking.
+// Writes events to pipes and sockets without blocking, in the thread of the stream loop.
 
 #include "live/event_sink.hpp"
 
@@ -17,10 +17,13 @@
 namespace corpuscle {
 namespace {
 
-constexpr int check_interval_ms = 100;
+constexpr int check_interval_ms = 100;  // between calls of FinishPolicy::stop()
 
+/// The result of writing: all that is in the ring was written, or less because the reader is slow; or the reader has closed its end, or
+/// writing has failed.
 enum class WriteResult { all, some, closed };
 
+/// Writes as much of the ring as possible without blocking. `socket`: true if fd is a socket.
 WriteResult write_some(ByteRing& ring, int fd, bool socket) {
     for (auto chunk = ring.readable(); !chunk.empty(); chunk = ring.readable()) {
         const auto count =
@@ -38,7 +41,7 @@ void poll_for_writing(int fd, int ms) {
     ::poll(&wait, 1, ms);
 }
 
-/// Writes everything. Stops early if the reader has accepted nothing for the policy's timeout.
+/// Writes everything in the ring. Gives up if the reader has accepted nothing for the policy's timeout.
 WriteResult write_out(ByteRing& ring, int fd, bool socket, const FinishPolicy& policy) {
     for (auto since = steady_now();;) {
         const auto before = ring.total_taken();
@@ -51,11 +54,13 @@ WriteResult write_out(ByteRing& ring, int fd, bool socket, const FinishPolicy& p
 }
 
 class PipeSink final : public EventSink {
-    Descriptor own_;
+    Descriptor own_;  // closes fd_; empty: fd_ stays open
     int fd_;
-    bool socket_, waiting_ = false;
+    bool socket_;           // true: fd_ is a socket
+    bool waiting_ = false;  // true: data are left because the reader is slow
     std::string name_;
 
+    /// Returns an error, and empties the ring, if the reader has closed its end or writing has failed.
     Result<void> check(WriteResult result) {
         waiting_ = result == WriteResult::some;
         if (result != WriteResult::closed) return {};
@@ -92,9 +97,9 @@ class TcpClientSink final : public EventSink {
     static constexpr std::int64_t retry_interval = 1'000'000'000;  // ns
     ResolvedEndpoint to_;  // resolved only once: the name service may not be available when the reader reconnects
     Descriptor fd_;
-    std::size_t next_address_ = 0;
-    bool connected_ = true, waiting_ = false;
-    std::int64_t next_attempt_ = 0;
+    std::size_t next_address_ = 0;             // index of the address to try next, modulo their number
+    bool connected_ = true, waiting_ = false;  // waiting_: true: data are left because the reader is slow
+    std::int64_t next_attempt_ = 0;            // steady_now() from which the next connection may be started
 
     void disconnect() {
         fd_.close();
@@ -152,7 +157,7 @@ public:
 }  // namespace
 
 void EventSink::drop_all() {
-    std::size_t bytes = 0;
+    std::size_t bytes = 0;  // of events, some of which may be incomplete
     for (auto chunk = ring_.readable(); !chunk.empty(); chunk = ring_.readable()) {
         if (const auto at = ring_.total_taken(); at < header_end_) chunk = chunk.substr(0, header_end_ - at);
         if (ring_.total_taken() >= header_end_) {

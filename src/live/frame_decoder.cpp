@@ -16,7 +16,7 @@ namespace {
 static_assert(std::endian::native == std::endian::little, "binary frames are copied as they are in memory");
 
 constexpr double not_a_number = std::numeric_limits<double>::quiet_NaN();
-constexpr std::size_t max_field = 32;  // bytes of a field's text with its separator
+constexpr std::size_t max_field = 32;  // largest number of bytes of a field, with its separator
 
 bool is_separator(char c) { return c == ',' || c == ';' || c == '\t' || c == ' '; }
 
@@ -30,6 +30,7 @@ std::string_view next_field(std::string_view& line) {
     return field;
 }
 
+/// Number of fields in a line.
 std::size_t fields_in(std::string_view line) {
     std::size_t fields = 0;
     for (; !line.empty(); ++fields) next_field(line);
@@ -38,11 +39,12 @@ std::size_t fields_in(std::string_view line) {
 
 bool is_number(std::string_view field) {
     double x = 0;
-    if (field.starts_with('+')) field.remove_prefix(1);
+    if (field.starts_with('+')) field.remove_prefix(1);  // from_chars() does not accept it
     const auto [end, status] = std::from_chars(field.data(), field.data() + field.size(), x);
     return status == std::errc{} && end == field.data() + field.size();
 }
 
+/// The number in a field; NaN if it is not a number.
 double number_of(std::string_view field) {
     double x = 0;
     if (field.starts_with('+')) field.remove_prefix(1);
@@ -50,6 +52,7 @@ double number_of(std::string_view field) {
     return status == std::errc{} && end == field.data() + field.size() ? x : not_a_number;
 }
 
+/// The functions for this machine's instruction set.
 const lanes::FrameKernels& best_lanes() {
     const auto set = instruction_set();
     return lanes::frame_kernels(set ? *set : InstructionSet::baseline);
@@ -67,11 +70,11 @@ FrameDecoder::FrameDecoder(const FrameLayout& layout, std::size_t frames, Header
 
 std::span<char> FrameDecoder::buffer() {
     if (begin_ == end_) begin_ = end_ = scanned_ = 0;
-    if (begin_ > 0 && end_ > bytes_.size() / 2) {
+    if (begin_ > 0 && end_ > bytes_.size() / 2) {  // moves the bytes that are not decoded yet to the beginning
         std::memmove(bytes_.data(), bytes_.data() + begin_, end_ - begin_);
         scanned_ -= std::min(scanned_, begin_), end_ -= begin_, begin_ = 0;
     }
-    if (end_ == bytes_.size()) skipping_ = true, begin_ = end_ = scanned_ = 0;  // a line without an end
+    if (end_ == bytes_.size()) skipping_ = true, begin_ = end_ = scanned_ = 0;  // the whole buffer is one line without an end
     return std::span(bytes_).subspan(end_);
 }
 
@@ -128,7 +131,7 @@ bool FrameDecoder::add_datagram(std::size_t bytes) {
     return add_bytes(bytes), true;
 }
 
-/// True for a line with the number of fields of a frame, if none of them is a number or nan.
+/// True for a line with as many fields as a frame, if none of them is a number or "nan".
 bool FrameDecoder::is_header(std::string_view line) const {
     std::size_t fields = 0;
     for (; !line.empty(); ++fields)
@@ -168,16 +171,16 @@ bool FrameDecoder::read_stamp(std::string_view text) {
     return status == std::errc{} && end == text.data() + text.size();
 }
 
-/// Returns unreadable if the stamp is invalid, or the number of fields is wrong.
+/// Reads the stamp and the values of a line. It is unreadable if the stamp is invalid, or the number of fields is wrong.
 FrameDecoder::Status FrameDecoder::read_line(const std::string_view line) {
     auto rest = line;
-    const bool is_stamped = layout_.stamp == FrameStamp::none || read_stamp(next_field(rest));
+    const bool has_valid_stamp = layout_.stamp == FrameStamp::none || read_stamp(next_field(rest));
     for (std::size_t k = 0; k < values_.size(); ++k) {
         if (rest.empty()) return unreadable(FrameError::width, fields_in(line));
         values_[value_index_.empty() ? k : value_index_[k]] = number_of(next_field(rest));
     }
     if (!rest.empty()) return unreadable(FrameError::width, fields_in(line));
-    return is_stamped ? Status::frame : unreadable(FrameError::stamp);
+    return has_valid_stamp ? Status::frame : unreadable(FrameError::stamp);
 }
 
 std::size_t FrameDecoder::read_forces(std::span<double> force) const {

@@ -9,7 +9,7 @@ namespace {
 
 std::string counted_noun(std::size_t n, std::string_view noun) { return fmt::format("{} {}{}", n, noun, n == 1 ? "" : "s"); }
 
-/// "a sequence number and 4793 numbers"
+/// The stamp and the number of values of a frame: "a sequence number and 4793 numbers".
 std::string contents_of(const FrameLayout& layout, std::size_t numbers) {
     const auto values = counted_noun(numbers, "number");
     return layout.stamp == FrameStamp::none
@@ -17,6 +17,7 @@ std::string contents_of(const FrameLayout& layout, std::size_t numbers) {
                : fmt::format("a {} and {}", layout.stamp == FrameStamp::sequence ? "sequence number" : "time", values);
 }
 
+/// "'hand' has 4793 sites, so a frame must have 4793 numbers"
 std::string expected_frame(const FrameLayout& layout, std::string_view population) {
     return fmt::format("'{}' has {}, so a frame must have {}", population, counted_noun(layout.sites, "site"),
                        contents_of(layout, layout.sites));
@@ -38,7 +39,7 @@ std::string describe_frame_error(const FrameError& error, const FrameLayout& lay
         case FrameError::too_long:
             return fmt::format("frame {} is a line longer than any frame; {}", error.frame, expected_frame(layout, population));
         case FrameError::datagram:
-            return fmt::format("a datagram has {} bytes; {}, {} bytes of binary", error.found, expected_frame(layout, population),
+            return fmt::format("a datagram has {} bytes; {}, which are {} bytes", error.found, expected_frame(layout, population),
                                layout.bytes());
         case FrameError::header:
             return error.detail;

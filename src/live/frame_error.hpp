@@ -1,5 +1,5 @@
 #pragma once
-// Reasons why a frame could not be read.
+// The reason why a frame could not be read.
 
 #include <cstddef>
 #include <cstdint>
@@ -12,18 +12,19 @@ struct FrameLayout;
 
 struct FrameError {
     enum Reason {
-        width,     ///< the line has the wrong number of fields: `found`
-        stamp,     ///< its stamp is not a valid number or time
-        too_long,  ///< a line is longer than any frame
-        datagram,  ///< a datagram of `found` bytes does not contain whole frames
-        header,    ///< the header before it was refused: `detail`
+        width,     ///< the line has `found` fields, which is the wrong number
+        stamp,     ///< the frame's stamp is not a valid number or time
+        too_long,  ///< the line is longer than a frame can be
+        datagram,  ///< a datagram of `found` bytes does not consist of whole frames
+        header,    ///< the header before the frame was refused; `detail` is the message
     } reason = width;
-    std::int64_t frame = 1;  ///< number of the frame, from 1
+    std::int64_t frame = 1;  ///< number of the frame among all that have arrived, from 1
     std::size_t found = 0;
     std::string detail = {};
 };
 
-/// "frame 1 has 16 numbers; 'hand' has 4793 sites, so a frame must have 4793 numbers"
+/// The message for an error: "frame 1 has 16 numbers; 'hand' has 4793 sites, so a frame must have 4793 numbers". `population` is the name
+/// of the population.
 std::string describe_frame_error(const FrameError&, const FrameLayout&, std::string_view population);
 
 }  // namespace corpuscle

@@ -1,5 +1,5 @@
 #pragma once
-// The order of numbered frames: the policy for gaps, duplicates and late frames (doc/live.md).
+// The order of numbered frames: decides what is done about gaps, duplicates and late frames (doc/live.md).
 
 #include <cstdint>
 
@@ -7,32 +7,34 @@ namespace corpuscle {
 
 /// Statistics of numbered frames.
 struct SequenceCounts {
-    std::int64_t gaps = 0;        ///< gaps in the sequence
-    std::int64_t held = 0;        ///< missing frames that were replaced by the last force
-    std::int64_t released = 0;    ///< further missing frames, replaced by zero force
-    std::int64_t duplicates = 0;  ///< frames received before; ignored
-    std::int64_t late = 0;        ///< frames older than the last one, or already replaced; ignored
-    std::int64_t restarts = 0;    ///< jumps larger than the limit: treated as a restart of the sender, without inserting frames
+    std::int64_t gaps = 0;        ///< number of gaps, each of one or more missing frames
+    std::int64_t held = 0;        ///< number of missing frames that were replaced by frames with the last force
+    std::int64_t released = 0;    ///< number of missing frames that were replaced by frames without force
+    std::int64_t duplicates = 0;  ///< number of frames that repeat the number of the last one; ignored
+    std::int64_t late = 0;        ///< number of frames with a number below the last one by at most max_gap; ignored
+    std::int64_t restarts = 0;    ///< number of jumps by more than max_gap: treated as a restart of the sender, without inserting frames
 };
 
+/// Keeps the number of the last frame, and decides about the next one.
 class FrameSequence {
-    std::int64_t hold_, max_gap_;  // frames
-    bool begun_ = false;
-    std::uint32_t last_ = 0;
+    std::int64_t hold_, max_gap_;  // numbers of frames
+    bool begun_ = false;           // false: the next frame is the first one of a sender
+    std::uint32_t last_ = 0;       // number of the last frame that was taken
     SequenceCounts counts_;
 
 public:
-    /// The first `hold` missing frames of a gap repeat the last force. A gap of more than `max_gap` frames is treated as a restart of the
-    /// sender.
+    /// The first `hold` missing frames of a gap are replaced by frames with the last force, further ones by frames without force. A gap of
+    /// more than `max_gap` frames is treated as a restart of the sender.
     FrameSequence(std::int64_t hold, std::int64_t max_gap) : hold_(hold), max_gap_(max_gap) {}
 
     struct FrameDecision {
         bool take = true;                    ///< false: the frame is ignored
-        std::int64_t hold = 0, release = 0;  ///< frames to insert before it: with the last force, then with none
+        std::int64_t hold = 0, release = 0;  ///< numbers of frames to insert before it: with the last force, then without force
     };
 
-    /// Decides about a frame by its number, modulo 2^32, and counts it.
+    /// Decides about a frame by its number, modulo 2^32, and counts it in counts().
     FrameDecision decide(std::uint32_t number) {
+        // Difference from the number of the last frame, modulo 2^32: 1 for the next frame.
         const std::int64_t ahead = begun_ ? static_cast<std::int32_t>(number - last_) : 1;
         if (ahead == 0) return ++counts_.duplicates, FrameDecision{false};
         if (ahead < 0 && -ahead <= max_gap_) return ++counts_.late, FrameDecision{false};

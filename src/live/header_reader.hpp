@@ -1,5 +1,5 @@
 #pragma once
-// Interprets the first line of CSV frames if it contains names.
+// Interprets the header of CSV frames: a first line that contains names instead of numbers.
 
 #include <cstdint>
 #include <functional>
@@ -11,8 +11,8 @@
 
 namespace corpuscle {
 
-/// Maps the names of a header (without the stamp's) to the positions of its numbers in a frame; an empty result keeps their order. Returns
-/// an error if the names are refused.
+/// For each name of a header, without that of the stamp, returns the index of the force in the frame to which the numbers of this column
+/// belong. An empty result means that the columns are in the order of the frame. Names that are refused are an error.
 using HeaderReader = std::function<Result<std::vector<std::uint32_t>>(std::span<const std::string> names)>;
 
 }  // namespace corpuscle

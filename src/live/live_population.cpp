@@ -9,6 +9,7 @@
 namespace corpuscle {
 namespace {
 
+/// The items of a comma-separated list.
 std::vector<std::string> names_in(std::string_view list) {
     std::vector<std::string> names;
     for (std::size_t at = 0; at <= list.size();) {
@@ -19,6 +20,7 @@ std::vector<std::string> names_in(std::string_view list) {
     return names;
 }
 
+/// A class with one afferent of this name at each site.
 Result<SkinClass> class_at_each_site(const std::string& name, std::span<const ParameterOverride> overrides) {
     const auto plan = plan_afferent(name, overrides);
     if (!plan) return plan.error();
@@ -71,7 +73,7 @@ Result<SkinPlan> make_live_plan(std::string_view population, std::size_t channel
 
 EventAddressing make_event_addressing(const Innervation& skin, const Clock& clock) {
     EventAddressing out{clock, {}, {}, {}, {}};
-    bool one_per_site = true;  // then afferent.number, from 1, is also the number of its site
+    bool one_per_site = true;  // true: afferent.number - 1 is also the index of its site
     for (const auto& c : skin.plan.classes) one_per_site &= c.density.empty() && c.per_site == 1;
     const auto classes = static_cast<std::uint32_t>(skin.plan.classes.size());
     const auto& sites = skin.plan.sites;
@@ -80,6 +82,7 @@ EventAddressing make_event_addressing(const Innervation& skin, const Clock& cloc
         out.names.push_back(skin.afferent_name(u));
         out.addresses.push_back(one_per_site ? (afferent.number - 1) * classes + afferent.class_index : static_cast<std::uint32_t>(u));
         out.afferents.push_back(skin.plan.is_by_channel ? skin.plan.classes[afferent.class_index].name : out.names.back());
+        // A plan by channel has one afferent of each class at each site, so number - 1 is the site.
         out.channels.push_back(skin.plan.is_by_channel ? sites.names[afferent.number - 1] : sites.regions[afferent.region]);
     }
     return out;

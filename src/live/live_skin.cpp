@@ -1,4 +1,4 @@
-// LiveSkin, the public interface for robots.
+// Implementation of LiveSkin, the public C++ interface of a live skin.
 
 #include "corpuscle.hpp"
 #include "live/live_population.hpp"
@@ -9,19 +9,20 @@ namespace corpuscle {
 
 struct LiveSkin::Impl {
     std::unique_ptr<SkinStream> stream;
-    EventAddressing afferents;
-    std::vector<Event> events = {};
+    EventAddressing addressing;
+    std::vector<Event> events = {};  // result of the last respond() or finish()
 
     std::span<const Event> to_events(std::span<const Spike> spikes) {
         events.clear();
         for (const auto& s : spikes)
-            events.push_back({afferents.clock.time(s.step, s.offset), s.afferent_index, afferents.addresses[s.afferent_index]});
+            events.push_back({addressing.clock.time(s.step, s.offset), s.afferent_index, addressing.addresses[s.afferent_index]});
         return events;
     }
 };
 
 namespace {
 
+/// The value of a result; throws its error.
 template <class T>
 T success_or_throw(Result<T>&& result) {
     if (!result) throw InputError(result.error().text());
@@ -37,9 +38,9 @@ LiveSkin::LiveSkin(const std::string& population, double rate, std::size_t chann
     auto plan = success_or_throw(make_live_plan(population, channels, overrides));
     success_or_throw(check_overrides_used(plan, overrides));
     auto placed = success_or_throw(innervate(std::move(plan)));
-    auto afferents = make_event_addressing(*placed, clock);
-    impl_ = std::unique_ptr<Impl>(new Impl{success_or_throw(SkinStream::make(std::move(placed), clock)), std::move(afferents)});
-    impl_->events.reserve(8 * impl_->afferents.names.size() + 64);
+    auto addressing = make_event_addressing(*placed, clock);
+    impl_ = std::unique_ptr<Impl>(new Impl{success_or_throw(SkinStream::make(std::move(placed), clock)), std::move(addressing)});
+    impl_->events.reserve(8 * impl_->addressing.names.size() + 64);
 }
 LiveSkin::LiveSkin(LiveSkin&&) noexcept = default;
 LiveSkin& LiveSkin::operator=(LiveSkin&&) noexcept = default;
@@ -51,12 +52,12 @@ LiveSkin::Site LiveSkin::site(std::size_t number) const {
     const auto& all = impl_->stream->innervation().plan.sites;
     return {all.names[number], all.positions[number].x, all.positions[number].y};
 }
-std::size_t LiveSkin::afferents() const { return impl_->afferents.names.size(); }
+std::size_t LiveSkin::afferents() const { return impl_->addressing.names.size(); }
 std::int64_t LiveSkin::frames() const { return impl_->stream->frames(); }
 std::string LiveSkin::afferent_name(std::uint32_t index) const {
     if (index >= afferents())
         throw InputError("there is no afferent " + std::to_string(index) + "; the last is " + std::to_string(afferents() - 1));
-    return impl_->afferents.names[index];
+    return impl_->addressing.names[index];
 }
 
 std::span<const LiveSkin::Event> LiveSkin::respond(std::span<const double> frame) {

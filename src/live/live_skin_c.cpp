@@ -8,14 +8,15 @@
 
 struct corpuscle_skin {
     corpuscle::LiveSkin skin;
-    std::vector<std::string> names = {};
-    std::vector<corpuscle::LiveSkin::Site> sites = {};
-    std::string error = {};
+    std::vector<std::string> names = {};                // of the afferents; returned as C strings
+    std::vector<corpuscle::LiveSkin::Site> sites = {};  // of which the names are returned as C strings
+    std::string error = {};                             // message of the last error
 };
 
 namespace corpuscle {
 namespace {
 
+/// Copies a text, shortened if necessary, to a buffer of `size` bytes, and terminates it. Does nothing without a buffer.
 void copy_text(const char* text, char* to, std::size_t size) {
     if (!to || size == 0) return;
     const auto length = std::min(std::strlen(text), size - 1);
@@ -23,6 +24,7 @@ void copy_text(const char* text, char* to, std::size_t size) {
     to[length] = '\0';
 }
 
+/// Calls the sink, unless it is null, for each event.
 void call_sink(std::span<const LiveSkin::Event> events, corpuscle_sink sink, void* user) {
     if (!sink) return;
     for (const auto& e : events) {
@@ -31,7 +33,7 @@ void call_sink(std::span<const LiveSkin::Event> events, corpuscle_sink sink, voi
     }
 }
 
-/// Returns the result of `work`. On an exception it stores the message and returns `failed`.
+/// Returns the result of `work`. If it throws, stores the message in skin->error and returns `failed`. Without a skin returns `failed`.
 template <class T, class Work>
 T catch_errors(corpuscle_skin* skin, T failed, const Work& work) noexcept {
     if (!skin) return failed;

@@ -6,18 +6,20 @@ namespace corpuscle {
 namespace {
 
 class RecordedFrames final : public FrameSource {
-    static constexpr std::size_t block = 1024;    // frames read ahead
-    static constexpr std::int64_t at_once = 256;  // if not paced: frames between two polls of the stream loop
+    static constexpr std::size_t block = 1024;      // frames read from the recording at once
+    static constexpr std::int64_t max_batch = 256;  // largest number of frames between two calls of receive()
 
     std::unique_ptr<ForceSource> source_;
     Frames frames_;
-    std::size_t at_ = 0;       // position in the block
-    std::int64_t begun_ = -1;  // steady_now() of the first frame, ns
-    std::int64_t count_ = 0, in_batch_ = 0;
-    bool paced_;
+    std::size_t at_ = 0;                     // index of the next frame in the block
+    std::int64_t begun_ = -1;                // steady_now() of the first frame, ns; -1: not read yet
+    std::int64_t count_ = 0, in_batch_ = 0;  // frames passed on: in total, and since the last call of receive()
+    bool paced_;                             // true: each frame comes at its time
 
+    /// The steady_now() at which a frame comes, counted from 0.
     std::int64_t due_of(std::int64_t frame) const {
         const auto& clock = source_->clock();
+        // A cycle is `rate_denominator` seconds, which contain `rate_numerator` frames.
         const auto cycles = frame / clock.rate_numerator, rest = frame % clock.rate_numerator;
         return begun_ + cycles * clock.rate_denominator * 1'000'000'000 +
                static_cast<std::int64_t>(static_cast<double>(rest) * clock.T() * 1e9);
@@ -43,7 +45,7 @@ public:
     }
 
     Next next(std::span<double> force) override {
-        if (at_ == frames_.count || in_batch_ == at_once || (paced_ && steady_now() < due_of(count_))) return Next::nothing;
+        if (at_ == frames_.count || in_batch_ == max_batch || (paced_ && steady_now() < due_of(count_))) return Next::nothing;
         for (std::size_t s = 0; s < force.size(); ++s) force[s] = frames_.force[s][at_];
         ++at_, ++count_, ++in_batch_;
         return Next::frame;

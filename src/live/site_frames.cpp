@@ -8,7 +8,7 @@ namespace {
 class SiteFrames final : public FrameSource {
     std::unique_ptr<FrameSource> source_;
     std::vector<std::uint32_t> sites_;
-    std::vector<double> frame_;
+    std::vector<double> frame_;  // the frame of source_
 
 public:
     SiteFrames(std::unique_ptr<FrameSource> from, std::vector<std::uint32_t> sites)
@@ -25,7 +25,8 @@ public:
     std::optional<FrameError> first_error() const override { return source_->first_error(); }
     FrameSequence* sequence() override { return source_->sequence(); }
 
-    /// The last frame is taken from `force`, so that a resumed stream repeats the right values.
+    /// The last frame of `source_` is taken from `force`. So a resumed stream, whose `force` is set by the caller, repeats the right
+    /// values.
     Next next(std::span<double> force) override {
         for (std::size_t k = 0; k < sites_.size(); ++k) frame_[k] = force[sites_[k]];
         const auto next = source_->next(frame_);

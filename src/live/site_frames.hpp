@@ -8,8 +8,8 @@
 
 namespace corpuscle {
 
-/// Assigns force k of each frame to site sites[k]; the other sites get no force. `from` delivers frames of sites.size() forces. It is
-/// returned unchanged if `sites` are all sites in order. `all_sites`: the number of sites of the skin.
+/// A source of frames with a force for each of the `all_sites` sites of a skin. `from` delivers frames of sites.size() forces: force k is
+/// assigned to site sites[k], and the force at other sites is not changed. If `sites` are all sites in order, `from` itself is returned.
 std::unique_ptr<FrameSource> assign_sites(std::unique_ptr<FrameSource> from, std::vector<std::uint32_t> sites, std::size_t all_sites);
 
 }  // namespace corpuscle

@@ -18,13 +18,15 @@ Result<std::unique_ptr<SkinStream>> SkinStream::make(std::shared_ptr<const Inner
     return stream;
 }
 
-/// Simulates random presses of 10 N on all afferents, then restores the state. This allocates the memory that is needed when all fire.
+/// Simulates random presses with 10 N on all afferents, then restores the state. So the memory that is needed if all afferents fire is
+/// allocated before the first frame.
 Result<void> SkinStream::warm_up() {
     const auto start = skin_->save();
     const auto& plan = innervation_->plan;
+    // N at each site, so that an afferent responds as to 10 N.
     const double press = plan.felt_area > 0 && plan.sites.area > 0 ? 10 * plan.sites.area / plan.felt_area : 10;
     std::vector<double> frame(sites());
-    std::uint32_t random = 1;  // of a linear congruential generator
+    std::uint32_t random = 1;  // state of a linear congruential generator
     const auto frames = std::clamp<std::size_t>(2'000'000 / innervation_->afferents.size(), 32, 512);
     for (std::size_t k = 0; k < frames; ++k) {
         random = 1664525 * random + 1013904223;
@@ -38,8 +40,8 @@ Result<void> SkinStream::warm_up() {
     return skin_->resume(start);
 }
 
-/// The sites with a force. Most of a skin is usually untouched, so blocks of sites are tested at once. Within a touched block no branches
-/// are used, because noise makes zeros unpredictable.
+/// The sites whose force in the frame is not 0. Most of a skin is usually untouched, so blocks of sites are tested at once. Within a
+/// touched block there are no branches, because with noisy forces the processor could not predict them.
 std::span<const std::uint32_t> SkinStream::find_touched(std::span<const double> frame) {
     if (std::count(frame.begin(), frame.end(), 0.0) == 0) return all_sites_;
     constexpr std::size_t block = 16;
@@ -62,7 +64,7 @@ Result<std::span<const Spike>> SkinStream::push(std::span<const double> frame) {
 void SkinStream::allocate(std::size_t batch_frames) {
     touched_.resize(sites()), all_sites_.resize(sites());
     std::iota(all_sites_.begin(), all_sites_.end(), 0U);
-    spikes_.reserve(8 * innervation_->afferents.size() + 64);
+    spikes_.reserve(8 * innervation_->afferents.size() + 64);  // space for several spikes of each afferent in one frame or batch
     batch_frames_ = batch_frames;
     block_.assign(sites() * batch_frames, 0.0);
     is_in_batch_.assign(sites(), 0);

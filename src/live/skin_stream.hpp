@@ -1,6 +1,6 @@
 #pragma once
-// Simulates a skin frame by frame: one frame of forces in, the spikes that arrive during it out. It uses no locks and allocates no memory
-// after construction. The spikes are the same as those of a recording of these frames.
+// Simulates a skin frame by frame: one frame of forces in, the spikes out that arrive at the recording point during this frame. It uses no
+// locks and allocates no memory after construction. The spikes are the same as those of a recording that contains these frames.
 
 #include <span>
 #include <vector>
@@ -14,13 +14,12 @@ class SkinStream {
     Clock clock_;
     std::unique_ptr<Skin> skin_;
     ThreadPool pool_{1};
-    std::vector<std::uint32_t> touched_, all_sites_;
-    std::vector<Spike> spikes_;
-    // Frames of a batch: [site][frame], for the sites that have force in any of them.
-    std::size_t batch_frames_ = 1, batched_ = 0;
-    std::vector<double> block_;
-    std::vector<std::uint32_t> batch_sites_;
-    std::vector<std::uint8_t> is_in_batch_;
+    std::vector<std::uint32_t> touched_, all_sites_;  // touched_: scratch array of find_touched(); all_sites_: 0, 1, 2 ...
+    std::vector<Spike> spikes_;                       // the last result
+    std::size_t batch_frames_ = 1, batched_ = 0;      // frames of a full batch, and of the current one so far
+    std::vector<double> block_;                       // forces of the batch, [site][frame]; only those of batch_sites_ are valid
+    std::vector<std::uint32_t> batch_sites_;          // sites with force in a frame of the batch
+    std::vector<std::uint8_t> is_in_batch_;           // for each site: 1 if it is in batch_sites_
 
     SkinStream(std::shared_ptr<const Innervation> innervation, const Clock& clock, std::unique_ptr<Skin> skin)
         : innervation_(std::move(innervation)), clock_(clock), skin_(std::move(skin)) {}
@@ -29,27 +28,28 @@ class SkinStream {
     std::span<const std::uint32_t> find_touched(std::span<const double> frame);
 
 public:
-    /// `spikes_on_samples`: spikes are put on samples, not between them. `batch_frames`: size of a batch.
-    static Result<std::unique_ptr<SkinStream>> make(std::shared_ptr<const Innervation>, const Clock&, bool spikes_on_samples = false,
+    /// `clock` gives the rate of the frames. If `spikes_on_samples` is true, a spike occurs at a sample, not between two. `batch_frames`:
+    /// number of frames in a batch.
+    static Result<std::unique_ptr<SkinStream>> make(std::shared_ptr<const Innervation>, const Clock& clock, bool spikes_on_samples = false,
                                                     std::size_t batch_frames = 1);
 
     const Innervation& innervation() const { return *innervation_; }
     const Clock& clock() const { return clock_; }
     std::size_t sites() const { return skin_->sites(); }
-    std::int64_t frames() const { return skin_->step(); }  ///< simulated so far
+    std::int64_t frames() const { return skin_->step(); }  ///< number of frames simulated so far
     const SkinStats& stats() const { return skin_->stats(); }
 
-    /// Simulates one frame: one force (N) for each site. Returns the spikes that arrive during it, in order of time, then afferent; valid
-    /// until the next call.
+    /// Simulates one frame: one force (N) for each site. Returns the spikes that arrive during it, in order of time, then afferent. They
+    /// are valid until the next call.
     Result<std::span<const Spike>> push(std::span<const double> frame);
     std::size_t batch_frames() const { return batch_frames_; }
-    /// Adds a frame to the batch; returns true when the batch is full and run_batch() must be called. A batch takes less time than its
-    /// frames one by one, but the spikes come later.
+    /// Adds a frame to the batch; returns true if the batch is now full and run_batch() must be called. Simulating a batch takes less time
+    /// than simulating its frames one by one, but the spikes come later.
     bool add_to_batch(std::span<const double> frame);
     /// Simulates the frames of the batch, which may be empty. Returns the spikes that arrive during them; valid until the next call.
     Result<std::span<const Spike>> run_batch();
 
-    /// Call after the last frame: the spikes that are still in transit.
+    /// The spikes that are still in transit. Call it after the last frame.
     std::span<const Spike> finish();
 
     /// The state; a stream with the same population and rate can resume from it.

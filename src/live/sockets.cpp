@@ -17,6 +17,7 @@ namespace {
 
 using AddressList = std::unique_ptr<addrinfo, decltype(&::freeaddrinfo)>;
 
+/// The addresses of an endpoint for sockets of a type; `flags` of getaddrinfo().
 Result<std::vector<SocketAddress>> addresses_of(const Endpoint& at, int socket_type, int flags) {
     addrinfo wanted = {}, *found = nullptr;
     wanted.ai_family = AF_UNSPEC, wanted.ai_socktype = socket_type, wanted.ai_flags = flags | AI_NUMERICSERV;
@@ -34,10 +35,12 @@ Result<std::vector<SocketAddress>> addresses_of(const Endpoint& at, int socket_t
 
 const sockaddr* as_sockaddr(const SocketAddress& address) { return reinterpret_cast<const sockaddr*>(&address.bytes); }
 
+/// "cannot connect to 127.0.0.1:7000: Connection refused", from the beginning `what` and an errno.
 Error at_endpoint(std::string_view what, const Endpoint& at, int error_number) {
     return bad_input(fmt::format("{} {}: {}", what, at.text(), std::strerror(error_number)));
 }
 
+/// The local port of a socket.
 int port_of(int fd) {
     sockaddr_storage address = {};
     socklen_t size = sizeof address;
@@ -77,7 +80,8 @@ Result<ResolvedEndpoint> resolve(const Endpoint& at) {
 
 namespace {
 
-/// Opens a socket at the first usable address of the endpoint. `make_ready` binds and configures it; it returns false on failure.
+/// Opens a socket at the first usable address of the endpoint, and writes its port there. make_ready(fd, address) configures and binds the
+/// socket; it returns false on failure.
 template <class MakeReady>
 Result<Descriptor> bind_socket(Endpoint& at, int socket_type, const MakeReady& make_ready) {
     const auto addresses = addresses_of(at, socket_type, AI_PASSIVE);

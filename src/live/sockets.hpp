@@ -10,8 +10,9 @@
 
 namespace corpuscle {
 
+/// The address and port of a socket.
 struct Endpoint {
-    std::string address = "127.0.0.1";
+    std::string address = "127.0.0.1";  ///< a numeric address, or a name that is to be resolved
     int port = 0;
     std::string text() const;  ///< "127.0.0.1:7000"
 };
@@ -19,31 +20,34 @@ struct Endpoint {
 /// Parses "7000", "127.0.0.1:7000", "[::1]:7000", "robot:7000"; the default address is 127.0.0.1.
 Result<Endpoint> parse_endpoint(std::string_view text);
 
+/// A resolved address with its port, as the system represents it.
 struct SocketAddress {
     sockaddr_storage bytes = {};
-    socklen_t size = 0;
+    socklen_t size = 0;  ///< number of bytes that are used
     bool operator==(const SocketAddress&) const;
 };
 
-/// An endpoint and its resolved addresses, at least one. Resolving a name may take minutes.
+/// An endpoint and its resolved addresses, at least one.
 struct ResolvedEndpoint {
     Endpoint at;
     std::vector<SocketAddress> addresses;
 };
+/// Resolves the address of an endpoint, which may take minutes.
 Result<ResolvedEndpoint> resolve(const Endpoint&);
 
-/// A listening, non-blocking socket; fills in the port if it was 0.
+/// Opens a listening, non-blocking TCP socket. If the port is 0, a free one is chosen and written to the endpoint.
 Result<Descriptor> open_listening_socket(Endpoint&);
-/// The same for datagrams.
+/// Opens a non-blocking socket for datagrams; the port as above.
 Result<Descriptor> open_datagram_socket(Endpoint&);
-/// Tries one address after another, each for at most `timeout_ms`. The socket is non-blocking.
+/// Connects a non-blocking TCP socket. Tries one address after another, each for at most `timeout_ms`.
 Result<Descriptor> connect_socket(const ResolvedEndpoint&, int timeout_ms);
 Result<Descriptor> connect_socket(const Endpoint&, int timeout_ms);
 /// Starts a connection and returns at once. Returns an empty descriptor if it failed immediately.
 Descriptor begin_connection(const SocketAddress&);
-/// State of a connection started by begin_connection(): connected (1), failed (-1), or still pending (0).
+/// State of a connection started by begin_connection(): connected (1), failed (-1, the reason is in errno), or still
+/// pending (0).
 int connection_state(const Descriptor&);
-/// Enables keepalive, so reads fail within 15 seconds if the peer's machine or cable has failed.
+/// Enables keepalive, so that reads fail within 15 seconds if the machine at the other end or the cable has failed.
 void enable_keepalive(int fd);
 
 /// Sends small packets at once (TCP_NODELAY).

@@ -7,9 +7,9 @@
 namespace corpuscle {
 namespace {
 
-constexpr std::int64_t second = 1'000'000'000, max_wait = second / 5;
-constexpr std::int64_t max_remaining = 5 * second;  // after a stop: time for the frames that have arrived
-constexpr int grace_ms = 50;                   // after a stop: total wait for bytes in transit between two machines
+constexpr std::int64_t second = 1'000'000'000, max_wait = second / 5;  // ns; max_wait: longest time between two calls of stop()
+constexpr std::int64_t max_remaining = 5 * second;  // ns; after a stop: longest time for simulating the frames that have arrived
+constexpr int grace_ms = 50;                        // after a stop: total wait for bytes in transit between two machines
 
 }  // namespace
 
@@ -22,7 +22,7 @@ StreamLoop::StreamLoop(SkinStream& skin, const EventFormat& format, FrameSource&
 Result<void> StreamLoop::run() {
     Result<void> ended;
     while (ended && !options_.stop()) {
-        const auto more = wait();
+        const auto more = wait_and_run();
         if (!more) {
             ended = more.error();
         } else if (!*more) {
@@ -36,13 +36,16 @@ Result<void> StreamLoop::run() {
     if (ended && options_.stop()) ended = run_remaining();
     if (ended) ended = run_batch();
     if (ended && !options_.keeps_state) ended = put(skin_.finish());
+    // The sink's reader has a second to accept the rest, unless it has already had one.
     const auto finished = sink_.finish({reader_deadline_ == FrameSource::never ? second : 0, !frames_.is_live(), options_.stop});
     return ended ? finished : ended;
 }
 
-/// Waits for frames, for space to write, or for the next check; returns false at the end of the frames.
-Result<bool> StreamLoop::wait() {
+/// Waits until frames arrive, the sink can be written, or max_wait is over. Simulates the frames that have arrived. Returns false at the
+/// end of the frames.
+Result<bool> StreamLoop::wait_and_run() {
     pollfd on[2] = {{frames_.poll_fd(), POLLIN, 0}, {sink_.poll_fd(), POLLOUT, 0}};
+    // ns until frames are due, limited to [0, max_wait]
     const auto left =
         std::max<std::int64_t>(0, std::min(frames_.due_time() - (frames_.due_time() == FrameSource::never ? 0 : steady_now()), max_wait));
     const timespec wait = {0, options_.busy_poll ? 0 : static_cast<long>(left)};
@@ -53,7 +56,7 @@ Result<bool> StreamLoop::wait() {
         if (auto ok = sink_.flush(); !ok) return ok.error();
     if (!due) return true;
     const auto more = frames_.receive();
-    if (!more && options_.stop()) return false;  // a read interrupted by a signal
+    if (!more && options_.stop()) return false;  // a signal has interrupted the read
     if (!more) return more.error();
     if (auto ok = run_received(); !ok) return ok.error();
     return *more;
@@ -64,7 +67,7 @@ Result<bool> StreamLoop::wait() {
 Result<void> StreamLoop::run_remaining() {
     frames_.disable_batching();
     const auto until = steady_now() + max_remaining;
-    auto grace = second / 1000 * grace_ms;
+    auto grace = second / 1000 * grace_ms;  // ns of waiting that are left
     for (bool more = frames_.poll_fd() >= 0 && frames_.is_live(); more && steady_now() < until;) {
         const auto before = steady_now();
         pollfd on = {frames_.poll_fd(), POLLIN, 0};
@@ -81,22 +84,23 @@ Result<void> StreamLoop::run_remaining() {
     return {};
 }
 
-/// Simulates the frames that have arrived.
+/// Simulates the frames that have been read.
 Result<void> StreamLoop::run_received() {
-    const auto at = steady_now();
+    const auto now = steady_now();
     const auto before = stats_.received;
     for (auto next = frames_.next(force_); next != FrameSource::Next::nothing; next = frames_.next(force_))
-        if (auto ok = run_frame(next == FrameSource::Next::frame, at); !ok) return ok;
+        if (auto ok = run_frame(next == FrameSource::Next::frame, now); !ok) return ok;
     stats_.reads += stats_.received > before;
     if (error_reported_) return {};
     if (const auto error = frames_.first_error()) options_.on_frame_error(*error), error_reported_ = true;
     return {};
 }
 
-Result<void> StreamLoop::run_frame(bool was_received, std::int64_t at) {
+/// Simulates the frame in force_, or adds it to the batch. `now` is its time of arrival; an inserted frame (was_received false) has none.
+Result<void> StreamLoop::run_frame(bool was_received, std::int64_t now) {
     if (was_received) {
-        record_arrival(at);
-        arrival_times_.push_back(at);
+        record_arrival(now);
+        arrival_times_.push_back(now);
     } else {
         ++stats_.filled;
     }
@@ -107,6 +111,7 @@ Result<void> StreamLoop::run_frame(bool was_received, std::int64_t at) {
 /// Simulates the incomplete batch at the end of a stream.
 Result<void> StreamLoop::run_batch() { return skin_.batch_frames() > 1 ? write_spikes(skin_.run_batch()) : Result<void>{}; }
 
+/// Puts spikes into the sink and writes as much as possible. Records the latency of the frames that they belong to.
 Result<void> StreamLoop::write_spikes(const Result<std::span<const Spike>>& spikes) {
     if (!spikes) return spikes.error();
     if (auto ok = put(*spikes); !ok) return ok;
@@ -118,6 +123,7 @@ Result<void> StreamLoop::write_spikes(const Result<std::span<const Spike>>& spik
     return {};
 }
 
+/// Puts spikes into the sink; drops those for which there is no space.
 Result<void> StreamLoop::put(std::span<const Spike> spikes) {
     stats_.spikes += static_cast<std::int64_t>(spikes.size());
     for (const auto& s : spikes) {
@@ -130,7 +136,8 @@ Result<void> StreamLoop::put(std::span<const Spike> spikes) {
     return {};
 }
 
-/// Waits for space in the ring if waits_for_reader(). Returns false if there is none. After a stop, a slow reader has one more second.
+/// Waits for space in the sink's ring buffer if waits_for_reader() is true. Returns false if there is no space. After a stop, a slow reader
+/// has one more second.
 Result<bool> StreamLoop::wait_for_space(std::size_t bytes) {
     while (waits_for_reader() && steady_now() < reader_deadline_) {
         const auto has_space = sink_.wait_for_space(bytes, 100);
@@ -140,10 +147,10 @@ Result<bool> StreamLoop::wait_for_space(std::size_t bytes) {
     return false;
 }
 
-void StreamLoop::record_arrival(std::int64_t at) {
-    if (stats_.received > 0) stats_.jitter.add(std::abs(at - stats_.last_received - static_cast<std::int64_t>(skin_.clock().T() * 1e9)));
-    if (stats_.received++ == 0) stats_.first_received = at;
-    stats_.last_received = at;
+void StreamLoop::record_arrival(std::int64_t now) {
+    if (stats_.received > 0) stats_.jitter.add(std::abs(now - stats_.last_received - static_cast<std::int64_t>(skin_.clock().T() * 1e9)));
+    if (stats_.received++ == 0) stats_.first_received = now;
+    stats_.last_received = now;
 }
 
 }  // namespace corpuscle

@@ -11,13 +11,14 @@ namespace corpuscle {
 namespace {
 
 constexpr std::string_view state_magic = "corplive";
-constexpr std::uint32_t state_version = 2;  // ends with a checksum of all bytes before it; version 1, which has none, can still be read
+/// A state of version 2 ends with a checksum of all bytes before it. A state of version 1 has no checksum; it can still be read.
+constexpr std::uint32_t state_version = 2;
 
-/// The header before the forces and the state of the skin; little-endian.
+/// The head of a saved state. The forces and the state of the skin follow it. All are little-endian.
 struct StateHead {
     char magic[8];
-    std::uint32_t version, numbered, number, sites;
-    std::uint64_t skin;
+    std::uint32_t version, numbered, number, sites;  // numbered: 1 if StreamState::number is set; sites: number of forces
+    std::uint64_t skin;                              // bytes of the state of the skin
 };
 
 }  // namespace
@@ -84,7 +85,7 @@ Result<void> save_stream(const std::string& path, const StreamState& state) {
 Result<StreamState> load_stream(const std::string& path) {
     auto file = open_bytes(path);
     if (!file) return file.error();
-    constexpr std::uint64_t max_size = std::uint64_t{1} << 34;
+    constexpr std::uint64_t max_size = std::uint64_t{1} << 34;  // bytes
     if ((*file)->size() > max_size) return bad_input("this file is too large to be a saved state", {path});
     std::vector<std::byte> bytes((*file)->size());
     if (auto ok = (*file)->read(bytes); !ok) return ok.error();

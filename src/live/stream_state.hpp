@@ -1,5 +1,5 @@
 #pragma once
-// The saved state of a live stream: the state of the skin, the last force, the last frame number.
+// The saved state of a live stream: the last frame with its number, and the state of the skin.
 
 #include <optional>
 #include <string>
@@ -10,15 +10,16 @@
 namespace corpuscle {
 
 struct StreamState {
-    std::vector<double> force;            ///< of the last frame, N
-    std::optional<std::uint32_t> number;  ///< of the last frame, if frames are numbered
-    std::vector<std::byte> skin;
+    std::vector<double> force;            ///< the forces of the last frame, N
+    std::optional<std::uint32_t> number;  ///< the number of the last frame, if frames are numbered
+    std::vector<std::byte> skin;          ///< the result of Skin::save()
 };
 
 std::vector<std::byte> pack_stream(const StreamState&);
-/// Refuses bytes that were not made by pack_stream(); errors name `file`.
+/// Reads the bytes of pack_stream(). Other bytes, and unknown versions, are errors, which name `file`.
 Result<StreamState> unpack_stream(std::span<const std::byte>, const std::string& file);
 
+/// Writes a state to a file, which is replaced only when the new one is complete, or reads it from there.
 Result<void> save_stream(const std::string& path, const StreamState&);
 Result<StreamState> load_stream(const std::string& path);
 

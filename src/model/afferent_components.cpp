@@ -14,18 +14,19 @@ std::vector<std::string_view> names_of(const std::vector<CatalogEntry>& entries)
     return names;
 }
 
-/// The catalogue's spelling of a name, which is matched without regard to case; "" if there is none.
+/// The one of `names` that equals `typed` except for upper and lower case; "" if none does.
 std::string_view catalog_name(const std::vector<std::string_view>& names, std::string_view typed) {
     const auto at = std::find_if(names.begin(), names.end(), [&](auto name) { return equal_ignoring_case(name, typed); });
     return at == names.end() ? std::string_view() : *at;
 }
 
-/// The kinds of component that can come before an afferent, in their order.
+/// A kind of component that can come before a receptor.
 struct Kind {
-    std::string_view article_and_name;
-    std::vector<std::string_view> names;
-    std::string_view AfferentComponents::* at;
+    std::string_view article_and_name;          ///< "a sensor"
+    std::vector<std::string_view> names;        ///< of all components of this kind
+    std::string_view AfferentComponents::* at;  ///< the member that holds the component of this kind
 };
+/// All kinds, in the order in which the signal passes them.
 const std::vector<Kind>& kinds() {
     static const std::vector<Kind> all = {{"a sensor", names_of(sensor_entries()), &AfferentComponents::sensor},
                                           {"a transducer", names_of(transducer_entries()), &AfferentComponents::transducer},
@@ -40,6 +41,7 @@ std::string order() {
     return text + "then the afferent";
 }
 
+/// The parts of a text between its plus signs.
 std::vector<std::string_view> split(std::string_view text) {
     std::vector<std::string_view> names;
     for (std::size_t at = 0; at <= text.size();) {
@@ -59,13 +61,13 @@ Error unknown_afferent(std::string_view text) {
 }
 
 Result<std::string_view> find_component(std::string_view text, std::string_view typed, const std::vector<std::string_view>& names,
-                                    std::string_view kind) {
+                                        std::string_view kind) {
     if (std::find(names.begin(), names.end(), typed) != names.end()) return *std::find(names.begin(), names.end(), typed);
     return bad_input(
         fmt::format("{}: unknown {} '{}'{} (there are {})", text, kind, typed, did_you_mean(typed, names), fmt::join(names, ", ")));
 }
 
-/// The error for a component in the wrong position, or for a word that is not a component.
+/// The error for a word of `text` that is a component in the wrong position, or not a component. `parts` are the components read before it.
 Error misplaced(std::string_view text, std::string_view word, const AfferentComponents& parts) {
     std::vector<std::string_view> known;
     for (const auto& kind : kinds()) {
@@ -79,7 +81,7 @@ Error misplaced(std::string_view text, std::string_view word, const AfferentComp
     return bad_input(fmt::format("{}: '{}' is not a component that fits there{} ({})", text, word, did_you_mean(word, known), order()));
 }
 
-/// Reads the components of the front end from the first words; returns the number of words read.
+/// Reads the components of the front end from the first words into `parts`; returns the number of words read.
 std::size_t read_front_end(std::span<const std::string_view> words, AfferentComponents& parts) {
     std::size_t taken = 0;
     for (const auto& kind : kinds())
@@ -88,12 +90,13 @@ std::size_t read_front_end(std::span<const std::string_view> words, AfferentComp
     return taken;
 }
 
+/// Reads the words after the front end: a named afferent, or a receptor and a neuron.
 Result<void> read_afferent(std::string_view text, std::span<const std::string_view> words, AfferentComponents& parts) {
     static const auto receptors = names_of(receptor_entries()), neurons = names_of(neuron_entries());
     if (words.empty())
         return bad_input(fmt::format("{}: '{}' must be followed by an afferent, such as '{}+sa1'", text, parts.front_end(), text));
     parts.named = find_named_afferent(words.back());
-    const std::size_t needed = parts.named ? 1 : 2;  // words: a name, or a receptor and a neuron
+    const std::size_t needed = parts.named ? 1 : 2;  // number of words: a name, or a receptor and a neuron
     for (const auto& kind : kinds())
         for (const auto word : words)
             if (!catalog_name(kind.names, word).empty()) return misplaced(text, word, parts);

@@ -1,23 +1,24 @@
 #pragma once
-// The components named by the text that specifies an afferent, in the order of the signal: "fsr+f2v+adc+sa1a+lif-a".
+// Parses the text that specifies an afferent, such as "fsr+f2v+adc+sa1a+lif-a", into components. They are in the order in which the signal
+// passes them.
 
 #include "model/catalog.hpp"
 
 namespace corpuscle {
 
 struct AfferentComponents {
-    std::string_view sensor, transducer, converter;  ///< "": none
-    const NamedAfferent* named = nullptr;            ///< the named afferent after them; null: a receptor and a neuron
-    std::string_view receptor, neuron;
+    std::string_view sensor, transducer, converter;  ///< "": the afferent has none
+    const NamedAfferent* named = nullptr;            ///< null if the text names a receptor and a neuron instead of an afferent
+    std::string_view receptor, neuron;               ///< those of the named afferent, if there is one
 
     /// The components before the receptor: "fsr+f2v+adc", or "".
     std::string front_end() const;
 };
 
-/// Parses a text such as "fsr+f2v+sa1". If the named afferent has its own front end, this is included.
+/// Parses a text such as "fsr+f2v+sa1". The front end of a named afferent, if it has one, is among the components.
 Result<AfferentComponents> parse_components(std::string_view text);
 
-/// Finds a named afferent by its name or an alias, without regard to case. Null if there is none.
+/// The named afferent with this name or alias, in upper or lower case; null if there is none.
 const NamedAfferent* find_named_afferent(std::string_view text);
 
 }  // namespace corpuscle

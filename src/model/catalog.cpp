@@ -11,15 +11,16 @@ namespace corpuscle {
 namespace {
 
 template <template <class> class... M>
-std::vector<CatalogEntry> entries(ModelList<M...>) {
+std::vector<CatalogEntry> entries_of_list(ModelList<M...>) {
     return {catalog_entry_of<M<double>>()...};
 }
 
 template <class... M>
-std::vector<CatalogEntry> entries(ComponentList<M...>) {
+std::vector<CatalogEntry> entries_of_list(ComponentList<M...>) {
     return {catalog_entry_of<M>()...};
 }
 
+/// Calls f with the tag of the component that has this name. Does nothing if the name is "" or not in the list.
 template <class List, class F>
 void visit_component(List list, std::string_view name, const F& f) {
     for_each_type(list, [&]<class M>(ComponentTag<M> m) {
@@ -27,8 +28,8 @@ void visit_component(List list, std::string_view name, const F& f) {
     });
 }
 
-/// The catalogue entries of a plan's components, in the order of the signal.
-std::vector<CatalogEntry> entries_of(const AfferentComponents& parts) {
+/// The catalogue entries of an afferent's components, in the order in which the signal passes them: the receptor and the neuron are last.
+std::vector<CatalogEntry> entries_of_components(const AfferentComponents& parts) {
     std::vector<CatalogEntry> all;
     const auto add = [&](std::vector<CatalogEntry> entries, std::string_view name) {
         for (auto& c : entries)
@@ -94,15 +95,15 @@ Result<void> check_plan(const AfferentPlan& plan) {
 }
 
 std::vector<CatalogEntry> sensor_entries() {
-    auto all = entries(Sensors{});
+    auto all = entries_of_list(Sensors{});
     for (auto& entry : all)
-        for (const auto& row : parameters_of<Calibration::Params>(Calibration::fields)) entry.parameters.push_back(row);
+        for (const auto& parameter : parameters_of<Calibration::Params>(Calibration::fields)) entry.parameters.push_back(parameter);
     return all;
 }
-std::vector<CatalogEntry> transducer_entries() { return entries(Transducers{}); }
-std::vector<CatalogEntry> converter_entries() { return entries(Converters{}); }
-std::vector<CatalogEntry> receptor_entries() { return entries(Receptors{}); }
-std::vector<CatalogEntry> neuron_entries() { return entries(Neurons{}); }
+std::vector<CatalogEntry> transducer_entries() { return entries_of_list(Transducers{}); }
+std::vector<CatalogEntry> converter_entries() { return entries_of_list(Converters{}); }
+std::vector<CatalogEntry> receptor_entries() { return entries_of_list(Receptors{}); }
+std::vector<CatalogEntry> neuron_entries() { return entries_of_list(Neurons{}); }
 
 std::optional<double> AfferentPlan::value(std::string_view parameter) const {
     for (std::size_t k = 0; k < values.size(); ++k)
@@ -135,8 +136,8 @@ Result<AfferentPlan> plan_afferent(std::string_view text, std::span<const Parame
     const auto parts = parse_components(text);
     if (!parts) return parts.error();
     const auto* named = parts->named;
-    const auto entries = entries_of(*parts);
-    const auto& receptor = entries[entries.size() - 2];
+    const auto entries = entries_of_components(*parts);
+    const auto& receptor = entries[entries.size() - 2];  // the neuron is last
     AfferentPlan plan{std::string(text),
                       parts->receptor,
                       parts->neuron,
@@ -168,9 +169,9 @@ Result<AfferentPlan> plan_afferent(std::string_view text, std::span<const Parame
         apply(named->settings, false);
         for (std::size_t k = 0; k < parameters.size(); ++k)
             if (auto& row = parameters[k].info; plan.values[k] != row.default_value)
-                row.default_value = plan.values[k], row.source = named->source;  // the default of the named afferent
+                row.default_value = plan.values[k], row.source = named->source;  // its defaults differ from those of its models
     }
-    for (const auto& o : overrides) {  // an override may use any name or alias of the afferent
+    for (const auto& o : overrides) {  // its target may be any name or alias of the afferent
         if (!matches_name(plan, text, o.target)) continue;
         const auto settings = settings_for(o.target, rows, std::span(&o, 1));
         if (!settings) return settings.error();
@@ -196,6 +197,7 @@ std::unique_ptr<Afferent> make_afferent(const AfferentPlan& plan, const Simulati
             afferent = std::make_unique<Chain<R, N>>(r, n, run);
         });
     });
+    // A plan with a transducer also has a sensor.
     if (!plan.sensor.empty()) return std::make_unique<FrontEndAfferent>(make_front_end(plan), std::move(afferent));
     return afferent;
 }

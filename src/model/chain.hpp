@@ -1,5 +1,6 @@
 #pragma once
-// A receptor followed by one or more neurons: one afferent at a time, in double.
+// An afferent made of a receptor and one neuron for each of the receptor's currents, simulated alone and in double precision.
+// lane_population.hpp simulates many at once.
 
 #include <fmt/format.h>
 #include <algorithm>
@@ -12,18 +13,21 @@
 
 namespace corpuscle {
 
-/// Options of a simulation.
+/// Options of a simulation that are the same for all afferents.
 struct SimulationOptions {
     double dt = 1e-4;  ///< s, sampling interval
     Method method = Method::exact;
-    bool spikes_on_samples = false;  ///< spikes are put on the sample, as in the thesis; otherwise they get a time within the step
-    /// Membrane noise: a white current into each neuron, constant within a step. Its standard deviation between 0 and noise_band, A.
+    bool spikes_on_samples = false;  ///< true: a spike occurs at the sample that ends its step, as in the thesis; false: within the step
+    /// Membrane noise: a white current into each neuron, constant within a step. `noise` is the standard deviation of its part between 0 Hz
+    /// and noise_band, A.
     double noise = 0;
-    std::uint64_t seed = 0;
+    std::uint64_t seed = 0;  ///< of the noise
 };
 
 inline constexpr double noise_band = 1e3;  ///< Hz
 
+/// An afferent with receptor R and neuron N. A receptor with two currents (`outputs` is 2) drives two neurons with the same parameters;
+/// their spikes form one train.
 template <template <class> class R, template <class> class N>
 class Chain final : public Afferent {
     using Receptor = R<double>;
@@ -31,6 +35,7 @@ class Chain final : public Afferent {
     static constexpr int outputs = Receptor::outputs;
     using Currents = Current<double>[outputs];
 
+    /// Number of recordable quantities of the receptor besides its currents.
     static constexpr std::size_t receptor_recordables = [] {
         if constexpr (requires { Receptor::recordables; })
             return std::size(Receptor::recordables);
@@ -40,30 +45,33 @@ class Chain final : public Afferent {
     static constexpr std::size_t neuron_recordables = std::size(Neuron::recordables);
     static constexpr std::size_t all_recordables = receptor_recordables + outputs * (1 + neuron_recordables);
 
+    /// The state of the receptor and its neurons; the values of a State are its bytes.
     struct Values {
         typename Receptor::State receptor;
         typename Neuron::State neuron[outputs];
     };
     static_assert(std::is_trivially_copyable_v<Values> && sizeof(Values) % sizeof(double) == 0, "a state is doubles and nothing else");
 
-    /// Receives the spikes of one step.
+    /// Receives the spikes of one step. A neuron calls it with a mask of lanes, here a single bool that is always true, and the spike's
+    /// offset within the step.
     struct SpikeSink {
         ResponseBlock& response;
-        bool sampled;
-        std::int64_t step;
-        void operator()(bool, double x) { response.spikes.push_back({step, sampled ? 1.0 : x, response.afferent_index}); }
+        bool sampled;       // true: all spikes are put on the sample
+        std::int64_t step;  // the sample that ends the step, counted from 0 at the first sample of the simulation
+        void operator()(bool, double offset) { response.spikes.push_back({step, sampled ? 1.0 : offset, response.afferent_index}); }
     };
 
     Receptor receptor_;
     Neuron neuron_;
     Method method_;
     bool spikes_on_samples_;
-    double noise_;  // standard deviation of one step's current, A: white up to 1/(2T)
+    double noise_;  // standard deviation of the noise current of one step, A; its band ends at half the sampling rate
     std::uint64_t seed_;
     std::string name_, format_;
-    std::vector<std::string> probe_names_;
+    std::vector<std::string> probe_names_;  // probes_ refers to them
     std::vector<Probe> probes_;
 
+    /// Names the probes in the order of record(). If there are two currents, the names of current k and of its neuron end in their sign.
     void name_probes() {
         const auto sign = [](int k) {
             if constexpr (requires { Receptor::signs; })
@@ -81,35 +89,35 @@ class Chain final : public Afferent {
         for (std::size_t k = 0; k < probe_names_.size(); ++k) probes_.push_back({probe_names_[k], units[k]});
     }
 
-    /// Adds noise to each neuron's current. It depends only on seed, afferent, neuron and step.
+    /// Adds noise to each neuron's current. The noise depends only on the seed, the afferent's index, the neuron and the step.
     void add_noise(Currents& i, std::uint32_t afferent, std::int64_t step) const {
-        constexpr std::uint32_t purpose = 0x6d656d00;  // separate random streams of the membranes, one for each neuron
+        constexpr std::uint32_t purpose = 0x6d656d00;  // this value and the next ones select a random stream for each neuron
         for (std::uint32_t n = 0; n < outputs; ++n) {
             const double x = noise_ * normal(seed_, afferent, purpose + n, static_cast<std::uint64_t>(step));
             i[n] = {i[n].from + x, i[n].to + x};
         }
     }
 
-    /// The recordable quantities in the order of the probes: components of the receptor's current, the currents, then the quantities of
-    /// each neuron.
+    /// Writes all recordable quantities in the order of the probes: the components of the receptor's current, its currents at the end of
+    /// the step, then the quantities of each neuron.
     void record(const Values& s, const Currents& i, double (&out)[all_recordables]) const {
         std::size_t at = 0;
-        const auto add = [&](const auto& model, const auto& state, auto& parts) {
-            model.record(state, parts);
-            for (const double p : parts) out[at++] = p;
+        const auto add = [&](const auto& model, const auto& state, auto& quantities) {
+            model.record(state, quantities);
+            for (const double q : quantities) out[at++] = q;
         };
         if constexpr (receptor_recordables > 0) {
-            double parts[receptor_recordables];
-            add(receptor_, s.receptor, parts);
+            double quantities[receptor_recordables];
+            add(receptor_, s.receptor, quantities);
         }
         for (const auto& c : i) out[at++] = c.to;
         for (const auto& n : s.neuron) {
-            double parts[neuron_recordables];
-            add(neuron_, n, parts);
+            double quantities[neuron_recordables];
+            add(neuron_, n, quantities);
         }
     }
 
-    /// Writes the recordable quantities of sample k, if probes are requested.
+    /// Writes the recordable quantities of sample k of the block, if probes are requested.
     void record(const Values& s, const Currents& i, std::size_t k, ResponseBlock& response) const {
         if (response.probes.empty()) return;
         double shown[all_recordables];
@@ -117,7 +125,8 @@ class Chain final : public Afferent {
         for (std::size_t p = 0; p < all_recordables; ++p) response.probes[p][k] = shown[p];
     }
 
-    /// Feeds currents into neurons. Returns true if the limit on spikes per step truncated the step.
+    /// Simulates one step of all neurons; the spikes of two neurons are sorted by time. Returns true if a neuron reached the limit of
+    /// spikes per step.
     [[gnu::always_inline]] bool step_neurons(typename Neuron::State (&n)[outputs], const Currents& i, SpikeSink& into) const {
         if constexpr (outputs == 1) {
             return neuron_.step(n[0], i[0], into);
@@ -131,8 +140,9 @@ class Chain final : public Afferent {
         }
     }
 
-    /// The first sample. The force before it is assumed to be the same. Backward Euler takes a step there, as the published algorithms do,
-    /// and puts its spikes on the sample, because there is no time before it. The exact method has no interval to integrate yet.
+    /// Simulates the first sample of the force. The force before it is assumed to be the same. Backward Euler takes a step that ends at
+    /// this sample, as the published algorithms do, and puts its spikes on the sample, because the simulation begins there. The exact
+    /// method has no interval to integrate yet, so the neurons take no step.
     void run_first_sample(double force, Values& s, ResponseBlock& response) const {
         s.receptor = receptor_.start(force);
         for (auto& n : s.neuron) n = neuron_.start();
@@ -146,7 +156,8 @@ class Chain final : public Afferent {
         record(s, i, 0, response);
     }
 
-    /// Simulates samples [from, to). Without probes and noise the state stays in registers.
+    /// Simulates samples [from, to) of the block. `first` is the number of the block's first sample, counted from the start of the
+    /// simulation. `observed` is false if there are neither probes nor noise; the state then stays in registers.
     template <bool observed>
     void run(std::span<const double> force, std::size_t from, std::size_t to, std::int64_t first, Values& state,
              ResponseBlock& response) const {
@@ -175,7 +186,8 @@ public:
     Chain(const RP& r, const NP& n, const SimulationOptions& run)
         : receptor_(UniformParams<RP>{r}, run.dt, run.method), neuron_(UniformParams<NP>{n}, run.dt, run.method), method_(run.method),
           spikes_on_samples_(run.spikes_on_samples), noise_(run.noise * std::sqrt(0.5 / run.dt / noise_band)), seed_(run.seed),
-          name_(fmt::format("{}+{}", Receptor::name, Neuron::name)), format_(fmt::format("{}/2, T = {} s", name_, run.dt)) {
+          name_(fmt::format("{}+{}", Receptor::name, Neuron::name)),
+          format_(fmt::format("{}/2, T = {} s", name_, run.dt)) {  // 2: version of the state's format
         name_probes();
     }
 
@@ -191,6 +203,7 @@ public:
         if (is_first) run_first_sample(force[0], s, response);
         const auto run_samples = response.probes.empty() && noise_ == 0 ? &Chain::run<false> : &Chain::run<true>;
         for (std::size_t k = is_first ? 1 : 0, to = 0; k < force.size(); k = to) {
+            // `now`: number of the next sample since the start; `left`: samples until the next flush.
             const std::int64_t now = state.step + static_cast<std::int64_t>(k), left = flush_interval - now % flush_interval;
             if (left == flush_interval) flush_decayed(s);
             to = std::min(force.size(), k + static_cast<std::size_t>(left));

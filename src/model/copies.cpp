@@ -12,20 +12,22 @@
 namespace corpuscle {
 namespace {
 
-constexpr std::uint64_t max_samples = 1000;  // for one parameter of one copy
+constexpr std::uint64_t max_samples = 1000;  // random draws for one parameter of one copy
 
+/// Index of a parameter among the plan's parameters, which must contain it.
 std::size_t index_of(const AfferentPlan& plan, std::string_view parameter) {
     const auto& all = *plan.parameters;
     return static_cast<std::size_t>(
         std::find_if(all.begin(), all.end(), [&](const AfferentParameter& p) { return p.info.name == parameter; }) - all.begin());
 }
 
-/// Parses a standard deviation: a fraction of the value ("10%"), or a number in the parameter's own unit.
-Result<ParameterDistribution> parse_spread(const AfferentPlan& plan, const ParameterOverride& w, const ParameterInfo& row) {
-    const auto error = [&](std::string_view why) { return bad_input(fmt::format("--spread {}: {}", w.text(), why)); };
-    const bool is_percentage = trimmed(w.value).ends_with('%');
-    const auto read = parse_quantity(w.value, is_percentage ? "" : row.unit);
-    if (!read && is_percentage) return error(fmt::format("'{}' is not a percentage; write a number and %, such as '10%'", w.value));
+/// Parses the standard deviation in o.value: a percentage of the plan's value of the parameter ("10%"), or a number in the parameter's
+/// unit.
+Result<ParameterDistribution> parse_spread(const AfferentPlan& plan, const ParameterOverride& o, const ParameterInfo& row) {
+    const auto error = [&](std::string_view why) { return bad_input(fmt::format("--spread {}: {}", o.text(), why)); };
+    const bool is_percentage = trimmed(o.value).ends_with('%');
+    const auto read = parse_quantity(o.value, is_percentage ? "" : row.unit);
+    if (!read && is_percentage) return error(fmt::format("'{}' is not a percentage; write a number and %, such as '10%'", o.value));
     if (!read) return error(read.error().message);
     if (*read < 0) return error("a standard deviation must not be negative");
     if (!is_percentage) return ParameterDistribution{plan.name, row.name, row.unit, *read};
@@ -39,13 +41,14 @@ Result<ParameterDistribution> parse_spread(const AfferentPlan& plan, const Param
 /// Samples the parameters of all copies of one plan.
 class CopySampler {
     struct SampledParameter {
-        std::size_t at;  ///< index among the plan's parameters
-        double value, deviation;
+        std::size_t at;           ///< index among the plan's parameters
+        double value, deviation;  ///< mean and standard deviation, SI
         ParameterInfo row;
-        std::uint64_t stream;
-        std::size_t group;  ///< parameters linked by order constraints are sampled together
-        std::uint64_t count = 0;
+        std::uint64_t stream;     ///< identifies the parameter's random numbers
+        std::size_t group;        ///< parameters linked by order constraints form a group and are sampled together
+        std::uint64_t count = 0;  ///< random draws so far for the current copy
     };
+    /// An order constraint of the plan.
     struct OrderBound {
         std::size_t lower, upper;  ///< indices among the plan's parameters
         bool or_equal;
@@ -54,21 +57,23 @@ class CopySampler {
     std::uint64_t seed_;
     std::vector<SampledParameter> sampled_;
     std::vector<OrderBound> bounds_;
-    std::vector<std::size_t> group_of_;  // for each of the plan's parameters
+    std::vector<std::size_t> group_of_;  // group of each of the plan's parameters, sampled or not
 
+    /// Merges the group of parameter b into that of parameter a.
     void join(std::size_t a, std::size_t b) {
         const auto from = group_of_[b], to = group_of_[a];
         std::replace(group_of_.begin(), group_of_.end(), from, to);
     }
 
+    /// True if the parameter with index `at` is sampled.
     bool is_sampled(std::size_t at) const {
         return std::any_of(sampled_.begin(), sampled_.end(), [&](const SampledParameter& d) { return d.at == at; });
     }
 
-    /// Samples until a value lies within the parameter's range; false if the limit of samples was reached.
+    /// Draws values of one parameter until one lies within the parameter's range. Returns false if max_samples is reached before.
     bool sample(SampledParameter& d, AfferentPlan& copy) const {
         while (d.count < max_samples) {
-            const auto index = (d.stream >> 32 << 32) | d.count++;
+            const auto index = (d.stream >> 32 << 32) | d.count++;  // the upper half of the stream's 64 bits, and the number of the draw
             const double x = d.value + d.deviation * normal(seed_, copy.copy_number, static_cast<std::uint32_t>(d.stream), index);
             if (!(x >= d.row.low && x <= d.row.high)) continue;
             copy.values[d.at] = x;
@@ -77,6 +82,7 @@ class CopySampler {
         return false;
     }
 
+    /// True if all order constraints that involve a parameter of the group hold.
     bool in_order(const AfferentPlan& copy, std::size_t group) const {
         return std::all_of(bounds_.begin(), bounds_.end(), [&](const OrderBound& b) {
             const double lower = copy.values[b.lower], upper = copy.values[b.upper];
@@ -84,7 +90,7 @@ class CopySampler {
         });
     }
 
-    /// Samples the parameters of a group until its order constraints hold.
+    /// Samples the parameters of a group until its order constraints hold. Returns false if a parameter reaches max_samples before.
     bool sample_group(std::size_t group, AfferentPlan& copy) {
         do
             for (auto& d : sampled_)
@@ -93,6 +99,7 @@ class CopySampler {
         return true;
     }
 
+    /// Samples all parameters of a copy, group by group. Returns false if one reaches max_samples before.
     bool sample_all(AfferentPlan& copy) {
         for (std::size_t group = 0; group < group_of_.size(); ++group)
             if (std::any_of(sampled_.begin(), sampled_.end(), [&](const SampledParameter& d) { return d.group == group; }))
@@ -100,6 +107,7 @@ class CopySampler {
         return true;
     }
 
+    /// The error if a parameter has reached max_samples. `last` is the reason why the last values were refused.
     Error exhausted(const AfferentPlan& copy, const Result<void>& last) const {
         const auto& worst = *std::max_element(sampled_.begin(), sampled_.end(),
                                               [](const SampledParameter& a, const SampledParameter& b) { return a.count < b.count; });
@@ -111,14 +119,14 @@ class CopySampler {
     }
 
 public:
-    CopySampler(const AfferentPlan& plan, std::span<const ParameterDistribution> spreads, std::uint64_t seed)
+    CopySampler(const AfferentPlan& plan, std::span<const ParameterDistribution> distributions, std::uint64_t seed)
         : plan_(plan), seed_(seed), group_of_(plan.values.size()) {
         std::iota(group_of_.begin(), group_of_.end(), std::size_t{0});
-        for (const auto& s : spreads) {
+        for (const auto& s : distributions) {
             if (s.afferent != plan.name) continue;
             const auto at = index_of(plan, s.parameter);
             sampled_.push_back({at, plan.values[at], s.deviation, (*plan.parameters)[at].info,
-                                stream_id(fmt::format("{}.{}", plan.name, s.parameter)), 0});
+                                stream_id(fmt::format("{}.{}", plan.name, s.parameter)), 0});  // the group is set below
         }
         for (const auto& o : order_constraints_of(plan)) bounds_.push_back({index_of(plan, o.lower), index_of(plan, o.upper), o.or_equal});
         for (const auto& b : bounds_)
@@ -133,6 +141,7 @@ public:
         for (auto& d : sampled_) d.count = 0;
         Result<void> valid;
         do
+            // In the first pass `valid` holds no error yet; the values sampled last then give the reason.
             if (!sample_all(copy)) return exhausted(copy, valid ? check_plan(copy) : valid);
         while (!(valid = check_plan(copy)));
         return copy;
@@ -145,29 +154,30 @@ Result<std::vector<ParameterDistribution>> distributions_for(const AfferentPlan&
                                                              std::span<const ParameterOverride> overrides) {
     std::vector<ParameterInfo> rows;
     for (const auto& p : *plan.parameters) rows.push_back(p.info);
-    std::vector<ParameterDistribution> spreads;
-    for (const auto& w : overrides) {
-        if (!matches_name(plan, requested, w.target)) continue;
-        w.is_used = true;
-        const auto row = find_parameter(w, rows);
+    std::vector<ParameterDistribution> distributions;
+    for (const auto& o : overrides) {
+        if (!matches_name(plan, requested, o.target)) continue;
+        o.is_used = true;
+        const auto row = find_parameter(o, rows);
         if (!row) return row.error();
         if ((*row)->is_shared_by_copies)
-            return bad_input(fmt::format("--spread {}: {} has one value for all copies; --set {}.{} changes it", w.text(), w.parameter,
-                                         w.target, w.parameter));
-        if (std::any_of(spreads.begin(), spreads.end(), [&](const ParameterDistribution& s) { return s.parameter == w.parameter; }))
-            return bad_usage(fmt::format("--spread {}: {}.{} is given twice", w.text(), plan.name, w.parameter));
-        auto spread = parse_spread(plan, w, **row);
-        if (!spread) return spread.error();
-        spreads.push_back(std::move(*spread));
+            return bad_input(fmt::format("--spread {}: {} has one value for all copies; --set {}.{} changes it", o.text(), o.parameter,
+                                         o.target, o.parameter));
+        if (std::any_of(distributions.begin(), distributions.end(),
+                        [&](const ParameterDistribution& s) { return s.parameter == o.parameter; }))
+            return bad_usage(fmt::format("--spread {}: {}.{} is given twice", o.text(), plan.name, o.parameter));
+        auto distribution = parse_spread(plan, o, **row);
+        if (!distribution) return distribution.error();
+        distributions.push_back(std::move(*distribution));
     }
-    return spreads;
+    return distributions;
 }
 
-Result<std::vector<AfferentPlan>> make_copies(const AfferentPlan& plan, std::uint32_t n, std::span<const ParameterDistribution> spreads,
-                                              std::uint64_t seed) {
+Result<std::vector<AfferentPlan>> make_copies(const AfferentPlan& plan, std::uint32_t n,
+                                              std::span<const ParameterDistribution> distributions, std::uint64_t seed) {
     std::vector<AfferentPlan> copies;
     copies.reserve(n);
-    CopySampler sampler(plan, spreads, seed);
+    CopySampler sampler(plan, distributions, seed);
     for (std::uint32_t number = 1; number <= n; ++number) {
         auto copy = sampler.copy(number);
         if (!copy) return copy.error();
@@ -177,11 +187,11 @@ Result<std::vector<AfferentPlan>> make_copies(const AfferentPlan& plan, std::uin
 }
 
 std::vector<std::size_t> copy_group_starts(std::span<const AfferentPlan> plans) {
-    std::vector<std::size_t> begins;
+    std::vector<std::size_t> starts;
     for (std::size_t k = 0; k < plans.size(); ++k)
-        if (plans[k].copy_number <= 1) begins.push_back(k);
-    begins.push_back(plans.size());
-    return begins;
+        if (plans[k].copy_number <= 1) starts.push_back(k);
+    starts.push_back(plans.size());
+    return starts;
 }
 
 const std::string& base_name(const AfferentPlan& plan) { return plan.copy_number > 0 ? plan.original_name : plan.name; }

@@ -7,21 +7,23 @@
 
 namespace corpuscle {
 
+/// The integration method of a model.
 /// exact: between samples the force is a straight line (first-order hold), and filters are integrated exactly for such a force.
-/// backward_euler: the algorithms of the thesis, to reproduce its figures.
+/// backward_euler: the algorithms as the thesis prints them, to reproduce its figures.
 enum class Method { exact, backward_euler };
 
-/// The current over one step: a straight line between the values at its ends, A.
+/// The current during one step: a straight line from its value at the beginning of the step to its value at the end, A.
 template <class T>
 struct Current {
     T from, to;
-    T sum() const { return from + to; }  ///< of the two ends: twice the mean
-    /// True on the lanes where the current begins below a level and ends above it.
+    T sum() const { return from + to; }  ///< of the values at both ends, which is twice the mean
+    /// True on the lanes where the current begins the step below `level` and ends it above `level`.
     num::Mask<T> rises_through(T level) const { return (from < level) & (to > level); }
-    static constexpr bool may_rise() { return true; }
+    static constexpr bool may_rise() { return true; }  ///< false: rises_through() need not be called, because the current does not rise
 };
 
-/// A current with the same shape on all lanes, times a gain for each lane. The sum of its ends is computed once. V: type of one lane.
+/// A current that is the same on all lanes (`from`, `to`, and their sum `end_sum`), times a gain of each lane. T: number type of all lanes;
+/// V: number type of one lane; rising: true if `to` is above `from`.
 template <class T, class V, bool rising>
 struct ScaledCurrent {
     T gain, end_sum;
@@ -32,23 +34,27 @@ struct ScaledCurrent {
     static constexpr bool may_rise() { return rising; }
 };
 
-/// High-pass x' + 2 pi f x = K F', for a force that is a straight line in each step.
-/// Backward Euler has the same form with other constants: x[n] = k (K (F[n] - F[n-1]) + x[n-1]), k = 1 / (1 + 2 pi f T).
+/// The high-pass x' + 2 pi f x = K F' with cutoff frequency f (Hz), for a force F that is a straight line in each step of dt (s):
+///
+///     x[n] = decay x[n-1] + gain (F[n] - F[n-1]),   theta = 2 pi f dt
+///     exact: decay = exp(-theta), gain = K (1 - decay) / theta;   backward Euler: decay = 1 / (1 + theta), gain = K decay
 template <class T>
 struct HighPass {
     T decay, gain;
     HighPass(T f, double dt, Method method, T K = T(1.0)) {
         const T theta = f * T(6.283185307179586 * dt);
         decay = method == Method::exact ? num::exp(-theta) : T(1.0) / (T(1.0) + theta);
-        gain = K * (method == Method::exact ? num::exprel(-theta) : decay);
+        gain = K * (method == Method::exact ? num::exprel(-theta) : decay);  // exprel(x) = (exp(x) - 1) / x
     }
     T next(T x, T dF) const { return decay * x + gain * dF; }
 };
 
-/// Every 1,024 samples, counted from the first, a model's flush_decayed() sets decayed state to zero. Without force a state then reaches
-/// exact rest. This also avoids denormals, which are slow.
+/// Before every 1,024th sample of a simulation (samples 1,024, 2,048 ..., the first being 0), flush_decayed() sets the state variables of a
+/// model that have almost decayed to their resting values. Without force a state then reaches rest exactly. This also avoids denormal
+/// numbers, which are slow.
 inline constexpr std::int64_t flush_interval = 1024;
-/// State below these limits is set to zero. They are 1e-18 of typical values (1 uA, 1 N, 10 mV), which is less than 1 % of an ulp.
+/// A state variable has decayed if it is closer to rest than this. The limits are 1e-18 of typical values (1 uA, 1 N, 10 mV), which is less
+/// than 1 % of the rounding unit (ulp) of these values.
 inline constexpr double negligible_current = 1e-24, negligible_force = 1e-18, negligible_voltage = 1e-20;  // A, N, V
 
 /// `level` where x is closer to it than `tolerance`, otherwise x.
@@ -57,22 +63,24 @@ T snap_to_level(T x, double tolerance, T level = T(0.0)) {
     return num::select(num::abs(x - level) < T(tolerance), level, x);
 }
 
-/// Passes the values of a model's parameters to its constructor: here the same double on all lanes.
+/// Passes the parameters `p` of a model to its constructor, which reads each one by its member pointer. Here all lanes have the same value.
+/// lanes/tile_vectors.hpp has the version with one value for each lane.
 template <class P>
 struct UniformParams {
     const P& p;
-    double operator()(double P::* at) const { return p.*at; }
-    /// A value that must be the same on all lanes.
-    double uniform(double P::* at) const { return p.*at; }
+    double operator()(double P::* parameter) const { return p.*parameter; }
+    /// The value of a parameter that must be the same on all lanes.
+    double uniform(double P::* parameter) const { return p.*parameter; }
 };
 
-/// The parameters as dual numbers with slope 1 in one of them: everything computed from them carries the derivative.
+/// Passes the parameters as dual numbers: the slope of `variable` is 1, and all others are 0. All results then carry their derivative with
+/// respect to that parameter.
 template <class P>
 struct DualParams {
     const P& p;
     double P::* variable;
-    num::Dual operator()(double P::* at) const { return {p.*at, at == variable ? 1.0 : 0.0}; }
-    double uniform(double P::* at) const { return p.*at; }
+    num::Dual operator()(double P::* parameter) const { return {p.*parameter, parameter == variable ? 1.0 : 0.0}; }
+    double uniform(double P::* parameter) const { return p.*parameter; }
 };
 
 }  // namespace corpuscle

@@ -9,6 +9,7 @@ namespace {
 
 using namespace lanes;
 
+/// The kernels for an instruction set, in precision V.
 template <class V>
 const KernelTable<V>& table_of(InstructionSet set) {
     constexpr bool in_double = std::is_same_v<V, double>;
@@ -26,18 +27,18 @@ const KernelTable<V>& table_of(InstructionSet set) {
     return pick(baseline::doubles, baseline::floats);
 }
 
-template <class L>
-const L* find_by_name(std::span<const L> all, std::string_view name) {
-    const auto at = std::find_if(all.begin(), all.end(), [&](const L& l) { return l.name == name; });
+template <class Kernel>
+const Kernel* find_by_name(std::span<const Kernel> all, std::string_view name) {
+    const auto at = std::find_if(all.begin(), all.end(), [&](const Kernel& k) { return k.name == name; });
     return at == all.end() ? nullptr : &*at;
 }
 
-/// True if the parameters of one component are the same in all plans.
-bool same_for_all(std::span<const AfferentPlan* const> plans, std::string_view part) {
+/// True if the parameters of one component have the same values in all plans.
+bool same_for_all(std::span<const AfferentPlan* const> plans, std::string_view component) {
     const auto& first = *plans[0];
     for (const auto* plan : plans)
         for (std::size_t k = 0; k < first.values.size(); ++k)
-            if ((*first.parameters)[k].component == part && plan->values[k] != first.values[k]) return false;
+            if ((*first.parameters)[k].component == component && plan->values[k] != first.values[k]) return false;
     return true;
 }
 
@@ -55,26 +56,27 @@ Result<void> check_same_models(std::span<const AfferentPlan* const> plans) {
     return {};
 }
 
-/// The models of one component, for all tiles.
-template <class V, class L, class List>
-AlignedBuffer<std::byte> models_of(List list, const L& lanes, int width, std::span<const AfferentPlan* const> plans, std::size_t size,
+/// Builds the lane models of one component, the receptor or the neuron: a single model if its parameters are the same for all `size`
+/// afferents, otherwise those of all tiles, one model for each vector of `width` lanes. `list` are the models in double.
+template <class V, class Kernel, class List>
+AlignedBuffer<std::byte> models_of(List list, const Kernel& kernel, int width, std::span<const AfferentPlan* const> plans, std::size_t size,
                                    const SimulationOptions& run) {
     AlignedBuffer<std::byte> models;
-    visit_named(list, lanes.name, [&]<template <class> class M>(ModelTag<M>) {
+    visit_named(list, kernel.name, [&]<template <class> class M>(ModelTag<M>) {
         using P = typename M<double>::Params;
         std::vector<P> params;
-        const bool shared = plans.size() == 1 || same_for_all(plans, lanes.name);
+        const bool shared = plans.size() == 1 || same_for_all(plans, kernel.name);
         for (const auto* plan : shared ? plans.first(1) : plans) params.push_back(with_settings<P>(M<double>::fields, settings_of(*plan)));
         if (shared) {
-            models = AlignedBuffer<std::byte>(lanes.model_bytes);
-            lanes.build(models.data(), params.data(), 1, run.dt, run.method);
+            models = AlignedBuffer<std::byte>(kernel.model_bytes);
+            kernel.build(models.data(), params.data(), 1, run.dt, run.method);
             return;
         }
-        params.resize((size + tile_size - 1) / tile_size * tile_size, params.back());
-        const std::size_t tile_bytes = tile_size / static_cast<std::size_t>(width) * lanes.model_bytes;
+        params.resize((size + tile_size - 1) / tile_size * tile_size, params.back());  // the padding of the last tile repeats an afferent
+        const std::size_t tile_bytes = tile_size / static_cast<std::size_t>(width) * kernel.model_bytes;
         models = AlignedBuffer<std::byte>(params.size() / tile_size * tile_bytes);
         for (std::size_t tile = 0; tile * tile_size < params.size(); ++tile)
-            lanes.build(models.data() + tile * tile_bytes, params.data() + tile * tile_size, tile_size, run.dt, run.method);
+            kernel.build(models.data() + tile * tile_bytes, params.data() + tile * tile_size, tile_size, run.dt, run.method);
     });
     return models;
 }
@@ -83,6 +85,7 @@ template <class V>
 std::unique_ptr<LanePopulation> make_tiled(const PopulationPlan& p, const SimulationOptions& run, InstructionSet set) {
     const auto& table = table_of<V>(set);
     const auto& plan = *p.plans[0];
+    // Every catalogue name has a kernel, because both come from the lists in models.hpp.
     PopulationLayout<V> layout{find_by_name(table.receptors, plan.receptor),
                                find_by_name(table.neurons, plan.neuron),
                                nullptr,
@@ -96,8 +99,10 @@ std::unique_ptr<LanePopulation> make_tiled(const PopulationPlan& p, const Simula
                                fmt::format("{}+{}", plan.receptor, plan.neuron)};
     layout.receptors = models_of<V>(Receptors{}, *layout.receptor, table.lanes, p.plans, p.size, run);
     layout.neurons = models_of<V>(Neurons{}, *layout.neuron, table.lanes, p.plans, p.size, run);
+    // `fused` has one kernel for each neuron of the table, in the same order.
     const auto& fused = layout.receptor->fused[static_cast<std::size_t>(layout.neuron - table.neurons.data())];
     if (fused.run && fused.is_usable(layout.neurons.data(), layout.neurons.size() / layout.neuron->model_bytes)) layout.fused = &fused;
+    // A buffer of one model means that all afferents share their receptor's parameters.
     if (layout.receptors.size() == layout.receptor->model_bytes) layout.shared_receptor = make_shared_receptor(plan, run);
     return std::make_unique<TiledPopulation<V>>(std::move(layout), run);
 }

@@ -1,5 +1,5 @@
 #pragma once
-// All receptors and neurons. To add one, add its include and its name here.
+// The lists of all receptors and neurons. To add a model, add its include here, and its name to `Receptors` or `Neurons`.
 
 #include <string_view>
 
@@ -16,6 +16,7 @@
 
 namespace corpuscle {
 
+/// A list of models. Each is a class template over its number type: double, SIMD lanes or dual numbers.
 template <template <class> class... M>
 struct ModelList {
     static constexpr int size = sizeof...(M);
@@ -23,12 +24,13 @@ struct ModelList {
 /// A model without its number type, to be passed to a function.
 template <template <class> class M>
 struct ModelTag {};
+/// Calls f with the tag of each model of the list.
 template <template <class> class... M, class F>
 void for_each_type(ModelList<M...>, const F& f) {
     (f(ModelTag<M>{}), ...);
 }
 
-/// Calls f with the entry of the list that has this name.
+/// Calls f with the tag of the model that has this name. Does nothing if the list contains no such model.
 template <class List, class F>
 void visit_named(List list, std::string_view name, const F& f) {
     for_each_type(list, [&]<template <class> class M>(ModelTag<M> m) {

@@ -1,4 +1,5 @@
-// The named afferents: which models each is made of, and which parameters differ from the defaults of these models.
+// The named afferents. Each row has the members of NamedAfferent in order: name, receptor, neuron, parameters that differ from the defaults
+// of these models, aliases, description, source, front end.
 
 #include "model/catalog.hpp"
 

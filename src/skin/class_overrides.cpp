@@ -24,8 +24,8 @@ Result<void> check_overrides_used(const SkinPlan& plan, std::span<const Paramete
     for (const auto& c : plan.classes) names.push_back(c.name);
     for (const auto& o : overrides)
         if (!o.is_used)
-            return bad_usage(fmt::format("{}: there is no '{}' here{} ({} can be set)", o.text(), o.target, did_you_mean(o.target, names),
-                                         fmt::join(names, ", ")));
+            return bad_usage(fmt::format("{}: unknown name '{}'{} (parameters of {} can be set)", o.text(), o.target,
+                                         did_you_mean(o.target, names), fmt::join(names, ", ")));
     return {};
 }
 

@@ -22,6 +22,7 @@ Conduction::Conduction(const Innervation& skin, double T) {
         delays_.push_back({static_cast<std::int32_t>(full_steps), steps - full_steps});
         max_steps = std::max(max_steps, delays_.back().steps);
     }
+    // A spike arrives at most max_steps + 1 steps after its own, which is at most max_samples after the last delivered one.
     arriving_.resize(static_cast<std::size_t>(max_steps) + 2 + max_samples);
     for (auto& step : arriving_) step.reserve(skin.afferents.size() / 16 + 16);
 }
@@ -30,10 +31,10 @@ void Conduction::deliver(std::span<const Spike> fired, std::int64_t now, std::ve
     if (delays_.empty()) return append_sorted(fired, arrived);
     for (const auto& s : fired) {
         const auto& d = delays_[s.afferent_index];
-        const double offset = s.offset + d.fraction;  // (0, 2)
-        const bool next = offset > 1;
-        const std::int64_t step = s.step + d.steps + (next ? 1 : 0);
-        at(step).push_back({step, next ? offset - 1 : offset, s.afferent_index});
+        const double offset = s.offset + d.fraction;  // in (0, 2)
+        const bool in_next_step = offset > 1;
+        const std::int64_t step = s.step + d.steps + (in_next_step ? 1 : 0);
+        at(step).push_back({step, in_next_step ? offset - 1 : offset, s.afferent_index});
     }
     for (; delivered_ < now; ++delivered_) {
         auto& due = at(delivered_ + 1);

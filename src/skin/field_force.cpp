@@ -6,13 +6,14 @@
 namespace corpuscle {
 namespace {
 
-constexpr std::size_t field_steps = 4;  // rows of sums are padded to a multiple of this, so that each begins at a vector
+constexpr std::size_t field_steps = 4;  // steps are padded to a multiple of this, so that each afferent's sums begin at a vector
 
-constexpr std::size_t dense_ratio = 2;  // sums run afferent by afferent if more than 1 / dense_ratio of the sites are touched
+constexpr std::size_t dense_ratio = 2;  // if more than 1 / dense_ratio of the sites are touched, the force is summed afferent by afferent
 
+/// Number of steps with padding.
 std::size_t padded(std::size_t steps) { return (steps + field_steps - 1) / field_steps * field_steps; }
 
-/// Transposes [afferent][step] to [step][afferent].
+/// Transposes the sums of a tile from [afferent][stride] to [step][tile_width].
 void transpose(const double* sums, std::size_t stride, std::size_t steps, double* rows) {
     for (std::size_t from = 0; from < steps; from += field_steps)
         for (std::size_t u = 0; u < tile_width; ++u)
@@ -42,6 +43,7 @@ void FieldForce::compute(const SiteForce& force, std::span<const std::uint32_t> 
                          ThreadPool& pool) {
     const Call call{force, touched, at, steps};
     if (steps == 1) return compute_one_step(call);
+    // Piece::begin has one element for each site and one more.
     if (touched.size() * dense_ratio > pieces_[0].begin.size()) return compute_by_afferent(call, pool);
     while (sums_.size() < pool.threads()) sums_.emplace_back(tiles_per_piece * tile_width * skin_steps);
     pool.for_each(pieces_.size(), [&call, this](std::size_t piece, unsigned thread) { compute_piece(piece, call, sums_[thread].data()); });
@@ -59,7 +61,8 @@ void FieldForce::build_by_afferent() {
                 by_afferent_->add(n * tiles_per_piece * tile_width + pieces_[n].afferent[k], s, pieces_[n].weight[k]);
 }
 
-/// Computes every tile. This method is used when many sites are touched, so few tiles are without force.
+/// Computes the force afferent by afferent, for every tile. This method is used when many sites are touched, so few tiles are without
+/// force.
 void FieldForce::compute_by_afferent(const Call& call, ThreadPool& pool) {
     static constexpr std::array<double, skin_steps> zero = {};
     if (!by_afferent_) build_by_afferent();
@@ -71,6 +74,7 @@ void FieldForce::compute_by_afferent(const Call& call, ThreadPool& pool) {
     });
 }
 
+/// Computes the force on the afferents of a piece, site by site. `sums` is the thread's scratch array.
 void FieldForce::compute_piece(std::size_t piece, const Call& call, double* sums) {
     const auto& [force, touched, at, steps] = call;
     const auto& p = pieces_[piece];

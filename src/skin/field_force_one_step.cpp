@@ -1,4 +1,4 @@
-// Receptive fields at a single step. The sums equal those of several steps bit for bit, because the order of their terms is the same.
+// FieldForce for a single step. The sums equal those of several steps bit for bit, because the order of their terms is the same.
 
 #include <algorithm>
 #include <array>
@@ -12,16 +12,17 @@ namespace {
 
 using lanes::group_size;
 
-constexpr std::size_t margin = tile_width;
+constexpr std::size_t margin = tile_width;  // zeros before and after the force in padded_force_, since row[k] + u may not be a site
 
 }  // namespace
 
-/// Groups of eight weights, each distinct group stored once. Few are distinct if many receptive fields have the same shape.
+/// Collects groups of eight weights, each distinct group once. Few are distinct if many receptive fields have the same shape.
 class FieldForce::WeightGroups {
     std::map<std::array<double, group_size>, std::uint32_t> index_;
 
 public:
-    std::vector<double> all = {};
+    std::vector<double> all = {};  ///< the distinct groups, one after another
+    /// The index in `all` of the first weight of this group, which is added if it is new.
     std::uint32_t index_of(const double* weights) {
         std::array<double, group_size> group;
         std::copy_n(weights, group_size, group.begin());
@@ -31,18 +32,19 @@ public:
     }
 };
 
-/// Builds the rows of one tile, if its afferents are arranged like the sites, so that neighbours respond to neighbouring sites.
+/// Builds the rows of one tile, if its afferents are arranged like the sites. This is so if they need at most 1.5 times as many rows as the
+/// largest receptive field has sites.
 void FieldForce::build_tile(std::size_t tile, std::size_t sites, WeightGroups& groups) {
     const auto& p = pieces_[tile / tiles_per_piece];
     const std::size_t first = tile % tiles_per_piece * tile_width;
     struct Entry {
-        std::ptrdiff_t row;
-        std::size_t afferent;
+        std::ptrdiff_t row;    // site - afferent
+        std::size_t afferent;  // in the tile
         double weight;
     };
     std::vector<Entry> entries;
-    std::vector<std::size_t> counts(tile_width);
-    std::map<std::ptrdiff_t, std::size_t> rows;  // from OneStep::row to its index k
+    std::vector<std::size_t> counts(tile_width);  // number of sites of each afferent
+    std::map<std::ptrdiff_t, std::size_t> rows;   // from an element of OneStep::row to its index
     for (std::uint32_t s = 0; s < sites; ++s)
         for (std::size_t k = p.begin[s]; k < p.begin[s + 1]; ++k) {
             if (p.afferent[k] < first || p.afferent[k] >= first + tile_width) continue;
@@ -70,7 +72,7 @@ void FieldForce::build_one_step() {
         if (one_step_[t].row.empty()) has_rows_[t / tiles_per_piece] = 0;
     weights_ = lanes::AlignedBuffer<double>(groups.all.size());
     std::copy(groups.all.begin(), groups.all.end(), weights_.data());
-    std::vector<std::uint32_t> last(tiles_, std::uint32_t(-1));
+    std::vector<std::uint32_t> last(tiles_, std::uint32_t(-1));  // for each tile the last site that was added to responding_tiles_
     responding_begin_.assign(1, 0);
     for (std::uint32_t s = 0; s < sites; ++s) {
         for (std::size_t p = 0; p < pieces_.size(); ++p)
@@ -84,32 +86,35 @@ void FieldForce::build_one_step() {
 
 void FieldForce::compute_one_step(const Call& call) {
     if (one_step_.empty()) build_one_step();
-    const bool all = call.touched.size() == padded_force_.size() - 2 * margin;
-    std::fill(zero_force_.begin(), zero_force_.end(), static_cast<std::uint8_t>(!all));  // every afferent responds to some site
-    if (!all)
+    const bool all_touched = call.touched.size() == padded_force_.size() - 2 * margin;
+    // Every afferent responds to a site, so no tile is without force if all sites are touched.
+    std::fill(zero_force_.begin(), zero_force_.end(), static_cast<std::uint8_t>(!all_touched));
+    if (!all_touched)
         for (const auto s : call.touched)
             for (std::size_t k = responding_begin_[s]; k < responding_begin_[s + 1]; ++k) zero_force_[responding_tiles_[k]] = 0;
-    double* const now = padded_force_.data() + margin;
+    double* const force_at_site_0 = padded_force_.data() + margin;  // the padding is before it; all zero between calls
     const double* const force = call.force.data + call.at;
-    if (all && call.force.stride == 1)
-        std::copy_n(force, call.touched.size(), now);
+    if (all_touched && call.force.stride == 1)
+        std::copy_n(force, call.touched.size(), force_at_site_0);
     else
-        for (const auto s : call.touched) now[s] = force[s * call.force.stride];
+        for (const auto s : call.touched) force_at_site_0[s] = force[s * call.force.stride];
     for (std::size_t piece = 0; piece < pieces_.size(); ++piece)
-        has_rows_[piece] ? compute_rows(piece, now) : compute_site_by_site(piece, call);
-    if (all)
-        std::fill_n(now, call.touched.size(), 0.0);
+        has_rows_[piece] ? compute_rows(piece, force_at_site_0) : compute_site_by_site(piece, call);
+    if (all_touched)
+        std::fill_n(force_at_site_0, call.touched.size(), 0.0);
     else
-        for (const auto s : call.touched) now[s] = 0;
+        for (const auto s : call.touched) force_at_site_0[s] = 0;
 }
 
-void FieldForce::compute_rows(std::size_t piece, const double* now) {
+/// Computes the force on a piece whose tiles all have rows.
+void FieldForce::compute_rows(std::size_t piece, const double* force_at_site_0) {
     for (std::size_t t = piece * tiles_per_piece; t < std::min(tiles_, (piece + 1) * tiles_per_piece); ++t)
         if (const auto& tile = one_step_[t]; !zero_force_[t])
-            lanes_.sum_rows(tile.row.data(), tile.row.size(), tile.weights.data(), weights_.data(), now, rows_.data() + t * tile_width);
+            lanes_.sum_rows(tile.row.data(), tile.row.size(), tile.weights.data(), weights_.data(), force_at_site_0,
+                            rows_.data() + t * tile_width);
 }
 
-/// Adds the contribution of each site to all afferents that respond to it.
+/// Computes the force on a piece that has tiles without rows: adds the contribution of each site to all afferents that respond to it.
 void FieldForce::compute_site_by_site(std::size_t piece, const Call& call) {
     const auto& p = pieces_[piece];
     const std::size_t first = piece * tiles_per_piece, tiles = std::min(tiles_per_piece, tiles_ - first);

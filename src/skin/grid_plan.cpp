@@ -9,8 +9,8 @@
 namespace corpuscle {
 namespace {
 
-constexpr double grid_pitch = 2e-3;            // choice: between robot fingertip skins (1 to 2 mm) and palm skins
-constexpr double grid_sigma = grid_pitch / 2;  // choice: an afferent responds mainly to its own sensor, and less to its neighbours
+constexpr double grid_pitch = 2e-3;            // m; choice: between robot fingertip skins (1 to 2 mm) and palm skins
+constexpr double grid_sigma = grid_pitch / 2;  // m; choice: an afferent responds mainly to its own sensor
 
 /// Parses the two numbers of "8x8".
 std::optional<std::pair<std::size_t, std::size_t>> rows_by_columns(std::string_view text) {
@@ -26,6 +26,7 @@ std::optional<std::pair<std::size_t, std::size_t>> rows_by_columns(std::string_v
     return rows && columns ? std::optional(std::pair(*rows, *columns)) : std::nullopt;
 }
 
+/// A class of a named afferent (which must exist), with one afferent at each site.
 SkinClass class_with_one_per_site(std::string_view afferent) {
     SkinClass c;
     c.name = afferent, c.afferent = *plan_afferent(afferent, {});

@@ -1,5 +1,5 @@
 #pragma once
-// "grid 8x8": a rectangular sensor array, with an SA-I and an FA-I at each site.
+// The population "grid 8x8": a rectangular sensor array, with an SA-I and an FA-I afferent at each site.
 
 #include <optional>
 
@@ -7,10 +7,10 @@
 
 namespace corpuscle {
 
-/// True if a text names a grid, "grid ..." or "grid:...".
+/// True if a text begins as the name of a grid, "grid ..." or "grid:...", in upper or lower case.
 bool is_grid_name(std::string_view text);
 
-/// The plan of "grid 8x8", rows by columns.
+/// The plan of a grid such as "grid 8x8" (8 rows by 8 columns).
 Result<SkinPlan> plan_grid(std::string_view text);
 
 }  // namespace corpuscle

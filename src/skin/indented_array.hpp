@@ -1,5 +1,5 @@
 #pragma once
-// The area that the sites of a sensor array represent under an indenter.
+// The area of skin that each site of a sensor array represents if the array is pressed with an indenter.
 
 #include <string>
 
@@ -7,9 +7,9 @@
 
 namespace corpuscle {
 
-/// Under an indenter a sensor array without area information is treated as skin. Each site represents a cell of its lattice, and afferents
-/// respond as with the `felt_area` of the built-in skins. Returns a note about it. Returns "" if nothing was changed, because the plan
-/// defines the area of its sites or they are not on a lattice.
+/// Prepares a plan for an indenter: a sensor array that defines no area of its sites is treated as skin. Each site then represents a cell
+/// of the lattice of sites, and the plan gets the `felt_area` of the built-in skins. Returns a note that says so. If the plan defines the
+/// area of its sites or a felt_area, or if the sites are not on a lattice, nothing is changed, and the result is "".
 std::string treat_as_skin(SkinPlan&);
 
 inline constexpr double default_felt_area = 1e-4;  ///< m2, as in the built-in skins

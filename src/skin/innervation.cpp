@@ -31,7 +31,7 @@ Result<void> check_sites(const SkinPlan& plan) {
     return {};
 }
 
-/// Checks the memory that is needed, before any afferent is placed.
+/// Estimates the memory that the skin needs, before any afferent is placed, and checks that it is available.
 Result<void> check_skin_memory(const SkinPlan& plan) {
     double left = plan.sites.positions[0].x, right = left, low = plan.sites.positions[0].y, high = low;
     for (const auto& p : plan.sites.positions)
@@ -43,8 +43,8 @@ Result<void> check_skin_memory(const SkinPlan& plan) {
         const auto& k = plan.classes[c];
         double all = 0;
         for (const auto n : afferents_by_region(plan, c)) all += static_cast<double>(n);
-        const double reach = 3 * k.sigma + (k.hot_spots > 1 ? k.hot_spot_spread : 0);  // m; radius that contains most of a field
-        afferents += all, weights += all * std::clamp(3 * reach * reach / site_area, 1.0, sites);
+        const double reach = 3 * k.sigma + (k.hot_spots > 1 ? k.hot_spot_spread : 0);  // m; radius that contains most of a receptive field
+        afferents += all, weights += all * std::clamp(3 * reach * reach / site_area, 1.0, sites);  // 3: about pi
     }
     return check_available_memory(plan.name, sites, afferents, weights);
 }
@@ -62,13 +62,13 @@ Result<std::shared_ptr<const Innervation>> innervate(SkinPlan plan) {
     auto out = std::make_shared<Innervation>();
     out->plan = std::move(plan);
     const auto& p = out->plan;
-    const SiteGrid near(p.sites.positions);
-    const auto touching = touching_regions(p.sites, near);
+    const SiteGrid grid(p.sites.positions);
+    const auto touching = touching_regions(p.sites, grid);
     out->class_begin.push_back(0);
     for (std::uint32_t c = 0; c < p.classes.size(); ++c) {
         const auto afferents = place_afferents(p, c);
         if (!afferents) return afferents.error();
-        auto fields = receptive_fields_of(p, c, *afferents, near, touching);
+        auto fields = receptive_fields_of(p, c, *afferents, grid, touching);
         if (!fields) return fields.error();
         out->afferents.insert(out->afferents.end(), afferents->begin(), afferents->end());
         out->fields.push_back(std::move(*fields));

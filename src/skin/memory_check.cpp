@@ -11,6 +11,7 @@ namespace {
 // Measured on grids and on the hand, with 20 thousand to 3 million afferents.
 constexpr double bytes_per_site = 1600, bytes_per_afferent = 1600, bytes_per_weight = 60;
 
+/// The memory that a skin may use on this machine in this process.
 double available_bytes() {
     constexpr double fraction = 0.8;  // of the machine's memory; other programs need some
     double max_bytes = fraction * static_cast<double>(::sysconf(_SC_PHYS_PAGES)) * static_cast<double>(::sysconf(_SC_PAGESIZE));

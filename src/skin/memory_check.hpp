@@ -7,8 +7,8 @@
 
 namespace corpuscle {
 
-/// Returns an error if a skin needs more memory than this machine has or this process may use (ulimit -v). `weights`: the total number of
-/// sites in the receptive fields of all afferents.
+/// Returns an error if a skin needs more memory than this machine has or this process may use (ulimit -v). `sites`, `afferents` and
+/// `weights` are (estimated) numbers; a weight is one site in the receptive field of one afferent.
 Result<void> check_available_memory(std::string_view name, double sites, double afferents, double weights);
 
 }  // namespace corpuscle

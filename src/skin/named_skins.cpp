@@ -1,4 +1,4 @@
-// Populations by name.
+// Finds populations by name: grids, the built-in populations, and files.
 
 #include "skin/skin_plan.hpp"
 
@@ -27,7 +27,7 @@ Error unknown_skin(std::string_view name) {
                                  did_you_mean(name, names), fmt::join(names.begin() + 1, names.end(), ", ")));
 }
 
-/// Names and titles of the built-in populations.
+/// Names and titles of the built-in populations, which are embedded in the program as files.
 std::vector<std::pair<std::string, std::string>> embedded_skins() {
     std::vector<std::pair<std::string, std::string>> out;
     for (const auto file : embedded_files()) {

@@ -9,7 +9,7 @@
 namespace corpuscle::skins {
 namespace {
 
-/// True if a text is a number without a unit.
+/// True if a text is only a number, without a unit.
 bool has_no_unit(std::string_view text) {
     text = trimmed(text);
     double value = 0;
@@ -20,17 +20,17 @@ bool has_no_unit(std::string_view text) {
 }  // namespace
 
 Result<double> NumberReader::number(const LocatedText& item, std::string_view name, std::string_view unit, double low, double high) const {
-    const bool bare = has_no_unit(item.text), length = unit == "m";
-    if (bare && !unit.empty() && (!length || !metres_))
+    const bool without_unit = has_no_unit(item.text), is_length = unit == "m";
+    if (without_unit && !unit.empty() && (!is_length || !metres_))
         return item.error_here(fmt::format("{} = {}: the unit is missing; write {} = \"{} {}\"{}", name, item.text, name,
                                            trimmed(item.text),
-                                           length           ? "mm"
+                                           is_length        ? "mm"
                                            : unit == "1/m2" ? "/cm2"
                                                             : unit,
-                                           length ? ", or unit = \"mm\" at the top for all lengths" : ""));
+                                           is_length ? ", or unit = \"mm\" at the top for all lengths" : ""));
     const auto value = parse_quantity(item.text, unit);
     if (!value) return item.error_here(fmt::format("{}: {}", name, value.error().message));
-    const double si = bare && length ? *value * *metres_ : *value;
+    const double si = without_unit && is_length ? *value * *metres_ : *value;
     if (!(si >= low && si <= high))
         return item.error_here(fmt::format("{} = {} is outside [{}, {}]", name, format_quantity(si, unit), format_quantity(low, unit),
                                            format_quantity(high, unit)));

@@ -23,13 +23,13 @@ std::uint32_t along_curve(std::uint32_t x, std::uint32_t y) {
     return d;
 }
 
-/// The sites of each region, in the order of the Hilbert curve.
+/// The sites of each region, in the order of a Hilbert curve through all sites.
 std::vector<std::vector<std::uint32_t>> sites_along(const Sites& sites) {
     double left = sites.positions[0].x, low = sites.positions[0].y, extent = 0;
     for (const auto& p : sites.positions) left = std::min(left, p.x), low = std::min(low, p.y);
     for (const auto& p : sites.positions) extent = std::max({extent, p.x - left, p.y - low});
     const double scale = extent > 0 ? 65535 / extent : 0;
-    std::vector<std::uint64_t> keys(sites.size());
+    std::vector<std::uint64_t> keys(sites.size());  // position along the curve in the upper 32 bits, site in the lower
     for (std::size_t s = 0; s < sites.size(); ++s) {
         const auto cell = [&](double from) { return static_cast<std::uint32_t>(from * scale); };
         keys[s] = std::uint64_t{along_curve(cell(sites.positions[s].x - left), cell(sites.positions[s].y - low))} << 32 | s;
@@ -40,9 +40,9 @@ std::vector<std::vector<std::uint32_t>> sites_along(const Sites& sites) {
     return out;
 }
 
-/// Two random numbers in (0, 1) for an afferent.
-std::pair<double, double> two_random(std::uint64_t seed, std::uint32_t stream, std::uint32_t copy, std::uint32_t sample) {
-    const auto w = philox({sample, 0, copy, stream}, seed);
+/// Two random numbers in (0, 1) for afferent `number` of a class: draw number `draw` from random stream `stream`.
+std::pair<double, double> two_random(std::uint64_t seed, std::uint32_t stream, std::uint32_t number, std::uint32_t draw) {
+    const auto w = philox({draw, 0, number, stream}, seed);
     return {unit_interval(w[0], w[1]), unit_interval(w[2], w[3])};
 }
 
@@ -50,19 +50,22 @@ Error too_many(const SkinClass& c, double afferents) {
     return bad_input(fmt::format("{}: {:.6g} afferents are more than the {} that one skin may have", c.name, afferents, max_afferents));
 }
 
+/// Places `per_site` afferents at each site.
 void place_on_sites(const Sites& sites, const SkinClass& c, std::uint32_t class_index, std::vector<SkinAfferent>& out) {
     for (std::size_t s = 0; s < sites.size(); ++s)
         for (std::uint32_t k = 0; k < c.per_site; ++k)
             out.push_back({class_index, static_cast<std::uint32_t>(out.size()) + 1, sites.region[s], sites.positions[s], 0});
 }
 
-/// Places the afferents of one region evenly along the curve through its sites, each at a random position in the cell of its site.
+/// Places `afferents` afferents of one region: one in each of as many equal sections of the list of its sites (`along`), at a random site
+/// of that section and a random position in the site's cell. `afferent` has the class and the region; its other members are set here.
 void place_in_region(const SkinPlan& plan, const std::vector<std::uint32_t>& along, std::size_t afferents, SkinAfferent afferent,
                      std::vector<SkinAfferent>& out) {
     const auto stream = class_stream(plan.classes[afferent.class_index], "place");
     const double side = num::sqrt(plan.sites.area), sites_per_afferent = static_cast<double>(along.size()) / static_cast<double>(afferents);
     for (std::size_t k = 0; k < afferents; ++k) {
         afferent.number = static_cast<std::uint32_t>(out.size()) + 1;
+        // Position in the list of sites.
         const double where = (static_cast<double>(k) + two_random(plan.seed, stream, afferent.number, 0).first) * sites_per_afferent;
         const auto& site = plan.sites.positions[along[std::min(static_cast<std::size_t>(where), along.size() - 1)]];
         const auto [x, y] = two_random(plan.seed, stream, afferent.number, 1);
@@ -71,7 +74,7 @@ void place_in_region(const SkinPlan& plan, const std::vector<std::uint32_t>& alo
     }
 }
 
-/// Sets the conduction delays.
+/// Sets the conduction delays of a class's afferents, each with a random velocity.
 void set_delays(const SkinPlan& plan, const SkinClass& c, std::vector<SkinAfferent>& afferents) {
     if (!plan.nerve || !(c.velocity > 0)) return;
     const auto stream = class_stream(c, "velocity");
@@ -79,7 +82,7 @@ void set_delays(const SkinPlan& plan, const SkinClass& c, std::vector<SkinAffere
         double velocity = c.velocity;
         for (std::uint64_t sample = 0; c.velocity_spread > 0 && sample < 100; ++sample) {
             const double v = c.velocity + c.velocity_spread * normal(plan.seed, u.number, stream, sample);
-            if (v < 0.25 * c.velocity || v > 4 * c.velocity) continue;  // too extreme for an axon of this class
+            if (v < 0.25 * c.velocity || v > 4 * c.velocity) continue;  // too extreme for an axon of this class; drawn again
             velocity = v;
             break;
         }
@@ -96,13 +99,14 @@ std::uint32_t class_stream(const SkinClass& c, std::string_view quantity) {
 
 std::vector<std::uint64_t> afferents_by_region(const SkinPlan& plan, std::uint32_t class_index) {
     const auto& c = plan.classes[class_index];
-    std::vector<std::uint64_t> sites(plan.sites.regions.size());
-    for (const auto r : plan.sites.region) ++sites[r];
-    for (std::size_t r = 0; r < sites.size(); ++r) {
-        const double n = static_cast<double>(sites[r]), afferents = c.density.empty() ? n * c.per_site : c.density[r] * plan.sites.area * n;
-        sites[r] = static_cast<std::uint64_t>(std::round(std::clamp(afferents, 0.0, 1e15)));
+    std::vector<std::uint64_t> counts(plan.sites.regions.size());  // of each region: first its sites, then its afferents
+    for (const auto r : plan.sites.region) ++counts[r];
+    for (std::size_t r = 0; r < counts.size(); ++r) {
+        const double n = static_cast<double>(counts[r]),
+                     afferents = c.density.empty() ? n * c.per_site : c.density[r] * plan.sites.area * n;
+        counts[r] = static_cast<std::uint64_t>(std::round(std::clamp(afferents, 0.0, 1e15)));
     }
-    return sites;
+    return counts;
 }
 
 Result<std::vector<SkinAfferent>> place_afferents(const SkinPlan& plan, std::uint32_t class_index) {

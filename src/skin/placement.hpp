@@ -6,21 +6,23 @@
 
 namespace corpuscle {
 
-/// The afferents of one class, region by region. In each region they are placed along a Hilbert curve, which keeps neighbours close
-/// together in the list. The afferents of a class with `per_site` are placed on the sites, in their order.
+/// The afferents of one class, with their positions and delays. If the class has a density, they are listed region by region, and in each
+/// region along a Hilbert curve through its sites, so that neighbours on the skin are close together in the list. If the class has
+/// `per_site`, they are at the sites, in the order of the sites.
 Result<std::vector<SkinAfferent>> place_afferents(const SkinPlan&, std::uint32_t class_index);
 
-/// Element [from * regions + to] is 1 if a receptive field in region `from` may extend into region `to`, which must touch it. If sites are
-/// sensors, all elements are 1.
+/// Element [from * regions + to] is 1 if a receptive field in region `from` may extend into region `to`: if the two regions touch, or
+/// are the same. If the sites are separate sensors, all elements are 1.
 std::vector<char> touching_regions(const Sites&, const SiteGrid&);
 
-/// The receptive fields of the afferents of one class.
+/// The receptive fields of the afferents of one class. `touching` is the result of touching_regions().
 Result<ReceptiveFields> receptive_fields_of(const SkinPlan&, std::uint32_t class_index, std::span<const SkinAfferent>, const SiteGrid&,
                                             const std::vector<char>& touching);
 
-/// The number of the random stream of a class for one quantity, such as "velocity".
+/// Identifies the random numbers for one quantity of a class, such as "velocity".
 std::uint32_t class_stream(const SkinClass&, std::string_view quantity);
 
+/// Limits of a skin: afferents of all classes; sites in the receptive fields of one class, summed over afferents.
 inline constexpr std::size_t max_afferents = std::size_t{1} << 24, max_weights = 200'000'000;
 
 }  // namespace corpuscle

@@ -11,14 +11,15 @@ namespace {
 
 /// Coordinates of a point relative to the centre line of a strip.
 struct StripPosition {
-    double along;   ///< 0 at its beginning, 1 at its end
-    double across;  ///< m
+    double along;   ///< 0 at the first end of the centre line, 1 at the second
+    double across;  ///< distance from the centre line, m; negative on one side
 };
 
+/// `s` is a strip or a capsule.
 StripPosition strip_position(const SkinShape& s, double x, double y) {
     const double dx = s.points[1].x - s.points[0].x, dy = s.points[1].y - s.points[0].y, square = dx * dx + dy * dy;
     const double px = x - s.points[0].x, py = y - s.points[0].y;
-    if (!(square > 0)) return {-1, 0};
+    if (!(square > 0)) return {-1, 0};  // a centre line without length: the point is outside
     return {(px * dx + py * dy) / square, (px * dy - py * dx) / num::sqrt(square)};
 }
 
@@ -27,9 +28,9 @@ bool in_strip(const SkinShape& s, double x, double y) {
     return at.along >= 0 && at.along <= 1 && 2 * std::abs(at.across) <= s.width + (s.end_width - s.width) * at.along;
 }
 
-bool in_disc(const Position& centre, double width, double x, double y) {
+bool in_disc(const Position& centre, double diameter, double x, double y) {
     const double dx = x - centre.x, dy = y - centre.y;
-    return 4 * (dx * dx + dy * dy) <= width * width;
+    return 4 * (dx * dx + dy * dy) <= diameter * diameter;
 }
 
 bool in_ellipse(const SkinShape& s, double x, double y) {
@@ -38,6 +39,7 @@ bool in_ellipse(const SkinShape& s, double x, double y) {
     return u * u + v * v <= 1;
 }
 
+/// True if a line from the point to the right crosses an odd number of edges.
 bool in_polygon(const SkinShape& s, double x, double y) {
     bool inside = false;
     for (std::size_t k = 0, last = s.points.size() - 1; k < s.points.size(); last = k++) {
@@ -47,15 +49,17 @@ bool in_polygon(const SkinShape& s, double x, double y) {
     return inside;
 }
 
-/// Cells of a lattice whose lines pass through the origin.
+/// Square cells over the bounding box of all regions. Their edges are at multiples of the pitch.
 struct Lattice {
-    double pitch, left, low;  ///< pitch: m; left, low: position of the first cell, in cells
+    double pitch, left, low;  ///< pitch: side of a cell, m; left, low: left and lower edge of the first cell, in multiples of pitch
     std::size_t columns, rows;
-    std::vector<std::int32_t> region;  ///< of each cell; -1: none
+    std::vector<std::int32_t> region;  ///< of each cell, row by row from below: index of its region; -1: none
 
+    /// x of the centre of column c, and y of the centre of row r, m.
     double x(std::size_t c) const { return (left + static_cast<double>(c) + 0.5) * pitch; }
     double y(std::size_t r) const { return (low + static_cast<double>(r) + 0.5) * pitch; }
-    /// The cells that an interval of a row or column may touch.
+    /// The columns (or rows) [begin, end) that contain the interval from `from` to `to`, limited to `count` columns. `first` is the left
+    /// edge of column 0; all positions are in multiples of pitch.
     static std::pair<std::size_t, std::size_t> cells_between(double from, double to, double first, std::size_t count) {
         const auto cell = [&](double at) { return static_cast<std::size_t>(std::clamp(at - first, 0.0, static_cast<double>(count))); };
         return {cell(std::floor(from)), cell(std::floor(to) + 1)};
@@ -80,6 +84,7 @@ Result<Lattice> lattice_over(std::span<const SkinRegion> regions, double pitch) 
     return out;
 }
 
+/// Assigns the cells whose centre is in a shape to a region, unless they belong to an earlier one.
 void fill(Lattice& lattice, const SkinShape& shape, std::int32_t region) {
     const auto [from, to] = shape.bounding_box();
     const auto across = Lattice::cells_between(from.x / lattice.pitch, to.x / lattice.pitch, lattice.left, lattice.columns);

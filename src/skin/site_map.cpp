@@ -26,6 +26,7 @@ SiteIndex index_sites(const Sites& sites) {
     return index;
 }
 
+/// The message for a name that is not a site.
 std::string no_such_site(const Sites& sites, std::string_view name) {
     const std::vector<std::string_view> some(sites.names.begin(),
                                              sites.names.begin() + static_cast<std::ptrdiff_t>(std::min<std::size_t>(sites.size(), 1000)));
@@ -34,7 +35,7 @@ std::string no_such_site(const Sites& sites, std::string_view name) {
                        fmt::join(some.begin(), some.begin() + static_cast<std::ptrdiff_t>(std::min<std::size_t>(some.size(), 3)), ", "));
 }
 
-/// Reads a layout row by row.
+/// Reads a layout file row by row.
 class SiteMapReader {
     LineReader lines_;
     const Sites& sites_;
@@ -42,15 +43,17 @@ class SiteMapReader {
     Dialect dialect_;
     Fields fields_;
     std::string_view line_;
-    std::optional<std::size_t> channel_, name_;
-    std::vector<std::optional<std::uint32_t>> map_;
-    std::vector<char> taken_;
+    std::optional<std::size_t> channel_, name_;      // columns, counted from 0
+    std::vector<std::optional<std::uint32_t>> map_;  // for each channel its site, if its row has been read
+    std::vector<char> taken_;                        // for each site: 1 if a channel has it
 
+    /// An error in the current row, at a field; at the row only if there is no such field.
     Error error_at(std::string message, std::size_t field) const {
         const long column = field < fields_.size() ? fields_[field].data() - line_.data() + 1 : 0;
         return bad_input(std::move(message), {lines_.path(), lines_.line_number(), column});
     }
 
+    /// Reads the next line that is neither empty nor a comment; false at the end of the file.
     Result<bool> next_row() {
         for (;;) {
             const auto more = lines_.next(line_);
@@ -137,15 +140,16 @@ Result<std::optional<std::vector<std::uint32_t>>> find_sites_if_named(const Site
     std::unordered_set<std::string> known;  // in lower case, so that 'R1C1' is recognised as a site
     for (const auto& name : sites.names) known.insert(lower(name));
     const auto is_site = [&](const std::string& name) { return known.contains(lower(name)); };
-    std::vector<std::string> bare;
-    for (const auto& name : names) bare.push_back(is_site(name) ? name : parse_heading(name).name);
-    if (std::none_of(bare.begin(), bare.end(), is_site)) return std::optional<std::vector<std::uint32_t>>();
-    for (const auto& name : bare) {
-        const auto first = name.substr(0, name.rfind(" ("));  // the second channel of a recording with the same name is "r1c1 (2)"
+    std::vector<std::string> without_units;
+    for (const auto& name : names) without_units.push_back(is_site(name) ? name : parse_heading(name).name);
+    if (std::none_of(without_units.begin(), without_units.end(), is_site)) return std::optional<std::vector<std::uint32_t>>();
+    for (const auto& name : without_units) {
+        // If a recording has two channels r1c1, its reader names the second "r1c1 (2)".
+        const auto first = name.substr(0, name.rfind(" ("));
         if (!is_site(name) && name.ends_with(')') && is_site(first))
             return bad_input(fmt::format("two channels have the name '{}', which is one site", first));
     }
-    auto found = find_sites(sites, bare);
+    auto found = find_sites(sites, without_units);
     return found ? std::optional(std::move(*found)) : Result<std::optional<std::vector<std::uint32_t>>>(found.error());
 }
 

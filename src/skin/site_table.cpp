@@ -15,20 +15,23 @@
 namespace corpuscle {
 namespace {
 
-class SiteTable {
+/// Reads a table of sites row by row.
+class SiteTableReader {
     LineReader lines_;
     Dialect dialect_;
     Fields fields_;
     std::string_view line_;
-    std::optional<std::size_t> name_, region_, axes_[2];
-    double metres_[2] = {};
-    std::size_t columns_ = 0;
+    std::optional<std::size_t> name_, region_, axes_[2];  // columns, counted from 0; axes_: of x and y
+    double metres_[2] = {};                               // metres per unit of x and of y
+    std::size_t columns_ = 0;                             // number of columns
 
+    /// An error in the current line, at a field; without a field at the line only.
     Error error_at(std::string message, std::size_t field = std::string::npos) const {
         const long column = field < fields_.size() ? fields_[field].data() - line_.data() + 1 : 0;
         return bad_input(std::move(message), {lines_.path(), lines_.line_number(), column});
     }
 
+    /// Reads the next line that is neither empty nor a comment; false at the end of the file.
     Result<bool> next_line() {
         for (;;) {
             const auto more = lines_.next(line_);
@@ -83,7 +86,7 @@ class SiteTable {
     }
 
 public:
-    explicit SiteTable(LineReader lines) : lines_(std::move(lines)) {}
+    explicit SiteTableReader(LineReader lines) : lines_(std::move(lines)) {}
 
     Result<Sites> read() {
         if (auto ok = read_header(); !ok) return ok.error();
@@ -107,7 +110,7 @@ Result<Sites> read_site_table(const std::string& path) {
     if (!std::filesystem::is_regular_file(path, status)) return bad_input("cannot be read: there is no such file", {path});
     auto lines = LineReader::open(path);
     if (!lines) return lines.error();
-    return SiteTable(std::move(*lines)).read();
+    return SiteTableReader(std::move(*lines)).read();
 }
 
 }  // namespace corpuscle

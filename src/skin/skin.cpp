@@ -9,7 +9,8 @@
 namespace corpuscle {
 namespace {
 
-/// The plans of a class's afferents: a single plan if all afferents are equal, otherwise one for each.
+/// The plans of afferents [first, first + count) of a class that has `all` afferents: a single plan if all are equal, otherwise one for
+/// each.
 Result<std::vector<AfferentPlan>> plans_of(const SkinClass& c, std::size_t first, std::size_t count, std::size_t all, std::uint64_t seed) {
     if (c.distributions.empty()) return std::vector<AfferentPlan>{c.afferent};
     auto sampled = make_copies(c.afferent, static_cast<std::uint32_t>(all), c.distributions, seed);
@@ -18,14 +19,14 @@ Result<std::vector<AfferentPlan>> plans_of(const SkinClass& c, std::size_t first
     return std::vector<AfferentPlan>(from, from + static_cast<std::ptrdiff_t>(count));
 }
 
-/// The index of the first afferent of a part; parts consist of whole tiles.
+/// The index of the first afferent of part `part` (from 0) of `parts` parts of a class with `size` afferents. Parts consist of whole tiles.
 std::size_t part_begin(std::size_t size, std::uint32_t part, std::uint32_t parts) {
     const std::size_t tiles = (size + tile_width - 1) / tile_width;
     return std::min(size, tiles * part / parts * tile_width);
 }
 
-/// The part of one class that this process simulates; nullopt if it has no afferents. `field_forces`: of the classes, which share them if
-/// their receptive fields are equal.
+/// The part of one class that this process simulates; nullopt if that part has no afferents. `field_forces` has one element for each class;
+/// this function sets that of `class_index`. Classes with equal receptive fields share one FieldForce.
 Result<std::optional<ClassSimulation>> make_class(const Innervation& skin, std::size_t class_index, const SimulationOptions& run,
                                                   InstructionSet set, SkinPart part,
                                                   std::vector<std::shared_ptr<FieldForce>>& field_forces) {
@@ -44,18 +45,19 @@ Result<std::optional<ClassSimulation>> make_class(const Innervation& skin, std::
     for (std::size_t u = 0; u < count; ++u) numbers[u] = static_cast<std::uint32_t>(skin.class_begin[class_index] + first + u);
     auto population = make_lane_population({each, count, numbers}, run, set);
     if (!population) return population.error();
+    // `same`: the first class with the same receptive fields, perhaps this one; its FieldForce exists only if it is an earlier one.
     const auto same =
         static_cast<std::size_t>(std::find(skin.fields.begin(), skin.fields.end(), skin.fields[class_index]) - skin.fields.begin());
     const bool shares_force = field_forces[same] && skin.class_begin[same + 1] - skin.class_begin[same] == all;
-    field_forces[class_index] =
-        shares_force ? field_forces[same]
-                     : std::make_shared<FieldForce>(skin.fields[class_index], first, count, skin.plan.sites.size(), set);
+    field_forces[class_index] = shares_force
+                                    ? field_forces[same]
+                                    : std::make_shared<FieldForce>(skin.fields[class_index], first, count, skin.plan.sites.size(), set);
     return std::optional<ClassSimulation>(ClassSimulation{std::move(*population), field_forces[class_index], shares_force});
 }
 
-/// True if all touched sites have a finite force at one step.
+/// True if the force at all touched sites is finite in step 0 of `force`.
 bool all_finite(const SiteForce& force, std::span<const std::uint32_t> touched) {
-    double sums[8] = {};  // 0, or NaN
+    double sums[8] = {};  // each is 0, or NaN if a force was NaN or infinite
     const bool is_contiguous = force.stride == 1 && !touched.empty() && touched.back() + 1 - touched.front() == touched.size();
     if (const double* const row = force.data + (touched.empty() ? 0 : touched.front()); is_contiguous)
         for (std::size_t k = 0; k + 8 <= touched.size(); k += 8)
@@ -67,7 +69,7 @@ bool all_finite(const SiteForce& force, std::span<const std::uint32_t> touched) 
     return std::all_of(std::begin(sums), std::end(sums), [](double x) { return x == 0; });
 }
 
-/// An error for the first site with a force that is not finite, and its sample.
+/// Returns an error for the first site with a force that is NaN or infinite in `steps` steps of `force`.
 Result<void> check_finite(const Skin::Impl& impl, const SiteForce& force, std::span<const std::uint32_t> touched, std::size_t steps) {
     if (steps == 1 && all_finite(force, touched)) return {};
     for (const auto s : touched)
@@ -80,7 +82,7 @@ Result<void> check_finite(const Skin::Impl& impl, const SiteForce& force, std::s
 
 }  // namespace
 
-/// The sites whose force is not 0 in at least one of the steps.
+/// The sites whose force is not 0 in at least one of `steps` steps, from step `at` of the block on.
 std::span<const std::uint32_t> Skin::Impl::find_touched(const SiteForce& force, std::size_t at, std::size_t steps) {
     if (!force.reads_all) return force.touched;
     touched.clear();
@@ -91,14 +93,14 @@ std::span<const std::uint32_t> Skin::Impl::find_touched(const SiteForce& force, 
     return touched;
 }
 
-/// Simulates some steps at once, at most skin_steps.
+/// Simulates `steps` steps, at most skin_steps, from step `at` of the block on.
 Result<void> Skin::Impl::run_steps(const SiteForce& force, std::size_t at, std::size_t steps, std::vector<Spike>& spikes,
                                    ThreadPool& pool) {
-    const auto sites = find_touched(force, at, steps);
-    if (auto ok = check_finite(*this, {force.data + at, force.stride}, sites, steps); !ok) return ok.error();
+    const auto touched_sites = find_touched(force, at, steps);
+    if (auto ok = check_finite(*this, {force.data + at, force.stride}, touched_sites, steps); !ok) return ok.error();
     fired.clear();
     for (auto& c : classes) {
-        if (!c.shares_force) c.field_force->compute(force, sites, at, steps, pool);
+        if (!c.shares_force) c.field_force->compute(force, touched_sites, at, steps, pool);
         PopulationResponse response{&fired};
         if (auto ok = c.population->respond(c.field_force->tiles(), steps, response, pool); !ok) return ok;
         const auto all = static_cast<std::int64_t>(steps * c.population->size());
@@ -107,7 +109,7 @@ Result<void> Skin::Impl::run_steps(const SiteForce& force, std::size_t at, std::
     }
     step += static_cast<std::int64_t>(steps), stats.steps += static_cast<std::int64_t>(steps);
     const std::size_t before = spikes.size();
-    conduction.deliver(fired, step - 1, spikes);
+    conduction.deliver(fired, step - 1, spikes);  // step - 1: the last simulated sample
     stats.spikes += static_cast<std::int64_t>(spikes.size() - before);
     return {};
 }

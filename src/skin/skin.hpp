@@ -1,6 +1,6 @@
 #pragma once
-// A skin in simulation: force at the sites in, spikes of all its afferents out, block by block. The spikes are the same bit for bit for all
-// block sizes, numbers of threads and instruction sets. This also holds for a skin that was saved and resumed.
+// The simulation of a skin: force at the sites in, spikes of all its afferents out, block by block. The spikes are the same bit for bit for
+// all block lengths, numbers of threads and instruction sets. They are also the same if the simulation is saved and resumed in between.
 
 #include <cstddef>
 #include <memory>
@@ -14,43 +14,45 @@
 
 namespace corpuscle {
 
-/// A block of force: site s at step t is data[s * stride + t], N.
+/// A block of force: the force in newtons at site s in step t of the block is data[s * stride + t].
 struct SiteForce {
     const double* data = nullptr;
     std::size_t stride = 0;
-    /// The sites whose force is not 0 in at least one step of the block, in ascending order; the others are not read.
+    /// The sites whose force is not 0 in at least one step of the block, in ascending order. The force at other sites is not
+    /// read.
     std::span<const std::uint32_t> touched = {};
-    bool reads_all = true;  ///< true: all sites are read, and `touched` is ignored
+    bool reads_all = true;  ///< true: the force at all sites is read, and `touched` is ignored
 };
 
-/// The afferents of a skin that one process simulates: each class is divided into `count` equal ranges; `index` selects one.
+/// The afferents of a skin that one process simulates. Each class is divided into `count` ranges of nearly equal size, and the process
+/// takes the one with this `index`, counted from 0.
 struct SkinPart {
     std::uint32_t index = 0, count = 1;
 };
 
-/// Statistics of a run.
+/// Statistics of a simulation since its start.
 struct SkinStats {
-    std::int64_t steps = 0;            ///< samples of each site
-    std::int64_t afferent_steps = 0;   ///< simulated
-    std::int64_t skipped_steps = 0;    ///< steps of afferents that were skipped: no force, and no state could change
-    std::int64_t spikes = 0;           ///< spikes that arrived
-    std::int64_t truncated_steps = 0;  ///< steps that reached the limit of spikes per step
+    std::int64_t steps = 0;            ///< number of samples of each site's force
+    std::int64_t afferent_steps = 0;   ///< steps that were simulated, summed over afferents
+    std::int64_t skipped_steps = 0;    ///< steps without force that were skipped because the state could not change, summed over afferents
+    std::int64_t spikes = 0;           ///< spikes that have arrived at the recording point
+    std::int64_t truncated_steps = 0;  ///< steps that reached the limit of spikes per step, summed over afferents
 };
 
 class Skin {
 public:
-    /// Sensors, converters and noise are not supported: see can_use_lanes().
+    /// Starts the simulation of a skin. Afferents with a front end and noise are not supported: see can_use_lanes().
     static Result<std::unique_ptr<Skin>> make(const std::shared_ptr<const Innervation>&, const SimulationOptions&, InstructionSet,
                                               SkinPart = {});
     ~Skin();
 
     const Innervation& innervation() const;
     std::size_t sites() const;
-    std::int64_t step() const;  ///< samples simulated so far
+    std::int64_t step() const;  ///< number of samples simulated so far
     const SkinStats& stats() const;
 
-    /// Simulates the next block. Appends the spikes that arrive in it to `spikes`, in order of time, then afferent. With one thread it
-    /// allocates no memory after the first blocks, unless a step has more spikes than any step before.
+    /// Simulates the next block. Appends the spikes that arrive at the recording point during the block to `spikes`, in order of time, then
+    /// afferent. With one thread it allocates no memory after the first blocks, unless a step has more spikes than any step before.
     Result<void> respond(const SiteForce&, std::size_t steps, std::vector<Spike>& spikes, ThreadPool&);
     /// Appends the spikes that are still in transit to the recording point.
     void finish(std::vector<Spike>& spikes);

@@ -14,7 +14,7 @@ namespace corpuscle {
 struct ClassSimulation {
     std::unique_ptr<LanePopulation> population;
     std::shared_ptr<FieldForce> field_force;
-    bool shares_force = false;  ///< the force is shared with a class that has the same receptive fields and is computed there
+    bool shares_force = false;  ///< true: an earlier class has the same receptive fields and computes the force for both
 };
 
 struct Skin::Impl {
@@ -26,9 +26,9 @@ struct Skin::Impl {
     SkinPart part;
     std::vector<ClassSimulation> classes;
     Conduction conduction;
-    std::vector<Spike> fired;            // spikes fired in the current steps
-    std::vector<std::uint32_t> touched;  // sites touched in the current steps
-    std::int64_t step = 0;
+    std::vector<Spike> fired;            // spikes fired in the skin during the call of run_steps()
+    std::vector<std::uint32_t> touched;  // result of find_touched()
+    std::int64_t step = 0;               // number of samples simulated so far
     SkinStats stats;
 
     std::span<const std::uint32_t> find_touched(const SiteForce&, std::size_t at, std::size_t steps);

@@ -1,4 +1,4 @@
-// Interprets a population file.
+// Interprets a population file: converts and checks the values of a SkinSpec, and makes a SkinPlan.
 
 #include <fmt/format.h>
 #include <cmath>
@@ -14,7 +14,7 @@ namespace corpuscle {
 namespace skins {
 namespace {
 
-constexpr double max_coordinate = 10, min_pitch = 10e-6, max_pitch = 0.1;  // m
+constexpr double max_coordinate = 10, min_pitch = 10e-6, max_pitch = 0.1;  // m; min_pitch is also the smallest width of a shape
 
 /// The reader of a file's numbers, with the file's unit of length.
 Result<NumberReader> numbers_of(const SkinSpec& spec) {
@@ -25,6 +25,7 @@ Result<NumberReader> numbers_of(const SkinSpec& spec) {
     return NumberReader(unit->factor);
 }
 
+/// `name`: the key to which the position belongs, for messages.
 Result<Position> position_of(const PositionSpec& spec, std::string_view name, const NumberReader& numbers) {
     Position out;
     for (const auto k : {0U, 1U}) {
@@ -43,25 +44,26 @@ Result<SkinShape> shape_of(const ShapeSpec& spec, const NumberReader& numbers) {
                   : kind == "ellipse" ? Kind::ellipse
                                       : Kind::polygon,
                   {}};
-    const bool line = out.kind == Kind::strip || out.kind == Kind::capsule;
+    const bool has_centre_line = out.kind == Kind::strip || out.kind == Kind::capsule;
     for (const auto& p : spec.points) {
         const auto position = position_of(p, kind, numbers);
         if (!position) return position.error();
         out.points.push_back(*position);
     }
     const auto error = [&](std::string_view why) { return spec.kind.error_here(fmt::format("a {} {}", kind, why)); };
-    if (line && out.points.size() != 2) return error("needs the two ends of its centre line: [[x, y], [x, y]]");
+    if (has_centre_line && out.points.size() != 2) return error("needs the two ends of its centre line: [[x, y], [x, y]]");
     if (out.kind == Kind::polygon && (out.points.size() < 3 || out.points.size() > 1000)) return error("needs 3 to 1000 corners");
-    const bool ellipse = out.kind == Kind::ellipse;
-    if (spec.height.has_value() != ellipse || (spec.angle && !ellipse))
-        return error(ellipse ? "also needs a height" : "has neither height nor angle");
+    const bool is_ellipse = out.kind == Kind::ellipse;
+    if (spec.height.has_value() != is_ellipse || (spec.angle && !is_ellipse))
+        return error(is_ellipse ? "also needs a height" : "has neither height nor angle");
     if (out.kind == Kind::polygon) return spec.width.empty() ? Result<SkinShape>(out) : error("has no width");
-    if (spec.width.empty() || spec.width.size() > (line ? 2U : 1U))
-        return error(line ? "needs one width, or one for each end: width = [16, 14]" : "needs one width");
+    if (spec.width.empty() || spec.width.size() > (has_centre_line ? 2U : 1U))
+        return error(has_centre_line ? "needs one width, or one for each end: width = [16, 14]" : "needs one width");
     const auto width = numbers.number(spec.width.front(), "width", "m", min_pitch, max_coordinate);
     if (!width) return width.error();
+    // The second width of a strip or capsule, or the height of an ellipse.
     const auto other =
-        numbers.number(ellipse ? *spec.height : spec.width.back(), ellipse ? "height" : "width", "m", min_pitch, max_coordinate);
+        numbers.number(is_ellipse ? *spec.height : spec.width.back(), is_ellipse ? "height" : "width", "m", min_pitch, max_coordinate);
     if (!other) return other.error();
     const auto angle = numbers.number(spec.angle, "angle (degrees)", "", -360, 360, 0);
     if (!angle) return angle.error();
@@ -84,7 +86,7 @@ Result<Sites> sites_of_regions(const SkinSpec& spec, double pitch, const NumberR
         }
     }
     auto sites = fill_regions(regions, pitch);
-    if (!sites) return bad_input(sites.error().message, spec.sites->location);
+    if (!sites) return bad_input(sites.error().message, spec.sites->location);  // only called if the file has [sites]
     return sites;
 }
 
@@ -117,7 +119,7 @@ Result<Sites> sites_of_grid(const SitesSpec& spec, double pitch, const NumberRea
     return grid;
 }
 
-/// The sites that [sites] describes; the key `area` is not applied yet.
+/// The sites that [sites] describes, without the value of its key `area`. The file must have [sites].
 Result<Sites> requested_sites(const SkinSpec& spec, std::span<const Channel> channels, const NumberReader& numbers) {
     const auto& s = *spec.sites;
     if (s.word) {
@@ -125,22 +127,23 @@ Result<Sites> requested_sites(const SkinSpec& spec, std::span<const Channel> cha
             return s.word->error_here(fmt::format("sites = '{}': the only word allowed is \"channels\"", s.word->text));
         if (channels.empty())
             return s.word->error_here(
-                "its sites are the channels of a recording: it needs a recording with a layout that gives their positions");
+                "the sites are the channels of a recording, so this population needs a recording with a layout that gives their positions");
         auto sites = channel_sites(channels);
         return sites ? sites : Result<Sites>(s.word->error_here(sites.error().message));
     }
-    const bool grid = s.rows || s.columns, list = s.has_list || s.file, outline = !spec.regions.empty();
-    if (grid + list + outline != 1)
+    const bool is_grid = s.rows || s.columns, is_list = s.has_list || s.file, has_regions = !spec.regions.empty();
+    if (is_grid + is_list + has_regions != 1)
         return bad_input("[sites] needs either rows and columns, or a list, or pitch and regions ([[region]])", s.location);
-    if (list && s.pitch) return s.pitch->error_here("a list of sites has no pitch");
+    if (is_list && s.pitch) return s.pitch->error_here("a list of sites has no pitch");
     if (s.file) return read_site_table((std::filesystem::path(spec.file).parent_path() / s.file->text).string());
-    if (list) return sites_of_list(s, numbers);
+    if (is_list) return sites_of_list(s, numbers);
     if (!s.pitch) return bad_input("pitch is missing: pitch = \"2 mm\"", s.location);
     const auto pitch = numbers.number(*s.pitch, "pitch", "m", min_pitch, max_pitch);
     if (!pitch) return pitch.error();
-    return grid ? sites_of_grid(s, *pitch, numbers) : sites_of_regions(spec, *pitch, numbers);
+    return is_grid ? sites_of_grid(s, *pitch, numbers) : sites_of_regions(spec, *pitch, numbers);
 }
 
+/// The sites of a population file.
 Result<Sites> sites_of(const SkinSpec& spec, std::span<const Channel> channels, const NumberReader& numbers) {
     if (!spec.sites) return bad_input("the sites are missing: [sites]", {spec.file});
     auto sites = requested_sites(spec, channels, numbers);

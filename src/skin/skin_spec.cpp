@@ -1,4 +1,4 @@
-// Reads the TOML of a population file. Only this file of src/skin uses toml++.
+// Reads the TOML of a population file. No other file of src/skin uses toml++.
 
 #include "skin/skin_spec.hpp"
 
@@ -21,17 +21,19 @@ const Names class_keys = {"name",      "afferent",        "set",      "spread", 
 const Names class_sources = {"afferent", "set",       "spread",          "density",  "per_site",
                              "sigma",    "hot_spots", "hot_spot_spread", "velocity", "velocity_spread"};
 
-/// Reads the tables of a population file.
+/// Reads the tables of a population file. The first error is kept in first_error; reading goes on after it.
 class SkinReading : public TomlReader {
 public:
     using TomlReader::TomlReader;
 
+    /// The value of a key that must exist. `where` and `example` are for the message.
     LocatedText required(const toml::table& from, std::string_view name, std::string_view where, std::string_view example) {
         if (auto value = scalar(from, name)) return *value;
         reject(from.source(), fmt::format("{}: {} is missing: {} = {}", where, name, name, example));
         return {};
     }
 
+    /// A position [x, y].
     PositionSpec pair(const toml::node& node, std::string_view name) {
         const auto* array = node.as_array();
         if (array && array->size() == 2) return list(*array, name);
@@ -109,8 +111,8 @@ public:
         return out;
     }
 
-    /// A table of texts; if `known` is not empty, only these keys are allowed.
-    void named(const toml::table& from, std::string_view name, const Names& known, std::vector<LocatedSetting>& out) {
+    /// Reads the keys and values of table `name`, if there is one. Only the keys in `known` are allowed, or any if `known` is empty.
+    void settings_table(const toml::table& from, std::string_view name, const Names& known, std::vector<LocatedSetting>& out) {
         const auto* inner = table(from, name);
         if (!inner) return;
         if (!known.empty()) reject_unknown_keys(*inner, known, fmt::format("{}: ", name));
@@ -127,8 +129,9 @@ public:
         if (const auto* density = from.get("density"); density && !density->is_table())
             c.uniform_density = scalar(*density, "density");
         else
-            named(from, "density", {}, c.density);
-        named(from, "set", {}, c.set), named(from, "spread", {}, c.spread), named(from, "source", class_sources, c.source);
+            settings_table(from, "density", {}, c.density);
+        settings_table(from, "set", {}, c.set), settings_table(from, "spread", {}, c.spread),
+            settings_table(from, "source", class_sources, c.source);
         out.push_back(std::move(c));
     }
 };
@@ -140,9 +143,10 @@ SkinSpec skin_from(const toml::table& top, SkinReading& reading) {
     out.felt_area = reading.scalar(top, "felt_area");
     if (const auto* nerve = top.get("nerve")) out.nerve = reading.pair(*nerve, "nerve");
     if (const auto* sites = top.get("sites")) out.sites = reading.sites(*sites);
-    reading.tables(top, "region", "each region", [&](const toml::table& one) { reading.region(one, out.regions); });
-    reading.tables(top, "class", "each class of afferents", [&](const toml::table& one) { reading.class_spec(one, out.classes); });
-    reading.named(top, "source", skin_sources, out.source);
+    reading.tables(top, "region", "each region", [&](const toml::table& region) { reading.region(region, out.regions); });
+    reading.tables(top, "class", "each class of afferents",
+                   [&](const toml::table& afferent_class) { reading.class_spec(afferent_class, out.classes); });
+    reading.settings_table(top, "source", skin_sources, out.source);
     return out;
 }
 

@@ -10,12 +10,12 @@
 namespace corpuscle {
 namespace {
 
-/// "corpsk", the version and a line break. Version 2 ends with a checksum of all bytes before it. Version 1, which has none, can still be
-/// read.
+/// The first bytes of a saved state: "corpsk", the version and a line break. A state of version 2 ends with a checksum of all bytes before
+/// it. A state of version 1 has no checksum; it can still be read.
 constexpr std::array<char, 8> skin_magic = {'c', 'o', 'r', 'p', 's', 'k', '2', '\n'},
                               skin_magic_1 = {'c', 'o', 'r', 'p', 's', 'k', '1', '\n'};
 
-/// A hash (FNV-1a) of the skin that a state belongs to: its afferents, their receptive fields and the simulation options.
+/// Computes a hash (FNV-1a) of values.
 class Fingerprint {
     std::uint64_t value_ = 0xcbf29ce484222325U;
 
@@ -33,6 +33,7 @@ public:
     std::uint64_t value() const { return value_; }
 };
 
+/// A hash of the skin that a state belongs to: its afferents, their receptive fields and the simulation options.
 std::uint64_t fingerprint(const Skin::Impl& impl) {
     Fingerprint all;
     const auto& skin = *impl.skin;
@@ -51,6 +52,7 @@ std::uint64_t fingerprint(const Skin::Impl& impl) {
     return all.value();
 }
 
+/// Appends values to a list of bytes.
 class BytesOut {
     std::vector<std::byte>& out_;
 
@@ -67,6 +69,7 @@ public:
     }
 };
 
+/// Takes values from the beginning of a list of bytes. Each function returns false if too few bytes are left.
 class BytesIn {
     std::span<const std::byte> in_;
 
@@ -83,7 +86,7 @@ public:
     bool take(T& x) {
         return take(&x, 1);
     }
-    /// A list preceded by its length.
+    /// Takes a list that is preceded by its length.
     template <class T>
     bool take_list(std::vector<T>& list) {
         std::uint64_t count = 0;
@@ -94,15 +97,16 @@ public:
     bool ended() const { return in_.empty(); }
 };
 
-/// A spike without padding between its members.
+/// A spike in transit, as it is saved: without padding between its members.
 struct PackedSpike {
     std::int64_t step;
     double offset;
     std::uint64_t afferent;
 };
 
-/// The bytes between a state's magic number and its checksum, which is verified.
+/// The bytes between the magic number of a saved state and its checksum. An error if the magic number or the checksum is wrong.
 Result<std::span<const std::byte>> checked_body(std::span<const std::byte> saved) {
+    // True if the state begins with the first `length` characters of `magic`.
     const auto begins = [&](const std::array<char, 8>& magic, std::size_t length) {
         return saved.size() >= magic.size() && std::memcmp(saved.data(), magic.data(), length) == 0;
     };
@@ -148,7 +152,7 @@ Result<void> Skin::resume(std::span<const std::byte> saved) {
     BytesIn from(*body);
     std::uint64_t saved_fingerprint = 0;
     std::int64_t step = 0;
-    SkinStats work;
+    SkinStats stats;
     const auto damaged = bad_input("a saved state of a skin is damaged or truncated; start from the beginning");
     if (!from.take(saved_fingerprint) || !from.take(step)) return damaged;
     if (saved_fingerprint != fingerprint(h))
@@ -156,10 +160,10 @@ Result<void> Skin::resume(std::span<const std::byte> saved) {
             fmt::format("a saved state belongs to another skin than {}: population, parameters, seed, rate and method must be those "
                         "it was saved with",
                         h.skin->plan.name));
-    if (!from.take(work.afferent_steps) || !from.take(work.skipped_steps) || !from.take(work.spikes) || !from.take(work.truncated_steps) ||
-        step < 0)
+    if (!from.take(stats.afferent_steps) || !from.take(stats.skipped_steps) || !from.take(stats.spikes) ||
+        !from.take(stats.truncated_steps) || step < 0)
         return damaged;
-    work.steps = step;
+    stats.steps = step;
     std::vector<std::vector<double>> states(h.classes.size());
     for (auto& s : states)
         if (!from.take_list(s)) return damaged;
@@ -173,7 +177,7 @@ Result<void> Skin::resume(std::span<const std::byte> saved) {
     for (std::size_t c = 0; c < states.size(); ++c)
         if (auto ok = h.classes[c].population->resume(states[c]); !ok || h.classes[c].population->step() != step) return damaged;
     h.conduction.restore(in_transit, step - 1);
-    h.step = step, h.stats = work;
+    h.step = step, h.stats = stats;
     return {};
 }
 

@@ -533,7 +533,7 @@ TEST(CHeader, AppliesSettingsToTheClassesOfAPopulation) {
         return count;
     };
     EXPECT_GT(spikes({"sa1.V_th=300mV"}), spikes({}));
-    for (const auto& [setting, message] : {std::pair{"sa9.V_th=1V", "there is no 'sa9' here; did you mean 'sa1'?"},
+    for (const auto& [setting, message] : {std::pair{"sa9.V_th=1V", "unknown name 'sa9'; did you mean 'sa1'?"},
                                            {"sa1.V=1V", "unknown parameter 'V'"},
                                            {"sa1", "write NAME.PARAMETER=VALUE"}}) {
         EXPECT_EQ(corpuscle_create_with("grid 2x2", 1000, 1, &setting, 1, error, sizeof error), nullptr);

@@ -1,4 +1,5 @@
-// Forces of frames on SIMD lanes, compiled once for each instruction set, CORPUSCLE_ISA. Only one table may be visible outside this file.
+// Converts the values of frames to forces on SIMD lanes. The file is compiled once for each instruction set, CORPUSCLE_ISA. Only the table
+// at its end may be visible to the linker.
 
 #include "live/lanes/kernel.hpp"
 
@@ -12,11 +13,12 @@ namespace {
 using T = num::Lanes<double>;
 constexpr std::size_t width = T::size;
 
+/// The values at `at`, converted to double.
 T numbers(const double* at) { return T::load_unaligned(at); }
 T numbers(const float* at) { return num::load_float<double>(at); }
 T numbers(const std::int16_t* at) { return num::load_int16<double>(at); }
 
-/// One vector; adds 1 to `bad` for each value that is not a valid force.
+/// Converts one vector of values; adds 1 to the lanes of `bad` whose value is not a valid force.
 template <class Value>
 [[gnu::always_inline]] inline void read_vector(const char* from, const ForceScaling& scaling, double* force, T& bad) {
     const T f = (numbers(reinterpret_cast<const Value*>(from)) - T(scaling.offset)) * T(scaling.scale);
@@ -30,7 +32,7 @@ std::size_t convert(const char* from, const ForceScaling& scaling, double* force
     T bad(0.0);
     std::size_t s = 0;
     for (; s + width <= count; s += width) read_vector<Value>(from + s * sizeof(Value), scaling, force + s, bad);
-    if (s < count) {
+    if (s < count) {  // the last values do not fill a vector: they are copied to one
         alignas(64) Value last[width] = {};
         alignas(64) double forces[width] = {};
         T last_bad(0.0);

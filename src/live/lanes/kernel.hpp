@@ -1,6 +1,6 @@
 #pragma once
-// The interface between frames, compiled for every machine, and the conversion of their forces on SIMD lanes, compiled once for each
-// instruction set. It consists of plain data and pointers only.
+// The interface between FrameDecoder, which is compiled once for all machines, and the conversion of a frame's values to forces on SIMD
+// lanes (kernel.cpp), which is compiled once for each instruction set. It consists of plain data and pointers only.
 
 #include <cstddef>
 
@@ -8,13 +8,15 @@
 
 namespace corpuscle::lanes {
 
-/// Converts values to forces: (x - offset) * scale. A result that is NaN or larger than `limit` in magnitude is not valid.
+/// The conversion of a value x to a force in newtons: (x - offset) * scale. A force that is NaN or larger than `limit` (N) in magnitude is
+/// not valid.
 struct ForceScaling {
     double offset, scale, limit;
 };
 
-/// The functions of one instruction set. They read `count` values from `from` and overwrite the last forces, except where a value is not
-/// valid. They return the number of values that are not valid.
+/// The functions of one instruction set, one for each type of value: float, double, 16-bit integer. They convert the `count` values at
+/// `from`, and write those that are valid to `force`; its other elements are not changed. They return the number of values that are not
+/// valid.
 struct FrameKernels {
     using Convert = std::size_t (*)(const char* from, const ForceScaling&, double* force, std::size_t count);
     Convert f32, f64, i16;
@@ -30,6 +32,7 @@ namespace avx512 {
 extern const FrameKernels frames;
 }
 
+/// The functions for an instruction set.
 inline const FrameKernels& frame_kernels(InstructionSet set) {
 #ifdef __x86_64__
     if (set == InstructionSet::avx512) return avx512::frames;

@@ -10,8 +10,8 @@
 
 namespace corpuscle::lanes {
 
-/// A zero-initialised array of plain data, aligned to a cache line. Large arrays are aligned to 2 MB and request huge pages. With small
-/// pages every 4 kB of force costs a page table lookup.
+/// A zero-initialised array of plain data, aligned to a cache line. Arrays of 4 MB and more are aligned to 2 MB and request huge pages,
+/// because with pages of 4 kB, each such page of force costs a look-up in the page table.
 template <class V>
 class AlignedBuffer {
     V* data_ = nullptr;

@@ -1,5 +1,5 @@
 #pragma once
-// The force input of a population of one precision: its checks, and a profile shared by all afferents.
+// The force into a population whose number type is V: its checks, and the buffers for a profile, which is one force for all afferents.
 
 #include <fmt/format.h>
 #include <algorithm>
@@ -33,18 +33,19 @@ Result<void> check_force(const PopulationForce& force, std::size_t steps, std::s
     return {};
 }
 
-/// Writes the gains of the tile whose first afferent is `first` to out[tile_size]. All are 1 if no gains are given.
+/// Writes the gains of the tile whose first afferent is `first` to out[tile_size]. If the profile has no gains, they are 1, otherwise those
+/// of padding are 0.
 template <class V>
 void profile_gains(const ForceProfile& profile, std::size_t first, V* out) {
     for (std::size_t u = 0; u < tile_size; ++u)
         out[u] = profile.gain.empty() ? V(1) : first + u < profile.gain.size() ? static_cast<V>(profile.gain[first + u]) : V(0);
 }
 
-/// The force of a profile, or the currents of the shared receptor, converted to V.
+/// The force of a profile, or the currents that it causes in the shared receptor, converted to V.
 template <class V>
 class ProfileBuffers {
-    std::array<ProfileCurrents, max_outputs> in_double_;
-    std::array<std::array<AlignedBuffer<V>, 3>, max_outputs> currents_;  // from, to, end_sum
+    std::array<ProfileCurrents, max_outputs> in_double_;                 // the currents before conversion
+    std::array<std::array<AlignedBuffer<V>, 3>, max_outputs> currents_;  // of each output: from, to, end_sum as in ProfileCurrents
     AlignedBuffer<V> force_;
 
     static void convert(std::span<const double> values, AlignedBuffer<V>& out) {
@@ -54,6 +55,7 @@ class ProfileBuffers {
 
 public:
     void set_force(std::span<const double> force) { convert(force, force_); }
+    /// `first`: true for the first block of a simulation; `outputs`: number of currents of the receptor.
     void compute_currents(SharedReceptor& receptor, std::span<const double> force, bool first, int outputs) {
         receptor.run(force, first, in_double_);
         for (std::size_t k = 0; k < static_cast<std::size_t>(outputs); ++k) {

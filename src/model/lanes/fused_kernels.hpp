@@ -7,8 +7,8 @@
 namespace corpuscle::lanes {
 namespace {
 
-/// True if a receptor and a neuron can be fused. The receptor must have one current that is continuous across steps and is computed from
-/// the other state values. The neuron must have a quick test for steps without events.
+/// True if receptor R and neuron N can be fused. The receptor must have one current, which is continuous from step to step and which
+/// R::current() computes from the other state values. The neuron must have a quick test for steps without events.
 template <class R, class N>
 inline constexpr bool can_fuse = continuous<R> && R::outputs == 1 && requires(const R& r, const typename R::State& s, const N& n) {
     R::propagates_nan;
@@ -17,16 +17,17 @@ inline constexpr bool can_fuse = continuous<R> && R::outputs == 1 && requires(co
     N::refractory_values;
 };
 
-/// Number of state values that are loaded and stored. The receptor's last current is recomputed, and the neuron's refractory time is always
-/// 0 here, so neither is stored. This saves memory traffic, which limits the speed of a single step.
+/// Number of state values of an afferent that a fused loop loads and stores. The receptor's last current, its last state value, is
+/// recomputed, and the neuron's refractory time is always 0 (see none_refractory()), so neither is stored. This saves memory traffic, which
+/// limits the speed of a single step.
 template <class V, class R>
 inline constexpr std::size_t stored_receptor_values = value_count<typename R::State, V> - 1;
 template <class V, class N>
 inline constexpr std::size_t stored_neuron_values = value_count<typename N::State, V> - N::refractory_values;
 
-/// Simulates J vectors of a tile, from afferent `first` on. `once`: a single step.
+/// Simulates J vectors of a tile over a chunk, from afferent `first` of the tile on. `once`: the chunk is a single step.
 template <class V, class R, class N, ForceInput feed, Method method, int J, bool once>
-[[gnu::always_inline]] inline void fused_step(const ReceptorCall<V>& c, const NeuronCall<V>& to, int first, Prefetcher& prefetch) {
+[[gnu::always_inline]] inline void fused_loop(const ReceptorCall<V>& c, const NeuronCall<V>& to, int first, Prefetcher& prefetch) {
     constexpr int w = width<V>;
     using T = Batch<V>;
     using ReceptorState = typename R::State;
@@ -67,9 +68,10 @@ template <class V, class R, class N, ForceInput feed, Method method, int J, bool
     });
 }
 
+/// The loop over several steps, compiled once and not inlined.
 template <class V, class R, class N, ForceInput feed, Method method, int J>
-[[gnu::noinline]] void fused_steps(const ReceptorCall<V>& c, const NeuronCall<V>& to, int first, Prefetcher& prefetch) {
-    fused_step<V, R, N, feed, method, J, false>(c, to, first, prefetch);
+[[gnu::noinline]] void fused_loop_call(const ReceptorCall<V>& c, const NeuronCall<V>& to, int first, Prefetcher& prefetch) {
+    fused_loop<V, R, N, feed, method, J, false>(c, to, first, prefetch);
 }
 
 template <class V, class R, class N, ForceInput feed, Method method, bool once = false>
@@ -78,16 +80,17 @@ void fused_tile(const ReceptorCall<V>& c, const NeuronCall<V>& to) {
     Prefetcher local(c.prefetch, iteration_count<V, J>(c));
     for (int first = 0; first < c.afferents; first += J * width<V>) {
         if constexpr (once)
-            fused_step<V, R, N, feed, method, J, true>(c, to, first, local);
+            fused_loop<V, R, N, feed, method, J, true>(c, to, first, local);
         else
-            fused_steps<V, R, N, feed, method, J>(c, to, first, local);
+            fused_loop_call<V, R, N, feed, method, J>(c, to, first, local);
     }
 }
 template <class V, class R, class N, ForceInput feed>
 void fused_tile(const ReceptorCall<V>& c, const NeuronCall<V>& to) {
     c.method == Method::exact ? fused_tile<V, R, N, feed, Method::exact>(c, to) : fused_tile<V, R, N, feed, Method::backward_euler>(c, to);
 }
-/// A live skin simulates single steps of rows. They have their own loop, because setup and teardown would cost as much as the step.
+/// A live skin simulates single steps with ForceInput::rows. These have their own loop, because the start and the end of the general loop
+/// would cost as much as the step.
 template <class V, class R, class N>
 void fused_tile(const ReceptorCall<V>& c, const NeuronCall<V>& to) {
     if (c.input == ForceInput::rows && c.steps == 1 && c.method == Method::exact)
@@ -102,6 +105,7 @@ void flush_decayed_fused(const ReceptorCall<V>& c) {
     flush_decayed<V, R, ReceptorCall<V>, stored_receptor_values<V, R>>(c);
 }
 
+/// True if t_ref is 0 in all `count` neuron models.
 template <class N>
 bool none_refractory(const std::byte* neurons, std::size_t count) {
     for (std::size_t k = 0; k < count; ++k)

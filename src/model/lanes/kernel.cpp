@@ -1,6 +1,6 @@
-// The models on SIMD lanes, compiled once for each instruction set, CORPUSCLE_ISA. Only two tables may be visible outside this file. It
-// uses no standard container and no model in double: the linker could use such a function for other files too, and a machine without these
-// instructions would then crash.
+// The models on SIMD lanes. The file is compiled once for each instruction set, CORPUSCLE_ISA. Only the two tables at its end may be
+// visible to the linker. It uses no standard container and no model in double: for an inline function that several files contain, the
+// linker keeps any one, and if it kept the one from here, a machine without these instructions would crash.
 
 #include <array>
 

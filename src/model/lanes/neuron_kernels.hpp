@@ -6,13 +6,16 @@
 namespace corpuscle::lanes {
 namespace {
 
-/// Called when neurons of one vector fire, which is rare. The vector begins at afferent `first` of the tile.
+/// Records the spikes of one vector in the list. It is called only if a neuron fires, which is rare. The vector begins at afferent `first`
+/// of the tile.
 template <class V>
 struct FiringRecorder {
     FiringList<V>* list;
     int first;
 
+    /// The mask without the lanes that are padding.
     std::uint64_t valid(num::Mask<Batch<V>> mask) const { return num::mask_bits(mask) & (list->valid >> first); }
+    /// Records one spike of each lane of the mask, with its offset within the step.
     [[gnu::noinline, gnu::cold]] void operator()(num::Mask<Batch<V>> mask, Batch<V> offset) const {
         const auto bits = valid(mask);
         if (bits == 0) return;
@@ -20,11 +23,13 @@ struct FiringRecorder {
         if (list->offsets) offset.store_aligned(list->offsets + list->count * width<V>);
         list->firings[list->count++] = {list->step, first, bits};
     }
+    /// Counts the lanes of the mask, whose step reached the limit of spikes.
     [[gnu::noinline, gnu::cold]] void truncated(num::Mask<Batch<V>> mask) const {
         list->truncated_steps += __builtin_popcountll(valid(mask));
     }
 };
 
+/// Sets the states of all neurons of a tile before the first step.
 template <class V, class N>
 void start_states(const NeuronCall<V>& c) {
     for (int first = 0; first < tile_size; first += width<V>) write(model<N>(c.models, c.stride, first / width<V>).start(), c.state, first);
@@ -37,12 +42,13 @@ template <class N, class S, class I, class F>
     if (num::any(truncated)) fired.truncated(truncated);
 }
 
-/// The current into vector j, recomputed at each access.
+/// The current into vector j: F is a function that computes it at each access.
 template <class F>
 struct ComputedCurrents : F {
     [[gnu::always_inline]] const ComputedCurrents& copy() const { return *this; }
 };
-/// The same for stored currents. Only a copy is indexed at run time, so the originals can stay in registers.
+/// The current into vector j, from an array. Only a copy() is indexed with a j that is known at run time only, so the array itself can stay
+/// in registers.
 template <class T, int J>
 struct StoredCurrents {
     const Current<T> (&i)[J];
@@ -59,7 +65,8 @@ struct StoredCurrents {
 };
 
 /// One step of J vectors; current(j) is the current into vector j. If the neuron has a quick test for steps without events, all vectors are
-/// tested first. Those in which an event is possible are then simulated in full, one after another.
+/// tested first. Those in which an event is possible are then simulated with all events, one after another. `check_refractory`: see
+/// try_quiet_step() of the neuron.
 template <bool check_refractory, int J, class N, class S, class F, class I>
 [[gnu::always_inline]] inline void step_all(const N* const (&n)[J], S (&s)[J], const F (&fired)[J], const I& current) {
     if constexpr (requires(S next) { n[0]->template try_quiet_step<check_refractory>(s[0], current(0), next); }) {
@@ -90,6 +97,8 @@ template <bool check_refractory, int J, class N, class S, class F, class I>
     }
 }
 
+/// Simulates J vectors of a tile over a chunk, from afferent `first` of the tile on. `scaled`: all afferents have the same current times
+/// their gain; `shared`: all vectors have the same model.
 template <class V, class N, bool scaled, bool check_refractory, bool shared, int J>
 void run_neurons(const NeuronCall<V>& c, int first, Prefetcher& prefetch) {
     constexpr int w = width<V>;
@@ -105,15 +114,15 @@ void run_neurons(const NeuronCall<V>& c, int first, Prefetcher& prefetch) {
     const V *from = c.from + (scaled ? 0 : first), *to = c.to + (scaled ? 0 : first), *gain = scaled ? c.gain + first : nullptr;
     FiringList<V>& list = *c.fired;
     Prefetcher local = prefetch;
-    const V* const both_ends = c.end_sum;  // of a scaled current
+    const V* const end_sum = c.end_sum;
     for (int t = 0, steps = c.steps; t < steps; ++t) {
         list.step = t;
         if constexpr (!scaled) local.prefetch_next();
         if constexpr (scaled) {
-            const T both(both_ends[t]);
+            const T sum(end_sum[t]);
             const auto current = [&]<bool rising>(std::bool_constant<rising>) __attribute__((always_inline)) {
                 return ComputedCurrents{[&](int j) __attribute__((always_inline)) {
-                    return ScaledCurrent<T, V, rising>{load(gain + j * w), both, from[t], to[t]};
+                    return ScaledCurrent<T, V, rising>{load(gain + j * w), sum, from[t], to[t]};
                 }};
             };
             if (to[t] > from[t])
@@ -122,15 +131,15 @@ void run_neurons(const NeuronCall<V>& c, int first, Prefetcher& prefetch) {
                 step_all<check_refractory, J>(n, s, fired, current(std::false_type{}));
         } else {
             step_all<check_refractory, J>(n, s, fired, ComputedCurrents{[&](int j) __attribute__((always_inline)) {
-                                   return Current<T>{load(from + t * tile_size + j * w), load(to + t * tile_size + j * w)};
-                               }});
+                                              return Current<T>{load(from + t * tile_size + j * w), load(to + t * tile_size + j * w)};
+                                          }});
         }
     }
     prefetch = local;
     unrolled<J>([&](auto j) __attribute__((always_inline)) { write(s[j], c.state, first + j * w); });
 }
 
-/// True if one of J models of a tile, from `first` on, may be refractory.
+/// True if a neuron in one of J vectors of a tile, from afferent `first` on, may be refractory.
 template <class V, class N, int J>
 bool any_refractory(const NeuronCall<V>& c, int first) {
     bool any = false;

@@ -6,8 +6,8 @@
 namespace corpuscle::lanes {
 namespace {
 
-/// Reads the force of a tile's vectors. It copies the pointers of the call: otherwise the compiler would reload them after each store of
-/// lanes, which might have changed them.
+/// Reads the force on vectors of a tile, from afferent `first` on. It copies the pointers out of the call: otherwise the compiler would
+/// reload them after each store of currents, which might have changed them.
 template <ForceInput feed, class V>
 struct ForceReader {
     const V *rows = nullptr, *profile = nullptr, *gain = nullptr;
@@ -21,16 +21,18 @@ struct ForceReader {
         else
             rows = c.rows + first;
     }
-    [[gnu::always_inline]] Batch<V> at(int step, int first) const {
+    /// The force at a step of the chunk on the vector that begins `offset` afferents after `first`.
+    [[gnu::always_inline]] Batch<V> at(int step, int offset) const {
         if constexpr (feed == ForceInput::profile)
-            return Batch<V>(profile[step]) * load(gain + first);
+            return Batch<V>(profile[step]) * load(gain + offset);
         else if constexpr (feed == ForceInput::int16)
-            return num::load_int16<V>(int16_rows + step * tile_size + first) * Batch<V>(scale);
+            return num::load_int16<V>(int16_rows + step * tile_size + offset) * Batch<V>(scale);
         else
-            return load(rows + step * tile_size + first);
+            return load(rows + step * tile_size + offset);
     }
 };
 
+/// Sets the states of all receptors of a tile before the first step. The force before it is that of the first step.
 template <class V, class R>
 void start_states(const ReceptorCall<V>& c) {
     for (int first = 0; first < tile_size; first += width<V>) {
@@ -44,10 +46,11 @@ void start_states(const ReceptorCall<V>& c) {
     }
 }
 
+/// True if the receptor's current at the beginning of a step is that at the end of the step before.
 template <class R>
 inline constexpr bool continuous = requires { R::continuous; };
 
-/// Simulates J vectors of a tile, from afferent `first` on.
+/// Simulates J vectors of a tile over a chunk, from afferent `first` of the tile on.
 template <class V, class R, ForceInput feed, int J>
 void run_receptors(ReceptorCall<V>& c, int first, Prefetcher& prefetch) {
     constexpr int w = width<V>;
@@ -71,6 +74,7 @@ void run_receptors(ReceptorCall<V>& c, int first, Prefetcher& prefetch) {
             if constexpr (checks_force) sum[j] = sum[j] + F;
             Current<Batch<V>> i[R::outputs];
             r[j]->step(s[j], F, i);
+            // If the receptor is continuous, row t + 1 of `from` is row t of `to`, so only the first row is stored.
             for (int k = 0; k < R::outputs; ++k) {
                 if (!continuous<R> || t == 0) i[k].from.store_aligned(from + k * current_rows<V> * tile_size + j * w);
                 i[k].to.store_aligned(to + k * current_rows<V> * tile_size + j * w);
@@ -80,7 +84,7 @@ void run_receptors(ReceptorCall<V>& c, int first, Prefetcher& prefetch) {
     prefetch = local;
     unrolled<J>([&](auto j) __attribute__((always_inline)) {
         write(s[j], c.state, first + j * w);
-        const auto zero_or_nan = sum[j] - sum[j];  // 0, or NaN
+        const auto zero_or_nan = sum[j] - sum[j];  // NaN if a force was NaN or infinite
         if constexpr (checks_force) c.has_non_finite = c.has_non_finite || !num::all(zero_or_nan == Batch<V>(V(0)));
     });
 }

@@ -11,7 +11,7 @@ template <class R>
 class ReceptorRun final : public SharedReceptor {
     R receptor_;
     typename R::State state_ = {};
-    std::int64_t step_ = 0;
+    std::int64_t step_ = 0;  // number of samples simulated so far
 
 public:
     explicit ReceptorRun(R receptor) : receptor_(std::move(receptor)) {}
@@ -57,11 +57,11 @@ std::unique_ptr<SharedReceptor> make_shared_receptor(const AfferentPlan& plan, c
 }
 
 bool scales_with_force(const AfferentPlan& plan) {
-    bool all = false;
+    bool scales = false;
     visit_named(Receptors{}, plan.receptor, [&]<template <class> class R>(ModelTag<R>) {
-        if constexpr (requires { R<double>::scales_with_force; }) all = R<double>::scales_with_force;
+        if constexpr (requires { R<double>::scales_with_force; }) scales = R<double>::scales_with_force;
     });
-    return all;
+    return scales;
 }
 
 }  // namespace corpuscle::lanes

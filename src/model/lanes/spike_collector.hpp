@@ -1,5 +1,5 @@
 #pragma once
-// Collects the firings of lanes in each job and merges them into an ordered list of spikes.
+// Collects the spikes of each job, which simulates some tiles over a block, and merges those of all jobs into a list ordered by time.
 
 #include <algorithm>
 #include <bit>
@@ -12,27 +12,27 @@
 
 namespace corpuscle::lanes {
 
-/// A spike of a block: its step and its afferent.
+/// A spike in a block.
 struct LaneSpike {
-    std::uint32_t step, afferent;
-    double offset;
+    std::uint32_t step, afferent;  ///< step of the block; index of the afferent in the population
+    double offset;                 ///< time within the step, in (0, 1]
 };
 
 /// Result of one job, which simulates some tiles over a block.
 struct JobResult {
-    std::vector<LaneSpike> events;
-    std::int64_t truncated_steps = 0, extra_spikes = 0, skipped_steps = 0;
-    std::int64_t firings = 0;  ///< number of firing masks
-    bool non_finite = false;   ///< some force or state is NaN or infinite
+    std::vector<LaneSpike> events;                                          ///< the spikes, if they are listed
+    std::int64_t truncated_steps = 0, extra_spikes = 0, skipped_steps = 0;  ///< as in PopulationResponse
+    std::int64_t firings = 0;                                               ///< number of firing masks
+    bool non_finite = false;                                                ///< true if some force or state may be NaN or infinite
 };
 
-/// A list of firing masks that flushes itself into a job or into spike bits.
+/// A list of firing masks of one tile in one chunk. flush() moves them to the job's spikes, or sets spike bits.
 template <class V>
 struct SpikeCollector : FiringList<V> {
     JobResult& job;
-    std::uint64_t* spike_bits;                 ///< of this tile, from the chunk's first step on; null: spikes are listed
-    std::uint32_t first_afferent, first_step;  ///< the tile's first afferent, the chunk's first step
-    int lanes;
+    std::uint64_t* spike_bits;  ///< one word of this tile for each step, from the chunk's first step on; null: spikes are listed
+    std::uint32_t first_afferent, first_step;  ///< the tile's first afferent in the population; the chunk's first step in the block
+    int lanes;                                 ///< afferents in a vector
 
     void flush() {
         job.firings += this->count;
@@ -58,9 +58,9 @@ private:
     }
 };
 
-/// Appends the events of all jobs as spikes, in order of time, then afferent: a counting sort by step, then a sort within each step.
-/// `numbers` are the afferent numbers in spikes, ascending; empty: 0, 1, 2 ... `first` is the first step of the block.
-/// `begin` and `at` are scratch arrays.
+/// Appends the events of all jobs to `spikes`, in order of time, then afferent: a counting sort by step, then a sort within each step.
+/// `first` is the number of the block's first sample since the start of the simulation. `numbers` are the afferents' numbers in `spikes`,
+/// ascending; empty: 0, 1, 2 ... `begin` and `at` are scratch arrays.
 inline void merge_spikes(std::span<const JobResult> jobs, std::size_t steps, std::int64_t first, std::span<const std::uint32_t> numbers,
                          std::vector<Spike>& spikes, std::vector<std::size_t>& begin, std::vector<std::size_t>& at) {
     begin.assign(steps + 1, 0);

@@ -1,5 +1,5 @@
 #pragma once
-// The states of a population, tile by tile: receptors, neurons, and which tiles are at rest.
+// The states of a population, tile by tile: of the receptors, of the neurons, and whether the tile is at rest.
 
 #include <algorithm>
 #include <cmath>
@@ -15,15 +15,15 @@ namespace corpuscle::lanes {
 
 template <class V>
 class TileStates {
-    std::size_t receptor_values_, neuron_values_;  // number of values per tile; the neurons of all outputs are stored one after another
+    std::size_t receptor_values_, neuron_values_;  // number of values per tile; those of the neurons of output 1 follow those of output 0
     AlignedBuffer<V> receptors_, neurons_;
     std::vector<std::uint8_t> at_rest_;
 
-    /// True if all values are finite. Eight separate sums let the compiler vectorise the loop.
+    /// True if all values are finite. Eight separate sums let the compiler vectorise the loop; `count` is a multiple of tile_size.
     static bool all_finite_in(const V* states, std::size_t count) {
         V sums[8] = {};
         for (std::size_t k = 0; k < count; k += 8)
-            for (std::size_t l = 0; l < 8; ++l) sums[l] += states[k + l] - states[k + l];  // 0, or NaN
+            for (std::size_t l = 0; l < 8; ++l) sums[l] += states[k + l] - states[k + l];  // NaN if the value is NaN or infinite
         return std::all_of(std::begin(sums), std::end(sums), [](V x) { return x == 0; });
     }
     static bool lane_has_non_finite(const V* states, std::size_t count, std::size_t lane) {
@@ -45,6 +45,7 @@ public:
     bool is_at_rest(std::size_t tile) const { return at_rest_[tile]; }
     void set_at_rest(std::size_t tile, bool rests) { at_rest_[tile] = rests; }
 
+    /// Copies the state of a tile to `to`.
     void copy(std::size_t tile, std::vector<V>& to) const {
         to.resize(receptor_values_ + neuron_values_);
         std::copy_n(receptor(tile), receptor_values_, to.data());
@@ -54,10 +55,10 @@ public:
         std::copy_n(from.data(), receptor_values_, receptor(tile));
         std::copy_n(from.data() + receptor_values_, neuron_values_, neuron(tile));
     }
-    /// Bitwise comparison.
-    bool equals(std::size_t tile, const std::vector<V>& as) const {
-        return std::memcmp(receptor(tile), as.data(), receptor_values_ * sizeof(V)) == 0 &&
-               std::memcmp(neuron(tile), as.data() + receptor_values_, neuron_values_ * sizeof(V)) == 0;
+    /// True if the state of a tile is bitwise equal to one that copy() has saved.
+    bool equals(std::size_t tile, const std::vector<V>& saved) const {
+        return std::memcmp(receptor(tile), saved.data(), receptor_values_ * sizeof(V)) == 0 &&
+               std::memcmp(neuron(tile), saved.data() + receptor_values_, neuron_values_ * sizeof(V)) == 0;
     }
 
     bool all_finite(std::size_t tile) const {
@@ -69,13 +70,14 @@ public:
         return lane_has_non_finite(receptor(tile), receptor_values_, lane) || lane_has_non_finite(neuron(tile), neuron_values_, lane);
     }
 
+    /// Number of values that save() appends.
     std::size_t size() const { return receptors_.size() + neurons_.size() + at_rest_.size(); }
     void save(std::vector<double>& to) const {
         to.insert(to.end(), receptors_.data(), receptors_.data() + receptors_.size());
         to.insert(to.end(), neurons_.data(), neurons_.data() + neurons_.size());
         to.insert(to.end(), at_rest_.begin(), at_rest_.end());
     }
-    /// Restores size() values. Returns false, and changes nothing, if they cannot be a saved state.
+    /// Restores the states from the size() values of save(). Returns false, and changes nothing, if they cannot be a saved state.
     bool resume(std::span<const double> saved) {
         const auto states = saved.first(saved.size() - at_rest_.size()), rests = saved.last(at_rest_.size());
         if (!std::all_of(states.begin(), states.end(), [](double x) { return std::isfinite(static_cast<V>(x)); })) return false;

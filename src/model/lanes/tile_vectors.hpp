@@ -10,6 +10,7 @@
 namespace corpuscle::lanes {
 namespace {
 
+/// A vector: the values of as many afferents as fit a SIMD register, and their number.
 template <class V>
 using Batch = num::Lanes<V>;
 template <class V>
@@ -27,19 +28,21 @@ Batch<V> load(const V* at) {
     return Batch<V>::load_aligned(at);
 }
 
-/// Passes the values of a model's parameters to its constructor: of one afferent for all lanes, or of one afferent for each lane.
+/// Passes the parameters of a model to its constructor: lane l gets those of afferent l in `params`.
 template <class V, class P>
 struct PerLaneParams {
     const P* params;
-    int count;  ///< of afferents in `params`; lanes beyond it get the last afferent's values
-    Batch<V> operator()(double P::* at) const {
+    int count;  ///< number of afferents in `params`; further lanes get the values of the last one
+    Batch<V> operator()(double P::* parameter) const {
         alignas(64) V lanes[width<V>];
-        for (int l = 0; l < width<V>; ++l) lanes[l] = static_cast<V>(params[l < count ? l : count - 1].*at);
+        for (int l = 0; l < width<V>; ++l) lanes[l] = static_cast<V>(params[l < count ? l : count - 1].*parameter);
         return load(lanes);
     }
-    double uniform(double P::* at) const { return params[0].*at; }
+    /// The value of a parameter that must be the same on all lanes.
+    double uniform(double P::* parameter) const { return params[0].*parameter; }
 };
 
+/// Builds the models of a tile; see ReceptorKernel::build.
 template <class V, class M>
 void build(std::byte* at, const void* params, int count, double dt, Method method) {
     using P = typename M::Params;
@@ -50,24 +53,25 @@ void build(std::byte* at, const void* params, int count, double dt, Method metho
     }
 }
 
+/// The model of a vector of the tile; `stride` as in ReceptorCall.
 template <class M>
 const M& model(const std::byte* models, std::size_t stride, int vector) {
     return *reinterpret_cast<const M*>(models + stride * static_cast<std::size_t>(vector));
 }
 
-/// Number of values of a state.
+/// Number of state values of one afferent.
 template <class S, class V>
 inline constexpr std::size_t value_count = sizeof(S) / sizeof(Batch<V>);
 
-/// Loads the first `stored` values of a state from its tile; the others are 0. The state is returned by value: a loop variable whose
-/// address is never taken can stay in registers.
+/// Loads the first `stored` values of the state of a vector from its tile, at whose afferent `first` the vector begins; the others are 0.
+/// The state is returned by value: a loop variable whose address is never taken can stay in registers.
 template <class S, class V, std::size_t stored = value_count<S, V>>
 [[gnu::always_inline]] inline S read(const V* state, int first) {
     return [&]<std::size_t... k>(std::index_sequence<k...>) __attribute__((always_inline)) {
         return S{(k < stored ? load(state + k * tile_size + first) : Batch<V>(V(0)))...};
     }(std::make_index_sequence<value_count<S, V>>{});
 }
-/// Stores the first `stored` values of a state in its tile.
+/// Stores the first `stored` values of the state of a vector in its tile.
 template <class S, class V, std::size_t stored = value_count<S, V>>
 [[gnu::always_inline]] inline void write(const S& s, V* state, int first) {
     constexpr auto values = value_count<S, V>;
@@ -94,7 +98,7 @@ template <class S, class V, std::size_t stored = value_count<S, V>>
     }
 }
 
-/// Sets the decayed states of one model in a tile to zero. The tile contains the first `stored` values of each state.
+/// Calls the model's flush_decayed(), if it has one, for all states in a tile. The tile contains the first `stored` values of each state.
 template <class V, class M, class Call, std::size_t stored = value_count<typename M::State, V>>
 void flush_decayed(const Call& c) {
     if constexpr (requires(const M& m, typename M::State& s) { m.flush_decayed(s); })
@@ -119,7 +123,7 @@ public:
     }
 };
 
-/// Number of iterations of a loop over steps that simulates a tile with J vectors at once.
+/// Number of steps that the loops take together if each simulates J vectors of the tile over the chunk.
 template <class V, int J, class Call>
 int iteration_count(const Call& c) {
     return (c.afferents + J * width<V> - 1) / (J * width<V>)*c.steps;

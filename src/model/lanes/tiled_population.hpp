@@ -1,6 +1,6 @@
 #pragma once
-// A population in one precision, float or double. Models and states are in tiles of 64 afferents; blocks are split into chunks that fit the
-// cache.
+// The implementation of LanePopulation for one number type V, double or float. Models and states are in tiles of 64 afferents; blocks are
+// split into chunks of steps that fit the cache.
 
 #include <fmt/format.h>
 #include <cmath>
@@ -19,24 +19,24 @@ namespace corpuscle::lanes {
 
 template <class V>
 class TiledPopulation final : public LanePopulation {
-    static constexpr int chunk = chunk_steps<V>, long_chunk = 2 * chunk;  // steps; long_chunk: if no arrays of currents share the cache
-    static constexpr std::size_t tiles_per_job = 16;                      // 1,024 afferents; threads take whole jobs
+    static constexpr int chunk = chunk_steps<V>, long_chunk = 2 * chunk;  // steps; long_chunk: for fused kernels, which store no currents
+    static constexpr std::size_t tiles_per_job = 16;                      // 1,024 afferents; a job is simulated by one thread
 
     /// Scratch memory of one thread.
     struct Scratch {
         AlignedBuffer<V> from{max_outputs * current_rows<V> * tile_size}, to{max_outputs * current_rows<V> * tile_size},
             rows{long_chunk * tile_size}, gain{tile_size};
         AlignedBuffer<Firing> firings{firing_list_capacity};
-        AlignedBuffer<V> offsets{firing_list_capacity * 16};
-        std::vector<V> saved_state = {};  // the state of a tile
+        AlignedBuffer<V> offsets{firing_list_capacity * 16};  // no vector has more than 16 lanes
+        std::vector<V> saved_state = {};                      // copy of a tile's state, for check_rest()
     };
 
     /// The block that is being simulated.
     struct Block {
         const PopulationForce& force;
         std::size_t steps;
-        bool shared_currents;  // the currents of the profile are computed once for all
-        std::uint64_t* spike_bits;
+        bool shared_currents;       // true: all afferents have the same currents, apart from a gain
+        std::uint64_t* spike_bits;  // PopulationResponse::spike_bits; null: spikes are listed
     };
 
     PopulationLayout<V> layout_;
@@ -44,25 +44,29 @@ class TiledPopulation final : public LanePopulation {
     bool spikes_on_samples_;
     std::size_t tiles_;
     TileStates<V> states_;
-    std::int64_t step_ = 0;
-    std::optional<std::pair<std::size_t, bool>> force_layout_;  // layout of the force so far, and whether its currents are shared
+    std::int64_t step_ = 0;  // number of samples simulated so far
+    /// Set in the first block: which alternative of PopulationForce all blocks have, and whether the currents are shared.
+    std::optional<std::pair<std::size_t, bool>> force_layout_;
     ProfileBuffers<V> profile_;
     std::vector<Scratch> scratch_;
     std::vector<JobResult> jobs_;
-    AlignedBuffer<V> zero_rows_{chunk_steps<V> * 2 * tile_size};  // rows of zero force
-    std::vector<std::size_t> begin_, at_;
+    AlignedBuffer<V> zero_rows_{chunk_steps<V> * 2 * tile_size};  // the force on a tile without force
+    std::vector<std::size_t> begin_, at_;                         // scratch arrays of merge_spikes()
 
-    /// The models of a tile, and the stride between them in bytes.
-    template <class L>
-    std::pair<const std::byte*, std::size_t> models_of(const AlignedBuffer<std::byte>& all, const L& of, std::size_t tile) const {
-        if (all.size() == of.model_bytes) return {all.data(), 0};
-        return {all.data() + tile * (tile_size / static_cast<std::size_t>(layout_.lanes)) * of.model_bytes, of.model_bytes};
+    /// The models of a tile, and the bytes from one vector's model to the next. `all` are the models of all tiles for `kernel`.
+    template <class Kernel>
+    std::pair<const std::byte*, std::size_t> models_of(const AlignedBuffer<std::byte>& all, const Kernel& kernel, std::size_t tile) const {
+        if (all.size() == kernel.model_bytes) return {all.data(), 0};
+        return {all.data() + tile * (tile_size / static_cast<std::size_t>(layout_.lanes)) * kernel.model_bytes, kernel.model_bytes};
     }
 
+    /// Number of afferents of a tile, without padding.
     int tile_size_of(std::size_t tile) const { return static_cast<int>(std::min<std::size_t>(tile_size, layout_.size - tile * tile_size)); }
+    /// One bit for each afferent of a tile: 1 unless it is padding.
     std::uint64_t valid_bits(std::size_t tile) const { return ~std::uint64_t{0} >> (tile_size - tile_size_of(tile)); }
 
-    /// Transposes columns of force into rows, one chunk at a time.
+    /// Transposes the columns of force on a tile into rows, for `steps` steps from `step` of the block on. `first` is the tile's first
+    /// afferent.
     void transpose_columns(const ForceColumns& columns, std::size_t first, std::size_t step, int steps, V* rows) const {
         for (std::size_t u = 0; u < tile_size; ++u) {
             const double* column = columns.columns[std::min(first + u, layout_.size - 1)] + step;
@@ -76,14 +80,14 @@ class TiledPopulation final : public LanePopulation {
         const auto chunk_size = static_cast<std::size_t>(steps) * tile_size;
         return {reinterpret_cast<const char*>(rows + chunk_size), chunk_size * sizeof(E)};
     }
-    /// Reduces a range to its first half, which is prefetched by the receptors' loop. Returns the second half, for the neurons' loop.
+    /// Reduces `all` to its first half, which the receptors' loop prefetches. Returns the second half, for the neurons' loop.
     static PrefetchRange take_second_half(PrefetchRange& all) {
         all.bytes /= 2;
         return {all.at + all.bytes, all.bytes};
     }
 
-    /// The destination of the currents at the ends of steps. For a continuous receptor these are also the currents at the beginnings of the
-    /// next steps, so they are stored in `from`, one row further on.
+    /// The array for the currents at the ends of steps. For a continuous receptor the current at the end of a step is also that at the
+    /// beginning of the next one, so it is stored in `from`, one row further on.
     V* step_ends(Scratch& s) const { return layout_.receptor->continuous ? s.from.data() + tile_size : s.to.data(); }
 
     ReceptorCall<V> receptor_call(const Block& b, std::size_t tile, std::size_t step, int steps, Scratch& s) const {
@@ -118,8 +122,8 @@ class TiledPopulation final : public LanePopulation {
         c.models = models, c.stride = stride, c.afferents = tile_size_of(tile), c.steps = steps, c.fired = &fired, c.prefetch = ahead;
         c.state = states_.neuron(tile) + static_cast<std::size_t>(output) * layout_.neuron->state_values * tile_size;
         if (b.shared_currents) {
-            const auto& [from, to, both] = profile_.currents(output);
-            c.from = from.data() + step, c.to = to.data() + step, c.end_sum = both.data() + step, c.gain = s.gain.data();
+            const auto& [from, to, end_sum] = profile_.currents(output);
+            c.from = from.data() + step, c.to = to.data() + step, c.end_sum = end_sum.data() + step, c.gain = s.gain.data();
         } else {
             c.to = step_ends(s) + output * current_rows<V> * tile_size;
             c.from = layout_.receptor->continuous && method_ != Method::exact ? c.to : s.from.data() + output * current_rows<V> * tile_size;
@@ -127,8 +131,9 @@ class TiledPopulation final : public LanePopulation {
         return c;
     }
 
-    /// Simulates some steps of a tile. The force before the very first sample is assumed to be the same. Backward Euler takes a step there,
-    /// with its spikes on the sample. The exact method has no interval to integrate yet.
+    /// Simulates `steps` steps of a tile, from `step` of the block on. The first sample of the simulation is a chunk by itself. The force
+    /// before it is assumed to be the same. Backward Euler takes a step that ends at this sample, with its spikes on the sample. The exact
+    /// method has no interval to integrate yet, so the neurons take no step.
     void run_chunk(const Block& b, std::size_t tile, std::size_t step, int steps, Scratch& s, JobResult& job) const {
         const bool first = step_ == 0 && step == 0, skips_neurons = first && method_ == Method::exact;
         SpikeCollector<V> fired{{s.firings.data(), spikes_on_samples_ || first ? nullptr : s.offsets.data(), 0, 0, valid_bits(tile), 0,
@@ -165,7 +170,7 @@ class TiledPopulation final : public LanePopulation {
         return tiles && tiles->zero_force && tiles->zero_force[tile];
     }
 
-    /// Sets the decayed state of a tile to zero.
+    /// Calls the models' flush_decayed() for the state of a tile.
     void flush_decayed(std::size_t tile) const {
         ReceptorCall<V> c{};
         std::tie(c.models, c.stride) = models_of(layout_.receptors, *layout_.receptor, tile);
@@ -179,8 +184,8 @@ class TiledPopulation final : public LanePopulation {
         }
     }
 
-    /// Takes one step without force. If no afferent fires, and neither this step nor a flush changes a bit of the tile's state, the tile is
-    /// at rest. It is then skipped until there is force again.
+    /// Takes one step of a tile without force. If no afferent fires, and neither this step nor flush_decayed() changes a bit of the tile's
+    /// state, the tile is at rest. It is then skipped until there is force again.
     void check_rest(const Block& b, std::size_t tile, std::size_t step, Scratch& s, JobResult& job) {
         states_.copy(tile, s.saved_state);
         const auto fired = job.firings;
@@ -188,13 +193,13 @@ class TiledPopulation final : public LanePopulation {
         if (job.firings != fired || !states_.equals(tile, s.saved_state)) return;
         flush_decayed(tile);
         states_.set_at_rest(tile, states_.equals(tile, s.saved_state));
-        states_.restore(tile, s.saved_state);
+        states_.restore(tile, s.saved_state);  // undoes flush_decayed()
     }
 
-    /// Simulates a tile over a block, in chunks of as many steps as possible. A chunk ends where states are flushed; the step of
-    /// check_rest() is a chunk by itself. Returns the number of steps taken before the tile was found at rest.
+    /// Simulates a tile over a block, in chunks of as many steps as possible. A chunk ends before each flush_decayed(); the step of
+    /// check_rest() is a chunk by itself. Returns the number of steps taken before the tile was found to be at rest.
     std::size_t run_tile(const Block& b, std::size_t tile, Scratch& s, JobResult& job) {
-        constexpr std::int64_t rest_interval = 256;
+        constexpr std::int64_t rest_interval = 256;  // steps between calls of check_rest()
         const bool zero_force = has_zero_force(b, tile);
         if (!zero_force) states_.set_at_rest(tile, false);
         const std::int64_t max_steps = b.shared_currents ? 256 : layout_.fused ? long_chunk : chunk;
@@ -202,6 +207,7 @@ class TiledPopulation final : public LanePopulation {
         while (step < b.steps && !states_.is_at_rest(tile)) {
             const std::int64_t now = step_ + static_cast<std::int64_t>(step);
             if (now % flush_interval == 0 && now > 0) flush_decayed(tile);
+            // Steps until the next call of check_rest(), which is at the samples k with k mod 256 = 1.
             const std::int64_t to_check = (rest_interval + 1 - now % rest_interval) % rest_interval;
             if (zero_force && to_check == 0) {
                 check_rest(b, tile, step++, s, job);
@@ -215,12 +221,15 @@ class TiledPopulation final : public LanePopulation {
         return step;
     }
 
-    /// Steps between checks for NaN. A state that becomes NaN stays NaN, so short blocks need not check each time.
+    /// Steps between checks for states that are NaN or infinite. Such a state does not become finite again, so short blocks need not check
+    /// each time.
     static constexpr std::int64_t check_interval = 64;
+    /// True if a multiple of check_interval is reached in the block.
     bool is_check_due(const Block& b) const {
         return step_ / check_interval != (step_ + static_cast<std::int64_t>(b.steps)) / check_interval;
     }
 
+    /// Simulates the tiles of job `number` over a block.
     void run_job(const Block& b, std::size_t number, Scratch& s) {
         auto& job = jobs_[number];
         job.events.clear(), job.truncated_steps = job.extra_spikes = job.skipped_steps = job.firings = 0, job.non_finite = false;
@@ -233,7 +242,7 @@ class TiledPopulation final : public LanePopulation {
         }
     }
 
-    /// The force of an afferent at a step of the block, as passed by the caller.
+    /// The force of an afferent at a step of the block, N, as the caller has passed it; integers are returned as 0.
     double force_of(const Block& b, std::size_t afferent, std::size_t step) const {
         const std::size_t at = (afferent / tile_size * b.steps + step) * tile_size + afferent % tile_size;
         if (const auto* columns = std::get_if<ForceColumns>(&b.force)) return columns->columns[afferent][step];
@@ -243,6 +252,7 @@ class TiledPopulation final : public LanePopulation {
         return 0;  // integers are always finite
     }
 
+    /// Returns an error if a force in the block is NaN or infinite, and sets the afferent that failed.
     Result<void> check_finite_force(const Block& b, PopulationResponse& response) const {
         for (std::size_t afferent = 0; afferent < layout_.size; ++afferent)
             for (std::size_t step = 0; step < b.steps; ++step)
@@ -254,7 +264,7 @@ class TiledPopulation final : public LanePopulation {
         return {};
     }
 
-    /// The first afferent whose state is not finite; none if only the padding is affected.
+    /// The first afferent whose state is not finite; no value if only padding of the last tile has such states.
     std::optional<std::size_t> first_non_finite_state() const {
         for (std::size_t afferent = 0; afferent < layout_.size; ++afferent)
             if (states_.has_non_finite(afferent)) return afferent;
@@ -269,7 +279,7 @@ class TiledPopulation final : public LanePopulation {
                             layout_.name, step_ / check_interval * check_interval, step_ + static_cast<std::int64_t>(b.steps))};
     }
 
-    /// The error of the jobs, if there is one.
+    /// Returns an error if a job has met a force or a state that is NaN or infinite.
     Result<void> check_jobs(const Block& b, PopulationResponse& response) const {
         if (std::none_of(jobs_.begin(), jobs_.end(), [](const JobResult& job) { return job.non_finite; })) return {};
         if (auto ok = check_finite_force(b, response); !ok) return ok;
@@ -284,6 +294,7 @@ class TiledPopulation final : public LanePopulation {
         return profile && layout_.shared_receptor && (profile->gain.empty() || layout_.scales_with_force);
     }
 
+    /// Checks the force of a block, and that it has the same layout as in the blocks before.
     Result<void> check(const PopulationForce& force, std::size_t steps) {
         const std::pair kind(force.index(), shares_currents(force));
         if (force_layout_ && *force_layout_ != kind)
@@ -304,6 +315,8 @@ public:
     std::int64_t step() const override { return step_; }
 
     std::vector<double> save() const override {
+        // In order: the step, the layout of the force as one number (0 if there was no block yet), the states, and that of the shared
+        // receptor.
         std::vector<double> all = {static_cast<double>(step_),
                                    force_layout_ ? static_cast<double>(1 + 2 * force_layout_->first + force_layout_->second) : 0.0};
         states_.save(all);
@@ -316,7 +329,7 @@ public:
 
     Result<void> resume(std::span<const double> all) override {
         constexpr double last_step = 1LL << 53, kinds = 2 * std::variant_size_v<PopulationForce>;
-        const std::size_t own_values = 2 + states_.size();  // without those of the shared receptor
+        const std::size_t own_values = 2 + states_.size();  // values without those of the shared receptor
         const auto is_integer = [](double x, double max) { return x >= 0 && x <= max && x == std::floor(x); };
         const bool fits = all.size() >= own_values && is_integer(all[0], last_step) && is_integer(all[1], kinds) &&
                           (layout_.shared_receptor ? layout_.shared_receptor->resume(all.subspan(own_values)) : all.size() == own_values) &&

@@ -12,8 +12,8 @@ namespace corpuscle {
 ///     C_m dv/dt = -g_L (v - E_L) + g_L Delta_T exp((v - V_T) / Delta_T) - w + gain I,   tau_w dw/dt = a (v - E_L) - w
 ///     v > V_peak  =>  spike, then v = V_reset and w = w + b
 ///
-/// The exponential is limited to its value at V_peak. Method has no effect: the substeps are always the same. There is no refractory time;
-/// adaptation limits the rate instead.
+/// v is the membrane potential, w the adaptation current and I the receptor's current. The exponential is limited to its value at V_peak.
+/// Method has no effect: the substeps are always the same. There is no refractory time; adaptation limits the rate instead.
 struct AdexTraits {
     struct Params {
         double C_m = 281e-12, g_L = 30e-9, E_L = -70.6e-3, V_T = -50.4e-3, Delta_T = 2e-3, a = 4e-9, b = 80.5e-12, tau_w = 144e-3;
@@ -28,12 +28,12 @@ struct AdexTraits {
         {"V_T", &Params::V_T, "V", -0.2, 0.1, "threshold of the exponential"},
         {"Delta_T", &Params::Delta_T, "V", 1e-4, 0.1, "width of the exponential"},
         {"a", &Params::a, "S", -1e-3, 1e-3, "adaptation conductance"},
-        {"b", &Params::b, "A", 0, 1, "jump of adaptation at a spike"},
+        {"b", &Params::b, "A", 0, 1, "increase of the adaptation current w at a spike"},
         {"tau_w", &Params::tau_w, "s", 1e-4, 1e3, "time constant of adaptation"},
-        {"V_peak", &Params::V_peak, "V", -0.2, 0.1, "top of a spike",
+        {"V_peak", &Params::V_peak, "V", -0.2, 0.1, "potential at which a spike is counted",
          "choice: V_T + 5 Delta_T; from there to the paper's 20 mV takes under 0.1 ms"},
-        {"V_reset", &Params::V_reset, "V", -0.2, 0.1, "membrane after a spike"},
-        {"gain", &Params::gain, "", 0, 1e6, "gain from the receptor's current to the membrane's",
+        {"V_reset", &Params::V_reset, "V", -0.2, 0.1, "potential after a spike"},
+        {"gain", &Params::gain, "", 0, 1e6, "gain from the receptor's current to the membrane current",
          "choice: firing rates of tens of hertz for currents of microamperes"},
         {"substep", &Params::substep, "s", 1e-8, 1e-3, "longest substep (at most a million substeps per sample)", "choice", true},
     };
@@ -47,7 +47,7 @@ struct AdexTraits {
 template <class T>
 struct Adex : AdexTraits {
     struct State {
-        T v, w;
+        T v, w;  // V; A
     };
 
     template <class Values>
@@ -57,7 +57,8 @@ struct Adex : AdexTraits {
           V_peak(value(&Params::V_peak)), V_reset(value(&Params::V_reset)), gain(value(&Params::gain)), dt(dt),
           count(substep_count(dt, value.uniform(&Params::substep))) {}
 
-    State start() const {  // the resting v, which the exponential raises slightly above E_L; by Newton's method
+    /// The resting state. The exponential raises its v slightly above E_L; v is found by Newton's method.
+    State start() const {
         T v = E_L, step = T(0.0);
         for (int pass = 0; pass < 12; ++pass) {
             const T e = num::exp((v - V_T) / Delta_T);
@@ -70,8 +71,8 @@ struct Adex : AdexTraits {
     }
     void record(const State& s, T (&out)[2]) const { out[0] = s.v, out[1] = s.w; }
 
-    /// One sample under current i. Calls fired(mask, offset) for each spike. Returns an empty mask: there is no limit of spikes that could
-    /// truncate the step.
+    /// Simulates one step under current i. For each spike calls fired(mask, offset): the lanes that fire, and the offset of the spike
+    /// within the step. Returns an empty mask, because no limit of spikes truncates the step.
     template <class Fired>
     num::Mask<T> step(State& s, Current<T> i, Fired&& fired) const {
         MembraneRecovery<T> y{s.v, s.w};
@@ -88,7 +89,7 @@ struct Adex : AdexTraits {
 private:
     T C_m, g_L, E_L, V_T, Delta_T, a, b, tau_w, V_peak, V_reset, gain;
     double dt;
-    int count;
+    int count;  // substeps per step
 };
 
 }  // namespace corpuscle

@@ -7,12 +7,13 @@
 
 namespace corpuscle {
 
-/// Izhikevich 2003, in SI:   dv/dt = 4e4 v^2 + 5e3 v + 140 - w + gain I,   dw/dt = a (b v - w)      (v in V, w in V/s)
+/// Izhikevich 2003, in SI:   dv/dt = 4e4 v^2 + 5e3 v + 140 - w + gain I,   dw/dt = a (b v - w)      (v in V, w in V/s, t in s)
 ///     v > V_peak  =>  spike, then v = c and w = w + d
 ///
-/// The coefficients are the paper's 0.04, 5 and 140 in mV and ms. Its a = 0.02/ms is 20 1/s, b = 0.2/ms is 200 1/s, d = 8 mV/ms is 8 V/s.
-/// Method has no effect: the substeps are always the same. There is no refractory time; the recovery w takes its role. Thesis 3.2 names the
-/// model for its adaptation.
+/// v is the membrane potential, w the recovery (the paper's u) and I the receptor's current. The coefficients are the paper's 0.04, 5 and
+/// 140, which apply to mV and ms. Likewise the paper's a = 0.02/ms is 20 1/s, b = 0.2/ms is 200 1/s, and d = 8 mV/ms is 8 V/s. Method has
+/// no effect: the substeps are always the same. There is no refractory time; the recovery w takes its role. Thesis 3.2 mentions the model
+/// because it adapts.
 struct IzhikevichTraits {
     struct Params {
         double a = 20, b = 200, c = -65e-3, d = 8, V_peak = 30e-3, gain = 2.5e6, substep = 20e-6;
@@ -20,11 +21,11 @@ struct IzhikevichTraits {
     static constexpr std::string_view name = "izhikevich", description = "Izhikevich 2003: quadratic membrane with recovery";
     static constexpr std::string_view source = "Izhikevich 2003, IEEE Trans Neural Netw 14:1569 (regular spiking); thesis 3.2";
     static constexpr ParameterDef<Params> fields[] = {
-        {"a", &Params::a, "1/s", 1e-3, 1e5, "rate of recovery"},
-        {"b", &Params::b, "1/s", -1e5, 1e5, "recovery per membrane potential"},
-        {"c", &Params::c, "V", -0.2, 0.02, "membrane after a spike"},
-        {"d", &Params::d, "V/s", -1e3, 1e3, "jump of recovery at a spike"},
-        {"V_peak", &Params::V_peak, "V", -0.03, 0.2, "top of a spike"},
+        {"a", &Params::a, "1/s", 1e-3, 1e5, "rate at which w approaches b v"},
+        {"b", &Params::b, "1/s", -1e5, 1e5, "ratio of w to v in the steady state of w"},
+        {"c", &Params::c, "V", -0.2, 0.02, "potential after a spike"},
+        {"d", &Params::d, "V/s", -1e3, 1e3, "increase of w at a spike"},
+        {"V_peak", &Params::V_peak, "V", -0.03, 0.2, "potential at which a spike is counted"},
         {"gain", &Params::gain, "V/s/A", 0, 1e15, "gain from the receptor's current to dv/dt",
          "choice: firing rates of tens of hertz for currents of microamperes"},
         {"substep", &Params::substep, "s", 1e-8, 1e-3, "longest substep (at most a million substeps per sample)", "choice", true},
@@ -38,7 +39,7 @@ struct IzhikevichTraits {
 template <class T>
 struct Izhikevich : IzhikevichTraits {
     struct State {
-        T v, w;
+        T v, w;  // V; V/s
     };
 
     template <class Values>
@@ -46,7 +47,7 @@ struct Izhikevich : IzhikevichTraits {
         : a(value(&Params::a)), b(value(&Params::b)), c(value(&Params::c)), d(value(&Params::d)), V_peak(value(&Params::V_peak)),
           gain(value(&Params::gain)), dt(dt), count(substep_count(dt, value.uniform(&Params::substep))) {}
 
-    /// The stable resting state, dv/dt = dw/dt = 0; c if there is none.
+    /// The stable resting state without current, at which dv/dt = dw/dt = 0. If there is none, v = c.
     State start() const {
         const T p = T(5e3) - b, discriminant = p * p - T(4 * 4e4 * 140);
         const T v = num::select(discriminant > T(0.0), (-p - num::sqrt(num::positive_part(discriminant))) / T(8e4), c);
@@ -54,7 +55,8 @@ struct Izhikevich : IzhikevichTraits {
     }
     void record(const State& s, T (&out)[2]) const { out[0] = s.v, out[1] = s.w; }
 
-    /// One sample under current i. Calls fired(mask, offset) for each spike. Returns an empty mask: no limit of spikes truncates the step.
+    /// Simulates one step under current i. For each spike calls fired(mask, offset): the lanes that fire, and the offset of the spike
+    /// within the step. Returns an empty mask, because no limit of spikes truncates the step.
     template <class Fired>
     num::Mask<T> step(State& s, Current<T> i, Fired&& fired) const {
         MembraneRecovery<T> y{s.v, s.w};
@@ -71,7 +73,7 @@ struct Izhikevich : IzhikevichTraits {
 private:
     T a, b, c, d, V_peak, gain;
     double dt;
-    int count;
+    int count;  // substeps per step
 };
 
 }  // namespace corpuscle

@@ -9,10 +9,11 @@ namespace corpuscle {
 
 /// LIF-B, the thesis's leaky integrate-and-fire neuron with a constant leak, integrated exactly for a straight-line current:
 ///
-///     C_m du/dt = I - I_leak0 above E_L, u held at E_L when I < I_leak0;   u > V_th  =>  spike, then u = V_reset for t_ref
+///     C_m du/dt = I - I_leak0, but u is never below E_L;   u > V_th  =>  spike, then u = V_reset for t_ref
 ///
-/// (thesis eq. 6, 7, Alg. 4; errata: the algorithm adds to u[n-1], not to u_rest. The thesis writes C, theta, u_rst, u_rest.)
-/// Limitation: if u exceeds V_th within a step and is below it again at the end, no spike is detected.
+/// (thesis eq. 6, 7, Alg. 4, with a correction of its errata: the algorithm adds to u[n-1], not to u_rest. The thesis writes C, theta,
+/// u_rst, u_rest.) Method has no effect. Limitation: if u exceeds V_th within a step and is below it again at the end, no spike is
+/// detected.
 struct LifBTraits {
     struct Params {
         double C_m = 500e-9, I_leak0 = 500e-9, E_L = 0, V_th = 0.5, V_reset = 0.25, t_ref = 0;
@@ -21,7 +22,7 @@ struct LifBTraits {
     static constexpr std::string_view source = "thesis 3.2, eq. 6, 7, Alg. 4";
     static constexpr ParameterDef<Params> fields[] = {
         {"C_m", &Params::C_m, "F", 1e-18, 1, "membrane capacitance (C)", "thesis 3.3"},
-        {"I_leak0", &Params::I_leak0, "A", 0, 1, "leak above E_L; the rheobase", "thesis 3.3"},
+        {"I_leak0", &Params::I_leak0, "A", 0, 1, "leak current above E_L, which is the rheobase", "thesis 3.3"},
         {"E_L", &Params::E_L, "V", -10, 10, "resting potential (u_rest)", "thesis fig. 16"},
         {"V_th", &Params::V_th, "V", -10, 10, "threshold (theta)", "choice: not given in the thesis"},
         {"V_reset", &Params::V_reset, "V", -10, 10, "potential after a spike (u_rst)", "choice: not given in the thesis"},
@@ -34,14 +35,15 @@ struct LifBTraits {
     static constexpr Probe recordables[] = {{"u", "V"}};
 };
 
-/// The membrane is stored as a charge, expressed as the current that delivers it in half a step: q = 2 C_m u / T, in A. A whole step under
+/// The membrane is stored as a charge, expressed as the current that delivers it in half a step: q = 2 C_m u / dt, in A. A whole step under
 /// a straight-line current then adds the sum of the currents at its ends minus twice the leak.
 template <class T>
 struct LifB : LifBTraits {
     struct State {
-        T q, ref_steps;  // charge, in A as above; remaining refractory time, in steps
+        T q, ref_steps;  // charge of the membrane, in A as above; remaining refractory time, in steps
     };
-    static constexpr std::size_t refractory_values = 1;  ///< the last values of State; always 0 if may_be_refractory() is false
+    /// Number of values at the end of State that are always 0 if may_be_refractory() is false.
+    static constexpr std::size_t refractory_values = 1;
 
     template <class Values>
     LifB(const Values& value, double dt, Method)
@@ -52,8 +54,9 @@ struct LifB : LifBTraits {
     State start() const { return {rest, T(0.0)}; }
     void record(const State& s, T (&out)[1]) const { out[0] = s.q / C; }
 
-    /// Computes a step without events: no spike, no current that rises through the leak, no refractory time. The refractory time is tested
-    /// only if `check_refractory` is set. Returns the lanes in which an event is possible.
+    /// Computes `next`, the state after a step in which nothing happens: no spike, no current that rises through the leak, no refractory
+    /// time. Returns the lanes in which one of these events is possible, for which `next` is not valid. `check_refractory`: false if no
+    /// lane can be refractory, so that this needs no test.
     template <bool check_refractory, class I>
     [[gnu::always_inline]] num::Mask<T> try_quiet_step(const State& s, const I& i, State& next) const {
         next = {num::max(rest, s.q + (i.sum() - leak)), s.ref_steps};
@@ -62,10 +65,10 @@ struct LifB : LifBTraits {
         if (check_refractory) events = events | (s.ref_steps > T(0.0));
         return events;
     }
-    bool may_be_refractory() const { return refractory; }
+    bool may_be_refractory() const { return refractory; }  ///< true if t_ref is above 0 on a lane
 
-    /// One sample under current i. Calls fired(mask, offset) for each spike. Returns the lanes where the limit of spikes truncated the
-    /// step.
+    /// Simulates one step under current i. For each spike calls fired(mask, offset): the lanes that fire, and the offset of the spike
+    /// within the step. Returns the lanes that reached the limit of spikes in the step.
     template <class I, class Fired>
     [[gnu::always_inline]] num::Mask<T> step(State& s, const I& i, Fired&& fired) const {
         State next;
@@ -79,22 +82,26 @@ struct LifB : LifBTraits {
     }
 
 private:
-    T C, I_leak0, leak, rest, theta, reset, drop, ref;  // leak: of a whole step; rest, theta, reset: E_L, V_th, V_reset; all in units of q
-    bool refractory;
+    // C = 2 C_m / dt; leak = 2 I_leak0, for a whole step. rest, theta and reset are E_L, V_th and V_reset as charges in A; drop = theta -
+    // reset.
+    T C, I_leak0, leak, rest, theta, reset, drop, ref;  // ref = t_ref / dt
+    bool refractory;                                    // true if t_ref is above 0 on a lane
 
     struct StepResult {
         State end;
-        num::Mask<T> over;
+        num::Mask<T> over;  // the lanes that reached the limit of spikes
     };
 
-    /// A step with all events. After the refractory time and between spikes q(x) = base + rise.at(x), but not below E_L.
+    /// A step with all events. Times within the step are 0 at its beginning and 1 at its end. From time x on, which is the end of the
+    /// refractory time or the last spike, the charge is q(y) = base + rise.at(y) until the next spike. `increment` is rise.at(1).
     template <class Fired>
     [[gnu::noinline, gnu::cold]] StepResult step_with_events(State s, T increment, Current<T> i, Fired& fired) const {
         const Parabola<T> rise{T(2.0) * (i.from - I_leak0), T(2.0) * (i.to - i.from)};
         T x = num::min(s.ref_steps, T(1.0)), base = s.q;
         s.ref_steps = s.ref_steps - x;
+        // s.q is always the charge at the end of the step, as far as spikes have been fired.
         s.q = num::max(rest, base + increment);
-        const num::Mask<T> bends = i.rises_through(I_leak0) | (x > T(0.0));
+        const num::Mask<T> bends = i.rises_through(I_leak0) | (x > T(0.0));  // lanes in which q is held at E_L or V_reset at first
         base = num::select(bends, num::max(base - rise.at(x), rest - rise.min_from(x)), base);
         s.q = num::select(bends, num::max(rest, base + increment), s.q);
         num::Mask<T> over = s.q > theta;

@@ -1,11 +1,12 @@
 #pragma once
-// Helpers of the integrate-and-fire neurons for events within one step. x is 0 at the last sample and 1 at this one.
+// Helpers of the integrate-and-fire neurons for events within one step. x is the time within the step: 0 at its beginning, which is the
+// previous sample, and 1 at its end.
 
 #include "signal/elementary.hpp"
 
 namespace corpuscle {
 
-/// Limit of spikes of one neuron in one step. Steps that it truncates are counted and reported.
+/// The largest number of spikes of one neuron in one step. A step that would have more is truncated; such steps are counted and reported.
 inline constexpr int max_spikes_per_step = 64;
 
 /// A parabola without a constant term: q(x) = a x + b x^2 / 2.
@@ -20,8 +21,8 @@ struct Parabola {
         if (num::any(has_minimum)) minimum = num::select(has_minimum, T(-0.5) * a * a / num::select(has_minimum, b, T(1.0)), minimum);
         return minimum;
     }
-    /// The x at which q rises through c. A discriminant that rounding has made negative is set to zero. Of the two equivalent formulas, the
-    /// one without cancellation is used.
+    /// The x at which q rises through the value c. A discriminant that rounding has made negative is set to zero. Of the two equivalent
+    /// formulas for the root, the one without cancellation is used.
     T rising_crossing(T c) const {
         const T root = num::sqrt(num::positive_part(a * a + T(2.0) * b * c));
         const auto starts_rising = a > T(0.0);
@@ -30,7 +31,7 @@ struct Parabola {
     }
 };
 
-/// The time of a spike within its step: in (0, 1], not before x0.
+/// The offset of a spike within its step: x, limited to (0, 1] and to times not before x0, the earliest possible time.
 template <class T>
 T spike_offset(T x, T x0) {
     return num::min(num::max(x, num::max(x0, T(0x1p-52))), T(1.0));

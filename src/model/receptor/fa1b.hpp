@@ -6,8 +6,9 @@
 
 namespace corpuscle {
 
-/// FA-IB, the thesis's proposal:   I = k_A max{I_0, 0} + k_B max{-I_0, 0},   I_0' + 2 pi f I_0 = F'
-/// (thesis 3.4, Alg. 6; errata: falling force excites too, although the printed sign would suppress it. I_0 is in newtons.)
+/// FA-IB, the thesis's proposal:   I = I_A + I_B,   I_A = k_A max{I_0, 0},   I_B = k_B max{-I_0, 0},   I_0' + 2 pi f I_0 = F'
+/// (thesis 3.4, Alg. 6, with a correction of its errata: falling force excites too, although the printed sign would suppress it. I_0 is the
+/// high-passed force, in newtons.)
 struct Fa1bTraits {
     struct Params {
         double k_A = 3.5e-6, k_B = 2.75e-6, f = 2;
@@ -23,7 +24,8 @@ struct Fa1bTraits {
     /// Exact method: the current at the beginning of a step equals the current at the end of the step before. Backward Euler: it is
     /// constant within a step.
     static constexpr bool continuous = true;
-    static constexpr bool propagates_nan = true;     ///< after a NaN force the state stays NaN, so one check per block is enough
+    /// True: after a NaN force the state stays NaN, so that checking the state once per block is enough.
+    static constexpr bool propagates_nan = true;
     static constexpr bool scales_with_force = true;  ///< twice the force gives twice the current
     static constexpr Probe recordables[] = {{"I_A", "A"}, {"I_B", "A"}};
 };
@@ -31,7 +33,7 @@ struct Fa1bTraits {
 template <class T>
 struct Fa1b : Fa1bTraits {
     struct State {
-        T F, x, I;  // x: high-passed force I_0, N
+        T F, x, I;  // at the last sample: force (N), high-passed force I_0 (N) and current (A)
     };
 
     template <class Values>
@@ -53,7 +55,7 @@ struct Fa1b : Fa1bTraits {
 private:
     T k_A, k_B;
     HighPass<T> filter;
-    bool first_order_hold;
+    bool first_order_hold;  // true: the exact method
 };
 
 }  // namespace corpuscle

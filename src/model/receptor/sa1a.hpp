@@ -6,8 +6,9 @@
 
 namespace corpuscle {
 
-/// SA-IA, Kim et al. 2012:   I = beta + k_s F + k_d |F'|      (thesis eq. 1, Alg. 1; errata: differences divided by T)
-/// The slope of the force is known only as a difference over a step, so the dynamic part is constant within a step.
+/// SA-IA, Kim et al. 2012:   I = beta + I_s + I_d,   I_s = k_s F,   I_d = k_d |F'|
+/// (thesis eq. 1, Alg. 1, with a correction of its errata: differences of the force are divided by the step.) The slope F' is known only as
+/// a difference over a step, so the dynamic part I_d is constant within a step.
 struct Sa1aTraits {
     struct Params {
         double beta = 0, k_s = 1e-6, k_d = 100e-9;
@@ -26,16 +27,17 @@ struct Sa1aTraits {
 template <class T>
 struct Sa1a : Sa1aTraits {
     struct State {
-        T F, I_d;
+        T F, I_d;  // force of the last sample, N; dynamic part in its step, A
     };
 
     template <class Values>
     Sa1a(const Values& value, double dt, Method method)
-        : beta(value(&Params::beta)), k_s(value(&Params::k_s)), k_dT(value(&Params::k_d) / dt), first_order_hold(method == Method::exact) {}
+        : beta(value(&Params::beta)), k_s(value(&Params::k_s)), k_d_by_dt(value(&Params::k_d) / dt),
+          first_order_hold(method == Method::exact) {}
 
     State start(T F) const { return {F, T(0.0)}; }
     void step(State& s, T F, Current<T> (&i)[outputs]) const {
-        s.I_d = k_dT * num::abs(F - s.F);
+        s.I_d = k_d_by_dt * num::abs(F - s.F);
         const T to = beta + k_s * F + s.I_d;
         i[0] = {first_order_hold ? beta + k_s * s.F + s.I_d : to, to};
         s.F = F;
@@ -43,8 +45,8 @@ struct Sa1a : Sa1aTraits {
     void record(const State& s, T (&out)[2]) const { out[0] = k_s * s.F, out[1] = s.I_d; }
 
 private:
-    T beta, k_s, k_dT;
-    bool first_order_hold;
+    T beta, k_s, k_d_by_dt;  // k_d_by_dt: k_d / dt, A/N
+    bool first_order_hold;   // true: the exact method
 };
 
 }  // namespace corpuscle

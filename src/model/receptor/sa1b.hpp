@@ -6,9 +6,10 @@
 
 namespace corpuscle {
 
-/// SA-IB, the thesis's proposal:   I = k_A F + max{I_B, 0} + max{I_C, 0},   I_x' + 2 pi f_x I_x = K_x F'
-/// (thesis eq. 8 to 12, Alg. 5; signs and names of Alg. 5 follow its errata: I_x[n] = k_x2 (K_x dF + I_x[n-1]).)
-/// Between samples the current is approximated by a straight line: the error of a spike time decreases with T^2.
+/// SA-IB, the thesis's proposal:   I = I_A + max{I_B, 0} + max{I_C, 0},   I_A = k_A F,   I_x' + 2 pi f_x I_x = K_x F'   for x = B, C
+/// (thesis eq. 8 to 12, Alg. 5, whose signs and names are corrected as in the errata: I_x[n] = k_x2 (K_x (F[n] - F[n-1]) + I_x[n-1]) with
+/// k_x2 = 1 / (1 + 2 pi f_x dt).)
+/// Between samples the current is approximated by a straight line: the error of a spike time decreases with dt^2.
 struct Sa1bTraits {
     struct Params {
         double k_A = 1e-6, K_B = 8e-6, f_B = 20, K_C = 2e-6, f_C = 2;
@@ -18,17 +19,18 @@ struct Sa1bTraits {
     static constexpr ParameterDef<Params> fields[] = {
         {"k_A", &Params::k_A, "A/N", 0, 1, "gain of the static part I_A"},
         {"K_B", &Params::K_B, "A/N", 0, 1, "gain of the fast part I_B, active in protraction",
-         "thesis 3.3, printed 8 A/A; applied to the force"},
+         "thesis 3.3, which prints 8 A/A; here the gain from force to current"},
         {"f_B", &Params::f_B, "Hz", 1e-6, 1e6, "cutoff frequency of the fast part"},
         {"K_C", &Params::K_C, "A/N", 0, 1, "gain of the slow part I_C, which decays during the plateau",
-         "thesis 3.3, printed 2 A/A; applied to the force"},
+         "thesis 3.3, which prints 2 A/A; here the gain from force to current"},
         {"f_C", &Params::f_C, "Hz", 1e-6, 1e6, "cutoff frequency of the slow part"},
     };
     static constexpr int outputs = 1;
     /// Exact method: the current at the beginning of a step equals the current at the end of the step before. Backward Euler: it is
     /// constant within a step.
     static constexpr bool continuous = true;
-    static constexpr bool propagates_nan = true;     ///< after a NaN force the state stays NaN, so one check per block is enough
+    /// True: after a NaN force the state stays NaN, so that checking the state once per block is enough.
+    static constexpr bool propagates_nan = true;
     static constexpr bool scales_with_force = true;  ///< twice the force gives twice the current
     static constexpr Probe recordables[] = {{"I_A", "A"}, {"I_B", "A"}, {"I_C", "A"}};
 };
@@ -36,7 +38,7 @@ struct Sa1bTraits {
 template <class T>
 struct Sa1b : Sa1bTraits {
     struct State {
-        T F, I_B, I_C, I;
+        T F, I_B, I_C, I;  // at the last sample: force (N), currents before rectification (A) and total current (A)
     };
 
     template <class Values>
@@ -60,8 +62,8 @@ struct Sa1b : Sa1bTraits {
 
 private:
     T k_A;
-    HighPass<T> B, C;
-    bool first_order_hold;
+    HighPass<T> B, C;       // from force to I_B and I_C
+    bool first_order_hold;  // true: the exact method
 };
 
 }  // namespace corpuscle

@@ -12,8 +12,9 @@ namespace corpuscle {
 ///
 ///     code = floor((y - y_low) / D + 1/2) within [0, 2^bits - 1],   D = (y_high - y_low) / (2^bits - 1)
 ///
-/// y is the value measured by the front end. y_low and y_high are its values at F_low and F_high, so the range is given in newtons for
-/// every transducer. The converter is ideal: no noise, no aperture, no settling. All default values are our choice.
+/// y is the output of sensor and transducer, D the step of y between two codes. y_low and y_high are the outputs at the forces F_low and
+/// F_high, so the range of the converter is given in newtons for every transducer. The converter is ideal: no noise, no aperture, no
+/// settling. All default values are our choice.
 struct Adc {
     struct Params {
         double bits = 12, f_s = 1e3, F_low = 0, F_high = 5, shared = 0, linearise = 1, word = 32, frac = 20;
@@ -23,7 +24,7 @@ struct Adc {
     static constexpr std::string_view source = "thesis 1.3, fig. 6a; all values are a choice";
     static constexpr ParameterDef<Params> fields[] = {
         {"bits", &Params::bits, "", 1, 16, "bits of a code", {}, true},
-        {"f_s", &Params::f_s, "Hz", 0.1, 1e6, "conversions per second, and steps of the algorithms", {}, true},
+        {"f_s", &Params::f_s, "Hz", 0.1, 1e6, "conversions per second; each is one step of the algorithms", {}, true},
         {"F_low", &Params::F_low, "N", -1e6, 1e6, "force of the lowest code"},
         {"F_high", &Params::F_high, "N", -1e6, 1e6, "force of the highest code"},
         {"shared",
@@ -31,10 +32,17 @@ struct Adc {
          "",
          0,
          1,
-         "1: one converter samples all channels in turn, channel c of N delayed by c/(N f_s). 0: one converter per channel",
+         "1: one converter samples all channels in turn, channel c (from 0) of N delayed by c/(N f_s). 0: one converter per channel",
          {},
          true},
-        {"linearise", &Params::linearise, "", 0, 1, "1: a table inverts the curve of sensor and transducer. 0: a straight line", {}, true},
+        {"linearise",
+         &Params::linearise,
+         "",
+         0,
+         1,
+         "1: a table from code to force inverts the curve of sensor and transducer. 0: the calibration's straight line",
+         {},
+         true},
         {"word", &Params::word, "", 8, 32, "bits of a word in the algorithms", {}, true},
         {"frac", &Params::frac, "", 0, 31, "fraction bits of a word: steps of 2^-frac N, uA, V", {}, true},
     };
@@ -42,19 +50,20 @@ struct Adc {
         {"F_low", &Params::F_low, "F_high", &Params::F_high},
         {"frac", &Params::frac, "word", &Params::word},
     };
+    /// Parameters that must be integers.
     static constexpr double Params::* integers[] = {&Params::bits, &Params::shared, &Params::linearise, &Params::word, &Params::frac};
 };
 
-/// Converts measured values to codes, and codes back to force.
+/// Converts force to codes by the front end and the converter, and codes back to force.
 class Converter {
     FrontEnd front_end_;
     Adc::Params p_;
-    double low_, high_, max_code_;
+    double low_, high_, max_code_;  // low_, high_: y_low and y_high above
 
 public:
     struct QuantizedCode {
         std::int64_t code = 0;
-        bool saturated = false;
+        bool saturated = false;  ///< true if the transducer is at its limit, or the code would be outside its range
     };
 
     Converter(FrontEnd front, const Adc::Params& p)
@@ -64,16 +73,17 @@ public:
     const FrontEnd& front_end() const { return front_end_; }
     std::int64_t max_code() const { return static_cast<std::int64_t>(max_code_); }
 
+    /// The code of a force after the sensor's hysteresis, N.
     QuantizedCode convert(double sensed) const {
         const auto reading = front_end_.read(sensed);
-        const double level = std::floor((reading.value - low_) / (high_ - low_) * max_code_ + 0.5);
-        if (level < 0) return {0, true};
-        if (level > max_code_) return {max_code(), true};
-        return {static_cast<std::int64_t>(level), reading.saturated};
+        const double unlimited = std::floor((reading.value - low_) / (high_ - low_) * max_code_ + 0.5);
+        if (unlimited < 0) return {0, true};
+        if (unlimited > max_code_) return {max_code(), true};
+        return {static_cast<std::int64_t>(unlimited), reading.saturated};
     }
 
-    /// The force that a code represents, N: from the inverse of the curve if `linearise` is 1, otherwise from the calibration's straight
-    /// line.
+    /// The force that a code represents, N. If `linearise` is 1, it is found by inverting the curve of sensor and transducer, otherwise by
+    /// the calibration's straight line.
     double force(std::int64_t code) const {
         const double fraction = static_cast<double>(code) / max_code_;
         if (p_.linearise == 0) return front_end_.calibrated_force(low_ + fraction * (high_ - low_));

@@ -5,10 +5,10 @@
 
 namespace corpuscle {
 
-/// Force to voltage: a transimpedance amplifier that keeps V_FSR across the sensor.
+/// Force to voltage: a transimpedance amplifier that keeps V_FSR across the sensor, of conductance G_FSR.
 ///     V_Z = V_X + V_FSR G_FSR R_fb, but at most V_DD;   V_X = V_Y = V_SS + V_FSR
-/// (thesis eq. 14; its last line omits the sensor's 1/R_0, errata F5.) V_X is at the sensor, V_Y is the reference that it follows. The
-/// amplifier is ideal except for its supply.
+/// V_Z is the output, V_X the voltage at the sensor, V_Y the reference that V_X follows. (Thesis eq. 14, the last line of which omits the
+/// conductance of the unloaded sensor, 1/R_0; see errata F5. It is part of G_FSR here.) The amplifier is ideal except for its supply.
 struct F2v {
     struct Params {
         double V_FSR = 0.1, R_fb = 10e3, V_SS = 0, V_DD = 0.7;
@@ -17,7 +17,7 @@ struct F2v {
     static constexpr std::string_view source = "thesis 4.2, fig. 20, eq. 14";
     static constexpr ParameterDef<Params> fields[] = {
         {"V_FSR", &Params::V_FSR, "V", 1e-6, 100, "voltage across the sensor (V_Y - V_SS)", "inferred from the gain of thesis fig. 24b"},
-        {"R_fb", &Params::R_fb, "ohm", 1e-3, 1e12, "feedback resistor (R_F)", "choice: 0.55 V at 4 N"},
+        {"R_fb", &Params::R_fb, "ohm", 1e-3, 1e12, "feedback resistor (R_F in the thesis)", "choice: 0.55 V at 4 N"},
         {"V_SS", &Params::V_SS, "V", -100, 100, "lower supply", "thesis 4.2"},
         {"V_DD", &Params::V_DD, "V", -100, 100, "upper supply, where V_Z saturates", "thesis 4.2"},
     };

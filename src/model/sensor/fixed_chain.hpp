@@ -1,5 +1,6 @@
 #pragma once
-// A receptor and its neurons in fixed-point words, stepped together. The state and the recorded outputs are arrays of words.
+// A receptor and its neurons in fixed-point words: the algorithms behind an analog-to-digital converter. The state and the recordable
+// values are arrays of words.
 
 #include <array>
 #include <cstring>
@@ -11,24 +12,26 @@
 
 namespace corpuscle {
 
+/// A chain whose types of receptor and neuron are known only to FixedModelChain.
 class FixedChain {
 public:
-    /// Result of one step: a spike bit for each neuron, and the number of neurons that reached the spike limit.
+    /// Result of one step.
     struct StepResult {
-        std::array<bool, 2> fired = {};
-        int truncated_neurons = 0;
+        std::array<bool, 2> fired = {};  ///< for each neuron, of which there are at most two: true if it fired
+        int truncated_neurons = 0;       ///< number of neurons that are above their threshold after their one spike
     };
-    static constexpr std::size_t max_words = 12, max_recordables = 6;
+    static constexpr std::size_t max_words = 12, max_recordables = 6;  ///< enough for the state and the recordables of every pair of models
 
     FixedChain(Constants constants) : constants_(std::move(constants)) {}
     virtual ~FixedChain() = default;
     const Constants& constants() const { return constants_; }
-    /// The words recorded after a step, each with name and unit: "I" or "I_+", "I_-", then the recordables of each neuron.
+    /// Name and unit of each word that is recorded after a step: "I" or "I_+", "I_-", then the recordables of each neuron.
     const std::vector<std::pair<std::string, std::string_view>>& recordables() const { return recordables_; }
-    virtual int outputs() const = 0;
-    virtual std::size_t words() const = 0;
-    /// The state before the first step. The force before this step is assumed to be the same, F.
+    virtual int outputs() const = 0;        ///< number of currents, each into a neuron of its own
+    virtual std::size_t words() const = 0;  ///< number of words of the state
+    /// Sets the state before the first step. F is the force of the first step; the force before it is assumed to be the same.
     virtual void start(Word F, std::span<Word> state) const = 0;
+    /// One step with force F. Writes the recordable words to `shown`.
     virtual StepResult step(std::span<Word> state, Word F, std::span<Word> shown, Arithmetic&) const = 0;
 
 protected:
@@ -52,7 +55,7 @@ class FixedModelChain final : public FixedChain {
 
 public:
     FixedModelChain(const typename R::Traits::Params& r, const typename N::Traits::Params& n, double f_s, WordFormat format)
-        : FixedChain(format), receptor_(r, f_s, constants_), neuron_(n, f_s, constants_) {
+        : FixedChain(Constants(format)), receptor_(r, f_s, constants_), neuron_(n, f_s, constants_) {
         const auto sign = [](int k) -> std::string {
             if constexpr (requires { R::Traits::signs; }) return "_" + std::string(R::Traits::signs[k]);
             return k == 0 ? "" : std::to_string(k);

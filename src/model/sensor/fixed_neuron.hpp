@@ -1,7 +1,7 @@
 #pragma once
 // The thesis's neurons, Algorithms 3 and 4 as corrected, and the adaptive neuron, in fixed-point words: currents in uA, membrane potentials
-// in V. At most one spike per step, as in the algorithms. A neuron that is still above its threshold afterwards is reported as truncated.
-// doc/fixed-point.md lists the algorithms line by line.
+// in V. At most one spike per step, as in the algorithms. If a neuron is still above its threshold after the reset, its step is reported as
+// truncated. doc/fixed-point.md lists the algorithms line by line.
 
 #include "model/neuron/adaptive.hpp"
 #include "model/neuron/lif_a.hpp"
@@ -10,14 +10,15 @@
 
 namespace corpuscle {
 
-/// Result of a neuron's step.
+/// Result of one step of a neuron: whether it fired, and whether it is above its threshold after the reset.
 struct NeuronStep {
     bool spike = false, truncated = false;
 };
 
-/// Common to the three neurons: the reset at a spike, and the refractory steps at V_reset after it.
+/// Common to the three neurons: the reset at a spike, and the refractory steps at V_reset after it. `wait` is the neuron's number of
+/// remaining refractory steps, `theta` its threshold.
 struct FixedReset {
-    Word V_reset, ref;  // ref: t_ref in steps
+    Word V_reset, ref;  // ref: refractory time t_ref, in steps
 
     template <class P>
     FixedReset(const P& p, double f_s, Constants& c) : V_reset(c.level("V_reset", p.V_reset)), ref(c.count("ref", p.t_ref * f_s)) {}
@@ -28,6 +29,7 @@ struct FixedReset {
         --wait;
         return true;
     }
+    /// Resets a neuron that fires: to V_reset if there is a refractory time, otherwise by theta - V_reset.
     NeuronStep fire(Word& u, Word& wait, Word theta, Arithmetic& a) const {
         u = ref > 0 ? V_reset : a.saturate(u - theta + V_reset);
         wait = ref;
@@ -44,8 +46,8 @@ struct FixedLifA {
     };
     Word V_th;
     FixedReset reset;
-    double inertia;  // RC/T
-    Factor k_a, k_b;
+    double inertia;   // R_m C_m / T, where T = 1/f_s is the step
+    Factor k_a, k_b;  // u[n] = k_a I[n] + k_b u[n-1] + k_c: backward Euler
     Word k_c, E_L;
 
     FixedLifA(const Traits::Params& p, double f_s, Constants& c)
@@ -71,7 +73,7 @@ struct FixedLifB {
     };
     Word V_th;
     FixedReset reset;
-    Factor k;
+    Factor k;  // k_m = T / C_m, V per uA
     Word I_leak0, E_L;
 
     FixedLifB(const Traits::Params& p, double f_s, Constants& c)
@@ -89,7 +91,7 @@ struct FixedLifB {
     }
 };
 
-/// The neuron with an adaptive threshold.
+/// The neuron with an adaptive threshold V_th + a.
 struct FixedAdaptive {
     using Traits = AdaptiveTraits;
     static constexpr Probe recordables[] = {{"u", "V"}, {"a", "V"}};
@@ -98,7 +100,7 @@ struct FixedAdaptive {
     };
     Word V_th;
     FixedReset reset;
-    Factor k, k_th;
+    Factor k, k_th;  // k_m = T / C_m, V per uA; decay factor of a in one step
     Word dV_th, E_L;
 
     FixedAdaptive(const Traits::Params& p, double f_s, Constants& c)

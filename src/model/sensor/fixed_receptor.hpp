@@ -1,6 +1,6 @@
 #pragma once
-// The thesis's receptors, Algorithms 1, 2, 5 and 6 as corrected, in fixed-point words: force in N, currents in uA. One step per conversion.
-// doc/fixed-point.md lists the algorithms line by line.
+// The thesis's receptors, Algorithms 1, 2, 5 and 6 as corrected, in fixed-point words: force in N, currents in uA. One step per conversion,
+// f_s steps per second. F in a state is the force of the previous step. doc/fixed-point.md lists the algorithms line by line.
 
 #include "model/receptor/fa1a.hpp"
 #include "model/receptor/fa1b.hpp"
@@ -17,7 +17,7 @@ struct FixedSa1a {
         Word F;
     };
     Word beta;
-    Factor k_s, k_d;
+    Factor k_s, k_d;  // uA/N; k_d is Params::k_d f_s
 
     FixedSa1a(const Traits::Params& p, double f_s, Constants& c)
         : beta(c.level("beta", p.beta * uA_per_A)), k_s(c.factor("k_s", p.k_s * uA_per_A)), k_d(c.factor("k_d", p.k_d * uA_per_A * f_s)) {}
@@ -35,7 +35,7 @@ struct FixedFa1a {
     struct State {
         Word F;
     };
-    Factor k;
+    Factor k;  // uA/N: Params::k f_s
 
     FixedFa1a(const Traits::Params& p, double f_s, Constants& c) : k(c.factor("k", p.k * uA_per_A * f_s)) {}
 
@@ -47,7 +47,7 @@ struct FixedFa1a {
     }
 };
 
-/// The decay factor of a high-pass in a step of backward Euler.
+/// The decay factor of a high-pass with cutoff frequency f in one step of backward Euler; f and f_s in Hz.
 inline double high_pass_decay(double f, double f_s) { return 1 / (1 + 6.283185307179586 * f / f_s); }
 
 /// Alg. 5, SA-IB.
@@ -56,7 +56,7 @@ struct FixedSa1b {
     struct State {
         Word F, I_B, I_C;
     };
-    Factor k_A, k_B1, k_B2, k_C1, k_C2;
+    Factor k_A, k_B1, k_B2, k_C1, k_C2;  // k_B2, k_C2: decay factors; k_B1 = K_B k_B2 and k_C1 = K_C k_C2, uA/N
 
     FixedSa1b(const Traits::Params& p, double f_s, Constants& c)
         : k_A(c.factor("k_A", p.k_A * uA_per_A)), k_B1(c.factor("k_B1", p.K_B * uA_per_A * high_pass_decay(p.f_B, f_s))),
@@ -76,9 +76,9 @@ struct FixedSa1b {
 struct FixedFa1b {
     using Traits = Fa1bTraits;
     struct State {
-        Word F, I_0;  // both N
+        Word F, I_0;  // I_0: high-passed force; both in N
     };
-    Factor k, k_A, k_B;
+    Factor k, k_A, k_B;  // k: decay factor; k_A, k_B: uA/N
 
     FixedFa1b(const Traits::Params& p, double f_s, Constants& c)
         : k(c.factor("k", high_pass_decay(p.f, f_s))), k_A(c.factor("k_A", p.k_A * uA_per_A)), k_B(c.factor("k_B", p.k_B * uA_per_A)) {}

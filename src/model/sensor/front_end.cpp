@@ -15,18 +15,18 @@ double FrontEnd::apply_hysteresis(double last, double F) const {
     return F > 0 ? std::min(std::max(last, F), (1 + h) * F) : F;
 }
 
-FrontEnd::SensorReading FrontEnd::read(double sensed, double* shown) const {
+FrontEnd::SensorReading FrontEnd::read(double sensed, double* stage_outputs) const {
     SensorReading r{sensed};
     for (const auto& stage : stages_) {
         r.value = stage.curve(r.value);
         if (r.value > stage.limit) r.value = stage.limit, r.saturated = true;
-        if (shown) *shown++ = r.value;
+        if (stage_outputs) *stage_outputs++ = r.value;
     }
     return r;
 }
 
 double FrontEnd::inverse(double value, double low, double high) const {
-    for (int halving = 0; halving < 64; ++halving) {  // a fixed number gives the same bits on every machine
+    for (int halving = 0; halving < 64; ++halving) {  // the number of halvings is fixed, so that the result is the same on every machine
         const double middle = 0.5 * (low + high);
         (read(middle).value < value ? low : high) = middle;
     }

@@ -28,10 +28,10 @@ State FrontEndAfferent::start(ChannelSlot slot) const {
     return state;
 }
 
-/// The force that the front end reads, after calibration. Also records the probes of the front end.
+/// The calibrated readings of the front end for a block of force, N. Also records the probes of the front end.
 std::vector<double> FrontEndAfferent::calibrated_block(std::span<const double> force, State& state, ResponseBlock& response) const {
     double& last = state.values[0];
-    if (state.step == 0) last = force[0];
+    if (state.step == 0) last = force[0];  // the force before the first sample is assumed to be the same
     std::vector<double> out, stage_outputs(front_end_.stages().size());
     out.reserve(force.size());
     for (const double F : force) {

@@ -1,5 +1,6 @@
 #pragma once
-// An afferent behind a sensor. Its input is not the force, but the calibrated reading of the sensor. Any afferent can be used, unchanged.
+// An afferent behind a front end without a converter. The input of the inner afferent, which can be any, is not the force but the
+// calibrated reading of the sensor, in newtons.
 
 #include <memory>
 
@@ -11,8 +12,8 @@ class FrontEndAfferent final : public Afferent {
     FrontEnd front_end_;
     std::unique_ptr<Afferent> inner_;
     std::string name_, inner_format_, format_;
-    std::vector<Probe> probes_;  // those of the front end, the calibrated force, those of the inner afferent
-    std::size_t inner_values_;
+    std::vector<Probe> probes_;  // outputs of the front end's stages, the calibrated force, probes of the inner afferent
+    std::size_t inner_values_;   // number of state values of the inner afferent
 
     std::vector<double> calibrated_block(std::span<const double> force, State&, ResponseBlock&) const;
 

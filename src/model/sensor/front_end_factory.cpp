@@ -6,6 +6,7 @@ namespace {
 using FixedReceptors = ComponentList<FixedSa1a, FixedSa1b, FixedFa1a, FixedFa1b>;
 using FixedNeurons = ComponentList<FixedLifA, FixedLifB, FixedAdaptive>;
 
+/// Calls f with the fixed-point version of the model with this name; does nothing if there is none.
 template <class List, class F>
 void with_fixed(List list, std::string_view name, const F& f) {
     for_each_type(list, [&]<class M>(ComponentTag<M> m) {
@@ -33,7 +34,7 @@ FrontEnd make_front_end(const AfferentPlan& plan) {
         };
     };
     for_each_type(Sensors{}, add(plan.sensor)), for_each_type(Transducers{}, add(plan.transducer));
-    return FrontEnd(std::move(stages), plan.value("F_cal").value_or(1));
+    return FrontEnd(std::move(stages), plan.value("F_cal").value_or(1));  // without a sensor there is no F_cal, and it is not used
 }
 
 Result<std::unique_ptr<const FixedChain>> make_fixed_chain(const AfferentPlan& plan) {
@@ -52,7 +53,7 @@ Result<std::unique_ptr<const FixedChain>> make_fixed_chain(const AfferentPlan& p
         return bad_input(fmt::format("{}: {}+{} has no fixed-point version; adc can be followed by {} with {}", plan.name, plan.receptor,
                                      plan.neuron, names_in(FixedReceptors{}), names_in(FixedNeurons{})));
     const Converter converter(make_front_end(plan), adc);
-    Constants constants = chain->constants();  // the forces of the lowest and the highest code must fit a word, too
+    Constants constants = chain->constants();  // a copy, to check that the forces of the lowest and the highest code fit a word, too
     for (const auto code : {std::int64_t{0}, converter.max_code()}) (void)constants.level("the force of a code", converter.force(code));
     if (const auto& misfit = constants.error()) return bad_input(plan.name + ": " + misfit->message);
     return chain;
@@ -60,6 +61,7 @@ Result<std::unique_ptr<const FixedChain>> make_fixed_chain(const AfferentPlan& p
 
 std::unique_ptr<DigitalAfferent> make_digital(const AfferentPlan& plan, const SimulationOptions& run) {
     const auto adc = adc_of(plan);
+    // make_fixed_chain() cannot fail here, because check_plan() has called it.
     return std::make_unique<DigitalAfferent>(plan.composition(), Converter(make_front_end(plan), adc), std::move(*make_fixed_chain(plan)),
                                              adc.f_s, adc.shared != 0, run.dt);
 }

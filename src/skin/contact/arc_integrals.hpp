@@ -1,11 +1,12 @@
 #pragma once
-// Integrals of a circular arc. They do not use the C library, so the results have the same bits on every machine.
+// Integrals over a circular arc, for pressure distributions. They do not use the C library's mathematics, so the results have the same bits
+// on every machine.
 
 #include "signal/number.hpp"
 
 namespace corpuscle {
 
-/// arcsin u for |u| <= 1/2, with z = u^2; error below 1e-9. Taylor series, evaluated in three independent parts.
+/// arcsin u for |u| <= 1/2, where z must be u^2; error below 1e-9. It is the Taylor series, evaluated in three independent parts.
 inline double small_arcsine(double u, double z) {
     const double z2 = z * z, z4 = z2 * z2;
     const double low = (1 + z * (1.0 / 6)) + z2 * (3.0 / 40 + z * (15.0 / 336));
@@ -14,7 +15,7 @@ inline double small_arcsine(double u, double z) {
     return u * (low + z4 * (middle + z4 * high));
 }
 
-/// arcsin u; outside [-1, 1] the value at the nearer end.
+/// arcsin u; for u outside [-1, 1] the value at -1 or 1.
 inline double arcsine(double u) {
     constexpr double half_pi = 1.5707963267948966;
     const double magnitude = num::abs(u);
@@ -24,7 +25,7 @@ inline double arcsine(double u) {
     return u > 0 ? angle : -angle;
 }
 
-/// Twice the area below the half circle sqrt(1 - u^2) from 0 to u.
+/// Twice the area below the half circle sqrt(1 - t^2) between t = 0 and t = u, for |u| <= 1; negative for u < 0.
 inline double arc_area(double u) {
     const double square = 1 - u * u;
     return arcsine(u) + (square > 0 ? u * num::sqrt(square) : 0);

@@ -12,7 +12,7 @@
 namespace corpuscle {
 namespace {
 
-/// The fraction of the force on one site.
+/// A site, and the fraction of the force on the indenter that it receives.
 struct SiteFraction {
     std::uint32_t site;
     double fraction;
@@ -24,30 +24,31 @@ class IndenterContact final : public Contact {
     const Indenter& indenter_;
     ContactParams p_;
     Clock clock_;
-    const std::size_t sites_;
+    const std::size_t sites_;  // number of sites
     SkinCells cells_;
     ContactPath path_;
     std::unique_ptr<PressureDistribution> pressure_;
 
-    // The contact of the last sample. It is reused while size and position do not change.
+    // The contact at the last sample: position, size, shift of the pattern, and the fractions of the force that follow from them. The
+    // fractions are reused while the others do not change.
     Position last_;
-    double last_size_ = -1, last_shift_ = 0;
+    double last_size_ = -1, last_shift_ = 0;  // m; size -1: none yet
     std::vector<SiteFraction> fractions_;
-    double on_skin_ = 0;  // fraction of the force
-    std::vector<double> column_;
+    double on_skin_ = 0;          // sum of the fractions: the fraction of the force that is on the skin
+    std::vector<double> column_;  // scratch array of distribute()
 
-    // Data of the current block.
+    // The result of press() for the current block: members of SiteForce.
     std::size_t stride_ = 0;
     std::vector<double> force_;
-    std::vector<char> in_block_;
     std::vector<std::uint32_t> touched_;
+    std::vector<char> in_block_;  // for each site: 1 if it is in touched_
 
-    // Data for the notes.
-    double pressed_ = 0, off_skin_ = 0;  // total force, and force off the skin; N, summed over samples
-    double max_size_ = 0;                // m
+    // Data for the notes, of all samples so far.
+    double pressed_ = 0, off_skin_ = 0;  // force on the indenter, and the part of it off the skin; N, summed over samples
+    double max_size_ = 0;                // largest size of the contact, m
     std::int64_t negative_samples_ = 0;
 
-    /// Distributes the force of a contact, given its position and size, over the sites.
+    /// Computes the fraction of the force on each site, for the position and size of the contact and the shift of a pattern under it (m).
     void distribute(const Position& at, double size, double shift) {
         if (size == last_size_ && shift == last_shift_ && at.x == last_.x && at.y == last_.y) return;
         last_ = at, last_size_ = size, last_shift_ = shift;
@@ -70,6 +71,7 @@ class IndenterContact final : public Contact {
         for (auto& s : fractions_) s.fraction /= all;
     }
 
+    /// Adds a site to those touched in the block, which has `steps` steps, with zero force.
     void touch(std::uint32_t site, std::size_t steps) {
         if (in_block_[site]) return;
         in_block_[site] = 1;
@@ -87,6 +89,7 @@ class IndenterContact final : public Contact {
                                      format_quantity(2 * half.height, "m"), format_quantity(cells_.side(), "m")));
     }
 
+    /// Distributes the force of sample k of the block, which has `steps` samples. `sample` is its number on the clock.
     Result<void> press_once(double force, std::int64_t sample, std::size_t k, std::size_t steps) {
         if (!(force > 0)) {
             negative_samples_ += force < 0;

@@ -1,5 +1,5 @@
 #pragma once
-// Touch by an indenter, without a sensor. The indenter rests or moves on the skin; the force on it is distributed over the sites.
+// Touch of a skin by an indenter. The indenter rests or moves on the skin; the force with which it presses is distributed over the sites.
 
 #include <optional>
 #include <string_view>
@@ -9,32 +9,34 @@
 
 namespace corpuscle {
 
-/// A contact: its indenter, the parameters of the indenter (settings "contact.radius" ...), and its path.
+/// An indenter with its parameters (settings "contact.radius" ...) and its path over the skin.
 class Contact {
 public:
     virtual ~Contact() = default;
     virtual std::string description() const = 0;              ///< "a sphere of 5 mm pressed at (12, 160) mm"
-    virtual std::vector<MetadataEntry> metadata() const = 0;  ///< the parameters that it uses, with their values
-    virtual std::vector<std::string> notes() const = 0;       ///< limitations of the model, and how much of the force was off the skin
-    /// Force at the sites for `force.size()` samples of normal force (N); the first has number `first`. Valid until the next call. The sum
-    /// over all sites is the force, except for the part off the skin.
+    virtual std::vector<MetadataEntry> metadata() const = 0;  ///< the parameters that this contact uses, with their values
+    virtual std::vector<std::string> notes() const = 0;  ///< limitations of the model, and which part of the force so far was off the skin
+    /// The force at the sites for a block of normal force on the indenter (N). The first sample of the block has number `first` on the
+    /// clock. In the result, the sum over all sites is the force on the indenter, except for the part off the skin. It is valid until the
+    /// next call.
     virtual Result<SiteForce> press(std::span<const double> force, std::int64_t first) = 0;
 };
 
-/// "flat", "sphere", "edge" or "grating" on this skin, for samples of this clock. Overrides set "contact.PARAMETER".
+/// A contact of an indenter ("flat", "sphere", "edge" or "grating") with these sites, for samples of this clock. Its parameters are set by
+/// the overrides with target "contact". The sites must outlive the contact.
 Result<std::unique_ptr<Contact>> make_contact(std::string_view indenter, std::span<const ParameterOverride> overrides, const Sites&,
                                               const Clock&);
 
 /// The parameters of all contacts, for listings.
 std::vector<ParameterInfo> contact_parameters();
 
-/// Named touches, which can be requested instead of a force: "stroke" (from the palm to the tip of the index finger), "scan" (a grating
-/// over the fingertip). A touch consists of a force, an indenter and a path.
+/// A touch with a name, which can be requested instead of a force: a stimulus, an indenter and a path.
 struct NamedTouch {
-    std::string_view name, force, indenter, description;
-    std::vector<Setting> settings;             ///< of the contact, where they differ from the defaults
-    std::vector<Setting> force_settings = {};  ///< of the force
+    std::string_view name, force, indenter, description;  ///< force: the name of the stimulus
+    std::vector<Setting> settings;                        ///< the contact's parameters that differ from the defaults
+    std::vector<Setting> force_settings = {};             ///< the stimulus's parameters that differ from the defaults
 };
+/// "stroke" (from the palm to the tip of the index finger) and "scan" (a grating over the fingertip).
 std::span<const NamedTouch> named_touches();
 
 }  // namespace corpuscle

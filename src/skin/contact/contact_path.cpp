@@ -6,14 +6,15 @@
 namespace corpuscle {
 
 ContactPath::ContactPath(const ContactParams& p)
-    : from_{p.x, p.y, 0}, to_{p.x1, p.y1, 0}, start_(p.t_start), length_(p.t_move), speed_(p.speed),
+    : from_{p.x, p.y, 0}, to_{p.x1, p.y1, 0}, start_(p.t_start), duration_(p.t_move), speed_(p.speed),
       pattern_moves_(!is_moving(p) && p.speed > 0) {
     const double dx = p.x1 - p.x, dy = p.y1 - p.y;
-    if (is_moving(p) && p.speed > 0) length_ = num::sqrt(dx * dx + dy * dy) / p.speed;
+    if (is_moving(p) && p.speed > 0) duration_ = num::sqrt(dx * dx + dy * dy) / p.speed;
 }
 
 Position ContactPath::at(double t) const {
-    const double fraction = length_ > 0 ? ramp_fraction(t, start_, length_) : 0;
+    // Fraction of the way from the start to the end.
+    const double fraction = duration_ > 0 ? ramp_fraction(t, start_, duration_) : 0;
     return {from_.x + (to_.x - from_.x) * fraction, from_.y + (to_.y - from_.y) * fraction, 0};
 }
 

@@ -22,11 +22,11 @@ Position centre_of_first_region(const Sites& sites) {
     double n = 0;
     for (std::size_t s = 0; s < sites.size(); ++s)
         if (sites.region[s] == 0) sum.x += sites.positions[s].x, sum.y += sites.positions[s].y, n += 1;
-    const auto rounded = [](double m) { return std::round(m * 1e6) / 1e6 + 0.0; };  // + 0.0: avoids -0
+    const auto rounded = [](double m) { return std::round(m * 1e6) / 1e6 + 0.0; };  // + 0.0 turns -0 into 0
     return n > 0 ? Position{rounded(sum.x / n), rounded(sum.y / n), 0} : sites.positions[0];
 }
 
-/// Checks combinations of parameters.
+/// Checks the parameters that depend on one another.
 Result<void> check_contact(const Indenter& i, const ContactParams& p) {
     if (i.name == "grating" && p.ridge > p.period)
         return bad_input(fmt::format("contact: ridge = {:g} m must not be wider than period = {:g} m", p.ridge, p.period));

@@ -8,7 +8,7 @@
 
 namespace corpuscle {
 
-/// Parameters of a contact, SI; lengths in the plane of the skin.
+/// Parameters of a contact, in SI units; the meanings are in contact_fields. Positions are in the plane of the skin.
 struct ContactParams {
     double radius = 5e-3, edge_radius = 0.5e-3, length = 10e-3, period = 2e-3, ridge = 1e-3, angle = 0, E_star = 100e3;
     double x = 0, y = 0, x1 = 0, y1 = 0, t_start = 0, t_move = 0, speed = 0;
@@ -25,20 +25,23 @@ inline constexpr ParameterDef<ContactParams> contact_fields[] = {
      "choice"},
     {"E_star", &ContactParams::E_star, "Pa", 1e2, 1e9, "reduced modulus E/(1 - nu^2) of the skin under a rigid indenter",
      "choice: the order of magnitude for fingertips, from memory"},
-    {"x", &ContactParams::x, "m", -10, 10, "position; without x and y it is the middle of the skin's first region"},
-    {"y", &ContactParams::y, "m", -10, 10, "position"},
-    {"x1", &ContactParams::x1, "m", -10, 10, "end of the movement; default: x"},
-    {"y1", &ContactParams::y1, "m", -10, 10, "end of the movement; default: y"},
+    {"x", &ContactParams::x, "m", -10, 10,
+     "position along x; if neither x nor y is given, the position is the middle of the skin's first region"},
+    {"y", &ContactParams::y, "m", -10, 10, "position along y"},
+    {"x1", &ContactParams::x1, "m", -10, 10, "position along x at the end of the movement; default: x"},
+    {"y1", &ContactParams::y1, "m", -10, 10, "position along y at the end of the movement; default: y"},
     {"t_start", &ContactParams::t_start, "s", 0, 1e6, "start of the movement"},
     {"t_move", &ContactParams::t_move, "s", 0, 1e6, "duration of the movement to x1, y1; alternatively give speed"},
     {"speed", &ContactParams::speed, "m/s", 0, 100,
      "speed of the movement to x1, y1; without x1 and y1, speed of a grating under its patch"},
 };
 
-/// One kind of indenter.
+/// One kind of indenter. In the formulas of the descriptions, p is the pressure and F the force. r is the distance from the centre, d that
+/// from the centre line. R is the radius of sphere or edge, E* the parameter E_star, a the radius of the contact, b half its width, L its
+/// length.
 struct Indenter {
     std::string_view name, description, source;
-    std::array<std::string_view, 4> parameters;  ///< the parameters that it uses, apart from the path
+    std::array<std::string_view, 4> parameters;  ///< the parameters that it uses, besides those of the path; "": none
 };
 inline constexpr Indenter indenters[] = {
     {"flat", "a rigid flat punch: p = F/(2 pi a^2) (1 - r^2/a^2)^(-1/2)", "Johnson 1985, Contact Mechanics, 3.8", {"radius"}},
@@ -56,16 +59,17 @@ inline constexpr Indenter indenters[] = {
      {"radius", "period", "ridge", "angle"}},
 };
 
-/// The indenter of this name; refuses unknown names.
+/// The indenter with this name. An unknown name is an error.
 Result<const Indenter*> find_indenter(std::string_view name);
 
-/// The parameters of a contact from the overrides. A position that is not given is computed from the sites.
+/// The parameters of a contact from the overrides with target "contact". If they set neither x nor y, the position is the middle of the
+/// first region of the sites. A parameter that the indenter does not use is an error.
 Result<ContactParams> read_contact_params(const Indenter&, std::span<const ParameterOverride>, const Sites&);
 
-/// True for a parameter of position or movement; every indenter has these.
+/// True for the name of a parameter of position or movement. Every indenter has these.
 bool is_path_parameter(std::string_view name);
 
-/// True if the contact moves over the skin.
+/// True if the contact moves over the skin, instead of resting.
 inline bool is_moving(const ContactParams& p) { return p.x1 != p.x || p.y1 != p.y; }
 
 }  // namespace corpuscle

@@ -11,17 +11,19 @@ namespace {
 
 constexpr double pi = 3.141592653589793;
 
-/// Round contacts: exact along y, two-point Gauss quadrature along x. The integral of the pressure along a full chord is a polynomial of x
-/// (constant or of degree 2), for which this quadrature is exact. So the fractions of all cells add up to the whole force.
+/// PressureDistribution::column() of a round contact of radius a. The pressure is integrated exactly along y, on the chord at x, and by
+/// two-point Gauss quadrature along x. The integral along a full chord is a polynomial of x (constant or of degree 2), for which this
+/// quadrature is exact. So the fractions of all cells add up to 1. Let c be half the length of the chord. chord(y / c) times
+/// chord.scale(c^2) is the integral of the pressure from the middle of the chord to y.
 template <class Chord>
 void round_column(double a, double x0, double side, std::span<const double> y, double* fractions, Chord&& chord) {
-    constexpr double at[] = {-0.5773502691896257, 0.5773502691896257};
+    constexpr double gauss_points[] = {-0.5773502691896257, 0.5773502691896257};
     const std::size_t cells = y.size() - 1;
     std::fill(fractions, fractions + cells, 0.0);
     const double from = std::max(x0, -a), to = std::min(x0 + side, a);
     if (!(to > from)) return;
-    for (const double point : at) {
-        const double x = 0.5 * (from + to) + 0.5 * (to - from) * point, square = a * a - x * x;
+    for (const double point : gauss_points) {
+        const double x = 0.5 * (from + to) + 0.5 * (to - from) * point, square = a * a - x * x;  // square: c^2
         if (!(square > 0)) continue;
         const double per_half = 1 / num::sqrt(square), scale = 0.5 * (to - from) * chord.scale(square);
         double below = chord(y[0] * per_half);
@@ -33,7 +35,7 @@ void round_column(double a, double x0, double side, std::span<const double> y, d
     }
 }
 
-/// p/F = 1/(2 pi a^2) (1 - r^2/a^2)^(-1/2): along a chord the integral is an arcsine.
+/// Pressure p per force F: p/F = 1/(2 pi a^2) (1 - r^2/a^2)^(-1/2) at distance r from the centre. Its integral along a chord is an arcsine.
 class FlatPressure final : public PressureDistribution {
     double a_;
     struct Chord {
@@ -51,20 +53,21 @@ public:
     }
 };
 
-/// x^(1/3) by Newton's method: accurate to a few units in the last place, and the same on every machine.
+/// x^(1/3) for x > 0, by Newton's method: accurate to a few units in the last place, and the same on every machine.
 double cube_root(double x) {
     double r = num::exp(num::log(x) * (1.0 / 3));
     for (int k = 0; k < 2; ++k) r -= (r * r * r - x) / (3 * r * r);
     return r;
 }
 
-/// p/F = 3/(2 pi a^3) (a^2 - r^2)^(1/2): along a chord of half length c the integral is c^2/2 times the area of the arc.
+/// Pressure p per force F: p/F = 3/(2 pi a^3) (a^2 - r^2)^(1/2) at distance r from the centre. Its integral along a chord of half length c
+/// is c^2/2 times arc_area(), apart from the constant factor.
 class SpherePressure final : public PressureDistribution {
-    double per_newton_;  // a^3 / F
+    double per_newton_;  // a^3 / F, m3/N
     struct Chord {
         double a;
         double operator()(double u) const { return arc_area(std::clamp(u, -1.0, 1.0)); }
-        double scale(double half_square) const { return 3 / (4 * pi * a * a * a) * half_square; }
+        double scale(double square) const { return 3 / (4 * pi * a * a * a) * square; }
     };
 
 public:
@@ -76,19 +79,21 @@ public:
     }
 };
 
-/// A rotated pattern. Each cell is treated as if it were rotated as well.
+/// Coordinates along and across a direction, in degrees from the x axis. Each cell is treated as if it were rotated with the direction.
 struct Rotation {
-    double c, s;
+    double c, s;  // cosine and sine
     explicit Rotation(double degrees) : c(num::cos_turns(degrees / 360)), s(num::sin_turns(degrees / 360)) {}
     double along(double x, double y) const { return x * c + y * s; }
     double across(double x, double y) const { return y * c - x * s; }
 };
 
+/// The length of the intersection of [from, to] and [low, high].
 double overlap(double from, double to, double low, double high) { return std::max(0.0, std::min(to, high) - std::max(from, low)); }
 
-/// p/F = 2/(pi b L) (1 - d^2/b^2)^(1/2), constant along the edge; d is the distance from its centre line.
+/// The contact of an edge of length L; its size b is half its width. Pressure p per force F: p/F = 2/(pi b L) (1 - d^2/b^2)^(1/2) at
+/// distance d from the centre line, constant along the edge.
 class EdgePressure final : public PressureDistribution {
-    double half_length_, per_newton_;  // per_newton_: b^2 / F
+    double half_length_, per_newton_;  // L / 2, m; b^2 / F, m2/N
     Rotation rotation_;
 
 public:
@@ -112,12 +117,12 @@ public:
     }
 };
 
-/// Uniform pressure on the ridges within a round patch.
+/// Uniform pressure on the ridges of a grating within a round patch.
 class GratingPressure final : public PressureDistribution {
-    double radius_, period_, ridge_, side_;
+    double radius_, period_, ridge_, side_;  // m; ridge_: width of a ridge; side_: side of a cell
     Rotation rotation_;
 
-    /// Total width of the ridges between 0 and d.
+    /// Total width of the ridges between 0 and d, m; a ridge begins at 0.
     double ridges(double d) const {
         const double periods = std::floor(d / period_);
         return periods * ridge_ + std::min(d - periods * period_, ridge_);

@@ -9,13 +9,13 @@ namespace {
 
 constexpr double isolated_side = 2e-3;  // m, for a site without a neighbour; choice
 
-/// The typical distance between sites: the median distance to the nearest neighbour.
-double typical_distance(const Sites& sites, const SiteGrid& near) {
+/// The typical distance between sites, m: the median over sites of the distance to the nearest site at another position.
+double typical_distance(const Sites& sites, const SiteGrid& grid) {
     std::vector<double> distances;
     for (std::uint32_t s = 0; s < sites.size(); ++s) {
-        double best = 0;
-        for (double reach = near.cell_side(); best == 0 && reach < 100; reach *= 2)
-            near.for_each_within(sites.positions[s].x, sites.positions[s].y, reach, [&](std::uint32_t, double d2) {
+        double best = 0;  // squared distance; 0: none found yet
+        for (double reach = grid.cell_side(); best == 0 && reach < 100; reach *= 2)
+            grid.for_each_within(sites.positions[s].x, sites.positions[s].y, reach, [&](std::uint32_t, double d2) {
                 if (d2 > 0 && (best == 0 || d2 < best)) best = d2;
             });
         if (best > 0) distances.push_back(num::sqrt(best));
@@ -34,7 +34,8 @@ SkinCells::SkinCells(const Sites& sites) : sites_(sites), index_(std::make_uniqu
 }
 
 bool SkinCells::build_lattice() {
-    constexpr double max_cells = 1 << 24, tolerance = 1e-3;  // tolerance: distance of a site from the centre of its cell / side_
+    constexpr double max_cells = 1 << 24;
+    constexpr double tolerance = 1e-3;  // largest distance of a site from the centre of its cell, as a fraction of side_
     double left = sites_.positions[0].x, low = sites_.positions[0].y, right = left, high = low;
     for (const auto& p : sites_.positions)
         left = std::min(left, p.x), low = std::min(low, p.y), right = std::max(right, p.x), high = std::max(high, p.y);

@@ -1,5 +1,5 @@
 #pragma once
-// The cells of a skin: the square that each site represents. Finds the cells around a contact.
+// The cells of a skin: the square of skin that each site represents. Finds the cells around a contact.
 
 #include <algorithm>
 #include <cmath>
@@ -10,17 +10,19 @@
 
 namespace corpuscle {
 
-/// If the sites are on a lattice, their cells tile the skin, and cells without a site are not skin. Otherwise each site is the centre of a
-/// square; its side is the typical distance between sites.
+/// If the sites are on a square lattice, each site is the centre of a lattice cell, and cells without a site are not skin. Otherwise each
+/// site is the centre of a square of its own, and these squares may overlap. Their side is the root of the sites' area or, without one, the
+/// typical distance between sites.
 class SkinCells {
 public:
     explicit SkinCells(const Sites&);
 
-    double side() const { return side_; }  ///< m
+    double side() const { return side_; }  ///< of a cell, m
     bool is_lattice() const { return !lattice_.empty(); }
 
-    /// Visits the columns of cells in the box around (x, y), given half its width and height. Calls f(x0, edges, sites) for each column:
-    /// its left edge, the y of the edges of its cells from below, and the site of each cell, or no_site.
+    /// Visits the columns of cells that may overlap the box around (x, y) with this half width and half height (m). Calls f(x0, edges,
+    /// sites) for each column: the x of its left edge, the y of the edges of its cells from below, and the site of each cell, or no_site.
+    /// Without a lattice, each cell is a column by itself.
     template <class F>
     void for_each_column(double x, double y, double half_width, double half_height, F&& f);
 
@@ -29,13 +31,13 @@ public:
 private:
     double side_, left_ = 0, low_ = 0;  // m; left_, low_: the lattice's lower left corner
     std::size_t columns_ = 0, rows_ = 0;
-    std::vector<std::uint32_t> lattice_;  // [column][row]
+    std::vector<std::uint32_t> lattice_;  // site of each cell [column][row], or no_site; empty: not a lattice
     const Sites& sites_;
     std::unique_ptr<SiteGrid> index_;
-    std::vector<double> edges_;
-    std::vector<std::uint32_t> column_sites_, found_;
+    std::vector<double> edges_;                        // scratch arrays of for_each_column()
+    std::vector<std::uint32_t> column_sites_, found_;  // the same
 
-    bool build_lattice();
+    bool build_lattice();  ///< false: the sites are not on a lattice
 };
 
 template <class F>
@@ -54,6 +56,7 @@ void SkinCells::for_each_column(double x, double y, double half_width, double ha
         return;
     }
     constexpr double max_cells = 1e6;  // limit of a contact's distance from the skin and of its width, in cells
+    // Number of the cell that contains coordinate `at`, if cell 0 begins at `from`.
     const auto cell = [&](double at, double from) {
         return static_cast<std::int64_t>(std::max(-max_cells, std::min(max_cells, std::floor((at - from) / side_))));
     };

@@ -1,4 +1,5 @@
-// Receptive fields on SIMD lanes, compiled once for each instruction set, CORPUSCLE_ISA. Only one table may be visible outside this file.
+// The sums of FieldForce on SIMD lanes. The file is compiled once for each instruction set, CORPUSCLE_ISA. Only the table at its end may be
+// visible to the linker.
 
 #include "skin/lanes/kernel.hpp"
 
@@ -8,18 +9,19 @@ namespace corpuscle::lanes {
 namespace {
 
 using T = num::Lanes<double>;
-constexpr std::size_t width = T::size;
-constexpr std::size_t vectors = 8;  // vectors of sums that are computed together in registers
+constexpr std::size_t width = T::size;  // lanes
+constexpr std::size_t vectors = 8;      // vectors of sums that are computed together in registers
 
 void sum_rows(const std::ptrdiff_t* row, std::size_t rows, const std::uint32_t* groups, const double* weights, const double* now,
               double* sums) {
+    // row_groups: groups of weights in a row; at_once: afferents that are summed together
     constexpr std::size_t afferents = 64, row_groups = afferents / group_size, at_once = vectors * width;
     for (std::size_t u = 0; u < afferents; u += at_once) {
         T sum[vectors];
         for (auto& s : sum) s = T(0.0);
         for (std::size_t k = 0; k < rows; ++k) {
             const double* const f = now + row[k] + u;
-            for (std::size_t i = 0; i < vectors; ++i) {
+            for (std::size_t i = 0; i < vectors; ++i) {  // a vector never crosses the end of a group, because width divides group_size
                 const double* const w = weights + groups[k * row_groups + (u + i * width) / group_size] + i * width % group_size;
                 sum[i] = sum[i] + T::load_aligned(w) * T::load_unaligned(f + i * width);
             }

@@ -1,6 +1,7 @@
 #pragma once
-// The interface between receptive fields, compiled for every machine, and their sums on SIMD lanes, compiled once for each instruction set.
-// It consists of plain data and pointers only. Sums run in the given order, so each instruction set gives the same bits.
+// The interface between FieldForce, which is compiled once for all machines, and its sums on SIMD lanes (kernel.cpp), which are compiled
+// once for each instruction set. It consists of plain data and pointers only. The terms of a sum are added in the given order, so each
+// instruction set gives the same bits.
 
 #include <cstddef>
 #include <cstdint>
@@ -9,18 +10,19 @@
 
 namespace corpuscle::lanes {
 
-inline constexpr std::size_t group_size = 8;  ///< weights in one group
+inline constexpr std::size_t group_size = 8;  ///< number of weights in one group
 
 /// The functions of one instruction set.
 struct FieldKernels {
-    /// 64 afferents at one step: sums[u] = sum over k of w * now[row[k] + u], where w = weights[groups[(64 k + u) / group_size] +
-    /// u % group_size].
+    /// The force on 64 afferents u at one step: sums[u] = sum over k < rows of w * now[row[k] + u], where w is the weight of afferent u in
+    /// row k: weights[groups[(64 k + u) / group_size] + u % group_size].
     void (*sum_rows)(const std::ptrdiff_t* row, std::size_t rows, const std::uint32_t* groups, const double* weights, const double* now,
                      double* sums);
-    /// One site over some steps, added to each afferent that responds to it: sums[afferent[k] * stride + t] += weight[k] * force[t].
+    /// Adds the force of one site in all steps t to the `count` afferents that respond to it: sums[afferent[k] * stride + t] +=
+    /// weight[k] * force[t].
     void (*add_site)(const std::uint32_t* afferent, const double* weight, std::size_t count, const double* force, std::size_t steps,
                      double* sums, std::size_t stride);
-    /// One afferent over some steps: column[t * stride] = sum over k of weight[k] * rows[site[k]][t].
+    /// The force on one afferent in all steps t: column[t * stride] = sum over k < count of weight[k] * rows[site[k]][t].
     void (*sum_afferent)(const std::uint32_t* site, const double* weight, std::size_t count, const double* const* rows, std::size_t steps,
                          double* column, std::size_t stride);
 };
@@ -35,6 +37,7 @@ namespace avx512 {
 extern const FieldKernels fields;
 }
 
+/// The functions for an instruction set.
 inline const FieldKernels& field_kernels(InstructionSet set) {
 #ifdef __x86_64__
     if (set == InstructionSet::avx512) return avx512::fields;

@@ -157,7 +157,7 @@ TEST(AfferentComponents, AFrontEndThatCannotMeasureItsOwnRangeIsRefused) {
         {"sa1-kim.bits=3.5", "sa1-kim: bits = 3.5 must be an integer"},
         {"sa1-kim.word=18", "sa1-kim: frac = 20 must be below word = 18"},
         {"sa1-kim.word=22",
-         "sa1-kim: the force of a code = 5 (in N, uA, V and steps) does not fit a word of 22 bits with 20 fraction bits; raise "
+         "sa1-kim: the force of a code = 5 (units: N, uA, V, steps) does not fit a word of 22 bits with 20 fraction bits; raise "
          "word, or "
          "lower frac"},
     };
