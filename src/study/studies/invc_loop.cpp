@@ -32,14 +32,16 @@ vnext next 0 0.35
 )";
 
 struct Loop {
-    StudyCurve dB,
-        phase;    ///< over frequency (Hz): gain of the open loop; phase of the return ratio plus 180, degrees: at `unity`, the phase margin
-    double gain;  ///< dB, at 0.1 mHz
+    // Over frequency, Hz. dB: gain of the open loop. phase: that of the return ratio plus 180 degrees, which at `unity` is the phase
+    // margin.
+    StudyCurve dB, phase;
+    double gain;                    ///< dB, at 0.1 mHz
     double unity, phase_crossover;  ///< Hz, where the gain is 1, and where `phase` is 0
     double margin;                  ///< degrees: `phase` at unity
     double gain_margin;             ///< dB: how far the gain is below 1 at phase_crossover
     double inner;                   ///< Hz: where the poles of the inner nodes add 45 degrees of lag to the 90 degrees of the outer pole
 };
+
 /// The loop with this capacitor of the filter.
 Result<Loop> loop_with(double farad) {
     const auto found = run_study_netlist({opened, {fmt::format("c_hp={}", farad)}});
