@@ -1,5 +1,5 @@
-// Ten thousand slowly adapting afferents under one press. The force on each is multiplied by its own gain, from 0 to 1. Prints the number
-// of spikes in each 50 ms.
+// Ten thousand slowly adapting afferents under one press. The force on each is multiplied by its own gain, from 0 to 1. For each 50 ms,
+// prints the force at its end and the number of spikes of all afferents.
 
 #include <cstdio>
 
@@ -22,6 +22,6 @@ int main() {
         PopulationResponse response{&spikes};
         const auto done = (*population)->respond(ForceProfile{{force.force[0].data(), force.count}, gains}, force.count, response, threads);
         if (!done) return std::puts(done.error().text().c_str()), 1;
-        std::printf("up to %.2f N: %5zu spikes\n", force.force[0][force.count - 1], spikes.size());
+        std::printf("at %.2f N: %5zu spikes\n", force.force[0][force.count - 1], spikes.size());
     }
 }

@@ -1,4 +1,4 @@
-// A robot's control loop at 1 kHz: the forces of 64 taxels in, spikes out within the same millisecond.
+// A robot's control loop at 1 kHz: the forces of 64 taxels go in, and their spikes come out within the same millisecond.
 
 #include <chrono>
 #include <corpuscle.hpp>

@@ -1,4 +1,4 @@
-/* A live skin in C: two kinds of afferent on each of four channels, pressed for half a second. */
+/* A live skin in C: an SA-I and an FA-I afferent on each of four channels at 1 kHz, pressed for half a second. */
 
 #include <corpuscle.h>
 #include <stdio.h>

@@ -17,7 +17,7 @@
 namespace corpuscle {
 namespace {
 
-/// The address space in use, bytes. A limit below it would make every allocation fail.
+/// The address space that this process uses, bytes; 0 if it is unknown. A limit below it would make every allocation fail.
 std::uint64_t address_space_in_use() {
     unsigned long long pages = 0;
     if (std::FILE* f = std::fopen("/proc/self/statm", "r")) {
@@ -27,7 +27,7 @@ std::uint64_t address_space_in_use() {
     return pages * static_cast<std::uint64_t>(::sysconf(_SC_PAGESIZE));
 }
 
-/// Lowers a resource limit; never raises it.
+/// Lowers the soft and the hard limit of a resource to `limit`; never raises them.
 void lower(__rlimit_resource resource, std::uint64_t limit) {
     rlimit now{};
     if (::getrlimit(resource, &now) != 0) return;
@@ -35,7 +35,8 @@ void lower(__rlimit_resource resource, std::uint64_t limit) {
     (void)::setrlimit(resource, &lowered);
 }
 
-/// Forbids opening, creating and removing any path: all rights of Landlock ABI 1, without exceptions.
+/// Forbids opening, creating and removing files at any path: all rights of Landlock ABI 1, without exceptions. Does nothing if the kernel
+/// has no Landlock.
 void forbid_paths() {
     landlock_ruleset_attr controlled{};                                  // no rules follow, so every controlled access is denied
     controlled.handled_access_fs = LANDLOCK_ACCESS_FS_MAKE_SYM * 2 - 1;  // the 13 rights of ABI 1 are the lowest bits
@@ -52,7 +53,7 @@ constexpr std::uint32_t architecture = AUDIT_ARCH_AARCH64;
 #elif defined(__riscv) && __riscv_xlen == 64
 constexpr std::uint32_t architecture = AUDIT_ARCH_RISCV64;
 #else
-constexpr std::uint32_t architecture = 0;
+constexpr std::uint32_t architecture = 0;  // unknown: system calls are not restricted
 #endif
 
 /// System calls for memory, time, exit, and reading and writing the open descriptors. Any other call fails with EPERM. newfstatat is
@@ -73,6 +74,7 @@ constexpr long allowed[] = {SYS_read,       SYS_pread64,      SYS_readv,        
                             SYS_gettid,     SYS_rt_sigaction, SYS_rt_sigprocmask, SYS_rt_sigreturn, SYS_sigaltstack, SYS_sched_yield,
                             SYS_getrusage,  SYS_exit,         SYS_exit_group};
 
+/// Installs a seccomp filter: first it compares the architecture, then the number of the system call with each allowed one.
 void forbid_system_calls() {
     if (architecture == 0) return;
     const auto load = [](std::size_t offset) { return sock_filter BPF_STMT(BPF_LD | BPF_W | BPF_ABS, static_cast<std::uint32_t>(offset)); };
@@ -85,6 +87,7 @@ void forbid_system_calls() {
         program.push_back(sock_filter BPF_JUMP(BPF_JMP | BPF_JEQ | BPF_K, static_cast<std::uint32_t>(call), 0, 1));
         program.push_back(return_action(SECCOMP_RET_ALLOW));
     }
+    // tgkill is allowed if its first argument is this process.
     const auto self = static_cast<std::uint32_t>(::getpid());  // abort() signals this process; signals to others are denied
     program.insert(program.end(),
                    {sock_filter BPF_JUMP(BPF_JMP | BPF_JEQ | BPF_K, std::uint32_t{SYS_tgkill}, 0, 3), load(offsetof(seccomp_data, args)),

@@ -5,9 +5,9 @@
 
 namespace corpuscle {
 
-/// Forbids new privileges, descriptors, files, programs, connections and core dumps, and bounds memory to `memory` bytes beyond the present
-/// use. Resource limits are only lowered. Landlock and seccomp are used if the kernel has them. Descriptors up to `last_descriptor` stay
-/// open.
+/// Forbids this process new privileges, descriptors, files, programs, connections and core dumps, and lets it use at most `memory` bytes
+/// more address space than now. Existing lower limits stay. Landlock and seccomp are used if the kernel has them. Descriptors up to
+/// `last_descriptor` stay usable.
 void confine(int last_descriptor, std::uint64_t memory);
 
 }  // namespace corpuscle

@@ -12,11 +12,12 @@
 namespace corpuscle::hdf5 {
 namespace {
 
-int file_descriptor = -1;  // a global, because the functions of a driver get no context
+int file_descriptor = -1;  // set by descriptor_access(); a global, because HDF5 passes no context to the driver's open function
 
 struct DescriptorFile : H5FD_t {
     int descriptor = -1;
-    haddr_t end = 0, allocated = 0;
+    haddr_t end = 0;        // length of the file, bytes
+    haddr_t allocated = 0;  // end of the allocated addresses, as HDF5 sets it
 };
 
 H5FD_t* open_descriptor(const char* name, unsigned flags, hid_t, haddr_t) {
@@ -50,15 +51,17 @@ herr_t read(H5FD_t* file, H5FD_mem_t, hid_t, haddr_t at, size_t size, void* out)
         const auto count = ::pread(static_cast<DescriptorFile*>(file)->descriptor, to, size, static_cast<off_t>(at));
         if (count < 0 && errno == EINTR) continue;
         if (count < 0) return -1;
-        if (count == 0) return std::memset(to, 0, size), 0;  // like HDF5's own driver: a file may end before its allocated size
+        if (count == 0) return std::memset(to, 0, size), 0;  // like HDF5's own driver: a file may end before its allocated end
         to += count, at += static_cast<haddr_t>(count), size -= static_cast<size_t>(count);
     }
     return 0;
 }
 
+// The file is open for reading only.
 herr_t write(H5FD_t*, H5FD_mem_t, hid_t, haddr_t, size_t, const void*) { return -1; }
 
-/// Registers the driver once. Fields that are not set differ between versions of HDF5.
+/// The identifier of the driver, which the first call registers. The fields of H5FD_class_t that are not set here differ between versions
+/// of HDF5 and stay 0.
 hid_t driver() {
     static const hid_t registered = [] {
         static H5FD_class_t methods{};

@@ -11,8 +11,8 @@
 namespace corpuscle::hdf5 {
 namespace {
 
-constexpr std::size_t max_datasets = 10000;  // further datasets are ignored
-constexpr std::size_t max_text = 1 << 20;    // limit of the characters, and of the strings, in one attribute
+constexpr std::size_t max_datasets = 10000;  // in a file; further datasets are ignored
+constexpr std::size_t max_text = 1 << 20;    // limit of the number of characters, and of the number of strings, in one attribute
 
 Handle space_of(hid_t dataset) { return {H5Dget_space(dataset), H5Sclose}; }
 
@@ -21,12 +21,13 @@ Handle attribute_of(hid_t object, const std::string& name) {
     return H5Aexists(object, name.c_str()) > 0 ? Handle(H5Aopen(object, name.c_str(), H5P_DEFAULT), H5Aclose) : Handle();
 }
 
-/// Text up to its first zero byte, without spaces at the end.
+/// The text before its first zero byte, without trailing spaces.
 std::string trimmed(std::string s) {
     s.resize(std::min(s.find('\0'), s.size()));
     return s.substr(0, s.find_last_not_of(' ') + 1);
 }
 
+// The `count` strings of an attribute, by the kind of its string type; empty on failure.
 std::vector<std::string> variable_length_strings(hid_t attribute, hid_t type, hid_t space, std::size_t count) {
     std::vector<char*> texts(count);
     if (H5Aread(attribute, type, texts.data()) < 0) return {};
@@ -46,7 +47,7 @@ std::vector<std::string> fixed_length_strings(hid_t attribute, hid_t type, std::
     return out;
 }
 
-/// True if the signature is at byte 0, or, after a user block, at 512, 1024, 2048 ...
+/// True if the HDF5 signature is at byte 0 or, after a user block, at byte 512, 1024, 2048 ...
 bool has_signature(int descriptor) {
     constexpr std::array<char, 8> signature{'\x89', 'H', 'D', 'F', '\r', '\n', '\x1a', '\n'};
     std::array<char, 8> found{};
@@ -55,6 +56,7 @@ bool has_signature(int descriptor) {
     return false;
 }
 
+/// Callback of H5Ovisit: appends the name of a dataset to the vector `to`. Returns 1 to end the visit at max_datasets.
 herr_t add_dataset_name(hid_t, const char* name, const H5O_info_t* info, void* to) {
     auto& names = *static_cast<std::vector<std::string>*>(to);
     if (info->type == H5O_TYPE_DATASET) names.push_back("/" + std::string(name));
@@ -94,7 +96,8 @@ std::vector<CompoundMember> numeric_members(hid_t type) {
         const std::unique_ptr<char, herr_t (*)(void*)> name(H5Tget_member_name(type, index), H5free_memory);
         if (member && name && is_number(member)) out.push_back({name.get(), index});
     }
-    if (out.size() == 2 && count == 2 && out[0].name == "r" && out[1].name == "i") return {};  // complex numbers, as h5py writes them
+    if (out.size() == 2 && count == 2 && out[0].name == "r" && out[1].name == "i")
+        return {};  // a complex number, as h5py writes it, has no numeric members here
     return out;
 }
 

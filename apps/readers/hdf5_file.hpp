@@ -1,6 +1,6 @@
 #pragma once
-// The functions of the HDF5 library that are used here, with handles that close themselves. For the helper program only: damaged files can
-// crash the library or make it loop forever.
+// The functions of the HDF5 library that the reader uses, with handles that close themselves. For the helper program only, because damaged
+// files can crash the library or make it loop forever.
 
 #include <hdf5.h>
 
@@ -12,7 +12,7 @@
 
 namespace corpuscle::hdf5 {
 
-/// An HDF5 handle, closed by the destructor. A negative handle means none.
+/// An HDF5 identifier, closed by the destructor. A negative identifier, which is the result of a failed call, means none.
 class Handle {
     hid_t id_ = -1;
     herr_t (*close_)(hid_t) = nullptr;
@@ -29,12 +29,14 @@ public:
     explicit operator bool() const { return id_ >= 0; }
 };
 
-/// Opens the file in a descriptor; `path` is for messages.
+/// Opens the HDF5 file that is open as `descriptor`; `path` is for messages.
 Result<Handle> open_file(int descriptor, const std::string& path);
 
-/// Opens a dataset by its path. The chunk cache of HDF5 is disabled, because hdf5_samples.cpp reads complete chunks.
+/// Opens a dataset by its path in the file; an empty handle on failure. The chunk cache of HDF5 is disabled, because hdf5_samples.cpp reads
+/// complete chunks.
 Handle open_dataset(hid_t file, const std::string& name);
 
+/// The shape of a dataset, and whether it has numbers. `name` is copied into the result.
 ArrayInfo array_info(hid_t dataset, std::string name);
 
 /// All datasets that are reachable by hard links, ordered by name.
@@ -43,18 +45,21 @@ std::vector<ArrayInfo> datasets_in(hid_t file);
 /// A numeric member of a compound type.
 struct CompoundMember {
     std::string name;
-    unsigned index;
+    unsigned index;  ///< among all members of the type, from 0
 };
+/// The integer and floating-point members of a compound type; empty for other types and for complex numbers.
 std::vector<CompoundMember> numeric_members(hid_t type);
-bool is_number(hid_t type);
+bool is_number(hid_t type);  ///< true for integer and floating-point types
 
-// Attributes of a dataset or group; empty if there is none of this name and type.
+// The value of an attribute of a dataset or group; empty if it has no attribute of this name and type. number_attribute() and
+// text_attribute() need an attribute with a single element.
 std::optional<double> number_attribute(hid_t object, const std::string& attribute);
 std::optional<std::string> text_attribute(hid_t object, const std::string& attribute);
 std::vector<std::string> string_attributes(hid_t object, const std::string& attribute);
+/// The names of all attributes of a dataset or group.
 std::vector<std::string> attribute_names(hid_t object);
 
-/// The value of a dataset with a single number.
+/// The number in a dataset that contains exactly one; otherwise nullopt.
 std::optional<double> single_number(hid_t dataset);
 
 }  // namespace corpuscle::hdf5

@@ -14,36 +14,41 @@ namespace {
 
 using hdf5::Handle;
 
-constexpr std::size_t default_band = std::size_t{1} << 20, max_band = std::size_t{1} << 26;  // numbers in memory
-constexpr std::size_t max_passes = 16;  // a large chunk is read in at most this many parts
+// Size of the band (Hdf5Samples::band_), in numbers: the usual size, and the limit if a chunk needs more.
+constexpr std::size_t default_band = std::size_t{1} << 20, max_band = std::size_t{1} << 26;
+constexpr std::size_t max_passes = 16;  // a chunk above max_band is read in at most this many parts, and decompressed for each
 
-constexpr const char* channel_name_attributes[] = {"columns", "channels", "names"};  // hold the names of all channels
+constexpr const char* channel_name_attributes[] = {"columns", "channels", "names"};  // attributes with the names of all channels
 
+/// The path of the group that contains an object.
 std::string parent_of(const std::string& name) { return name.substr(0, std::max<std::size_t>(1, name.rfind('/'))); }
 
 class Hdf5Samples final : public Samples {
     std::string path_, name_;
     Handle dataset_;
     ArrayExtent extent_;
-    std::size_t rank_ = 1;
-    std::vector<std::string> members_;  // the columns of a compound type
-    double factor_ = 1, offset_ = 0;    // scaling attributes of NWB
+    std::size_t rank_ = 1;              // number of dimensions of the dataset
+    std::vector<std::string> members_;  // the numeric members of a compound type, which are its columns; else empty
+    double factor_ = 1, offset_ = 0;    // value = factor * stored number + offset, from attributes of NWB (Neurodata Without Borders)
     SamplesInfo info_;
     hdf5::StorageInfo storage_;
 
-    // The rows in memory: a band of one or several complete chunks, so that each chunk is decompressed only once.
+    // The rows in memory are a band: one or several complete chunks, so that each chunk is decompressed only once (or a part of a chunk
+    // that is too large).
     std::vector<double> band_;
-    std::vector<std::size_t> band_columns_;
-    std::uint64_t first_ = 0, band_rows_ = 0;  // first row, number of rows
-    std::uint64_t low_ = 0;                    // first column
-    std::size_t width_ = 0;                    // number of columns; for a compound type, number of requested members
+    std::vector<std::size_t> band_columns_;    // the requested columns
+    std::uint64_t first_ = 0, band_rows_ = 0;  // first row of the band in the dataset, and number of rows of the band
+    std::uint64_t low_ = 0;                    // first column of the band in the dataset; 0 for a compound type
+    std::size_t width_ =
+        0;  // number of columns of the band, from the first to the last requested; for a compound type, of requested members
 
     Error unreadable() const { return bad_input(fmt::format("cannot read {}; the file may be damaged", name_), {path_}); }
 
+    // Rows and columns of a chunk. chunk_rows() is 0 if the dataset is not chunked; chunk_columns() needs a chunked dataset.
     std::uint64_t chunk_rows() const { return storage_.chunk.empty() ? 0 : storage_.chunk[extent_.is_transposed ? rank_ - 1 : 0]; }
     std::uint64_t chunk_columns() const { return rank_ == 1 ? 1 : storage_.chunk[extent_.is_transposed ? 0 : 1]; }
 
-    /// Reads rows and columns of the file into the band, in the order of the file.
+    /// Reads the rows and columns of the band from the file, in the order of the file. `type` is the type of an element in memory.
     Result<void> load(hid_t type) {
         std::array<hsize_t, 2> start{first_, low_}, count{band_rows_, members_.empty() ? width_ : 1};
         if (extent_.is_transposed && rank_ == 2) std::swap(start[0], start[1]), std::swap(count[0], count[1]);
@@ -55,12 +60,13 @@ class Hdf5Samples final : public Samples {
         return {};
     }
 
-    /// The index of an element in the band; row and column are relative to the band. Members of a compound type are interleaved.
+    /// The index in band_ of an element. Row and column are relative to the band; for a compound type, `column` counts the requested
+    /// members, which are interleaved.
     std::size_t index_of(std::size_t row, std::size_t column) const {
         return extent_.is_transposed && rank_ == 2 && members_.empty() ? column * band_rows_ + row : row * width_ + column;
     }
 
-    /// Sets readings in chunks that were never written to NaN.
+    /// Sets the numbers of the band that lie in chunks that were never written to NaN. Only for chunked datasets.
     void mark_gaps() {
         const auto high = members_.empty() ? low_ + width_ : 1;
         for (auto row = first_ / chunk_rows() * chunk_rows(); row < first_ + band_rows_; row += chunk_rows())
@@ -76,8 +82,8 @@ class Hdf5Samples final : public Samples {
             }
     }
 
-    /// Chooses the rows of the band that contains `row`: complete chunks, or one of several equal parts of a
-    /// chunk that is too large.
+    /// Chooses the rows of the band that contains `row`: complete chunks, or one of several equal parts of a chunk that is too large. Needs
+    /// width_.
     Result<void> choose_rows(std::uint64_t row) {
         const std::uint64_t height = chunk_rows(), default_rows = std::max<std::size_t>(1, default_band / width_),
                             max_rows = std::max<std::size_t>(1, max_band / width_);
@@ -100,6 +106,7 @@ class Hdf5Samples final : public Samples {
         return {};
     }
 
+    /// Reads the band that contains `row`. After an error the band is empty.
     Result<void> load_band(std::uint64_t row, std::span<const std::size_t> columns) {
         band_columns_.assign(columns.begin(), columns.end());
         const auto [min, max] = std::minmax_element(columns.begin(), columns.end());
@@ -121,7 +128,8 @@ class Hdf5Samples final : public Samples {
                std::equal(columns.begin(), columns.end(), band_columns_.begin(), band_columns_.end());
     }
 
-    /// MATLAB stores matrices by columns, so the first dimension in HDF5 is the second of MATLAB.
+    /// Determines orientation, number of rows and storage. MATLAB stores matrices by columns, so the first dimension in HDF5 is MATLAB's
+    /// second.
     Result<void> read_shape(const ArrayInfo& array, ExtentHints hints) {
         hints.is_column_major = hdf5::text_attribute(dataset_, "MATLAB_class").has_value();
         for (const auto* attribute : channel_name_attributes)
@@ -139,6 +147,8 @@ class Hdf5Samples final : public Samples {
         return {};
     }
 
+    /// Names the columns after the members of a compound type, or after the dataset (after its group if the dataset is called "data"), or
+    /// as an attribute with the names of all channels says.
     Result<void> name_columns() {
         const Handle type(H5Dget_type(dataset_), H5Tclose);
         for (const auto& m : hdf5::numeric_members(type)) members_.push_back(m.name), info_.columns.push_back(parse_heading(m.name));
@@ -158,6 +168,8 @@ class Hdf5Samples final : public Samples {
         return {};
     }
 
+    /// Applies the unit attribute to the columns and reads the scaling. In a compound type the unit applies to columns without a unit of
+    /// their own, except times.
     void read_unit() {
         for (const auto* attribute : {"unit", "units"})
             if (const auto unit = hdf5::text_attribute(dataset_, attribute))
@@ -199,7 +211,7 @@ public:
     }
 };
 
-/// The sampling rate in the attributes of an object.
+/// The sampling rate (Hz) in the attributes of a dataset or group.
 std::optional<double> rate_at(hid_t object) {
     for (const auto& name : hdf5::attribute_names(object))
         if (is_rate_name(name))
@@ -207,7 +219,8 @@ std::optional<double> rate_at(hid_t object) {
     return {};
 }
 
-/// The sampling rate of a dataset: from its attributes, NWB's starting_time or a number in its group, or attributes of enclosing groups.
+/// The sampling rate (Hz) of the dataset `name`, from its attributes if they have it. The next source is another dataset of its group: NWB's
+/// starting_time, or a single number with the name of a rate. The last are the attributes of the enclosing groups, the innermost first.
 std::optional<double> rate_of(hid_t file, const std::string& name, std::span<const ArrayInfo> arrays) {
     if (const auto dataset = hdf5::open_dataset(file, name))
         if (const auto rate = rate_at(dataset)) return rate;
@@ -224,6 +237,7 @@ std::optional<double> rate_of(hid_t file, const std::string& name, std::span<con
     }
 }
 
+/// Opens an array of the file as samples, without a sampling rate.
 Result<std::unique_ptr<Hdf5Samples>> samples_of(hid_t file, const std::string& path, const ArrayInfo& array, const ExtentHints& hints) {
     auto dataset = hdf5::open_dataset(file, array.name);
     if (!dataset) return bad_input(fmt::format("cannot open {}; the file may be damaged", array.name), {path});
@@ -232,7 +246,7 @@ Result<std::unique_ptr<Hdf5Samples>> samples_of(hid_t file, const std::string& p
     return samples;
 }
 
-/// The arrays of sample times in the group of a dataset.
+/// The arrays in the group of the chosen dataset that can be lists of sample times.
 std::vector<const ArrayInfo*> time_arrays(const ArrayInfo& chosen, std::span<const ArrayInfo> arrays) {
     std::vector<const ArrayInfo*> out;
     for (const auto& a : arrays)
@@ -240,14 +254,14 @@ std::vector<const ArrayInfo*> time_arrays(const ArrayInfo& chosen, std::span<con
     return out;
 }
 
-/// The array of times with the same number of rows, or null.
+/// The first list of sample times with as many times as the chosen dataset has rows, or null.
 const ArrayInfo* times_of(const ArrayInfo& chosen, std::int64_t rows, std::span<const ArrayInfo> arrays) {
     for (const auto* a : time_arrays(chosen, arrays))
         if (time_list_length(*a) == static_cast<std::uint64_t>(rows)) return a;
     return nullptr;
 }
 
-/// True if the name is a link to another file.
+/// True if this path in the file is a link to another file.
 bool is_external_link(hid_t file, const std::string& name) {
     H5L_info_t link{};
     return H5Lexists(file, name.c_str(), H5P_DEFAULT) > 0 && H5Lget_info(file, name.c_str(), &link, H5P_DEFAULT) >= 0 &&

@@ -5,7 +5,8 @@
 
 namespace corpuscle {
 
-/// Opens the requested dataset, or the only one that can be a recording. `path` is for messages.
+/// Opens, in the file that is open as `descriptor`, the dataset that the options request, or the only one that can be a recording. `path`
+/// is for messages.
 SamplesResult open_hdf5_samples(int descriptor, const std::string& path, const TableOptions&);
 
 }  // namespace corpuscle

@@ -12,7 +12,7 @@ namespace {
 
 constexpr hsize_t max_chunk = hsize_t{1} << 30;  // bytes, decompressed
 
-/// The name that an HDF5 function get(buffer, size) writes. Without a buffer the function returns the length of the name.
+/// The name that an HDF5 function writes, called as get(buffer, size). Without a buffer, get returns the length of the name.
 std::string name_in(auto&& get) {
     const auto size = get(nullptr, 0);
     if (size <= 0) return "";
@@ -22,7 +22,7 @@ std::string name_in(auto&& get) {
     return name;
 }
 
-/// The error for data in other files. No other file is read unless the user copies it.
+/// The error for a dataset whose data are in other files, which are never read.
 Error data_in_other_files(const ArrayInfo& array, const std::set<std::string>& files, const std::string& path) {
     return bad_input(fmt::format("{}: its data are in '{}', and other files are not read. Copy the data into one file, in Python: "
                                  "h5py.File('own.h5', 'w')['force'] = h5py.File('{}')['{}'][:]",
@@ -30,6 +30,8 @@ Error data_in_other_files(const ArrayInfo& array, const std::set<std::string>& f
                      {path});
 }
 
+// The files, of the first 8 entries at most, in which an external or a virtual dataset has its data. The first function returns an empty
+// set if the dataset is not external.
 std::set<std::string> external_files(hid_t properties) {
     std::set<std::string> files;
     const int count = H5Pget_external_count(properties);
@@ -50,12 +52,13 @@ std::set<std::string> virtual_sources(hid_t properties) {
     for (size_t k = 0; k < std::min<size_t>(count, 8); ++k) {
         const auto file = name_in([&](char* to, size_t size) { return H5Pget_virtual_filename(properties, k, to, size); });
         const auto dataset = name_in([&](char* to, size_t size) { return H5Pget_virtual_dsetname(properties, k, to, size); });
-        files.insert(file == "." ? dataset : file);
+        files.insert(file == "." ? dataset : file);  // ".": a dataset of this file
     }
     if (files.empty()) files.insert("unknown file");
     return files;
 }
 
+/// Fails if a required filter of the dataset is not available.
 Result<void> check_filters(hid_t properties, const ArrayInfo& array, const std::string& path) {
     const int count = H5Pget_nfilters(properties);
     for (int k = 0; k < count; ++k) {
@@ -77,7 +80,7 @@ Error never_written(const ArrayInfo& array, const std::string& path) {
     return bad_input(fmt::format("{}: no data were written into it", describe(array)), {path});
 }
 
-/// Number of elements times their size, bytes; the maximum value on overflow.
+/// The product of the counts and of the size of an element, bytes; the maximum value on overflow.
 hsize_t bytes_of(std::span<const hsize_t> counts, size_t element) {
     hsize_t bytes = element;
     for (const auto n : counts)
@@ -85,6 +88,7 @@ hsize_t bytes_of(std::span<const hsize_t> counts, size_t element) {
     return bytes;
 }
 
+/// Checks a chunked dataset: the size of its chunks, and how many of them were written. Fills `storage`.
 Result<void> check_chunks(hid_t dataset, hid_t properties, const ArrayInfo& array, const std::string& path, StorageInfo& storage) {
     const Handle space(H5Dget_space(dataset), H5Sclose), type(H5Dget_type(dataset), H5Tclose);
     storage.chunk.resize(array.shape.size());
@@ -107,11 +111,12 @@ Result<void> check_chunks(hid_t dataset, hid_t properties, const ArrayInfo& arra
         return bad_input(fmt::format("cannot read {}; the file may be damaged", array.name), {path});
     if (stored == 0) return never_written(array, path);
     if (stored >= expected) return {};
-    if (stored < expected - stored)
+    if (stored < expected - stored)  // less than half
         return bad_input(fmt::format("{}: only {} of its {} chunks were written. If the recording ended early, keep its beginning, in "
                                      "Python: h5py.File('{}', 'r+')['{}'].resize(ROWS, axis=0)",
                                      describe(array), stored, expected, path, array.name),
                          {path});
+    // Missing chunks read as the fill value. Only a fill value that the file's author defined counts as data.
     H5D_fill_value_t fill = H5D_FILL_VALUE_UNDEFINED;
     (void)H5Pfill_value_defined(properties, &fill);
     storage.has_gaps = fill != H5D_FILL_VALUE_USER_DEFINED;

@@ -7,15 +7,15 @@
 namespace corpuscle::hdf5 {
 
 struct StorageInfo {
-    std::vector<hsize_t> chunk = {};  ///< in each dimension of the dataset; empty: not chunked
-    bool has_gaps = false;            ///< some chunks were never written
-    std::vector<std::string> notes = {};
+    std::vector<hsize_t> chunk = {};      ///< elements of a chunk in each dimension of the dataset; empty if the dataset is not chunked
+    bool has_gaps = false;                ///< true if some chunks were never written and have no fill value defined by the file's author
+    std::vector<std::string> notes = {};  ///< for the user
 };
 
-/// Rejects data in other files, data that were never written, and filters that are not available.
+/// Fails if the data are in other files, if less than half of them were written, if a chunk is too large, or if a filter is not available.
 Result<StorageInfo> check_storage(hid_t dataset, const ArrayInfo&, const std::string& path);
 
-/// True if the chunk that begins at this element was written.
+/// True if the chunk that begins at element `offset` (an index in each dimension) was written.
 bool is_chunk_written(hid_t dataset, std::span<const hsize_t> offset);
 
 }  // namespace corpuscle::hdf5

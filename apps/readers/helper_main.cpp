@@ -15,18 +15,20 @@
 namespace corpuscle {
 namespace {
 
-/// Receives a request and starts the time limit of its reply. The alarm ends the program.
+/// Receives a request and starts the time limit of its reply: an alarm that ends the program. Returns false if the socket was closed.
 bool next_request(int socket, Message& m) {
     if (!m.receive(socket)) return false;
     ::alarm(HelperProcess::response_timeout_s);
     return true;
 }
 
+/// Ends the time limit and sends the reply.
 bool send_reply(int socket, const Message& m) {
     ::alarm(0);
     return m.send(socket);
 }
 
+/// The requested samples, or the error.
 Message reply_to(const FetchRequest& request, Samples& samples) {
     std::vector<std::vector<double>> out(request.wanted.size(), std::vector<double>(request.rows));
     if (auto ok = samples.fetch(static_cast<std::int64_t>(request.first), request.rows, request.wanted, out); !ok)
@@ -34,6 +36,7 @@ Message reply_to(const FetchRequest& request, Samples& samples) {
     return encode(out);
 }
 
+/// Opens the file as the first request says, then serves requests for rows until the socket is closed.
 void serve_requests(int socket, int file, const OpenRequest& first, const OpenSamples& open) {
     auto samples = open(file, first.path, first.options);
     if (!send_reply(socket, samples ? encode((*samples)->info()) : encode(samples.error())) || !samples) return;
@@ -66,7 +69,7 @@ int helper_main(int argc, char** argv, const char* kind, const OpenSamples& open
     }
     confine(HelperProcess::file_descriptor, HelperProcess::memory_limit);
     serve(HelperProcess::socket_descriptor, HelperProcess::file_descriptor, open);
-    std::_Exit(0);  // skips the exit handlers of the library
+    std::_Exit(0);  // skips the exit handlers of the format's library, which a damaged file may have broken
 }
 
 }  // namespace corpuscle

@@ -7,10 +7,10 @@
 
 namespace corpuscle {
 
-/// Opens the samples in descriptor `file`; `path` is for messages.
+/// Opens the samples of the file that is open as descriptor `file`; `path` is for messages.
 using OpenSamples = std::function<SamplesResult(int file, const std::string& path, const TableOptions&)>;
 
-/// Serves all requests on `socket`.
+/// Serves the requests of the program `corpuscle` on `socket`: one that opens the samples of descriptor `file`, then those for rows.
 void serve(int socket, int file, const OpenSamples&);
 
 /// The main function of a helper program. `kind` names the file format in the message to a user who starts the program by hand.

@@ -16,8 +16,8 @@ class SoundSamples final : public Samples {
     std::unique_ptr<SNDFILE, CloseSoundFile> file_;
     SF_INFO info_{};
     SamplesInfo samples_info_;
-    sf_count_t at_ = 0;  // index of the next frame
-    std::vector<double> frames_;
+    sf_count_t at_ = 0;           // index of the frame that the library reads next, from 0
+    std::vector<double> frames_;  // of the last fetch(): all channels of each frame
 
     bool is_floating_point() const {
         const int kind = info_.format & SF_FORMAT_SUBMASK;

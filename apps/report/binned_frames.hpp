@@ -1,6 +1,6 @@
 #pragma once
-// Sums of values over time, in frames of equal length, for many places: the marks of a map, or the classes of a skin. Memory is bounded:
-// adjacent frames are merged in pairs when there are more than `max_frames`.
+// Sums of values in consecutive frames of time, all of equal length, for many places: the marks of a map, or the classes of a skin. Memory
+// is bounded: when there would be more than `max_frames` frames, adjacent frames are merged in pairs, which doubles their length.
 
 #include <algorithm>
 #include <cstddef>
@@ -13,19 +13,19 @@ template <class V>
 class BinnedFrames {
 public:
     struct Entry {
-        std::uint32_t place;  ///< index of the mark or class
+        std::uint32_t place;  ///< index of the mark or class, from 0
         V value;
         bool operator==(const Entry&) const = default;
     };
-    using Frame = std::vector<Entry>;  ///< in ascending order of place; zeros are omitted
+    using Frame = std::vector<Entry>;  ///< in ascending order of place; places whose sum is zero are omitted
 
     BinnedFrames() = default;
-    /// `width`: initial length of a frame, samples.
+    /// `places`: number of places. `width`: initial length of a frame, samples.
     BinnedFrames(std::size_t places, std::size_t max_frames, std::int64_t width)
         : max_frames_(std::max<std::size_t>(max_frames, 2)), width_(width), current_values_(places) {}
 
-    /// Makes the frame that contains `sample` the current one, to which add() adds. Samples must not decrease. Returns the first sample
-    /// after this frame.
+    /// Makes the frame that contains `sample` the current one, to which add() adds. `sample` is counted from 0 at the start of the run and
+    /// must not be smaller than in an earlier call. Returns the first sample after this frame.
     std::int64_t select_frame(std::int64_t sample) {
         while (sample >= end_) {
             const auto frame = static_cast<std::size_t>(sample / width_);
@@ -44,6 +44,7 @@ public:
     }
 
     std::size_t places() const { return current_values_.size(); }
+    /// The present length of a frame, samples.
     std::int64_t width() const { return width_; }
     /// All frames, including the current one.
     std::vector<Frame> frames() const {
@@ -54,8 +55,9 @@ public:
 
 private:
     std::size_t max_frames_ = 2;
-    std::int64_t width_ = 1, end_ = 0;  // samples
-    std::vector<Frame> completed_;
+    std::int64_t width_ = 1;                     // length of a frame, samples
+    std::int64_t end_ = 0;                       // the first sample after the current frame; 0 before the first call of select_frame()
+    std::vector<Frame> completed_;               // the frames before the current one
     std::vector<V> current_values_;              // values of the current frame
     std::vector<std::uint32_t> nonzero_places_;  // nonzero places of the current frame; may contain duplicates and places that are 0 again
 
@@ -69,6 +71,7 @@ private:
         return frame;
     }
 
+    /// Completes the current frame and starts an empty one.
     void close() {
         completed_.push_back(current_frame());
         for (const auto p : nonzero_places_) current_values_[p] = V{};
@@ -94,7 +97,7 @@ private:
             for (const auto& e : completed_.back()) {
                 const V value = current_values_[e.place];
                 current_values_[e.place] = V{};
-                add(e.place, e.value), current_values_[e.place] += value;  // sums in order of time
+                add(e.place, e.value), current_values_[e.place] += value;  // the earlier half is summed first
             }
             completed_.pop_back();
         }

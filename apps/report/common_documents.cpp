@@ -7,14 +7,14 @@ namespace corpuscle {
 using PartJson = nlohmann::ordered_json;
 
 PartJson curve_document(std::uint32_t channel, const PartJson& afferent, std::string_view quantity, std::string_view unit,
-                        const Envelope& e) {
+                        const Envelope& values) {
     return {{"channel", channel},
             {"afferent", afferent},
             {"quantity", quantity},
             {"unit", unit},
-            {"bucket", e.bucket()},
-            {"count", e.count()},
-            {"data", base64(e.values().data(), e.values().size() * sizeof(float))}};
+            {"bucket", values.bucket()},
+            {"count", values.count()},
+            {"data", base64(values.values().data(), values.values().size() * sizeof(float))}};
 }
 
 PartJson parameters_document(const AfferentPlan& plan, std::span<const ParameterDistribution> spreads) {

@@ -1,5 +1,5 @@
 #pragma once
-// JSON that several pages use: a trace, the parameters of an afferent.
+// JSON that several report pages use: a trace, and the parameters of an afferent.
 
 #include <nlohmann/json_fwd.hpp>
 #include <span>
@@ -9,11 +9,13 @@
 
 namespace corpuscle {
 
-/// A trace in the format of class Trace in page-data.js. `afferent`: its name, or null for the force.
+/// A trace in the format of class Trace in page-data.js. `channel`: its index, counted over all
+/// inputs of the run. `afferent`: the name of the afferent, or null if the trace is the force.
 nlohmann::ordered_json curve_document(std::uint32_t channel, const nlohmann::ordered_json& afferent, std::string_view quantity,
-                                      std::string_view unit, const Envelope&);
+                                      std::string_view unit, const Envelope& values);
 
-/// The parameters with defaults, descriptions and sources. Spreads of other afferents are ignored.
-nlohmann::ordered_json parameters_document(const AfferentPlan&, std::span<const ParameterDistribution>);
+/// The parameters of an afferent, each with its value, default, description, source and, if it is drawn at random, its standard deviation
+/// ("spread"). Distributions of other afferents' parameters are ignored.
+nlohmann::ordered_json parameters_document(const AfferentPlan&, std::span<const ParameterDistribution> spreads);
 
 }  // namespace corpuscle

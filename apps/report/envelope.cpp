@@ -12,7 +12,7 @@ void Envelope::add(double value) {
     }
     if (last_count_ == bucket_) {
         if (values_.size() / 2 >= max_points_) double_bucket();
-        if (last_count_ == bucket_) last_count_ = 0;
+        if (last_count_ == bucket_) last_count_ = 0;  // otherwise doubling has left the last bucket half full
     }
     if (last_count_ == 0) {
         values_.insert(values_.end(), {x, x});
@@ -25,7 +25,8 @@ void Envelope::add(double value) {
 
 void Envelope::double_bucket() {
     std::vector<float> merged;
-    const std::size_t width = bucket_ == 1 ? 1 : 2, step = 2 * width;  // floats per bucket; two buckets are merged into one
+    const std::size_t width = bucket_ == 1 ? 1 : 2,
+                      step = 2 * width;  // floats of one old bucket, and of the two old buckets that become one
     for (std::size_t k = 0; k < values_.size(); k += step) {
         const auto end = std::min(k + step, values_.size());
         const auto [min, max] =
@@ -33,6 +34,7 @@ void Envelope::double_bucket() {
         merged.insert(merged.end(), {*min, *max});
     }
     const auto buckets = static_cast<std::int64_t>(values_.size() / width);
+    // The new last bucket contains one old bucket if their number was odd, else a full one and the old last one.
     last_count_ = (buckets % 2 == 1 ? 0 : bucket_) + (bucket_ == 1 ? 1 : last_count_);
     values_ = std::move(merged);
     bucket_ *= 2;

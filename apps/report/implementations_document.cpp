@@ -8,7 +8,7 @@ namespace {
 using Json = nlohmann::ordered_json;
 using Count = ImplementationComparison::PhaseCount;
 
-/// The phases of all inputs.
+/// The names of the phases of all inputs, each once, in order of first occurrence.
 std::vector<std::string> phases_of(const ImplementationComparisons& comparisons) {
     std::vector<std::string> all;
     for (const auto& c : comparisons.rows())
@@ -17,7 +17,8 @@ std::vector<std::string> phases_of(const ImplementationComparisons& comparisons)
     return all;
 }
 
-/// Afferent, channel, and spike counts in total and in each phase.
+/// The first cells of a row: afferent, channel, spike count in total and in each phase. `count` selects the counts of the compared
+/// implementation or of the reference. Null for a phase that this input does not have.
 Json counts_row(const ImplementationComparison& c, const std::string& afferent, const std::vector<std::string>& phases,
                 std::size_t Count::* count) {
     Json row = {afferent, c.channel, c.total.*count};
@@ -28,6 +29,7 @@ Json counts_row(const ImplementationComparison& c, const std::string& afferent, 
     return row;
 }
 
+/// The complete row of an implementation that is compared with the reference.
 Json row_document(const ImplementationComparison& c, const std::vector<std::string>& phases) {
     const auto number = [](double x) { return std::isfinite(x) ? Json(x) : Json(nullptr); };
     auto row = counts_row(c, c.afferent, phases, &Count::spikes);
@@ -50,7 +52,7 @@ Json implementations_document(const ImplementationComparisons& comparisons) {
                                        {"Victor-Purpura", 2},
                                        {"van Rossum", 2}})
         columns.push_back(name), decimals.push_back(places);
-    const ImplementationComparison* last = nullptr;
+    const ImplementationComparison* last = nullptr;  // of the previous row; comparisons with one reference on one channel are adjacent
     for (const auto& c : comparisons.rows()) {
         if (!last || last->reference != c.reference || last->channel != c.channel) {
             rows.push_back(counts_row(c, c.reference, phases, &Count::reference_spikes));

@@ -1,6 +1,8 @@
 "use strict";
-// The figures of an afferent type. One implementation: its currents, membranes and other quantities. Several: each quantity overlaid.
+// The figures of an afferent type. If there is one implementation, they show its currents, membranes and other quantities. If there are
+// several, the figures overlay each quantity of all of them.
 
+/// The panels of one element of afferentTypesOf().
 function afferentTypePanels({name, members}) {
     const traced = members.map((member) => ({...member, traces: shown.traces.filter((trace) => trace.afferent === member.afferent.name)}));
     if (!traced.some(({traces}) => traces.length)) return [];
@@ -16,15 +18,16 @@ function afferentTypePanels({name, members}) {
     return withTimes(implementationPanels(host, name, traced));
 }
 
-/// Shows the times below the last panel of a section.
+/// Shows the time axis below the last panel of a section. Returns the panels.
 function withTimes(panels) {
     if (panels.length) panels[panels.length - 1].showTimes();
     return panels;
 }
 
-/// Overlays each quantity that several implementations have, then shows the remaining quantities of each.
+/// Panels that overlay the currents and membranes that several implementations have, then panels of the remaining quantities of each
+/// implementation. `members`: {afferent, index, traces} of each implementation.
 function implementationPanels(host, name, members) {
-    const quantities = new Map();
+    const quantities = new Map();  // unit and base quantity -> [{trace, member}]
     for (const member of members)
         for (const trace of member.traces.filter((one) => !isFrontEnd(one, member.traces))) {
             const key = trace.unit + baseQuantity(trace.quantity);
@@ -42,6 +45,7 @@ function implementationPanels(host, name, members) {
     return [...overlays, ...members.flatMap((member) => afferentPanels(host, member, member.traces.filter(isRemaining), true))];
 }
 
+/// One panel with the same quantity of several implementations. `list`: [{trace, member}]; `scales`: by unit, the scales of all members.
 function overlay(host, name, members, list, scales) {
     const [{trace, member}] = list, total = isTotal(trace);
     const V_th = trace.unit === "V" && scales.V[members.indexOf(member)].isIdentity ? member.afferent.V_th : null;
@@ -55,7 +59,7 @@ function overlay(host, name, members, list, scales) {
     });
 }
 
-/// A panel for each kind of quantity: currents, membranes, other states. `withName`: put the afferent's name into the titles.
+/// The panels of one implementation, one for each kind of quantity: currents, membranes, other states. `withName`: put the afferent's name into the titles.
 function afferentPanels(host, {afferent, index}, traces, withName = false) {
     return byKind(traces, afferent.netlist).map(([kind, group]) => {
         const {unit} = group[0];
@@ -81,10 +85,12 @@ function byKind(traces, netlist) {
     return [...groups];
 }
 
-/// True for quantities of the sensor front end (sensor, transducer, converter): all traces up to F_read.
+/// True for quantities of the front end (sensor, transducer, converter). `traces` has them first; F_read, the force that the converter reads,
+/// is the last of them.
 const isFrontEnd = (trace, traces) => traces.indexOf(trace) <= traces.findIndex(({quantity}) => quantity === "F_read");
 
-/// Line styles: totals and membranes are bold in the colour of the afferent; components are thinner, in its shades and dashed.
+/// The series of a panel, one for each trace. Total currents and membranes are thick lines in the colour `base` of the afferent; components
+/// are thinner, in shades of it, and some are dashed.
 function styles(traces, base) {
     const main = traces.filter(isTotal);
     const bold = [{color: base, width: 2}, {color: mixed(base, colour("ink"), 0.55), width: 2, dash: traces[0].unit === "A" ? [6, 3] : null}];

@@ -1,5 +1,5 @@
 "use strict";
-// Access to the data of the report. Numbers stay base64 text until their trace is shown.
+// Access to the data of the report. The values of a trace and the times of a spike train stay base64 text until they are needed.
 
 function bytesOf(base64) {
     if (Uint8Array.fromBase64) return Uint8Array.fromBase64(base64);
@@ -8,7 +8,8 @@ function bytesOf(base64) {
     return bytes;
 }
 
-/// One recorded quantity. Sample k is at t0 + k T. If bucket > 1, only the minimum and maximum of each `bucket` samples are known.
+/// One recorded quantity on one channel. Sample k, counted from 0, is at t0 + k T (s). If bucket > 1, only the minimum and maximum of each
+/// `bucket` consecutive samples are known.
 class Trace {
     constructor(record, input) {
         Object.assign(this, {quantity: record.quantity, afferent: record.afferent, unit: record.unit, bucket: record.bucket});
@@ -18,11 +19,13 @@ class Trace {
         this.record = record;
     }
 
+    /// The values for range queries; entry j is bucket j. Decoded at the first use.
     get pyramid() {
         if (!this.built) this.built = new Pyramid(...this.decode());
         return this.built;
     }
 
+    /// [samples], or [minima, maxima] of the buckets.
     decode() {
         const numbers = new Float32Array(bytesOf(this.record.data).buffer);
         if (this.bucket === 1) return [numbers];
@@ -36,14 +39,15 @@ class Trace {
 
     fullRange() { return this.range(0, this.samples); }
 
-    /// [min, max] at the sample nearest to time t; both are equal if every sample is known.
+    /// [min, max] of the bucket with the sample nearest to time t (s); both are equal if every sample is known.
     at(t) {
         const k = Math.max(0, Math.min(this.samples - 1, Math.round((t - this.t0) / this.T)));
         return this.range(k, k + 1);
     }
 }
 
-/// Ascending spike times of one afferent on one channel. The frequency at t[k] is f_k = 1 / (t[k+1] - t[k]).
+/// The ascending spike times t[k] (s) of one afferent on one channel. The instantaneous frequency at t[k] is f_k = 1 / (t[k+1] - t[k]).
+/// `record`: from the report's data; null for a train without spikes.
 class Spikes {
     constructor(record) {
         this.record = record;
@@ -55,11 +59,13 @@ class Spikes {
         return this.decoded;
     }
 
+    /// The instantaneous frequencies for range queries; entry k is f_k.
     get frequency() {
         if (!this.built) this.built = new Pyramid(this.frequencies());
         return this.built;
     }
 
+    /// f_k in Hz, one fewer than spikes; NaN where two spike times are equal.
     frequencies() {
         const t = this.times, f = new Float64Array(Math.max(t.length - 1, 0));
         for (let k = 0; k < f.length; ++k) f[k] = t[k + 1] > t[k] ? 1 / (t[k + 1] - t[k]) : NaN;
@@ -84,22 +90,23 @@ class Report {
         this.spikeTrains = new Map(data.spikes.map((record) => [record.afferent + "\n" + record.channel, new Spikes(record)]));
     }
 
-    /// New objects on each call, so that the decoded data of one channel can be freed.
+    /// The traces of a channel. They are new objects on each call, so that the decoded data of the last channel can be freed.
     traces(input, channel) {
         return this.data.traces.filter((record) => record.channel === channel.id).map((record) => new Trace(record, input));
     }
 
-    /// The trains shown for an afferent: the afferent itself, or its first copies, with their names.
+    /// The objects whose spike trains are shown for an afferent: the afferent itself, or its first copies. Each has a name.
     members(afferent) {
         const {copies} = this.data;
         return copies ? Array.from({length: copies.shown}, (_, k) => ({name: `${afferent.name}#${k + 1}`})) : [afferent];
     }
 
-    /// The mean rate of all copies of an afferent: {bin (s), values (Hz)}.
+    /// The firing rate of an afferent in bins, the mean over all its copies: {bin (s), values (Hz)}. Only if there are copies.
     rate(afferent, channel) { return this.data.copies.rates.find((one) => one.afferent === afferent.name && one.channel === channel.id); }
 
     spikes(afferent, channel) { return this.spikeTrains.get(afferent.name + "\n" + channel.id) || new Spikes(null); }
 }
 
+/// The time (s) at which an input ends.
 const endOf = (input) => input.t0 + input.samples * input.T;
 const phaseAt = (input, t) => input.phases.find((phase) => t >= phase.from && t < phase.to);

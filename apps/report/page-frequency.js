@@ -3,8 +3,9 @@
 
 const MARKS = ["●", "▲", "■", "◆"];
 
-/// f_k = 1 / (t[k+1] - t[k]) as a mark at t[k]; the last spike has none.
+/// The instantaneous frequency f_k = 1 / (t[k+1] - t[k]) as a mark at spike time t[k]; the last spike has none.
 class FrequencyPanel extends Panel {
+    /// `trains`: [{name, color, index, spikes}]; `index` selects the shape of the marks.
     constructor({trains, title = "instantaneous frequency", ...rest}) {
         const highest = trains.reduce((high, {spikes}) => Math.max(high, spikes.frequency.range(0, spikes.count)[1] || 0), 0);
         const power = prefixPower(highest, "Hz");
@@ -26,14 +27,15 @@ class FrequencyPanel extends Panel {
         return [(high || 1) * -0.04, (high || 1) * 1.08];
     }
 
+    /// The rows for dygraphs from time a to b: every mark if there are few, else two marks per pixel column. `width`: of the plot, pixels.
     rows(a, b, width) {
-        const margin = 4 * devicePixels() * (b - a) / width;  // includes marks that are cut by the edge
+        const margin = 4 * devicePixels() * (b - a) / width;  // s; marks that the edge of the plot cuts are drawn, too
         const visible = this.trains.map((spikes) => [spikes.before(a - margin), Math.min(spikes.before(b + margin), spikes.count - 1)]);
         const total = visible.reduce((sum, [i, j]) => sum + Math.max(j - i, 0), 0);
         return total <= 2 * width ? this.everyMark(visible) : this.columnMarks(a, b, width);
     }
 
-    /// `visible`: [first, end) of the visible frequencies of each train.
+    /// `visible`: the indices [first, end) of the visible frequencies of each train.
     everyMark(visible) {
         const rows = [];
         this.trains.forEach((spikes, s) => {
@@ -43,7 +45,7 @@ class FrequencyPanel extends Panel {
         return rows.sort((one, other) => one[0] - other[0]);
     }
 
-    /// The minimum and maximum frequency in each pixel column.
+    /// The minimum and maximum frequency of each train in each pixel column.
     columnMarks(a, b, width) {
         const rows = [], columns = Math.ceil(width), step = (b - a) / columns;
         let from = this.trains.map((spikes) => spikes.before(a));
@@ -65,7 +67,7 @@ class FrequencyPanel extends Panel {
     }
 }
 
-/// Disc, triangle, square or diamond, so that afferents differ in shape as well as colour.
+/// A drawPointCallback of dygraphs. `kind`: 0 disc, 1 triangle, 2 square, 3 diamond, so that afferents differ in shape as well as in colour.
 function drawMark(kind) {
     const corners = [null, [[0, -1.2], [1.1, 0.8], [-1.1, 0.8]], [[-0.9, -0.9], [0.9, -0.9], [0.9, 0.9], [-0.9, 0.9]], [[0, -1.3], [1.3, 0], [0, 1.3], [-1.3, 0]]][kind];
     return (_chart, _series, context, x, y, color, size) => {

@@ -1,18 +1,20 @@
 "use strict";
-// Overlays of the implementations of one afferent type: matches their quantities, and computes the scales with which they share a panel.
+// For overlays of the implementations of one afferent type: matches their quantities, and computes the scales with which they share a panel.
 
-/// A key that is equal for the same quantity in all implementations: "ia" for I_A and i(via), "u" for u and v(u). A current through a source
-/// is named after the source.
+/// A key that is equal for the same quantity in all implementations: "ia" for the model's I_A and the netlist's i(via), "u" for u and v(u).
+/// The current through voltage source via is i(via), so a leading "v" is removed.
 function baseQuantity(quantity) {
     const probed = quantity.match(/^([vi])\((.*)\)$/);
     const name = probed ? (probed[1] === "i" ? probed[2].replace(/^v/, "") : probed[2]) : quantity;
     return name.toLowerCase().replace(/_/g, "");
 }
 
-/// True for a total current or a membrane, false for components.
+/// True for the total current into a membrane (I, I+, I-) and for a membrane voltage (u, u+, u-), false for components and other quantities.
 const isTotal = ({quantity, unit}) => (unit === "A" ? /^i[+-]?$/ : /^u[+-]?$/).test(baseQuantity(quantity));
 
-/// [{name, members: [{afferent, index}]}], in order. The first member is the reference. `index` selects the colour.
+/// The afferent types in order of first occurrence: [{name, members: [{afferent, index}]}]. The members are the implementations, the reference
+/// first: the afferent with the name of the type, then other models, then netlists. `index`, the afferent's index in `afferents`, selects
+/// the colour.
 function afferentTypesOf(afferents) {
     const all = new Map();
     afferents.forEach((afferent, index) => {
@@ -31,7 +33,7 @@ class Scale {
     get isIdentity() { return this.offset === 0 && this.factor === 1; }
 }
 
-/// A trace scaled to the axis of the reference; at() returns unscaled values.
+/// A trace whose ranges are scaled to the axis of the reference; at() returns unscaled values, for the legend.
 class ScaledTrace {
     constructor(trace, scale) {
         const {quantity, afferent, unit, bucket, t0, T, samples} = trace;
@@ -45,7 +47,7 @@ class ScaledTrace {
     at(t) { return this.trace.at(t); }
 }
 
-/// The mean of the positive part of a trace; for a current, the part that drives the membrane to fire.
+/// The mean of the positive part of a trace. For a current, this is the part that drives the membrane towards its threshold.
 function meanDrive(trace) {
     const {lo, hi} = trace.pyramid.levels[0];
     let sum = 0, count = 0;
@@ -56,9 +58,10 @@ function meanDrive(trace) {
     return count ? sum / count : 0;
 }
 
-/// Threshold and reset voltage of a membrane, V: the parameters of the afferent if it has both. Otherwise they are estimated from the
-/// extremes between spikes: the medians over short intervals, because in longer intervals the membrane may be at rest. With few samples the
-/// outermost values are used. Null if the afferent fired less than twice.
+/// Threshold and reset voltage of a membrane, V: the parameters of the afferent if it has both. Otherwise they are estimated from the minima
+/// and maxima of the membrane voltage in the intervals between spikes: their medians over short intervals, because in longer intervals the
+/// membrane may be at rest. If an interval has few known samples, the smallest minimum and the largest maximum are used. Null if the
+/// afferent fired less than twice, or if the estimates are equal.
 function windowOf({afferent}, trace, spikes) {
     if (Number.isFinite(afferent.V_th) && Number.isFinite(afferent.V_reset)) return {threshold: afferent.V_th, reset: afferent.V_reset};
     const sample = (t) => Math.floor((t - trace.t0) / trace.T), t = spikes.times;
@@ -67,12 +70,14 @@ function windowOf({afferent}, trace, spikes) {
     const longest = 3 * Math.min(...intervals.map(([i, j]) => j - i));
     const shortIntervals = intervals.filter(([i, j]) => j - i <= longest).slice(0, 1000);
     const extremes = [0, 1].map((end) => shortIntervals.map(([i, j]) => trace.range(i, j + 1)[end]).sort((one, other) => one - other));
+    // extremes[0] are the sorted minima, extremes[1] the sorted maxima
     const [low, high] = longest < 24 * trace.bucket ? [extremes[0][0], extremes[1].at(-1)] : extremes.map((all) => all[all.length >> 1]);
     if (!(low < high)) return null;
     return isRising(trace, shortIntervals, (low + high) / 2) ? {threshold: high, reset: low} : {threshold: low, reset: high};
 }
 
-/// True if a membrane rises towards its threshold: most steps between spikes go up, or, with few samples, its first value is below `middle`.
+/// True if a membrane rises towards its threshold, false if it falls. It rises if most steps go up in the longest of the intervals [i, j]
+/// between spikes. If that has few known samples, it rises if the trace's first value is below `middle`.
 function isRising(trace, intervals, middle) {
     const [i, j] = intervals.reduce((longest, one) => (one[1] - one[0] > longest[1] - longest[0] ? one : longest));
     if (j - i < 8 * trace.bucket) return trace.range(0, 1)[0] < middle;
@@ -84,7 +89,8 @@ function isRising(trace, intervals, middle) {
 /// Currents within a factor of ten share an axis.
 const areSimilar = (one, other) => one > 0 && other > 0 && one / other < 10 && other / one < 10;
 
-/// Scales of all members; the first is the reference. A member similar to an earlier one shares its scale; others get a scale from `make`.
+/// The scales of all members. The first member is the reference, with the identity. A member whose property is similar to that of an earlier
+/// one shares its scale; the others get a scale from `make`. A member without a property is not scaled. `properties`: one per member.
 function sharedScales(members, properties, isSimilar, make) {
     const scales = [];
     members.forEach((_, k) => {
@@ -94,15 +100,16 @@ function sharedScales(members, properties, isSimilar, make) {
     return scales;
 }
 
-/// Scales currents of a different magnitude so that their mean positive currents are equal. The total current is used if it is shown.
+/// The scale of each member's currents. Currents of a different magnitude are scaled so that the means of their positive parts are equal.
+/// The means are those of the total current if several implementations have it. `currents`: lists of [{trace, member}], one per quantity.
 function currentScales(members, currents) {
-    // the current that most implementations have; the total current comes first
+    // the current that most implementations have; the total current comes first in `currents` and is preferred
     const common = currents.reduce((best, list) => (list.length > best.length ? list : best), []);
     const means = members.map((member) => common.filter((one) => one.member === member).map(({trace}) => meanDrive(trace))[0]);
     return sharedScales(members, means, areSimilar, (mean, reference) => new Scale(0, reference / mean));
 }
 
-/// Scales membranes so that their thresholds align, and their reset values, too.
+/// The scale of each member's membrane, with which thresholds and reset voltages align. `windows`: from windowOf(), one per member.
 function membraneScales(members, windows) {
     const areClose = (one, other) => Math.abs(one.threshold - other.threshold) + Math.abs(one.reset - other.reset) < 0.2 * Math.abs(other.threshold - other.reset);
     return sharedScales(members, windows, areClose, (membrane, reference) => {
@@ -111,7 +118,7 @@ function membraneScales(members, windows) {
     });
 }
 
-/// Explains the right axes: a note for each implementation that is scaled.
+/// A note for each implementation that is scaled, which explains the right axes. `currents`, `membranes`: the scales of all members.
 function scaleNotes(members, currents, membranes, windows) {
     const first = members[0].afferent.name;
     const text = (value, unit) => quantity(value, unit, true);

@@ -1,8 +1,8 @@
 "use strict";
-// A panel is one dygraph with a heading, which is also its legend and readout. All panels have the same left edge and width, so that
-// times align.
+// A panel is one dygraph with a heading, which is also the legend and shows the values at the cursor. All panels have the same left edge
+// and width, so that times align.
 
-const AXIS_FONT = 11;
+const AXIS_FONT = 11;  // pixels
 
 /// Colours are defined in the style sheet, for light and dark themes.
 const colour = (name) => getComputedStyle(document.documentElement).getPropertyValue("--" + name).trim();
@@ -29,8 +29,9 @@ function element(parent, tag, className = "", html = "") {
 }
 
 class Panel {
-    /// `series`: [{label, html, color, width, dash}], one for each column of rows(). `scale`: the value of one unit of the axis.
-    /// `bottom`: show the time axis. `named`: show the names of the phases.
+    /// `series`: [{label, html, color, width, dash}], one for each column of rows() after the time. `scale`: the value that the axis labels 1
+    /// (1e-3 for mV). `height`: of the plot without its time axis, pixels. `bottom`: label the time axis. `named`: show the names of the phases.
+    /// Derived classes define rows(a, b, width), range(rows), the vertical range, and showValues(t), which writes values into the legend.
     constructor({host, input, name, title, about, height, series, scale = 1, bottom = false, named = false}) {
         Object.assign(this, {input, name, series, about, height, scale, named, axisHeight: bottom ? 22 : 16, bottom, dots: false, rightMargin: 14});
         this.root = element(host, "figure", "panel");
@@ -43,6 +44,7 @@ class Panel {
         this.values = series.map((one) => this.legend(one));
     }
 
+    /// Adds an item to the legend. Returns the element for its value.
     legend({label, html, color, width = 1.5, dash, mark}) {
         const item = element(this.heading, "span", "legend-item");
         if (label) item.dataset.series = label;
@@ -79,20 +81,22 @@ class Panel {
         this.selection = element(this.plot, "div", "selection");
     }
 
-    /// Shows the times below this panel.
+    /// Labels the time axis of this panel. Call it before start().
     showTimes() {
         Object.assign(this, {bottom: true, axisHeight: 22});
         this.plot.style.height = this.height + this.axisHeight + "px";
     }
 
+    /// Further options of dygraphs.
     options() { return {}; }
+    /// Called for a click at a point of the plot, in pixels.
     click() {}
     clearValues() { this.values.forEach((value) => { value.textContent = ""; }); }
     /// Rows without values: dygraphs then draws the axes only.
     empty(a, b) { return [a, b].map((t) => [t, ...this.series.map(() => null)]); }
     get area() { return this.chart.getArea(); }
 
-    /// `autoscale`: scale the vertical axis to the visible data.
+    /// Draws the times from a to b. `autoscale`: fit the vertical axis to the visible data, else to all data.
     draw(a, b, autoscale) {
         if (this.area.w < 1) return;
         const rows = this.rows(a, b, this.area.w * devicePixels());
@@ -123,6 +127,7 @@ class Panel {
     }
 }
 
+/// Writes a text centred between two x coordinates, if it fits.
 function writeInside(context, text, left, right, y) {
     context.font = `${AXIS_FONT}px system-ui, sans-serif`;
     context.textAlign = "center";
@@ -130,8 +135,8 @@ function writeInside(context, text, left, right, y) {
     if (context.measureText(text).width + 6 < right - left) context.fillText(text, (left + right) / 2, y);
 }
 
-/// Ticks of the time axis, with labels below the last panel of a section. dygraphs does not draw a tick exactly at the end, so it is moved
-/// slightly inwards.
+/// Ticks of the time axis. `labelled`: with labels, which the last panel of a section has. dygraphs does not draw a tick exactly at the end,
+/// so such a tick is moved slightly inwards.
 function timeTicks(a, b, pixels, labelled) {
     const {values, decimals} = roundTicks(a, b, pixels / 110);
     return values.map((v) => ({v: Math.min(v, b - 1e-9 * (b - a)), label: labelled ? v.toFixed(decimals).replace("-", "−") + " s" : undefined}));

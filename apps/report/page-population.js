@@ -1,11 +1,12 @@
 "use strict";
-// The mean rate of all copies of an afferent, or of all afferents of a class, in equal bins.
+// Firing rates in equal bins, each the mean over all copies of an afferent or over the afferents of a class.
 
 const DASHES = [null, [6, 3], [2, 2], [8, 2, 2, 2]];
 
 /// A step curve for each afferent.
 class PopulationPanel extends Panel {
-    /// `rates`: [{name, color, index, bin, values}]. `noun`: what a rate is per, for the title.
+    /// `rates`: [{name, color, index, bin, values}], with the bin in s and values in Hz; `index` selects the dashes. All bins are equal. `noun`:
+    /// "copy" or "afferent", of which the rate is the mean, for the title.
     constructor({rates, noun = "copy", ...rest}) {
         const highest = rates.reduce((high, {values}) => values.reduce((m, v) => Math.max(m, v), high), 0);
         const power = Math.max(0, prefixPower(highest, "Hz"));  // rates below 1 Hz are not shown in mHz
@@ -17,7 +18,7 @@ class PopulationPanel extends Panel {
 
     titleOf() { return titleHtml(`mean rate per ${this.noun}, in bins of ${quantity(this.rates[0].bin, "s", true)}`, this.unit); }
 
-    /// The last bin ends with the recording.
+    /// The start (s) of bin k, which is the end of bin k - 1. The last bin ends with the recording.
     edge(k) { return Math.min(this.input.t0 + k * this.rates[0].bin, endOf(this.input)); }
     binAt(t) { return Math.floor((t - this.input.t0) / this.rates[0].bin); }
 

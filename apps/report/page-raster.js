@@ -1,12 +1,14 @@
 "use strict";
-// Raster of the spikes of all afferents and channels. The drawing cost is bounded by the number of pixels, not of spikes.
+// Raster of the spikes of all afferents and channels. If there are many spikes, the time to draw it depends on the number of pixels only.
 
-const MAX_LABELS = 46;  // with more lanes there is no space for a label per lane
+const MAX_LABELS = 46;  // if there are more lanes, there is no space for a label per lane
 
-/// Each lane is an afferent on a channel. Spikes are ticks if they can be distinguished, else the spikes per pixel are shown as shades.
+/// Each lane is a row of the raster: an afferent, or a copy of one, on a channel. Spikes are ticks if they can be distinguished, else the number of
+/// spikes per pixel is shown as shades.
 class RasterPanel extends Panel {
-    /// `lanes`: [{afferent, group, label, color, spikes, channel, chosen}], the first at the top; `chosen`: on the selected channel. `pick`
-    /// selects the channel of a lane; null: a click does nothing. `grouped`: draw a line between groups.
+    /// `lanes`: [{afferent, group, label, color, spikes, channel, chosen}], the first at the top; `chosen`: the lane is on the selected channel.
+    /// `pick(channel)` is called when a lane is clicked; null if a click does nothing. `grouped`: draw a line where the `group` of lanes changes.
+    /// `afferents`: [{name, color}] for the legend.
     constructor({lanes, pick, grouped, afferents, named, ...rest}) {
         const laneHeight = Math.min(24, 560 / lanes.length), strip = named ? 16 : 0;
         super({...rest, named, title: "spikes", height: strip + Math.max(40, laneHeight * lanes.length), bottom: true,
@@ -70,7 +72,8 @@ class RasterPanel extends Panel {
         });
     }
 
-    /// Paints an image with one pixel per lane and column, then scales it to the plot. Lanes thinner than a pixel share a line.
+    /// Paints an image with one pixel per line and column, then scales it to the plot. A line is one lane, or several if lanes are thinner than
+    /// a pixel of the screen.
     drawDensity(context, area, a, b, visible) {
         const columns = Math.round(area.w * devicePixelRatio);
         const lines = Math.min(this.lanes.length, Math.floor(area.h * devicePixelRatio));
@@ -87,7 +90,7 @@ class RasterPanel extends Panel {
             context.drawImage(image, 0, k, columns, 1, area.x, area.y + k * area.h / lines + gap, area.w, area.h / lines - 2 * gap);
     }
 
-    /// Shows in the legend how many spikes of the selected channel (or of all copies shown) are visible.
+    /// Shows in the legend how many spikes of each afferent on the selected channel (with copies, of all copies shown) are visible.
     countSpikes(visible) {
         this.series.forEach(({label}, s) => {
             let [shown, total] = [0, 0];
@@ -105,8 +108,8 @@ class RasterPanel extends Panel {
     }
 }
 
-/// Adds spikes i ... j-1 to the pixel columns of [a, b). Few spikes are counted one by one; with many, the first spike
-/// of each column is found by binary search.
+/// Adds spikes i ... j-1 of a train to the counts of the pixel columns that divide the time range [a, b) equally. Few spikes are counted one
+/// by one; if there are many, the first spike of each column is found by binary search.
 function countPerColumn(counts, spikes, i, j, a, b) {
     const t = spikes.times, columns = counts.length;
     if (j - i < 8 * columns) {
@@ -120,7 +123,8 @@ function countPerColumn(counts, spikes, i, j, a, b) {
     }
 }
 
-/// An image of the counts: more spikes are more opaque; the lowest opacity is `minAlpha` of 255.
+/// A canvas with one pixel per count, in the colour of its line: more spikes are more opaque, and one spike has at least the opacity `minAlpha`
+/// of 255.
 function painted(counts, colours, minAlpha = 55) {
     const max = counts.reduce((high, line) => line.reduce((m, n) => Math.max(m, n), high), 1);
     const canvas = element(null, "canvas");

@@ -1,9 +1,9 @@
 "use strict";
 // The tables of the report: rates, recording quality, costs, parameters, versions.
 
-const MAX_ROWS = 2000;  // more would slow the browser; all rows are in summary.json
+const MAX_ROWS = 2000;  // rows of a table; more would slow the browser. All rows are in summary.json
 
-/// Rates of the selected channel, or of all channels.
+/// The table of measures for the selected channel or, if the checkbox is set, for all channels.
 function showRates(table, inputs, channel) {
     const section = document.getElementById("rates");
     section.hidden = !table || !table.rows.length;
@@ -16,6 +16,8 @@ function showRates(table, inputs, channel) {
     fill();
 }
 
+/// Fills `host` with a table of rows. `only`: the channel whose rows are shown; null for all rows. `startsGroup(row, before)`: true if a line
+/// separates a row from the row before.
 function fillRates(host, {columns, decimals, rows}, only, startsGroup = (row, before) => row[0] !== before[0]) {
     const wanted = rows.filter((row) => !only || row[columns.indexOf("channel")] === only);
     const numeric = columns.map((_, c) => rows.some((row) => typeof row[c] === "number" || Array.isArray(row[c])));
@@ -37,7 +39,7 @@ function showImplementations(table, channel) {
     fillRates(section.querySelector(".scroll"), table, channel.name, isFirst);
 }
 
-/// Quality findings of the recordings, the most serious first, and the numbers of each channel.
+/// Quality findings of the recordings, for each recording the warnings first, and the quality metrics of each channel.
 function showQuality({notes, columns, rows}) {
     const section = document.getElementById("quality");
     section.hidden = !rows.length;
@@ -55,12 +57,15 @@ function showCosts(costs, afferents) {
     section.querySelector(".columns").innerHTML = costs.map((cost) => costTable(cost, afferents.findIndex((one) => one.name === cost.afferent))).join("");
 }
 
+/// An area in m², as text in µm².
 const squareMicrons = (area) => (area ? (area * 1e12).toFixed(0) : "–");
 
+/// The table of one netlist. `index`: of its afferent, for the colour.
 function costTable({afferent, rest_force_N, power, area, blocks, afferents}, index) {
     const text = (value, unit) => escaped(quantity(value, unit, true));
     const row = (head, cells) => `<tr><th scope="row">${head}</th>${cells.map((cell) => `<td class="number">${cell}</td>`).join("")}</tr>`;
     const head = ["block", `power at rest (${text(rest_force_N, "N")})`, "area (µm²)", "leakage when off"].map((cell) => `<th scope="col">${cell}</th>`).join("");
+    // Blocks with transistors, and other blocks that take more than a millionth of the delivered power.
     const listed = blocks.filter((one) => one.area.total_m2 || Math.abs(power.op.blocks_W[one.block]) > 1e-6 * power.op.delivered_W);
     const rows = listed.map((one) => row(escaped(one.block), [text(power.op.blocks_W[one.block], "W"), squareMicrons(one.area.total_m2),
         one.worst_leak ? text(one.worst_leak.current_A, "A") : "–"]));

@@ -1,9 +1,9 @@
 "use strict";
 // Plots of force, currents and membranes over time, reduced to the resolution of the screen.
 
-/// Traces of one unit over time. The axis has the prefix that suits the largest value.
+/// Traces of one unit over time. The unit of the axis has the SI prefix that suits the largest value.
 class TracePanel extends Panel {
-    /// `symbol`: the end of the title, such as "I_A". `line`: {value, html} draws a dashed level, such as the threshold.
+    /// `symbol`: the end of the title, such as "I_A". `line`: {value, html} of a level that is drawn dashed, such as the threshold; null for none.
     constructor({traces, line = null, title, symbol = "", ...rest}) {
         const extent = extentOf(traces.map((trace) => trace.fullRange()), line);
         const power = prefixPower(Math.max(Math.abs(extent[0]), Math.abs(extent[1])), traces[0].unit);
@@ -13,13 +13,15 @@ class TracePanel extends Panel {
         if (line) this.legend({html: line.html, color: colour("level"), width: 1, dash: [5, 3]}).textContent = quantity(line.value, traces[0].unit, true);
     }
 
-    /// Every sample if there are few, else the minimum and maximum of columns of about one pixel. Columns are aligned to multiples of their
-    /// width, so that the plot does not flicker while it is panned.
+    /// The rows for dygraphs from time a to b. `width`: of the plot, pixels. If there are few samples, a row is a sample. Otherwise each column
+    /// of about one pixel has two rows, with the minimum and maximum of its samples. A column's first sample is a multiple of its number of
+    /// samples, so that the plot does not flicker while it is panned.
     rows(a, b, width) {
-        const {t0, T, samples} = this.traces[0];
+        const {t0, T, samples} = this.traces[0];  // the same for all traces of an input
         const finest = Math.min(...this.traces.map((trace) => trace.bucket));
         const count = (b - a) / T;
         const single = finest === 1 && count <= 2 * width;
+        // samples per column
         const column = single ? 1 : finest * Math.max(1, Math.ceil(count / (finest * width)));
         this.dots = single && count < width / (8 * devicePixels());
         const first = Math.max(0, Math.floor((a - t0) / T / column) - 1);
@@ -61,7 +63,8 @@ class TracePanel extends Panel {
     }
 }
 
-/// One quantity of several implementations. Implementations with another scale are read on the right axis, which belongs to the first of them.
+/// One quantity of several implementations. The left axis is that of the reference. Implementations with another scale are read on the right
+/// axis, which has the scale of the first of them.
 class OverlayPanel extends TracePanel {
     /// `implementations`: [{trace, scale, color, name}].
     constructor({implementations, title, symbol, ...rest}) {
@@ -86,7 +89,7 @@ class OverlayPanel extends TracePanel {
         if (this.right && this.area.w >= 1) this.drawRight(this.area);
     }
 
-    /// These panels are low, so their ticks are closer.
+    /// These panels have little height, so their ticks are closer together.
     valueTicks(lo, hi, pixels) { return super.valueTicks(lo, hi, 1.4 * pixels); }
 
     /// Draws round values of the right axis at the corresponding heights of the left axis.
@@ -100,28 +103,31 @@ class OverlayPanel extends TracePanel {
     }
 }
 
-/// Two rows per column. For each trace the end nearer to the previous point comes first, so that slopes stay thin.
+/// Two rows of a column at time t, for its minimum and maximum. For each trace, the one nearer to the previous point comes first, so that lines
+/// with a slope stay thin. `last`: the previous value of each trace; updated.
 function bothEnds(t, ranges, last) {
     const near = ranges.map(([low, high], k) => (Math.abs(last[k] - low) <= Math.abs(last[k] - high) ? 0 : 1));
     ranges.forEach((range, k) => { last[k] = range[1 - near[k]]; });
     return [[t, ...ranges.map((range, k) => range[near[k]])], [t, ...last]];
 }
 
-/// One value, or minimum and maximum if they differ.
+/// One value as text, or minimum and maximum if their texts differ.
 function rangeText([low, high], unit) {
     const [first, second] = [quantity(low, unit), quantity(high, unit)];
     return first === second ? first : `${first} … ${second}`;
 }
 
+// The smallest and the largest value in a column of rows; null is ignored.
 const minimum = (rows, column) => rows.reduce((low, row) => (row[column] !== null && row[column] < low ? row[column] : low), Infinity);
 const maximum = (rows, column) => rows.reduce((high, row) => (row[column] !== null && row[column] > high ? row[column] : high), -Infinity);
 
+/// [min, max] over ranges and the level of `line`, if there is one.
 function extentOf(ranges, line) {
     const ends = [...ranges.flat(), line ? line.value : null].filter((v) => v !== null && Number.isFinite(v));
     return ends.length ? [Math.min(...ends), Math.max(...ends)] : [0, 0];
 }
 
-/// Adds margins. `above`: fraction of the height, larger if names of phases are shown.
+/// Adds margins to a vertical range. `above`: the upper margin as a fraction of the height, larger if names of phases are shown.
 function padded([low, high], above) {
     const height = high - low || Math.abs(high) * 0.2 || 1;
     return [low - height * 0.07, high + height * above];

@@ -1,14 +1,15 @@
 "use strict";
 // The time range and the cursor that all panels share. Each panel is drawn at most once per screen frame.
 
-/// Times in s: a, b are the visible range, begin, end the complete recording, and cursor the time under the pointer, or null.
+/// Times in s: a and b are the ends of the visible range, begin and end those of the complete recording. `cursor` is the time under the
+/// pointer, or null if it is not on a panel. `span` and `now`: the page's elements that show the visible range and the cursor's time.
 class View {
     constructor({span, now}) {
         Object.assign(this, {span, now, panels: [], autoscale: false, cursor: null, waiting: false});
         new ResizeObserver(() => this.resized()).observe(document.getElementById("figures"));
     }
 
-    /// Shows panels of one input; keeps the time range if `keep`.
+    /// Shows panels of one input. `keep`: keep the time range and the cursor, else show the complete recording.
     show(panels, input, keep) {
         this.input = input;
         [this.begin, this.end] = [input.t0, endOf(input)];
@@ -27,7 +28,7 @@ class View {
         this.panels = [];
     }
 
-    /// Sets the time range to [a, b], clamped to the recording and to at least four samples.
+    /// Sets the visible range to [a, b], limited to the recording and extended to at least four samples.
     set(a, b) {
         const length = Math.min(Math.max(b - a, 4 * this.input.T), this.end - this.begin);
         const middle = (a + b) / 2;
@@ -39,16 +40,19 @@ class View {
     reset() { this.set(this.begin, this.end); }
     pan(fraction) { this.set(this.a + fraction * (this.b - this.a), this.b + fraction * (this.b - this.a)); }
 
-    /// Zooms about `centre`.
+    /// Multiplies the length of the visible range by `factor`; `centre` (s) keeps its place.
     zoom(factor, centre = this.middle()) { this.set(centre - (centre - this.a) * factor, centre + (this.b - centre) * factor); }
 
+    /// The cursor's time if it is visible, else the middle of the visible range.
     middle() { return this.cursor !== null && this.cursor > this.a && this.cursor < this.b ? this.cursor : (this.a + this.b) / 2; }
 
+    /// Sets the cursor to time t, or removes it if t is null.
     point(t) {
         this.cursor = t === null ? null : Math.max(this.begin, Math.min(this.end, t));
         this.requestCursor();
     }
 
+    // Draw all panels, or only the cursor, at the next screen frame.
     request() {
         if (!this.waiting) requestAnimationFrame(() => this.waiting && this.draw());
         this.waiting = true;

@@ -15,7 +15,7 @@ function showHeading({title, program, command, notes}) {
     at("notes").innerHTML = (notes || []).map((text) => `<li>${escaped(text)}</li>`).join("");
 }
 
-/// Shows the figures of one channel. The time range is kept if only the channel changes.
+/// Shows the figures and tables of one channel of an input. The visible time range is kept if only the channel changes.
 function show(input, channel) {
     const keep = shown.input === input;
     Object.assign(shown, {input, channel, traces: report.traces(input, channel)});
@@ -30,7 +30,7 @@ function show(input, channel) {
     showImplementations(report.data.comparisons, channel);
 }
 
-/// Sets one left margin for all panels, wide enough for the labels of the raster.
+/// Sets the left margin of all panels (pixels), wide enough for the labels of the raster.
 function labelWidth(input) {
     const labels = lanes(input, null).map(({label}) => label);
     const longest = labels.length <= MAX_LABELS ? Math.max(0, ...labels.map((label) => label.length)) : 0;
@@ -38,6 +38,7 @@ function labelWidth(input) {
     at("figures").style.setProperty("--left", view.labelWidth + 6 + "px");
 }
 
+/// Fills the selectors of input and channel; hides those with a single entry.
 function showChoice(input, channel) {
     const {inputs} = report.data;
     at("choose-input").hidden = inputs.length < 2;
@@ -46,7 +47,7 @@ function showChoice(input, channel) {
     at("channel").innerHTML = input.channels.map((one) => `<option value="${one.id}" ${one === channel ? "selected" : ""}>${escaped(one.name)}</option>`).join("");
 }
 
-/// Adds a section of figures with a heading.
+/// Adds a section of figures with a heading. `chip`: colour of the mark before the title; "" for none.
 function section(title, about = "", chip = "") {
     const host = element(at("figures"), "section");
     const mark = chip && `<span class="chip" style="background: ${chip}"></span>`;
@@ -87,15 +88,15 @@ function spikePanels() {
     ];
 }
 
-/// Explains which copies the figures show.
+/// The text that explains which copies the figures show.
 function aboutCopies({count, shown, has_probes}) {
     const rows = shown === count ? `All ${count} copies of each afferent` : `The first ${shown} of ${count} copies of each afferent`;
     const traces = has_probes ? "Currents, membranes and instantaneous frequency are of copy 1." : `Instantaneous frequency is of copy 1; with more than ${shown} copies currents and membranes are not recorded.`;
     return `${rows}, one row per copy. The rate below is the mean over all ${count}. ${traces}`;
 }
 
-/// The lanes of the raster: every afferent on every channel, or all copies on the selected channel. Labels omit the name of the input; the end of a
-/// long label is kept.
+/// The lanes of the raster: every afferent on every channel, or the shown copies of every afferent on the selected channel. Labels omit the name of
+/// the input; of a long label the end is shown. `chosen`: the selected channel, or null if only the labels are needed.
 function lanes(input, chosen) {
     const shortened = (text) => (text.length > 18 ? "…" + text.slice(-17) : text);
     const channelName = ({name}) => (name.startsWith(input.name + ":") ? name.slice(input.name.length + 1) : name);
@@ -106,13 +107,14 @@ function lanes(input, chosen) {
         label: shortened(several ? `${member.name} ${channelName(channel)}` : member.name)});
     return afferentTypes.flatMap(({name, members}) => {
         const lanesOf = (one, on, group) => on.flatMap((channel) => report.members(one.afferent).map((member) => lane(member, channel, one, group)));
+        // With several implementations on several channels, the implementations on one channel are adjacent if there is space for labels.
         const byChannel = members.length > 1 && several && report.data.afferents.length * channels.length <= MAX_LABELS;
         return byChannel ? channels.flatMap((channel) => members.flatMap((one) => lanesOf(one, [channel], name + channel.id)))
                       : members.flatMap((one) => lanesOf(one, channels, several || report.data.copies ? one.afferent.name : name));
     });
 }
 
-/// The channel with the most spikes. It is shown first, because channel 1 of many may have no force.
+/// The channel of an input with the most spikes. It is shown first, because the first channel of many may have no force.
 function mostActiveChannel(input) {
     const count = (channel) => report.data.afferents.flatMap((afferent) => report.members(afferent)).reduce((sum, one) => sum + report.spikes(one, channel).count, 0);
     return input.channels.reduce((best, channel) => (count(channel) > count(best) ? channel : best));
@@ -134,7 +136,7 @@ function connect() {
     addEventListener("afterprint", () => setPrinting(false));
 }
 
-/// Redraws everything: figures read the colours of the style sheet when they are created.
+/// Redraws everything after a change of theme, because figures read the colours of the style sheet when they are created.
 function recolour() {
     showParameters(report.data.afferents);
     showCosts(report.data.costs, report.data.afferents);
@@ -148,15 +150,15 @@ function setPrinting(on) {
 
 /// For tests and the browser's console.
 ///
-///   charts                       The dygraphs by panel: "force", "sa1 current", "sa1 membrane", "raster", "frequency". With copies
-///                                there is "population". With several implementations: "sa1 I", "sa1 I_A", "sa1 u", "sa1 frequency", scaled
-///                                to the left axis.
+///   charts                       The dygraphs by the name of their panel: "force", "sa1 current", "sa1 membrane", "raster", "frequency".
+///                                With copies there is also "population". With several implementations the names are "sa1 I", "sa1 I_A",
+///                                "sa1 u", "sa1 frequency"; values are those on the left axis.
 ///
-///   valueAt(quantity, t, afferent)   The value on the selected channel at the sample nearest to t. It is [min, max] if the trace has only
-///                                these, and null if there is no such trace. "force" has no afferent.
+///   valueAt(quantity, t, afferent)   The value on the selected channel at the sample nearest to t. It is [min, max] if the trace has only the
+///                                minimum and maximum of several samples, and null if there is no such trace. "force" has no afferent.
 ///
 ///   window(), setWindow(a, b)    the time range in seconds; setting it redraws at once
-///   pointsDrawn()                by panel: the rows last passed to its dygraph, and the width of its plot in pixels
+///   pointsDrawn()                by panel: the number of rows last passed to its dygraph, and the width of its plot in pixels
 window.corpuscle = {
     get charts() { return Object.fromEntries(view.panels.map((panel) => [panel.name, panel.chart])); },
     valueAt(quantity, t, afferent = null) {

@@ -43,7 +43,7 @@ std::string fill_template(std::string_view page_template, std::string_view title
         if (open == std::string_view::npos || close == std::string_view::npos) return out;
         const auto name = page_template.substr(open + 2, close - open - 2);
         const auto value = name == "title" ? title : name == "data" ? data : asset(name);
-        out += value.empty() ? fmt::format("{{{{{}}}}}", name) : value;  // an unknown name stays visible
+        out += value.empty() ? fmt::format("{{{{{}}}}}", name) : value;  // an unknown name stays visible as {{name}}
         page_template.remove_prefix(close + 2);
     }
 }

@@ -1,5 +1,6 @@
 #pragma once
-// Fills page templates: each {{name}} is replaced by a value or by the embedded file of that name.
+// Fills the HTML templates of report pages: {{title}} and {{data}} are replaced by values, any other {{name}} by the embedded file of that
+// name.
 
 #include <nlohmann/json_fwd.hpp>
 #include <string>
@@ -7,7 +8,7 @@
 
 namespace corpuscle {
 
-/// Name and version of the compiler.
+/// Name and version of the compiler that built this program.
 std::string_view compiler_version();
 
 /// The content of an embedded file of apps/report or of the chart library; "" if there is no such file.
@@ -19,7 +20,7 @@ std::string script_json(const nlohmann::ordered_json&);
 /// Text with < and & escaped for HTML.
 std::string escape_html(std::string_view text);
 
-/// Fills a template with title, data and embedded files.
+/// Returns the template with all names replaced. `title` must be escaped HTML, and `data` the text of script_json().
 std::string fill_template(std::string_view page_template, std::string_view title, std::string_view data);
 
 }  // namespace corpuscle

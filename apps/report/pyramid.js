@@ -1,14 +1,15 @@
 "use strict";
-// Minimum and maximum of any range of a long trace in O(log n) steps.
-// Level 0 holds the samples; each entry of the next level is the minimum (maximum) of four entries below it.
+// Minimum and maximum of any range of a long trace of n entries in O(log n) steps. Level 0 holds the entries themselves; each entry of a
+// higher level is the minimum (in `lo`) or maximum (in `hi`) of four entries of the level below.
 
 class Pyramid {
-    /// `lo` and `hi` are typed arrays of equal length; for samples they are the same array. NaN is skipped.
+    /// `lo` and `hi`: minimum and maximum of each entry, typed arrays of equal length. For samples they are the same array. NaN is skipped.
     constructor(lo, hi = lo) {
         this.levels = [{lo, hi}];
         for (let top = this.levels[0]; top.lo.length > 4; this.levels.push(top)) top = Pyramid.above(top);
     }
 
+    /// The level above a level.
     static above({lo, hi}) {
         const n = Math.ceil(lo.length / 4);
         const up = {lo: new lo.constructor(n).fill(Infinity), hi: new hi.constructor(n).fill(-Infinity)};
@@ -20,7 +21,7 @@ class Pyramid {
         return up;
     }
 
-    /// [min, max] of entries i ... j-1, or [null, null] if there are none.
+    /// [min, max] of entries i ... j-1 of level 0, or [null, null] if all are NaN or there are none.
     range(i, j) {
         let min = Infinity, max = -Infinity;
         i = Math.max(i, 0);

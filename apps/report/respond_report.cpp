@@ -19,7 +19,8 @@ Json parameter_or_null(const AfferentPlan& plan, std::string_view name) {
     return value ? Json(*value) : Json(nullptr);
 }
 
-/// The largest 1, 2 or 5 times a power of ten that divides a length into at least `parts` parts.
+/// The length of a part for dividing `length` into at least `parts` parts: the largest such number of the form 1, 2 or 5 times a power of
+/// ten.
 double round_part(double length, int parts) {
     const double max = length / parts * (1 + 1e-9);
     double decade = 1;
@@ -28,17 +29,19 @@ double round_part(double length, int parts) {
     return decade * (max >= 5 * decade ? 5 : max >= 2 * decade ? 2 : 1);
 }
 
-/// A value; for copies their mean and standard deviation.
+/// The cell of measure m: its value, or the array [mean, standard deviation] over the copies if at least two of them have a value.
 Json cell_document(const MeasureRow& row, std::size_t m) {
     const auto number = [](double x) { return std::isfinite(x) ? Json(x) : Json(nullptr); };
     if (row.copy_statistics.empty() || row.copy_statistics[m].copies < 2) return number(row.values[m]);
     return {number(row.copy_statistics[m].mean()), number(row.copy_statistics[m].standard_deviation())};
 }
 
+/// The table of all measures, with a row for each afferent, channel and phase.
 Json table_document(const RunSummary& summary) {
     Json columns = {"afferent", "channel", "phase"}, decimals = {nullptr, nullptr, nullptr}, rows = Json::array();
     const auto shown = summary.columns();
-    const bool means = !summary.rows().empty() && !summary.rows()[0].copy_statistics.empty();  // counts then need a decimal, too
+    const bool means =
+        !summary.rows().empty() && !summary.rows()[0].copy_statistics.empty();  // of copies; the mean of a count needs a decimal
     for (const auto m : shown)
         columns.push_back(column_heading(measures[m])), decimals.push_back(std::max(measures[m].decimals, means ? 1 : 0));
     for (const auto& r : summary.rows()) {
@@ -49,7 +52,7 @@ Json table_document(const RunSummary& summary) {
     return {{"columns", columns}, {"decimals", decimals}, {"rows", rows}};
 }
 
-/// Recording quality: findings as text, and a row of numbers per channel. Stimuli have no rows.
+/// Recording quality: findings as text, and a row of quality metrics for each channel of a recording. Stimuli have no rows.
 Json quality_document(const RunSummary& summary) {
     Json messages = Json::array(), columns = {"channel"}, rows = Json::array();
     const bool several = summary.inputs().size() > 1;
@@ -73,9 +76,9 @@ Json quality_document(const RunSummary& summary) {
 Result<void> RespondReport::begin(const Input& input) {
     groups_ = copy_group_starts(input.plans);
     const auto channels = input.source.channels().size();
-    std::size_t traces = 1;  // per channel: the force and all probes
+    std::size_t traces = 1;  // number of traces per channel: the force and all probes
     for (std::size_t g = 0; g < groups(); ++g) traces += input.probes[groups_[g]].size();
-    // A trace with more samples than this limit is kept as pairs of minimum and maximum.
+    // The limit of samples of one trace. The factor 2 is for longer traces, which are kept as pairs of minimum and maximum.
     const std::size_t max_points =
         std::clamp<std::size_t>(max_points_ / (2 * traces * channels * input.input_count), 16, std::size_t{1} << 20);
     forces_.assign(channels, Envelope(max_points));
@@ -89,7 +92,7 @@ Result<void> RespondReport::begin(const Input& input) {
             for (const auto& p : input.probes[groups_[g]]) probe_list.push_back({{"name", p.name}, {"unit", p.unit}});
             recordables_.push_back(std::move(probe_list));
             first_copies_.push_back(input.plans[groups_[g]]);
-        }
+        }  // once: the plans and probes are the same for every input
     return {};
 }
 
@@ -105,7 +108,7 @@ Result<void> RespondReport::block(const Input& input, const RunBlock& response) 
     return {};
 }
 
-/// Adds the trains of an afferent, or of its first copies, on a channel.
+/// Adds to the page the spike trains of an afferent (or of its first max_copies copies) on a channel of this input.
 void RespondReport::add_spikes(const Input& input, std::size_t channel, std::size_t group) {
     const std::size_t shown = std::min<std::size_t>(groups_[group + 1] - groups_[group], max_copies);
     for (std::size_t k = 0; k < shown; ++k) {
@@ -117,9 +120,10 @@ void RespondReport::add_spikes(const Input& input, std::size_t channel, std::siz
     }
 }
 
-/// Adds the mean rate over the copies of an afferent in equal bins, spikes per copy and second.
+/// Adds to the page the firing rate in equal bins, Hz: the mean over the copies of an afferent.
 void RespondReport::add_rate(const Input& input, std::size_t channel, std::size_t group, std::int64_t samples) {
     auto clock = input.source.clock();
+    // With t0 = 0 the clock gives the duration of `samples` samples.
     const double t0 = std::exchange(clock.t0, 0.0), length = clock.time(samples), bin = round_part(length, 100);
     const auto copies = groups_[group + 1] - groups_[group];
     std::vector<double> rates(static_cast<std::size_t>(std::max(std::ceil(length / bin - 1e-9), 1.0)));
@@ -127,7 +131,7 @@ void RespondReport::add_rate(const Input& input, std::size_t channel, std::size_
         for (const double t : trains_[afferent_index(channel, group) + k])
             ++rates[std::min(static_cast<std::size_t>(std::max(t - t0, 0.0) / bin + 1e-9), rates.size() - 1)];
     for (std::size_t b = 0; b < rates.size(); ++b)
-        rates[b] /= static_cast<double>(copies) * std::min(bin, length - static_cast<double>(b) * bin);
+        rates[b] /= static_cast<double>(copies) * std::min(bin, length - static_cast<double>(b) * bin);  // the last bin may be shorter
     rates_.push_back(
         {{"afferent", base_name(input.plans[groups_[group]])}, {"channel", first_channel_ + channel}, {"bin", bin}, {"values", rates}});
 }

@@ -1,7 +1,7 @@
 "use strict";
 // Decodes the data of a skin page: positions, afferents, marks, frames, spike trains.
 
-/// Reads variable-length integers: seven bits per byte, lowest first (LEB128).
+/// Reads variable-length integers (LEB128): seven bits per byte, the lowest bits first; the byte's highest bit is set if more bytes follow.
 class PackedNumbers {
     constructor(base64) { Object.assign(this, {bytes: bytesOf(base64), at: 0}); }
 
@@ -14,7 +14,8 @@ class PackedNumbers {
     }
 }
 
-/// Sparse values at many places (marks, sites or classes) in each frame. Frame f has entries begin[f] ... begin[f + 1] - 1 of `place` and `value`.
+/// The nonzero values at many places (marks of afferents, marks of sites, or classes) in each frame. Frame f has entries begin[f] ...
+/// begin[f + 1] - 1 of the arrays `place` (ascending within a frame) and `value`. `width`: length of a frame, s.
 class Frames {
     constructor({count, width, places, data}) {
         Object.assign(this, {count, width, places, begin: new Uint32Array(count + 1)});
@@ -35,6 +36,7 @@ class Frames {
         for (let k = this.begin[frame]; k < this.begin[frame + 1]; ++k) call(this.place[k], this.value[k]);
     }
 
+    /// The sum of the values of each place over all frames.
     totals() {
         const sums = new Float64Array(this.places);
         this.place.forEach((p, k) => { sums[p] += this.value[k]; });
@@ -42,7 +44,8 @@ class Frames {
     }
 }
 
-/// Spikes of the afferents that fired, in order. Train k belongs to afferent `afferent[k]`; its times (s) have indices begin[k] ... begin[k + 1] - 1.
+/// The spike trains of the afferents that fired, in order of the afferents. Train k belongs to afferent `afferent[k]`; its spike times (s) are
+/// times[begin[k]] ... times[begin[k + 1] - 1]. `tick`: unit of the packed times, s.
 class Trains {
     constructor({count, trains, tick, data}, t0) {
         const source = new PackedNumbers(data);
@@ -56,14 +59,14 @@ class Trains {
         }
     }
 
-    /// A train in the form that page-raster.js counts.
+    /// Train k as an object that countPerColumn() in page-raster.js can count.
     train(k) {
         const times = this.times.subarray(this.begin[k], this.begin[k + 1]);
         return {afferent: this.afferent[k], times, before: (t) => firstAt(times, t)};
     }
 }
 
-/// The number of ascending times before t.
+/// The number of elements of an ascending array that are smaller than t.
 function firstAt(times, t) {
     let low = 0, high = times.length;
     while (low < high) {
@@ -74,7 +77,8 @@ function firstAt(times, t) {
     return low;
 }
 
-/// The decoded data of the page. Positions are in mm: x, y, x, y ...
+/// The decoded data of the page. Positions are arrays x, y, x, y ... in mm. A mark is a dot of a map: an afferent, or a group of neighbouring
+/// afferents of one class. Likewise, the force is that of marks of sitesPerMark neighbouring sites.
 class Skin {
     constructor(data) {
         const {over, marks, sites} = data;
@@ -83,9 +87,11 @@ class Skin {
         this.classes = data.classes.map((one, index) => ({...one, index, active: overall(one.name).active, get color() { return afferentColour(index); }}));
         this.input = {t0: over.t0, T: over.T, samples: over.shown_samples, phases: data.summary.input.phases.map(({name, from_s, to_s}) => ({name, from: over.t0 + from_s, to: over.t0 + to_s}))};
         this.markPositions = floats(marks.places);
+        // of each mark: index of its region, and number of its first afferent within its class, from 1
         this.region = new Uint16Array(bytesOf(marks.region).buffer);
         this.copy = new Uint32Array(bytesOf(marks.copy).buffer);
-        this.firstSpikes = floats(marks.first);  // s from t0, one per mark; NaN: none
+        this.firstSpikes = floats(marks.first);  // time of the first spike of each mark, s after t0; NaN if it did not fire
+        // index of the first afferent of each mark, then the number of afferents
         this.firstAfferents = new Uint32Array(bytesOf(marks.begin).buffer);
         this.sitePositions = floats(sites.places);
         this.siteRegion = new Uint16Array(bytesOf(sites.region).buffer);
@@ -93,33 +99,37 @@ class Skin {
         this.marks = new Frames(over.marks);
         this.afferentsPerMark = over.afferents_per_mark;
         this.sitesPerMark = over.sites_per_mark;
+        // Side of a site's square, mm. Sites without an area are drawn as separate squares.
         this.side = sites.side || spacing(this.sitePositions) * 0.9;
         this.hasSeparateSites = !sites.side;
-        this.perClass = new Frames(over.classes);
+        this.perClass = new Frames(over.classes);  // spike counts of the classes
     }
 
+    /// The spike trains, decoded at the first use; null if the page does not have them.
     get trains() {
         if (!this.decoded && this.data.over.spikes) this.decoded = new Trains(this.data.over.spikes, this.t0);
         return this.decoded || null;
     }
 
-    /// A mark is an afferent or a group of neighbours; name and region are those of its first afferent.
+    /// The index of the mark of an afferent. Name and region of a mark are those of its first afferent.
     markOf(afferent) { return firstAt(this.firstAfferents, afferent + 1) - 1; }
     classOf(mark) { return this.classes.find(({first, afferents}) => this.firstAfferents[mark] >= first && this.firstAfferents[mark] < first + afferents); }
     markName(mark) { return `${this.classOf(mark).name}#${this.copy[mark]}${this.afferentsIn(mark) > 1 ? ` and ${this.afferentsIn(mark) - 1} neighbours` : ""}`; }
     regionName(mark) { return this.regions[this.region[mark]]; }
+    /// Duration of the response, s.
     get duration() { return this.input.samples * this.input.T; }
 
-    /// The marks of a class: [first, end).
+    /// The indices of the marks of a class: [first, end).
     marksOf({first, afferents}) { return [firstAt(this.firstAfferents, first), firstAt(this.firstAfferents, first + afferents)]; }
     afferentsIn(mark) { return this.firstAfferents[mark + 1] - this.firstAfferents[mark]; }
 
-    /// The number of frames in about `seconds`, over which a rate is averaged.
+    /// The number of frames in about `seconds`, at least 1.
     framesOver(seconds) { return Math.max(1, Math.round(seconds / this.marks.width)); }
-    /// Duration of `frames` frames up to this one, s. The last frame of the recording may be shorter.
+    /// Total duration (s) of the last `frames` frames up to frame `frame`, inclusive. The first frames have fewer before them, and the last frame of
+    /// the recording may be shorter.
     lengthOver(frame, frames) { return Math.min((frame + 1) * this.marks.width, this.duration) - Math.max(0, frame + 1 - frames) * this.marks.width; }
 
-    /// Spikes in `frames` frames up to this one: `counts` of all marks, and `activeMarks`, the marks with spikes.
+    /// The spikes in the last `frames` frames up to frame `frame`, inclusive: `counts` of all marks, and `activeMarks`, the marks with spikes.
     recent(frame, frames) {
         if (this.cached && this.cached.frame === frame && this.cached.frames === frames) return this.cached;
         const counts = new Uint32Array(this.marks.places), activeMarks = [];
@@ -128,12 +138,12 @@ class Skin {
         return (this.cached = {frame, frames, counts, activeMarks});
     }
 
-    /// The maximum rate per afferent of each class, averaged over this number of frames, Hz.
+    /// For each class, the maximum over its marks and over time of the rate per afferent (Hz) in a window of `frames` frames; 1 if no mark fired.
     maxRates(frames) {
         const counts = new Int32Array(this.marks.places), rates = this.classes.map(() => 0), ends = this.classes.map((one) => this.marksOf(one)[1]);
         for (let f = 0; f < this.marks.count; ++f) {
             if (f >= frames) this.marks.each(f - frames, (mark, n) => { counts[mark] -= n; });
-            let c = 0;
+            let c = 0;  // each() calls with ascending marks, and the marks of a class are adjacent
             this.marks.each(f, (mark, n) => {
                 counts[mark] += n;
                 while (mark >= ends[c]) ++c;
@@ -142,12 +152,15 @@ class Skin {
         }
         return rates.map((rate) => rate || 1);
     }
+
+    /// The index of the frame at time t, limited to the existing frames.
     frameAt(t) { return Math.max(0, Math.min(this.marks.count - 1, Math.floor((t - this.t0) / this.marks.width + 1e-9))); }
 }
 
+/// Decodes base64 of floats.
 const floats = (base64) => new Float32Array(bytesOf(base64).buffer);
 
-/// The median distance between neighbours, estimated from some of them.
+/// The median distance (mm) of a place to its nearest neighbour, estimated from about 60 places; 5 if there are fewer than two.
 function spacing(places) {
     const count = places.length / 2, step = Math.max(1, Math.floor(count / 60)), found = [];
     for (let i = 0; i < count; i += step) {
@@ -160,7 +173,7 @@ function spacing(places) {
     return Number.isFinite(middle) ? middle : 5;
 }
 
-/// Bounding box [x0, y0, x1, y1] of the places for which `wanted` is true.
+/// Bounding box [x0, y0, x1, y1] (mm) of the places whose index satisfies `wanted`. Not finite if there are none.
 function extentOfPlaces(places, wanted = () => true) {
     const box = [Infinity, Infinity, -Infinity, -Infinity];
     for (let k = 0; 2 * k < places.length; ++k)

@@ -1,15 +1,15 @@
 "use strict";
 // A map of the skin for each class: sites in the background, afferents as marks, force and spikes above them.
 
-const LEVELS = 16, TIME_STEPS = 32;
+const LEVELS = 16, TIME_STEPS = 32;  // number of colours for rates, and for times
 
-/// Colours of increasing rates: from a tint of the class's colour to the colour itself, then towards the text colour.
+/// The colours of increasing rates: from a tint of the class's colour to the colour itself, then towards the text colour.
 function rateRamp(color) {
     const [paper, ink] = [colour("paper"), colour("ink")];
     return Array.from({length: LEVELS}, (_, k) => (k < LEVELS / 2 ? mixed(paper, color, 0.5 + k / LEVELS) : mixed(color, ink, (k - LEVELS / 2) / LEVELS * 1.3)));
 }
 
-/// Colours of increasing times, interpolated between those of the style sheet.
+/// The colours of increasing times, interpolated between the five of the style sheet.
 function timeRamp() {
     const stops = [0, 1, 2, 3, 4].map((k) => colour("time-" + k));
     return Array.from({length: TIME_STEPS}, (_, k) => {
@@ -18,8 +18,9 @@ function timeRamp() {
     });
 }
 
-/// The map of one class. `values(map, call)` calls back with each drawn mark and its level, 0 to 1. `ramp`: colours of the levels. `force()`: true
-/// if force is shown.
+/// The map of one class, drawn in three layers: sites and all marks of the class (the idle layer), force, and the marks that have a value.
+/// `values(map, call)` calls call(mark, level) for each mark with a value; the level is 0 to 1. `ramp(color)` returns the colours of the levels.
+/// `force()` returns true if force is shown.
 class SkinMap {
     constructor(host, scene, skinClass, {values, ramp, force}) {
         Object.assign(this, {scene, skin: scene.skin, skinClass, values, ramp, force, idle: null});
@@ -35,9 +36,12 @@ class SkinMap {
         connectPointer(this);
     }
 
+    /// Discards the layer and the colours, which depend on size, visible box and theme.
     renew() { this.idle = this.colours = null; }
 
+    /// The position of a mark on the canvas, in pixels.
     place(mark) { return [this.scene.x(this.positions[2 * (mark - this.from)]), this.scene.y(this.positions[2 * (mark - this.from) + 1])]; }
+    /// Radius of a mark, pixels.
     get pixels() { return Math.max(0.75, Math.min(5, this.radius * this.scene.scale)); }
 
     idleLayer() {
@@ -80,7 +84,7 @@ class SkinMap {
         context.stroke();
     }
 
-    /// The mark nearest to a point within about 10 pixels, else null.
+    /// The mark nearest to the point (x, y) of the canvas, if it is within about 10 pixels; else null.
     nearestMark(x, y) {
         let best = null, minDistance = Math.max(10, 1.5 * this.pixels) ** 2;
         for (let m = this.from; m < this.to; ++m) {
@@ -91,6 +95,7 @@ class SkinMap {
     }
 }
 
+/// A disc; if it is small, a square, which is drawn faster.
 function dot(context, x, y, r) {
     if (r < 1.6) return square(context, x, y, 2 * r);
     context.beginPath();
@@ -98,7 +103,7 @@ function dot(context, x, y, r) {
     context.fill();
 }
 
-/// Drag pans, Ctrl with the wheel zooms, double click resets, hovering selects a mark.
+/// Dragging pans, Ctrl with the wheel zooms, a double click shows the complete skin, and hovering selects a mark.
 function connectPointer(map) {
     const {canvas, scene} = map;
     let drag = null;

@@ -1,9 +1,11 @@
 "use strict";
-// Contents of the maps: rates over a time window, and first spikes. Also the regions that can be selected.
+// The contents of the maps: rates in a time window, and times of first spikes. Also the regions that can be selected.
 
-const rateOf = (mark, spikes, seconds) => spikes / skin.afferentsIn(mark) / seconds;  // Hz, per afferent
+/// The rate (Hz) per afferent of a mark with `spikes` spikes in `seconds` seconds.
+const rateOf = (mark, spikes, seconds) => spikes / skin.afferentsIn(mark) / seconds;
 
-/// Passes the rates of a class to its map as levels, 0 to 1.
+/// The `values` of a rate map: calls call(mark, level) for each mark that fired in the window. Level 1 is the maximum rate of the class. Also
+/// counts these marks for the caption.
 function rateValues(map, call) {
     const {skinClass, from, to} = map, isOnMap = (mark) => mark >= from && mark < to;
     map.active = 0;
@@ -17,7 +19,8 @@ function rateValues(map, call) {
     map.canvas.setAttribute("aria-label", `${skinClass.name}: ${map.active} of ${to - from} active, ${shown.mode === "all" ? "over the recording" : `at ${timeText(skin.t0 + scene.frame * skin.marks.width, skin.marks.width)}`}`);
 }
 
-/// Sets what the maps show: the rate in a window that ends at the current time, or the mean rate of the recording.
+/// Sets what the rate maps show. `mode`: "all" for the mean rate of the recording, else the number of frames of a window that ends at the
+/// current time.
 function chooseMode(mode) {
     shown.mode = mode;
     shown.frames = mode === "all" ? 1 : Number(mode);
@@ -25,7 +28,7 @@ function chooseMode(mode) {
                                     : skin.maxRates(shown.frames);
 }
 
-/// Fills the selector: windows from one frame to about 0.5 s, and the recording. About 0.1 s is preselected.
+/// Fills the selector of the mode: windows from one frame to about 0.5 s, and the complete recording. A window of about 0.1 s is preselected.
 function modeOptions() {
     const frames = [...new Set([0, 0.05, 0.1, 0.2, 0.5].map((seconds) => skin.framesOver(seconds)))].filter((n) => n < skin.marks.count || n === 1);
     const first = frames.reduce((best, n) => (Math.abs(n - skin.framesOver(0.1)) < Math.abs(best - skin.framesOver(0.1)) ? n : best));
@@ -35,12 +38,13 @@ function modeOptions() {
 
 const scaleHtml = (low, high, colours) => `<span class="scale">${low} <span class="ramp" style="background: linear-gradient(to right, ${colours.join(", ")})"></span> ${high}</span>`;
 
-/// The heading of a map: its class and the scale of its colours.
+/// Writes the heading of a map: its class and the scale of its colours. `low`, `high`: the values at the ends of the scale, as HTML.
 function captionOf(map, low, high, colours) {
     map.caption.innerHTML = `<span class="name">${chipOf(map.skinClass.color)}${escaped(map.skinClass.name)}</span> <span class="unit">${map.skinClass.afferents} afferents</span> ${scaleHtml(low, high, colours)}`;
     map.count = element(map.caption, "span", "readout");
 }
 
+/// Writes the headings of all rate maps.
 function rateCaptions() {
     for (const map of scene.maps)
         if (map.ofRates) captionOf(map, "0", escaped(quantity(shown.maxRates[map.skinClass.index], "Hz", true)), rateRamp(map.skinClass.color));
@@ -60,7 +64,7 @@ function makeMaps() {
     scene.layOut(at("maps").clientWidth);
 }
 
-/// Maps of the first spike of each afferent. The colours span the earliest time to the 98th percentile.
+/// Maps of the time of the first spike of each afferent. The colours span the times from the earliest to the 98th percentile.
 function makeFirsts(host) {
     const times = Array.from(skin.firstSpikes).filter((t) => !Number.isNaN(t)).sort((a, b) => a - b);
     const active = Object.fromEntries(skin.data.summary.rates.filter(({region, phase}) => region === "all" && phase === "all").map((row) => [row.afferent, row.active]));
@@ -77,7 +81,7 @@ function makeFirsts(host) {
     }
 }
 
-/// The selectable regions of the maps: [name, bounding box].
+/// The regions to which the maps can be zoomed: [name, bounding box (mm)] of each.
 function mapRegions() {
     const pressed = new Uint8Array(skin.sitePositions.length / 2);
     skin.siteForce.place.forEach((p) => pressed.fill(1, p * skin.sitesPerMark, (p + 1) * skin.sitesPerMark));

@@ -1,10 +1,10 @@
 "use strict";
-// Plots over time below the maps: the mean rate of each class, and rasters of its afferents.
+// The plots over time below the maps: the mean rate of each class, and a raster of its afferents.
 
-/// Mean rates of classes in about 100 bins over the visible time range. The mean is over the afferents that fire at some time, because the
-/// others were not touched.
+/// Firing rates of the classes in about 100 bins over the visible time range, each the mean over those afferents of the class that fire at least
+/// once in the recording. Afferents far from the touched area would lower it.
 class SkinRatePanel extends PopulationPanel {
-    /// `fine`: {frames, classes}, the spikes of each class in narrow bins.
+    /// `fine`: {frames, classes}, where `frames` are the spike counts of the classes in narrow bins.
     constructor({fine, ...rest}) {
         super({...rest, noun: "afferent", rates: SkinRatePanel.binned(fine, rest.input, fine.frames.count * fine.frames.width)});
         this.fine = fine;
@@ -12,7 +12,7 @@ class SkinRatePanel extends PopulationPanel {
 
     titleOf() { return titleHtml(`mean rate of afferents that fire, in bins of ${quantity(this.rates[0].bin, "s", true)}`, this.unit); }
 
-    /// Merges narrow bins into about 100 bins over `span` seconds.
+    /// Rates (Hz) of the classes, for which narrow bins are merged so that `span` seconds have about 100 bins. The last bin may be shorter.
     static binned({frames, classes}, input, span) {
         const join = 2 ** Math.max(0, Math.round(Math.log2(span / 100 / frames.width))), bins = Math.ceil(frames.count / join), bin = join * frames.width;
         const counts = classes.map(() => new Float64Array(bins));
@@ -29,11 +29,11 @@ class SkinRatePanel extends PopulationPanel {
     }
 }
 
-/// Raster of the afferents of one class that fired; neighbours are adjacent. Each spike is a tick if there is space, else spikes per pixel are
-/// shown as shades.
+/// Raster of those afferents of one class that fired; neighbours on the skin are in adjacent rows. Each spike is a tick if there is space, else the
+/// number of spikes per pixel is shown as shades.
 class SkinRasterPanel extends Panel {
-    /// `trains`: from Trains.train(). `countText`: the number of afferents, for the title. `onPoint(afferent)` is called with the index of
-    /// the afferent under the pointer, or null.
+    /// `trains`: one per row, from Trains.train(). `countText`: a text with the number of afferents, for the title. `onPoint(afferent)` is called
+    /// with the index of the afferent under the pointer, or null.
     constructor({skinClass, trains, countText, onPoint, ...rest}) {
         super({...rest, title: `<span class="chip" style="background: ${skinClass.color}"></span>${escaped(skinClass.name)} spikes <span class="unit">${escaped(countText)}; neighbours are adjacent</span>`,
                series: [{label: skinClass.name, html: "", color: skinClass.color, width: 3}]});
@@ -86,17 +86,19 @@ class SkinRasterPanel extends Panel {
     }
 }
 
+/// Pixels of the screen per CSS pixel.
 const ratioOf = () => devicePixelRatio || 1;
 
-/// Draws counts as an image, one pixel per line and column, scaled to the plot.
+/// Draws spike counts as an image with one pixel per line and column, scaled to the plot.
 function drawScaled(context, area, counts, color) {
     context.imageSmoothingEnabled = false;
     context.drawImage(painted(counts, counts.map(() => color), 110), area.x, area.y, area.w, area.h);
 }
 
-/// Raster for recordings with more spikes than the page contains: it shows the counts per frame of the maps.
+/// The raster if there are more spikes than the page contains the times of. A row is a mark, and it shows the mark's spike count in each frame of
+/// the maps.
 class SkinShadePanel extends SkinRasterPanel {
-    /// `rowOf`: the row of each mark, or -1. `frames`: spike counts of the marks.
+    /// `frames`: spike counts of the marks. `rowOf`: the row of each mark, from 0; -1 for a mark that is not shown.
     constructor({frames, t0, rowOf, rowCount, ...rest}) {
         super({...rest, trains: []});
         Object.assign(this, {frames, t0, rowOf, rowCount});
@@ -114,7 +116,8 @@ class SkinShadePanel extends SkinRasterPanel {
         const column = (t) => Math.max(0, Math.min(columns, Math.round((t - a) / (b - a) * columns)));
         for (let f = 0; f < count; ++f) {
             const [from, to] = [column(this.t0 + f * width), column(this.t0 + (f + 1) * width)];
-            if (from >= to) continue;
+            if (from >= to) continue;  // not visible
+            // A frame is as wide as columns `from` to `to` - 1, among which its counts are divided.
             this.frames.each(f, (mark, n) => {
                 if (this.rowOf[mark] < 0) return;
                 const line = counts[Math.floor(this.rowOf[mark] * lines / this.rowCount)];

@@ -1,5 +1,5 @@
 "use strict";
-// Playback of the maps. The slider and the cursor of the plots show the playback time.
+// Playback of the maps. The slider and the plots' cursor show the playback time.
 
 /// The time range and cursor of all plots; the maps show the time of the cursor.
 class SkinView extends View {
@@ -8,11 +8,12 @@ class SkinView extends View {
         if (this.cursor !== null) this.onMove(this.cursor);
     }
 
+    /// Called with the cursor's time (s).
     onMove() {}
 }
 
 class Player {
-    /// `at(id)` finds the page's controls.
+    /// `frame`: length of a frame of the maps, s. `at(id)` returns an element of the page.
     constructor(view, frame, at) {
         Object.assign(this, {view, frame, playing: false, button: at("play"), slider: at("time"), speed: at("speed"), loop: at("loop")});
         this.button.onclick = () => this.toggle();
@@ -20,7 +21,7 @@ class Player {
         matchMedia("(prefers-reduced-motion: reduce)").matches && (this.loop.checked = false);
     }
 
-    /// Called when the view has its time range. Slider steps are frames; at the default speed the recording lasts about 8 s.
+    /// Call it when the view has its time range. A step of the slider is a frame. At the default speed, playback of the recording takes about 8 s.
     start() {
         const {begin, end} = this.view, ideal = (end - begin) / 8, decades = [];
         this.slider.max = Math.max(1, Math.ceil((end - begin) / this.frame - 1e-9) - 1);
@@ -30,6 +31,7 @@ class Player {
         this.speed.innerHTML = shown.map((s) => `<option value="${s}" ${s === nearest ? "selected" : ""}>× ${s}</option>`).join("");
     }
 
+    /// The time (s) in the middle of frame number `step`, from 0.
     timeOf(step) { return this.view.begin + (step + 0.5) * this.frame; }
 
     /// Moves the slider to a time.
@@ -44,7 +46,7 @@ class Player {
         const {a, b, cursor} = this.view;
         this.playing = true;
         this.time = cursor !== null && cursor >= a && cursor < b - this.frame ? cursor : a;
-        this.before = null;
+        this.before = null;  // time of the last screen frame, ms
         this.show();
         requestAnimationFrame((now) => this.step(now));
     }
@@ -54,6 +56,7 @@ class Player {
         this.show();
     }
 
+    /// Shows on the button what it does next.
     show() {
         this.button.textContent = this.playing ? "❚❚" : "▶";
         const name = this.playing ? "Pause" : "Play";
@@ -61,7 +64,7 @@ class Player {
         this.button.title = `${name} (space)`;
     }
 
-    /// One screen frame. Plays the visible time range of the plots.
+    /// Draws one screen frame at browser time `now` (ms). Plays the visible time range of the plots.
     step(now) {
         if (!this.playing) return;
         const {a, b} = this.view;
@@ -75,7 +78,7 @@ class Player {
         requestAnimationFrame((next) => this.step(next));
     }
 
-    /// Steps by frames, forward or back.
+    /// Stops, and moves the cursor by this number of frames, forward or (if negative) back.
     nudge(frames) {
         this.stop();
         const {cursor, begin} = this.view;

@@ -1,6 +1,7 @@
 "use strict";
-// Creates the plots of the page: force, mean rates of classes, a raster of each class.
+// Creates the plots over time of the page: total force, mean rates of the classes, and a raster of each class.
 
+/// A panel of class `kind`.
 function panel(kind, options) { return new kind({host: at("figures"), input: skin.input, ...options}); }
 
 function makePanels() {
@@ -17,7 +18,7 @@ function makePanels() {
     view.show([...panels, ...skin.classes.flatMap(rasterPanel)], skin.input, keep);
 }
 
-/// The selector of the region that the rasters show, and a note if there are too many spikes to show each.
+/// Adds the selector of the region whose afferents the rasters show, and a note if there are too many spikes to show each.
 function rasterBar() {
     const bar = element(at("figures"), "div", "bar");
     const names = [...skin.regions.map((_, r) => r)];
@@ -30,6 +31,7 @@ function rasterBar() {
     if (!skin.trains) element(bar, "span", "note", `More than ${skin.data.over.max_spikes} spikes: the rasters show counts per frame of the maps (${escaped(quantity(skin.marks.width, "s", true))}).`);
 }
 
+/// The raster of class number k: the afferents of the selected region that fired.
 function rasterPanel(one, k) {
     const wanted = (mark) => shown.region === "all" || skin.region[mark] === Number(shown.region);
     const common = {skinClass: one, name: `raster ${one.name}`, about: `spikes of ${one.name}`, bottom: k === skin.classes.length - 1, onPoint: (afferent) => selectMark(afferent === null ? null : skin.markOf(afferent))};
@@ -40,6 +42,7 @@ function rasterPanel(one, k) {
     return [panel(SkinRasterPanel, {...common, trains, countText: countText(trains.length, all.length, `${one.afferents} afferents`), height: rasterHeight(trains.length)})];
 }
 
+/// The raster of a class if the page does not have all spike times. `wanted(mark)`: true for marks in the selected region.
 function shadePanel(one, common, wanted) {
     const [from, to] = skin.marksOf(one), rowOf = new Int32Array(skin.marks.places).fill(-1);
     let rowCount = 0, fired = 0;
@@ -50,6 +53,8 @@ function shadePanel(one, common, wanted) {
     return panel(SkinShadePanel, {...common, frames: skin.marks, t0: skin.t0, rowOf, rowCount, countText: countText(rowCount, fired, skin.afferentsPerMark > 1 ? `${to - from} groups of ${skin.afferentsPerMark} afferents` : `${one.afferents} afferents`), height: rasterHeight(rowCount)});
 }
 
-/// The number of rows of a raster, for its title.
+/// The number of rows of a raster, as a text for its title. `fired`: number of afferents or groups of the class that fired; `all`: a text with the
+/// number of all of them.
 const countText = (rows, fired, all) => (shown.region === "all" ? `${fired} of ${all} fired` : `${rows} of ${fired} that fired, in ${skin.regions[shown.region]}`);
+/// Height of a raster with this number of rows, pixels.
 const rasterHeight = (rows) => Math.max(30, Math.min(120, 6 * rows), Math.min(180, 40 + 0.6 * rows));

@@ -1,16 +1,18 @@
 "use strict";
-// The shared state of all maps.
+// The state that all maps share.
 
-/// The visible box, the size, and the layers that all maps share: the background of sites and the force on it.
+/// For all maps: the visible box (mm), their size (pixels), the selected mark, the frame that they show, and the layers that are equal on all of
+/// them, which are the sites and the force. `all`: the box of the complete skin. `onPoint(mark)`, set by the page, is called when the pointer
+/// moves to a mark, or with null.
 class Scene {
     constructor(skin) {
-        Object.assign(this, {skin, maps: [], frame: 0, chosen: null, waiting: false});
+        Object.assign(this, {skin, maps: [], frame: 0, chosen: null, waiting: false});  // chosen: index of the selected mark, or null
         this.all = grown(joined(extentOfPlaces(skin.sitePositions), extentOfPlaces(skin.markPositions)), skin.side);
         this.box = this.all;
         this.frameForce = null;
     }
 
-    /// Arranges the maps in a row, as large as the window allows.
+    /// Sets the size of the maps, as large as the window allows: all in one row of `width` pixels if they fit, else in several rows.
     layOut(width) {
         const count = this.skin.classes.length, [x0, y0, x1, y1] = this.all, aspect = Math.max(0.3, Math.min(3.5, (x1 - x0) / (y1 - y0)));
         const maxHeight = Math.max(260, Math.min(600, 0.58 * innerHeight));
@@ -31,6 +33,7 @@ class Scene {
         this.request();
     }
 
+    // Coordinates of the skin as pixels of a map.
     x(mm) { return this.width / 2 + (mm - this.cx) * this.scale; }
     y(mm) { return this.height / 2 - (mm - this.cy) * this.scale; }
 
@@ -39,7 +42,8 @@ class Scene {
         this.renew();
     }
 
-    /// Zooms about the point (x, y) of a map, in pixels.
+    /// Multiplies the size of the visible box by `factor`. The point (x, y) of a map, in pixels, keeps its place. Shows the complete skin if the box
+    /// would become much larger than that.
     zoom(factor, x = this.width / 2, y = this.height / 2) {
         const [mx, my] = [this.cx + (x - this.width / 2) / this.scale, this.cy - (y - this.height / 2) / this.scale];
         const [w, h] = [this.width / this.scale * factor, this.height / this.scale * factor];
@@ -48,6 +52,7 @@ class Scene {
         this.show([cx - w / 2, cy - h / 2, cx + w / 2, cy + h / 2]);
     }
 
+    /// Moves the skin by pixels.
     pan(dx, dy) {
         const [mx, my] = [-dx / this.scale, dy / this.scale], [x0, y0, x1, y1] = this.box;
         this.show([x0 + mx, y0 + my, x1 + mx, y1 + my]);
@@ -63,6 +68,7 @@ class Scene {
         this.maps.forEach((map) => map.draw());
     }
 
+    /// A new layer of the maps' size, and its context, which is scaled to CSS pixels.
     canvas() {
         const layer = document.createElement("canvas"), ratio = devicePixelRatio || 1;
         [layer.width, layer.height] = [this.width * ratio, this.height * ratio];
@@ -71,7 +77,8 @@ class Scene {
         return [layer, context];
     }
 
-    /// Sites as adjacent squares. All are first drawn larger in the edge colour, which leaves a common outline.
+    /// The layer of the sites, which are adjacent squares. All squares are first drawn larger in the edge colour, which leaves an outline around
+    /// the skin.
     groundLayer() {
         if (this.ground) return this.ground;
         const [layer, context] = this.canvas(), side = this.skin.side * this.scale;
@@ -82,12 +89,13 @@ class Scene {
         return (this.ground = layer);
     }
 
+    /// Calls call(x, y, site) for each site, with its position in pixels.
     eachSite(call) {
         const {sitePositions} = this.skin;
         for (let s = 0; 2 * s < sitePositions.length; ++s) call(this.x(sitePositions[2 * s]), this.y(sitePositions[2 * s + 1]), s);
     }
 
-    /// Mean force of each site in the frame, as opacity.
+    /// The layer of the force: the mean force of each mark of sites in the current frame, as opacity. Level 254 is the maximum.
     forceLayer() {
         if (this.frameForce && this.frameForce.frame === this.frame) return this.frameForce.layer;
         const [layer, context] = this.canvas(), {siteForce, sitePositions, sitesPerMark} = this.skin, side = this.skin.side * this.scale + 0.6;

@@ -1,15 +1,16 @@
 "use strict";
-// The tables of a skin page: first spikes, classes and phases, densities.
+// The tables of a skin page: first spikes, rates by class and phase, classes, sources, densities.
 
 const chipOf = (color) => `<span class="chip" style="background: ${color}"></span>`;
 
+/// A table as HTML. `head` and `rows` are HTML; `numeric(c)` returns true if column c has numbers.
 function tableHtml(head, rows, numeric = () => false) {
     const cell = (tag, c, html) => `<${tag}${numeric(c) ? ' class="number"' : ""}${tag === "th" ? ' scope="col"' : ""}>${html}</${tag}>`;
     return `<table><thead><tr>${head.map((html, c) => cell("th", c, html)).join("")}</tr></thead>
         <tbody>${rows.map((row) => `<tr>${row.map((html, c) => cell("td", c, html)).join("")}</tr>`).join("")}</tbody></table>`;
 }
 
-/// The first spikes of the population, with their delay after the first force.
+/// The afferents that fired first, each with its first spike and its delay after the first force on the skin.
 function showFirstSpikes(skin, host) {
     const {first_spikes, input} = skin.data.summary, touched = input.touched_from_s;
     if (!first_spikes.length) return void (host.innerHTML = "<p class=\"note\">No afferent fired.</p>");
@@ -18,9 +19,11 @@ function showFirstSpikes(skin, host) {
     host.innerHTML = tableHtml(["", "afferent", "region", "first spike (s)", "after first force (ms)"], rows, (c) => c === 0 || c >= 3);
 }
 
+// The columns of the table of rates: key in the summary, heading, decimals.
 const RATE_COLUMNS = [["phase", "phase"], ["afferents", "afferents", 0], ["touched", "touched", 0], ["active", "active", 0], ["spikes", "spikes", 0], ["rate_while_touched_Hz", "rate while touched (Hz)", 1],
                       ["rate_of_active_Hz", "mean rate of active (Hz)", 1], ["max_rate_Hz", "max (Hz)", 1], ["first_spike_s", "first spike (s)", 4], ["median_first_spike_s", "median first spike (s)", 4]];
 
+/// The rates of all classes and phases in a region; "all" for the complete skin.
 function showSkinRates(skin, host, region) {
     const phases = skin.data.summary.input.phases.length > 0, columns = RATE_COLUMNS.filter(([key]) => phases || key !== "phase");
     const rows = skin.data.summary.rates.filter((row) => row.region === region).map((row) => [row.afferent, ...columns.map(([key]) => row[key])]);
@@ -39,7 +42,7 @@ function showClasses(skin, host) {
     host.innerHTML = tableHtml(["class", "afferents", "model", "receptive field", "conduction velocity", "description and source"], rows, (c) => c === 1);
 }
 
-/// Sources of the population's numbers; a source of several classes is listed once.
+/// The literature from which the population's numbers are; a source of several numbers is listed once.
 function showSources(skin, host) {
     const {classes, skin: about} = skin.data.summary, entries = new Map();
     const add = ({quantity, source}, name) => entries.set(source, [...(entries.get(source) || []), name ? `${quantity} of ${name}` : quantity]);

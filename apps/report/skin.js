@@ -6,8 +6,10 @@ const at = (id) => document.getElementById(id);
 const view = new SkinView({span: at("span"), now: at("now")});
 const scene = new Scene(skin);
 const player = new Player(view, skin.marks.width, at);
+// `mode` and `frames` are set by chooseMode(). `maxRates` are the rates (Hz) at the upper end of each class's colour scale. `region` is that of the
+// rasters: an index, or "all".
 const shown = {mode: "", frames: 1, maxRates: [], region: "all"};
-const totals = skin.marks.totals();
+const totals = skin.marks.totals();  // spikes of each mark in the recording
 
 function showHeading({title, program, command, notes, summary}) {
     at("title").textContent = title;
@@ -18,7 +20,7 @@ function showHeading({title, program, command, notes, summary}) {
     at("notes").innerHTML = notes.map((text) => `<li>${escaped(text)}</li>`).join("");
 }
 
-/// Selects the mark under the pointer, on a map or in a raster.
+/// Selects a mark, which is under the pointer on a map or in a raster; null selects none.
 function selectMark(mark) {
     if (mark === scene.chosen) return;
     scene.chosen = mark;
@@ -26,7 +28,7 @@ function selectMark(mark) {
     scene.request();
 }
 
-/// Shows name, rate and first spike of the selected mark.
+/// Shows name, region, rate, number of spikes and first spike of the selected mark.
 function showMark() {
     const mark = scene.chosen;
     if (mark === null) return void (at("unit").textContent = "");
@@ -93,7 +95,8 @@ function draw() {
     showParameters(skin.classes);
 }
 
-/// For tests and the browser's console: the plots, the maps, and the frame that they show.
+/// For tests and the browser's console: the plots by name, the index of the frame that the maps show, and by class the number of marks that fired
+/// in the window of its rate map.
 window.corpuscle = {
     get charts() { return Object.fromEntries(view.panels.map((one) => [one.name, one.chart])); },
     get frame() { return scene.frame; },

@@ -16,10 +16,11 @@ nlohmann::ordered_json frames_document(const BinnedFrames<std::uint32_t>& counts
 
 nlohmann::ordered_json force_document(const BinnedFrames<double>& sites, double T, std::int64_t samples) {
     const auto frames = sites.frames();
+    // the number of samples in frame k
     const auto length = [&](std::size_t k) {
         return static_cast<double>(std::clamp<std::int64_t>(samples - static_cast<std::int64_t>(k) * sites.width(), 1, sites.width()));
     };
-    double max = 0;
+    double max = 0;  // mean force of a mark in a frame, N
     for (std::size_t k = 0; k < frames.size(); ++k)
         for (const auto& e : frames[k]) max = std::max(max, e.value / length(k));
     PackedNumbers bytes;

@@ -13,9 +13,9 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-constexpr std::size_t max_named = 500;  // with more sites the page has no names of sites
+constexpr std::size_t max_named = 500;  // if there are more sites, the page does not contain their names
 
-/// Positions in millimetres, rounded to micrometres: x, y, x, y ...
+/// Positions as base64 of floats x, y, x, y ... in mm, rounded to micrometres. `position_of` returns metres.
 template <class PositionOf>
 std::string places64(std::size_t count, PositionOf position_of) {
     std::vector<float> xy;
@@ -34,11 +34,12 @@ Json sites_document(const Sites& sites) {
             {"names", sites.size() <= max_named ? Json(sites.names) : Json(nullptr)}};
 }
 
-/// The constant properties of each mark. A mark of several neighbours has their mean position and the earliest of their first spikes.
+/// The properties of each mark that do not change over time. Mark m stands for the afferents begin[m] ... begin[m + 1] - 1; it has their
+/// mean position, the earliest of their first spikes (s; NaN if none fired), and the region and number of the first of them.
 Json marks_document(const SkinSummary& summary, std::span<const std::uint32_t> begin) {
     const auto& afferents = summary.skin().afferents;
     std::vector<std::uint16_t> region;
-    std::vector<std::uint32_t> copy;
+    std::vector<std::uint32_t> copy;  // number of the first afferent within its class, from 1
     std::vector<float> first_spikes;
     std::vector<Position> positions;
     for (std::size_t m = 0; m + 1 < begin.size(); ++m) {

@@ -8,7 +8,7 @@
 
 namespace corpuscle {
 
-/// The summary and the report must be of the same run, and its Innervation must still exist.
+/// The page as HTML. The summary and the report must be of the same run, whose Innervation must still exist. `command`: the command line.
 std::string skin_page(const SkinSummary&, const SkinReport&, const SkinRunNotes&, const std::string& command);
 
 }  // namespace corpuscle

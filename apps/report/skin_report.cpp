@@ -13,9 +13,9 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-constexpr int ticks_per_sample = 10;
+constexpr int ticks_per_sample = 10;  // resolution of the spike times on the page
 
-/// The number of neighbouring afferents or sites that share a mark.
+/// The number of neighbouring afferents or sites that share a mark, so that `count` of them have at most `max_marks` marks.
 std::uint32_t per_mark(std::size_t count, std::size_t max_marks) {
     return static_cast<std::uint32_t>((count + max_marks - 1) / std::max<std::size_t>(max_marks, 1));
 }
@@ -26,7 +26,8 @@ Result<void> SkinReport::begin(const SkinInput& input) {
     const auto& skin = input.skin;
     clock_ = input.clock;
     const auto samples_of = [&](double seconds) { return std::max<std::int64_t>(std::llround(clock_.rate() * seconds), 1); };
-    const auto bin = samples_of(1e-3), frame = samples_of(10e-3);  // shorter frames give no useful rate of one afferent
+    const auto bin = samples_of(1e-3),
+               frame = samples_of(10e-3);  // initial lengths; in shorter frames one afferent has too few spikes for a rate
     afferents_per_mark_ = per_mark(skin.afferents.size(), limits_.marks), sites_per_mark_ = per_mark(skin.plan.sites.size(), limits_.marks);
     class_of_.clear(), mark_of_.clear(), mark_first_.clear();
     for (std::uint32_t c = 0; c + 1 < skin.class_begin.size(); ++c)
@@ -45,7 +46,8 @@ Result<void> SkinReport::begin(const SkinInput& input) {
 }
 
 void SkinReport::add(const Spike& s) {
-    // Frames are half-open, [start, end): a spike exactly at a sample belongs to the frame that starts there.
+    // Step k ends at sample k. Frames are half-open, [start, end): a spike exactly at a sample (offset 1) belongs to the frame that starts
+    // there.
     const std::int64_t sample = std::max<std::int64_t>(s.offset < 1 ? s.step - 1 : s.step, 0);
     classes_.select_frame(sample), classes_.add(class_of_[s.afferent_index], 1);
     marks_.select_frame(sample), marks_.add(mark_of_[s.afferent_index], 1);
@@ -53,10 +55,11 @@ void SkinReport::add(const Spike& s) {
         const double ticks = (static_cast<double>(s.step - 1) + s.offset) * ticks_per_sample;
         spike_afferents_.push_back(s.afferent_index), spike_ticks_.push_back(std::max<std::int64_t>(std::llround(ticks), 0));
     } else if (!spike_afferents_.empty()) {
-        spike_afferents_ = {}, spike_ticks_ = {};  // an incomplete raster would be misleading
+        spike_afferents_ = {}, spike_ticks_ = {};  // beyond the limit none are kept, since an incomplete raster would be misleading
     }
 }
 
+/// Adds the force of each site to the frames of its mark. Samples `from` to `to` - 1 of the block are in one frame.
 void SkinReport::add_force(const SkinRunBlock& response) {
     const auto& force = response.force;
     for (std::size_t from = 0, to = 0; from < response.steps; from = to) {
@@ -83,12 +86,14 @@ Result<void> SkinReport::block(const SkinInput&, const SkinRunBlock& response) {
 Result<void> SkinReport::end(const SkinInput&, std::int64_t samples, std::span<const Spike> last) {
     for (const auto& s : last) add(s);
     samples_ = samples, samples_with_delays_ = std::max(samples, last.empty() ? 0 : last.back().step);
+    // The frames of classes, marks and sites all extend to the last spike that arrives.
     const auto final = std::max<std::int64_t>(samples_with_delays_ - 1, 0);
     classes_.select_frame(final), marks_.select_frame(final), sites_.select_frame(final);
     return {};
 }
 
-/// Spikes by afferent: the number of silent afferents to skip, the number of spikes, then the ticks between them.
+/// The spikes of each afferent that fired: the number of silent afferents before it, the number of its spikes, the ticks from the start to
+/// its first spike and between its spikes. Null if there are too many spikes.
 Json SkinReport::spikes_document() const {
     if (static_cast<std::size_t>(spikes_) > limits_.timed_spikes) return nullptr;
     std::vector<std::uint32_t> begin(class_of_.size() + 1);
@@ -98,7 +103,7 @@ Json SkinReport::spikes_document() const {
     auto at = begin;
     for (std::size_t k = 0; k < ticks.size(); ++k) ticks[at[spike_afferents_[k]]++] = spike_ticks_[k];
     PackedNumbers bytes;
-    std::size_t next = 0, trains = 0;
+    std::size_t next = 0, trains = 0;  // the afferent after the last one that fired; number of afferents that fired
     for (std::size_t u = 0; u < class_of_.size(); ++u) {
         if (begin[u] == begin[u + 1]) continue;
         bytes.append_number(u - next), bytes.append_number(begin[u + 1] - begin[u]);

@@ -1,8 +1,9 @@
 "use strict";
-// A page of studies: published and computed numbers, then the figures. Drag to zoom, double click to reset.
+// A page of studies: published and computed numbers, then the figures. In a figure, dragging zooms and a double click resets.
 
 const data = JSON.parse(document.getElementById("data").textContent);
 const colour = (k) => getComputedStyle(document.documentElement).getPropertyValue(`--series-${k % 8}`).trim();
+// colour(k): of series k, from 0. themeColour(name): of the style sheet.
 const themeColour = (name) => getComputedStyle(document.documentElement).getPropertyValue(`--${name}`).trim();
 
 function element(host, tag, kind = "", html = "") {
@@ -14,13 +15,15 @@ function element(host, tag, kind = "", html = "") {
 
 const NUMBERS = ["computed", "published", "deviation", "allowed"];
 
-/// The cells of a claim: its name, four numbers, the verdict, the source and reason. On a narrow screen CSS shows data-column beside each number.
+/// The cells of a claim: its label, four numbers (NUMBERS), the verdict, and the source with the reason for a deviation. On a narrow screen CSS
+/// shows data-column beside each number.
 function claimCells({label, texts, verdict, source, note}) {
     const numbers = texts.map((text, k) => `<td class="number" data-column="${NUMBERS[k]}">${escaped(text === "-" ? "\u2013" : text)}</td>`).join("");
     const kind = {holds: "holds", agrees: "holds", differs: "fails", "does not hold": "fails"}[verdict] || "";
     return `<td class="what">${escaped(label)}</td>${numbers}<td class="verdict ${kind}">${verdict}</td><td class="reason unit">${escaped([source, note].filter(Boolean).join("; "))}</td>`;
 }
 
+/// A table of claims. `first`: headings of columns before those of claimCells(); `rows`: HTML cells of each row.
 function showTable(host, first, rows) {
     const head = [...first, "", ...NUMBERS, "", "source and reason"].map((text) => `<th scope="col">${text}</th>`).join("");
     element(host, "div", "scroll", `<table class="claims"><thead><tr>${head}</tr></thead><tbody>${rows.map((row) => `<tr>${row}</tr>`).join("")}</tbody></table>`);
@@ -30,7 +33,7 @@ function showClaims(host, claims) {
     if (claims.length) showTable(host, [], claims.map(claimCells));
 }
 
-/// If there are several studies: a table of all published numbers and all deviations. A checkbox hides the rows without a deviation.
+/// If there are several studies, shows a table of those claims of all of them that have a published number or deviate. A checkbox hides the rows without a deviation.
 function showDeviations(host, studies) {
     const rows = studies.flatMap(({name, claims}) => claims.filter((claim) => claim.on_top).map((claim) => `<td class="study"><a href="#${name}">${name}</a></td>${claimCells(claim)}`));
     if (studies.length < 2 || !rows.length) return;
@@ -41,7 +44,8 @@ function showDeviations(host, studies) {
     label.firstChild.addEventListener("change", (event) => section.classList.toggle("off-only", event.target.checked));
 }
 
-/// One row per distinct x, one column per series; null where a series has no value.
+/// The data for dygraphs: one row per distinct x, one column per series, null where a series has no value. `series` have styles line, raster
+/// (marks at a height of their own; the first of `height` series is the highest) or path (null here, since drawPath() draws it).
 function rowsOf(series, height) {
     const at = new Map();
     series.forEach(({x, y, style}, s) => x.forEach((t, k) => {
@@ -52,14 +56,14 @@ function rowsOf(series, height) {
     return [...at.values()].sort((a, b) => a[0] - b[0]);
 }
 
-/// A number on an axis: up to six digits, with an exponent if it is very large or small.
+/// A number on an axis as text: up to six digits, with an exponent if it is very large or small.
 function shortest(v) {
     const number = Number(v.toPrecision(6)), size = Math.abs(number);
     return size !== 0 && (size < 1e-3 || size >= 1e6) ? number.toExponential().replace("e+", "e") : String(number);
 }
 
-/// Ticks of a logarithmic axis. The plotted values are log10 of the data; the labels show the data. The logarithmic axis of dygraphs does not
-/// suit x axes.
+/// Ticks of a logarithmic axis from lo to hi. The plotted values are log10 of the data; the labels show the data. Dygraphs' own logarithmic scale
+/// is not used, because it does not suit x axes.
 const logTicks = (lo, hi) => {
     const ticks = [], mantissas = hi - lo > 5 ? [1] : [1, 2, 5];
     for (let decade = Math.floor(lo); decade <= Math.ceil(hi); ++decade)
@@ -81,6 +85,7 @@ function showPlot(host, plot) {
     const rows = rowsOf(series, series.length);
     if (!rows.length) return;
     const axis = (label, log, width) => ({axisLabelFontSize: 11, axisLabelWidth: width, ...(log ? {ticker: logTicks} : {axisLabelFormatter: shortest})});
+    // Labels must be unique, so a repeated name gets its number.
     const labels = plot.series.map(({name}, k) => `${name || "computed"}${plot.series.findIndex((one) => one.name === name) === k ? "" : ` (${k + 1})`}`);
     const chart = new Dygraph(element(figure, "div", "plot"), rows, {
         labels: [plot.x, ...labels],
@@ -98,13 +103,13 @@ function showPlot(host, plot) {
     (window.charts ||= []).push(chart);
 }
 
-/// Minimum and maximum with a margin.
+/// [min, max] of values with a margin; null is ignored.
 function span(values) {
     const known = values.filter((v) => v !== null), min = Math.min(...known), max = Math.max(...known), margin = 0.06 * (max - min);
     return [min - margin, max + margin];
 }
 
-/// Draws a path through its points in order; null starts a new piece.
+/// Draws a line through points in their order, which dygraphs cannot do if x is not ascending. Null interrupts the line.
 function drawPath(chart, context, {x, y, colour}) {
     context.beginPath();
     context.strokeStyle = colour, context.lineWidth = 1.4;

@@ -14,7 +14,8 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-/// Reduces a long line to its minimum and maximum in each of 600 segments, so that peaks are kept and the page stays small.
+/// Reduces a long line plot to its minimum and maximum in each of 600 segments, so that peaks are kept and the page stays small. Other
+/// styles are not reduced.
 StudyPlot::Series thinned(const StudyPlot::Series& all) {
     constexpr std::size_t segments = 600;
     if (all.style != StudyPlot::Style::line || all.x.size() <= 2 * segments) return all;
@@ -29,13 +30,14 @@ StudyPlot::Series thinned(const StudyPlot::Series& all) {
     return out;
 }
 
-/// Rounds values to six digits, enough for a plot.
+/// Rounds the numbers of a JSON array to six digits, enough for a plot.
 Json rounded(Json values) {
     for (auto& v : values)
         if (v.is_number()) v = std::strtod(fmt::format("{:.6g}", v.get<double>()).c_str(), nullptr);
     return values;
 }
 
+/// The document of a study, with reduced plots and with the formatted numbers of each claim.
 Json page_document(const Study& study, StudyResult outcome) {
     for (auto& p : outcome.plots)
         for (auto& s : p.series) s = thinned(s);

@@ -1,14 +1,15 @@
 "use strict";
-// A grid without random parameters: the effect of each axis, as line plots and heat maps.
+// The page of a sweep over a grid without random parameters: the effect of each axis, in tables, line plots and heat maps.
 
 const MAX_LINES = 10;
 const HEAT = {left: 76, right: 10, top: 4, bottom: 40};  // margins of a heat map, pixels
 
 const axisName = (axis) => table.axes[axis].name;
+// The text of an axis value; an axis with words, such as corners, has indices as values.
 const levelText = (axis, value) => (table.axes[axis].words ? table.axes[axis].words[value] ?? "–" : quantity(value, table.axes[axis].unit, true));
 const measureText = (measure, value) => quantity(value, measures[measure].unit, true);
 
-/// The axis values of a row: "press.F_max 2 N, sa1.f_B 20 Hz".
+/// The axis values of a row of the sweep as text: "press.F_max 2 N, sa1.f_B 20 Hz".
 const pointText = (row) => table.axes.map((axis, a) => `${axis.name} ${levelText(a, data.rows.axes[a][rowNumber.get(row)])}`).join(", ");
 
 function startGrid(host) {
@@ -29,6 +30,7 @@ function showGridYields(host) {
     showTable(host, ["", "limits", "passed", ""], rows);
 }
 
+/// The table of measures. data.extremes[k] has the rows with the smallest values of measure k, then as many (or one fewer) with the largest.
 function showGridMeasures(host) {
     const rows = table.all.measures.map((one, k) => {
         const rows = data.extremes[k], at = (row) => (one.min === one.max ? "all points" : row === undefined ? "–" : pointText(row));
@@ -38,7 +40,7 @@ function showGridMeasures(host) {
     showTable(host, ["", "items", "min", "at", "max", "at", "mean"], rows);
 }
 
-/// The effect of every axis on every measure.
+/// The table of the effect of every axis on every measure; see data.grids in sweep_page.cpp.
 function showEffects(host) {
     const rows = [];
     data.grids.forEach(({effects}, m) => {
@@ -55,6 +57,7 @@ function showEffects(host) {
                                ["", "axis", "variance", "", "from", "to"], rows);
 }
 
+// A horizontal bar for a fraction from 0 to 1.
 const fractionBar = (fraction) => `<span class="bar"><span class="full" style="width: ${100 * Math.min(1, Math.max(0, fraction))}%"></span></span>`;
 
 function showGridPoints(host) {
@@ -66,7 +69,7 @@ function showGridPoints(host) {
 /// At most `max` evenly spaced indices below `count`, including the first and the last.
 const evenlySpaced = (count, max) => (count <= max ? [...Array(count).keys()] : [...Array(max).keys()].map((k) => Math.round(k * (count - 1) / (max - 1))));
 
-/// Plots means over one axis, with a line for each value of another axis, if there is one.
+/// Plots means of a measure over the values `xs` of axis `xAxis`. `lines`: [{label, ys}], one for each value of another axis, or a single one.
 function showLines(host, measure, xAxis, xs, lines) {
     const axis = table.axes[xAxis], order = xs.map((x, k) => k).filter((k) => xs[k] !== null);
     const rows = order.map((k) => [xs[k], ...lines.map(({ys}) => ys[k])]);
@@ -79,6 +82,7 @@ function showLines(host, measure, xAxis, xs, lines) {
     if (axis.words) chart.updateOptions({axes: {x: {ticker: () => xs.map((v) => ({v, label: escaped(levelText(xAxis, v))}))}}});
 }
 
+/// All plots of a measure: two line plots and a heat map for each pair of axes, or a line plot for each axis if there is no pair.
 function showGrid(host, measure) {
     const {effects, pairs} = data.grids[measure] || {effects: [], pairs: []};
     if (!effects.length) return void element(host, "p", "note", `${escaped(measures[measure]?.name ?? "Nothing")} is constant over the grid.`);
@@ -92,7 +96,7 @@ function showGrid(host, measure) {
     }
 }
 
-/// A colour map like viridis: larger values are brighter, in both themes.
+/// A colour map like viridis for a fraction from 0 to 1: larger values are brighter, in the light and in the dark theme.
 function heatColour(fraction) {
     const stops = [[68, 1, 84], [59, 82, 139], [33, 145, 140], [94, 201, 98], [253, 231, 37]];
     const at = Math.min(Math.max(fraction, 0), 1) * (stops.length - 1), k = Math.min(Math.floor(at), stops.length - 2);

@@ -1,6 +1,7 @@
 "use strict";
-// Histograms, normal plots, scatter plots and envelopes of a sweep. Drag to zoom, double click to reset.
+// Histograms, normal plots, scatter plots and envelopes of a sweep. In a plot, dragging zooms and a double click resets.
 
+/// Adds a figure with a title (HTML). Returns the element for its plot.
 function figure(host, title) {
     const node = element(host, "figure");
     element(node, "figcaption", "", `<span class="title">${title}</span>`);
@@ -9,7 +10,8 @@ function figure(host, title) {
 
 const axisText = (unit) => (v) => quantity(Number(v.toPrecision(10)), unit, true);
 
-/// Creates a plot with the common options. `drawBackground` draws below the curves.
+/// Creates a plot with the common options. `x`, `y`: axis titles as HTML. `yTicker`: replaces the ticks of the y axis. `drawBackground` draws below
+/// the curves. `range`: of the y axis.
 function plot(host, rows, labels, {x, y, xUnit = "", yUnit = "", yTicker, series = {}, drawBackground, range}) {
     const chart = new Dygraph(host, rows, {
         labels, series, xlabel: x, ylabel: y, xLabelHeight: 16, yLabelWidth: 16, legend: "never", highlightCircleSize: 0, xRangePad: 6, yRangePad: 4,
@@ -21,7 +23,7 @@ function plot(host, rows, labels, {x, y, xUnit = "", yUnit = "", yTicker, series
     return chart;
 }
 
-/// Draws the limits of a measure as vertical or horizontal lines.
+/// Draws the limits of a measure as vertical (true) or horizontal lines.
 function limitLines(context, area, chart, measure, vertical) {
     for (const limit of [measures[measure].at_least, measures[measure].at_most]) {
         if (limit === null || limit === undefined) continue;
@@ -35,17 +37,20 @@ function limitLines(context, area, chart, measure, vertical) {
     }
 }
 
+/// Draws a line between two points in data coordinates.
 function line(context, chart, [x0, y0], [x1, y1], color) {
     context.beginPath(), context.strokeStyle = color, context.lineWidth = 1;
     context.moveTo(...chart.toDomCoords(x0, y0)), context.lineTo(...chart.toDomCoords(x1, y1)), context.stroke();
 }
 
-/// Rows for dygraphs: one row per point, one column per group, null in the other columns.
+/// Rows for dygraphs: one row per point, with its x, and its y in the column of its group; the columns of the other groups are null. `count`: number
+/// of groups.
 function columnsOf(xs, ys, groups, count) {
     const rows = xs.map((x, k) => { const row = Array(count + 1).fill(null); row[0] = x, row[groups[k] + 1] = ys[k]; return row; });
     return rows.filter((row, k) => row[0] !== null && ys[k] !== null).sort((a, b) => a[0] - b[0]);
 }
 
+// Labels of the groups, which must be unique, and the dygraphs options with which groups are drawn as points.
 const groupLabels = () => grouping().groups.map((name, k) => (grouping().groups.indexOf(name) === k ? name : `${name} (${k + 1})`));
 const pointSeries = (size) => Object.fromEntries(groupLabels().map((label, k) => [label, {color: groupColour(k), strokeWidth: 0, drawPoints: true, pointSize: size}]));
 
@@ -64,6 +69,7 @@ function showHistogram(host, measure) {
          {x: escaped(name), y: several ? "% of group" : "items", xUnit: unit, series, drawBackground: (context, area, chart) => limitLines(context, area, chart, measure, true)});
 }
 
+// Ticks of a normal plot: standard normal score and cumulative probability.
 const PROBABILITIES = [[-4.2649, "0.001 %"], [-3.0902, "0.1 %"], [-2.3263, "1 %"], [-1.6449, "5 %"], [-0.6745, "25 %"], [0, "50 %"], [0.6745, "75 %"], [1.6449, "95 %"], [2.3263, "99 %"],
                        [3.0902, "99.9 %"], [4.2649, "99.999 %"]];
 
@@ -80,6 +86,7 @@ function showNormalPlot(host, measure) {
          }});
 }
 
+/// A measure over one factor; see factor_document() in sweep_page.cpp.
 function showScatter(host, measure, factor) {
     const {name, unit} = measures[measure], xs = factor.values || varied(factor.axis, data.points), ys = measured(measure, data.points);
     const rows = columnsOf(xs, ys, groupsOf(data.points), grouping().groups.length);
@@ -90,6 +97,7 @@ function showScatter(host, measure, factor) {
          {x: escaped(factor.name) + part, y: escaped(name), xUnit: factor.unit, yUnit: unit, series: pointSeries(1.5), drawBackground: (context, area, chart) => limitLines(context, area, chart, measure, false)});
 }
 
+/// The median over items of a probe, with bands from 5 to 95 % and from minimum to maximum.
 function showEnvelope(host, trace) {
     const {name, times, items, medians, every} = trace, groups = medians[state.grouping], several = groups.length > 1;
     const note = `${items < table.finished ? `${items} of ${table.finished} items: ` : ""}median, 5 to 95 %, min to max${every ? "; not every sample is shown" : ""}`;
@@ -108,7 +116,7 @@ function showEnvelope(host, trace) {
          drawBackground: (context, area, chart) => { band(context, chart, trace.min, trace.max, 0.14); band(context, chart, trace.low, trace.high, 0.28); }});
 }
 
-/// Shows the legend of the groups.
+/// Shows the legend of the groups of the selected grouping, if there are several.
 function showKey() {
     const {groups} = grouping();
     document.getElementById("key").innerHTML = groups.length === 1 ? "" : groups.map((name, k) => `<span><span class="chip" style="background: ${groupColour(k)}"></span>${escaped(name)}</span>`).join("");

@@ -1,9 +1,10 @@
 "use strict";
-// Raster of the spikes of many items, sorted by the selected measure, smallest at the bottom.
+// Raster of the spikes of many items of a sweep, sorted by the selected measure, with the smallest value at the bottom.
 
 const RASTER = {left: 66, right: 8, top: 4, bottom: 34};  // margins, pixels
 
-/// The items sorted by the measure, each with its spikes.
+/// The items sorted by the selected measure, the largest first, each with its spike times (s). `rows`: rows of the sweep; `counts`: their numbers of
+/// spikes; `times`: all spike times as base64.
 function rasterLanes({rows, counts, times}) {
     const bytes = Uint8Array.from(atob(times), (c) => c.charCodeAt(0)), all = new Float32Array(bytes.buffer), values = measured(state.measure, rows), groups = groupsOf(rows);
     let from = 0;
@@ -36,7 +37,7 @@ function paintRaster(canvas, lanes, end, plotHeight) {
     const width = fullWidth - RASTER.left - RASTER.right, lane = plotHeight / lanes.length, x = (t) => RASTER.left + t / end * width;
     paintAxis(context, x, end, plotHeight, width);
     lanes.forEach(({row, group, spikes}, k) => {
-        const y = RASTER.top + k * lane;
+        const y = RASTER.top + k * lane;  // lane: height of a lane, pixels
         context.fillStyle = groupColour(group);
         for (const t of spikes) context.fillRect(x(t) - 0.6, y, 1.2, Math.max(lane * 0.9, 0.6));
         if (data.rows.passes[rowNumber.get(row)]) return;

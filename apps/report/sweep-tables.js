@@ -3,7 +3,7 @@
 
 const colour = (k) => getComputedStyle(document.documentElement).getPropertyValue(`--series-${k % 8}`).trim();
 const themeColour = (name) => getComputedStyle(document.documentElement).getPropertyValue(`--${name}`).trim();
-const charts = [];
+const charts = [];  // all plots of the page
 
 function element(host, tag, kind = "", html = "") {
     const node = document.createElement(tag);
@@ -12,12 +12,14 @@ function element(host, tag, kind = "", html = "") {
     return host.appendChild(node);
 }
 
+// HTML of parts of tables: a fraction in percent, a confidence interval, cells, a heading with its unit.
 const percent = (fraction) => (fraction === null ? "–" : `${(100 * fraction).toFixed(1)}`);
 const range = ({low, high}, text) => (low === null && high === null ? "" : ` <span class="range">${text(low)} … ${text(high)}</span>`);
 const cell = (html, kind = "number") => `<td class="${kind}">${html}</td>`;
 const textCell = (text) => cell(escaped(text), "");
 const headed = (name, unit) => escaped(name) + (unit && ` <span class="unit">(${escaped(unit)})</span>`);
 
+/// A table. `head`: HTML of the headings; `rows`: HTML cells of each row. Columns of numbers are aligned as in the first row.
 function showTable(host, head, rows) {
     const kinds = [...(rows[0] || "").matchAll(/<t[dh]([^>]*)>/g)].map(([, attributes]) => (attributes.includes("number") ? "number" : ""));
     const cells = head.map((text, k) => `<th scope="col" class="${kinds[k] || ""}">${text}</th>`).join("");
@@ -40,7 +42,7 @@ function limitsText({unit, at_least: low, at_most: high}) {
     return low !== null && high !== null ? `${text(low)} … ${text(high)}` : low !== null ? `min ${text(low)}` : `max ${text(high)}`;
 }
 
-/// A bar from 0 to 1 with the confidence interval as a line.
+/// A bar for a fraction from 0 to 1, with its confidence interval as a line.
 function bar({value, low, high}) {
     return `<span class="bar"><span class="full" style="width: ${100 * value}%"></span><span class="whisker" style="left: ${100 * low}%; width: ${100 * (high - low)}%"></span></span>`;
 }
@@ -78,6 +80,7 @@ function showPoints(host) {
     showTable(section(host, "points", "By grid point", "mean ± sigma"), ["", "items", "yield, 95 % CI", ...measures.map(({name}) => escaped(name))], rows);
 }
 
+/// The table of influences: for each measure, and for the yield, the axes and devices that explain its variance.
 function showDependences(host) {
     const rows = [];
     for (const {measure, between_points: points, influences, devices, explained_fraction: explained} of table.depends_on) {
@@ -96,7 +99,8 @@ function showDependences(host) {
     showTable(node, ["", "", "", "variance, 95 % CI", "by V<sub>T</sub> (%)", "by I<sub>S</sub> (%)", "sigma at 4× area"], rows);
 }
 
-/// A table of items: axes, then measures. Values beyond their limits are marked. `withReason`: add a column with the reason why an item failed.
+/// A table of items with their axis values and measures. `rows`: rows of the sweep. Measures beyond their limits are marked. `withReason`: add a
+/// column with the reason why an item failed.
 function showItems(host, rows, withReason) {
     const head = ["item", ...table.axes.map(({name, unit}) => headed(name, unit)), ...measures.map(({name}) => escaped(name)), ...(withReason ? ["reason"] : [])];
     const lines = rows.map((row) => {
@@ -106,6 +110,7 @@ function showItems(host, rows, withReason) {
             const value = data.rows.measures[i][k], off = "at_least" in m && !((m.at_least === null || value >= m.at_least) && (m.at_most === null || value <= m.at_most) && value !== null);
             return cell(quantity(value, m.unit, true), off ? "number fails" : "number");
         });
+        // end: 0 completed, 1 truncated, 2 diverged
         const reason = data.rows.end[k] ? data.reasons[item] || ["", "too many steps or iterations", "did not converge"][data.rows.end[k]] : "limits";
         return cell(item) + axes.join("") + values.join("") + (withReason ? textCell(reason) : "");
     });

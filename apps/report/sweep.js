@@ -3,14 +3,15 @@
 
 const data = JSON.parse(document.getElementById("data").textContent);
 const table = data.summary, measures = table.measures;
+// data.rows has the values of those rows of the sweep that the page uses. rowNumber: row of the sweep -> index in the arrays of data.rows.
 const rowNumber = new Map(data.rows.row.map((row, k) => [row, k]));
-const state = {measure: 0, grouping: 0};
+const state = {measure: 0, grouping: 0};  // indices of the selected measure and grouping
 
 const grouping = () => data.groupings[state.grouping];
 const groupName = (k) => grouping().groups[k];
 const groupColour = (k) => (grouping().groups.length === 1 ? colour(0) : colour(k));
 
-/// Values of a measure or an axis for some rows.
+// Values of a measure or an axis, and groups in the selected grouping, for some rows of the sweep. Without measures, the row itself is the value.
 const measured = (measure, rows) => !measures.length ? rows : rows.map((row) => data.rows.measures[measure][rowNumber.get(row)]);
 const varied = (axis, rows) => rows.map((row) => data.rows.axes[axis][rowNumber.get(row)]);
 const groupsOf = (rows) => rows.map((row) => data.rows.groups[state.grouping][rowNumber.get(row)]);
@@ -36,6 +37,7 @@ function draw() {
     showExtremes(document.getElementById("extremes"), state.measure);
 }
 
+/// Adds a selector. `onSelect` is called with the index of the selected option.
 function chooser(host, id, name, options, onSelect) {
     const label = element(host, "label", "", `${escaped(name)} `);
     const select = element(label, "select", "", options.map((text, k) => `<option value="${k}">${escaped(text)}</option>`).join(""));

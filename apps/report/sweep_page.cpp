@@ -16,20 +16,25 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-// Items in scatter plots, rasters, trace envelopes and the table of failed items; items at each end of a measure; scatter plots per
-// measure.
-constexpr std::size_t max_points = 1500, max_rasters = 800, max_traces = 1000, max_failed = 200, max_extremes = 8, max_scatters = 4;
+constexpr std::size_t max_points = 1500;  // items in a scatter plot
+constexpr std::size_t max_rasters = 800;  // items in a raster
+constexpr std::size_t max_traces = 1000;  // items in a trace envelope
+constexpr std::size_t max_failed = 200;   // items in the table of failed items
+constexpr std::size_t max_extremes = 8;   // items listed with the smallest values of a measure, and with the largest
+constexpr std::size_t max_scatters = 4;   // scatter plots per measure
 
-/// The data of all rows that plots and tables refer to, each row once.
+/// The data of those rows of the sweep's table that the page's plots and tables refer to, each row once.
 class PageRows {
     const SweepTable& table_;
     std::map<std::size_t, std::size_t> number_;  // row of the table -> index on the page
 
 public:
     explicit PageRows(const SweepTable& table) : table_(table) {}
+    /// Adds rows of the sweep's table.
     void add(const std::vector<std::size_t>& rows) {
         for (const auto r : rows) number_.emplace(r, 0);
     }
+    /// Numbers the rows in ascending order. Every array of the result has one element for each of them.
     Json document(const std::vector<Grouping>& groupings) {
         std::size_t count = 0;
         for (auto& [row, n] : number_) n = count++;
@@ -54,7 +59,7 @@ public:
     }
 };
 
-/// The rows with the smallest and the largest values of a measure.
+/// The rows with the smallest values of a measure (the smallest first), then those with the largest (the largest first).
 std::vector<std::size_t> extremes_of(const std::vector<double>& values) {
     std::vector<std::size_t> rows;
     for (std::size_t r = 0; r < values.size(); ++r)
@@ -70,7 +75,8 @@ std::vector<std::size_t> extremes_of(const std::vector<double>& values) {
     return out;
 }
 
-/// A factor for a scatter plot: the index of an axis, or the mismatch deviates of a device for the plotted rows.
+/// The quantity on the x axis of a scatter plot: the index of an axis of the sweep, or a device's mismatch of V_T (V) or I_S (%) for each
+/// of `rows`. "fraction" is the fraction of the measure's variance that it explains.
 Json factor_document(const SweepTable& table, const SweepSummary& s, const NamedInfluence& i, const std::vector<std::size_t>& rows) {
     Json out = {{"name", i.name}, {"quantity", i.quantity}, {"fraction", i.influence.fraction.value}};
     if (i.device < 0) {
@@ -87,10 +93,11 @@ Json factor_document(const SweepTable& table, const SweepSummary& s, const Named
     return out;
 }
 
+/// For each measure: the factors of its scatter plots. `points`: the plotted rows.
 Json factors_document(const SweepTable& table, const SweepSummary& s, const std::vector<std::size_t>& points) {
     Json out = Json::array();
     for (const auto& d : s.dependences) {
-        if (d.measure == "yield") break;
+        if (d.measure == "yield") break;  // the yield is not a measure; it comes last
         out.push_back(Json::array());
         for (const auto& [axis, between] : d.points)
             out.back().push_back({{"name", table.axes[axis].name},
@@ -111,7 +118,7 @@ Json matrix_of(const std::vector<std::vector<double>>& rows) {
     return out;
 }
 
-/// For each measure of a grid: the effect of each axis, and the means over each pair of the most influential axes.
+/// For each measure of a grid: the effect of each axis, and the mean at each pair of values of two of the four most influential axes.
 Json grids_document(const SweepTable& table) {
     constexpr std::size_t max_axes = 4, max_cells = 40'000;
     Json out = Json::array();
@@ -138,6 +145,7 @@ Json grids_document(const SweepTable& table) {
     return out;
 }
 
+/// The first rows that do not pass.
 std::vector<std::size_t> failed_rows(const SweepTable& table) {
     std::vector<std::size_t> out;
     for (std::size_t r = 0; r < table.rows() && out.size() < max_failed; ++r)
@@ -145,7 +153,7 @@ std::vector<std::size_t> failed_rows(const SweepTable& table) {
     return out;
 }
 
-/// The size of each device as text.
+/// The size of each listed device as text: columns x rows of elements, W x L.
 Json sizes_document(const SweepSummary& s) {
     Json out = Json::object();
     if (!s.mismatch) return out;

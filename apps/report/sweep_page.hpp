@@ -1,5 +1,6 @@
 #pragma once
-// The report page of a sweep: one self-contained HTML file. Its size is bounded by what a screen can show, not by the number of items.
+// The report page of a sweep: one self-contained HTML file. Plots and tables show a limited number
+// of items, so its size does not grow with the number of work items.
 
 #include <string>
 

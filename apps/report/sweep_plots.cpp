@@ -10,8 +10,12 @@
 namespace corpuscle {
 namespace {
 
-constexpr std::size_t max_bins = 60, max_in_normal_plot = 200, max_times = 500, max_spikes = 200000;
+constexpr std::size_t max_bins = 60;             // of a histogram
+constexpr std::size_t max_in_normal_plot = 200;  // points of a group
+constexpr std::size_t max_times = 500;           // of an envelope
+constexpr std::size_t max_spikes = 200000;       // of a raster
 
+/// Rounds to five digits.
 double rounded(double x) { return std::isfinite(x) ? std::strtod(fmt::format("{:.5g}", x).c_str(), nullptr) : x; }
 
 std::vector<double> finite_of(const std::vector<double>& values) {
@@ -21,14 +25,14 @@ std::vector<double> finite_of(const std::vector<double>& values) {
     return out;
 }
 
-/// The quantile q of the values, which it reorders.
+/// The quantile q (0 to 1) of the values, without interpolation. Reorders the values, which must not be empty.
 double quantile_of(std::vector<double>& values, double q) {
     const auto at = values.begin() + static_cast<std::ptrdiff_t>(q * static_cast<double>(values.size() - 1));
     std::nth_element(values.begin(), at, values.end());
     return *at;
 }
 
-/// Histogram bins: the start of the first, the width of each, their number.
+/// The bins of a histogram: start of the first bin, width of each, and their number.
 struct Bins {
     double from = 0, width = 1;
     std::size_t count = 1;
@@ -43,13 +47,17 @@ Bins bins_for(std::vector<double> values) {
     }
     if (low == high) return {low - 0.5, 1, 1};
     const double a = quantile_of(values, 0.005), b = quantile_of(values, 0.995), margin = 0.5 * (b - a);
-    if (b > a) low = std::max(low, a - margin), high = std::min(high, b + margin);  // otherwise one outlier would compress all other bins
+    if (b > a)
+        low = std::max(low, a - margin),
+        high = std::min(high, b + margin);  // otherwise one outlier would put all other values into few bins
     return {low, (high - low) / max_bins, max_bins};
 }
 
-/// The plotted ranks, evenly spaced along the axis of a normal plot: all ranks in the tails, fewer in the middle.
+/// The ranks (from 0) of the plotted values among `count` sorted values. They are evenly spaced in the normal score: all ranks in the
+/// tails, fewer in the middle.
 std::vector<std::size_t> ranks_in_normal_plot(std::size_t count) {
     if (count <= max_in_normal_plot) return thinned_rows(count, count);
+    // The score of rank k is normal_quantile((k + 1 - 0.375) / (n + 0.25)); `far` is that of the last rank.
     const double n = static_cast<double>(count), far = normal_quantile((n - 0.375) / (n + 0.25));
     std::vector<std::size_t> out;
     for (std::size_t k = 0; k < max_in_normal_plot; ++k) {
@@ -61,9 +69,10 @@ std::vector<std::size_t> ranks_in_normal_plot(std::size_t count) {
     return out;
 }
 
-/// Minimum, 5 %, median, 95 % and maximum over the rows at each time.
+/// Minimum, 5 % quantile, median, 95 % quantile and maximum over the rows, each with one value for each time.
 struct EnvelopeStats {
     std::vector<double> min, low, median, high, max;
+    /// Adds one time. `values`: those of the rows; reordered, and set to NaN if empty.
     void add(std::vector<double>& values) {
         if (values.empty()) values.push_back(std::nan(""));
         low.push_back(quantile_of(values, 0.05)), median.push_back(quantile_of(values, 0.5)), high.push_back(quantile_of(values, 0.95));
@@ -107,7 +116,7 @@ PlotJson histograms(const std::vector<double>& values, const SweepGroups& groups
             if (!std::isfinite(values[r])) continue;
             const double at = std::floor((values[r] - bins.from) / bins.width);
             const bool in_last = values[r] <= bins.from + bins.width * static_cast<double>(bins.count) * (1 + 1e-12);
-            if (at < 0) ++below;
+            if (at < 0) ++below;  // outliers are counted here and in the outer bins
             if (at >= static_cast<double>(bins.count) && !in_last) ++above;
             ++bin_counts[static_cast<std::size_t>(std::clamp(at, 0.0, static_cast<double>(bins.count - 1)))];
         }
@@ -134,12 +143,12 @@ PlotJson normal_plots(const std::vector<double>& values, const SweepGroups& grou
     return out;
 }
 
-Result<PlotJson> envelopes(const SweepResults& results, std::size_t trace, const SweepTable& table, const std::vector<std::size_t>& rows,
+Result<PlotJson> envelopes(const SweepResults& results, std::size_t probe, const SweepTable& table, const std::vector<std::size_t>& rows,
                            const std::vector<Grouping>& groupings) {
     const auto shown = thinned_rows(results.probe_times().size(), max_times);
     std::vector<std::vector<float>> all;  // [row][time]
     for (const auto r : rows) {
-        const auto samples = results.probe_samples(table.items[r], trace);
+        const auto samples = results.probe_samples(table.items[r], probe);
         if (!samples) return samples.error();
         all.emplace_back();
         for (const auto k : shown) all.back().push_back(k < samples->size() ? (*samples)[k] : std::nanf(""));
@@ -164,7 +173,7 @@ Result<PlotJson> envelopes(const SweepResults& results, std::size_t trace, const
         for (std::size_t k = 0; k < g.row_groups.groups.size() && g.row_groups.groups.size() > 1; ++k)
             medians.back().push_back(rounded_numbers(stats_over([&](std::size_t r) { return g.row_groups.group_of[r] == k; }).median));
     }
-    return PlotJson{{"name", results.probe_names()[trace]},
+    return PlotJson{{"name", results.probe_names()[probe]},
                     {"times", rounded_numbers(times)},
                     {"every", results.probe_times().size() > max_times},
                     {"items", rows.size()},
@@ -182,7 +191,7 @@ Result<PlotJson> rasters(const SweepResults& results, std::size_t train, const S
     for (const auto r : rows) {
         const auto spikes = results.spikes(table.items[r], train);
         if (!spikes) return spikes.error();
-        if (times.size() + spikes->size() > max_spikes) break;
+        if (times.size() + spikes->size() > max_spikes) break;  // the raster then shows the rows before this one
         shown.push_back(r), counts.push_back(spikes->size());
         for (const double t : *spikes) times.push_back(static_cast<float>(t));
     }

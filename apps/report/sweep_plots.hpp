@@ -10,31 +10,34 @@ namespace corpuscle {
 
 using PlotJson = nlohmann::ordered_json;
 
-/// A grouping of rows on the page: all together, or by the values of one axis.
+/// A way to divide the rows of the sweep's table into groups, which the plots colour: all together, or by the values of one axis.
 struct Grouping {
     std::string name;
     SweepGroups row_groups;
 };
-inline constexpr std::size_t max_groups = 16;
+inline constexpr std::size_t max_groups = 16;  ///< groups in a grouping; axes with more values are not used
+/// All together, then the groupings by axes with 2 to max_groups values; at most 12 groupings.
 std::vector<Grouping> groupings_of(const SweepTable&);
 
-/// At most `max_rows` evenly spaced rows, including the first and the last.
+/// At most `max_rows` evenly spaced indices below `rows`, including the first and the last.
 std::vector<std::size_t> thinned_rows(std::size_t rows, std::size_t max_rows);
 
-/// Histograms of a measure for each group, in common bins. Integers have bins of integer width; otherwise there are 60 bins, and outliers
-/// are counted in the outer bins.
+/// Histograms of a measure for each group, in common bins; null if no value is finite. `values`: one for each row. Integers have bins of
+/// integer width; otherwise there are 60 bins. Outliers are counted in the outer bins; "below" and "above" are their numbers.
 PlotJson histograms(const std::vector<double>& values, const SweepGroups&);
-/// Normal probability plots, at most 200 points per group: the score of a normal distribution, and the value.
+/// A normal probability plot for each group, with at most 200 points: values in ascending order, the standard normal scores of their ranks,
+/// and the correlation of both. `values`: one for each row.
 PlotJson normal_plots(const std::vector<double>& values, const SweepGroups&);
 
-/// Minimum, 5 %, median, 95 % and maximum of a trace over these rows at each time, and the median of each group of each grouping.
-Result<PlotJson> envelopes(const SweepResults&, std::size_t trace, const SweepTable&, const std::vector<std::size_t>& rows,
+/// Minimum, 5 % quantile, median, 95 % quantile and maximum of probe number `probe` (from 0) over these rows at each time, and the median
+/// of each group of each grouping. "every": true if only some of the probe's times are shown.
+Result<PlotJson> envelopes(const SweepResults&, std::size_t probe, const SweepTable&, const std::vector<std::size_t>& rows,
                            const std::vector<Grouping>&);
 
-/// The spikes of a train in these rows. Stops when there are too many spikes.
+/// The spike times (s) of spike train number `train` (from 0) in these rows. Omits the last rows if there are too many spikes.
 Result<PlotJson> rasters(const SweepResults&, std::size_t train, const SweepTable&, const std::vector<std::size_t>& rows);
 
-/// Numbers with five digits, enough for a plot.
+/// The values rounded to five digits, enough for a plot; null for values that are not finite.
 PlotJson rounded_numbers(const std::vector<double>&);
 
 }  // namespace corpuscle

@@ -1,4 +1,6 @@
-"""Computes touch.csv: a fingertip on a load cell, as a 12-bit converter at 500 Hz would log it. Usage: python3 touch.py > touch.csv
+"""Computes touch.csv: the force of a fingertip on a load cell, as a 12-bit converter at 500 Hz would log it.
+
+Usage: python3 touch.py > touch.csv
 
 Two taps, a press that is held, and a rub. The hold relaxes slowly and has physiological tremor at 9 Hz. The rub is a load of 1.8 N
 that varies at 6 Hz. The sensor adds mains hum, noise, an offset that drifts, and steps of 1.5 mN.
@@ -12,7 +14,7 @@ STEP = 1.5  # mN, one code of the converter
 
 
 def pulse(t, start, rise, hold, fall):
-    """A pulse: rises from 0 to 1 as half a cosine, holds, and falls back in the same way. All times in s."""
+    """A pulse at time t: it rises from 0 to 1 as half a cosine, is held at 1, and falls back in the same way. All times in s."""
     if t < start or t > start + rise + hold + fall:
         return 0.0
     if t < start + rise:
@@ -36,8 +38,8 @@ def main():
     for k in range(int(RATE * LENGTH)):
         t = k / RATE
         noise = sum(rng.random() - 0.5 for _ in range(6)) * 4  # mN, nearly normal with a deviation of 2.8 mN
-        hum = 3 * math.sin(2 * math.pi * 50.02 * t)
-        reading = 1e3 * force(t) + 4 + 1.2 * t + hum + noise
+        hum = 3 * math.sin(2 * math.pi * 50.02 * t)  # mN, mains
+        reading = 1e3 * force(t) + 4 + 1.2 * t + hum + noise  # mN; the offset of 4 mN drifts by 1.2 mN/s
         print(f"{t:.3f},{STEP * round(reading / STEP):.1f}")
 
 

@@ -1,4 +1,5 @@
-// Checks what the solver requires of your own device: its currents add up to zero, and its slopes are the derivatives of its currents.
+// Checks what the solver requires of your own device: its currents and charges add up to zero, and the slopes that it returns are their
+// derivatives.
 
 #include <cmath>
 #include <cstdio>
@@ -7,10 +8,10 @@
 
 using namespace corpuscle::circuit;
 
-/// Gives a device its unknowns, as the solver does for a whole circuit.
+/// Gives one device its unknowns, as the solver does for all devices of a circuit.
 class OneDevice final : public DeviceSetup {
     Circuit circuit_;
-    int count_ = 2;
+    int count_ = 2;  // number of unknowns: the voltages of nodes 1 and 2, and those that the device adds
 
 public:
     explicit OneDevice(const Values& card) {
@@ -24,7 +25,7 @@ public:
     const Circuit& circuit() const override { return circuit_; }
 };
 
-/// Currents, charges and slopes of a device with two unknowns.
+/// Currents f, charges q and their slopes df, dq of a device with two unknowns, at node voltages v0 and v1.
 struct Evaluation {
     double f[2] = {}, q[2] = {}, df[4] = {}, dq[4] = {};
     Evaluation(const Device& device, double v0, double v1) {
@@ -35,7 +36,7 @@ struct Evaluation {
 
 bool is_close(double a, double b) { return std::abs(a - b) <= 1e-6 * std::max(std::abs(a), std::abs(b)) + 1e-15; }
 
-/// Compares the device's slopes with central differences.
+/// Compares the device's slopes at node voltages a and b with central differences.
 bool slopes_are_right(const Device& device, double a, double b) {
     const double h = 1e-5;
     const Evaluation here(device, a, b), up(device, a + h, b), down(device, a - h, b);

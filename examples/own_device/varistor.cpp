@@ -18,7 +18,7 @@ constexpr ParameterDef<VaristorCard> fields[] = {
     {"c", &VaristorCard::c, "F", 0, 1, "capacitance"},
 };
 
-/// i = i0 sign(v) |v / v0|^alpha,   q = c v
+/// Current and charge at the voltage v between the terminals:   i = i0 sign(v) |v / v0|^alpha,   q = c v
 class Varistor final : public Device {
     VaristorCard c_;
 

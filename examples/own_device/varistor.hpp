@@ -1,5 +1,5 @@
 #pragma once
-// A varistor: two terminals, a power law, a capacitance.
+// A varistor with two terminals: its current is a power of the voltage, and it has a capacitance.
 
 #include "circuit/device/device.hpp"
 

@@ -1,4 +1,4 @@
-// Your own neuron: compared with its closed form, then simulated behind a receptor under a press.
+// Your own neuron: its interval between spikes is compared with a closed form, then it is simulated behind a receptor under a press.
 
 #include <cmath>
 #include <cstdio>
@@ -10,7 +10,7 @@
 
 using namespace corpuscle;
 
-/// The interval between spikes under a constant current, s: C_m du/dt is a parabola in u, and the integral of its reciprocal is an arc
+/// The interval (s) between spikes under a constant current (A): C_m du/dt is a parabola in u, and the integral of its reciprocal is an arc
 /// tangent.
 double closed_form_interval(const QifTraits::Params& p, double current) {
     const double a = p.g / (p.V_T - p.E_L) / p.C_m, middle = (p.E_L + p.V_T) / 2;
@@ -19,7 +19,7 @@ double closed_form_interval(const QifTraits::Params& p, double current) {
     return (angle(p.V_peak) - angle(p.V_reset)) / std::sqrt(a * b);
 }
 
-/// The last interval between spikes that the model fires in 2 s, simulated in steps of dt; s.
+/// The last interval (s) between spikes in a simulation of 2 s under a constant current (A), in steps of dt (s).
 double interval(const QifTraits::Params& p, double current, double dt) {
     const Qif<double> neuron(UniformParams<QifTraits::Params>{p}, dt, Method::exact);
     auto state = neuron.start();

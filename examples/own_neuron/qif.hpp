@@ -9,7 +9,8 @@ namespace corpuscle {
 
 /// Quadratic integrate-and-fire:   C_m du/dt = g (u - E_L) (u - V_T) / (V_T - E_L) + I
 ///     u > V_peak  =>  spike, then u = V_reset
-/// Latham et al. 2000, J Neurophysiol 83:808. Method has no effect: the substeps are always the same. There is no refractory time.
+/// Latham et al. 2000, J Neurophysiol 83:808. The
+/// integration method has no effect, because the substeps are always the same. There is no refractory time.
 struct QifTraits {
     struct Params {
         double C_m = 500e-9, g = 5e-6, E_L = 0, V_T = 0.25, V_peak = 0.5, V_reset = 0, substep = 20e-6;
@@ -48,7 +49,7 @@ struct Qif : QifTraits {
     State start() const { return {E_L}; }
     void record(const State& s, T (&out)[1]) const { out[0] = s.u; }
 
-    /// One sample under current i. Calls fired(mask, offset) for each spike in it.
+    /// One step under current i. Calls fired(mask, offset) for each spike in it; offset is the time since the start of the step, in steps.
     template <class Fired>
     num::Mask<T> step(State& s, Current<T> i, Fired&& fired) const {
         MembraneRecovery<T> y{s.u, T(0.0)};  // the second variable is not used

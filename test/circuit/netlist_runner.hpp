@@ -18,15 +18,16 @@
 
 namespace corpuscle::circuit {
 
-/// Results of a netlist. A request for a missing curve or number fails the test and returns NaN.
+/// The results of a netlist. A request for a curve or number that the netlist does not have fails the test and returns NaN.
 class NetlistRun {
-    std::shared_ptr<const Circuit> circuit_;  // the outcome points to its commands
+    std::shared_ptr<const Circuit> circuit_;  // outcome_ points to its directives
     RunOutcome outcome_;
 
 public:
     NetlistRun() = default;
     NetlistRun(std::shared_ptr<const Circuit> circuit, RunOutcome outcome) : circuit_(std::move(circuit)), outcome_(std::move(outcome)) {}
 
+    /// False if the netlist could not be read or run.
     bool is_complete() const { return circuit_ != nullptr; }
     std::string title() const { return circuit_ ? circuit_->title : ""; }
     const std::vector<Expectation>& expectations() const { return outcome_.expectations; }
@@ -34,7 +35,8 @@ public:
     const std::vector<Error>& warnings() const { return outcome_.warnings; }
     const std::vector<AnalysisRun>& analyses() const { return outcome_.analyses; }
 
-    /// A curve of the first plot that contains it, optionally of one analysis only ("ac"). Names as in .print, also v(a,b) and vdb(a).
+    /// A curve from the first plot that contains it; if `analysis` is given ("ac"), from the plots of this analysis only. `name` is as in
+    /// .print: v(a), v(a,b), vdb(a), i(v1).
     std::vector<std::complex<double>> complex_curve(const std::string& name, const std::string& analysis = "") const {
         for (const auto& a : outcome_.analyses)
             if (analysis.empty() || a.directive->name == analysis)
@@ -43,12 +45,13 @@ public:
         ADD_FAILURE() << title() << ": no curve " << name;
         return {std::complex<double>(std::nan(""), 0)};
     }
+    /// The real part of a curve.
     std::vector<double> curve(const std::string& name, const std::string& analysis = "") const {
         std::vector<double> out;
         for (const auto& value : complex_curve(name, analysis)) out.push_back(value.real());
         return out;
     }
-    /// Value of a measurement, a number of an analysis, or the last value of a curve.
+    /// The value of a .meas or another number of an analysis; if none has this name, the last value of the curve of this name.
     double number(const std::string& name) const {
         for (const auto& [known, value] : outcome_.numbers)
             if (known == name) return value;
@@ -62,10 +65,12 @@ inline Result<std::string> read_text_file(const std::string& path) {
     return std::string(std::istreambuf_iterator<char>(file), {});
 }
 
+/// Parses a netlist as if it were a file in process/, where the process cards are.
 inline Result<Netlist> parse_netlist_text(const std::string& text) {
     return Netlist::parse(text, test::source_root() + "/process/test.cir", read_text_file);
 }
 
+/// The circuit of a netlist's text; an error fails the test and returns null.
 inline std::shared_ptr<const Circuit> make_circuit(const std::string& text) {
     const auto netlist = parse_netlist_text(text);
     if (!netlist) return ADD_FAILURE() << netlist.error().text(), nullptr;
@@ -91,7 +96,7 @@ inline NetlistRun run_netlist(const std::string& text, const Values& parameters 
     return run_netlist(std::move(*circuit));
 }
 
-/// Runs every variant of .step and .mc.
+/// Runs every variant of a netlist that has .step or .mc. An error fails the test and ends the list.
 inline std::vector<NetlistRun> run_variants(const std::string& text) {
     std::vector<NetlistRun> out;
     const auto netlist = parse_netlist_text(text);

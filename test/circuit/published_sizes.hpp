@@ -1,22 +1,22 @@
 #pragma once
-// The array sizes published in the thesis (tables 1 to 9, 16, 19, 20), including misprints, and the devices of each table in circuits/.
-// Also the sizes in circuits/ that differ from the published ones, with the erratum that gives the reason (sections
-// errata-... of reproduction/reproduction.md).
+// The array sizes published in the thesis (tables 1 to 9, 16, 19, 20), including misprints, and the devices in circuits/ that have them.
+// Also the sizes in circuits/ that differ from the published ones, with the reason. F9, S11 and so on are numbers of errata, which are in
+// the sections errata-... of reproduction/reproduction.md.
 
 namespace corpuscle::circuit {
 
-/// A row of a published table: m columns of n elements of W by L (um), and the devices of this size. Device paths are relative to the
-/// table's TableLocation::path.
+/// A row of a published table: m columns of n elements of W by L (um), and the paths of the devices with this size, separated by blanks.
+/// The paths are relative to TableLocation::path of the table; no path means that circuits/ does not have the device.
 struct PublishedSize {
     const char* table;
-    const char* name;
+    const char* name;  ///< as published
     int m, n;
     double W, L;
     const char* devices;
 };
 
-// Interpretations that the rows do not show. Table 1's second M1 is M3 (errata F9). Table 2's M4A-E and M5A-E are A and B (errata F10).
-// Table 9's M3B and M3C are table 6's C and B. Table 4's M3 is both sides of a mirror.
+// Interpretations of the published names: table 1's second M1 is M3 (errata F9). Table 2's M4A-E and M5A-E are A and B (errata F10).
+// Table 9's M3B and M3C are table 6's C and B. Table 4's M3 is both devices of a mirror.
 inline constexpr PublishedSize published_sizes[] = {
     {"1", "M1", 4, 4, 1.5, 0.5, "mn1"},
     {"1", "M1 (second)", 8, 1, 1.5, 0.5, "mn3"},
@@ -111,7 +111,7 @@ inline constexpr PublishedSize published_sizes[] = {
     {"9", "M5A,B", 2, 1, 6.0, 0.5, "mp5a mp5b"},
     {"9", "M6A,B", 2, 1, 1.5, 0.5, "mn6a mn6b"},
 
-    // the subcircuit lacks the replica inverter, M4C and M5B
+    // These devices are in a subcircuit without the replica inverter, M4C and M5B.
     {"16", "M1A-B", 2, 8, 6.0, 0.5, "mp1a mp1b"},
     {"16", "M2A-B", 2, 8, 1.5, 0.5, "mn2a mn2b"},
     {"16", "M3A,B", 2, 8, 6.0, 0.5, "mp3a mp3b"},
@@ -140,7 +140,8 @@ inline constexpr PublishedSize published_sizes[] = {
     {"20", "M6B", 2, 4, 1.5, 0.5, "mn6b"},
 };
 
-/// Location of a table's devices: a circuit and a path in it.
+/// One place with the devices of a table: a file circuits/`circuit`.cir and the path of a subcircuit in it ("" for the top level). A table
+/// can have several places.
 struct TableLocation {
     const char *table, *circuit, *path;
 };
@@ -172,8 +173,8 @@ inline constexpr TableLocation table_locations[] = {
     {"2", "amplifier", "xg."},
 };
 
-/// A size that differs from the published one: the device, the parameter (m, n, or W in um), its value in circuits/, and the erratum that
-/// gives the reason.
+/// A size that differs from the published one: table and name of the row, the devices, the parameter (m, n, or W in um), its value in
+/// circuits/, and the erratum that gives the reason.
 struct SizeDeviation {
     const char *table, *name, *device, *parameter;
     double built_value;
@@ -195,7 +196,7 @@ inline constexpr SizeDeviation size_deviations[] = {
     {"20", "M6B", "mn6b", "n", 8, "S7"},
 };
 
-/// Published devices that are missing in circuits/: their number and the reason.
+/// Devices of a published row that are missing in circuits/: table and name of the row, the number of devices, and the reason.
 struct MissingDevices {
     const char *table, *name;
     int count;

@@ -1,5 +1,5 @@
 #pragma once
-// Runs a netlist's transient under several plans, all from the same initial condition, and once more with IDA as reference.
+// Runs a netlist's transient with different plans, always from the same initial condition, and with IDA of SUNDIALS as reference.
 
 #include <gtest/gtest.h>
 
@@ -24,8 +24,9 @@ struct TransientPoints {
     std::vector<double> t;               ///< s
     std::vector<std::vector<double>> x;  ///< all unknowns at each time
     TransientStats stats;
-    std::string error;  ///< why the run ended early; empty if it did not
+    std::string error;  ///< why the run ended early; empty if it reached the end
 
+    /// The curve of one unknown, by index.
     std::vector<double> values(int unknown) const {
         std::vector<double> out;
         for (const auto& at : x) out.push_back(at[static_cast<std::size_t>(unknown)]);
@@ -33,7 +34,8 @@ struct TransientPoints {
     }
 };
 
-/// Times (s) at which the curve crosses a level upward, from the cubic through four points; linear near both ends.
+/// Times (s) at which the curve v(t) crosses a level upward. It is interpolated by the cubic through the two points before and the two
+/// after the crossing; linearly where one of them is missing.
 inline std::vector<double> upward_crossings(const std::vector<double>& t, const std::vector<double>& v, double level) {
     std::vector<double> out;
     for (std::size_t k = 1; k < t.size(); ++k) {
@@ -63,12 +65,12 @@ inline std::vector<double> upward_crossings(const std::vector<double>& t, const 
 /// A netlist with its initial condition, which several runs share.
 class TransientRunner {
     std::unique_ptr<AnalysisContext> context_;
-    std::vector<double> start_;
-    bool is_settled_ = true;
-    double step_ = 0, stop_ = 0;
+    std::vector<double> start_;   // initial condition: all unknowns at t = 0
+    bool is_settled_ = true;      // InitialCondition::is_consistent
+    double step_ = 0, stop_ = 0;  // of .tran, s
 
 public:
-    /// Takes the duration and the initial condition from the netlist's .tran.
+    /// Takes the duration and the initial condition from the netlist's .tran, which must be there; elaboration has checked its numbers.
     explicit TransientRunner(Result<Netlist> netlist) {
         if (!netlist) throw std::runtime_error(netlist.error().text());
         auto circuit = netlist->elaborate({});
@@ -79,6 +81,7 @@ public:
         bool uic = false;
         for (const auto& c : context_->circuit->directives)
             if (c.name == "tran") step_ = *read_number(c, 0, "step"), stop_ = *read_number(c, 1, "stop"), uic = c.words.back() == "uic";
+        // A source can need the step and end of the analysis also at t = 0. Zeros end the transient for the sources.
         system().start_transient(step_, stop_);
         const auto initial = find_initial_condition(*context_, uic);
         system().start_transient(0, 0);
@@ -86,7 +89,7 @@ public:
         start_ = initial->x, is_settled_ = initial->is_consistent;
     }
     static TransientRunner from_file(const std::string& path) { return TransientRunner(Netlist::read(path)); }
-    /// Replaces each line that begins with the first text of a pair by the second text. Drops .meas and .expect.
+    /// Reads a file and replaces each line that begins with the first text of a pair by the second text. Omits .meas and .expect.
     static TransientRunner from_file(const std::string& path, const std::vector<std::pair<std::string, std::string>>& changed) {
         const auto all = read_text_file(path);
         std::istringstream in(all ? *all : "");
@@ -103,8 +106,10 @@ public:
     System& system() const { return context_->system; }
     double stop_time() const { return stop_; }
     void set_stop_time(double t) { stop_ = t; }
+    /// The index of the unknown of this name.
     int unknown(const std::string& name) const { return system().unknown(name); }
 
+    /// Runs the transient with the end that is set here. Without a maximum step, a fiftieth of the duration is used.
     TransientPoints run(TransientPlan plan) const {
         plan.stop = stop_;
         if (plan.max_step == 0) plan.max_step = stop_ / 50;
@@ -120,7 +125,7 @@ public:
         out.stats = transient.stats();
         return out;
     }
-    /// First value of a curve in the netlist's .ac; NaN if there is none.
+    /// The value of a curve of the netlist's .ac at its first frequency; NaN if the netlist has no .ac or the .ac has no such curve.
     std::complex<double> first_ac_value(const std::string& name) const {
         for (const auto& c : context_->circuit->directives)
             if (c.name == "ac")

@@ -1,5 +1,5 @@
 #pragma once
-// Model cards for tests: one with the plain UICM, one with every effect of the model enabled, and random devices.
+// Devices of the transistor model UICM for tests: a card of the plain model, a card with every effect enabled, and random devices.
 
 #include <cmath>
 #include <cstdint>
@@ -11,9 +11,9 @@
 
 namespace corpuscle::circuit::test {
 
-/// C, J/K, and V at 27 C.
+/// Elementary charge (C), Boltzmann constant (J/K), and thermal voltage at 27 C (V).
 inline constexpr double elementary_charge = 1.602176634e-19, boltzmann = 1.380649e-23, phi_t = boltzmann * 300.15 / elementary_charge;
-enum { D, G, S, B };
+enum { D, G, S, B };  ///< order of the terminals
 
 /// UICM alone: no velocity saturation, no DIBL, a practically infinite Early voltage, no junctions, only the gate capacitance.
 inline UicmCard plain_card() {
@@ -30,6 +30,7 @@ inline UicmCard full_card() {
     return card;
 }
 
+/// The constants of an array of m columns and `stack` rows. W, L: m. T: degrees Celsius.
 inline UicmConstants constants_of_size(const UicmCard& card, double W, double L, double m = 1, double stack = 1, bool pmos = false,
                                        double T = 27) {
     UicmInstance instance;
@@ -37,20 +38,23 @@ inline UicmConstants constants_of_size(const UicmCard& card, double W, double L,
     return uicm_constants(card, instance, T, pmos);
 }
 
+/// Evaluates a device at the voltages of drain, gate, source and bulk.
 inline UicmEvaluation<double> evaluate(const UicmConstants& c, double d, double g, double s, double b) {
     UicmEvaluation<double> out;
     Uicm<double>(c).eval({d, g, s, b}, out);
     return out;
 }
 
+/// The channel current, A.
 inline double current(const UicmConstants& c, double d, double g, double s, double b = 0) {
     return Uicm<double>(c).internals({d, g, s, b}).I;
 }
 
-/// Number k of a series of random devices and voltages: weak to strong inversion, forward-biased bulks, V_DS about 0 in every fourth.
+/// Number k of a series of random devices with random terminal voltages: weak to strong inversion, some bulks forward-biased, and V_DS
+/// about 0 in every fourth.
 struct RandomDevice {
     UicmConstants c;
-    double v[4];
+    double v[4];  ///< V, in order D, G, S, B
     explicit RandomDevice(std::uint32_t k) {
         const auto z = [k](std::uint32_t quantity) { return normal(7, k, quantity, 0); };
         UicmCard card = full_card();

@@ -1,5 +1,5 @@
 #pragma once
-// Evaluates many transistors at once on the SIMD lanes of one instruction set; inputs and outputs are arrays.
+// Evaluates many transistors at once on SIMD lanes, with one function for each instruction set; inputs and outputs are arrays.
 
 #include <cstddef>
 
@@ -7,13 +7,15 @@
 
 namespace corpuscle::circuit::test {
 
-inline constexpr std::size_t uicm_value_count = 44;  ///< i, q, di, dq of an evaluation, then the four noise densities
+inline constexpr std::size_t uicm_value_count = 44;  ///< in the order of uicm_values.hpp
 
-/// out[f][k] = value f of transistor k at the voltages v[0...3][k]. `count` must be a multiple of 8, arrays aligned to 64 bytes.
+/// out[f][k] = value f of transistor k at its terminal voltages v[0][k] ... v[3][k] (drain, gate, source, bulk). `count`, the number of
+/// transistors, must be a multiple of 8, and arrays must be aligned to 64 bytes.
 using UicmBatchFunction = void (*)(const UicmConstants*, const double* const (&v)[4], std::size_t count,
                                    double* const (&out)[uicm_value_count]);
 
-/// For timing: evaluates one transistor at all points, `rounds` times. Returns the sum of all results, so that none is optimized away.
+/// For timing: evaluates one transistor at `count` points, `rounds` times. Returns the sum of all results, so that the compiler does not
+/// omit any.
 using UicmTimingFunction = double (*)(const UicmConstants&, const double* const (&v)[4], std::size_t count, std::size_t rounds);
 
 namespace baseline {

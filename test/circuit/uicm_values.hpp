@@ -1,11 +1,12 @@
 #pragma once
-// All values of a transistor evaluation in a fixed order, for any number type. Include uicm.hpp first.
+// All values of an evaluation of the transistor model UICM in a fixed order, for any number type. Include uicm.hpp first.
 
 #include <cstddef>
 
 namespace corpuscle::circuit::test {
 
-/// Calls put(index, value) for each value: i, q, di, dq, then the four noise densities.
+/// Evaluates a device at its terminal voltages v and calls put(index, value) for each value: 4 currents, 4 charges, the 16 derivatives of
+/// the currents, the 16 of the charges, and the 4 noise densities.
 template <class T, class Put>
 void for_each_value(const Uicm<T>& device, const T (&v)[4], const Put& put) {
     UicmEvaluation<T> result;
@@ -21,6 +22,7 @@ void for_each_value(const Uicm<T>& device, const T (&v)[4], const Put& put) {
     for (const T& y : {noise.thermal, noise.flicker, noise.shot_s, noise.shot_d}) put(f++, y);
 }
 
+/// The sum of all currents, charges and derivatives.
 template <class T>
 T sum_of_values(const UicmEvaluation<T>& evaluation) {
     T sum(0.0);

@@ -1,5 +1,5 @@
 #pragma once
-// Arbitrary bytes as a recording of one format. Expected: finite numbers, or an error with a message.
+// Reads arbitrary bytes as a recording of one file format. Every force must be finite, or there must be an error with a message.
 
 #include <pthread.h>
 #include <sanitizer/common_interface_defs.h>
@@ -15,11 +15,13 @@
 
 namespace corpuscle::fuzz {
 
+/// Ends the fuzzer with a failure unless the condition holds.
 inline void require(bool holds) {
     if (!holds) std::abort();
 }
 
-/// An error must have a message. A helper process may crash (by a signal or a sanitizer), but must not send an invalid response.
+/// An error must have a message and name a line up to `lines`, if any. A helper process may crash (by a signal or a sanitizer), but must
+/// not send an invalid response.
 inline void check(const Error& error, long lines) {
     require(!error.message.empty() && error.location.line <= lines);
     require(!error.message.starts_with("invalid response of the helper"));
@@ -40,11 +42,12 @@ inline void read_all(const std::string& path, const RecordingOptions& options, l
     }
 }
 
-/// The first byte selects the options, the others are the file. An error may name a line up to `lines`.
+/// One input of the fuzzer: the bits of the first byte select the options, the other bytes are the file. `lines`: the largest line number
+/// that an error may name.
 inline int recording(const std::uint8_t* data, std::size_t size, const std::string& extension, long lines) {
     if (size < 1) return 0;
     static const std::string path = "/tmp/corpuscle-fuzz-" + std::to_string(::getpid()) + extension;
-    static const bool once = [] {
+    static const bool once = [] {                                                             // at the first call
         ::pthread_atfork(nullptr, nullptr, [] { __sanitizer_set_death_callback(nullptr); });  // a child's crash is not a failure
         return std::atexit([] { std::remove(path.c_str()); }), true;
     }();

@@ -21,10 +21,11 @@ namespace {
 
 using test::TemporaryFolder;
 
-/// The running program. `in` and `out` are the test's ends of its standard input and output; standard error goes to a file.
+/// The running program. `in` is the test's end of its standard input, `out` that of its standard output; its standard error goes to a file.
+/// The destructor kills the program.
 class Child {
     pid_t pid_ = -1;
-    std::string err_;
+    std::string err_;  // path of the file
 
 public:
     int in = -1, out = -1;
@@ -53,6 +54,7 @@ public:
     }
     void close_in() { ::close(in), in = -1; }
     void close_out() { ::close(out), out = -1; }
+    /// Writes to the program's standard input, until it closes that.
     void send(std::string_view text) const {
         while (!text.empty()) {
             const auto count = ::write(in, text.data(), text.size());
@@ -62,14 +64,14 @@ public:
     }
     void interrupt() const { test::signal_child(pid_, SIGINT); }
     std::string error_text() const { return test::read_file(err_); }
-    /// All of its output until it closes the pipe.
+    /// All that the program writes to its standard output until it closes it.
     std::string read_out() const {
         std::string all;
         char chunk[65536];
         for (ssize_t count = 0; (count = ::read(out, chunk, sizeof chunk)) > 0;) all.append(chunk, static_cast<std::size_t>(count));
         return all;
     }
-    /// The exit status; 128 + signal if a signal ended the program, -1 if it has not ended after 10 s.
+    /// Waits for the end of the program. Returns its exit status, 128 + signal if a signal ended it, or -1 if it has not ended after 10 s.
     int wait() {
         for (int k = 0; k < 2000; ++k) {
             int status = 0;
@@ -89,6 +91,7 @@ public:
         }
         return false;
     }
+    /// The port on which the program listens, from its standard error.
     int port() const {
         EXPECT_TRUE(wait_for_text("listening on 127.0.0.1:")) << error_text();
         return std::stoi(error_text().substr(error_text().find("127.0.0.1:") + 10));
@@ -103,6 +106,7 @@ sockaddr_in loopback_address(int port) {
     return at;
 }
 
+/// Returns a socket that is connected to the port on this machine.
 int connect_to(int port) {
     const int fd = ::socket(AF_INET, SOCK_STREAM | SOCK_CLOEXEC, 0);
     const auto at = loopback_address(port);
@@ -110,7 +114,7 @@ int connect_to(int port) {
     return fd;
 }
 
-/// A listening socket and its port.
+/// Opens a listening socket. `port`: 0 for any. Returns the socket and its port.
 std::pair<int, int> listen_on(int port = 0) {
     const int fd = ::socket(AF_INET, SOCK_STREAM | SOCK_CLOEXEC, 0);
     const int yes = 1;
@@ -123,7 +127,8 @@ std::pair<int, int> listen_on(int port = 0) {
     return {fd, ntohs(at.sin_port)};
 }
 
-/// `count` lines with one force each, from frame number `first` on. The force repeats after 400 frames: 100 of 0 N, then 300 of 2 N.
+/// `count` lines with one force each, for frames `first` and following, counted from 0. The force repeats after 400 frames: 100 frames of 0
+/// N, then 300 of 2 N.
 std::string force_lines(int count, int first = 0) {
     std::string text;
     for (int k = first; k < first + count; ++k) text += std::to_string(k % 400 < 100 ? 0 : 2) + "\n";

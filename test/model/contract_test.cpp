@@ -1,4 +1,4 @@
-// The contract that every entry of the catalogue must satisfy. The reason for each exception is given.
+// Requirements that every entry of the catalogue must satisfy, with a reason for each exception.
 
 #include <fmt/format.h>
 
@@ -35,7 +35,7 @@ TEST(Contract, ParametersOfCombinedComponentsNeverShareAName) {
                                                           neuron_entries()};
     for (const auto& first : kinds)
         for (const auto& second : kinds) {
-            if (&first == &second) continue;  // two of the same kind are never combined
+            if (&first == &second) continue;  // two components of the same kind are never combined
             for (const auto& a : first)
                 for (const auto& b : second)
                     for (const auto& x : a.parameters)
@@ -89,7 +89,7 @@ TEST(Contract, BlocksOfAnySizeGiveTheSameSpikesAndProbes) {
                 const auto size = std::min(sizes[n % sizes.size()], f.size() - k);
                 std::vector<double*> here;
                 for (auto& p : probes) here.push_back(p.data() + k);
-                ResponseBlock response{out, 3, here};
+                ResponseBlock response{out, 3, here};               // 3: any afferent index
                 state = test::value_or_throw(unpack(pack(state)));  // saved and resumed between blocks
                 RC_ASSERT(static_cast<bool>(a->respond(std::span(f).subspan(k, size), state, response)));
                 k += size;
@@ -104,7 +104,7 @@ TEST(Contract, BlocksOfAnySizeGiveTheSameSpikesAndProbes) {
             auto s = undivided.first;
             for (auto& x : s) x.afferent_index = 0;
             return s;
-        }());  // probes change nothing
+        }());  // recording probes does not change the spikes
     }));
 }
 
@@ -150,7 +150,7 @@ TEST(Contract, NoSpikeComesBeforeTheFirstSample) {
     }
 }
 
-/// FNV-1a over the bits of every spike.
+/// The hash FNV-1a of the bits of all spikes.
 std::uint64_t fingerprint(const std::vector<Spike>& train) {
     std::uint64_t hash = 0xcbf29ce484222325U;
     const auto mix = [&](std::uint64_t word) {
@@ -162,6 +162,7 @@ std::uint64_t fingerprint(const std::vector<Spike>& train) {
 
 TEST(Contract, EveryMachineAndCompilerGivesTheSameBits) {
     const std::map<std::string, std::uint64_t> right = {
+        // computed once; they change only if a model changes
         {"sa1", 6440322472683748240U},          {"fa1", 12148808211675308903U},
         {"sa2", 6860050198881699532U},          {"fa2", 6172631321898342319U},
         {"sa1a+lif-a", 15603805738671303522U},  {"fa1a+adaptive", 17096642722010903437U},
@@ -219,7 +220,7 @@ TEST(Contract, SpikeTimesConvergeAsTheStepDecreases) {
 
 TEST(Contract, TheForceBeforeTheFirstSampleEqualsTheFirstSample) {
     for (const auto& name : all_afferent_names()) {
-        if (name.find("sa") != std::string::npos) {  // these respond to constant force, but later than to a step
+        if (name.find("sa") != std::string::npos) {  // these respond to constant force, but not before the second sample
             const auto at_once = spikes(*afferent(name), std::vector<double>(2, 3.0)),
                        later = spikes(*afferent(name), std::vector<double>(2000, 3.0));
             EXPECT_TRUE(at_once.empty()) << name;

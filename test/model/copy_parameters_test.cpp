@@ -1,4 +1,4 @@
-// Copies of an afferent: which parameters are sampled, from which distribution, and what the samples depend on.
+// Copies of an afferent: which of their parameters are sampled, from which distribution, and on what the samples depend.
 
 #include "model/copies.hpp"
 
@@ -14,7 +14,7 @@ namespace {
 using test::value_or_throw;
 
 struct SampleOptions {
-    std::vector<std::string> settings, spreads;
+    std::vector<std::string> settings, spreads;  // as for --set and --spread
     std::uint32_t copies = 100'000;
     std::uint64_t seed = 1;
 };
@@ -25,6 +25,7 @@ std::vector<AfferentPlan> sample_copies(const std::string& name, const SampleOpt
         make_copies(plan, d.copies, value_or_throw(distributions_for(plan, name, test::parse_settings(d.spreads))), d.seed));
 }
 
+/// The value of a parameter in each copy.
 std::vector<double> values(const std::vector<AfferentPlan>& copies, std::string_view parameter) {
     std::vector<double> all;
     for (const auto& c : copies) all.push_back(*c.value(parameter));
@@ -42,10 +43,11 @@ double covariance_of(const std::vector<double>& x, const std::vector<double>& y)
 
 double deviation(const std::vector<double>& x) { return std::sqrt(covariance_of(x, x)); }
 
+// Density of the standard normal distribution, and its probability of values above z.
 double density(double z) { return std::exp(-z * z / 2) / std::sqrt(2 * M_PI); }
 double above(double z) { return 0.5 * std::erfc(z / std::sqrt(2.0)); }
 
-/// Mean and standard deviation of a standard normal distribution truncated to values above z.
+// Mean and standard deviation of the standard normal distribution truncated to values above z.
 double mean_above(double z) { return density(z) / above(z); }
 double deviation_above(double z) { return std::sqrt(1 + z * mean_above(z) - mean_above(z) * mean_above(z)); }
 
@@ -63,7 +65,8 @@ TEST(ParameterDistribution, IsNormalAroundTheValueWithADeviationInPercentOrInIts
 }
 
 TEST(ParameterDistribution, IsANormalTruncatedAtTheRangeOrByAnOrderConstraint) {
-    // V_th must be above V_reset = 0.45 V; I_leak0 must not be negative.
+    // V_th (0.5 V, deviation 0.1 V) must be above V_reset = 0.45 V; I_leak0 (0.5 uA, deviation 1 uA) must not be negative. Both limits are
+    // half a deviation below the mean.
     const auto V_th = values(sample_copies("sa1", {{"sa1.V_reset=0.45V"}, {"sa1.V_th=100mV"}}), "V_th");
     EXPECT_NEAR(mean_of(V_th), 0.5 + 0.1 * mean_above(-0.5), 4 * 0.1 * deviation_above(-0.5) / std::sqrt(1e5));
     EXPECT_GT(*std::min_element(V_th.begin(), V_th.end()), 0.45);
@@ -203,7 +206,8 @@ TEST(ParameterDistribution, WithoutAcceptableSamplesIsAnErrorAfterAThousandTries
     ASSERT_FALSE(wide);
     EXPECT_EQ(wide.error().text(),
               "sa1#1: none of 1000 samples of V_th about 500 mV with a standard deviation of 1 GV is valid; lower its --spread");
-    // Half of the samples of R_fb give a V_Z above V_DD at F_cal, where the sensor could not be calibrated. These are sampled again.
+    // For half of the samples of the feedback resistance R_fb, the transducer's output V_Z at the calibration force F_cal would be above
+    // the supply, so that the sensor could not be calibrated. These are sampled again.
     const auto edge = sample_copies("fsr+f2v+sa1", {{"fsr+f2v+sa1.R_fb=13.3kohm"}, {"fsr+f2v+sa1.R_fb=10%"}, 1000});
     for (const auto& copy : edge) EXPECT_TRUE(check_plan(copy));
 }

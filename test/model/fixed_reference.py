@@ -1,12 +1,16 @@
 #!/usr/bin/python3
-"""An independent implementation of the algorithms of doc/fixed-point.md, written from that page alone, with integers of any
-size. Checks files of test vectors against it: fixed_reference.py VECTORS.csv ROM.csv ..."""
+"""An independent implementation of the algorithms of doc/fixed-point.md, written from that page alone, with integers of any size.
+
+The names are those of that page. Checks test vectors against it; each file has the table of its converter:
+fixed_reference.py VECTORS.csv ROM.csv ..."""
 
 import sys
 from fractions import Fraction
 
 
 class Words:
+    """Arithmetic in words of `word` bits. Counts the results that were saturated."""
+
     def __init__(self, word):
         self.min, self.max, self.overflows = -(2 ** (word - 1)), 2 ** (word - 1) - 1, 0
 
@@ -24,11 +28,13 @@ class Words:
 
 
 def floor_log2(c):
+    """The largest e with 2^e <= c, for a fraction c > 0."""
     e = c.numerator.bit_length() - c.denominator.bit_length()
     return e if Fraction(2) ** e <= c else e - 1
 
 
 def factor_of(c, word):
+    """The factor c >= 0 as (mantissa, shift), which means mantissa / 2^shift."""
     c = Fraction(c)
     if c == 0:
         return 0, 0
@@ -38,9 +44,11 @@ def factor_of(c, word):
 
 
 def level_of(x, frac):
+    """The level x as a word with `frac` fraction bits."""
     return (Fraction(x) * 2**frac + Fraction(1, 2)).__floor__()
 
 
+# Receptors: step() returns the currents for the force F, where F1 is the force of the previous conversion. c: constants; w: Words.
 class Sa1a:
     outputs = 1
 
@@ -81,6 +89,7 @@ class Fa1b:
         return [w.times(c["k_A"], self.I_0) if self.I_0 > 0 else w.times(c["k_B"], w.abs(self.I_0))]
 
 
+# Neurons: step() returns 1 if the neuron fires under current I, else 0.
 class Neuron:
     def __init__(self, c):
         self.u, self.a, self.wait = c["E_L"], 0, 0
@@ -138,6 +147,7 @@ NEURONS = {"lif-a": LifA, "lif-b": LifB, "adaptive": Adaptive}
 
 
 def read_vectors(path):
+    """The header, the levels (value, word), the factors (value, mantissa, shift), and the rows of a file of test vectors."""
     header, levels, factors, rows = {}, {}, {}, []
     for line in open(path, encoding="utf-8", errors="replace"):
         words = line.split()
@@ -166,6 +176,7 @@ def constants_of(levels, factors, word, frac):
 
 
 def check(path, rom_path):
+    """Checks each row: code, force, currents, membranes and spikes of one conversion."""
     header, levels, factors, rows = read_vectors(path)
     rom = [int(line.split(",")[1]) for line in open(rom_path) if line[0].isdigit()]
     assert len(rom) == 2 ** int(header["bits"]), "the table must have a word for every code"

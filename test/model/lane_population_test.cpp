@@ -1,4 +1,5 @@
-// Afferents on lanes respond like scalar afferents: bit for bit in double, for any instruction set, number of threads and block size.
+// Afferents on SIMD lanes respond like scalar afferents: bit for bit in double precision, for any instruction set, number of threads and
+// block size.
 
 #include "model/lane_population.hpp"
 
@@ -16,17 +17,19 @@ namespace {
 
 using test::force, test::value_or_throw;
 
+/// The instruction sets of this machine that have lanes; the first of all is scalar.
 std::span<const InstructionSet> lane_sets() { return instruction_sets().subspan(1); }
 
 /// The plans of a population, and the force of each afferent.
 struct Case {
-    std::vector<AfferentPlan> plans;  // one for all, or one for each afferent
-    std::vector<std::vector<double>> force;
+    std::vector<AfferentPlan> plans;         // one for all, or one for each afferent
+    std::vector<std::vector<double>> force;  // [afferent][sample], N
     SimulationOptions run;
     std::size_t afferent_count() const { return force.size(); }
     const AfferentPlan& plan(std::size_t u) const { return plans[plans.size() == 1 ? 0 : u]; }
 };
 
+/// The spikes of all afferents, each simulated by its scalar model, in the order of populations.
 std::vector<Spike> scalar_spikes(const Case& c) {
     std::vector<Spike> out;
     for (std::size_t u = 0; u < c.afferent_count(); ++u) {
@@ -42,8 +45,8 @@ std::vector<Spike> scalar_spikes(const Case& c) {
 struct LaneOptions {
     InstructionSet set = InstructionSet::baseline;
     Precision precision = Precision::double_precision;
-    std::vector<std::size_t> blocks = {4096};
-    ThreadPool* pool = nullptr;
+    std::vector<std::size_t> blocks = {4096};  // samples of consecutive blocks; repeated
+    ThreadPool* pool = nullptr;                // null: one thread
 };
 
 std::unique_ptr<LanePopulation> population(const Case& c, const LaneOptions& options) {
@@ -52,7 +55,8 @@ std::unique_ptr<LanePopulation> population(const Case& c, const LaneOptions& opt
     return value_or_throw(make_lane_population({plans, c.afferent_count(), {}, options.precision}, c.run, options.set));
 }
 
-/// Simulates a population in blocks. feed(population, first, count, response, pool) simulates samples [first, first + count).
+/// Simulates a population in blocks and returns its spikes. feed(population, first, count, response, pool) simulates samples [first, first
+/// + count).
 template <class Feed>
 std::vector<Spike> in_blocks(const Case& c, const LaneOptions& options, const Feed& feed) {
     const auto p = population(c, options);
@@ -77,6 +81,7 @@ std::vector<Spike> lane_spikes(const Case& c, const LaneOptions& options) {
                      });
 }
 
+/// The names of every receptor with every neuron.
 std::vector<std::string> all_models() {
     std::vector<std::string> names;
     for (const auto& r : receptor_entries())
@@ -98,7 +103,8 @@ std::vector<std::vector<double>> forces(std::size_t afferent_count, double rate,
     return all;
 }
 
-/// The plan with parameters sampled around their values.
+/// The plan with random parameters: t_ref is 0 or grows with the index; others vary by 10 % (standard deviation), except V_reset and c
+/// (reset voltages, which must stay below the thresholds) and those that all copies share.
 AfferentPlan scattered(AfferentPlan plan, std::uint64_t seed, std::uint32_t afferent_index) {
     for (std::uint32_t k = 0; k < plan.values.size(); ++k) {
         const auto& row = (*plan.parameters)[k].info;
@@ -118,6 +124,7 @@ AfferentPlan plan_of(const std::string& name) {
     return plan;
 }
 
+/// A case in which every afferent has its own force and parameters.
 Case individual_parameters(const std::string& name, std::size_t afferent_count, const SimulationOptions& run, double seconds,
                            std::uint64_t seed) {
     Case c{{}, forces(afferent_count, 1 / run.dt, seconds), run};
@@ -131,8 +138,7 @@ TEST(LanePopulation, EveryModelOnLanesGivesTheSameBitsAsTheScalarModel) {
         for (const auto method : {Method::exact, Method::backward_euler})
             for (const bool sampled : {false, true}) {
                 const corpuscle::SimulationOptions run{1e-3, method, sampled};
-                const Case shared{{plan_of(name)}, forces(70, 1e3, 0.3), run},
-                           individual = individual_parameters(name, 70, run, 0.3, 8);
+                const Case shared{{plan_of(name)}, forces(70, 1e3, 0.3), run}, individual = individual_parameters(name, 70, run, 0.3, 8);
                 const auto expected = scalar_spikes(shared), expected_individual = scalar_spikes(individual);
                 if (method == Method::exact) {
                     EXPECT_FALSE(expected.empty()) << name;
@@ -188,7 +194,8 @@ TEST(LanePopulation, AHundredThousandRandomAfferentsEqualScalarOnes) {
         }
 }
 
-/// The forces of a case as tiles, padded.
+/// Samples [first, first + count) of the forces of a case as ForceTiles: for each tile of tile_width afferents, the samples one after
+/// another, each with one value per afferent, in units of `scale` (N). The last tile is padded with zeros.
 template <class E>
 lanes::AlignedBuffer<E> tiles(const Case& c, std::size_t first, std::size_t count, double scale) {
     lanes::AlignedBuffer<E> rows((c.afferent_count() + tile_width - 1) / tile_width * tile_width * count);
@@ -232,7 +239,7 @@ TEST(LanePopulation, AProfileGivesTheSpikesOfEqualColumns) {
         };
         for (const auto set : lane_sets())
             EXPECT_EQ(in_blocks(c, {set, Precision::double_precision, {77}}, by_profile), scalar_spikes(c)) << name;
-        Case same{{c.plans[0]}, c.force, c.run};  // the receptor is computed once for all
+        Case same{{c.plans[0]}, c.force, c.run};  // equal parameters: the receptor is computed once for all afferents
         for (const auto set : lane_sets())
             EXPECT_EQ(in_blocks(same, {set, Precision::double_precision, {77}}, by_profile), scalar_spikes(same)) << name;
     }
@@ -276,9 +283,9 @@ TEST(LanePopulation, SpikeBitsEqualTheListOfSpikes) {
         PopulationResponse response{nullptr, &marks};
         ThreadPool pool(2);
         ASSERT_TRUE(static_cast<bool>(population(c, {set})->respond(ForceColumns{columns}, steps, response, pool)));
-        ASSERT_EQ(marks.size(), 2 * steps);
+        ASSERT_EQ(marks.size(), 2 * steps);  // 100 afferents need two words of 64 bits per step
         std::vector<std::uint64_t> expected(marks.size());
-        std::int64_t extra_spikes = 0;
+        std::int64_t extra_spikes = 0;  // second and later spikes of an afferent in one step, which have no bit of their own
         for (const auto& s : scalar_spikes(c)) {
             auto& word = expected[s.afferent_index / 64 * steps + static_cast<std::size_t>(s.step)];
             const auto bit = std::uint64_t{1} << s.afferent_index % 64;
@@ -356,7 +363,8 @@ TEST(LanePopulation, AForceWithAnotherLayoutOrSizeIsRefused) {
     EXPECT_FALSE(m->respond(ForceProfile{c.force[0], ones}, 10, response, pool));
 }
 
-/// Compares float with double for each afferent: the same number of spikes, with times that differ by at most `bound` (s).
+/// Compares single precision on lanes with the scalar models in double precision: each afferent must fire the same number of spikes, at
+/// times that differ by at most `bound` (s).
 void expect_near(const Case& c, InstructionSet set, double bound) {
     const auto trains = [&](const std::vector<Spike>& all) {
         std::vector<std::vector<double>> of(c.afferent_count());

@@ -1,6 +1,7 @@
 #!/bin/sh
-# The linker must not use code that was compiled for one instruction set for all machines. So an object may export no weak symbol, except
-# those whose name contains its lane type (of xsimd), and no global symbol except its tables.
+# Checks objects that are compiled for one instruction set. The linker must not use a function of such an object where the program runs on
+# machines without this instruction set. So the object may export no weak symbol, except those whose name contains its lane type (of xsimd),
+# and no global symbol except its tables of functions.
 # Usage: lanes_stay_inside.sh OBJECT...
 set -eu
 test $# -ge 3 || { echo "expected objects for three instruction sets, not $#"; exit 1; }

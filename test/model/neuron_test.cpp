@@ -9,10 +9,11 @@ namespace {
 
 struct NeuronRun {
     std::vector<double> times;     // s
-    std::vector<double> membrane;  // first probe, one value for each sample
+    std::vector<double> membrane;  // V: first probe, at the end of each step
     std::int64_t truncated_steps = 0;
 };
 
+/// Runs a neuron under current(t) (A) for `seconds` in steps of dt (s).
 template <template <class> class N>
 NeuronRun run(typename N<double>::Params p, const std::function<double(double)>& current, double seconds, double dt,
               Method method = Method::exact) {
@@ -31,7 +32,7 @@ NeuronRun run(typename N<double>::Params p, const std::function<double(double)>&
     return out;
 }
 
-/// A current under which the neuron fires at tens of hertz.
+/// A current (A) under which the neuron fires at tens of hertz.
 template <template <class> class N>
 double strong_current() {
     return 5e-6;
@@ -72,7 +73,8 @@ TEST(Neuron, EachStaysAtTheResetVoltageForItsRefractoryTime) {
                     for (std::size_t k = 1; k < result.times.size(); ++k)
                         ASSERT_GE(result.times[k] - result.times[k - 1], t_ref - 1e-12) << N<double>::name;
                     if (t_ref < 5e-3) continue;
-                    const auto sample = static_cast<std::size_t>(result.times[0] / 1e-3);  // after the first spike: still refractory
+                    const auto sample =
+                        static_cast<std::size_t>(result.times[0] / 1e-3);  // the step of the first spike ends in its refractory time
                     EXPECT_NEAR(result.membrane[sample], p.V_reset, 1e-12) << N<double>::name;
                 }
         }
@@ -88,7 +90,7 @@ TEST(Neuron, LifBsIntervalsAreTheChargeOverTheNetCurrent) {
 
 TEST(Neuron, LifAsFiringRateMatchesTheClosedForm) {  // errata B5b
     const LifA<double>::Params p{.C_m = 1e-6, .R_m = 1e6, .E_L = 0, .V_th = 1, .V_reset = 0.5};
-    for (const double dt : {1e-4, 1e-2, 1.0}) {  // exact for any step, because the current is a straight line
+    for (const double dt : {1e-4, 1e-2, 1.0}) {  // exact for any step, because the current is linear in each step
         const auto result = run<LifA>(p, [](double) { return 2e-6; }, 10, dt);
         ASSERT_GT(result.times.size(), 10U);
         for (std::size_t k = 1; k < result.times.size(); ++k)
@@ -110,7 +112,7 @@ TEST(Neuron, IntegrateAndFireNeuronsFollowARampOfCurrentExactlyAtAnyStep) {
 }
 
 TEST(Neuron, AllSpikesOfAStepAreReturnedUpToALimitThatIsReported) {
-    const auto many = run<LifB>({}, [](double) { return 50e-6; }, 0.5, 0.05);  // 396 Hz: some twenty spikes per step
+    const auto many = run<LifB>({}, [](double) { return 50e-6; }, 0.5, 0.05);  // 396 Hz: about twenty spikes per step
     EXPECT_NEAR(static_cast<double>(many.times.size()), (49.5e-6 * 0.5 / 500e-9 - 0.5) / 0.25 + 1, 1);
     EXPECT_EQ(many.truncated_steps, 0);
     const auto too_many = run<LifB>({}, [](double) { return 50e-6; }, 0.5, 0.5);
@@ -121,15 +123,15 @@ TEST(Neuron, AllSpikesOfAStepAreReturnedUpToALimitThatIsReported) {
 }
 
 TEST(Neuron, LifBStaysAtRestUntilTheCurrentExceedsTheLeak) {
-    const auto result = run<LifB>({}, [](double t) { return 1e-6 * t; }, 2, 0.2);  // passes 0.5 uA in the middle of a step
-    const double charge_to_fire = 500e-9 * 0.5;  // C; the charge delivered until time t is 1e-6 (t - 0.5)^2 / 2
+    const auto result = run<LifB>({}, [](double t) { return 1e-6 * t; }, 2, 0.2);  // reaches the leak of 0.5 uA in the middle of a step
+    const double charge_to_fire = 500e-9 * 0.5;  // C, from rest. The net charge until time t (s) is 1e-6 (t - 0.5)^2 / 2
     ASSERT_EQ(result.times.size(), 8U);
     for (std::size_t k = 0; k < 8; ++k)
         EXPECT_NEAR(result.times[k], 0.5 + std::sqrt(2 * charge_to_fire * (1 + 0.5 * static_cast<double>(k)) / 1e-6), 1e-9);
 }
 
 TEST(Neuron, AdaptiveFiresAllSpikesWhileTheCurrentIsPositiveWithinAStep) {
-    // A current that falls from 100 uA to 0, or to -50 uA, in one step of 50 ms. All spikes occur while it is positive.
+    // The current falls from 100 uA to 0, or to -50 uA, in one step of 50 ms. All spikes occur while it is positive.
     for (const double end : {0.0, -50e-6}) {
         const auto coarse = run<Adaptive>({}, [=](double t) { return 100e-6 + (end - 100e-6) * t / 0.05; }, 0.05, 0.05);
         const auto fine = run<Adaptive>({}, [=](double t) { return 100e-6 + (end - 100e-6) * t / 0.05; }, 0.05, 1e-6);
@@ -146,7 +148,8 @@ TEST(Neuron, AdexWithoutARestingStateStartsAtTheRestingPotential) {
 }
 
 TEST(Neuron, IzhikevichFiresAsPublished) {
-    // Regular spiking at I = 10 in the paper's units, simulated independently with a step of 1 us: steady interval 44.2 ms.
+    // Regular spiking at I = 10 in the units of Izhikevich's paper (mV, ms), simulated independently with a step of 1 us. The steady
+    // interval is 44.2 ms.
     double v = -70, w = -14, last = 0, interval = 0;
     for (double t = 0; t < 1000; t += 1e-3) {
         const double dv = 0.04 * v * v + 5 * v + 140 - w + 10, dw = 0.02 * (0.2 * v - w);
@@ -180,7 +183,7 @@ TEST(Neuron, SlopesByDualsMatchFiniteDifferencesForEveryParameter) {
         constexpr double dt = 1e-4;
         constexpr int steps = 400;
         for (const auto& field : N<double>::fields) {
-            if (field.name == "substep") continue;                       // it sets a number of substeps, which has no derivative
+            if (field.name == "substep") continue;                      // it determines the number of substeps, an integer
             const auto spike_and_end = [&](auto neuron, auto number) {  // time of the last spike, in steps; membrane at the end
                 using T = decltype(number);
                 auto state = neuron.start();
@@ -194,7 +197,7 @@ TEST(Neuron, SlopesByDualsMatchFiniteDifferencesForEveryParameter) {
                 return std::pair(last, parts[0]);
             };
             Params p;
-            if constexpr (has_refractory_time<N>) p.t_ref = 1.3e-3;  // at 0 there is only a one-sided derivative
+            if constexpr (has_refractory_time<N>) p.t_ref = 1.3e-3;  // at 0 the derivative is one-sided
             const auto dual = spike_and_end(N<num::Dual>(DualParams<Params>{p, field.member}, dt, Method::exact), num::Dual{});
             const double scale = p.*field.member != 0 ? std::abs(p.*field.member)
                                  : field.unit == "V"  ? 1e-2

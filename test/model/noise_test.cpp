@@ -1,4 +1,4 @@
-// Membrane noise: its amplitude at any sampling rate, and that it depends only on seed, afferent, neuron and step.
+// Membrane noise: its amplitude at any sampling rate, and that it depends only on seed, afferent index, neuron and step.
 
 #include <cmath>
 
@@ -12,6 +12,8 @@ struct NoisyRun {
     std::vector<Spike> spikes;
 };
 
+/// Runs an afferent under the force f (N) at `rate` (Hz) in blocks. `noise`: standard deviation of the noise current
+/// between 0 and 1 kHz, A.
 NoisyRun run(const std::string& name, const std::vector<std::string>& settings, const std::vector<double>& f, double rate, double noise,
              std::uint32_t afferent_index = 0, std::uint64_t seed = 7, std::size_t block = 1 << 20) {
     const auto a = make_afferent(test::value_or_throw(plan_afferent(name, test::parse_settings(settings))),
@@ -32,6 +34,7 @@ double mean(const std::vector<double>& x) {
     for (const double v : x) sum += v;
     return sum / static_cast<double>(x.size());
 }
+/// The covariance of x and of y delayed by `lag` samples.
 double covariance(const std::vector<double>& x, const std::vector<double>& y, std::size_t lag = 0) {
     double sum = 0;
     for (std::size_t k = lag; k < x.size(); ++k) sum += (x[k] - mean(x)) * (y[k - lag] - mean(y));
@@ -51,7 +54,8 @@ TEST(Noise, IsWhiteWithAVarianceProportionalToTheSamplingRate) {
 }
 
 TEST(Noise, GivesTheSameMembraneDeviationAtEverySamplingRate) {
-    // R C u' = -u + R n, n white with S = SD^2 / 1 kHz (one-sided): the variance of u is R^2 S / (4 R C).
+    // R C u' = -u + R n, where the noise current n is white with the one-sided spectral density S = SD^2 / 1 kHz, SD = 100 nA. The variance
+    // of u is then R^2 S / (4 R C).
     const double expected = std::sqrt(1e12 * 1e-14 / 1e3 / (4 * 10e-3));
     for (const double rate : {1e3, 4e3, 16e3}) {
         const std::vector<double> f(static_cast<std::size_t>(100 * rate), 0.0);

@@ -1,4 +1,4 @@
-// Every receptor without a neuron, and the named afferents.
+// Every receptor without a neuron, and named afferents with known behaviour.
 
 #include <fmt/format.h>
 
@@ -48,7 +48,7 @@ TEST(Receptor, SlopesByDualsMatchFiniteDifferencesForEveryParameter) {
         const auto f = test::force("press", {.rate = 1e3});
         for (const auto method : {Method::exact, Method::backward_euler})
             for (const auto& field : R<double>::fields) {
-                const auto current = [&](auto receptor, auto number) {  // at 330 ms, in the middle of protraction
+                const auto current = [&](auto receptor, auto number) {  // A; at 330 ms, during protraction
                     using T = decltype(number);
                     auto s = receptor.start(T(f[0]));
                     Current<T> i[R<double>::outputs];
@@ -104,7 +104,7 @@ TEST(Afferent, Fa2IsMostSensitiveAt200To300HzAndSilentUnderThePress) {
                             .rate = 20e3})
             .size();
     };
-    const auto threshold = [&](double f) {  // the smallest amplitude at which it fires within two seconds
+    const auto threshold = [&](double f) {  // the smallest amplitude (N) at which it fires within two seconds
         double low = 1e-4, high = 10;
         for (int k = 0; k < 20; ++k) (rate(f, std::sqrt(low * high)) > 0 ? high : low) = std::sqrt(low * high);
         return high;

@@ -1,5 +1,5 @@
-// Compares the thesis's afferents with closed forms, with golden values (stored reference values) and with the firing pattern that the
-// thesis describes.
+// Compares the thesis's afferents with closed forms, with stored reference values ("golden") and with the firing pattern that the thesis
+// describes.
 
 #include <cmath>
 #include <nlohmann/json.hpp>
@@ -14,11 +14,12 @@ namespace {
 using test::RunSettings, test::train;
 
 struct ThesisCase {
-    std::string afferent;
-    double V_th, V_reset;
+    std::string afferent;  // "sa1" or "fa1"
+    double V_th, V_reset;  // V
     std::vector<std::string> settings() const {
         return {afferent + ".V_th=" + std::to_string(V_th), afferent + ".V_reset=" + std::to_string(V_reset)};
     }
+    /// The spike times (s) under the press by the closed form.
     std::vector<double> exact() const {
         return test::lif_b_train(afferent == "sa1" ? test::sa1_current : test::fa1_current, afferent == "sa1" ? 5e-7 : 1e-6, V_th, V_reset);
     }
@@ -26,7 +27,7 @@ struct ThesisCase {
 
 const ThesisCase cases[] = {{"sa1", 0.5, 0.25}, {"fa1", 0.5, 0.25}, {"sa1", 1, 0.5}, {"fa1", 1, 0.5}, {"sa1", 0.2, 0}, {"fa1", 0.2, 0}};
 
-/// The largest difference between the times of spikes with the same index, s; infinite if the counts differ.
+/// The largest difference (s) between the times of spikes with the same index; infinite if the trains have different numbers of spikes.
 double max_difference(const std::vector<double>& a, const std::vector<double>& b) {
     if (a.size() != b.size()) return INFINITY;
     double largest = 0;
@@ -55,7 +56,7 @@ TEST(Thesis, ExactMatchesThePublishedClosedFormTimes) {
     near(train("fa1", "press", {.settings = cases[3].settings()}), {387.7107, 700.5009, 757.6866});
 }
 
-/// The order of convergence: the slope of log(error) over log(T).
+/// The order of convergence: the slope of log(error) over log(T), where T is the sampling period.
 double slope(const ThesisCase& c, Method method) {
     const auto expected = c.exact();
     double sum_x = 0, sum_y = 0, sum_xx = 0, sum_xy = 0;
@@ -77,7 +78,7 @@ TEST(Thesis, BackwardEulerConvergesWithTheStep) {
     for (const auto& c : cases) EXPECT_NEAR(slope(c, Method::backward_euler), 1.0, 0.2) << c.afferent << ' ' << c.V_th;
 }
 
-/// Algorithms 4 to 6 as printed in the thesis, with the corrections of the errata. Returns the spike times, s.
+/// Algorithms 4 to 6 as printed in the thesis, with the corrections of the errata. T: sampling period, s. Returns the spike times, s.
 std::vector<double> algorithm(const ThesisCase& c, double T) {
     const auto F = test::force("press", {.rate = 1 / T});
     const bool sa1 = c.afferent == "sa1";
@@ -156,7 +157,8 @@ TEST(Thesis, Figure16sNeuronsMeetTheGoldenValues) {
     CORPUSCLE_NEEDS(path);
     const auto golden = nlohmann::json::parse(test::read_file(path))["fig16"];
     const auto run = [](const std::string& neuron, double amplitude, Method method, bool sampled, double T) {
-        // A step of force is converted to a step of current by SA-IA with k_s = 1 uA/N and without its dynamic part.
+        // The receptor sa1a (SA-IA in the thesis) converts a step of force to a step of current: k_s = 1 uA/N, and k_d = 0 removes its
+        // dynamic part.
         const std::string name = "sa1a+" + neuron;
         const auto a = test::afferent(name, {.settings = {name + ".k_d=0", name + ".C_m=1uF", name + ".V_th=1V", name + ".V_reset=0.5V"},
                                              .rate = 1 / T,
@@ -170,7 +172,8 @@ TEST(Thesis, Figure16sNeuronsMeetTheGoldenValues) {
     for (const auto& g : golden["cases"]) {
         const double amplitude = g["I_amp"].get<double>() * 1e6;
         for (const auto& [neuron, key] : {std::pair{"lif-a", "spike_times_A"}, {"lif-b", "spike_times_B"}}) {
-            // The edge lies between two samples. First-order hold makes it a ramp over this interval, half an interval early on average.
+            // The edge of the step lies between two samples. First-order hold makes it a ramp over this interval, whose middle is at most
+            // half a sampling period before the edge.
             EXPECT_LT(max_difference(run(neuron, amplitude, Method::exact, false, 1e-4), g["exact"][key].get<std::vector<double>>()), 6e-5)
                 << neuron;
             // In these cases a rounding error decides whether a spike is fired.

@@ -1,8 +1,9 @@
 #pragma once
-// The functions of number_lanes.hpp, for any number type. Include elementary.hpp first.
+// The functions that number_lanes.hpp evaluates on arrays, for one pair of numbers of any type. Include elementary.hpp first.
 
 namespace corpuscle::test {
 
+/// Calls put(index, value) with each function of a and b; there are function_count of them.
 template <class T, class Put>
 void for_each_function(T a, T b, const Put& put) {
     std::size_t f = 0;

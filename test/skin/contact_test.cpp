@@ -1,4 +1,5 @@
-// Contact mechanics: the forces at the sites sum to the force on the indenter, match the textbook pressures and follow the path.
+// Contact mechanics: the forces at the sites add up to the force on the indenter, match the pressures of textbooks and follow the path of
+// the indenter.
 
 #include <cmath>
 #include <cstring>
@@ -10,7 +11,8 @@
 namespace corpuscle {
 namespace {
 
-/// A square of skin without gaps from (-half, -half) to (half, half), m. The centre of one site is at (0, 0).
+/// A square of skin without gaps, with sites every `pitch` (m) from (-half, -half) to (half, half) (m). The centre of one site is at (0,
+/// 0).
 Sites sheet(double half, double pitch) {
     const auto n = 2 * static_cast<std::size_t>(std::lround(half / pitch)) + 1;
     auto sites = *grid_sites(n, n, pitch);
@@ -19,8 +21,9 @@ Sites sheet(double half, double pitch) {
     return sites;
 }
 
-std::unique_ptr<Contact> make_checked_contact(std::string_view indenter, std::initializer_list<const char*> settings,
-                                              const Sites& sites, double rate = 1000) {
+/// A contact with settings such as "radius=4mm"; an error fails the test.
+std::unique_ptr<Contact> make_checked_contact(std::string_view indenter, std::initializer_list<const char*> settings, const Sites& sites,
+                                              double rate = 1000) {
     std::vector<ParameterOverride> overrides;
     for (const std::string text : settings) overrides.push_back(*parse_override("contact." + text));
     auto made = make_contact(indenter, overrides, sites, *make_clock(rate));
@@ -28,7 +31,7 @@ std::unique_ptr<Contact> make_checked_contact(std::string_view indenter, std::in
     return std::move(*made);
 }
 
-/// Force at all sites at sample `at`.
+/// The force (N) at each site if the indenter is pressed with `force` (N) at sample `at`.
 std::vector<double> force_map(Contact& contact, const Sites& sites, double force, std::int64_t at = 0) {
     const auto pressed = contact.press({&force, 1}, at);
     EXPECT_TRUE(pressed) << pressed.error().text();
@@ -39,7 +42,7 @@ std::vector<double> force_map(Contact& contact, const Sites& sites, double force
 
 double sum(const std::vector<double>& all) { return std::accumulate(all.begin(), all.end(), 0.0); }
 
-/// Total force at the sites within `reach` (m) of the centre.
+/// Total force (N) at the sites that are less than `reach` (m) from the centre.
 double within(const std::vector<double>& map, const Sites& sites, double reach) {
     double out = 0;
     for (std::size_t s = 0; s < map.size(); ++s) out += std::hypot(sites.positions[s].x, sites.positions[s].y) < reach ? map[s] : 0;
@@ -69,7 +72,7 @@ RC_GTEST_PROP(Contacts, DistributeAllOfTheForce, ()) {
     RC_ASSERT(bool(contact));
     const double total_force = sum(force_map(**contact, sites, force));
     RC_ASSERT(std::abs(total_force - force) < 1e-12 ||
-              (indenter == "grating" && total_force == 0));  // a small patch may lie over a groove, where there is no contact
+              (indenter == "grating" && total_force == 0));  // a small contact may lie over a groove, where there is no force
 }
 
 TEST(Contacts, LoseTheForceOffTheSkinAndReportIt) {
@@ -108,7 +111,7 @@ TEST(Contacts, AreAsSymmetricAsTheirIndenters) {
     }
 }
 
-// Radius, pressure at the centre and force within r from Johnson, Contact Mechanics.
+// Radius a, pressure p0 at the centre and force within a radius: Johnson, Contact Mechanics.
 TEST(Sphere, ConvergesToHertzsRadiusAndPressureAsThePitchDecreases) {
     const double F = 1, R = 8e-3, E = 60e3, a = std::cbrt(3 * F * R / (4 * E)), p0 = 3 * F / (2 * M_PI * a * a);
     double before = 1;
@@ -117,9 +120,9 @@ TEST(Sphere, ConvergesToHertzsRadiusAndPressureAsThePitchDecreases) {
         const auto map = force_map(*make_checked_contact("sphere", {"radius=8mm", "E_star=60kPa", "x=0", "y=0"}, sites), sites, F);
         const double middle = *std::max_element(map.begin(), map.end()) / (pitch * pitch);
         const double error = std::abs(middle / p0 - 1);
-        EXPECT_LT(error, 0.4 * before);  // the error decreases with the square of the pitch, apart from the quadrature error
+        EXPECT_LT(error, 0.4 * before);  // it decreases with the square of the pitch, apart from the quadrature error
         before = error;
-        double far = 0;
+        double far = 0;  // largest x of a site with force, m
         for (std::size_t s = 0; s < map.size(); ++s) far = map[s] > 0 ? std::max(far, sites.positions[s].x) : far;
         EXPECT_NEAR(far, a, pitch);
         EXPECT_NEAR(within(map, sites, 0.6 * a), F * (1 - std::pow(1 - 0.36, 1.5)), 0.15 * pitch / 1e-3 + 0.005);
@@ -133,7 +136,7 @@ TEST(Flat, HasItsMaximumPressureAtItsRim) {
         const auto sites = sheet(5e-3, pitch);
         const auto map = force_map(*make_checked_contact("flat", {"radius=4mm", "x=0", "y=0"}, sites), sites, F);
         EXPECT_NEAR(map[map.size() / 2] / (pitch * pitch), F / (2 * M_PI * a * a), 0.01 * F / (2 * M_PI * a * a));
-        for (const double r : {0.5, 0.8})  // in radii
+        for (const double r : {0.5, 0.8})  // fractions of the radius
             EXPECT_NEAR(within(map, sites, r * a), F * (1 - std::sqrt(1 - r * r)), 100 * F * pitch);
         EXPECT_EQ(within(map, sites, 1), within(map, sites, a + pitch));
         EXPECT_GT(*std::max_element(map.begin(), map.end()), 3 * map[map.size() / 2]);  // the rim
@@ -154,7 +157,8 @@ TEST(Edge, HasTheWidthOfHertzsCylinderAndCanBeRotated) {
             const double u = sites.positions[s].x * c + sites.positions[s].y * n, v = sites.positions[s].y * c - sites.positions[s].x * n;
             along += map[s] * u * u, across += map[s] * v * v;
         }
-        EXPECT_NEAR(along, L * L / 12, 0.01 * L * L / 12) << angle;  // second moments of a uniform line, and of half an ellipse
+        EXPECT_NEAR(along, L * L / 12, 0.01 * L * L / 12)
+            << angle;  // second moments of a uniform line along the edge, and of Hertz's half ellipse across it
         EXPECT_NEAR(across, b * b / 4, 0.02 * b * b / 4) << angle;
     }
 }
@@ -164,8 +168,8 @@ TEST(Grating, RepeatsAfterOnePeriodInTimeAndSpace) {
     const auto contact = make_checked_contact("grating", {"radius=6mm", "period=3mm", "ridge=1.5mm", "speed=30mm/s", "x=0", "y=0"}, sites);
     const auto first = force_map(*contact, sites, 1, 0), after_half_period = force_map(*contact, sites, 1, 50),
                after_period = force_map(*contact, sites, 1, 100);
-    const auto near = force_map(*contact, sites, 1, 10);  // 0.3 mm further
-    double same = 0, opposite = 0;                        // correlations with the first map
+    const auto near = force_map(*contact, sites, 1, 10);  // the grating has moved by 0.3 mm
+    double same = 0, opposite = 0;                        // correlations with the first map, of `near` and of the map after half a period
     for (std::size_t s = 0; s < first.size(); ++s) {
         EXPECT_NEAR(first[s], after_period[s], 1e-12);
         if (std::hypot(sites.positions[s].x, sites.positions[s].y) > 5e-3) continue;

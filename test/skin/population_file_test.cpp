@@ -1,4 +1,4 @@
-// Populations: their files, the positions of their afferents, and their receptive fields.
+// Populations of a skin: their files, the positions of their afferents, and their receptive fields.
 
 #include <cmath>
 #include <fstream>
@@ -12,6 +12,7 @@
 namespace corpuscle {
 namespace {
 
+/// The population "hand", placed once for all tests.
 const Innervation& hand() {
     static const auto placed = innervate(*load_skin_plan("hand"));
     return **placed;
@@ -58,7 +59,7 @@ TEST(HandPopulation, EachAfferentIsInACellOfItsOwnRegion) {
 
 TEST(HandPopulation, AReceptiveFieldSumsToItsGainAndStaysOnOneFinger) {
     const auto& h = hand();
-    const double per_cell = h.plan.felt_area / h.plan.sites.area;
+    const double per_cell = h.plan.felt_area / h.plan.sites.area;  // the gain: felt area over the area of a site
     const auto finger = [&](std::uint32_t region) {
         return h.plan.sites.regions[region].substr(0, h.plan.sites.regions[region].find('.'));
     };
@@ -81,8 +82,8 @@ TEST(HandPopulation, AfferentsWithNeighbouringNumbersAreClose) {
     const auto& h = hand();
     double sum = 0, tiles = 0;
     for (std::size_t c = 0; c < h.fields.size(); ++c)
-        for (auto k = h.class_begin[c]; k + 64 <= h.class_begin[c + 1]; k += 64) {
-            double max_distance = 0;
+        for (auto k = h.class_begin[c]; k + 64 <= h.class_begin[c + 1]; k += 64) {  // a tile of 64 consecutive afferents
+            double max_distance = 0;                                                // from its first afferent, m
             for (std::size_t i = 1; i < 64; ++i)
                 max_distance = std::max(max_distance, std::hypot(h.afferents[k + i].position.x - h.afferents[k].position.x,
                                                                  h.afferents[k + i].position.y - h.afferents[k].position.y));
@@ -121,7 +122,8 @@ RC_GTEST_PROP(Innervate, WeightsAreProportionalToGaussians, ()) {
             if (d <= 3 * c.sigma) sum += expected[s] = std::exp(-d * d / (2 * c.sigma * c.sigma));
         }
         for (const auto& [site, weight] : receptive_fields[u]) RC_ASSERT(std::abs(weight - std::exchange(expected[site], 0) / sum) < 1e-12);
-        for (const double missed : expected) RC_ASSERT(missed / sum < 0.02);  // only sites at the cutoff, which rounding may exclude
+        for (const double missed : expected)
+            RC_ASSERT(missed / sum < 0.02);  // only sites at the cutoff of 3 sigma, which rounding may exclude
     }
 }
 

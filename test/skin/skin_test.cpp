@@ -1,4 +1,5 @@
-// A skin responds like its afferents simulated one at a time, for any blocks, threads and instruction sets, and after save and resume.
+// A skin gives the spikes of its afferents simulated one at a time, for any block lengths, numbers of threads and instruction sets, and
+// after its state is saved and resumed.
 
 #include "skin/skin.hpp"
 #include "model/catalog.hpp"
@@ -8,9 +9,10 @@
 namespace corpuscle {
 namespace {
 
-constexpr double skin_T = 1e-3;
+constexpr double skin_T = 1e-3;  // sampling period, s
 
-/// Three classes on a grid. `spread`: their thresholds vary. `velocity`: of conduction, m/s; 0: no delays.
+/// Three classes on a grid of sites. `spread`: true if the thresholds V_th vary between afferents. `velocity`: of conduction, m/s; 0 means
+/// no delays.
 std::shared_ptr<const Innervation> small_skin(std::size_t rows, std::size_t columns, bool spread, double velocity) {
     SkinPlan plan{"small", "", *grid_sites(rows, columns, 2e-3), {}, 7};
     for (const char* name : {"sa1", "fa1", "sa2"}) {
@@ -26,7 +28,8 @@ std::shared_ptr<const Innervation> small_skin(std::size_t rows, std::size_t colu
     return *skin;
 }
 
-/// Presses on some sites, force[site * steps + step] in N. The pauses are long enough for the state of afferents to decay to zero.
+/// One press on each of about two thirds of the sites, with random start and duration: force[site * steps + step] in N. The time without
+/// force is long enough for the state of afferents to decay to zero.
 struct PressPattern {
     std::size_t sites, steps;
     std::vector<double> force;
@@ -38,6 +41,7 @@ struct PressPattern {
             for (std::size_t t = from; t < to; ++t) force[s * steps + t] = 10e-3 * static_cast<double>((w[3] + 7 * t) % 4001);
         }
     }
+    /// The force from this step on.
     SiteForce at(std::size_t step) const { return {force.data() + step, steps}; }
 };
 
@@ -48,6 +52,7 @@ std::unique_ptr<Skin> make_skin(const std::shared_ptr<const Innervation>& skin, 
     return std::move(*made);
 }
 
+/// The spikes of the complete pattern, including those that conduction delays past its end.
 std::vector<Spike> simulate_all(Skin& skin, const PressPattern& touch, ThreadPool& pool) {
     std::vector<Spike> spikes;
     EXPECT_TRUE(skin.respond(touch.at(0), touch.steps, spikes, pool));
@@ -58,7 +63,7 @@ std::vector<Spike> simulate_all(Skin& skin, const PressPattern& touch, ThreadPoo
 TEST(Skin, RespondsLikeItsAfferentsSimulatedSeparately) {
     ThreadPool pool(1);
     const auto map = small_skin(5, 6, true, 40);
-    const PressPattern touch(30, 9000, 3);  // long enough for states to decay and to become active again
+    const PressPattern touch(30, 9000, 3);  // long enough for the states of afferents to decay to zero, and for new presses after that
     auto skin = make_skin(map);
     const auto spikes = simulate_all(*skin, touch, pool);
     EXPECT_GT(skin->stats().skipped_steps, 0);
@@ -79,6 +84,7 @@ TEST(Skin, RespondsLikeItsAfferentsSimulatedSeparately) {
             std::vector<Spike> fired;
             ResponseBlock response{fired, static_cast<std::uint32_t>(first + u)};
             ASSERT_TRUE(afferent->respond({forces.data() + u * touch.steps, touch.steps}, state, response));
+            // conduction delay in steps, and its integer part
             const double delay = map->afferents[first + u].delay / skin_T, steps = std::floor(delay);
             for (auto s : fired) {
                 s.offset += delay - steps, s.step += static_cast<std::int64_t>(steps);

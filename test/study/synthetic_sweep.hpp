@@ -1,5 +1,5 @@
 #pragma once
-// A synthetic sweep with known results. One measure is linear in three devices and the process, one is noise, and one is
+// A synthetic sweep with known results. One measure is linear in the mismatch of three devices and in the process, one is noise, and one is
 // sometimes missing. It has three temperatures, with the same chips at each.
 
 #include <cmath>
@@ -12,7 +12,7 @@
 namespace corpuscle::test {
 
 class SyntheticSweep final : public Sweep {
-    std::int64_t chips_;
+    std::int64_t chips_;  // at each temperature
     MismatchSamples mismatch_;
     std::vector<SweepColumn> axes_{{"temp", "C", "temperature"}, {"corner", "", "", {"tt", "ss"}}, {"process.vt_n", "", "drawn"}};
     std::vector<SweepColumn> measures_{
@@ -22,9 +22,10 @@ class SyntheticSweep final : public Sweep {
     std::vector<MetadataText> metadata_;
 
 public:
-    static constexpr double temps[] = {0, 27, 85};
+    static constexpr double temps[] = {0, 27, 85};  ///< degrees Celsius
     static constexpr int devices = 40;
-    /// line = 0.3 V_T(m7) + 0.2 I_S(m20) - 0.1 V_T(m3) + 0.1 process + 0.15 noise, where all are standard normal deviates; + 1 V at 85 C.
+    /// The measure line (V) is 0.3 V_T(m7) + 0.2 I_S(m20) - 0.1 V_T(m3) + 0.1 process + 0.15 noise. V_T(m), I_S(m), process and noise are
+    /// standard normal deviates. At 85 C it is 1 V higher.
     static constexpr double weight_m7 = 0.3, weight_m20 = 0.2, weight_m3 = -0.1, weight_process = 0.1, weight_noise = 0.15,
                             offset_at_85 = 1;
 
@@ -71,7 +72,7 @@ public:
     }
 };
 
-/// Writes the outcomes of all items to a results file.
+/// Writes the outcomes of all items to a results file, and returns it opened.
 inline SweepResults write_synthetic_results(const std::string& path, const SyntheticSweep& sweep) {
     auto results = value_or_throw(SweepResults::open(path, sweep));
     std::vector<ItemOutcome> all;

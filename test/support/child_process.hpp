@@ -1,5 +1,6 @@
 #pragma once
-// Child processes of tests. Signals are sent only to a process that the test started. kill(-1, ...) would reach all processes.
+// Child processes of tests. Signals are sent only to a process that the test started; in particular never to process -1, which means all
+// processes.
 
 #include <fcntl.h>
 #include <pty.h>
@@ -14,14 +15,15 @@
 
 namespace corpuscle::test {
 
-/// Calls fork(); throws if it fails.
+/// Calls fork() and returns its result, which is 0 in the child; throws if it fails.
 inline pid_t fork_child() {
     const pid_t id = ::fork();
     if (id < 0) throw std::runtime_error(std::string("fork failed: ") + std::strerror(errno));
     return id;
 }
 
-/// Returns true if the signal was sent. Ids below 1 mean process groups or all processes; they are never signalled.
+/// Sends a signal to process `id`. Returns true if it was sent. For kill(), ids below 1 mean process groups or all processes; these are
+/// never signalled.
 inline bool signal_child(pid_t id, int signal) { return id > 0 && ::kill(id, signal) == 0; }
 
 /// True if a pseudo-terminal can be opened. A chroot or a container may lack /dev/ptmx or /dev/pts.

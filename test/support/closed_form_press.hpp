@@ -1,6 +1,6 @@
 #pragma once
-// Reference spike times of the thesis's two afferents under its press, independent of any sampling rate. The high-passed force is a closed
-// formula; the current is integrated by Simpson's rule in steps of 1 us. The error of a spike time is below 1 ns.
+// Reference spike times of the thesis's two afferents (SA-I and FA-I) under its press, independent of any sampling rate. The high-passed
+// force is a closed formula; the current is integrated by Simpson's rule in steps of 1 us. The error of a spike time is below 1 ns.
 
 #include <algorithm>
 #include <cmath>
@@ -13,6 +13,7 @@ namespace corpuscle::test {
 inline constexpr double initial_time = 0.25, rise_time = 0.125, hold_time = 0.25, fall_time = 0.125, total_time = 1.0, F_min = 0.2,
                         F_max = 4;
 
+/// The force (N) at time t (s).
 inline double press_force(double t) {
     const double s =
         t < initial_time + rise_time ? (t - initial_time) / rise_time : 1 - (t - initial_time - rise_time - hold_time) / fall_time;
@@ -22,7 +23,7 @@ inline double press_force(double t) {
                : F_min + (F_max - F_min) * (1 - std::cos(M_PI * s)) / 2;
 }
 
-/// Solution x (N) of x' + 2 pi f x = F', x(0) = 0, for a cutoff frequency f (Hz).
+/// The press behind a high-pass filter with cutoff frequency f (Hz): the solution x (N) of x' + 2 pi f x = F', x(0) = 0, at time t (s).
 inline double high_passed_press(double t, double f) {
     const double w = 2 * M_PI * f, omega = M_PI / rise_time, swing = (F_max - F_min) / 2 * omega / (w * w + omega * omega);
     const auto ramp = [&](double s) { return swing * (w * std::sin(omega * s) - omega * std::cos(omega * s) + omega * std::exp(-w * s)); };
@@ -35,6 +36,7 @@ inline double high_passed_press(double t, double f) {
     return x;
 }
 
+// The receptors' currents (A) at time t (s).
 inline double sa1_current(double t) {
     return 1e-6 * press_force(t) + std::max(8e-6 * high_passed_press(t, 20), 0.0) + std::max(2e-6 * high_passed_press(t, 2), 0.0);
 }
@@ -43,7 +45,7 @@ inline double fa1_current(double t) {
     return x > 0 ? 3.5e-6 * x : -2.75e-6 * x;
 }
 
-/// Spike times (s) of LIF-B driven by a current (A), with u_rest = 0.
+/// Spike times (s) of the neuron LIF-B, with resting voltage 0, under current(t). leak: A; V_th, V_reset: V; C_m: F.
 inline std::vector<double> lif_b_train(const std::function<double(double)>& current, double leak, double V_th, double V_reset,
                                        double C_m = 500e-9) {
     constexpr double h = 1e-6;

@@ -1,5 +1,5 @@
 #pragma once
-// Writes sample files: NPY by hand, audio with libsndfile, HDF5 with its library.
+// Writes files for tests of the readers: NPY by hand, audio with libsndfile, HDF5 with its library.
 
 #include <fmt/format.h>
 #include <cmath>
@@ -11,11 +11,13 @@
 
 namespace corpuscle::test {
 
-/// Bytes of an NPY file of any type, as NumPy writes it.
+/// Bytes of an NPY file as NumPy writes it. `type` and `shape` are Python literals, such as "'<f8'" and "(2, 3)"; `data` are the bytes of
+/// the elements. `by_columns`: the data are column-major.
 inline std::string npy_bytes(const std::string& type, const std::string& shape, const std::string& data, bool by_columns = false,
                              int version = 1) {
     auto header = fmt::format("{{'descr': {}, 'fortran_order': {}, 'shape': {}, }}", type, by_columns ? "True" : "False", shape);
-    // Blanks fill up to a multiple of 64 bytes: 10 bytes before the header in version 1, the header, and its newline.
+    // Blanks extend the file up to the data to a multiple of 64 bytes: 10 bytes before the header (in version 1), the header, and a
+    // newline.
     header.resize((header.size() + 11 + 63) / 64 * 64 - 11, ' ');
     header += '\n';
     std::string out = "\x93NUMPY";
@@ -23,7 +25,8 @@ inline std::string npy_bytes(const std::string& type, const std::string& shape, 
     return out + (version > 1 ? std::string(2, '\0') : "") + header + data;
 }
 
-/// Writes samples (fractions of full scale). Integer formats round to steps of 2^-31, or coarser if the format has fewer bits.
+/// Writes an audio file of channels with equal numbers of samples (fractions of full scale). `format`: of libsndfile; `rate`: Hz. Integer
+/// formats round to steps of 2^-31, or to larger ones if the format has fewer bits.
 inline void write_audio(const std::string& path, int format, int rate, const std::vector<std::vector<double>>& channels) {
     SF_INFO info{};
     info.channels = static_cast<int>(channels.size()), info.samplerate = rate, info.format = format;
@@ -43,7 +46,7 @@ inline void write_audio(const std::string& path, int format, int rate, const std
     sf_close(file);
 }
 
-/// An HDF5 file to write. Names are paths; missing groups are created.
+/// An HDF5 file to write. Names of datasets are paths in the file; missing groups are created.
 class Hdf5File {
     hid_t file_, link_properties_;
 
@@ -63,6 +66,8 @@ public:
     Hdf5File& operator=(const Hdf5File&) = delete;
     ~Hdf5File() { H5Pclose(link_properties_), H5Fclose(file_); }
 
+    /// Writes a dataset. `type`: of its elements in the file; `memory`: of `values`, which may be null to write no data; `shape`: {} for a
+    /// scalar; `chunk`: shape of the compressed chunks, {} for a dataset without chunks.
     void write_raw(const std::string& name, hid_t type, hid_t memory, const std::vector<hsize_t>& shape, const void* values,
                    const std::vector<hsize_t>& chunk = {}) {
         const hid_t space = shape.empty() ? H5Screate(H5S_SCALAR) : H5Screate_simple(static_cast<int>(shape.size()), shape.data(), nullptr);
@@ -76,6 +81,7 @@ public:
                        hid_t type = H5T_NATIVE_DOUBLE, const std::vector<hsize_t>& chunk = {}) {
         write_raw(name, type, H5T_NATIVE_DOUBLE, shape, values.data(), chunk);
     }
+    // Attribute `name` of the object `of`.
     void write_attribute(const std::string& of, const std::string& name, double value) {
         write_attribute(of, name, H5T_NATIVE_DOUBLE, H5Screate(H5S_SCALAR), &value);
     }

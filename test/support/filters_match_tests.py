@@ -1,5 +1,6 @@
-"""filters_match_tests.py PROGRAM FILTER: every pattern of a GoogleTest filter matches a test of the program. A renamed test would
-otherwise move silently from the long tests, which run once, to the quick ones."""
+"""filters_match_tests.py PROGRAM FILTER: checks that every pattern of a GoogleTest filter matches a test of the program.
+
+The filter lists the long tests; without this check, a renamed test would become one of the quick tests unnoticed."""
 import fnmatch
 import subprocess
 import sys

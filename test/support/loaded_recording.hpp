@@ -1,19 +1,22 @@
 #pragma once
-// Loads complete recordings, and returns the error messages of files that cannot be read.
+// Loads a complete recording, or returns the error message if it cannot be read.
 
 #include "io/recording.hpp"
 #include "support/support.hpp"
 
 namespace corpuscle::test {
 
+/// A recording with all its samples.
 struct LoadedRecording {
-    std::vector<std::string> names, notes;
-    std::vector<std::vector<double>> force;
+    std::vector<std::string> names;          ///< of the channels
+    std::vector<std::string> notes;          ///< for the user
+    std::vector<std::vector<double>> force;  ///< [channel][sample], N
     Clock clock;
     std::vector<Channel> channels;
     RecordingQuality quality = {};
 };
 
+/// `block`: samples per read.
 inline Result<LoadedRecording> try_load_recording(const std::string& path, const RecordingOptions& options = {}, std::size_t block = 7) {
     auto source = open_recording(path, options);
     if (!source) return source.error();
@@ -32,11 +35,12 @@ inline Result<LoadedRecording> try_load_recording(const std::string& path, const
     return out;
 }
 
+/// The same; throws if the recording cannot be read.
 inline LoadedRecording load_recording(const std::string& path, const RecordingOptions& options = {}, std::size_t block = 7) {
     return value_or_throw(try_load_recording(path, options, block));
 }
 
-/// Error message for a file that cannot be read, without the folder name; "read" if it can be read.
+/// The error message for a file that cannot be read, with the file's name instead of its path; "read" if it can be read.
 inline std::string load_error(const std::string& path, const RecordingOptions& options = {}) {
     const auto result = try_load_recording(path, options);
     if (result) return "read";

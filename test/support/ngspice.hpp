@@ -1,6 +1,6 @@
 #pragma once
-// Runs the decks of test/circuit/decks in Debian's ngspice and in Corpuscle. In Corpuscle, transistors written as expressions can be
-// replaced by the built-in device.
+// Runs the decks of test/circuit/decks in Debian's ngspice and in Corpuscle. Decks for ngspice contain the transistor model UICM as
+// expressions, which for Corpuscle can be replaced by its built-in device.
 
 #include <gtest/gtest.h>
 
@@ -18,9 +18,10 @@ namespace corpuscle::circuit::test {
 
 using namespace corpuscle::test;
 
+/// The path of a deck; `name` may begin with a subfolder.
 inline std::string deck_path(const std::string& name) { return source_root() + "/test/circuit/decks/" + name + ".cir"; }
 
-/// Names of the decks in a subfolder of test/circuit/decks; "" means the folder itself.
+/// The names, without .cir, of the decks in a subfolder of test/circuit/decks; "" means the folder itself.
 inline std::vector<std::string> deck_names(const std::string& folder = "") {
     std::vector<std::string> out;
     for (const auto& entry : std::filesystem::directory_iterator(source_root() + "/test/circuit/decks/" + folder))
@@ -29,7 +30,8 @@ inline std::vector<std::string> deck_names(const std::string& folder = "") {
     return out;
 }
 
-/// Runs ngspice on a deck and returns its standard output and error. Writes the results to the file `raw` unless `raw` is empty.
+/// Runs ngspice on the deck with this path and returns its standard output and error. Unless `raw` is empty, ngspice writes its curves to
+/// the file of this path.
 inline std::string run_ngspice(const std::string& deck, const std::string& raw) {
     const auto command = "ngspice -b " + (raw.empty() ? "" : "-r " + raw + " ") + deck + " 2>&1";
     std::FILE* pipe = popen(command.c_str(), "r");
@@ -51,7 +53,7 @@ inline std::shared_ptr<const Circuit> elaborate_netlist(const Result<Netlist>& n
 inline std::shared_ptr<const Circuit> elaborate_netlist(const std::string& deck) { return elaborate_netlist(Netlist::read(deck)); }
 
 inline RunOutcome run_corpuscle(const Result<Netlist>& netlist) {
-    static std::vector<std::shared_ptr<const Circuit>> circuits;  // an outcome points to the commands of its circuit
+    static std::vector<std::shared_ptr<const Circuit>> circuits;  // kept, because an outcome points to the directives of its circuit
     circuits.push_back(elaborate_netlist(netlist));
     if (!circuits.back()) return {};
     auto outcome = run_directives(circuits.back());
@@ -60,7 +62,8 @@ inline RunOutcome run_corpuscle(const Result<Netlist>& netlist) {
 }
 inline RunOutcome run_corpuscle(const std::string& deck) { return run_corpuscle(Netlist::read(deck)); }
 
-/// Converts a curve name of ngspice to Corpuscle's. ngspice's files wrap some non-voltages in v() and keep capitals.
+/// Converts the name of a curve in a file of ngspice to that in Corpuscle. ngspice writes some quantities that are not voltages as v(...),
+/// and keeps capitals.
 inline std::string corpuscle_name(std::string name) {
     std::transform(name.begin(), name.end(), name.begin(), [](char c) { return lower(c); });
     for (const std::string_view word : {"transfer_function", "impedance", "noise_"})
@@ -68,8 +71,8 @@ inline std::string corpuscle_name(std::string name) {
     return name;
 }
 
-/// Text of a deck in which transistors written as expressions are replaced by the built-in device. The deck's lines
-/// "* native: .model ..." define the models to use.
+/// The text of a deck in which transistors written as expressions are replaced by the built-in device: subcircuits are omitted, and their
+/// instances xm... become transistors m.... The deck's lines "* native: .model ..." define the models to use.
 inline std::string with_native_transistors(const std::string& deck) {
     std::istringstream lines(read_file(deck));
     std::string out, line;
@@ -85,7 +88,7 @@ inline std::string with_native_transistors(const std::string& deck) {
     return out;
 }
 
-/// Value of the line "name = value" in a simulator's output; NaN if there is no such line.
+/// The value in the first line "name = value" of a simulator's output; NaN if there is no such line.
 inline double logged_number(const std::string& log, const std::string& name) {
     for (std::size_t at = log.find("\n" + name); at != std::string::npos; at = log.find("\n" + name, at + 1)) {
         const auto equals = log.find('=', at + 1);

@@ -1,5 +1,5 @@
 #pragma once
-// A sweep with cheap work items and known results, for tests of the results database and the runners.
+// A sweep whose work items take almost no time and have known results, for tests of the results database and of the runners.
 
 #include <chrono>
 #include <cmath>
@@ -9,7 +9,7 @@
 
 namespace corpuscle::test {
 
-/// Every 97th item reaches the iteration limit, and the item after it diverges.
+/// Every 97th item reaches the iteration limit, and the item after it diverges. The second measure is missing in every fifth item.
 class PlainSweep : public Sweep {
     std::int64_t item_count_;
     double seconds_per_item_;  // run time of a work item, s

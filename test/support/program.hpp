@@ -1,5 +1,5 @@
 #pragma once
-// Runs the program `corpuscle` through the shell in a temporary folder.
+// Runs the program `corpuscle` in a temporary folder, through the shell.
 
 #include <sys/wait.h>
 
@@ -8,10 +8,11 @@
 namespace corpuscle::test {
 
 struct ProgramResult {
-    int status;
-    std::string out, err;
+    int status;            ///< exit status
+    std::string out, err;  ///< standard output, standard error
 };
 
+/// `arguments`: as in a shell, with its quoting.
 inline ProgramResult run_program(const TemporaryFolder& folder, const std::string& arguments) {
     const auto out = folder / ".out", err = folder / ".err";
     const int status = std::system(

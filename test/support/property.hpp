@@ -1,5 +1,6 @@
 #pragma once
-// Property tests. GoogleTest must be included before rapidcheck's bridge. rc::check only returns true or false; wrap it in EXPECT_TRUE.
+// Property tests with rapidcheck. GoogleTest must be included before rapidcheck's header for it. rc::check() only returns true or false, so
+// wrap it in EXPECT_TRUE.
 
 #include <gtest/gtest.h>
 

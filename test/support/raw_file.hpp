@@ -1,5 +1,5 @@
 #pragma once
-// Reads .raw files (binary or ASCII), so that tests can compare Corpuscle's results with another simulator's.
+// Reads the .raw files of SPICE simulators (binary or ASCII), so that tests can compare Corpuscle's curves with another simulator's.
 
 #include <charconv>
 #include <complex>
@@ -14,6 +14,7 @@
 
 namespace corpuscle::circuit {
 
+/// All plots in the contents of a .raw file.
 inline std::vector<Plot> read_raw(const std::string& text) {
     std::vector<Plot> plots;
     std::size_t at = 0, variables = 0, points = 0;
@@ -55,7 +56,7 @@ inline std::vector<Plot> read_raw(const std::string& text) {
                     if (plot.is_complex) im = number();
                 } else {
                     std::istringstream words(line());
-                    std::string word;
+                    std::string word;  // the last word of the line is the value; the first line of a point begins with its index
                     while (words >> word) {
                     }
                     const auto comma = word.find(',');

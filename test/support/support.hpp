@@ -1,5 +1,5 @@
 #pragma once
-// Helpers that many tests need: run one afferent under one force, read files, locate the shared recordings.
+// Helpers of many tests: they run one afferent under one force, read files, and locate the shared recordings.
 
 #include <gtest/gtest.h>
 
@@ -15,14 +15,15 @@
 namespace corpuscle::test {
 
 struct RunSettings {
-    std::vector<std::string> settings = {};  ///< "name=value", for the afferent and the stimulus
-    double rate = 10e3;                      ///< samples per second
+    std::vector<std::string> settings = {};  ///< of the afferent and the stimulus, each as "sa1.f_B=25Hz"
+    double rate = 10e3;                      ///< sampling rate of the force, Hz
     Method method = Method::exact;
-    bool sampled = false;      ///< spikes only at sample times
+    bool sampled = false;      ///< true: spikes only at sample times
     std::size_t block = 4096;  ///< samples per call of respond()
-    std::uint64_t seed = 0;
+    std::uint64_t seed = 0;    ///< of the stimulus
 };
 
+/// The value of a result; throws its error.
 template <class T>
 T value_or_throw(Result<T> result) {
     if (!result) throw std::runtime_error(result.error().text());
@@ -56,7 +57,7 @@ inline std::vector<double> force(const std::string& stimulus, const RunSettings&
     return read_first_channel(*value_or_throw(make_stimulus(stimulus, overrides, run.rate, run.seed)));
 }
 
-/// Spikes of an afferent for a force (N) that is given in blocks.
+/// The spikes of an afferent under a force f (N), which it receives in blocks of `block` samples.
 inline std::vector<Spike> spikes(const Afferent& a, const std::vector<double>& f, std::size_t block = 4096) {
     std::vector<Spike> out;
     ResponseBlock response{out};
@@ -67,12 +68,12 @@ inline std::vector<Spike> spikes(const Afferent& a, const std::vector<double>& f
     return out;
 }
 
-/// Spike times (s) of an afferent under a stimulus. The settings apply to both.
+/// Spike times (s), from the start of the stimulus, of the named afferent. The settings of `run` apply to the afferent and the stimulus.
 inline std::vector<double> train(const std::string& name, const std::string& stimulus = "press", const RunSettings& run = {}) {
     return spike_times(spikes(*afferent(name, run), force(stimulus, run), run.block), value_or_throw(make_clock(run.rate)));
 }
 
-/// All named afferents, every receptor with every neuron, and some of these behind each kind of sensor front end.
+/// The names of all named afferents, of every receptor with every neuron, and of some of these behind each kind of front end.
 inline std::vector<std::string> all_afferent_names() {
     std::vector<std::string> all;
     for (const auto& a : named_afferents()) all.emplace_back(a.name);
@@ -105,10 +106,12 @@ public:
     ~TemporaryFolder() { std::filesystem::remove_all(path_); }
     std::string operator/(const std::string& name) const { return (path_ / name).string(); }
     std::string path() const { return path_.string(); }
+    /// Writes a file and returns its path.
     std::string write(const std::string& name, const std::string& text) const {
         std::ofstream(*this / name, std::ios::binary) << text;
         return *this / name;
     }
+    /// The names, without folders, of all files and folders in it, sorted.
     std::vector<std::string> file_names() const {
         std::vector<std::string> all;
         for (const auto& e : std::filesystem::recursive_directory_iterator(path_)) all.push_back(e.path().filename().string());
@@ -117,7 +120,8 @@ public:
     }
 };
 
-/// Path of a third-party recording. These are not part of the source tree: they are in $CORPUSCLE_DATA, by default ../shared/data.
+/// The path of a third-party recording. These are not part of the source tree, but in the folder $CORPUSCLE_DATA, by default ../shared/data
+/// beside the source tree.
 inline std::string shared_file_path(const std::string& name) {
     const char* set = std::getenv("CORPUSCLE_DATA");
     return (std::filesystem::path(set ? set : source_root() + "/../shared/data") / name).lexically_normal().string();

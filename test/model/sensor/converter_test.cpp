@@ -1,4 +1,4 @@
-// The analog-to-digital converter: codes, the table from codes to force, and the conversion times.
+// The analog-to-digital converter: its codes, its table of the force of each code, and the conversion times.
 
 #include <cmath>
 
@@ -49,7 +49,8 @@ TEST(ConversionTimes, AreExactFractions) {
         const ConversionTimes instants(static_cast<double>(source), static_cast<double>(adc), slots);
         auto at = instants.first(channel);
         for (std::int64_t j = 0; j < 200; ++j, instants.advance(at)) {
-            const std::int64_t numerator = (j * slots + channel) * source, denominator = adc * slots;  // of the exact position, in samples
+            const std::int64_t numerator = (j * slots + channel) * source,
+                               denominator = adc * slots;  // of the exact time of conversion j, in samples of the source
             RC_ASSERT(at.step == numerator / denominator);
             RC_ASSERT(at.remainder * denominator == (numerator % denominator) * instants.parts_per_sample());
         }
@@ -99,10 +100,10 @@ TEST(DigitalAfferent, DamagedStatesAreRefused) {
     const auto fresh = a->start();
     for (std::size_t v = 0; v < fresh.values.size(); ++v)
         for (const double bad : {0.5, -3.0, 1e300, std::nan("")}) {
-            if (v == 4 || v == 5) continue;  // forces: any number is valid
+            if (v == 4 || v == 5) continue;  // these values are forces, for which any number is valid
             auto state = fresh;
             state.values[v] = bad;
-            if (v >= 7 && bad == -3) continue;  // -3 is a valid word
+            if (v >= 7 && bad == -3) continue;  // these values are words, for which -3 is valid
             std::vector<Spike> out;
             ResponseBlock response{out};
             EXPECT_FALSE(a->respond(f, state, response)) << v << ' ' << bad;

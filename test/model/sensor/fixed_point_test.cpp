@@ -1,4 +1,4 @@
-// The algorithms in fixed-point words, checked against wide arithmetic, double precision and the test vectors for hardware.
+// The algorithms in fixed-point words, checked against arithmetic in 128 bits and against the models in double precision.
 
 #include <cmath>
 #include <random>
@@ -12,11 +12,12 @@ namespace {
 __extension__ using Wide = __int128;
 std::mt19937_64 random_bits(1);
 
+/// A random integer from low to high, inclusive.
 std::int64_t between(std::int64_t low, std::int64_t high) {
     return low + static_cast<std::int64_t>(random_bits() % (static_cast<std::uint64_t>(high - low) + 1));
 }
 
-/// The operations of doc/fixed-point.md in 128 bits, which cannot overflow here.
+/// The operations of doc/fixed-point.md in 128 bits, which cannot overflow here. Counts the results that do not fit a word.
 struct Reference {
     WordFormat format;
     std::int64_t overflows = 0;
@@ -32,6 +33,7 @@ struct Reference {
     Wide abs(Wide n) { return n < 0 ? sat(-n) : n; }
 };
 
+// Random words and factors of a format; extreme values are frequent.
 Word any_word(WordFormat f) {
     switch (between(0, 9)) {
         case 0:
@@ -46,6 +48,7 @@ Word any_word(WordFormat f) {
 }
 Factor any_factor(WordFormat f) { return {between(0, 4) ? between(f.max() / 2 + 1, f.max()) : f.max(), static_cast<int>(between(0, 62))}; }
 
+/// A receptor with random constants.
 template <class R>
 R any_receptor(WordFormat f) {
     Constants c(f);
@@ -60,7 +63,9 @@ R any_receptor(WordFormat f) {
     return r;
 }
 
+/// The currents of a receptor; the second is 0 if it has only one.
 using TwoCurrents = std::array<Wide, 2>;
+// One step of each receptor in wide arithmetic.
 TwoCurrents wide_step(const FixedSa1a& r, FixedSa1a::State& s, Word F, Reference& w) {
     return {w.sat(r.beta + w.times(r.k_s, F) + w.times(r.k_d, w.abs(w.sat(Wide{F} - s.F)))), 0};
 }
@@ -78,7 +83,7 @@ TwoCurrents wide_step(const FixedFa1b& r, FixedFa1b::State& s, Word F, Reference
     return {x > 0 ? w.times(r.k_A, x) : w.times(r.k_B, w.abs(x)), 0};
 }
 
-/// For any settings and states, the words equal those of wide arithmetic, and every result that did not fit was counted.
+/// For random constants and states, the words equal those of wide arithmetic, and every result that did not fit a word was counted.
 template <class R>
 void check_receptor_steps() {
     for (int n = 0; n < 250'000; ++n) {
@@ -107,6 +112,7 @@ TEST(FixedPoint, AMillionRandomReceptorStepsGiveTheWordsOfWideArithmeticAndCount
     check_receptor_steps<FixedFa1b>();
 }
 
+/// A neuron with random constants.
 template <class N>
 N any_neuron(WordFormat f) {
     Constants c(f);
@@ -121,6 +127,7 @@ N any_neuron(WordFormat f) {
     return n;
 }
 
+/// One step of each neuron in wide arithmetic.
 struct WideNeuron {
     Wide u, a, wait;
     bool spike = false;
@@ -194,7 +201,7 @@ TEST(FixedPoint, AFactorHasTheSameRelativePrecisionAtAnyMagnitude) {
     EXPECT_EQ(tiny.factor("c", 1e-300).shift, 62);
 }
 
-/// The force that a digital afferent measured, and its membrane, at the rate of the converter.
+/// The force that an afferent read (N) and its membrane (V), one value per sample, and its spike times (s). Sampling rate 1 kHz.
 struct DigitalRun {
     std::vector<double> F, u, spikes;
 };

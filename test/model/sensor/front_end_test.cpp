@@ -1,4 +1,4 @@
-// Compares sensor and transducers with the golden curve (stored reference values); tests the front end of an afferent.
+// Compares the sensor and the transducers with stored reference values ("golden"), and tests front ends and afferents behind them.
 
 #include "model/sensor/front_end.hpp"
 
@@ -13,6 +13,7 @@ namespace {
 
 using test::RunSettings;
 
+/// Output voltage of the transducer f2v for a conductance G (S), V.
 double F2v_at(double G) { return F2v::stage({}).curve(G); }
 
 TEST(Sensor, FsrAndTransducersGiveTheGoldenCurve) {
@@ -72,7 +73,7 @@ TEST(FrontEnd, CalibrationIsExactAtZeroForceAndAtTheCalibrationForce) {
     }
 }
 
-/// The values of each probe over a stimulus.
+/// The values of each probe by name, under a force f (N). Adds the spikes and counts to `response`.
 std::map<std::string, std::vector<double>> probe_values(const Afferent& a, const std::vector<double>& f, ResponseBlock& response) {
     std::vector<std::vector<double>> values(a.probes().size(), std::vector<double>(f.size()));
     std::vector<double*> rows;
