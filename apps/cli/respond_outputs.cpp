@@ -13,8 +13,8 @@
 
 namespace corpuscle {
 
-/// Removes files without final names, in reverse order: the first file may have created the directory, and then removes it when it is
-/// empty.
+/// Removes the files that were not committed. The last one is removed first: the first one may have created the directory, and removes it
+/// if it is empty by then.
 RespondOutputs::~RespondOutputs() {
     report_file_.reset(), summary_file_.reset();
     while (!files_.empty()) files_.pop_back();
@@ -54,20 +54,20 @@ std::vector<std::string> RespondOutputs::paths() const {
     return all;
 }
 
-/// Checks all output files before the first is created.
+/// Checks all output files, also those that are created later, before the first is created.
 Result<void> RespondOutputs::check(const RespondArguments& args, const CopySpec& copy_spec, const std::optional<std::string>& page,
-                                   std::vector<std::string> later, OutputCheck& outputs) {
+                                   std::vector<std::string> later_names, OutputCheck& outputs) {
     const std::pair<const char*, bool> names[] = {{"spikes.csv", true},
                                                   {"copies.csv", copy_spec.count > 0},
                                                   {"spikes.npz", args.npz},
                                                   {"psth.csv", args.bin.has_value()},
                                                   {"summary.json", true}};
     for (const auto& [name, is_written] : names)
-        if (is_written) later.emplace_back(name);
-    return check_outputs(args.out, std::move(later), page, args.checkpoint, outputs);
+        if (is_written) later_names.emplace_back(name);
+    return check_outputs(args.out, std::move(later_names), page, args.checkpoint, outputs);
 }
 
-Result<void> RespondOutputs::open(const RespondArguments& args, const CopySpec& copy_spec, std::vector<std::string> later,
+Result<void> RespondOutputs::open(const RespondArguments& args, const CopySpec& copy_spec, std::vector<std::string> later_names,
                                   OutputCheck& outputs) {
     const std::pair<const char*, bool> options[] = {{"--probe-files", args.probe_files},
                                                     {"--vectors", args.vectors},
@@ -79,14 +79,14 @@ Result<void> RespondOutputs::open(const RespondArguments& args, const CopySpec& 
     for (const auto& [option, given] : {std::pair{"--probe-files", args.probe_files}, std::pair{"--vectors", args.vectors}})
         if (given && args.copies > RespondReport::max_copies)
             return bad_usage(
-                fmt::format("{} works with at most {} copies, not {}; use fewer, or --set the values of one copy in copies.csv", option,
-                            RespondReport::max_copies, args.copies));
+                fmt::format("{} works with at most {} copies, not {}; use fewer, or simulate one copy: --set its values from copies.csv",
+                            option, RespondReport::max_copies, args.copies));
     const auto bin = optional_quantity(args.bin, "s", "--bin");
     if (!bin) return bin.error();
     if (*bin && !(**bin > 0)) return bad_usage(fmt::format("--bin {}: must be greater than 0, such as 10ms", *args.bin));
     directory_ = args.out;
     const auto page_path = report_page_path(args);
-    if (auto ok = check(args, copy_spec, page_path, std::move(later), outputs); !ok) return ok;
+    if (auto ok = check(args, copy_spec, page_path, std::move(later_names), outputs); !ok) return ok;
     if (!args.out.empty())
         if (auto ok = open_directory(args, copy_spec, *bin); !ok) return ok;
     if (!page_path) return {};

@@ -24,8 +24,8 @@ class RespondOutputs {
     template <class F, class... A>
     Result<void> add(const char* name, A... arguments);
     Result<void> open_directory(const RespondArguments&, const CopySpec&, std::optional<double> bin);
-    Result<void> check(const RespondArguments&, const CopySpec&, const std::optional<std::string>& page, std::vector<std::string> later,
-                       OutputCheck&);
+    Result<void> check(const RespondArguments&, const CopySpec&, const std::optional<std::string>& page,
+                       std::vector<std::string> later_names, OutputCheck&);
     std::vector<std::string> paths() const;
 
 public:
@@ -33,8 +33,9 @@ public:
     RespondOutputs(const RespondOutputs&) = delete;
     RespondOutputs& operator=(const RespondOutputs&) = delete;
     ~RespondOutputs();
-    /// Creates the files. `later`: names of the files in the directory that are created only during the run, but must be checked before it.
-    Result<void> open(const RespondArguments&, const CopySpec&, std::vector<std::string> later, OutputCheck&);
+    /// Creates the files. `later_names`: names of the files in the directory that are created only during the run, but must be checked
+    /// before it.
+    Result<void> open(const RespondArguments&, const CopySpec&, std::vector<std::string> later_names, OutputCheck&);
     /// Adds the sinks of all files to the sinks of the run.
     void add_sinks(std::vector<ResponseSink*>&);
     /// The names of the files that are written into the directory.

@@ -184,7 +184,7 @@ std::string dependences_text(const SweepTable& table, const SweepSummary& s) {
         text = fmt::format(
             "\nInfluences, in percent of a variance: for a grid axis, the total variance; for a random parameter, the variance within\n"
             "a grid point ({} chips):\n{}",
-            s.searched_chips, format_table(rows));
+            s.analysed_chips, format_table(rows));
     if (!explained.empty())
         text += fmt::format("A linear model explains (%): {}. The rest is nonlinear, an interaction, or not significant.\n", explained);
     if (!independent.empty() && (s.mismatch || !table.axes.empty()))

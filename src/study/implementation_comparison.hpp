@@ -20,7 +20,7 @@ struct ImplementationComparison {
     PhaseCount total;                             ///< over the whole input; its phase name is empty
     std::vector<PhaseCount> phases = {};          ///< one for each phase of the stimulus; empty if it has no phases
     std::size_t matched = 0;                      ///< spikes that the Victor-Purpura distance moves onto a spike of the reference
-    double mean_shift = NAN, median_shift = NAN;  ///< s, matched spike minus its spike of the reference; NaN if no spikes match
+    double mean_shift = NAN, median_shift = NAN;  ///< s, delay of the matched spikes behind the reference's; NaN if none match
     double victor_purpura = NAN;  ///< distance from the reference's train; NaN if there are too many pairs of close spikes to compute it
     double van_rossum = 0;        ///< distance from the reference's train
 };

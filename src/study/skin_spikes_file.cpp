@@ -11,17 +11,17 @@ SkinSpikesFile::SkinSpikesFile(OutputFile file) : file_(std::move(file)) {
 }
 
 Result<void> SkinSpikesFile::begin(const SkinInput& input) {
-    names_.clear();
+    names_and_regions_.clear();
     for (std::size_t u = 0; u < input.skin.afferents.size(); ++u)
-        names_.push_back(quote_csv_field(input.skin.afferent_name(u)) + "," +
-                         quote_csv_field(input.skin.plan.sites.regions[input.skin.afferents[u].region]));
+        names_and_regions_.push_back(quote_csv_field(input.skin.afferent_name(u)) + "," +
+                                     quote_csv_field(input.skin.plan.sites.regions[input.skin.afferents[u].region]));
     return {};
 }
 
 Result<void> SkinSpikesFile::put(const Clock& clock, std::span<const Spike> spikes) {
     text_.clear();
     for (const auto& s : spikes)
-        fmt::format_to(std::back_inserter(text_), "{},{:.9f}\n", names_[s.afferent_index], clock.time(s.step, s.offset));
+        fmt::format_to(std::back_inserter(text_), "{},{:.9f}\n", names_and_regions_[s.afferent_index], clock.time(s.step, s.offset));
     return file_.write({text_.data(), text_.size()});
 }
 

@@ -11,7 +11,7 @@ namespace corpuscle {
 /// to the nanosecond.
 class SkinSpikesFile final : public SkinFileSink {
     OutputFile file_;
-    std::vector<std::string> names_;  // "sa1#17,palm" of each afferent
+    std::vector<std::string> names_and_regions_;  // of each afferent: "sa1#17,palm"
     fmt::memory_buffer text_;
 
     Result<void> put(const Clock&, std::span<const Spike>);

@@ -30,14 +30,14 @@ TEST(Stimulus, EachIsTheSameAtEveryRate) {
 TEST(Stimulus, PhasesCoverTheStimulusWithoutGaps) {
     for (const auto& entry : stimulus_catalog()) {
         const auto source = test::value_or_throw(make_stimulus(entry.name, {}, 1e3, 0));
-        double at = 0;
+        double end = 0;  // of the phases so far; stays 0 if the stimulus has no phases
         for (const auto& p : source->phases()) {
-            EXPECT_EQ(p.from, at) << entry.name;
+            EXPECT_EQ(p.from, end) << entry.name;
             EXPECT_GE(p.to, p.from) << entry.name;
-            at = p.to;
+            end = p.to;
         }
-        if (at > 0) {
-            EXPECT_NEAR(at * 1e3, static_cast<double>(test::read_first_channel(*source).size()), 0.5) << entry.name;
+        if (end > 0) {
+            EXPECT_NEAR(end * 1e3, static_cast<double>(test::read_first_channel(*source).size()), 0.5) << entry.name;
         }
     }
 }
@@ -62,8 +62,7 @@ TEST(Stimulus, ASumAddsForcesAndLastsAsLongAsItsLongestMember) {
 
 TEST(Stimulus, AShorterMemberOfASumHoldsItsLastValue) {
     const auto sum = force("press+chirp", {.settings = {"chirp.duration=100ms", "chirp.F_mean=0"}}), press = force("press");
-    for (std::size_t k = 0; k < sum.size(); ++k)
-        ASSERT_LE(std::abs(sum[k] - press[k]), 0.2) << "a sweep that continued would exceed all bounds";
+    for (std::size_t k = 0; k < sum.size(); ++k) ASSERT_LE(std::abs(sum[k] - press[k]), 0.2) << "more than the amplitude of the chirp";
     for (std::size_t k = 1001; k < sum.size(); ++k) ASSERT_NEAR(sum[k] - press[k], sum[1001] - press[1001], 1e-12);
     const auto source = test::value_or_throw(make_stimulus("press+sine", test::parse_settings({"sine.duration=3s"}), 1e3, 0));
     EXPECT_EQ(source->phases().back().name, "after");
@@ -89,7 +88,7 @@ TEST(Stimulus, NoiseDependsOnItsSeedAndHasItsStandardDeviation) {
     const auto x = force("noise", a);
     EXPECT_NE(x, force("noise", b));
     double sum = 0, square = 0;
-    // Every fifth sample is a deviate, not an interpolated value.
+    // Every fifth sample is a random number; those between are interpolated.
     for (std::size_t k = 0; k < x.size(); k += 5) sum += x[k], square += (x[k] - 1) * (x[k] - 1);
     const auto n = static_cast<double>(x.size() / 5);
     EXPECT_NEAR(sum / n, 1, 5 * 0.2 / std::sqrt(n));

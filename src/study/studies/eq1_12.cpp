@@ -1,6 +1,7 @@
 // Equations 1 to 12 of the thesis, corrected by the errata, compared with the catalogue's models.
-// Symbols. F is the force, F' its derivative. beta, k_s and k_d are offset, static and dynamic gain of SA-IA. theta is a neuron's
-// threshold, u_rst its reset voltage, u_rest its rest voltage.
+// Symbols. F is the force, F' its derivative. In (1), beta, k_s and k_d are offset, static and dynamic gain of the receptor SA-IA (`sa1a`).
+// theta is a neuron's threshold, u_rst its reset voltage, u_rest its rest voltage. In (10) to (12), alpha and beta are the coefficients of
+// a high-pass filter of gain K and corner frequency f; k_x1 and k_x2 are those of the same filter with time step T (Algorithms 5 and 6).
 
 #include <fmt/format.h>
 #include <cmath>
@@ -16,7 +17,7 @@ using Complex = std::complex<double>;
 
 constexpr double K_B = 8e-6, f_B = 20;  // A/N, Hz: thesis 3.3, interpreted as in errata B10
 
-/// The largest |a - b| as a percentage of the largest |b|; b(k) is the value at sample k of a.
+/// The largest |a - b| as a percentage of the largest |b|; b(k) is the value of b at the k-th sample of a.
 template <class At>
 double largest_difference(const StudyCurve& a, At&& b) {
     double worst = 0, largest = 0;
@@ -119,9 +120,9 @@ Result<void> equations_8_to_11(StudyResult& out) {
         for (std::size_t k = 0; k < combination.y.size(); ++k) combination.y[k] = alpha * slope_F.y[k] - beta * slope_I.y[k];
         out.claim(fmt::format("{} against alpha F' - beta I', alpha = K / 2 pi f, beta = 1 / 2 pi f", name),
                   largest_difference(combination, [&](std::size_t k) { return I->y[k + 1]; }), "%")  // slopes omit the first sample
-            .allow_max(
-                1,
-                "thesis 3.3; a hundredth is our choice; slopes are differences over 0.1 ms, which are inexact at the corners of the force");
+            .allow_max(1,
+                       "thesis 3.3; the limit of 1 % is our choice; slopes are differences over 0.1 ms, which are inexact at the corners "
+                       "of the force");
     }
     return {};
 }
@@ -162,7 +163,7 @@ Result<void> equation_12(StudyResult& out, const StudyOptions& options) {
         if (auto ok = options.report_progress(0.5 + f / 1100); !ok) return ok.error();
     }
     out.claim("(12): I_B / F under sines of 1 to 500 Hz against K s / (s + 2 pi f), largest difference, relative to K", 100 * worst, "%")
-        .allow_max(1, "thesis 3.3, eq. 12; a hundredth is our choice, at 20 samples per period (500 Hz)");
+        .allow_max(1, "thesis 3.3, eq. 12; the limit of 1 % is our choice, at 20 samples per period (500 Hz)");
     out.claim("(12): gain at 500 Hz", computed.y.back() * 1e-6, "A/N").derived_as(K_B, "thesis 3.3: limited above the corner");
     out.claim("(12): gain at 2 Hz over that at 1 Hz", computed.at(2) / computed.at(1))
         .derived_as(2, "thesis 3.3: far below the corner a differentiator");

@@ -72,7 +72,7 @@ std::vector<double> inside_groups(const std::vector<double>& values, const Sweep
     return out;
 }
 
-/// The first chips of a sweep, at most max_searched_chips, and for each chip the mean of a measure over the points. Chip k is sample k: a
+/// The first chips of a sweep, at most max_analysed_chips, and for each chip the mean of a measure over the points. Chip k is sample k: a
 /// chip is simulated at each point with the same mismatch and the same values of the sampled axes.
 class ChipMeans {
     std::vector<std::size_t> chip_of_;  // for each row: index in chips_, or none
@@ -86,7 +86,7 @@ public:
         for (const auto item : table.items) {
             const auto chip = static_cast<std::uint64_t>(samples > 0 ? item % samples : item);
             const auto known = index.find(chip);
-            if (known == index.end() && chips_.size() == max_searched_chips) {
+            if (known == index.end() && chips_.size() == max_analysed_chips) {
                 chip_of_.push_back(none);
                 continue;
             }
@@ -218,7 +218,7 @@ Dependence dependence_of(const std::string& name, const std::vector<double>& val
 
 /// Also sets the number of chips from which the dependences were computed.
 std::vector<Dependence> dependences_of(const SweepTable& table, const std::optional<MismatchSamples>& mismatch,
-                                       const std::vector<char>& passed, std::size_t& searched_chips) {
+                                       const std::vector<char>& passed, std::size_t& analysed_chips) {
     std::vector<std::size_t> point_axes;
     for (std::size_t a = 0; a < table.axes.size(); ++a)
         if (table.has_points(a)) point_axes.push_back(a);
@@ -226,7 +226,7 @@ std::vector<Dependence> dependences_of(const SweepTable& table, const std::optio
     const auto count = static_cast<std::int64_t>(points.groups.size());
     // Without the description of the mismatch, the number of samples follows from the numbers of items and points.
     const ChipMeans means(table, mismatch ? mismatch->chips : count > 0 && table.item_count % count == 0 ? table.item_count / count : 0);
-    searched_chips = means.chips().size();
+    analysed_chips = means.chips().size();
     DependenceSearch search{table, mismatch, std::move(points), {}, means, factors_of(table, mismatch, means)};
     for (const auto a : point_axes)
         if (auto groups = group_rows_by_axes(table, {a}); groups.groups.size() > 1) search.by_axis.emplace_back(a, std::move(groups));
@@ -279,7 +279,7 @@ Result<SweepSummary> summary_of(const SweepTable& table, const std::optional<Mis
     ThreadPool pool(table.rows() > 100000 ? 0 : 1);
     pool.for_each(table.measures.size(), [&](std::size_t m, unsigned) { put_measure(out, table, *groups, m); });
     if (!table.is_grid) {
-        out.dependences = dependences_of(table, mismatch, passed, out.searched_chips);
+        out.dependences = dependences_of(table, mismatch, passed, out.analysed_chips);
         return out;
     }
     remove_statistics(out.all);

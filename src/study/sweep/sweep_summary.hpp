@@ -22,16 +22,16 @@ struct SweepGroup {
     std::string label;              ///< "temp = 85 C, corner = ss"
     std::vector<std::size_t> rows;  ///< indexes
 };
-/// Groups of a table's rows, by the values of each axis with points (SweepTable::points), and by bands of each other axis.
+/// Groups of a table's rows, by the values of each axis that has few distinct values (SweepTable::points), and by bands of each other axis.
 struct SweepGroups {
-    static constexpr std::size_t max_groups = 64;  ///< of group_rows() without names
+    static constexpr std::size_t max_groups = 64;  ///< that group_rows() makes if it chooses the axes
     static constexpr std::size_t bands = 5;        ///< of one axis, with about equal numbers of rows
     std::vector<std::size_t> axes;                 ///< indexes of the axes that define the groups
     std::vector<SweepGroup> groups;
     std::vector<std::size_t> group_of;  ///< for each row: index of its group
 };
-/// Groups the rows by the axes of these names. Without names: by all axes with two or more points; if that gives more than max_groups
-/// groups, all rows are one group.
+/// Groups the rows by the axes of these names. Without names: by all axes with two or more values in SweepTable::points; if that
+/// gives more than max_groups groups, all rows are one group.
 Result<SweepGroups> group_rows(const SweepTable&, const std::vector<std::string>& by);
 /// Groups the rows by the axes with these indexes.
 SweepGroups group_rows_by_axes(const SweepTable&, const std::vector<std::size_t>& axes);
@@ -48,7 +48,7 @@ struct MeasureSummary {
 /// The items of one point, which is one SweepGroup, or of all points.
 struct PointSummary {
     std::string label;
-    std::int64_t items = 0, done = 0, iteration_limit = 0, diverged = 0;  ///< number of items, in total and by their ends
+    std::int64_t items = 0, done = 0, iteration_limit = 0, diverged = 0;  ///< number of items: all, then by how they ended (ItemEnd)
     std::int64_t passed = 0;                                              ///< number of items that ended normally and meet all limits
     Estimate yield;                                                       ///< passed / items
     std::vector<MeasureSummary> measures;                                 ///< for each measure of the table
@@ -76,7 +76,7 @@ struct Dependence {
     Sensitivity sensitivity;
     std::vector<NamedInfluence> influences;                   ///< those of `sensitivity`, with names; the strongest first
     std::vector<DeviceContribution> devices;                  ///< those with a fraction above 0, the largest first
-    std::vector<std::pair<std::size_t, GroupEffect>> points;  ///< index of each axis whose points have a significant effect, and the effect
+    std::vector<std::pair<std::size_t, GroupEffect>> points;  ///< index of each axis whose value has a significant effect, and the effect
     std::vector<AxisEffect> effects;                          ///< only for a full grid, for which the other members are empty
 };
 
@@ -86,12 +86,12 @@ struct SweepSummary {
     std::vector<PointSummary> points;         ///< one for each group of rows
     PointSummary all;                         ///< over all rows
     std::optional<MismatchSamples> mismatch;  ///< no value: mismatch was not sampled
-    std::size_t searched_chips = 0;           ///< number of chips from which the dependences were computed; 0 for a grid
+    std::size_t analysed_chips = 0;           ///< number of chips from which the dependences were computed; 0 for a grid
     std::vector<Dependence> dependences;      ///< for each measure, then for the yield, if any measure has limits
 };
 
 /// The dependences are computed from at most this many chips, the first ones; more would hardly change the result.
-inline constexpr std::size_t max_searched_chips = 4000;
+inline constexpr std::size_t max_analysed_chips = 4000;
 
 /// `options.axes` must be names of axes; otherwise an error. Without `mismatch`, the only random factors are the sampled axes.
 Result<SweepSummary> summary_of(const SweepTable&, const std::optional<MismatchSamples>&, const SweepSummaryOptions&);

@@ -21,7 +21,8 @@ class SweepFileReader : public TomlReader {
 public:
     using TomlReader::TomlReader;
 
-    /// Reads [limits]. A measure with a dot in its name is a table inside a table, so this calls itself; `prefix`: the part before the dot.
+    /// Reads [limits]. Without quotes, a measure with a dot in its name (spikes.plateau) is a nested table in TOML, so this calls itself.
+    /// `prefix`: the part of the name up to the dot.
     void limits(const toml::table& from, const std::string& prefix, std::vector<LimitSpec>& out) {
         for (const auto& [key, value] : from) {
             LimitSpec limit{{prefix + std::string(key.str()), location_of(key.source())}, {}, {}, {}, {}};
