@@ -1,4 +1,5 @@
-// How long does the loop of 108 transistor arrays take for one second of touch, and how is the time of a Newton iteration divided?
+// How long does the circuit of an afferent with 108 transistor arrays ("the loop", from a force's current to spikes) take for one second of
+// touch, and how is the time of a Newton iteration divided?
 //
 //     bench-loop [NETLIST] [ROUNDS]      default: bench/decks/loop.cir, 5 rounds
 //
@@ -54,7 +55,7 @@ struct OneSecondRun {
     double reltol = 0;
     std::vector<double> spikes;               // s
     std::vector<std::vector<double>> points;  // unknowns at some of the steps
-    std::vector<double> at;                   // times of the points, s
+    std::vector<double> point_times;          // s
 };
 
 /// Runs one second `rounds` times from the same start. `quiet`: with the constant input current.
@@ -66,11 +67,12 @@ Result<OneSecondRun> run_one_second(AnalysisContext& bench, int rounds, bool qui
     out.reltol = plan.reltol;
     for (int round = 0; round < rounds; ++round) {
         bench.system.start_transient(1e-3, seconds);
+        // A transient of length 0 removes the waveform, so that the source has its DC value.
         if (auto* force = bench.system.device("if"); quiet && force != nullptr)
             force->start_transient(0, 0), force->set_principal_value(quiet_current);
         const auto from = find_initial_condition(bench, false);
         if (!from) return from.error();
-        out.spikes.clear(), out.points.clear(), out.at.clear();
+        out.spikes.clear(), out.points.clear(), out.point_times.clear();
         Transient transient(bench.system, bench.newton, plan);
         // The number of steps is known after the first round.
         const long spacing = std::max(1L, out.work.steps / static_cast<long>(max_points));
@@ -81,7 +83,7 @@ Result<OneSecondRun> run_one_second(AnalysisContext& bench, int rounds, bool qui
             if (const auto at = transient.crossing(spiking, -1, level, true)) out.spikes.push_back(*at);
             if (round > 0 && transient.stats().steps % spacing == 0) {
                 out.points.emplace_back(transient.x().begin(), transient.x().end());
-                out.at.push_back(transient.time());
+                out.point_times.push_back(transient.time());
             }
         }
         out.times.push_back(processor_time() - start);
@@ -112,31 +114,32 @@ struct IterationParts {
 
 IterationParts time_parts(const AnalysisContext& bench, const OneSecondRun& run, int rounds) {
     IterationParts out;
-    EvalContext at;
-    at.gmin = bench.tolerances.gmin;
+    EvalContext context;
+    context.gmin = bench.tolerances.gmin;
     auto memory = bench.system.initial_limiting_state();
     SystemEvaluation sums;
     const auto count = run.points.size(), entries = bench.system.pattern().entries();
     const DeviceGroup& transistors = bench.system.groups()[0];
     const auto n = transistors.terminals, stride = transistors.stride;
-    struct alignas(64) Line {  // of the cache
-        double of[8];
+    struct alignas(64) CacheLine {
+        double values[8];
     };
-    std::vector<Line> lines((3 * n + 2 * n * n) * stride / 8);
+    std::vector<CacheLine> lines((3 * n + 2 * n * n) * stride / 8);
     // voltages, currents, charges, then the derivatives of the currents and of the charges
-    double *const v = lines[0].of, *const f = v + n * stride, *const q = f + n * stride, *const df = q + n * stride;
+    double *const v = lines[0].values, *const f = v + n * stride, *const q = f + n * stride, *const df = q + n * stride;
     out.devices = time_each(rounds, count, [&](std::size_t k) {
         for (std::size_t m = 0; m < transistors.members.size(); ++m)
             for (std::size_t j = 0; j < n; ++j) {
                 const int u = transistors.unknowns[m * n + j];
                 v[j * stride + m] = u < 0 ? 0 : run.points[k][static_cast<std::size_t>(u)];
             }
-        transistors.batch->eval(at, {stride, v, f, df, nullptr, q, df + n * n * stride, 1e5});
+        constexpr double rate = 1e5;  // 1/s; one over `step`
+        transistors.batch->eval(context, {stride, v, f, df, nullptr, q, df + n * n * stride, rate});
     });
     std::vector<std::vector<double>> matrices;
     for (std::size_t k = 0; k < count; ++k) {
-        at.time = run.at[k];
-        bench.system.eval(run.points[k], at, memory, sums);
+        context.time = run.point_times[k];
+        bench.system.eval(run.points[k], context, memory, sums);
         matrices.emplace_back(entries);
         for (std::size_t e = 0; e < entries; ++e) matrices.back()[e] = sums.G[e] + sums.C[e] / step;
     }
@@ -153,8 +156,8 @@ IterationParts time_parts(const AnalysisContext& bench, const OneSecondRun& run,
 
 void report(const AnalysisContext& bench, const OneSecondRun& whole, const OneSecondRun& quiet, const IterationParts& parts) {
     const auto row = [](const char* label, const OneSecondRun& s) {
-        std::printf("%s, to %g a step: %ld steps, %ld rejected, %ld Newton iterations, %zu spikes", label, s.reltol, s.work.steps,
-                    s.work.rejected, s.work.iterations, s.spikes.size());
+        std::printf("%s, with an allowed relative error of %g: %ld steps, %ld rejected, %ld Newton iterations, %zu spikes", label, s.reltol,
+                    s.work.steps, s.work.rejected, s.work.iterations, s.spikes.size());
         if (!s.spikes.empty()) std::printf(", from %.6f to %.6f s", s.spikes.front(), s.spikes.back());
         std::printf("\n");
         print_times("complete", s.times, 1, "s");

@@ -35,7 +35,7 @@ Result<void> export_netlist(const ExportArguments& args, const CommonArguments& 
     auto warnings = circuit->warnings;
     const auto deck = ngspice_deck(std::make_shared<const Circuit>(std::move(*circuit)));
     if (!deck) return deck.error();
-    warnings.insert(warnings.end(), deck->left_out.begin(), deck->left_out.end());
+    warnings.insert(warnings.end(), deck->warnings.begin(), deck->warnings.end());
     if (!args.out.empty())
         if (auto ok = write_file(args.out, deck->text); !ok) return ok;
     for (const auto& warning : warnings) print_warning(warning.text());

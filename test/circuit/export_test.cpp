@@ -223,8 +223,8 @@ TEST(ExportedDirectives, UnsupportedByNgspiceStayAsCommentsAndAreReported) {
           "\nxm_x1_m1 d g 0 0", "* .meas dc: ngspice measures only the analysis that it runs last, here .noise",
           "* ngspice's result lacks the noise of the transistors"})
         EXPECT_NE(deck->text.find(line), std::string::npos) << line << "\n" << deck->text;
-    EXPECT_EQ(deck->left_out.size(), 7U);
-    for (const auto& e : deck->left_out) EXPECT_GT(e.location.line, 10) << e.text();
+    EXPECT_EQ(deck->warnings.size(), 7U);
+    for (const auto& e : deck->warnings) EXPECT_GT(e.location.line, 10) << e.text();
 }
 
 TEST(ExportedNames, AreLegalAndOneToOne) {

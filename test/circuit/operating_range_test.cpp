@@ -20,7 +20,7 @@ const std::string follower = "follower\nvf f 0 force 1\nrf f s 1k\ncs s 0 1n\n.s
 TEST(OperatingRange, ATransientReportsDurationAndStart) {
     const auto ramp =
         run_netlist("t\nv1 a 0 pwl(0 0 1 1 2 0)\nr1 a 0 1k\n.assert v(a) -1 0.2505 \"too high\"\n.assert v(a) -1 2\n.tran 1m 2 0 1m\n");
-    ASSERT_EQ(ramp.warnings().size(), 1U) << "only the first range was left";
+    ASSERT_EQ(ramp.warnings().size(), 1U) << "only the first range is violated";
     const auto& sentence = ramp.warnings()[0].message;
     EXPECT_TRUE(sentence.starts_with("v(a) was outside -1 V to 250.5 mV for 1.499 s of 2 s, first at 251 ms")) << sentence;
     EXPECT_TRUE(sentence.ends_with(": too high")) << sentence;

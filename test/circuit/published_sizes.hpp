@@ -1,22 +1,23 @@
 #pragma once
-// The array sizes published in the thesis (tables 1 to 9, 16, 19, 20), including misprints, and the devices in circuits/ that have them.
-// Also the sizes in circuits/ that differ from the published ones, with the reason. F9, S11 and so on are numbers of errata, which are in
-// the sections errata-... of reproduction/reproduction.md.
+// The array sizes published in the thesis (tables 1 to 9, 16, 19, 20), including misprints. For each size, the devices of the netlists in
+// circuits/ that have it. Also the sizes in these netlists that differ from the published ones, with the erratum that gives the reason
+// (sections errata-... of reproduction/reproduction.md).
 
 namespace corpuscle::circuit {
 
-/// A row of a published table: m columns of n elements of W by L (um), and the paths of the devices with this size, separated by blanks.
-/// The paths are relative to TableLocation::path of the table; no path means that circuits/ does not have the device.
+/// A row of a published table: m columns of n elements of W by L (um), and the devices of this size. Device paths are relative to the
+/// table's TableLocation::path.
 struct PublishedSize {
     const char* table;
-    const char* name;  ///< as published
+    const char* name;
     int m, n;
     double W, L;
     const char* devices;
 };
 
-// Interpretations of the published names: table 1's second M1 is M3 (errata F9). Table 2's M4A-E and M5A-E are A and B (errata F10).
-// Table 9's M3B and M3C are table 6's C and B. Table 4's M3 is both devices of a mirror.
+// Reasons for names of devices that differ from the printed ones. Table 1's second M1 is a misprint of M3 (errata F9). Table 2's M4A-E and
+// M5A-E are misprints of M4A-B and M5A-B (errata F10). Table 9's M3B and M3C are named as in table 6, where they are M3C and M3B. Table 4's
+// M3 is two devices, both sides of a mirror.
 inline constexpr PublishedSize published_sizes[] = {
     {"1", "M1", 4, 4, 1.5, 0.5, "mn1"},
     {"1", "M1 (second)", 8, 1, 1.5, 0.5, "mn3"},
@@ -111,17 +112,18 @@ inline constexpr PublishedSize published_sizes[] = {
     {"9", "M5A,B", 2, 1, 6.0, 0.5, "mp5a mp5b"},
     {"9", "M6A,B", 2, 1, 1.5, 0.5, "mn6a mn6b"},
 
-    // These devices are in a subcircuit without the replica inverter, M4C and M5B.
+    // the bias generator of the chips; it has no replica inverter (M4C and M5B)
     {"16", "M1A-B", 2, 8, 6.0, 0.5, "mp1a mp1b"},
     {"16", "M2A-B", 2, 8, 1.5, 0.5, "mn2a mn2b"},
     {"16", "M3A,B", 2, 8, 6.0, 0.5, "mp3a mp3b"},
     {"16", "M4A-C", 2, 8, 1.5, 0.5, "mn4a mn4b"},
     {"16", "M5A,B", 2, 8, 6.0, 0.5, "mp5a"},
-    {"16 node by node", "M1A-B", 2, 8, 6.0, 0.5, "m1a m1b"},
-    {"16 node by node", "M2A-B", 2, 8, 1.5, 0.5, "m2a m2b"},
-    {"16 node by node", "M3A,B", 2, 8, 6.0, 0.5, "m3a m3b"},
-    {"16 node by node", "M4A-C", 2, 8, 1.5, 0.5, "m4a m4b m4c"},
-    {"16 node by node", "M5A,B", 2, 8, 6.0, 0.5, "m5a m5b"},
+    // circuits/bias.cir, which has the same bias generator without a subcircuit, and the replica
+    {"16 flat", "M1A-B", 2, 8, 6.0, 0.5, "m1a m1b"},
+    {"16 flat", "M2A-B", 2, 8, 1.5, 0.5, "m2a m2b"},
+    {"16 flat", "M3A,B", 2, 8, 6.0, 0.5, "m3a m3b"},
+    {"16 flat", "M4A-C", 2, 8, 1.5, 0.5, "m4a m4b m4c"},
+    {"16 flat", "M5A,B", 2, 8, 6.0, 0.5, "m5a m5b"},
 
     {"19 INVA", "M1", 2, 8, 6.0, 0.5, "mp1"},
     {"19 INVA", "M2", 2, 8, 1.5, 0.5, "mn2"},
@@ -140,8 +142,7 @@ inline constexpr PublishedSize published_sizes[] = {
     {"20", "M6B", 2, 4, 1.5, 0.5, "mn6b"},
 };
 
-/// One place with the devices of a table: a file circuits/`circuit`.cir and the path of a subcircuit in it ("" for the top level). A table
-/// can have several places.
+/// Location of a table's devices: a circuit and a path in it.
 struct TableLocation {
     const char *table, *circuit, *path;
 };
@@ -164,7 +165,7 @@ inline constexpr TableLocation table_locations[] = {
     {"9", "fa1", "xcco."},
     {"16", "fa1", "xbias."},
     {"4", "bias_table4", "x6."},
-    {"16 node by node", "bias", ""},
+    {"16 flat", "bias", ""},
     {"19 INVA", "inverter_biased", "xa."},
     {"19 INVB", "invb", "xb."},
     {"20", "invc", "xh."},
@@ -173,8 +174,8 @@ inline constexpr TableLocation table_locations[] = {
     {"2", "amplifier", "xg."},
 };
 
-/// A size that differs from the published one: table and name of the row, the devices, the parameter (m, n, or W in um), its value in
-/// circuits/, and the erratum that gives the reason.
+/// A size that differs from the published one: the device, the parameter (m, n, or W in um), its value in circuits/, and the erratum that
+/// gives the reason.
 struct SizeDeviation {
     const char *table, *name, *device, *parameter;
     double built_value;
@@ -196,7 +197,7 @@ inline constexpr SizeDeviation size_deviations[] = {
     {"20", "M6B", "mn6b", "n", 8, "S7"},
 };
 
-/// Devices of a published row that are missing in circuits/: table and name of the row, the number of devices, and the reason.
+/// Published devices that are missing in circuits/: their number and the reason.
 struct MissingDevices {
     const char *table, *name;
     int count;
@@ -204,8 +205,8 @@ struct MissingDevices {
 };
 
 inline constexpr MissingDevices missing_devices[] = {
-    {"2", "M4A-E", 3, "F10: A and B; C has its own row"},
-    {"2", "M5A-E", 3, "F10"},
+    {"2", "M4A-E", 3, "F10: a misprint of M4A-B; M4C has its own row"},
+    {"2", "M5A-E", 3, "F10: a misprint of M5A-B; M5C has its own row"},
     {"4", "M5A-C", 1, "M5B: fig. 52 has no third P device besides the diode and the replica"},
     {"8", "M7A,B", 2, "S15: not used in this interpretation"},
     {"16", "M4A-C", 1, "the replica is in circuits/bias.cir only"},

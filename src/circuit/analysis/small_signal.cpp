@@ -60,7 +60,7 @@ Result<AnalysisResult> analyse_tf(AnalysisContext& context, const Directive& c) 
                                                              ? infinite
                                                              : -1 / response[static_cast<std::size_t>(source->unknowns[2])])
                                                       : -across(response);
-    std::vector<double> output_response(linear->x.size());  // to a unit current into the output, or a unit voltage in its branch
+    std::vector<double> output_response(linear->x.size());  // to 1 A into an output voltage, or to -1 V of the source of an output current
     const bool is_voltage_output = context.system.is_voltage(out->plus);
     double output_resistance = infinite;
     if (is_voltage_output) {

@@ -136,7 +136,7 @@ bool contains_jumps(const Expression& expression) {
     return std::any_of(std::begin(jumps), std::end(jumps), [&](auto jump) { return text->find(jump) != std::string::npos; });
 }
 
-/// i = m times an expression. Unknowns: two nodes, then those that only the expression uses.
+/// i = m times an expression. Unknowns: two nodes, then the other unknowns in the expression.
 class ExpressionCurrentSource final : public Device {
     Expression expression_;
     ExpressionBinding binding_;
@@ -159,7 +159,7 @@ public:
     }
 };
 
-/// v(+) - v(-) = an expression. Unknowns: two nodes and the current through the source, then those that only the expression uses.
+/// v(+) - v(-) = an expression. Unknowns: two nodes and the current through the source, then the other unknowns in the expression.
 class ExpressionVoltageSource final : public Device {
     Expression expression_;
     ExpressionBinding binding_;

@@ -39,7 +39,7 @@ double SourceWaveform::at(double t) const {
     }
 }
 
-/// The arguments of PULSE are v1 v2 td tr tf pw per np; np is the number of pulses, 0 for any number.
+/// The arguments of PULSE are v1 v2 td tr tf pw per np; np is the number of pulses; 0: no limit.
 double SourceWaveform::pulse(double t) const {
     const auto positive_or = [&](std::size_t k, double fallback) { return number(k, 0) > 0 ? number(k, 0) : fallback; };
     const double v1 = number(0, 0), v2 = number(1, 0), rise = positive_or(3, step_), fall = positive_or(4, step_), width = number(5, stop_);

@@ -7,15 +7,15 @@
 namespace corpuscle::circuit {
 namespace {
 
-/// Writes directives one by one. Appends those that are left out to `left_out`.
+/// Writes directives one by one. Appends a message to `warnings` for each one that is left out, or whose results differ.
 class DirectiveExporter {
     const Circuit& circuit_;
     const ExportNames& names_;
-    std::vector<Error>& left_out_;
+    std::vector<Error>& warnings_;
 
 public:
-    DirectiveExporter(const Circuit& circuit, const ExportNames& names, std::vector<Error>& left_out)
-        : circuit_(circuit), names_(names), left_out_(left_out) {}
+    DirectiveExporter(const Circuit& circuit, const ExportNames& names, std::vector<Error>& warnings)
+        : circuit_(circuit), names_(names), warnings_(warnings) {}
 
     std::string text(const Directive& c) const {
         if (c.name == "dc") return dc(c);
@@ -39,7 +39,7 @@ private:
     std::string comment_out(const Directive& c, std::string_view why) const {
         auto text = line(c.name, c.words);
         text.pop_back();
-        left_out_.push_back(bad_input(fmt::format("left out: {} ({})", text, why), c.location));
+        warnings_.push_back(bad_input(fmt::format("left out: {} ({})", text, why), c.location));
         return fmt::format("* left out: {} ({})\n", text, why);
     }
     /// The words with the exported names of nodes and elements.
@@ -68,7 +68,7 @@ private:
             words[k] = element(words[k]);
         }
         std::string out = is_updown ? "* left out: updown; ngspice sweeps in one direction only\n" : "";
-        if (is_updown) left_out_.push_back(bad_input("left out: updown of .dc (ngspice sweeps in one direction only)", c.location));
+        if (is_updown) warnings_.push_back(bad_input("left out: updown of .dc (ngspice sweeps in one direction only)", c.location));
         return out + line("dc", words);
     }
 
@@ -78,7 +78,7 @@ private:
         if (words.size() > 1) words[1] = element(words[1]);
         if (!has_element('m')) return line("noise", words);
         const std::string why = "ngspice's result lacks the noise of the transistors, because its expressions have none";
-        left_out_.push_back(bad_input(".noise: " + why, c.location));
+        warnings_.push_back(bad_input(".noise: " + why, c.location));
         return fmt::format("* {}\n{}", why, line("noise", words));
     }
 
@@ -113,8 +113,8 @@ bool is_analysis(const Directive& c) { return run_rank(c.name) < std::ssize(run_
 
 }  // namespace
 
-std::string directives_text(const Circuit& circuit, const ExportNames& names, std::vector<Error>& left_out) {
-    const DirectiveExporter exporter(circuit, names, left_out);
+std::string directives_text(const Circuit& circuit, const ExportNames& names, std::vector<Error>& warnings) {
+    const DirectiveExporter exporter(circuit, names, warnings);
     std::string analyses, others;
     std::string_view last_analysis = run_order[0];  // that ngspice runs
     for (const auto& c : circuit.directives)
@@ -127,7 +127,7 @@ std::string directives_text(const Circuit& circuit, const ExportNames& names, st
         if (c.name.starts_with("meas") && !c.words.empty() && c.words[0] != last_analysis) {
             const auto why =
                 fmt::format(".meas {}: ngspice measures only the analysis that it runs last, here .{}", c.words[0], last_analysis);
-            left_out.push_back(bad_input(why, c.location));
+            warnings.push_back(bad_input(why, c.location));
             others += fmt::format("* {}\n", why);
         }
         others += exporter.text(c);

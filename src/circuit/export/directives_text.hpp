@@ -7,8 +7,8 @@
 
 namespace corpuscle::circuit {
 
-/// All directives as lines, with analyses first. Those that ngspice does not have become comments. Messages about these, and about results
-/// that differ in ngspice, are appended to `left_out`.
-std::string directives_text(const Circuit&, const ExportNames&, std::vector<Error>& left_out);
+/// All directives as lines, with analyses first. Directives that ngspice does not have become comments. Appends to `warnings`: a message
+/// for each of them, and for each directive whose results differ in ngspice.
+std::string directives_text(const Circuit&, const ExportNames&, std::vector<Error>& warnings);
 
 }  // namespace corpuscle::circuit

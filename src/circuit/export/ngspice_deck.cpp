@@ -78,7 +78,7 @@ Result<NgspiceDeck> ngspice_deck(std::shared_ptr<const Circuit> circuit) {
     if (n) deck.text += uicm_subcircuit(false);
     if (p) deck.text += uicm_subcircuit(true);
     deck.text += node_voltages(".nodeset", c.nodesets, names) + node_voltages(".ic", c.ic, names);
-    deck.text += directives_text(c, names, deck.left_out) + ".end\n";
+    deck.text += directives_text(c, names, deck.warnings) + ".end\n";
     return deck;
 }
 

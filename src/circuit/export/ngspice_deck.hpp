@@ -14,7 +14,7 @@ struct NgspiceDeck {
     std::string text;
     /// Messages about directives that ngspice does not have, or whose results differ, with their lines of the netlist. Comments in the deck
     /// say the same.
-    std::vector<Error> left_out;
+    std::vector<Error> warnings;
 };
 
 /// The flat circuit with all parameters evaluated and transistors as subcircuits of expressions. Fails where run_directives() would fail.

@@ -9,7 +9,8 @@ namespace corpuscle {
 namespace {
 
 using Rule = circuit::RectangleRule;
-constexpr double um = 1e6, gap_between_arrays = 0.8;  // um per m; um: chosen for the drawing
+constexpr double um = 1e6;                  // um per m
+constexpr double gap_between_arrays = 0.8;  // um; chosen for the drawing
 
 /// Appends a rectangle (um) to a path; NaN separates it from the next one.
 void append_rectangle(StudyCurve& path, double left, double bottom, double width, double height) {
@@ -19,13 +20,14 @@ void append_rectangle(StudyCurve& path, double left, double bottom, double width
 }
 
 /// Appends the array's channels and its total area, with the left edge at `left` (um). Its columns follow one another along x, in the
-/// direction of L; its rows along y, in the direction of W. Returns the width of the total area (um).
+/// direction of L; its rows along y, in the direction of W. They are columns and rows of the drawing only: either may be in series or in
+/// parallel. Returns the width of the total area (um).
 double append_array(const SimulatedArray& a, double left, StudyCurve& channels, StudyCurve& total) {
     const auto rows = static_cast<std::size_t>(a.published->rows), columns = static_cast<std::size_t>(a.published->columns);
     const double W = um * a.W, pitch = W + um * Rule::between_W;
     double x = left + 0.5 * um * Rule::around_L;
     for (std::size_t column = 0; column < columns; ++column) {
-        const double L = um * a.lengths[column * rows];
+        const double L = um * a.lengths[column * rows];  // only F has different lengths; it has one row
         for (std::size_t row = 0; row < rows; ++row)
             append_rectangle(channels, x, 0.5 * um * Rule::around_W + static_cast<double>(row) * pitch, L, W);
         x += L + um * Rule::between_L;
@@ -38,7 +40,7 @@ double append_array(const SimulatedArray& a, double left, StudyCurve& channels, 
 }  // namespace
 
 StudyPlot layout_plot(const SimulatedArrays& arrays, std::string title) {
-    StudyPlot out{std::move(title), "along the channels, arrays in a row (um)", "across (um)", {}};
+    StudyPlot out{std::move(title), "along L, arrays side by side (um)", "along W (um)", {}};
     StudyCurve channels, total;
     double left = 0;
     for (const auto& a : arrays) left += append_array(a, left, channels, total) + gap_between_arrays;
