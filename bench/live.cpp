@@ -8,19 +8,19 @@
 // - noise: as share, with noise that keeps every afferent active
 // - soak: "grid 16x16" at 1 kHz over loopback, frames numbered: memory, drift, lost events
 //
-// Defaults: 60 s (3600 s are recommended for soak) and ./corpuscle. "The program" is PROGRAM, as `corpuscle stream` on the last core only.
-// The sender of the frames and the reader of the spikes are threads of this process on
-// the other cores.
+// Defaults: 60 s (3600 s are recommended for soak) and ./corpuscle. PROGRAM is run as `PROGRAM stream`, on the last core only; it is called
+// "the program" here. The sender of the frames and the reader of the spikes are threads of this process, on the other cores.
 //
 // In the mode delay, the program (--busy-poll) and the sender busy-wait, which excludes the time to wake a thread.
-// In all modes but soak, frames are binary float32 through a pipe (together: TCP). Each is written at its scheduled time (clock_nanosleep
-// to absolute times). Events are binary through another pipe. The delay of a frame is from just before its write to the
-// read of its first spike. A frame without a spike has no delay here; but the program measures the time of every frame itself, and reports
-// the number of frames and these times at its end. For comparison, an idle loop runs first for the same time: a thread sleeps until the
-// same scheduled times and records how late it wakes, which is the machine's own delay. A round contact moves over the skin, and every site
-// has noise of some mN in every frame, so that no afferent can be skipped. In the modes share and together there is no noise, and the
-// contact is a fingertip that rubs the palm in circles of 1 cm. The fraction of a core (user and system time) excludes the first 3 s, in
-// which the program builds its skin. The mode soak compares every received byte with the result of the same frames in this process.
+// In all modes but soak, frames are binary float32 through a pipe, or through TCP in the mode together. Each is written at its scheduled
+// time (clock_nanosleep to absolute times). Events are binary through another pipe. The delay of a frame is from just before its write to
+// the read of its first spike. The table of delays omits frames without a spike. The program measures the time of every frame itself, and
+// prints the number of frames and these times before it exits. For comparison, an idle loop runs first, as long as the measurement: a
+// thread sleeps until scheduled times of the same rate and records how late it wakes, which is the machine's own delay. A round contact
+// moves over the skin, and every site has noise of some mN in every frame, so that no afferent can be skipped. In the modes share and
+// together there is no noise, and the contact is a fingertip that rubs the palm in circles of 1 cm. The fraction of a core (user and system
+// time) excludes the first 3 s, in which the program builds its skin. The mode soak compares every received byte with the result of the
+// same frames in this process.
 
 #include <sys/prctl.h>
 #include <sys/socket.h>
@@ -173,7 +173,8 @@ int soak(const std::string& program, int seconds) {
     const std::int64_t count = std::int64_t{rate} * seconds;
     Sender sender(frames, sites, rate, count, true);
     std::thread sending([&] { sender.send_all(to.get()), to.close(); });
-    // This process simulates the same frames, up to the step of the last event received. expected[at] is the next event to receive.
+    // This process simulates the same frames. expected[at] is the next event to receive; if all expected events have been received,
+    // simulate_to() goes on until a frame has spikes, at most to the given step.
     auto reference = SkinStream::make(skin, {rate, 1});
     std::vector<double> frame(sites);
     std::vector<address_events::EncodedSpike> expected;

@@ -1,6 +1,6 @@
 #pragma once
-// Reads JSON as records, which are the rows of a table. The text has one record on each line (JSON lines), or it is a document: a list of
-// records or of rows, or an object of columns.
+// Reads JSON as records, which are the rows of a table. The text has one record on each line (JSON lines), or it is a document: a list
+// with one element for each record (an object, or a list of values), or an object of columns.
 
 #include <functional>
 #include <nlohmann/json_fwd.hpp>

@@ -12,7 +12,7 @@ namespace corpuscle {
 namespace {
 
 /// True if there are several channels and the samples of each channel are contiguous in the file.
-bool is_column_major(const NpyHeader& header, const ArrayExtent& extent) {
+bool has_contiguous_channels(const NpyHeader& header, const ArrayExtent& extent) {
     return extent.columns > 1 && header.is_column_major != extent.is_transposed;
 }
 
@@ -20,7 +20,7 @@ class NpySamples final : public Samples {
     std::unique_ptr<SeekableBytes> bytes_;
     NpyHeader header_;
     ArrayExtent extent_;
-    bool by_columns_;               // true if the samples of each channel are contiguous, see is_column_major()
+    bool has_contiguous_channels_;
     std::vector<NpyField> fields_;  // the field of each column; if the array is not structured, a single field for all columns
     SamplesInfo info_;
     std::vector<std::byte> buffer_;  // the elements that were read last
@@ -56,7 +56,8 @@ class NpySamples final : public Samples {
 
 public:
     NpySamples(std::unique_ptr<SeekableBytes> bytes, NpyHeader header, ArrayExtent extent)
-        : bytes_(std::move(bytes)), header_(std::move(header)), extent_(std::move(extent)), by_columns_(is_column_major(header_, extent_)) {
+        : bytes_(std::move(bytes)), header_(std::move(header)), extent_(std::move(extent)),
+          has_contiguous_channels_(has_contiguous_channels(header_, extent_)) {
         if (!extent_.note.empty()) info_.notes.push_back(extent_.note);
         info_.rows = static_cast<std::int64_t>(extent_.rows);
     }
@@ -78,7 +79,7 @@ public:
                        std::vector<std::vector<double>>& out) override {
         const auto first = static_cast<std::uint64_t>(start);
         const auto width = static_cast<std::size_t>(extent_.columns);
-        if (by_columns_) return fetch_columns(first, rows, wanted, out);
+        if (has_contiguous_channels_) return fetch_columns(first, rows, wanted, out);
         const std::size_t max_rows = std::max<std::size_t>(1, (std::size_t{1} << 20) / (width * header_.element_size));
         for (std::size_t done = 0; done < rows; done += max_rows) {
             const auto count = std::min(max_rows, rows - done);
@@ -115,7 +116,7 @@ Result<std::unique_ptr<NpySamples>> samples_of(std::unique_ptr<SeekableBytes> by
         return no_numbers(header, name);
     const auto extent = extent_of(array, name, hints);
     if (!extent) return extent.error();
-    if (in_archive && is_column_major(header, *extent)) {  // seeking in an archive is slow, and each channel needs it
+    if (in_archive && has_contiguous_channels(header, *extent)) {  // seeking in an archive is slow, and each channel needs it
         auto copy = copy_to_temporary_file(*bytes);
         if (!copy) return copy.error();
         bytes = *std::move(copy);
@@ -148,7 +149,7 @@ struct Npz {
     Result<std::unique_ptr<NpySamples>> samples(std::size_t k, const ExtentHints& hints) const {
         auto bytes = file.bytes(arrays[k].name);
         if (!bytes) return bytes.error();
-        auto header = read_member_header(**bytes);
+        auto header = read_member_header(**bytes);  // unlike read_headers(), checks the size of the array
         if (!header) return header.error();
         return samples_of(*std::move(bytes), *std::move(header), arrays[k], hints, true);
     }

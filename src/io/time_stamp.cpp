@@ -18,7 +18,7 @@ struct StampReader {
 
     static bool is_digit(char c) { return c >= '0' && c <= '9'; }
 
-    /// The number that the next digits form, at least `min_count` and at most `max_count`.
+    /// Reads at least `min_count` and at most `max_count` digits, and returns the number that they form.
     int digits(std::size_t min_count, std::size_t max_count) {
         std::size_t n = 0;
         int value = 0;

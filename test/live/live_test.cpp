@@ -65,7 +65,7 @@ TEST(Events, AreReadBackUnchangedInEveryFormat) {
             for (const auto& s : spikes)
                 expected[format->name() == "aedat2" ? std::to_string(3 * s.afferent_index) : named.names[s.afferent_index]].push_back(
                     clock.time(s.step, s.offset));
-            if (format->name() == "jsonl") {  // each line is a document
+            if (format->name() == "jsonl") {  // each line is a JSON object; its address is checked, too
                 std::ifstream in(path);
                 std::size_t k = 0;
                 for (std::string line; std::getline(in, line); ++k) {
@@ -99,7 +99,7 @@ TEST(Events, MicrosecondsOfAedatWrapAfterSeventyOneMinutesAndAreUnwrapped) {
     EXPECT_NEAR(trains[0].times.back(), 9000.001, 1e-6);
 }
 
-TEST(Events, AddressesOnChannelsAreChannelTimesClassesPlusClass) {
+TEST(Events, TheAddressOnAChannelIsChannelTimesNumberOfClassesPlusClass) {
     const auto skin = value_or_throw(innervate(value_or_throw(make_channel_plan("sa1,fa1", 3))));
     const auto afferents = make_event_addressing(*skin, {1000, 1});
     EXPECT_EQ(afferents.names, (std::vector<std::string>{"sa1#1", "sa1#2", "sa1#3", "fa1#1", "fa1#2", "fa1#3"}));
@@ -168,27 +168,28 @@ TEST(Events, TruncatedFilesAreRefused) {
 
 struct Decoded {
     std::vector<std::vector<double>> frames;
-    std::int64_t unreadable = 0;
-    std::size_t bad = 0;
+    std::int64_t unreadable_frames = 0;
+    std::size_t invalid_forces = 0;
     bool operator==(const Decoded&) const = default;
 };
 
-Decoded decoded(const FrameLayout& layout, std::string_view bytes, const std::vector<int>& sizes) {
+/// Decodes bytes that arrive in chunks of these sizes, which are repeated until all have arrived. Without sizes, the bytes arrive at once.
+Decoded decoded(const FrameLayout& layout, std::string_view bytes, const std::vector<int>& chunk_sizes) {
     FrameDecoder decoder(layout);
     Decoded out;
     std::vector<double> force(layout.sites);
     for (std::size_t k = 0; !bytes.empty(); ++k) {
         const auto buffer = decoder.buffer();
-        const auto size = sizes.empty() ? bytes.size() : static_cast<std::size_t>(sizes[k % sizes.size()]);
+        const auto size = chunk_sizes.empty() ? bytes.size() : static_cast<std::size_t>(chunk_sizes[k % chunk_sizes.size()]);
         const auto count = std::min({buffer.size(), size, bytes.size()});
         std::memcpy(buffer.data(), bytes.data(), count);
         decoder.add_bytes(count), bytes.remove_prefix(count);
         for (auto found = decoder.next(); found != FrameDecoder::Status::nothing; found = decoder.next()) {
             if (found == FrameDecoder::Status::unreadable) {
-                ++out.unreadable;
+                ++out.unreadable_frames;
                 continue;
             }
-            out.bad += decoder.read_forces(force);
+            out.invalid_forces += decoder.read_forces(force);
             out.frames.push_back(force);
         }
     }
@@ -212,10 +213,10 @@ TEST(Frames, DoNotDependOnTheChunksInWhichTheirBytesArrive) {
 TEST(Frames, ALineOfTheWrongWidthIsSkippedAndAnInvalidForceRepeatsTheLastOne) {
     FrameLayout layout;
     layout.sites = 2;
-    const auto d = decoded(layout, "a,b\n1,2\r\n3\n1,2,3\nx,4\n# said\n\n5 ; 1e9\n nan, -.5 \n", {});
+    const auto d = decoded(layout, "a,b\n1,2\r\n3\n1,2,3\nx,4\n# note\n\n5 ; 1e9\n nan, -.5 \n", {});
     EXPECT_EQ(d.frames, (std::vector<std::vector<double>>{{1, 2}, {1, 4}, {5, 4}, {5, -0.5}}));
-    EXPECT_EQ(d.unreadable, 2);
-    EXPECT_EQ(d.bad, 3U) << "x, 1e9 (beyond the limit), nan";
+    EXPECT_EQ(d.unreadable_frames, 2);
+    EXPECT_EQ(d.invalid_forces, 3U) << "x, 1e9 (beyond the limit), nan";
     const std::string endless(10'000'000, '7');
     EXPECT_EQ(decoded(layout, "1,2\n" + endless + "\n3,4\n", {}).frames.size(), 2U) << "an endless line takes no memory";
 }
@@ -227,12 +228,13 @@ TEST(Frames, AFirstLineOfNansIsAFrame) {
 }
 
 TEST(Frames, NumbersRevealMissingDuplicateAndLateFrames) {
-    FrameSequence sequence(2, 10);
+    constexpr std::int64_t hold = 2, max_gap = 10;  // frames
+    FrameSequence sequence(hold, max_gap);
     const auto decide = [&](std::uint32_t n) { return sequence.decide(n); };
     EXPECT_TRUE(decide(4294967295U).take) << "the first number starts the sequence";
     EXPECT_EQ(decide(0).hold, 0) << "it wraps at 2^32";
     EXPECT_FALSE(decide(0).take);
-    const auto gap = decide(5);
+    const auto gap = decide(5);  // 1 to 4 are missing
     EXPECT_EQ(gap.hold, 2);
     EXPECT_EQ(gap.release, 2);
     EXPECT_FALSE(decide(3).take);
@@ -262,6 +264,7 @@ std::vector<std::vector<double>> some_frames(std::size_t count, std::size_t site
     return frames;
 }
 
+/// The spikes of all frames, simulated in one block.
 std::vector<Spike> offline(const std::shared_ptr<const Innervation>& skin, const std::vector<std::vector<double>>& frames) {
     auto made = value_or_throw(Skin::make(skin, {.dt = 1e-3}, *instruction_set()));
     std::vector<double> force(skin->plan.sites.size() * frames.size());
@@ -336,7 +339,7 @@ TEST(SkinStream, AStateOfThePreviousVersionIsReadAndALaterOneRefused) {
 
 TEST(ByteRing, PassesCompleteEventsInOrderBetweenThreads) {
     ByteRing ring(64);
-    std::uint32_t next = 0, dropped = 0;
+    std::uint32_t last_read = 0;
     std::thread reader([&] {
         std::string received;
         std::uint32_t last = 0;
@@ -346,31 +349,31 @@ TEST(ByteRing, PassesCompleteEventsInOrderBetweenThreads) {
             for (; received.size() >= sizeof last; received.erase(0, sizeof last)) {
                 std::uint32_t number = 0;
                 std::memcpy(&number, received.data(), sizeof number);
-                if (number <= last) return;  // out of order: `next` stays 0, and the test fails
+                if (number <= last) return;  // out of order: `last_read` stays 0, and the test fails
                 last = number;
             }
         }
-        next = last;
+        last_read = last;
     });
     for (std::uint32_t k = 1; k <= 1'000'000; ++k)
         while (!ring.put({reinterpret_cast<const char*>(&k), sizeof k}))
-            if (k < 1'000'000 && ++dropped) break;
+            if (k < 1'000'000) break;  // a number that does not fit is dropped; the last one is tried until it fits
     reader.join();
-    EXPECT_EQ(next, 1'000'000U);
+    EXPECT_EQ(last_read, 1'000'000U);
 }
 
 TEST(EventSink, AReaderIsReconnectedWithoutTheNameService) {
-    Endpoint at;
-    auto listener = value_or_throw(open_listening_socket(at));
+    Endpoint endpoint;
+    auto listener = value_or_throw(open_listening_socket(endpoint));
     const auto accepted = [&] {
         pollfd waiting = {listener.get(), POLLIN, 0};
         EXPECT_EQ(::poll(&waiting, 1, 10000), 1);
         return Descriptor(::accept(listener.get(), nullptr, nullptr));
     };
-    auto to = value_or_throw(resolve(at));
-    to.at.address = "robot.invalid";  // a name that cannot be resolved
+    auto resolved = value_or_throw(resolve(endpoint));
+    resolved.at.address = "robot.invalid";  // a name that cannot be resolved
     const auto format = value_or_throw(make_event_format("lines", {Clock{1000, 1}, {"a"}, {}}));
-    const auto client = value_or_throw(connect_event_client(to, *format, 1024));
+    const auto client = value_or_throw(connect_event_client(resolved, *format, 1024));
     accepted().close();
     const auto start = steady_now();
     std::int64_t longest_call = 0;

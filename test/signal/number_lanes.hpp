@@ -1,15 +1,13 @@
 #pragma once
-// The functions of number.hpp and elementary.hpp on SIMD lanes, with one evaluation for each instruction set; inputs and outputs are
-// arrays.
+// The functions of number.hpp and elementary.hpp on the lanes of each instruction set: arrays in, arrays out.
 
 #include <cstddef>
 
 namespace corpuscle::test {
 
-inline constexpr std::size_t function_count = 15;  ///< in the order of number_functions.hpp
+inline constexpr std::size_t function_count = 15;
 
-/// out[f][k] = function f of a[k] and b[k]. `count`, the length of the arrays, must be a multiple of 16; all arrays must be aligned to 64
-/// bytes.
+/// out[f][k] = function f of a[k] and b[k]. count must be a multiple of 16, and all arrays aligned to 64 bytes.
 template <class V>
 using NumberFunctions = void (*)(const V* a, const V* b, std::size_t count, V* const (&out)[function_count]);
 

@@ -38,7 +38,7 @@ void run_sweep_of(const Sweep& sweep, const std::string& path, const SweepRunOpt
     SweepProgress count;
     const auto ok = run_sweep(sweep, results, options, count);
     if (!ok) throw std::runtime_error(ok.error().text());
-    if (const auto folded = results.checkpoint(); !folded) throw std::runtime_error(folded.error().text());
+    if (const auto written = results.checkpoint(); !written) throw std::runtime_error(written.error().text());
 }
 
 TEST(SweepResults, AreReadBackAsWrittenAndEndAsOneFile) {
@@ -63,8 +63,10 @@ TEST(SweepResults, AreReadBackAsWrittenAndEndAsOneFile) {
         EXPECT_EQ(row.steps, o.steps);
         EXPECT_EQ(row.ran_alone, o.ran_alone);
         EXPECT_EQ(row.axes, sweep.values(item));
-        for (std::size_t k = 0; k < row.measures.size(); ++k)
-            EXPECT_TRUE(o.measures.empty() || std::isnan(o.measures[k]) ? std::isnan(row.measures[k]) : row.measures[k] == o.measures[k]);
+        for (std::size_t k = 0; k < row.measures.size(); ++k) {
+            const double expected = o.measures.empty() ? std::nan("") : o.measures[k];
+            EXPECT_TRUE(std::isnan(expected) ? std::isnan(row.measures[k]) : row.measures[k] == expected);
+        }
         for (std::size_t t = 0; t < 2; ++t)
             EXPECT_EQ(value_or_throw(results.spikes(item, t)), o.spikes.empty() ? std::vector<double>{} : o.spikes[t]);
         EXPECT_EQ(value_or_throw(results.probe_samples(item, 0)), o.probes.empty() ? std::vector<float>{} : o.probes[0]);
@@ -112,7 +114,7 @@ std::int64_t check_prefix(const std::string& path, const std::string& complete) 
     return results.finished_count();
 }
 
-TEST(SweepResults, KilledAtAnyMomentKeepFinishedItemsAndAreCompletedByTheSameCommand) {
+TEST(SweepResults, OfARunKilledAtAnyMomentKeepFinishedItemsAndAreCompletedByTheSameCommand) {
     const TemporaryFolder folder;
     const PlainSweep sweep(300, "x", item_time);
     const SweepRunOptions options{.threads = 2, .write_interval = write_interval};
@@ -156,7 +158,7 @@ TEST(SweepResults, KilledAtAnyMomentKeepFinishedItemsAndAreCompletedByTheSameCom
     EXPECT_GT(killed_midway, 5) << "some runs must have been killed between the first and the last row";
 }
 
-TEST(SweepResults, CopiesTakenAtAnyMomentAreComplete) {
+TEST(SweepResults, CopiesTakenAtAnyMomentHoldAllRowsUpToSomeItem) {
     const TemporaryFolder folder;
     const PlainSweep sweep(800, "x", item_time);
     run_sweep_of(PlainSweep(800, "x"), folder / "whole.sqlite", {.threads = 1});
@@ -165,21 +167,22 @@ TEST(SweepResults, CopiesTakenAtAnyMomentAreComplete) {
     const auto id = child([&] { run_sweep_of(sweep, path, {.threads = 1, .write_interval = write_interval}); });
     while (!fs::exists(path)) std::this_thread::sleep_for(std::chrono::milliseconds(1));
     std::mt19937 random(2);
-    std::vector<std::pair<std::string, bool>> copies;
+    std::vector<std::string> copies;  // every second one with its -wal
     for (int k = 0; ::waitpid(id, nullptr, WNOHANG) == 0; ++k) {
-        copies.emplace_back(folder / fmt::format("copy{}.sqlite", k), k % 2 == 0);
-        copy(path, copies.back().first);
-        if (k % 2 == 0) copy(path + "-wal", copies.back().first + "-wal");
+        copies.push_back(folder / fmt::format("copy{}.sqlite", k));
+        copy(path, copies.back());
+        if (k % 2 == 0) copy(path + "-wal", copies.back() + "-wal");
         std::this_thread::sleep_for(std::chrono::microseconds(random() % 8000));
     }
     ASSERT_GT(copies.size(), 10u);
-    std::int64_t max_size = 0;
-    for (const auto& [copied, with_wal] : copies) max_size = std::max(max_size, check_prefix(copied, complete));
-    EXPECT_GT(max_size, 200);
+    std::int64_t max_rows = 0;
+    for (const auto& copied : copies) max_rows = std::max(max_rows, check_prefix(copied, complete));
+    EXPECT_GT(max_rows, 200);
     EXPECT_EQ(dump_of(path), complete);
 }
 
-TEST(SweepResults, ANewFileWithTheWalOfTheOldOneHasTheSameRows) {
+// A checkpoint first replaces the file by a new one, then removes the -wal of the old one.
+TEST(SweepResults, OfARunKilledDuringACheckpointHaveAllRows) {
     const TemporaryFolder folder;
     const PlainSweep sweep(300);
     const auto path = folder / "r.sqlite";
