@@ -117,7 +117,8 @@ TEST(VictorPurpura, AHundredThousandSpikesTakeUnderASecondAndTooManyPairsAreRefu
     EXPECT_GT(aligned.moved.size(), 50'000U);
     const auto refused = victor_purpura(a, b, 1e-4);
     ASSERT_FALSE(refused);
-    EXPECT_EQ(refused.error().message.substr(0, 117), "at a cost of 0.0001 per second, trains of 100000 and 100000 spikes have 10000000000 pairs that could be moved to each");
+    EXPECT_EQ(refused.error().message.substr(0, 117),
+              "at a cost of 0.0001 per second, trains of 100000 and 100000 spikes have 10000000000 pairs that could be moved to each");
 }
 
 // 25 million pairs; the decisions for only 4 million of them are stored at once.
