@@ -219,8 +219,9 @@ std::optional<double> rate_at(hid_t object) {
     return {};
 }
 
-/// The sampling rate (Hz) of the dataset `name`, from its attributes if they have it. The next source is another dataset of its group: NWB's
-/// starting_time, or a single number with the name of a rate. The last are the attributes of the enclosing groups, the innermost first.
+/// The sampling rate (Hz) of the dataset `name`, from its attributes if they have it. The next source is another dataset of its group:
+/// NWB's starting_time, or a single number with the name of a rate. The last are the attributes of the enclosing groups, the innermost
+/// first.
 std::optional<double> rate_of(hid_t file, const std::string& name, std::span<const ArrayInfo> arrays) {
     if (const auto dataset = hdf5::open_dataset(file, name))
         if (const auto rate = rate_at(dataset)) return rate;

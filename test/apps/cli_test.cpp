@@ -262,7 +262,8 @@ TEST(Program, ListNamesEveryParameterOfEveryModel) {
             for (const auto& row : entry.parameters)
                 EXPECT_NE(text.find(std::string(row.description)), std::string::npos) << entry.name << '.' << row.name;
             for (const auto& row : entry.parameters)
-                EXPECT_NE(text.find("\n    " + std::string(row.name) + " "), std::string::npos) << entry.name << '.' << row.name << " is not indented";
+                EXPECT_NE(text.find("\n    " + std::string(row.name) + " "), std::string::npos)
+                    << entry.name << '.' << row.name << " is not indented";
         }
     EXPECT_EQ(run_program(folder, "list neuron").err, "corpuscle: list: there is no 'neuron'; did you mean 'neurons'?\n");
     EXPECT_NE(run_program(folder, "list sa1 press").out.find("half-cosine"), std::string::npos);

@@ -11,8 +11,8 @@ namespace {
 struct BiasSettings {
     std::string section = "tt";
     double I = 200e-9, supply = 0.7, celsius = 27;  ///< A, V, C
-    std::string directives = "";                  ///< lines to add
-    double shift = 0;  ///< shift of both thresholds, V
+    std::string directives = "";                    ///< lines to add
+    double shift = 0;                               ///< shift of both thresholds, V
 };
 
 std::string text_of(const BiasSettings& settings) {

@@ -124,8 +124,7 @@ TEST(ClosedForm, AWheatstoneBridgeMatchesItsTheveninEquivalent) {
 TEST(ClosedForm, AnAmplifierOfControlledSourcesHasItsGainAndResistances) {
     // a degenerated transconductance: v_in across r_pi drives g_m into r_e
     const double r_s = 600, r_pi = 10e3, g_m = 20e-3, r_e = 100, r_c = 5e3;
-    const auto run =
-        run_netlist("degenerated\nv1 in 0 1\nrs in b 600\nrpi b e 10k\nre e 0 100\ng1 c e b e 20m\nrc c 0 5k\n.tf v(c) v1\n");
+    const auto run = run_netlist("degenerated\nv1 in 0 1\nrs in b 600\nrpi b e 10k\nre e 0 100\ng1 c e b e 20m\nrc c 0 5k\n.tf v(c) v1\n");
     const double in = r_pi + (1 + g_m * r_pi) * r_e;
     EXPECT_NEAR(run.number("transfer_function"), -g_m * r_pi * r_c / (r_s + in), 1e-9);
     EXPECT_NEAR(run.number("v1#input_impedance"), r_s + in, 1e-6);

@@ -26,7 +26,7 @@ test::LoadedRecording read_logged(const TemporaryFolder& folder, const std::stri
 }
 
 std::string error_of(const TemporaryFolder& folder, const std::string& text, const RecordingOptions& options = {},
-                           const std::string& name = "x.csv") {
+                     const std::string& name = "x.csv") {
     return test::load_error(folder.write(name, text), options);
 }
 
@@ -245,8 +245,7 @@ TEST(LoggerFiles, ColumnsInOtherUnitsBesideAForceAreIgnoredAndCounted) {
     EXPECT_EQ(r.names, std::vector<std::string>{"Load"});
     EXPECT_TRUE(has_note(r, "'Extension' was ignored: mm is not a unit of force"));
     EXPECT_NE(error_of(folder, "time_s,load_%\n0,1\n1,2\n").find("'load' is in %, which is not a force"), std::string::npos);
-    EXPECT_NE(error_of(folder, "time_s,Load (g)\n0,1\n1,2\n").find("'Load' is in g, which is a mass; use --unit gf"),
-              std::string::npos);
+    EXPECT_NE(error_of(folder, "time_s,Load (g)\n0,1\n1,2\n").find("'Load' is in g, which is a mass; use --unit gf"), std::string::npos);
     EXPECT_NEAR(load_recording(folder / "x.csv", {.unit = "gf"}).force[0][1], 2 * 9.80665e-3, 1e-9) << "the remedy";
     std::string heading = "time_s,F_N", first = "0,1", second = "1,2";
     for (int k = 0; k < 31; ++k) heading += fmt::format(",T{}_degC", k), first += ",20", second += ",20";
@@ -387,9 +386,9 @@ TEST(LoggerFiles, DatesAndTimesOfDayAreRead) {
 TEST(LoggerFiles, TimesThatCannotBeReadNameTheRemedyThatWorks) {
     const TemporaryFolder folder;
     const std::string text = "time,F_N\n03/01/2026 12:00,1\n03/01/2026 12:01,2\n";
-    EXPECT_NE(error_of(folder, text)
-                  .find("'03/01/2026 12:00' where a number is expected; use --rate, such as --rate 1kHz, to take the rows"),
-              std::string::npos);
+    EXPECT_NE(
+        error_of(folder, text).find("'03/01/2026 12:00' where a number is expected; use --rate, such as --rate 1kHz, to take the rows"),
+        std::string::npos);
     EXPECT_EQ(load_recording(folder / "x.csv", {.rate = 1000}).force[0].size(), 2U);
     EXPECT_NE(error_of(folder, "time,F_N\n12:00:00.0,1\n12:00:00.1,2\n", {.time_unit = "ms"}).find("have no unit; omit the option"),
               std::string::npos);
@@ -459,8 +458,7 @@ TEST(LoggerFiles, ATruncatedOrDamagedTableIsNotTakenForAPreamble) {
     EXPECT_NE(error_of(folder, "t,F\n" + table + "0.2").find("x.csv:22: 1 columns where 2 are expected"), std::string::npos);
     EXPECT_NE(error_of(folder, "t,F\n0,1\n\n0.1,2,3\n0.2,3,4\n0.3,4,5\n").find("x.csv:4: 3 columns where 2 are expected"),
               std::string::npos);
-    EXPECT_NE(error_of(folder, "time,force\n0,1,5\n0.1,2,6\n0.2,2,6\n").find("x.csv:2: 3 columns where 2 are expected"),
-              std::string::npos);
+    EXPECT_NE(error_of(folder, "time,force\n0,1,5\n0.1,2,6\n0.2,2,6\n").find("x.csv:2: 3 columns where 2 are expected"), std::string::npos);
 }
 
 TEST(LoggerFiles, LabviewTablesAreReadWithTheirClockUnitsAndComments) {
@@ -609,8 +607,7 @@ TEST(LoggerFiles, GzipIsDecompressedInChunksAndDamageIsReported) {
 
 TEST(LoggerFiles, AGzipBombIsRefusedAtTheLimitOfALine) {
     const TemporaryFolder folder;
-    EXPECT_NE(error_of(folder, gzipped(std::string(80'000'000, '1')), {}, "x.gz").find("the line is longer than 64 MB"),
-              std::string::npos);
+    EXPECT_NE(error_of(folder, gzipped(std::string(80'000'000, '1')), {}, "x.gz").find("the line is longer than 64 MB"), std::string::npos);
 }
 
 std::string utf16(const std::string& ascii, bool big, bool mark) {
@@ -681,8 +678,7 @@ TEST(LoggerFiles, JsonThatIsNotATableIsRefusedWithItsLocation) {
         {"[{\"t\":0,\"F\":1},{\"t\":1,", "this JSON is not valid"},
     };
     for (const auto& [text, message] : cases)
-        EXPECT_NE(error_of(folder, text, {}, "x.json").find(message), std::string::npos)
-            << error_of(folder, text, {}, "x.json");
+        EXPECT_NE(error_of(folder, text, {}, "x.json").find(message), std::string::npos) << error_of(folder, text, {}, "x.json");
     folder.write("x.json", "{\"t\":0,\"F\":1}\n{\"t\":1,\"F\":null}\n{\"t\":2,\"F\":3}\n");
     EXPECT_EQ(load_recording(folder / "x.json", {.bad_fields = BadFields::interpolate}).force[0], (std::vector<double>{1, 2, 3}));
 }
@@ -761,7 +757,7 @@ TEST(LoggerFiles, AMatlabVectorOfTimesBesideTheForceIsItsClock) {
         return bytes;
     };
     const auto archive = make_archive({{"t_s.npy", test::npy_bytes("'<f8'", "(1, 50)", doubles(50, 0.01))},
-                                    {"force_N.npy", test::npy_bytes("'<f8'", "(1, 50)", doubles(50, 0.1))}});
+                                       {"force_N.npy", test::npy_bytes("'<f8'", "(1, 50)", doubles(50, 0.1))}});
     const auto read = load_recording(folder.write("m.npz", test::value_or_throw(archive)));
     EXPECT_NEAR(read.clock.rate(), 100, 1e-6);
     EXPECT_EQ(read.force[0][10], 1);

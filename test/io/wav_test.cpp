@@ -17,9 +17,9 @@ struct SampleFormat {
 
 TEST(Wav, EverySampleFormatIsReadAsItWasWritten) {
     const SampleFormat sample_formats[] = {{"x.wav", SF_FORMAT_WAV | SF_FORMAT_PCM_16},   {"x.wav", SF_FORMAT_WAV | SF_FORMAT_PCM_24},
-                            {"x.w64", SF_FORMAT_W64 | SF_FORMAT_PCM_32},   {"x.wav", SF_FORMAT_WAV | SF_FORMAT_FLOAT},
-                            {"x.wav", SF_FORMAT_WAV | SF_FORMAT_DOUBLE},   {"x.flac", SF_FORMAT_FLAC | SF_FORMAT_PCM_24},
-                            {"x.aiff", SF_FORMAT_AIFF | SF_FORMAT_PCM_16}, {"x.au", SF_FORMAT_AU | SF_FORMAT_PCM_16}};
+                                           {"x.w64", SF_FORMAT_W64 | SF_FORMAT_PCM_32},   {"x.wav", SF_FORMAT_WAV | SF_FORMAT_FLOAT},
+                                           {"x.wav", SF_FORMAT_WAV | SF_FORMAT_DOUBLE},   {"x.flac", SF_FORMAT_FLAC | SF_FORMAT_PCM_24},
+                                           {"x.aiff", SF_FORMAT_AIFF | SF_FORMAT_PCM_16}, {"x.au", SF_FORMAT_AU | SF_FORMAT_PCM_16}};
     EXPECT_TRUE(rc::check("round trip", [&] {
         const auto& sample_format = *rc::gen::elementOf(std::vector(std::begin(sample_formats), std::end(sample_formats)));
         const auto rows = *rc::gen::inRange<std::size_t>(2, 200), columns = *rc::gen::inRange<std::size_t>(1, 4);

@@ -87,8 +87,8 @@ TEST(SilenceDetector, APopulationWithoutFeltAreaGetsTheAreaThatMakesItFire) {
     const auto silent = run_program(folder, "respond press --population own.toml --json");
     EXPECT_EQ(spikes_of(silent), 0);
     const auto area = first_group(silent.err,
-                            "warning: no afferent fired: sa1 received at most 0.0[0-9]+ N, and needs about 0.[0-9]+ N .*; set "
-                            "felt_area = \"([0-9.]+ cm2)\" in own.toml");
+                                  "warning: no afferent fired: sa1 received at most 0.0[0-9]+ N, and needs about 0.[0-9]+ N .*; set "
+                                  "felt_area = \"([0-9.]+ cm2)\" in own.toml");
     ASSERT_FALSE(area.empty()) << silent.err;
     EXPECT_NE(nlohmann::json::parse(silent.out)["warnings"][0].get<std::string>().find("no afferent fired"), std::string::npos);
     folder.write("own.toml", "felt_area = \"" + area + "\"\n" + skin_patch);

@@ -33,7 +33,8 @@ struct Fsr {
 
     /// The conductance in S at force F in N.
     static double conductance(const Params& p, double F) {
-        constexpr double newtons_per_gf = 9.80665e-3, smallest_gf = 1e-300;  // a smaller force may be denormal, which num::log() does not accept
+        constexpr double newtons_per_gf = 9.80665e-3,
+                         smallest_gf = 1e-300;  // a smaller force may be denormal, which num::log() does not accept
         const double gf = F / newtons_per_gf;
         return 1 / p.R_0 + (gf > smallest_gf ? num::exp(p.m * num::log(num::min(gf, 1e300))) / p.R_1gf : 0);
     }

@@ -21,7 +21,9 @@ std::string improved_cell_with_bulks(const std::string& bulk, const std::string&
         bulk, drain);
 }
 
-std::string improved_cell(const std::string& drain) { return improved_cell_with_bulks("tb", drain) + "mn3 vz vdd tb tb nch w=1.5u l=0.5u m=8\n"; }
+std::string improved_cell(const std::string& drain) {
+    return improved_cell_with_bulks("tb", drain) + "mn3 vz vdd tb tb nch w=1.5u l=0.5u m=8\n";
+}
 
 std::string improved_cell_with_diode() { return improved_cell("d") + "mp3a d d if if pch w=6u l=0.5u m=8 stack=2\n"; }
 
