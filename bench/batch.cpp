@@ -17,8 +17,8 @@
 #include <string>
 
 #include "circuit/batch/chip_batch.hpp"
-#include "circuit/embedded_netlists.hpp"
-#include "signal/stimuli.hpp"
+#include "circuit/variant/embedded_netlists.hpp"
+#include "core/stimulus/stimuli.hpp"
 
 namespace {
 

@@ -5,7 +5,7 @@
 //
 // Default: 64 chips, 4 bits, seed 1. TRIM: i_leak, i_biasb or gain; default: the three together, then each alone.
 //
-// Method: study/sweep/calibrate.hpp. The limits enclose the model's spikes (FiringLimits::around). Output: the limits, then for each
+// Method: sweep/calibrate/calibrate.hpp. The limits enclose the model's spikes (FiringLimits::around). Output: the limits, then for each
 // set of trims the number of chips within the limits without trims and with at most 1, 2 ... bits, and the number of presses. For sets of
 // three trims, also a line for each chip.
 
@@ -17,9 +17,9 @@
 #include <cstring>
 #include <string>
 
-#include "circuit/netlist_variants.hpp"
+#include "circuit/variant/netlist_variants.hpp"
 #include "corpuscle.hpp"
-#include "study/sweep/calibrate.hpp"
+#include "sweep/calibrate/calibrate.hpp"
 
 namespace {
 

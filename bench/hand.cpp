@@ -19,9 +19,9 @@
 #include <filesystem>
 #include <functional>
 
-#include "signal/random.hpp"
-#include "signal/stimuli.hpp"
-#include "study/skin_events_file.hpp"
+#include "core/random.hpp"
+#include "core/stimulus/stimuli.hpp"
+#include "run/sinks/skin_events_file.hpp"
 
 namespace {
 

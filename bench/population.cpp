@@ -26,7 +26,7 @@
 
 #include "model/lane_population.hpp"
 #include "model/lanes/aligned_buffer.hpp"
-#include "signal/stimuli.hpp"
+#include "core/stimulus/stimuli.hpp"
 
 namespace {
 

@@ -18,8 +18,8 @@
 #include <filesystem>
 #include <functional>
 
-#include "io/recording.hpp"
-#include "io/text_table.hpp"
+#include "io/recording/recording.hpp"
+#include "io/text/text_table.hpp"
 
 namespace {
 

@@ -16,7 +16,7 @@
 
 #include "circuit/analysis/initial_condition.hpp"
 #include "circuit/device/uicm_card.hpp"
-#include "circuit/netlist_variants.hpp"
+#include "circuit/variant/netlist_variants.hpp"
 
 namespace {
 

@@ -8,7 +8,7 @@
 #include <benchmark/benchmark.h>
 
 #include "model/catalog.hpp"
-#include "signal/stimuli.hpp"
+#include "core/stimulus/stimuli.hpp"
 
 namespace {
 

@@ -13,10 +13,10 @@
 #include <filesystem>
 #include <random>
 
-#include "study/sweep/rank_messages.hpp"
-#include "study/sweep/ranks.hpp"
-#include "study/sweep/sqlite.hpp"
-#include "study/sweep/sweep_results.hpp"
+#include "sweep/parallel/rank_messages.hpp"
+#include "run/ranks.hpp"
+#include "sweep/store/sqlite.hpp"
+#include "sweep/store/sweep_results.hpp"
 
 namespace {
 

@@ -15,7 +15,7 @@
 #include "circuit/device/uicm_card.hpp"
 #include "circuit/uicm_lanes.hpp"
 #include "circuit/uicm_values.hpp"
-#include "signal/random.hpp"
+#include "core/random.hpp"
 
 namespace {
 

@@ -19,10 +19,10 @@
 
 #include "circuit/batch/chip_batch.hpp"
 #include "circuit/device/uicm_card.hpp"
-#include "circuit/netlist_overrides.hpp"
+#include "circuit/variant/netlist_overrides.hpp"
 #include "corpuscle.hpp"
-#include "signal/thread_pool.hpp"
-#include "study/sweep/firing_limits.hpp"
+#include "core/thread_pool.hpp"
+#include "sweep/subject/firing_limits.hpp"
 
 namespace {
 

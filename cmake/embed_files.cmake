@@ -1,5 +1,5 @@
 # Embeds text files in a library as bytes, found by their paths.
-#   embed_files(TARGET pattern...): the files that match, relative to the project's root. signal/embedded_files.cpp returns their text.
+#   embed_files(TARGET pattern...): the files that match, relative to the project's root. core/text/embedded_files.cpp returns their text.
 function(embed_files target)
   set(assembly ".section .rodata\n")
   set(declarations "")
@@ -24,5 +24,5 @@ function(embed_files target)
 namespace corpuscle {\nstruct EmbeddedFile { std::string_view path; const char *begin, *end; };\ninline const EmbeddedFile embedded_file_table[] = {\n${rows}};\n}\n" @ONLY)
   set_source_files_properties(${generated}/embedded_files.S PROPERTIES OBJECT_DEPENDS "${embedded}" SKIP_PRECOMPILE_HEADERS ON)
   target_sources(${target} PRIVATE ${generated}/embedded_files.S)
-  set_source_files_properties(signal/embedded_files.cpp PROPERTIES INCLUDE_DIRECTORIES ${generated})
+  set_source_files_properties(core/text/embedded_files.cpp PROPERTIES INCLUDE_DIRECTORIES ${generated})
 endfunction()

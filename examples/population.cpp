@@ -4,7 +4,7 @@
 #include <cstdio>
 
 #include "model/lane_population.hpp"
-#include "signal/stimuli.hpp"
+#include "core/stimulus/stimuli.hpp"
 
 int main() {
     using namespace corpuscle;

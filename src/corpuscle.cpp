@@ -1,8 +1,8 @@
 #include "corpuscle.hpp"
 
 #include "measure/measures.hpp"
-#include "signal/stimuli.hpp"
-#include "study/afferent_plan.hpp"
+#include "core/stimulus/stimuli.hpp"
+#include "run/afferent_plan.hpp"
 
 namespace corpuscle {
 namespace {

@@ -1,16 +1,16 @@
 // corpuscle compare: compares two spike files, train by train.
 
-#include "study/train_comparison.hpp"
+#include "run/compare/train_comparison.hpp"
 
 #include <fmt/format.h>
 #include <cmath>
 #include <cstdio>
 #include <nlohmann/json.hpp>
 
-#include "printable.hpp"
-#include "signal/quantity.hpp"
-#include "terminal.hpp"
-#include "verbs.hpp"
+#include "cli/output/printable.hpp"
+#include "core/text/quantity.hpp"
+#include "cli/output/terminal.hpp"
+#include "cli/verbs.hpp"
 
 namespace corpuscle {
 namespace {

@@ -1,10 +1,10 @@
-#include "help.hpp"
+#include "cli/help.hpp"
 
 #include <fmt/format.h>
 #include <algorithm>
 
-#include "renamed_arguments.hpp"
-#include "signal/parameter.hpp"
+#include "cli/arguments/renamed_arguments.hpp"
+#include "core/parameter.hpp"
 
 namespace corpuscle {
 namespace {

@@ -5,9 +5,9 @@
 #include <nlohmann/json.hpp>
 #include <numeric>
 
-#include "io/spike_files.hpp"
-#include "list_entry.hpp"
-#include "signal/quantity.hpp"
+#include "io/spikes/spike_files.hpp"
+#include "cli/list_entry.hpp"
+#include "core/text/quantity.hpp"
 #include "skin/contact/contact.hpp"
 #include "skin/contact/indenters.hpp"
 #include "skin/innervation.hpp"

@@ -9,16 +9,16 @@
 #include <system_error>
 
 #include "circuit/analyses.hpp"
-#include "force_argument.hpp"
-#include "help.hpp"
+#include "cli/arguments/force_argument.hpp"
+#include "cli/help.hpp"
 #include "model/copies.hpp"
-#include "option_groups.hpp"
-#include "signal/version.hpp"
-#include "stream_verbs.hpp"
-#include "study/studies.hpp"
-#include "sweep_verbs.hpp"
-#include "terminal.hpp"
-#include "verbs.hpp"
+#include "cli/arguments/option_groups.hpp"
+#include "core/version.hpp"
+#include "cli/stream_verbs.hpp"
+#include "reproduction/claims/studies.hpp"
+#include "cli/sweep_verbs.hpp"
+#include "cli/output/terminal.hpp"
+#include "cli/verbs.hpp"
 
 namespace {
 

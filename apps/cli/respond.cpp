@@ -9,20 +9,20 @@
 #include <map>
 #include <nlohmann/json.hpp>
 
-#include "force_argument.hpp"
-#include "implementations_table.hpp"
-#include "netlist_arguments.hpp"
-#include "printable.hpp"
-#include "recording_arguments.hpp"
-#include "respond_outputs.hpp"
-#include "signal/ascii_text.hpp"
-#include "signal/quantity.hpp"
-#include "study/afferent_plan.hpp"
-#include "study/nerve_limit.hpp"
-#include "study/run_summary.hpp"
-#include "study/silent_afferents.hpp"
-#include "terminal.hpp"
-#include "verbs.hpp"
+#include "cli/arguments/force_argument.hpp"
+#include "cli/output/implementations_table.hpp"
+#include "cli/arguments/netlist_arguments.hpp"
+#include "cli/output/printable.hpp"
+#include "cli/arguments/recording_arguments.hpp"
+#include "cli/output/respond_outputs.hpp"
+#include "core/text/ascii_text.hpp"
+#include "core/text/quantity.hpp"
+#include "run/afferent_plan.hpp"
+#include "run/summary/nerve_limit.hpp"
+#include "run/summary/run_summary.hpp"
+#include "run/summary/silent_afferents.hpp"
+#include "cli/output/terminal.hpp"
+#include "cli/verbs.hpp"
 
 namespace corpuscle {
 namespace {

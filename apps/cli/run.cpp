@@ -6,19 +6,19 @@
 #include <nlohmann/json.hpp>
 #include <optional>
 
-#include "budget_tables.hpp"
+#include "cli/output/budget_tables.hpp"
 #include "circuit/analyses.hpp"
 #include "circuit/cost/cost_meter.hpp"
-#include "circuit/netlist_variants.hpp"
-#include "circuit/resolve_probe.hpp"
+#include "circuit/variant/netlist_variants.hpp"
+#include "circuit/output/resolve_probe.hpp"
 #include "circuit/run_directives.hpp"
-#include "curve_files.hpp"
-#include "netlist_arguments.hpp"
-#include "printable.hpp"
-#include "study/cost_document.hpp"
-#include "study/json_number.hpp"
-#include "terminal.hpp"
-#include "verbs.hpp"
+#include "cli/output/curve_files.hpp"
+#include "cli/arguments/netlist_arguments.hpp"
+#include "cli/output/printable.hpp"
+#include "run/summary/cost_document.hpp"
+#include "run/summary/json_number.hpp"
+#include "cli/output/terminal.hpp"
+#include "cli/verbs.hpp"
 
 namespace corpuscle {
 namespace {

@@ -7,20 +7,20 @@
 #include <nlohmann/json.hpp>
 #include <utility>
 
-#include "io/output_check.hpp"
+#include "io/output/output_check.hpp"
 #include "live/live_population.hpp"
-#include "live/site_frames.hpp"
+#include "live/input/site_frames.hpp"
 #include "live/stream_state.hpp"
-#include "own_files.hpp"
-#include "printable.hpp"
-#include "signal/input_files.hpp"
-#include "skin/class_overrides.hpp"
-#include "skin/site_map.hpp"
-#include "stream_input.hpp"
-#include "stream_report.hpp"
-#include "study/skin_run.hpp"
-#include "terminal.hpp"
-#include "verbs.hpp"
+#include "cli/arguments/own_files.hpp"
+#include "cli/output/printable.hpp"
+#include "core/text/input_files.hpp"
+#include "skin/plan/class_overrides.hpp"
+#include "skin/plan/site_map.hpp"
+#include "cli/stream_input.hpp"
+#include "cli/output/stream_report.hpp"
+#include "run/skin/skin_run.hpp"
+#include "cli/output/terminal.hpp"
+#include "cli/verbs.hpp"
 
 namespace corpuscle {
 namespace {

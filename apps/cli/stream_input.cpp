@@ -1,14 +1,14 @@
-#include "stream_input.hpp"
+#include "cli/stream_input.hpp"
 
 #include <fmt/format.h>
 #include <charconv>
 
-#include "force_argument.hpp"
-#include "io/column_selection.hpp"
-#include "recording_arguments.hpp"
-#include "signal/quantity.hpp"
-#include "signal/stimuli.hpp"
-#include "terminal.hpp"
+#include "cli/arguments/force_argument.hpp"
+#include "io/recording/column_selection.hpp"
+#include "cli/arguments/recording_arguments.hpp"
+#include "core/text/quantity.hpp"
+#include "core/stimulus/stimuli.hpp"
+#include "cli/output/terminal.hpp"
 
 namespace corpuscle {
 namespace {

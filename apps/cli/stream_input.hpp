@@ -5,11 +5,11 @@
 #include <span>
 #include <string>
 
-#include "io/recording.hpp"
-#include "live/byte_source.hpp"
-#include "live/frame_layout.hpp"
-#include "signal/parameter_override.hpp"
-#include "verbs.hpp"
+#include "io/recording/recording.hpp"
+#include "live/input/byte_source.hpp"
+#include "live/input/frame_layout.hpp"
+#include "core/parameter_override.hpp"
+#include "cli/verbs.hpp"
 
 namespace corpuscle {
 

@@ -1,9 +1,9 @@
-#include "stream_verbs.hpp"
+#include "cli/stream_verbs.hpp"
 
 #include <CLI/CLI.hpp>
 
-#include "option_groups.hpp"
-#include "sweep_verbs.hpp"
+#include "cli/arguments/option_groups.hpp"
+#include "cli/sweep_verbs.hpp"
 
 namespace corpuscle {
 namespace {

@@ -1,7 +1,7 @@
 #pragma once
 // The command-line options of `corpuscle stream`.
 
-#include "verbs.hpp"
+#include "cli/verbs.hpp"
 
 namespace CLI {
 class App;

@@ -6,16 +6,16 @@
 #include <cstdlib>
 #include <nlohmann/json.hpp>
 
-#include "io/output_check.hpp"
-#include "output_files.hpp"
-#include "own_files.hpp"
-#include "report/study_page.hpp"
-#include "signal/parameter.hpp"
-#include "study/earlier_outputs.hpp"
-#include "study/studies.hpp"
-#include "study/study_document.hpp"
-#include "terminal.hpp"
-#include "verbs.hpp"
+#include "io/output/output_check.hpp"
+#include "cli/output/output_files.hpp"
+#include "cli/arguments/own_files.hpp"
+#include "report/study/study_page.hpp"
+#include "core/parameter.hpp"
+#include "run/earlier_outputs.hpp"
+#include "reproduction/claims/studies.hpp"
+#include "reproduction/claims/study_document.hpp"
+#include "cli/output/terminal.hpp"
+#include "cli/verbs.hpp"
 
 namespace corpuscle {
 namespace {

@@ -6,13 +6,13 @@
 #include <filesystem>
 #include <nlohmann/json.hpp>
 
-#include "printable.hpp"
-#include "study/sweep/dump.hpp"
-#include "study/sweep/rank_run.hpp"
-#include "study/sweep/writer_lock.hpp"
-#include "sweep_status.hpp"
-#include "terminal.hpp"
-#include "verbs.hpp"
+#include "cli/output/printable.hpp"
+#include "sweep/store/dump.hpp"
+#include "sweep/parallel/rank_run.hpp"
+#include "sweep/store/writer_lock.hpp"
+#include "cli/output/sweep_status.hpp"
+#include "cli/output/terminal.hpp"
+#include "cli/verbs.hpp"
 
 namespace corpuscle {
 namespace {

@@ -4,11 +4,11 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
-#include "circuit/netlist_variants.hpp"
-#include "study/sweep/calibration_report.hpp"
-#include "study/trial.hpp"
-#include "terminal.hpp"
-#include "verbs.hpp"
+#include "circuit/variant/netlist_variants.hpp"
+#include "sweep/calibrate/calibration_report.hpp"
+#include "reproduction/claims/trial.hpp"
+#include "cli/output/terminal.hpp"
+#include "cli/verbs.hpp"
 
 namespace corpuscle {
 namespace {

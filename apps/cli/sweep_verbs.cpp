@@ -1,10 +1,10 @@
-#include "sweep_verbs.hpp"
+#include "cli/sweep_verbs.hpp"
 
 #include <fmt/format.h>
 #include <CLI/CLI.hpp>
 
-#include "option_groups.hpp"
-#include "signal/version.hpp"
+#include "cli/arguments/option_groups.hpp"
+#include "core/version.hpp"
 
 namespace corpuscle {
 namespace {

@@ -1,7 +1,7 @@
 #pragma once
 // The command-line options of `corpuscle sweep` and its sub-verbs, and the options that all verbs have.
 
-#include "verbs.hpp"
+#include "cli/verbs.hpp"
 
 namespace CLI {
 class App;

@@ -8,7 +8,7 @@
 #include <utility>
 #include <vector>
 
-#include "io/samples.hpp"
+#include "io/recording/samples.hpp"
 
 namespace corpuscle::hdf5 {
 

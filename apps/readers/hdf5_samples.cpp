@@ -6,8 +6,8 @@
 #include <limits>
 
 #include "hdf5_storage.hpp"
-#include "io/foreign_format.hpp"
-#include "io/text_table.hpp"
+#include "io/table/foreign_format.hpp"
+#include "io/text/text_table.hpp"
 
 namespace corpuscle {
 namespace {

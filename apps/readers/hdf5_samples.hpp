@@ -1,7 +1,7 @@
 #pragma once
 // Reads a dataset of an HDF5 file as samples. For the helper program only.
 
-#include "io/samples.hpp"
+#include "io/recording/samples.hpp"
 
 namespace corpuscle {
 

@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <set>
 
-#include "io/foreign_format.hpp"
+#include "io/table/foreign_format.hpp"
 
 namespace corpuscle::hdf5 {
 namespace {

@@ -9,8 +9,8 @@
 #include <string_view>
 
 #include "confinement.hpp"
-#include "io/helper_process.hpp"
-#include "io/samples_message.hpp"
+#include "io/sandbox/helper_process.hpp"
+#include "io/sandbox/samples_message.hpp"
 
 namespace corpuscle {
 namespace {

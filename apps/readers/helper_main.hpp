@@ -3,7 +3,7 @@
 
 #include <functional>
 
-#include "io/samples.hpp"
+#include "io/recording/samples.hpp"
 
 namespace corpuscle {
 

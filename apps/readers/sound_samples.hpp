@@ -1,7 +1,7 @@
 #pragma once
 // Reads sound files as samples with libsndfile. For the helper program only, because damaged files have crashed the library.
 
-#include "io/samples.hpp"
+#include "io/recording/samples.hpp"
 
 namespace corpuscle {
 

@@ -37,7 +37,7 @@ SAMPLES = {"shared": range(0, 10000), "own": range(2400, 4400), "streamed": rang
 
 
 def cos_half_turn(x):
-    """cos(pi x) for 0 <= x <= 1, with the operations of src/signal/elementary.hpp, for bitwise equal results."""
+    """cos(pi x) for 0 <= x <= 1, with the operations of src/core/number/elementary.hpp, for bitwise equal results."""
     turns = 0.5 * x
     big = 6755399441055744.0
     quarter = (turns * 4.0 + big) - big
@@ -54,7 +54,7 @@ def cos_half_turn(x):
 
 
 def press_at(t):
-    """The press at its defaults, N (src/signal/stimulus/touch.hpp)."""
+    """The press at its defaults, N (src/core/stimulus/touch.hpp)."""
     progress = lambda start: 0.0 if t < start else (t - start) / 0.125 if t < start + 0.125 else 1.0
     up, down = progress(0.25), progress(0.25 + 0.125 + 0.25)
     return 0.2 + (4.0 - 0.2) * 0.5 * (1 - cos_half_turn(1 - down if down > 0 else up))

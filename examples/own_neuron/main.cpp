@@ -6,7 +6,7 @@
 #include "model/chain.hpp"
 #include "model/receptor/sa1b.hpp"
 #include "qif.hpp"
-#include "signal/stimuli.hpp"
+#include "core/stimulus/stimuli.hpp"
 
 using namespace corpuscle;
 

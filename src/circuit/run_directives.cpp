@@ -6,17 +6,17 @@
 #include <utility>
 
 #include "circuit/analyses.hpp"
-#include "circuit/curve_selector.hpp"
-#include "circuit/curve_view.hpp"
-#include "circuit/device_currents.hpp"
-#include "circuit/measurement_set.hpp"
-#include "circuit/netlist/spice_number.hpp"
-#include "circuit/netlist_warnings.hpp"
-#include "circuit/output_directives.hpp"
-#include "circuit/print_directive.hpp"
-#include "circuit/saved_quantities.hpp"
+#include "circuit/output/curve_selector.hpp"
+#include "circuit/output/curve_view.hpp"
+#include "circuit/output/device_currents.hpp"
+#include "circuit/output/measurement_set.hpp"
+#include "circuit/expression/spice_number.hpp"
+#include "circuit/variant/netlist_warnings.hpp"
+#include "circuit/output/output_directives.hpp"
+#include "circuit/output/print_directive.hpp"
+#include "circuit/output/saved_quantities.hpp"
 #include "circuit/solve/topology.hpp"
-#include "signal/parameter.hpp"
+#include "core/parameter.hpp"
 
 namespace corpuscle::circuit {
 namespace {

@@ -3,8 +3,8 @@
 #include <fmt/format.h>
 
 #include "model/catalog.hpp"
-#include "skin/class_overrides.hpp"
-#include "skin/sites.hpp"
+#include "skin/plan/class_overrides.hpp"
+#include "skin/plan/sites.hpp"
 
 namespace corpuscle {
 namespace {

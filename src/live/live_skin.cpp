@@ -3,7 +3,7 @@
 #include "corpuscle.hpp"
 #include "live/live_population.hpp"
 #include "live/skin_stream.hpp"
-#include "skin/class_overrides.hpp"
+#include "skin/plan/class_overrides.hpp"
 
 namespace corpuscle {
 

@@ -4,8 +4,8 @@
 
 #include <functional>
 
-#include "live/event_sink.hpp"
-#include "live/frame_source.hpp"
+#include "live/output/event_sink.hpp"
+#include "live/input/frame_source.hpp"
 #include "live/latency_histogram.hpp"
 #include "live/skin_stream.hpp"
 

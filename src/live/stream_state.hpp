@@ -4,7 +4,7 @@
 #include <optional>
 #include <string>
 
-#include "live/frame_sequence.hpp"
+#include "live/input/frame_sequence.hpp"
 #include "live/skin_stream.hpp"
 
 namespace corpuscle {

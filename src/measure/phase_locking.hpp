@@ -5,7 +5,7 @@
 #include <cmath>
 
 #include "measure/measure_base.hpp"
-#include "signal/elementary.hpp"
+#include "core/number/elementary.hpp"
 
 namespace corpuscle {
 

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <optional>
 
-#include "signal/elementary.hpp"
+#include "core/number/elementary.hpp"
 
 namespace corpuscle {
 namespace {

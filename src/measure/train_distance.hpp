@@ -4,7 +4,7 @@
 #include <span>
 #include <vector>
 
-#include "signal/error.hpp"
+#include "core/error.hpp"
 
 namespace corpuscle {
 

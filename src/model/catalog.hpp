@@ -16,7 +16,7 @@
 #include "model/sensor/f2i.hpp"
 #include "model/sensor/f2v.hpp"
 #include "model/sensor/fsr.hpp"
-#include "signal/parameter_override.hpp"
+#include "core/parameter_override.hpp"
 
 namespace corpuscle {
 

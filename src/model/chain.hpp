@@ -8,8 +8,8 @@
 #include <type_traits>
 
 #include "model/current.hpp"
-#include "signal/afferent.hpp"
-#include "signal/random.hpp"
+#include "core/afferent.hpp"
+#include "core/random.hpp"
 
 namespace corpuscle {
 

@@ -3,7 +3,7 @@
 
 #include <cstdint>
 
-#include "signal/elementary.hpp"
+#include "core/number/elementary.hpp"
 
 namespace corpuscle {
 

@@ -9,8 +9,8 @@
 #include <vector>
 
 #include "model/catalog.hpp"
-#include "signal/instruction_set.hpp"
-#include "signal/thread_pool.hpp"
+#include "core/number/instruction_set.hpp"
+#include "core/thread_pool.hpp"
 
 namespace corpuscle {
 

@@ -3,7 +3,7 @@
 
 #include <memory>
 
-#include "skin/skin_plan.hpp"
+#include "skin/plan/skin_plan.hpp"
 
 namespace corpuscle {
 

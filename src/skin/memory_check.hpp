@@ -3,7 +3,7 @@
 
 #include <string_view>
 
-#include "signal/error.hpp"
+#include "core/error.hpp"
 
 namespace corpuscle {
 

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <utility>
 
-#include "signal/random.hpp"
+#include "core/random.hpp"
 
 namespace corpuscle {
 namespace {

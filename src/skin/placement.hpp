@@ -2,7 +2,7 @@
 // Places the afferents of a skin and computes their receptive fields: the two steps of innervate().
 
 #include "skin/innervation.hpp"
-#include "skin/site_grid.hpp"
+#include "skin/plan/site_grid.hpp"
 
 namespace corpuscle {
 

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <numeric>
 
-#include "signal/random.hpp"
+#include "core/random.hpp"
 #include "skin/placement.hpp"
 
 namespace corpuscle {

@@ -8,8 +8,8 @@
 #include <vector>
 
 #include "model/chain.hpp"
-#include "signal/instruction_set.hpp"
-#include "signal/thread_pool.hpp"
+#include "core/number/instruction_set.hpp"
+#include "core/thread_pool.hpp"
 #include "skin/innervation.hpp"
 
 namespace corpuscle {

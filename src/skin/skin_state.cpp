@@ -4,7 +4,7 @@
 #include <array>
 #include <cstring>
 
-#include "signal/checksum.hpp"
+#include "core/checksum.hpp"
 #include "skin/skin_impl.hpp"
 
 namespace corpuscle {

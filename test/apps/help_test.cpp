@@ -3,7 +3,7 @@
 #include <fmt/format.h>
 #include <algorithm>
 
-#include "cli/renamed_arguments.hpp"
+#include "cli/arguments/renamed_arguments.hpp"
 #include "support/program.hpp"
 #include "support/support.hpp"
 

@@ -13,8 +13,8 @@
 #include <nlohmann/json.hpp>
 #include <thread>
 
-#include "io/output_check.hpp"
-#include "io/output_file.hpp"
+#include "io/output/output_check.hpp"
+#include "io/output/output_file.hpp"
 #include "support/child_process.hpp"
 #include "support/program.hpp"
 #include "support/test_paths.hpp"

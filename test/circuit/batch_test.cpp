@@ -6,10 +6,10 @@
 #include <map>
 
 #include "circuit/batch/chip_batch.hpp"
-#include "circuit/embedded_netlists.hpp"
-#include "circuit/netlist_overrides.hpp"
-#include "signal/instruction_set.hpp"
-#include "signal/stimuli.hpp"
+#include "circuit/variant/embedded_netlists.hpp"
+#include "circuit/variant/netlist_overrides.hpp"
+#include "core/number/instruction_set.hpp"
+#include "core/stimulus/stimuli.hpp"
 #include "support/test_paths.hpp"
 
 namespace corpuscle::circuit {

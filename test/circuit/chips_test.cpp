@@ -7,7 +7,7 @@
 #include <cmath>
 #include <map>
 
-#include "circuit/circuit_afferent.hpp"
+#include "circuit/afferent/circuit_afferent.hpp"
 #include "circuit/netlist_runner.hpp"
 #include "corpuscle.hpp"
 #include "support/support.hpp"

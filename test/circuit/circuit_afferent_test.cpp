@@ -1,6 +1,6 @@
 // Netlists as afferents: spikes of complete and divided forces, saved and resumed states, error messages.
 
-#include "circuit/circuit_afferent.hpp"
+#include "circuit/afferent/circuit_afferent.hpp"
 
 #include <gtest/gtest.h>
 #include <rapidcheck.h>
@@ -9,8 +9,8 @@
 #include <nlohmann/json.hpp>
 
 #include "circuit/netlist_runner.hpp"
-#include "study/afferent_plan.hpp"
-#include "study/afferent_run.hpp"
+#include "run/afferent_plan.hpp"
+#include "run/afferent_run.hpp"
 #include "support/program.hpp"
 #include "support/property.hpp"
 

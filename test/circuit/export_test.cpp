@@ -7,7 +7,7 @@
 
 #include "circuit/export/export_names.hpp"
 #include "circuit/export/ngspice_deck.hpp"
-#include "circuit/netlist/spice_number.hpp"
+#include "circuit/expression/spice_number.hpp"
 #include "support/ngspice.hpp"
 #include "support/program.hpp"
 #include "support/property.hpp"

@@ -1,10 +1,10 @@
-#include "circuit/netlist/expression.hpp"
+#include "circuit/expression/expression.hpp"
 
 #include <fmt/format.h>
 #include <cmath>
 #include <map>
 
-#include "circuit/netlist/spice_number.hpp"
+#include "circuit/expression/spice_number.hpp"
 #include "support/property.hpp"
 
 namespace corpuscle::circuit {

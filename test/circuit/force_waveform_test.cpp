@@ -1,6 +1,6 @@
 // The force waveform of a circuit: its values, and the samples that become breakpoints.
 
-#include "circuit/force_waveform.hpp"
+#include "circuit/afferent/force_waveform.hpp"
 
 #include <gtest/gtest.h>
 #include <rapidcheck.h>

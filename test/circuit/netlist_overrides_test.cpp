@@ -1,15 +1,15 @@
 // Overrides of netlist values by name, and selection of probes by name.
 
-#include "circuit/netlist_overrides.hpp"
+#include "circuit/variant/netlist_overrides.hpp"
 
 #include <gtest/gtest.h>
 
 #include <map>
 
-#include "circuit/circuit_afferent.hpp"
-#include "circuit/hierarchical_names.hpp"
+#include "circuit/afferent/circuit_afferent.hpp"
+#include "circuit/variant/hierarchical_names.hpp"
 #include "circuit/netlist_runner.hpp"
-#include "circuit/resolve_probe.hpp"
+#include "circuit/output/resolve_probe.hpp"
 #include "support/support.hpp"
 
 namespace corpuscle::circuit {

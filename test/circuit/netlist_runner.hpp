@@ -11,8 +11,8 @@
 #include <string>
 #include <vector>
 
-#include "circuit/curve_view.hpp"
-#include "circuit/netlist_variants.hpp"
+#include "circuit/output/curve_view.hpp"
+#include "circuit/variant/netlist_variants.hpp"
 #include "circuit/run_directives.hpp"
 #include "support/test_paths.hpp"
 

@@ -1,13 +1,13 @@
 // .assert: a quantity outside its design range is reported, in a netlist's transient and in the response of a netlist afferent.
 
-#include "circuit/operating_range.hpp"
+#include "circuit/afferent/operating_range.hpp"
 
 #include <gtest/gtest.h>
 
-#include "circuit/circuit_afferent.hpp"
+#include "circuit/afferent/circuit_afferent.hpp"
 #include "circuit/netlist/renamed_directives.hpp"
 #include "circuit/netlist_runner.hpp"
-#include "study/afferent_run.hpp"
+#include "run/afferent_run.hpp"
 #include "support/program.hpp"
 #include "support/support.hpp"
 

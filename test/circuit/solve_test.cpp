@@ -10,9 +10,9 @@
 
 #include "circuit/device/named_values.hpp"
 #include "circuit/device/uicm_card.hpp"
-#include "circuit/netlist_variants.hpp"
+#include "circuit/variant/netlist_variants.hpp"
 #include "circuit/run_directives.hpp"
-#include "signal/instruction_set.hpp"
+#include "core/number/instruction_set.hpp"
 #include "support/test_paths.hpp"
 
 namespace corpuscle::circuit {

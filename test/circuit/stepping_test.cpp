@@ -8,7 +8,7 @@
 #include "circuit/analysis/transient_plan.hpp"
 #include "circuit/netlist_runner.hpp"
 #include "circuit/oscillator.hpp"
-#include "signal/instruction_set.hpp"
+#include "core/number/instruction_set.hpp"
 
 namespace corpuscle::circuit {
 namespace {

@@ -10,7 +10,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "circuit/netlist/spice_number.hpp"
+#include "circuit/expression/spice_number.hpp"
 #include "support/ngspice.hpp"
 
 namespace corpuscle::circuit::test {

@@ -7,7 +7,7 @@
 
 #include "circuit/device/uicm.hpp"
 #include "circuit/device/uicm_card.hpp"
-#include "signal/random.hpp"
+#include "core/random.hpp"
 
 namespace corpuscle::circuit::test {
 

@@ -10,7 +10,7 @@
 #include "circuit/uicm_lanes.hpp"
 #include "circuit/uicm_values.hpp"
 #include "model/lanes/aligned_buffer.hpp"
-#include "signal/instruction_set.hpp"
+#include "core/number/instruction_set.hpp"
 
 namespace corpuscle::circuit {
 namespace {

@@ -9,7 +9,7 @@
 #include <cstdio>
 #include <cstdlib>
 
-#include "io/spike_files.hpp"
+#include "io/spikes/spike_files.hpp"
 #include "live/stream_state.hpp"
 
 using namespace corpuscle;

@@ -6,7 +6,7 @@
 #include <cstdlib>
 #include <vector>
 
-#include "circuit/netlist/expression.hpp"
+#include "circuit/expression/expression.hpp"
 
 using namespace corpuscle;
 using namespace corpuscle::circuit;

@@ -5,7 +5,7 @@
 #include <cstdint>
 #include <cstdlib>
 
-#include "live/frame_decoder.hpp"
+#include "live/input/frame_decoder.hpp"
 
 using namespace corpuscle;
 

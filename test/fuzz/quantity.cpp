@@ -4,7 +4,7 @@
 #include <cstdint>
 #include <cstdlib>
 
-#include "signal/quantity.hpp"
+#include "core/text/quantity.hpp"
 
 using namespace corpuscle;
 

@@ -11,7 +11,7 @@
 #include <cstdlib>
 #include <string>
 
-#include "io/recording.hpp"
+#include "io/recording/recording.hpp"
 
 namespace corpuscle::fuzz {
 

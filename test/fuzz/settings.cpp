@@ -7,7 +7,7 @@
 #include <string>
 
 #include "model/copies.hpp"
-#include "signal/stimuli.hpp"
+#include "core/stimulus/stimuli.hpp"
 
 using namespace corpuscle;
 

@@ -9,8 +9,8 @@
 #include <cstdio>
 #include <cstdlib>
 
-#include "io/spike_files.hpp"
-#include "study/train_comparison.hpp"
+#include "io/spikes/spike_files.hpp"
+#include "run/compare/train_comparison.hpp"
 
 using namespace corpuscle;
 

@@ -5,7 +5,7 @@
 #include <cstdlib>
 
 #include "model/catalog.hpp"
-#include "signal/checksum.hpp"
+#include "core/checksum.hpp"
 
 using namespace corpuscle;
 

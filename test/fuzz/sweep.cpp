@@ -5,7 +5,7 @@
 #include <cstdint>
 #include <cstdlib>
 
-#include "study/sweep/subject.hpp"
+#include "sweep/subject/subject.hpp"
 
 using namespace corpuscle;
 using namespace corpuscle::sweeps;

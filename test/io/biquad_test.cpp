@@ -1,4 +1,4 @@
-#include "io/biquad.hpp"
+#include "io/quality/biquad.hpp"
 
 #include <cmath>
 #include <complex>

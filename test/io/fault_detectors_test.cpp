@@ -1,10 +1,10 @@
-#include "io/fault_detectors.hpp"
+#include "io/quality/fault_detectors.hpp"
 
 #include <algorithm>
 #include <cmath>
 #include <numbers>
 
-#include "signal/random.hpp"
+#include "core/random.hpp"
 #include "support/property.hpp"
 #include "support/support.hpp"
 

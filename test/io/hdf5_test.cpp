@@ -5,7 +5,7 @@
 
 #include <complex>
 
-#include "io/hdf5_table.hpp"
+#include "io/table/hdf5_table.hpp"
 #include "support/file_writers.hpp"
 #include "support/loaded_recording.hpp"
 #include "support/property.hpp"

@@ -1,6 +1,6 @@
 // A helper program that crashes, disconnects or is stopped causes an error and no other harm.
 
-#include "io/helper_process.hpp"
+#include "io/sandbox/helper_process.hpp"
 
 #include <dirent.h>
 #include <fcntl.h>
@@ -16,8 +16,8 @@
 #include <iterator>
 #include <thread>
 
-#include "io/remote_samples.hpp"
-#include "io/samples_message.hpp"
+#include "io/sandbox/remote_samples.hpp"
+#include "io/sandbox/samples_message.hpp"
 #include "readers/confinement.hpp"
 #include "readers/helper_main.hpp"
 #include "support/child_process.hpp"

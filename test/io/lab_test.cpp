@@ -5,7 +5,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "io/dialect.hpp"
+#include "io/text/dialect.hpp"
 #include "support/loaded_recording.hpp"
 #include "support/property.hpp"
 

@@ -6,7 +6,7 @@
 #include <cstdlib>
 #include <ctime>
 
-#include "io/archive.hpp"
+#include "io/table/archive.hpp"
 #include "support/file_writers.hpp"
 #include "support/loaded_recording.hpp"
 

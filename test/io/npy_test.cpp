@@ -6,8 +6,8 @@
 #include <bit>
 #include <cmath>
 
-#include "io/archive.hpp"
-#include "io/npy.hpp"
+#include "io/table/archive.hpp"
+#include "io/table/npy.hpp"
 #include "support/file_writers.hpp"
 #include "support/loaded_recording.hpp"
 #include "support/property.hpp"

@@ -1,6 +1,6 @@
 // Lists written as NPZ are read back unchanged, and the bytes do not depend on the time or its zone.
 
-#include "io/npz.hpp"
+#include "io/table/npz.hpp"
 
 #include <cmath>
 #include <cstdlib>

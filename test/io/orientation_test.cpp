@@ -2,7 +2,7 @@
 
 #include <cstring>
 
-#include "io/archive.hpp"
+#include "io/table/archive.hpp"
 #include "support/file_writers.hpp"
 #include "support/loaded_recording.hpp"
 

@@ -1,10 +1,10 @@
 // For every recording format: the same samples give the same force.
 
-#include "io/recording_formats.hpp"
+#include "io/recording/recording_formats.hpp"
 
 #include <cmath>
 
-#include "io/archive.hpp"
+#include "io/table/archive.hpp"
 #include "support/file_writers.hpp"
 #include "support/loaded_recording.hpp"
 

@@ -1,13 +1,13 @@
 // Recordings in every common style, and the errors for those that cannot be read.
 
-#include "io/recording.hpp"
+#include "io/recording/recording.hpp"
 
 #include <fmt/format.h>
 
 #include <cmath>
 
-#include "io/clock_analysis.hpp"
-#include "io/recording_formats.hpp"
+#include "io/recording/clock_analysis.hpp"
+#include "io/recording/recording_formats.hpp"
 #include "support/loaded_recording.hpp"
 #include "support/property.hpp"
 

@@ -1,4 +1,4 @@
-#include "io/repair.hpp"
+#include "io/quality/repair.hpp"
 
 #include <algorithm>
 #include <cmath>

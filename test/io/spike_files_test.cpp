@@ -1,10 +1,10 @@
-#include "io/spike_files.hpp"
+#include "io/spikes/spike_files.hpp"
 
 #include <fmt/format.h>
 #include <map>
 
-#include "io/npz.hpp"
-#include "io/output_file.hpp"
+#include "io/table/npz.hpp"
+#include "io/output/output_file.hpp"
 #include "support/property.hpp"
 #include "support/support.hpp"
 

@@ -1,6 +1,6 @@
 // Audio files as recordings: integers are fractions of full scale, floats are newtons, and the rate comes from the file.
 
-#include "io/recording_formats.hpp"
+#include "io/recording/recording_formats.hpp"
 #include "support/file_writers.hpp"
 #include "support/loaded_recording.hpp"
 #include "support/property.hpp"

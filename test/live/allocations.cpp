@@ -6,8 +6,8 @@
 #include <cstdlib>
 #include <new>
 
-#include "io/events.hpp"
-#include "live/frame_decoder.hpp"
+#include "io/spikes/events.hpp"
+#include "live/input/frame_decoder.hpp"
 #include "live/live_population.hpp"
 #include "live/skin_stream.hpp"
 

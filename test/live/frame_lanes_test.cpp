@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "live/lanes/kernel.hpp"
-#include "signal/random.hpp"
+#include "core/random.hpp"
 
 namespace corpuscle::lanes {
 namespace {

@@ -10,8 +10,8 @@
 #include <cstring>
 #include <nlohmann/json.hpp>
 
-#include "io/spike_files.hpp"
-#include "live/sockets.hpp"
+#include "io/spikes/spike_files.hpp"
+#include "live/input/sockets.hpp"
 #include "stream_child.hpp"
 
 namespace corpuscle {

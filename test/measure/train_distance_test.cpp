@@ -4,7 +4,7 @@
 #include <chrono>
 #include <cmath>
 
-#include "signal/random.hpp"
+#include "core/random.hpp"
 #include "support/property.hpp"
 #include "support/support.hpp"
 

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <map>
 
-#include "signal/quantity.hpp"
+#include "core/text/quantity.hpp"
 #include "support/property.hpp"
 #include "support/support.hpp"
 

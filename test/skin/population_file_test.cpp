@@ -5,7 +5,7 @@
 #include <sstream>
 
 #include "skin/innervation.hpp"
-#include "skin/site_grid.hpp"
+#include "skin/plan/site_grid.hpp"
 #include "support/property.hpp"
 #include "support/test_paths.hpp"
 

@@ -3,7 +3,7 @@
 
 #include "skin/skin.hpp"
 #include "model/catalog.hpp"
-#include "signal/random.hpp"
+#include "core/random.hpp"
 #include "support/property.hpp"
 
 namespace corpuscle {

@@ -1,7 +1,7 @@
 #pragma once
 // Loads a complete recording, or returns the error message if it cannot be read.
 
-#include "io/recording.hpp"
+#include "io/recording/recording.hpp"
 #include "support/support.hpp"
 
 namespace corpuscle::test {

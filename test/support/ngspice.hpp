@@ -10,7 +10,7 @@
 #include <sstream>
 
 #include "circuit/run_directives.hpp"
-#include "signal/ascii_text.hpp"
+#include "core/text/ascii_text.hpp"
 #include "support/raw_file.hpp"
 #include "support/support.hpp"
 

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <thread>
 
-#include "study/sweep/sweep.hpp"
+#include "sweep/spec/sweep.hpp"
 
 namespace corpuscle::test {
 

@@ -10,7 +10,7 @@
 #include <string>
 #include <vector>
 
-#include "circuit/analysis_plot.hpp"
+#include "circuit/output/analysis_plot.hpp"
 
 namespace corpuscle::circuit {
 

@@ -9,7 +9,7 @@
 #include <sstream>
 
 #include "model/catalog.hpp"
-#include "signal/stimuli.hpp"
+#include "core/stimulus/stimuli.hpp"
 #include "support/test_paths.hpp"
 
 namespace corpuscle::test {

@@ -3,8 +3,8 @@
 #include <fmt/format.h>
 #include <cmath>
 
-#include "circuit/netlist/spice_number.hpp"
-#include "signal/parameter.hpp"
+#include "circuit/expression/spice_number.hpp"
+#include "core/parameter.hpp"
 
 namespace corpuscle::circuit {
 

@@ -8,7 +8,7 @@
 #include <unordered_map>
 #include <vector>
 
-#include "circuit/point_sink.hpp"
+#include "circuit/output/point_sink.hpp"
 #include "circuit/solve/operating_point.hpp"
 
 namespace corpuscle::circuit {

@@ -6,7 +6,7 @@
 #include <cmath>
 
 #include "circuit/analyses.hpp"
-#include "signal/parameter.hpp"
+#include "core/parameter.hpp"
 
 namespace corpuscle::circuit {
 namespace {

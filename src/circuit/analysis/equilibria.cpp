@@ -8,7 +8,7 @@
 
 #include "circuit/analysis/power_on.hpp"
 #include "circuit/solve/stability.hpp"
-#include "signal/quantity.hpp"
+#include "core/text/quantity.hpp"
 
 namespace corpuscle::circuit {
 namespace {

@@ -5,7 +5,7 @@
 #include <cmath>
 
 #include "circuit/solve/stability.hpp"
-#include "signal/quantity.hpp"
+#include "core/text/quantity.hpp"
 
 namespace corpuscle::circuit {
 namespace {

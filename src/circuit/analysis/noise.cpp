@@ -6,7 +6,7 @@
 #include <map>
 
 #include "circuit/analyses.hpp"
-#include "signal/quantity.hpp"
+#include "core/text/quantity.hpp"
 
 namespace corpuscle::circuit {
 namespace {

@@ -8,7 +8,7 @@
 
 #include "circuit/analyses.hpp"
 #include "circuit/analysis/equilibria.hpp"
-#include "signal/quantity.hpp"
+#include "core/text/quantity.hpp"
 
 namespace corpuscle::circuit {
 namespace {

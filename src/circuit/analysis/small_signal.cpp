@@ -5,7 +5,7 @@
 #include <cmath>
 
 #include "circuit/analyses.hpp"
-#include "signal/parameter.hpp"
+#include "core/parameter.hpp"
 
 namespace corpuscle::circuit {
 namespace {

@@ -9,10 +9,10 @@
 #include "circuit/analysis/initial_condition.hpp"
 #include "circuit/analysis/transient_plan.hpp"
 #include "circuit/device/named_values.hpp"
-#include "circuit/force_directive.hpp"
-#include "circuit/operating_range.hpp"
-#include "circuit/spike_output.hpp"
-#include "signal/quantity.hpp"
+#include "circuit/afferent/force_directive.hpp"
+#include "circuit/afferent/operating_range.hpp"
+#include "circuit/afferent/spike_output.hpp"
+#include "core/text/quantity.hpp"
 
 namespace corpuscle::circuit {
 namespace {

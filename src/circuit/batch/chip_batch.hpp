@@ -7,7 +7,7 @@
 #include <span>
 #include <vector>
 
-#include "circuit/circuit_afferent.hpp"
+#include "circuit/afferent/circuit_afferent.hpp"
 
 namespace corpuscle::circuit {
 

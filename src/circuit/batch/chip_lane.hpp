@@ -6,7 +6,7 @@
 
 #include "circuit/batch/chip_batch.hpp"
 #include "circuit/batch/chip_memory.hpp"
-#include "circuit/streaming_transient.hpp"
+#include "circuit/afferent/streaming_transient.hpp"
 
 namespace corpuscle::circuit {
 

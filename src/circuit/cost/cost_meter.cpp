@@ -1,6 +1,6 @@
 #include "circuit/cost/cost_meter.hpp"
 
-#include "circuit/force_directive.hpp"
+#include "circuit/afferent/force_directive.hpp"
 
 namespace corpuscle::circuit {
 

@@ -5,9 +5,9 @@
 #include <utility>
 #include <vector>
 
-#include "circuit/point_sink.hpp"
+#include "circuit/output/point_sink.hpp"
 #include "circuit/solve/system.hpp"
-#include "signal/force_source.hpp"
+#include "core/force_source.hpp"
 
 namespace corpuscle::circuit {
 

@@ -12,7 +12,7 @@
 #include <vector>
 
 #include "circuit/netlist/netlist.hpp"
-#include "signal/error.hpp"
+#include "core/error.hpp"
 
 namespace corpuscle::circuit {
 

@@ -4,7 +4,7 @@
 
 #include "circuit/device/named_values.hpp"
 #include "circuit/device/physical_constants.hpp"
-#include "signal/elementary.hpp"
+#include "core/number/elementary.hpp"
 
 namespace corpuscle::circuit {
 namespace {

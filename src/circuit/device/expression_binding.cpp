@@ -4,7 +4,7 @@
 #include <algorithm>
 
 #include "circuit/device/physical_constants.hpp"
-#include "signal/parameter.hpp"
+#include "core/parameter.hpp"
 
 namespace corpuscle::circuit {
 namespace {

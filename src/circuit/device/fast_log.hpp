@@ -1,6 +1,6 @@
 #pragma once
 
-#include "signal/elementary.hpp"
+#include "core/number/elementary.hpp"
 
 namespace corpuscle::circuit {
 

@@ -6,8 +6,8 @@
 #include "circuit/device/expression_binding.hpp"
 #include "circuit/device/named_values.hpp"
 #include "circuit/device/source_waveform.hpp"
-#include "circuit/force_waveform.hpp"
-#include "signal/elementary.hpp"
+#include "circuit/afferent/force_waveform.hpp"
+#include "core/number/elementary.hpp"
 
 namespace corpuscle::circuit {
 namespace {

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <limits>
 
-#include "signal/elementary.hpp"
+#include "core/number/elementary.hpp"
 
 namespace corpuscle::circuit {
 namespace {

@@ -7,7 +7,7 @@
 #include "circuit/device/uicm_card.hpp"
 #include "circuit/device/uicm_operating_point.hpp"
 #include "circuit/lanes/chip_kernels_impl.hpp"
-#include "signal/instruction_set.hpp"
+#include "core/number/instruction_set.hpp"
 
 namespace corpuscle::circuit {
 

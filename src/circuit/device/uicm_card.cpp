@@ -3,8 +3,8 @@
 #include <algorithm>
 
 #include "circuit/device/physical_constants.hpp"
-#include "signal/elementary.hpp"
-#include "signal/random.hpp"
+#include "core/number/elementary.hpp"
+#include "core/random.hpp"
 
 namespace corpuscle::circuit {
 namespace {

@@ -4,7 +4,7 @@
 #include <cstdint>
 
 #include "circuit/device/uicm_constants.hpp"
-#include "signal/parameter.hpp"
+#include "core/parameter.hpp"
 
 namespace corpuscle::circuit {
 

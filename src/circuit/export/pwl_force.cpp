@@ -6,7 +6,7 @@
 #include <limits>
 #include <vector>
 
-#include "circuit/force_directive.hpp"
+#include "circuit/afferent/force_directive.hpp"
 
 namespace corpuscle::circuit {
 namespace {

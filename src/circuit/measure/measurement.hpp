@@ -4,7 +4,7 @@
 #include <limits>
 #include <optional>
 
-#include "circuit/curve_view.hpp"
+#include "circuit/output/curve_view.hpp"
 #include "circuit/measure/line_segment.hpp"
 
 namespace corpuscle::circuit {

@@ -2,7 +2,7 @@
 
 #include <fmt/format.h>
 
-#include "circuit/netlist/spice_number.hpp"
+#include "circuit/expression/spice_number.hpp"
 
 namespace corpuscle::circuit {
 namespace {

@@ -6,7 +6,7 @@
 #include <string_view>
 #include <vector>
 
-#include "signal/error.hpp"
+#include "core/error.hpp"
 
 namespace corpuscle::circuit {
 

@@ -6,9 +6,9 @@
 #include "circuit/netlist/circuit_builder.hpp"
 #include "circuit/netlist/netlist_impl.hpp"
 #include "circuit/netlist/netlist_options.hpp"
-#include "circuit/netlist/spice_number.hpp"
-#include "signal/ascii_text.hpp"
-#include "signal/parameter.hpp"
+#include "circuit/expression/spice_number.hpp"
+#include "core/text/ascii_text.hpp"
+#include "core/parameter.hpp"
 
 namespace corpuscle::circuit {
 namespace {

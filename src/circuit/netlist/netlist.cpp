@@ -4,7 +4,7 @@
 #include <memory>
 
 #include "circuit/netlist/netlist_impl.hpp"
-#include "signal/input_files.hpp"
+#include "core/text/input_files.hpp"
 
 namespace corpuscle::circuit {
 namespace {

@@ -11,8 +11,8 @@
 #include <unordered_map>
 #include <vector>
 
-#include "circuit/netlist/expression.hpp"
-#include "signal/error.hpp"
+#include "circuit/expression/expression.hpp"
+#include "core/error.hpp"
 
 namespace corpuscle::circuit {
 

@@ -5,7 +5,7 @@
 #include <limits>
 #include <vector>
 
-#include "signal/parameter.hpp"
+#include "core/parameter.hpp"
 
 namespace corpuscle::circuit {
 namespace {

@@ -7,9 +7,9 @@
 #include "circuit/netlist/corner_selector.hpp"
 #include "circuit/netlist/parsed_netlist.hpp"
 #include "circuit/netlist/renamed_directives.hpp"
-#include "circuit/netlist/spice_number.hpp"
-#include "signal/ascii_text.hpp"
-#include "signal/parameter.hpp"
+#include "circuit/expression/spice_number.hpp"
+#include "core/text/ascii_text.hpp"
+#include "core/parameter.hpp"
 
 namespace corpuscle::circuit {
 namespace {

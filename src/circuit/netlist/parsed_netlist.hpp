@@ -9,7 +9,7 @@
 #include <string_view>
 #include <vector>
 
-#include "circuit/netlist/expression.hpp"
+#include "circuit/expression/expression.hpp"
 #include "circuit/netlist/netlist.hpp"
 #include "circuit/netlist/statement.hpp"
 

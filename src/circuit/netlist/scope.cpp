@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "circuit/netlist/spice_number.hpp"
+#include "circuit/expression/spice_number.hpp"
 
 namespace corpuscle::circuit {
 namespace {

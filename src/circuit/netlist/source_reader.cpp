@@ -4,8 +4,8 @@
 #include <algorithm>
 
 #include "circuit/netlist/circuit_builder.hpp"
-#include "circuit/netlist/spice_number.hpp"
-#include "signal/parameter.hpp"
+#include "circuit/expression/spice_number.hpp"
+#include "core/parameter.hpp"
 
 namespace corpuscle::circuit {
 namespace {

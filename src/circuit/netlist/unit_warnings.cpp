@@ -3,8 +3,8 @@
 #include <fmt/format.h>
 
 #include "circuit/netlist/parsed_netlist.hpp"
-#include "circuit/netlist/spice_number.hpp"
-#include "signal/ascii_text.hpp"
+#include "circuit/expression/spice_number.hpp"
+#include "core/text/ascii_text.hpp"
 
 namespace corpuscle::circuit {
 namespace {

@@ -3,7 +3,7 @@
 #include <cmath>
 
 #include "circuit/solve/operating_point.hpp"
-#include "signal/quantity.hpp"
+#include "core/text/quantity.hpp"
 
 namespace corpuscle::circuit {
 namespace {

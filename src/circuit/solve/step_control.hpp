@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "signal/elementary.hpp"
+#include "core/number/elementary.hpp"
 
 namespace corpuscle::circuit {
 

@@ -5,7 +5,7 @@
 #include <numeric>
 
 #include "circuit/devices.hpp"
-#include "signal/parameter.hpp"
+#include "core/parameter.hpp"
 
 namespace corpuscle::circuit {
 namespace {

@@ -6,7 +6,7 @@
 #include <utility>
 
 #include "circuit/solve/interpolant.hpp"
-#include "signal/quantity.hpp"
+#include "core/text/quantity.hpp"
 
 namespace corpuscle::circuit {
 namespace {

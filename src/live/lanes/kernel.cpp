@@ -5,7 +5,7 @@
 
 #include <cstdint>
 
-#include "signal/number.hpp"
+#include "core/number/number.hpp"
 
 namespace corpuscle::lanes {
 namespace {

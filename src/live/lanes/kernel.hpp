@@ -4,7 +4,7 @@
 
 #include <cstddef>
 
-#include "signal/instruction_set.hpp"
+#include "core/number/instruction_set.hpp"
 
 namespace corpuscle::lanes {
 

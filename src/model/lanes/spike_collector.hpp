@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "model/lanes/kernel.hpp"
-#include "signal/spike.hpp"
+#include "core/spike.hpp"
 
 namespace corpuscle::lanes {
 

@@ -2,8 +2,8 @@
 
 #include "model/current.hpp"
 #include "model/neuron/substeps.hpp"
-#include "signal/afferent.hpp"
-#include "signal/parameter.hpp"
+#include "core/afferent.hpp"
+#include "core/parameter.hpp"
 
 namespace corpuscle {
 

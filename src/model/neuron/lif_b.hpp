@@ -2,8 +2,8 @@
 
 #include "model/current.hpp"
 #include "model/neuron/threshold_crossing.hpp"
-#include "signal/afferent.hpp"
-#include "signal/parameter.hpp"
+#include "core/afferent.hpp"
+#include "core/parameter.hpp"
 
 namespace corpuscle {
 

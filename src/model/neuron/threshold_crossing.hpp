@@ -2,7 +2,7 @@
 // Helpers of the integrate-and-fire neurons for events within one step. x is the time within the step: 0 at its beginning, which is the
 // previous sample, and 1 at its end.
 
-#include "signal/elementary.hpp"
+#include "core/number/elementary.hpp"
 
 namespace corpuscle {
 

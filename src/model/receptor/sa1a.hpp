@@ -1,8 +1,8 @@
 #pragma once
 
 #include "model/current.hpp"
-#include "signal/afferent.hpp"
-#include "signal/parameter.hpp"
+#include "core/afferent.hpp"
+#include "core/parameter.hpp"
 
 namespace corpuscle {
 

@@ -5,8 +5,8 @@
 #include <cmath>
 #include <cstdint>
 
-#include "signal/afferent.hpp"
-#include "signal/clock.hpp"
+#include "core/afferent.hpp"
+#include "core/clock.hpp"
 
 namespace corpuscle {
 

@@ -1,7 +1,7 @@
 #pragma once
 
 #include "model/sensor/front_end_stage.hpp"
-#include "signal/parameter.hpp"
+#include "core/parameter.hpp"
 
 namespace corpuscle {
 

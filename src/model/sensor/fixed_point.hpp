@@ -12,7 +12,7 @@
 #include <string>
 #include <vector>
 
-#include "signal/error.hpp"
+#include "core/error.hpp"
 
 namespace corpuscle {
 

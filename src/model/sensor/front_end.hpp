@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "model/sensor/front_end_stage.hpp"
-#include "signal/parameter.hpp"
+#include "core/parameter.hpp"
 
 namespace corpuscle {
 

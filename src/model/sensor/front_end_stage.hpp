@@ -4,7 +4,7 @@
 #include <functional>
 #include <limits>
 
-#include "signal/afferent.hpp"
+#include "core/afferent.hpp"
 
 namespace corpuscle {
 

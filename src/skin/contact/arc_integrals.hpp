@@ -2,7 +2,7 @@
 // Integrals over a circular arc, for pressure distributions. They do not use the C library's mathematics, so the results have the same bits
 // on every machine.
 
-#include "signal/number.hpp"
+#include "core/number/number.hpp"
 
 namespace corpuscle {
 

@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "signal/quantity.hpp"
+#include "core/text/quantity.hpp"
 #include "skin/contact/contact_path.hpp"
 #include "skin/contact/pressure_distribution.hpp"
 #include "skin/contact/skin_cells.hpp"

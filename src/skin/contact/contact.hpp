@@ -4,7 +4,7 @@
 #include <optional>
 #include <string_view>
 
-#include "signal/parameter_override.hpp"
+#include "core/parameter_override.hpp"
 #include "skin/skin.hpp"
 
 namespace corpuscle {

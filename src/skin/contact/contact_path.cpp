@@ -1,7 +1,7 @@
 #include "skin/contact/contact_path.hpp"
 
-#include "signal/number.hpp"
-#include "signal/stimulus/touch.hpp"
+#include "core/number/number.hpp"
+#include "core/stimulus/touch.hpp"
 
 namespace corpuscle {
 

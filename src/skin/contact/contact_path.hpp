@@ -1,7 +1,7 @@
 #pragma once
 // The position of a contact over time.
 
-#include "signal/clock.hpp"
+#include "core/clock.hpp"
 #include "skin/contact/indenters.hpp"
 
 namespace corpuscle {

@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "signal/number.hpp"
+#include "core/number/number.hpp"
 #include "skin/contact/contact.hpp"
 
 namespace corpuscle {

@@ -3,8 +3,8 @@
 
 #include <array>
 
-#include "signal/parameter_override.hpp"
-#include "skin/sites.hpp"
+#include "core/parameter_override.hpp"
+#include "skin/plan/sites.hpp"
 
 namespace corpuscle {
 

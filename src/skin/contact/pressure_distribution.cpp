@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "signal/elementary.hpp"
+#include "core/number/elementary.hpp"
 #include "skin/contact/arc_integrals.hpp"
 
 namespace corpuscle {

@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-#include "signal/number.hpp"
+#include "core/number/number.hpp"
 
 namespace corpuscle {
 namespace {

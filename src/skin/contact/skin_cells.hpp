@@ -6,7 +6,7 @@
 #include <memory>
 #include <span>
 
-#include "skin/site_grid.hpp"
+#include "skin/plan/site_grid.hpp"
 
 namespace corpuscle {
 

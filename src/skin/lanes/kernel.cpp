@@ -3,7 +3,7 @@
 
 #include "skin/lanes/kernel.hpp"
 
-#include "signal/number.hpp"
+#include "core/number/number.hpp"
 
 namespace corpuscle::lanes {
 namespace {

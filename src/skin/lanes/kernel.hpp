@@ -6,7 +6,7 @@
 #include <cstddef>
 #include <cstdint>
 
-#include "signal/instruction_set.hpp"
+#include "core/number/instruction_set.hpp"
 
 namespace corpuscle::lanes {
 

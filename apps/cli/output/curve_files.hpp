@@ -1,0 +1,70 @@
+#pragma once
+// The files with curves that `corpuscle run --out` writes.
+
+#include <chrono>
+#include <deque>
+
+#include "circuit/variant/netlist_variants.hpp"
+#include "circuit/output/plot_formats.hpp"
+#include "circuit/run_directives.hpp"
+#include "io/output/output_check.hpp"
+#include "io/output/output_file.hpp"
+#include "cli/verbs.hpp"
+
+namespace corpuscle {
+
+/// Writes curves while they are computed: either one .raw file, or one CSV table for each plot (x.csv, or x-1.csv, x-2.csv ... if there are
+/// several). With .step or .mc, each CSV row begins with the label of its variant (a step or a chip). The points of a transient are written
+/// in blocks; the files are readable at any time.
+class CurveFiles final : public circuit::CurveSink {
+    using Clock = std::chrono::steady_clock;
+    const RunArguments& arguments_;
+    OutputCheck check_;
+    bool has_steps_, is_csv_;       // has_steps_: the netlist has several variants, by .step or .mc
+    std::deque<OutputFile> files_;  // all files so far; a deque keeps their addresses, which file_ and open() use
+    // The current variant:
+    std::string title_, label_;
+    std::size_t analysis_count_ = 0, plot_count_ = 0;  // number of analyses in its netlist; number of its CSV tables begun so far
+    // The current transient:
+    OutputFile* file_ = nullptr;                 // null before the first transient of the variant
+    std::string rows_;                           // points that are not written yet, in the format of the file
+    std::size_t point_count_ = 0;                // points so far, including those in rows_
+    std::size_t count_offset_ = 0;               // position of the point count in a .raw file, bytes
+    double newest_time_ = 0, written_time_ = 0;  // s: newest point; last point written to the file
+    Clock::time_point last_write_;
+    // All variants:
+    bool has_streamed_ = false;        // true if a transient has delivered more than its first point
+    bool has_complete_plots_ = false;  // true if an analysis other than a transient has delivered its plots
+
+    Result<void> write_pending();
+    /// `count`: number of plots of the same analysis.
+    Result<void> write_table(const circuit::Plot&, std::size_t count);
+    /// Path of file `index`, from 0, of `file_count` files: x.csv if it is the only one, otherwise x-1.csv for index 0.
+    std::string path_of(std::size_t file_count, std::size_t index) const;
+    Result<OutputFile*> open(std::size_t file_count, std::size_t index, const std::string& head);
+
+public:
+    /// `has_steps`: true if the netlist has several variants.
+    CurveFiles(const RunArguments& arguments, bool has_steps, bool overwrite)
+        : arguments_(arguments), check_(overwrite), has_steps_(has_steps), is_csv_(arguments.out.ends_with(".csv")) {}
+
+    /// Checks before the run that the files for a netlist with this many analyses may be written.
+    Result<void> check(std::size_t analysis_count) const;
+    /// Call before the analyses of each variant.
+    void begin_variant(const circuit::Variant&);
+    /// Writes the plots of an analysis other than a transient. The three functions below write a transient.
+    Result<void> add_plots(std::span<const circuit::Plot>) override;
+    Result<void> begin(const circuit::Plot& head) override;
+    /// `row`: the time in s, then the value of each curve.
+    Result<void> add_point(std::span<const double> row) override;
+    Result<void> end() override;
+
+    /// Renames the finished files to their final names.
+    Result<void> finish();
+    /// Renames the files of an incomplete run to their final names. Returns a note that says in which variant and at what time they end, or
+    /// "" if no file was kept. After a failure, files are kept only if they have points of a transient; after an interruption, also if they
+    /// have a complete analysis.
+    Result<std::string> finish_early(bool interrupted);
+};
+
+}  // namespace corpuscle

@@ -1,0 +1,34 @@
+#pragma once
+// The progress of a sweep, as text and JSON.
+
+#include <nlohmann/json_fwd.hpp>
+
+#include "sweep/parallel/item_queue.hpp"
+#include "sweep/store/sweep_results.hpp"
+#include "sweep/store/writer_lock.hpp"
+
+namespace corpuscle {
+
+struct SweepStatus {
+    std::string sweep, results;  ///< paths of the sweep file, "" if unknown, and of the results file
+    Shard shard;
+    std::int64_t items = 0;                    ///< number of work items of the shard
+    std::int64_t finished = 0;                 ///< number of finished items, including the following two
+    std::int64_t truncated = 0, diverged = 0;  ///< number of items that ended early
+    std::int64_t iterations = 0;               ///< of all finished items
+    std::optional<std::int64_t> finished_now;  ///< number of items finished by this run; no value if this process did not run the sweep
+    /// The most frequent reasons why items were truncated or diverged, each with the number of items.
+    std::vector<std::pair<std::string, std::int64_t>> reasons;
+    std::optional<WriterLock::Writer> writer;  ///< the process that is writing the results, if there is one
+    double running_for = 0;                    ///< s since that process started
+
+    std::int64_t missing() const { return items - finished; }
+};
+
+/// Reads the counts from a results file, which has the items of this shard. Sets neither the sweep file nor the writer.
+Result<SweepStatus> read_sweep_status(const SweepResults&, const Shard&);
+/// The status as a table, with the next command.
+std::string sweep_status_text(const SweepStatus&);
+nlohmann::ordered_json document_of(const SweepStatus&);
+
+}  // namespace corpuscle

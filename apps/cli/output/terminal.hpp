@@ -1,0 +1,56 @@
+#pragma once
+// Terminal input and output: messages, tables, a progress bar, and Ctrl-C.
+
+#include <chrono>
+#include <string>
+#include <vector>
+
+#include "core/error.hpp"
+
+namespace corpuscle {
+
+/// Prints an error on standard error. Returns the exit status of its code.
+int report_error(const Error&);
+
+/// Prints one line on standard error. A message begins with "corpuscle:", a warning with "corpuscle: warning:". Control characters are
+/// escaped.
+void print_message(const std::string& message);
+void print_warning(const std::string& message);
+
+/// Prints text of several lines on standard output. Control characters are escaped.
+void print_text(const std::string& text);
+
+/// Flushes standard output. Returns an error if some of the text could not be written.
+Result<void> finish_output();
+
+/// Installs the signal handlers. The first Ctrl-C makes interrupted() true and ends a blocked read; the second ends the program.
+void catch_interrupt();
+/// True after Ctrl-C or another signal that ends the program.
+bool interrupted();
+
+/// A duration as text: "12 s", "3:05 min", "2:10 h".
+std::string time_text(double seconds);
+
+/// Formats rows as a table: columns are padded to their widest cell, columns of numbers are aligned right, others left. If `has_heading`,
+/// the first row is the heading. In a table wider than 100 columns the heading is wrapped; if it is still too wide, the table is split into
+/// blocks.
+std::string format_table(const std::vector<std::vector<std::string>>& rows, bool has_heading = true);
+
+/// A progress bar with the remaining time, on standard error. It appears only if this is a terminal, and after one second.
+class Progress {
+    using Clock = std::chrono::steady_clock;
+    bool is_enabled_;
+    Clock::time_point start_ = Clock::now(), last_ = start_;
+    bool is_visible_ = false;
+
+public:
+    explicit Progress(bool quiet);
+    ~Progress();
+    /// `fraction`: 0 to 1.
+    void update(double fraction);
+};
+
+/// The command line quoted for a shell. Files appear without their directories, so that a published page does not reveal them.
+std::string quote_command(int argc, const char* const* argv);
+
+}  // namespace corpuscle

@@ -1,0 +1,205 @@
+#include "report/respond/respond_report.hpp"
+
+#include <fmt/format.h>
+#include <algorithm>
+#include <cmath>
+
+#include "report/common_documents.hpp"
+#include "report/respond/implementations_document.hpp"
+#include "report/page_template.hpp"
+#include "core/version.hpp"
+
+namespace corpuscle {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+Json parameter_or_null(const AfferentPlan& plan, std::string_view name) {
+    const auto value = plan.value(name);
+    return value ? Json(*value) : Json(nullptr);
+}
+
+/// The length of a part for dividing `length` into at least `parts` parts: the largest such number of the form 1, 2 or 5 times a power of
+/// ten.
+double round_part(double length, int parts) {
+    const double max = length / parts * (1 + 1e-9);
+    double decade = 1;
+    while (decade > max) decade /= 10;
+    while (10 * decade <= max) decade *= 10;
+    return decade * (max >= 5 * decade ? 5 : max >= 2 * decade ? 2 : 1);
+}
+
+/// The cell of measure m: its value, or the array [mean, standard deviation] over the copies if at least two of them have a value.
+Json cell_document(const MeasureRow& row, std::size_t m) {
+    const auto number = [](double x) { return std::isfinite(x) ? Json(x) : Json(nullptr); };
+    if (row.copy_statistics.empty() || row.copy_statistics[m].copies < 2) return number(row.values[m]);
+    return {number(row.copy_statistics[m].mean()), number(row.copy_statistics[m].standard_deviation())};
+}
+
+/// The table of all measures, with a row for each afferent, channel and phase.
+Json table_document(const RunSummary& summary) {
+    Json columns = {"afferent", "channel", "phase"}, decimals = {nullptr, nullptr, nullptr}, rows = Json::array();
+    const auto shown = summary.columns();
+    const bool means =
+        !summary.rows().empty() && !summary.rows()[0].copy_statistics.empty();  // of copies; the mean of a count needs a decimal
+    for (const auto m : shown)
+        columns.push_back(column_heading(measures[m])), decimals.push_back(std::max(measures[m].decimals, means ? 1 : 0));
+    for (const auto& r : summary.rows()) {
+        Json row = {r.afferent, r.channel, r.phase};
+        for (const auto m : shown) row.push_back(cell_document(r, m));
+        rows.push_back(std::move(row));
+    }
+    return {{"columns", columns}, {"decimals", decimals}, {"rows", rows}};
+}
+
+/// Recording quality: findings as text, and a row of quality metrics for each channel of a recording. Stimuli have no rows.
+Json quality_document(const RunSummary& summary) {
+    Json messages = Json::array(), columns = {"channel"}, rows = Json::array();
+    const bool several = summary.inputs().size() > 1;
+    for (const auto& i : summary.inputs()) {
+        const auto add = [&](const std::vector<std::string>& texts, bool is_warning) {
+            for (const auto& s : texts) messages.push_back({{"text", several ? i.name + ": " + s : s}, {"grave", is_warning}});
+        };
+        add(i.quality.warnings, true);
+        add(i.quality.descriptions, false);
+        for (const auto& f : i.quality.metrics) {
+            if (rows.empty() || rows.back()[0] != i.channels[f.channel]) rows.push_back(Json::array({i.channels[f.channel]}));
+            if (rows.size() == 1) columns.push_back(f.unit.empty() ? std::string(f.name) : fmt::format("{} ({})", f.name, f.unit));
+            rows.back().push_back(std::isfinite(f.value) ? Json(f.value) : Json(nullptr));
+        }
+    }
+    return {{"notes", messages}, {"columns", columns}, {"rows", rows}};
+}
+
+}  // namespace
+
+Result<void> RespondReport::begin(const Input& input) {
+    groups_ = copy_group_starts(input.plans);
+    const auto channels = input.source.channels().size();
+    std::size_t traces = 1;  // number of traces per channel: the force and all probes
+    for (std::size_t g = 0; g < groups(); ++g) traces += input.probes[groups_[g]].size();
+    // The limit of samples of one trace. The factor 2 is for longer traces, which are kept as pairs of minimum and maximum.
+    const std::size_t max_points =
+        std::clamp<std::size_t>(max_points_ / (2 * traces * channels * input.input_count), 16, std::size_t{1} << 20);
+    forces_.assign(channels, Envelope(max_points));
+    probes_.clear();
+    for (std::size_t k = 0; wants_probes() && k < channels * groups(); ++k)
+        probes_.emplace_back(input.probes[groups_[k % groups()]].size(), Envelope(max_points));
+    trains_.assign(input.afferent_count(), {});
+    if (recordables_.empty())
+        for (std::size_t g = 0; g < groups(); ++g) {
+            Json probe_list = Json::array();
+            for (const auto& p : input.probes[groups_[g]]) probe_list.push_back({{"name", p.name}, {"unit", p.unit}});
+            recordables_.push_back(std::move(probe_list));
+            first_copies_.push_back(input.plans[groups_[g]]);
+        }  // once: the plans and probes are the same for every input
+    return {};
+}
+
+Result<void> RespondReport::block(const Input& input, const RunBlock& response) {
+    for (std::size_t c = 0; c < forces_.size(); ++c)
+        for (std::size_t k = 0; k < response.force.count; ++k) forces_[c].add(response.force.force[c][k]);
+    for (std::size_t u = 0; u < probes_.size(); ++u)
+        for (std::size_t p = 0; p < probes_[u].size(); ++p)
+            for (std::size_t k = 0; k < response.force.count; ++k)
+                probes_[u][p].add(response.probes[afferent_index(u / groups(), u % groups())][p][k]);
+    for (const auto& s : response.spikes)
+        trains_[s.afferent_index - input.first_afferent].push_back(input.source.clock().time(s.step, s.offset));
+    return {};
+}
+
+/// Adds to the page the spike trains of an afferent (or of its first max_copies copies) on a channel of this input.
+void RespondReport::add_spikes(const Input& input, std::size_t channel, std::size_t group) {
+    const std::size_t shown = std::min<std::size_t>(groups_[group + 1] - groups_[group], max_copies);
+    for (std::size_t k = 0; k < shown; ++k) {
+        const auto& train = trains_[afferent_index(channel, group) + k];
+        spikes_.push_back({{"afferent", input.plans[groups_[group] + k].name},
+                           {"channel", first_channel_ + channel},
+                           {"count", train.size()},
+                           {"times", base64(train.data(), train.size() * sizeof(double))}});
+    }
+}
+
+/// Adds to the page the firing rate in equal bins, Hz: the mean over the copies of an afferent.
+void RespondReport::add_rate(const Input& input, std::size_t channel, std::size_t group, std::int64_t samples) {
+    auto clock = input.source.clock();
+    // With t0 = 0 the clock gives the duration of `samples` samples.
+    const double t0 = std::exchange(clock.t0, 0.0), length = clock.time(samples), bin = round_part(length, 100);
+    const auto copies = groups_[group + 1] - groups_[group];
+    std::vector<double> rates(static_cast<std::size_t>(std::max(std::ceil(length / bin - 1e-9), 1.0)));
+    for (std::size_t k = 0; k < copies; ++k)
+        for (const double t : trains_[afferent_index(channel, group) + k])
+            ++rates[std::min(static_cast<std::size_t>(std::max(t - t0, 0.0) / bin + 1e-9), rates.size() - 1)];
+    for (std::size_t b = 0; b < rates.size(); ++b)
+        rates[b] /= static_cast<double>(copies) * std::min(bin, length - static_cast<double>(b) * bin);  // the last bin may be shorter
+    rates_.push_back(
+        {{"afferent", base_name(input.plans[groups_[group]])}, {"channel", first_channel_ + channel}, {"bin", bin}, {"values", rates}});
+}
+
+Result<void> RespondReport::end(const Input& input, std::int64_t samples) {
+    Json channels = Json::array(), phases = Json::array();
+    for (std::size_t c = 0; c < forces_.size(); ++c) {
+        channels.push_back({{"id", first_channel_ + c}, {"name", input.channel_name(c)}, {"unit", "N"}});
+        traces_.push_back(curve_document(first_channel_ + static_cast<std::uint32_t>(c), nullptr, "force", "N", forces_[c]));
+    }
+    for (const auto& p : input.source.phases()) phases.push_back({{"name", p.name}, {"from", p.from}, {"to", p.to}});
+    for (std::size_t c = 0; c < forces_.size(); ++c)
+        for (std::size_t g = 0; g < groups(); ++g) {
+            const auto& probes = input.probes[groups_[g]];
+            for (std::size_t p = 0; !probes_.empty() && p < probes.size(); ++p)
+                traces_.push_back(curve_document(first_channel_ + static_cast<std::uint32_t>(c), base_name(input.plans[groups_[g]]),
+                                                 probes[p].name, probes[p].unit, probes_[c * groups() + g][p]));
+            add_spikes(input, c, g);
+            if (copies_.count > 0) add_rate(input, c, g, samples);
+        }
+    inputs_.push_back({{"name", input.name},
+                       {"description", input.source.description()},
+                       {"t0", input.source.clock().t0},
+                       {"T", input.source.clock().T()},
+                       {"samples", samples},
+                       {"phases", phases},
+                       {"channels", channels}});
+    first_channel_ += static_cast<std::uint32_t>(forces_.size());
+    return {};
+}
+
+std::string RespondReport::page(const RunSummary& summary, std::span<const AfferentPlan> plans, const std::string& command,
+                                const std::vector<std::string>& warnings, const Json& costs) const {
+    std::string title;
+    for (const auto& i : summary.inputs()) title += (title.empty() ? "" : ", ") + i.name;
+    Json afferents = Json::array(), notes = Json::array();
+    for (std::size_t a = 0; a < plans.size(); ++a) {
+        const auto& plan = plans[a];
+        afferents.push_back({{"name", plan.name},
+                             {"type", afferent_type_of(plan)},
+                             {"netlist", plan.factory != nullptr},
+                             {"composition", plan.composition()},
+                             {"description", plan.description},
+                             {"V_th", parameter_or_null(first_copies_[a], "V_th")},
+                             {"V_reset", parameter_or_null(first_copies_[a], "V_reset")},
+                             {"parameters", parameters_document(plan, copies_.distributions)},
+                             {"probes", recordables_[a]}});
+    }
+    for (const auto& w : warnings) notes.push_back(w);
+    for (const auto& i : summary.inputs())
+        for (const auto& r : i.notes) notes.push_back(i.name + ": " + r);
+    Json document = {{"title", title},
+                     {"program", fmt::format("corpuscle {}", version)},
+                     {"command", command},
+                     {"inputs", inputs_},
+                     {"afferents", afferents},
+                     {"traces", traces_},
+                     {"spikes", spikes_},
+                     {"table", table_document(summary)},
+                     {"comparisons", implementations_document(summary.comparisons())},
+                     {"quality", quality_document(summary)},
+                     {"notes", notes},
+                     {"versions", {{"corpuscle", version}, {"compiler", compiler_version()}}}};
+    document["costs"] = costs;
+    if (copies_.count > 0)
+        document["copies"] = {
+            {"count", copies_.count}, {"shown", std::min(copies_.count, max_copies)}, {"has_probes", wants_probes()}, {"rates", rates_}};
+    return fill_template(asset("page.html"), escape_html(title), script_json(document));
+}
+
+}  // namespace corpuscle

@@ -1,0 +1,59 @@
+#pragma once
+// The report page of the verb `respond`: one self-contained HTML file.
+
+#include <nlohmann/json.hpp>
+
+#include "io/output/output_file.hpp"
+#include "report/envelope.hpp"
+#include "run/summary/run_summary.hpp"
+
+namespace corpuscle {
+
+/// Collects traces and spikes during the run; page() fills the template with them.
+class RespondReport final : public ResponseSink {
+public:
+    /// Limit on the stored values of all traces of a page together. With more channels, probes or inputs each trace has fewer points.
+    static constexpr std::size_t max_total_points = std::size_t{32} << 20;
+    /// `max_points`: limit on the stored values of all traces. `with_probes`: show currents and membranes if there are at most max_copies
+    /// copies of each afferent.
+    explicit RespondReport(std::size_t max_points = max_total_points, CopySpec copies = {}, bool with_probes = true)
+        : max_points_(max_points), copies_(std::move(copies)), with_probes_(with_probes) {}
+
+    /// The raster shows at most this many copies of each afferent. If there are more copies, no probes are recorded; otherwise those of the
+    /// first copy are.
+    static constexpr std::uint32_t max_copies = 50;
+
+    bool wants_probes() const override { return with_probes_ && copies_.count <= max_copies; }
+    Result<void> begin(const Input&) override;
+    Result<void> block(const Input&, const RunBlock&) override;
+    Result<void> end(const Input&, std::int64_t samples) override;
+
+    /// The page as HTML. Call it after the end of the last input. The plans are those of the afferents before they are copied. `costs`: the
+    /// document of costs_of().
+    std::string page(const RunSummary&, std::span<const AfferentPlan>, const std::string& command, const std::vector<std::string>& warnings,
+                     const nlohmann::ordered_json& costs) const;
+
+private:
+    using Json = nlohmann::ordered_json;
+    std::size_t max_points_;
+    CopySpec copies_;
+    bool with_probes_;
+    // Each afferent with all its copies is a group. For the current input: index of the first copy of each group among the plans, then the
+    // number of plans.
+    std::vector<std::size_t> groups_;
+    std::vector<Envelope> forces_;               // one per channel, N
+    std::vector<std::vector<Envelope>> probes_;  // [channel * groups() + group][probe], of the first copy; empty if no probes are recorded
+    std::vector<std::vector<double>> trains_;    // spike times of each afferent of the current input, s
+    std::uint32_t first_channel_ = 0;            // the current input's first channel, counted over all inputs
+
+    std::size_t groups() const { return groups_.size() - 1; }
+    /// The index, within the current input, of the first afferent of a group on a channel.
+    std::size_t afferent_index(std::size_t channel, std::size_t group) const { return channel * groups_.back() + groups_[group]; }
+    void add_spikes(const Input&, std::size_t channel, std::size_t group);
+    void add_rate(const Input&, std::size_t channel, std::size_t group, std::int64_t samples);
+    std::vector<AfferentPlan> first_copies_;  // of each group, with the parameters that were drawn for it
+    Json recordables_ = Json::array();        // names and units of the probes of each group
+    Json inputs_ = Json::array(), traces_ = Json::array(), spikes_ = Json::array(), rates_ = Json::array();
+};
+
+}  // namespace corpuscle

@@ -1,0 +1,97 @@
+#include "report/skin/skin_page.hpp"
+
+#include <fmt/format.h>
+#include <cmath>
+#include <nlohmann/json.hpp>
+
+#include "report/common_documents.hpp"
+#include "report/page_template.hpp"
+#include "core/version.hpp"
+
+namespace corpuscle {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+constexpr std::size_t max_named = 500;  // if there are more sites, the page does not contain their names
+
+/// Positions as base64 of floats x, y, x, y ... in mm, rounded to micrometres. `position_of` returns metres.
+template <class PositionOf>
+std::string places64(std::size_t count, PositionOf position_of) {
+    std::vector<float> xy;
+    for (std::size_t k = 0; k < count; ++k) {
+        const Position p = position_of(k);
+        for (const double v : {p.x, p.y}) xy.push_back(static_cast<float>(std::round(1e6 * v) * 1e-3));
+    }
+    return base64(xy.data(), xy.size() * sizeof(float));
+}
+
+Json sites_document(const Sites& sites) {
+    const std::vector<std::uint16_t> region(sites.region.begin(), sites.region.end());
+    return {{"places", places64(sites.size(), [&](std::size_t s) { return sites.positions[s]; })},
+            {"side", 1e3 * std::sqrt(sites.area)},
+            {"region", base64(region.data(), region.size() * sizeof(std::uint16_t))},
+            {"names", sites.size() <= max_named ? Json(sites.names) : Json(nullptr)}};
+}
+
+/// The properties of each mark that do not change over time. Mark m stands for the afferents begin[m] ... begin[m + 1] - 1; it has their
+/// mean position, the earliest of their first spikes (s; NaN if none fired), and the region and number of the first of them.
+Json marks_document(const SkinSummary& summary, std::span<const std::uint32_t> begin) {
+    const auto& afferents = summary.skin().afferents;
+    std::vector<std::uint16_t> region;
+    std::vector<std::uint32_t> copy;  // number of the first afferent within its class, from 1
+    std::vector<float> first_spikes;
+    std::vector<Position> positions;
+    for (std::size_t m = 0; m + 1 < begin.size(); ++m) {
+        Position mean;
+        double earliest = no_value;
+        for (auto u = begin[m]; u < begin[m + 1]; ++u) {
+            mean.x += afferents[u].position.x / (begin[m + 1] - begin[m]), mean.y += afferents[u].position.y / (begin[m + 1] - begin[m]);
+            earliest = std::fmin(earliest, summary.first_times()[u]);  // fmin ignores NaN
+        }
+        positions.push_back(mean), first_spikes.push_back(static_cast<float>(earliest));
+        region.push_back(static_cast<std::uint16_t>(afferents[begin[m]].region)), copy.push_back(afferents[begin[m]].number);
+    }
+    return {{"begin", base64(begin.data(), begin.size_bytes())},
+            {"places", places64(positions.size(), [&](std::size_t m) { return positions[m]; })},
+            {"region", base64(region.data(), region.size() * sizeof(std::uint16_t))},
+            {"copy", base64(copy.data(), copy.size() * sizeof(std::uint32_t))},
+            {"first", base64(first_spikes.data(), first_spikes.size() * sizeof(float))}};
+}
+
+Json classes_document(const Innervation& skin) {
+    Json out = Json::array();
+    for (std::size_t c = 0; c < skin.plan.classes.size(); ++c) {
+        const auto& k = skin.plan.classes[c];
+        out.push_back({{"name", k.name},
+                       {"composition", k.afferent.composition()},
+                       {"description", k.afferent.description},
+                       {"source", k.afferent.source},
+                       {"first", skin.class_begin[c]},
+                       {"afferents", skin.class_begin[c + 1] - skin.class_begin[c]},
+                       {"parameters", parameters_document(k.afferent, k.distributions)}});
+    }
+    return out;
+}
+
+}  // namespace
+
+std::string skin_page(const SkinSummary& summary, const SkinReport& report, const SkinRunNotes& run_info, const std::string& command) {
+    const auto title = fmt::format("{} on {}", summary.name(), summary.skin().plan.name);
+    Json notes = run_info.warnings;
+    for (const auto& r : run_info.notes) notes.push_back(r);
+    const Json page = {{"title", title},
+                       {"program", fmt::format("corpuscle {}", version)},
+                       {"command", command},
+                       {"notes", notes},
+                       {"summary", summary.document(run_info)},
+                       {"regions", summary.skin().plan.sites.regions},
+                       {"sites", sites_document(summary.skin().plan.sites)},
+                       {"marks", marks_document(summary, report.marks())},
+                       {"classes", classes_document(summary.skin())},
+                       {"over", report.document()},
+                       {"versions", {{"corpuscle", version}, {"compiler", compiler_version()}}}};
+    return fill_template(asset("skin.html"), escape_html(title), script_json(page));
+}
+
+}  // namespace corpuscle

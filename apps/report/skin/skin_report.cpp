@@ -1,0 +1,133 @@
+#include "report/skin/skin_report.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <nlohmann/json.hpp>
+#include <utility>
+
+#include "report/common_documents.hpp"
+#include "report/skin/skin_frames.hpp"
+
+namespace corpuscle {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+constexpr int ticks_per_sample = 10;  // resolution of the spike times on the page
+
+/// The number of neighbouring afferents or sites that share a mark, so that `count` of them have at most `max_marks` marks.
+std::uint32_t per_mark(std::size_t count, std::size_t max_marks) {
+    return static_cast<std::uint32_t>((count + max_marks - 1) / std::max<std::size_t>(max_marks, 1));
+}
+
+}  // namespace
+
+Result<void> SkinReport::begin(const SkinInput& input) {
+    const auto& skin = input.skin;
+    clock_ = input.clock;
+    const auto samples_of = [&](double seconds) { return std::max<std::int64_t>(std::llround(clock_.rate() * seconds), 1); };
+    const auto bin = samples_of(1e-3),
+               frame = samples_of(10e-3);  // initial lengths; in shorter frames one afferent has too few spikes for a rate
+    afferents_per_mark_ = per_mark(skin.afferents.size(), limits_.marks), sites_per_mark_ = per_mark(skin.plan.sites.size(), limits_.marks);
+    class_of_.clear(), mark_of_.clear(), mark_first_.clear();
+    for (std::uint32_t c = 0; c + 1 < skin.class_begin.size(); ++c)
+        for (auto u = skin.class_begin[c]; u < skin.class_begin[c + 1]; ++u) {
+            if ((u - skin.class_begin[c]) % afferents_per_mark_ == 0) mark_first_.push_back(static_cast<std::uint32_t>(u));
+            class_of_.push_back(c), mark_of_.push_back(static_cast<std::uint32_t>(mark_first_.size() - 1));
+        }
+    mark_first_.push_back(static_cast<std::uint32_t>(skin.afferents.size()));
+    site_count_ = skin.plan.sites.size();
+    forces_ = Envelope(std::size_t{1} << 16);
+    classes_ = BinnedFrames<std::uint32_t>(skin.plan.classes.size(), limits_.bins, bin);
+    marks_ = BinnedFrames<std::uint32_t>(mark_first_.size() - 1, limits_.frames, frame);
+    sites_ = BinnedFrames<double>(per_mark(skin.plan.sites.size(), sites_per_mark_), limits_.frames, frame);
+    spike_afferents_.clear(), spike_ticks_.clear(), spikes_ = 0;
+    return {};
+}
+
+void SkinReport::add(const Spike& s) {
+    // Step k ends at sample k. Frames are half-open, [start, end): a spike exactly at a sample (offset 1) belongs to the frame that starts
+    // there.
+    const std::int64_t sample = std::max<std::int64_t>(s.offset < 1 ? s.step - 1 : s.step, 0);
+    classes_.select_frame(sample), classes_.add(class_of_[s.afferent_index], 1);
+    marks_.select_frame(sample), marks_.add(mark_of_[s.afferent_index], 1);
+    if (static_cast<std::size_t>(++spikes_) <= limits_.timed_spikes) {
+        const double ticks = (static_cast<double>(s.step - 1) + s.offset) * ticks_per_sample;
+        spike_afferents_.push_back(s.afferent_index), spike_ticks_.push_back(std::max<std::int64_t>(std::llround(ticks), 0));
+    } else if (!spike_afferents_.empty()) {
+        spike_afferents_ = {}, spike_ticks_ = {};  // beyond the limit none are kept, since an incomplete raster would be misleading
+    }
+}
+
+/// Adds the force of each site to the frames of its mark. Samples `from` to `to` - 1 of the block are in one frame.
+void SkinReport::add_force(const SkinRunBlock& response) {
+    const auto& force = response.force;
+    for (std::size_t from = 0, to = 0; from < response.steps; from = to) {
+        to = std::min(
+            static_cast<std::size_t>(sites_.select_frame(response.first_sample + static_cast<std::int64_t>(from)) - response.first_sample),
+            response.steps);
+        const auto add = [&](std::size_t s) {
+            const double* site_force = force.data + s * force.stride;
+            for (auto t = from; t < to; ++t) sites_.add(static_cast<std::uint32_t>(s / sites_per_mark_), site_force[t]);
+        };
+        for (std::size_t s = 0; force.reads_all && s < site_count_; ++s) add(s);
+        for (const auto s : force.touched)
+            if (!force.reads_all) add(s);
+    }
+}
+
+Result<void> SkinReport::block(const SkinInput&, const SkinRunBlock& response) {
+    for (const double f : response.total_force) forces_.add(f);
+    add_force(response);
+    for (const auto& s : response.spikes) add(s);
+    return {};
+}
+
+Result<void> SkinReport::end(const SkinInput&, std::int64_t samples, std::span<const Spike> last) {
+    for (const auto& s : last) add(s);
+    samples_ = samples, samples_with_delays_ = std::max(samples, last.empty() ? 0 : last.back().step);
+    // The frames of classes, marks and sites all extend to the last spike that arrives.
+    const auto final = std::max<std::int64_t>(samples_with_delays_ - 1, 0);
+    classes_.select_frame(final), marks_.select_frame(final), sites_.select_frame(final);
+    return {};
+}
+
+/// The spikes of each afferent that fired: the number of silent afferents before it, the number of its spikes, the ticks from the start to
+/// its first spike and between its spikes. Null if there are too many spikes.
+Json SkinReport::spikes_document() const {
+    if (static_cast<std::size_t>(spikes_) > limits_.timed_spikes) return nullptr;
+    std::vector<std::uint32_t> begin(class_of_.size() + 1);
+    for (const auto u : spike_afferents_) ++begin[u + 1];
+    for (std::size_t u = 0; u < class_of_.size(); ++u) begin[u + 1] += begin[u];
+    std::vector<std::int64_t> ticks(spike_ticks_.size());
+    auto at = begin;
+    for (std::size_t k = 0; k < ticks.size(); ++k) ticks[at[spike_afferents_[k]]++] = spike_ticks_[k];
+    PackedNumbers bytes;
+    std::size_t next = 0, trains = 0;  // the afferent after the last one that fired; number of afferents that fired
+    for (std::size_t u = 0; u < class_of_.size(); ++u) {
+        if (begin[u] == begin[u + 1]) continue;
+        bytes.append_number(u - next), bytes.append_number(begin[u + 1] - begin[u]);
+        std::int64_t before = 0;
+        for (auto k = begin[u]; k < begin[u + 1]; ++k)
+            bytes.append_number(static_cast<std::uint64_t>(ticks[k] - std::exchange(before, ticks[k])));
+        next = u + 1, ++trains;
+    }
+    return {{"count", spikes_}, {"trains", trains}, {"tick", clock_.T() / ticks_per_sample}, {"data", array64(bytes.bytes)}};
+}
+
+Json SkinReport::document() const {
+    return {{"t0", clock_.t0},
+            {"T", clock_.T()},
+            {"samples", samples_},
+            {"shown_samples", samples_with_delays_},
+            {"force", curve_document(0, nullptr, "force", "N", forces_)},
+            {"classes", frames_document(classes_, clock_.T())},
+            {"marks", frames_document(marks_, clock_.T())},
+            {"afferents_per_mark", afferents_per_mark_},
+            {"sites", force_document(sites_, clock_.T(), samples_)},
+            {"sites_per_mark", sites_per_mark_},
+            {"max_spikes", limits_.timed_spikes},
+            {"spikes", spikes_document()}};
+}
+
+}  // namespace corpuscle

@@ -1,0 +1,70 @@
+#include "report/study/study_page.hpp"
+
+#include <fmt/format.h>
+#include <algorithm>
+#include <cmath>
+#include <nlohmann/json.hpp>
+
+#include "report/page_template.hpp"
+#include "core/version.hpp"
+#include "reproduction/claims/study_document.hpp"
+
+namespace corpuscle {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+/// Reduces a long line plot to its minimum and maximum in each of 600 segments, so that peaks are kept and the page stays small. Other
+/// styles are not reduced.
+StudyPlot::Series thinned(const StudyPlot::Series& all) {
+    constexpr std::size_t segments = 600;
+    if (all.style != StudyPlot::Style::line || all.x.size() <= 2 * segments) return all;
+    StudyPlot::Series out{all.name, {}, {}, all.style};
+    for (std::size_t s = 0; s < segments; ++s) {
+        const auto from = static_cast<std::ptrdiff_t>(s * all.y.size() / segments),
+                   to = static_cast<std::ptrdiff_t>((s + 1) * all.y.size() / segments);
+        const auto [smallest, largest] = std::minmax_element(all.y.begin() + from, all.y.begin() + to);
+        for (const auto at : {std::min(smallest, largest), std::max(smallest, largest)})  // iterators, so the earlier one first
+            out.x.push_back(all.x[static_cast<std::size_t>(at - all.y.begin())]), out.y.push_back(*at);
+    }
+    return out;
+}
+
+/// Rounds the numbers of a JSON array to six digits, enough for a plot.
+Json rounded(Json values) {
+    for (auto& v : values)
+        if (v.is_number()) v = std::strtod(fmt::format("{:.6g}", v.get<double>()).c_str(), nullptr);
+    return values;
+}
+
+/// The document of a study, with reduced plots and with the formatted numbers of each claim.
+Json page_document(const Study& study, StudyResult outcome) {
+    for (auto& p : outcome.plots)
+        for (auto& s : p.series) s = thinned(s);
+    auto document = document_of(study, outcome);
+    for (auto& p : document["plots"])
+        for (auto& s : p["series"]) s["x"] = rounded(s["x"]), s["y"] = rounded(s["y"]);
+    for (std::size_t k = 0; k < outcome.claims.size(); ++k) {
+        const auto& c = outcome.claims[k];
+        document["claims"][k]["on_top"] = is_headline(c);
+        document["claims"][k]["texts"] = {format_claim_value(c.computed, c), format_published(c), format_deviation(c),
+                                          format_allowed_range(c)};
+    }
+    return document;
+}
+
+}  // namespace
+
+std::string study_page(std::span<const Study* const> studies, std::span<const StudyResult> outcomes, const std::string& command) {
+    Json all = Json::array();
+    for (std::size_t k = 0; k < studies.size(); ++k) all.push_back(page_document(*studies[k], outcomes[k]));
+    const std::string title = studies.size() == 1 ? std::string(studies[0]->title) : "Reproduction of all figures and tables";
+    const Json document = {{"title", title},
+                           {"program", "corpuscle " + std::string(version)},
+                           {"command", command},
+                           {"tally", verdict_counts(outcomes)},
+                           {"studies", all}};
+    return fill_template(asset("study.html"), escape_html(title), script_json(document));
+}
+
+}  // namespace corpuscle

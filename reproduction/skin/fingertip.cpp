@@ -1,0 +1,67 @@
+#include "reproduction/skin/fingertip.hpp"
+
+#include <fmt/format.h>
+
+#include "core/stimulus/stimuli.hpp"
+#include "run/skin/skin_run.hpp"
+
+namespace corpuscle {
+namespace {
+
+constexpr double fingertip_rate = 1e3;          // Hz
+constexpr Position fingertip_centre{0, 12e-3};  // m: x, y of the middle of the built-in fingertip
+
+Result<std::vector<ParameterOverride>> overrides_of(const std::vector<std::string>& texts) {
+    std::vector<ParameterOverride> out;
+    for (const auto& text : texts) {
+        auto parsed = parse_override(text);
+        if (!parsed) return parsed.error();
+        out.push_back(std::move(*parsed));
+    }
+    return out;
+}
+
+Result<std::vector<FingertipTrain>> press_fingertip(const Innervation& tip, Skin& skin, SkinForce& force, const Clock& clock) {
+    std::vector<FingertipTrain> out;
+    for (const auto& u : tip.afferents) {
+        const double dx = u.position.x - fingertip_centre.x, dy = u.position.y - fingertip_centre.y;
+        out.push_back({tip.plan.classes[u.class_index].name, num::sqrt(dx * dx + dy * dy), {}});
+    }
+    ThreadPool pool(1);
+    std::vector<Spike> spikes;
+    for (;;) {
+        const auto block = force.next();
+        if (!block) return block.error();
+        if (block->total_force.empty()) break;
+        if (auto ok = skin.respond(block->force, block->total_force.size(), spikes, pool); !ok) return ok.error();
+    }
+    skin.finish(spikes);
+    for (const auto& s : spikes) out[s.afferent_index].spikes.push_back(clock.time(s.step, s.offset));
+    return out;
+}
+
+}  // namespace
+
+Result<std::vector<FingertipTrain>> simulate_fingertip(const Punch& punch) {
+    auto plan = load_skin_plan("fingertip");
+    if (!plan) return plan.error();
+    plan->nerve.reset();  // no conduction delay
+    const auto tip = innervate(std::move(*plan));
+    if (!tip) return tip.error();
+    const auto overrides =
+        overrides_of({"press.F_min=0", fmt::format("press.F_max={}", punch.force), fmt::format("contact.radius={}", punch.radius),
+                      fmt::format("contact.x={}", fingertip_centre.x), fmt::format("contact.y={}", fingertip_centre.y)});
+    if (!overrides) return overrides.error();
+    auto source = make_stimulus("press", *overrides, fingertip_rate, 0);
+    if (!source) return source.error();
+    auto contact = make_contact("flat", *overrides, (*tip)->plan.sites, (*source)->clock());
+    if (!contact) return contact.error();
+    const auto set = instruction_set();
+    if (!set) return set.error();
+    auto skin = Skin::make(*tip, {.dt = 1 / fingertip_rate}, *set);
+    if (!skin) return skin.error();
+    const auto force = make_pressed_force(**source, **contact);
+    return press_fingertip(**tip, **skin, *force, (*source)->clock());
+}
+
+}  // namespace corpuscle

@@ -1,0 +1,237 @@
+#include "circuit/afferent/circuit_afferent.hpp"
+
+#include <fmt/format.h>
+#include <bit>
+#include <cmath>
+#include <limits>
+#include <mutex>
+
+#include "circuit/afferent/streaming_transient.hpp"
+
+namespace corpuscle::circuit {
+namespace {
+
+/// FNV-1a hash over the values and connections that determine how a circuit responds.
+std::uint64_t fingerprint_of(const Circuit& c) {
+    std::uint64_t hash = 0xcbf29ce484222325;
+    const auto number = [&](std::uint64_t x) { hash = (hash ^ x) * 0x100000001b3; };
+    const auto real = [&](double x) { number(std::bit_cast<std::uint64_t>(x)); };
+    const auto text = [&](std::string_view s) {
+        for (const char letter : s) number(static_cast<unsigned char>(letter));
+        number(s.size());
+    };
+    const auto values = [&](const Values& all) {
+        for (const auto& [name, value] : all) text(name), real(value);
+    };
+    const auto formula = [&](const Expression& f) {
+        const auto expression_text =
+            f.text([](const ExpressionInput& in) { return fmt::format("{}({},{})", static_cast<int>(in.kind), in.name, in.minus); });
+        if (expression_text) text(*expression_text);
+    };
+    for (const auto& e : c.elements) {
+        text(e.name), values(e.values), real(e.value), real(e.waveform.dc), number(static_cast<std::uint64_t>(e.waveform.shape));
+        number(static_cast<std::uint64_t>(e.model));
+        for (const int n : e.nodes) number(static_cast<std::uint64_t>(n));
+        for (const double x : e.waveform.numbers) real(x);
+        if (e.expression) formula(*e.expression);
+        // Hashed only if present, so that netlists without them keep the hash of earlier versions and their saved states stay valid.
+        if (!e.control_source.empty()) text(e.control_source);
+        if (e.expression && e.expression_is_voltage) number(1);
+    }
+    for (const auto& m : c.models) text(m.type), values(m.values);
+    for (const auto* node_voltages : {&c.ic, &c.nodesets})
+        for (const auto& [node, value] : *node_voltages) number(static_cast<std::uint64_t>(node)), real(value);
+    values(c.options), real(c.temperature);
+    for (const auto& [name, word] : c.option_words) text(name), text(word);
+    for (const auto& command : c.directives)
+        if (command.name == "tran" || command.name == "spike")
+            for (const auto& word : command.words) text(word);
+    return hash;
+}
+
+/// The unknowns whose values between time points are used: those of spikes, probes and operating ranges.
+std::vector<int> interpolated_unknowns(const CircuitAfferentFactory& factory) {
+    std::vector<int> out = {factory.spike_output.unknowns.plus, factory.spike_output.unknowns.minus};
+    for (const auto& range : factory.operating_ranges)
+        out.push_back(range.quantity.unknowns.plus), out.push_back(range.quantity.unknowns.minus);
+    for (const auto& probe : factory.probes) out.push_back(probe.unknowns.plus), out.push_back(probe.unknowns.minus);
+    return out;
+}
+
+class CircuitAfferent final : public Afferent {
+    std::shared_ptr<const CircuitAfferentFactory> factory_;
+    double T_;                        // sample time, s
+    bool sampled_;                    // true if spikes occur only at sample times
+    std::optional<ChipSample> chip_;  // empty: nominal
+    std::int64_t delay_;              // samples
+    std::string format_;              // marks saved states: a state fits only the same netlist, chip and T
+    std::vector<Probe> probes_;
+    std::vector<ValidRange> ranges_;
+    mutable std::mutex guard_;
+    mutable std::vector<std::unique_ptr<StreamingTransient>> idle_;  // transients that no call of respond() uses; guarded by guard_
+
+    // Each concurrent call of respond() uses a transient of its own.
+    Result<std::unique_ptr<StreamingTransient>> borrow() const {
+        {
+            const std::lock_guard lock(guard_);
+            if (!idle_.empty()) {
+                auto transient = std::move(idle_.back());
+                idle_.pop_back();
+                return transient;
+            }
+        }
+        return StreamingTransient::make(*factory_, T_, chip_);
+    }
+    void give_back(std::unique_ptr<StreamingTransient> transient) const {
+        const std::lock_guard lock(guard_);
+        idle_.push_back(std::move(transient));
+    }
+
+    Result<void> respond_with(StreamingTransient&, std::span<const double> force, State&, ResponseBlock&) const;
+    Result<void> simulate_samples(StreamingTransient&, std::int64_t from, std::int64_t to, ResponseBlock&) const;
+
+public:
+    CircuitAfferent(std::shared_ptr<const CircuitAfferentFactory> factory, double dt, bool sampled, std::optional<ChipSample> chip)
+        : factory_(std::move(factory)), T_(dt), sampled_(sampled), chip_(std::move(chip)),
+          // Transient::step() must know the force for 2.1 steps ahead.
+          delay_(static_cast<std::int64_t>(std::ceil(2.1 * factory_->plan.max_step / dt)) + ForceWaveform::lookahead + 2),
+          // The 2 is the version of the state's meaning. Chips are counted from 1 here.
+          format_(fmt::format("netlist {:016x}/2{}, T = {} s", factory_->fingerprint,
+                              chip_ ? fmt::format(", chip {} of {}", chip_->chip + 1, chip_->seed) : "", dt)) {
+        for (const auto& s : factory_->probes) probes_.push_back({s.name, s.is_voltage() ? "V" : "A"});
+        for (const auto& w : factory_->operating_ranges) ranges_.push_back(w.range());
+    }
+
+    std::span<const Probe> probes() const override { return probes_; }
+    std::span<const ValidRange> ranges() const override { return ranges_; }
+    State start(ChannelSlot) const override { return {format_, 0, {}}; }
+    std::int64_t delay() const override { return delay_; }
+
+    Result<void> respond(std::span<const double> force, State& state, ResponseBlock& response) const override {
+        if (auto ok = check_block(factory_->circuit->file, format_, state.values.size(), state, force); !ok) return ok;
+        for (double* values : response.probes) std::fill_n(values, force.size(), std::numeric_limits<double>::quiet_NaN());
+        if (force.empty()) return {};
+        auto transient = borrow();
+        if (!transient) return transient.error();
+        auto done = respond_with(**transient, force, state, response);
+        give_back(std::move(*transient));
+        return done;
+    }
+};
+
+Result<void> CircuitAfferent::respond_with(StreamingTransient& transient, std::span<const double> force, State& state,
+                                           ResponseBlock& response) const {
+    if (state.step == 0) {
+        if (auto ok = transient.begin(force); !ok) return ok;
+    } else {
+        if (!transient.restore(state.values, state.step))
+            return bad_input(
+                fmt::format("{}: a saved state is damaged: its values are not possible for this netlist", factory_->circuit->file));
+        transient.append_force(force);
+    }
+    const auto before = transient.work();
+    transient.take_energy_use();  // discard the energy of earlier calls
+    const auto from = state.step - delay_;
+    state.step += static_cast<std::int64_t>(force.size());
+    auto done = simulate_samples(transient, from, state.step - delay_, response);
+    const auto& work = transient.work();
+    response.energy_use += transient.take_energy_use();
+    response.steps += work.steps - before.steps, response.rejected_steps += work.rejected - before.rejected;
+    response.newton_iterations += work.iterations - before.iterations;
+    state.values.clear();
+    transient.save(state.values);
+    return done;
+}
+
+/// Simulates until the responses to samples `from` to `to` - 1 are complete. Samples before 0 are those before the start.
+Result<void> CircuitAfferent::simulate_samples(StreamingTransient& transient, std::int64_t from, std::int64_t to,
+                                               ResponseBlock& response) const {
+    // A spike at `to` or later stays pending for the next block. Then sample `to` - 1 has been reached, so no further step replaces it.
+    const auto report_spike = [&] {
+        auto& spike = transient.pending_spike();
+        if (!spike || spike->step >= to) return;
+        response.spikes.push_back({spike->step, sampled_ ? 1 : spike->offset, response.afferent_index});  // 1: at the sample itself
+        spike.reset();
+    };
+    report_spike();
+    for (std::int64_t sample = from;;) {
+        for (; sample < to && transient.has_reached(sample); ++sample) {
+            for (std::size_t p = 0; p < response.probes.size(); ++p)
+                response.probes[p][static_cast<std::size_t>(sample - from)] = transient.probe_value(factory_->probes[p], sample);
+            for (std::size_t k = 0; sample >= 0 && k < response.range_violations.size(); ++k)
+                if (auto& o = response.range_violations[k];
+                    !factory_->operating_ranges[k].contains(transient.probe_value(factory_->operating_ranges[k].quantity, sample)))
+                    o = {o.samples + 1, o.first_sample < 0 ? sample : o.first_sample};
+        }
+        if (sample == to) return {};
+        if (auto ok = transient.step(); !ok) return ok;
+        report_spike();
+    }
+}
+
+}  // namespace
+
+Result<std::shared_ptr<const CircuitAfferentFactory>> CircuitAfferentFactory::create(const Netlist& netlist) {
+    auto circuit = netlist.elaborate();
+    if (!circuit) return circuit.error();
+    auto factory = create(std::make_shared<const Circuit>(std::move(*circuit)));
+    if (!factory) return factory;
+    std::const_pointer_cast<CircuitAfferentFactory>(*factory)->netlist = netlist;
+    return factory;
+}
+
+Result<std::shared_ptr<const CircuitAfferentFactory>> CircuitAfferentFactory::create(std::shared_ptr<const Circuit> circuit) {
+    const auto context = AnalysisContext::make(circuit);
+    if (!context) return context.error();
+    const SourceLocation location{circuit->file};
+    const auto plan = read_transient_plan(*circuit);
+    if (!plan) return plan.error();
+    const auto output = read_spike_output((*context)->system);
+    if (!output) return output.error();
+    auto probes = resolve_saved_quantities((*context)->system);
+    if (!probes) return probes.error();
+    auto ranges = read_operating_ranges((*context)->system);
+    if (!ranges) return ranges.error();
+    if (!(*context)->system.set_force_input(nullptr))
+        return bad_input("no source carries a force; add one, such as 'iin 0 fin force 60n' (60 nA per newton)", location);
+    if (!*output) return bad_input("no .spike directive defines the spike output; add '.spike v(NODE) LEVEL [rise|fall]'", location);
+    auto factory = std::make_shared<CircuitAfferentFactory>();
+    for (const auto& c : circuit->directives) {
+        if (c.name == "mc") {
+            const auto chips = parse_chip_spec(c);
+            if (!chips) return chips.error();
+            factory->chips = *chips;
+        }
+        if (c.name != "tran") continue;
+        const auto times = read_transient_times(c);
+        if (!times) return times.error();
+        factory->times = *times;
+    }
+    // The mismatch override replaces .mc.
+    if (circuit->mismatch_seed) factory->chips = ChipSpec{1, *circuit->mismatch_seed, true, true, circuit->chip};
+    if (probes->empty()) probes->push_back({output->value().text, output->value().unknowns});
+    factory->circuit = std::move(circuit), factory->plan = *plan, factory->spike_output = **output, factory->probes = std::move(*probes),
+    factory->operating_ranges = std::move(*ranges);
+    factory->plan.reported = interpolated_unknowns(*factory);
+    factory->plan.max_step = factory->times.max_step.value_or(default_max_step);
+    factory->fingerprint = fingerprint_of(*factory->circuit);
+    return std::shared_ptr<const CircuitAfferentFactory>(std::move(factory));
+}
+
+std::vector<std::pair<std::string, std::string>> CircuitAfferentFactory::labels() const {
+    if (!netlist || netlist->overrides().corner.empty()) return {};
+    return {{"corner", netlist->overrides().corner}};
+}
+
+std::unique_ptr<Afferent> CircuitAfferentFactory::make(double dt, bool sampled, std::uint32_t copy) const {
+    // Copy 0 is nominal, unless the mismatch override selects a chip for it.
+    const bool has_chip = chips && (copy > 0 || circuit->mismatch_seed);
+    const auto chip = has_chip ? std::optional(chips->sample(copy > 0 ? copy - 1 : 0)) : std::nullopt;
+    return std::make_unique<CircuitAfferent>(shared_from_this(), dt, sampled, chip);
+}
+
+std::unique_ptr<Afferent> CircuitAfferentFactory::make(double dt, const std::optional<ChipSample>& chip) const {
+    return std::make_unique<CircuitAfferent>(shared_from_this(), dt, false, chip);
+}
+
+}  // namespace corpuscle::circuit

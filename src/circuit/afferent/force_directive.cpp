@@ -1,0 +1,110 @@
+#include "circuit/afferent/force_directive.hpp"
+
+#include <fmt/format.h>
+
+#include "circuit/analysis/analysis_context.hpp"
+#include "circuit/expression/spice_number.hpp"
+#include "core/text/ascii_text.hpp"
+#include "core/stimulus/stimuli.hpp"
+
+namespace corpuscle::circuit {
+namespace {
+
+constexpr double max_samples = 1e8;
+
+Error error_in(const Directive& c, std::size_t word, std::string message) { return error_at(c, word, ".force: " + std::move(message)); }
+
+/// The parameter's name with its capital letters, as the stimulus declares it. A parsed netlist has all names in small letters.
+std::string spelling_of(std::string_view stimulus, std::string_view parameter) {
+    for (const auto& card : stimulus_catalog())
+        for (const auto& row : card.parameters)
+            if (card.name == stimulus && equal_ignoring_case(row.name, parameter)) return std::string(row.name);
+    return std::string(parameter);
+}
+
+struct ForceSpec {
+    std::vector<ParameterOverride> overrides;  // parameters of the stimulus
+    double rate = 10e3;                        // Hz
+};
+
+Result<ForceSpec> parse_force_spec(const Directive& c) {
+    ForceSpec out;
+    for (std::size_t k = 1; k < c.words.size(); ++k) {
+        const std::string_view word = c.words[k];
+        const auto equals = std::min(word.find('='), word.size()), dot = word.substr(0, equals).rfind('.');
+        const auto value = equals < word.size() ? parse_number(word.substr(equals + 1)) : std::nullopt;
+        if (!value) return error_in(c, k, fmt::format("'{}' must be PARAMETER=VALUE, such as f_max=2", word));
+        const auto name = word.substr(0, equals);
+        if (name == "rate") {
+            out.rate = value->value;
+            continue;
+        }
+        const std::string stimulus(dot == std::string_view::npos ? std::string_view(c.words[0]) : name.substr(0, dot));
+        const auto parameter = dot == std::string_view::npos ? name : name.substr(dot + 1);
+        out.overrides.push_back({stimulus, spelling_of(stimulus, parameter), fmt::format("{}", value->value)});
+    }
+    return out;
+}
+
+Result<ForceWaveform> read_waveform_of(ForceSource& source, const Directive& c) {
+    ForceWaveform waveform(source.clock().T());
+    double count = 0, last = 0;
+    for (Frames block(source.channels().size(), 4096);;) {  // a stimulus has one channel
+        if (auto ok = source.read(block); !ok) return ok.error();
+        if (block.count == 0) {
+            waveform.append(std::vector<double>(ForceWaveform::lookahead + 1, last));  // decides on breakpoints among the last samples
+            return waveform;
+        }
+        if ((count += static_cast<double>(block.count)) > max_samples)
+            return error_in(c, 0, fmt::format("more than {:g} samples; lower the rate or shorten the stimulus", max_samples));
+        waveform.append(std::span(block.force[0]).first(block.count));
+        last = block.force[0][block.count - 1];
+    }
+}
+
+Result<std::unique_ptr<ForceSource>> source_of(const Directive& c) {
+    if (c.words.empty()) return error_in(c, 0, "a stimulus is missing, such as '.force press f_max=2'");
+    const auto spec = parse_force_spec(c);
+    if (!spec) return spec.error();
+    auto source = make_stimulus(c.words[0], spec->overrides, spec->rate, 0);  // seed 0
+    if (!source) return error_in(c, 0, source.error().message);
+    for (const auto& parameter : spec->overrides)
+        if (!parameter.is_used)
+            return error_in(c, 0, fmt::format("{}: '{}' is not a stimulus of this line", parameter.text(), parameter.target));
+    return source;
+}
+
+/// The .force line; null if there is none. A second one is an error.
+Result<const Directive*> find_force_line(const Circuit& circuit) {
+    const Directive* found = nullptr;
+    for (const auto& c : circuit.directives) {
+        if (c.name != "force") continue;
+        if (found) return bad_input(fmt::format(".force: only one is allowed; the first is in line {}", found->location.line), c.location);
+        found = &c;
+    }
+    return found;
+}
+
+}  // namespace
+
+Result<std::vector<Phase>> force_phases(const Circuit& circuit) {
+    const auto line = find_force_line(circuit);
+    if (!line) return line.error();
+    if (!*line) return std::vector<Phase>();
+    const auto source = source_of(**line);
+    if (!source) return source.error();
+    return (*source)->phases();
+}
+
+Result<std::optional<ForceWaveform>> force_directive(const Circuit& circuit) {
+    const auto line = find_force_line(circuit);
+    if (!line) return line.error();
+    if (!*line) return std::optional<ForceWaveform>();
+    auto source = source_of(**line);
+    if (!source) return source.error();
+    auto waveform = read_waveform_of(**source, **line);
+    if (!waveform) return waveform.error();
+    return std::optional<ForceWaveform>(std::move(*waveform));
+}
+
+}  // namespace corpuscle::circuit

@@ -1,0 +1,85 @@
+#pragma once
+// An expression of a netlist, parsed once and evaluated many times, with its derivatives.
+
+#include <cstdint>
+#include <functional>
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "core/error.hpp"
+
+namespace corpuscle::circuit {
+
+/// An input of an expression: v(a), v(a,b), i(vx), time (s) or temper (the temperature in degrees Celsius).
+struct ExpressionInput {
+    enum class Kind { voltage, current, time, temperature } kind;
+    std::string name, minus;  ///< voltage: the node and its reference ("" is ground); current: the element
+    bool operator==(const ExpressionInput&) const = default;
+};
+
+/// The names that are visible to an expression.
+struct ExpressionScope {
+    std::function<std::optional<double>(std::string_view)>
+        parameter{};  ///< returns the value of a parameter; nothing if no parameter has this name
+    /// A user's function (.func, .param f(x)=...): the names of its arguments and its text.
+    struct Function {
+        std::vector<std::string> arguments;
+        std::string text;
+    };
+    std::function<const Function*(std::string_view)> function{};  ///< returns null if no function has this name
+    bool allows_inputs = false;                                   ///< true if voltages, currents and time are allowed; false in .param
+    std::vector<std::string> suggestions{};                       ///< known names, for "did you mean" in the error about an unknown name
+    /// Return the name in the circuit of a node or an element of this scope ("x1.n3" for "n3" inside x1). If null, the name is kept.
+    std::function<std::string(std::string_view)> node{}, element{};
+};
+
+/// A parsed expression.
+class Expression {
+public:
+    /// Parses "2*v(a) + max(i(vx), 0)". It has + - * / ** ^ (powers), unary - + !, comparisons, && ||, c ? a : b, and numbers with SPICE's
+    /// suffixes. It also has the functions of ngspice and its constants, such as pi. `location` is that of the text, for errors.
+    ///
+    /// As in ngspice 39:
+    ///
+    ///  - The powers x^y and x**y are |x|^y and associate from left to right. The value of -x^2 is -(x^2).
+    ///  - The function log is the natural logarithm. The value of u(0) is 1/2.
+    ///  - In a parameter pow(x,y) is C's pow. It is |x|^y if the expression may use voltages.
+    ///  - In a parameter pwr(x,y) is |x|^y. It is sgn(x)|x|^y if the expression may use voltages.
+    ///
+    /// Different from ngspice:
+    ///
+    ///  - exp(x) and its derivative stay at e^700 beyond x = 700.
+    ///  - limit(x,a,b) limits x to the range from a to b.
+    ///  - agauss, gauss, unif, aunif and limit(x,d) return their nominal value x.
+    static Result<Expression> parse(std::string_view text, const SourceLocation& location, const ExpressionScope&);
+
+    /// The inputs, in the order in which value() takes their values.
+    std::span<const ExpressionInput> inputs() const { return inputs_; }
+    bool is_constant() const { return inputs_.empty(); }
+
+    /// The value for these values of the inputs.
+    double value(std::span<const double> inputs = {}) const;
+    /// The same value; `slopes` receives its derivative with respect to each input.
+    double value(std::span<const double> inputs, std::span<double> slopes) const;
+
+    /// A text with the same meaning here and in ngspice's B sources, such as "2*v(a)+max(i(vx),0)"; `name` gives the text of each input.
+    /// It is an error if a number is not finite or the text is longer than a million characters.
+    Result<std::string> text(const std::function<std::string(const ExpressionInput&)>& name) const;
+
+private:
+    friend class FormulaReader;
+    template <class Values>
+    double evaluate(std::span<const double> inputs, Values& values) const;
+    struct Step {
+        std::int16_t operation;            // an Operation, as a number
+        std::int32_t a = 0, b = 0, c = 0;  // the operands, as indices of earlier steps; for Operation::input, a is an index in inputs_
+        double number = 0;                 // for Operation::number
+    };
+    std::vector<Step> steps_;  // the last step gives the value of the expression
+    std::vector<ExpressionInput> inputs_;
+};
+
+}  // namespace corpuscle::circuit

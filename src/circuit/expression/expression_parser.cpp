@@ -1,0 +1,427 @@
+// Parses the text of an expression into steps in one pass. User functions are expanded where they are called.
+
+#include <fmt/format.h>
+#include <algorithm>
+
+#include "circuit/expression/expression.hpp"
+#include "circuit/expression/expression_operations.hpp"
+#include "circuit/expression/spice_number.hpp"
+#include "core/text/ascii_text.hpp"
+#include "core/parameter.hpp"
+
+namespace corpuscle::circuit {
+namespace {
+
+constexpr int max_expression_depth = 200;    // of nested parentheses, functions and ? :
+constexpr std::ptrdiff_t max_inputs = 4096;  // of one expression
+constexpr std::size_t max_steps = 1000000;   // of one expression, after the expansion of functions
+
+bool starts_name(char c) { return (lower(c) >= 'a' && lower(c) <= 'z') || c == '_'; }
+bool in_name(char c) { return starts_name(c) || (c >= '0' && c <= '9') || c == '.' || c == '#' || c == '@'; }
+
+/// A binary operator. In the table, an operator such as "<=" that begins with another one ("<") must precede it. A higher level binds more
+/// tightly.
+struct BinaryOperator {
+    std::string_view text;
+    Operation operation;
+    int level;
+};
+constexpr BinaryOperator binary_operators[] = {
+    {"||", Operation::logical_or, 1},     {"&&", Operation::logical_and, 2},
+    {"==", Operation::equal, 3},          {"!=", Operation::unequal, 3},
+    {"<>", Operation::unequal, 3},        {"<=", Operation::less_equal, 4},
+    {">=", Operation::greater_equal, 4},  {"<", Operation::less, 4},
+    {">", Operation::greater, 4},         {"|", Operation::logical_or, 1},
+    {"&", Operation::logical_and, 2},     {"+", Operation::add, 5},
+    {"-", Operation::subtract, 5},        {"**", Operation::magnitude_power, 7},
+    {"*", Operation::multiply, 6},        {"/", Operation::divide, 6},
+    {"^", Operation::magnitude_power, 7},
+};
+constexpr int power_level = 7;
+
+}  // namespace
+
+/// Each function of the grammar parses a part of the text and returns the index of the step that gives its value, or no_index after an
+/// error.
+class FormulaReader {
+    using Index = std::int32_t;
+    static constexpr Index no_index = -1;
+    using Arguments = std::vector<std::pair<std::string, Index>>;  // name and step of each argument
+
+    const ExpressionScope& scope_;
+    const SourceLocation& location_;  // of the expression's text
+    Expression out_;
+    std::string_view text_;                 // the expression, or the text of the function being expanded
+    std::size_t at_ = 0;                    // offset in text_ of the character to read next
+    const Arguments* arguments_ = nullptr;  // of the function being expanded; null outside functions
+    std::vector<std::string> calls_;        // functions being expanded, outermost first
+    std::size_t call_at_ = 0;               // offset of the outermost call in the expression, where errors inside it are located
+    int depth_ = 0;
+    std::size_t step_count_ = 0;  // operands and prefix operators read so far
+    std::optional<Error> error_;  // the first error
+
+public:
+    FormulaReader(std::string_view text, const SourceLocation& location, const ExpressionScope& scope)
+        : scope_(scope), location_(location), text_(text) {}
+
+    Result<Expression> read() {
+        Index last = choice();
+        if (last != no_index) last = expect_end(last);
+        if (last == no_index) return *error_;
+        remove_unused(last);
+        return std::move(out_);
+    }
+
+private:
+    // ---- errors ----
+
+    Index fail(std::string message, std::size_t at) {
+        if (error_) return no_index;
+        if (!calls_.empty()) message = fmt::format("in {}(): {}", calls_.back(), message);
+        SourceLocation location = location_;
+        location.column = std::max(1L, location.column) + static_cast<long>(calls_.empty() ? at : call_at_);
+        error_ = bad_input(std::move(message), std::move(location));
+        return no_index;
+    }
+    Index fail(std::string message) { return fail(std::move(message), at_); }
+
+    std::string text_here() const {
+        return at_ >= text_.size() ? "the end" : fmt::format("'{}'", text_.substr(at_, std::min<std::size_t>(12, text_.size() - at_)));
+    }
+    Index expect_end(Index last) {
+        skip_blanks();
+        if (at_ == text_.size()) return last;
+        if (text_[at_] == '=') return fail("'=' is an assignment; compare two values with '=='");
+        return fail(fmt::format("expected an operator such as + or the end of the expression, not {}", text_here()));
+    }
+
+    // ---- steps ----
+
+    Index push(Expression::Step step) {
+        out_.steps_.push_back(step);
+        return static_cast<Index>(out_.steps_.size() - 1);
+    }
+    Index number(double value) { return push({static_cast<std::int16_t>(Operation::number), 0, 0, 0, value}); }
+    bool is_number(Index k) const { return step(k).operation == static_cast<std::int16_t>(Operation::number); }
+    const Expression::Step& step(Index k) const { return out_.steps_[static_cast<std::size_t>(k)]; }
+
+    /// Adds a step. If all operands are numbers, the step is the number that results.
+    Index apply(Operation operation, Index a, Index b, Index c) {
+        if (a == no_index || b == no_index || c == no_index) return no_index;
+        const int n = operand_count(operation);
+        if (is_number(a) && (n < 2 || is_number(b)) && (n < 3 || is_number(c)))
+            return number(evaluate_operation(operation, step(a).number, step(b).number, step(c).number));
+        return push({static_cast<std::int16_t>(operation), a, n < 2 ? a : b, n < 3 ? a : c, 0});
+    }
+    Index apply(Operation operation, Index a, Index b) { return apply(operation, a, b, a); }
+    Index apply(Operation operation, Index a) { return apply(operation, a, a, a); }
+
+    Index input(ExpressionInput::Kind kind, std::string name = "", std::string minus = "") {
+        ExpressionInput new_input{kind, std::move(name), std::move(minus)};
+        const auto found = std::find(out_.inputs_.begin(), out_.inputs_.end(), new_input);
+        const auto k = found - out_.inputs_.begin();
+        if (k >= max_inputs) return fail(fmt::format("the expression uses more than {} voltages and currents", max_inputs));
+        if (found == out_.inputs_.end()) out_.inputs_.push_back(std::move(new_input));
+        return push({static_cast<std::int16_t>(Operation::input), static_cast<Index>(k), 0, 0, 0});
+    }
+
+    /// Removes the steps and inputs that do not contribute to the value.
+    void remove_unused(Index last) {
+        auto& steps = out_.steps_;
+        std::vector<Index> new_index(steps.size(), no_index), new_input_index(out_.inputs_.size(), no_index);
+        const auto mark_used = [&](Index k) { new_index[static_cast<std::size_t>(k)] = 0; };
+        mark_used(last);
+        for (std::size_t k = static_cast<std::size_t>(last) + 1; k-- > 0;) {
+            if (new_index[k] == no_index) continue;
+            const auto operation = static_cast<Operation>(steps[k].operation);
+            if (operation == Operation::input) new_input_index[static_cast<std::size_t>(steps[k].a)] = 0;
+            if (operand_count(operation) > 0) mark_used(steps[k].a), mark_used(steps[k].b), mark_used(steps[k].c);
+        }
+        renumber_inputs(new_input_index);
+        std::size_t kept = 0;
+        for (std::size_t k = 0; k <= static_cast<std::size_t>(last); ++k) {
+            if (new_index[k] == no_index) continue;
+            Expression::Step s = steps[k];
+            if (static_cast<Operation>(s.operation) == Operation::input)
+                s.a = new_input_index[static_cast<std::size_t>(s.a)];
+            else if (operand_count(static_cast<Operation>(s.operation)) > 0)
+                for (Index* operand : {&s.a, &s.b, &s.c}) *operand = new_index[static_cast<std::size_t>(*operand)];
+            new_index[k] = static_cast<Index>(kept);
+            steps[kept++] = s;
+        }
+        steps.resize(kept);
+        steps.shrink_to_fit();
+    }
+    void renumber_inputs(std::vector<Index>& new_index) {
+        std::vector<ExpressionInput> kept;
+        for (std::size_t k = 0; k < new_index.size(); ++k)
+            if (new_index[k] != no_index) {
+                new_index[k] = static_cast<Index>(kept.size());
+                kept.push_back(std::move(out_.inputs_[k]));
+            }
+        out_.inputs_ = std::move(kept);
+    }
+
+    // ---- text ----
+
+    void skip_blanks() {
+        while (at_ < text_.size() && (text_[at_] == ' ' || text_[at_] == '\t')) ++at_;
+    }
+    bool take(char c) {
+        skip_blanks();
+        if (at_ >= text_.size() || text_[at_] != c) return false;
+        ++at_;
+        return true;
+    }
+    std::string_view name_here() {
+        const auto from = at_;
+        while (at_ < text_.size() && in_name(text_[at_])) ++at_;
+        return text_.substr(from, at_ - from);
+    }
+    const BinaryOperator* peek_operator() {
+        skip_blanks();
+        const auto rest = text_.substr(at_);
+        for (const BinaryOperator& candidate : binary_operators)
+            if (rest.starts_with(candidate.text)) return &candidate;
+        return nullptr;
+    }
+
+    // ---- grammar, from low to high precedence ----
+
+    Index nested(Index (FormulaReader::*read)()) {
+        if (depth_ >= max_expression_depth)
+            return fail(fmt::format("the expression is nested deeper than the limit of {}", max_expression_depth));
+        ++depth_;
+        const Index k = (this->*read)();
+        --depth_;
+        return k;
+    }
+
+    /// c ? a : b
+    Index choice() {
+        const Index condition = chain(1);
+        if (condition == no_index || !take('?')) return condition;
+        const Index yes = nested(&FormulaReader::choice);
+        if (yes == no_index) return no_index;
+        if (!take(':')) return fail(fmt::format("expected ':', as in c ? a : b, not {}", text_here()));
+        const Index no = nested(&FormulaReader::choice);
+        return no == no_index ? no_index : apply(Operation::conditional, condition, yes, no);
+    }
+
+    /// Binary operators of this level and higher ones, from left to right. power() has read those of power_level.
+    Index chain(int level) {
+        Index left = signed_value(&FormulaReader::power);
+        while (left != no_index) {
+            const BinaryOperator* found = peek_operator();
+            if (!found || found->level < level) break;
+            at_ += found->text.size();
+            const Index right = chain(found->level + 1);
+            left = right == no_index ? no_index : apply(found->operation, left, right);
+        }
+        return left;
+    }
+
+    /// x^y^z, where y and z may have signs; -x^2 is -(x^2).
+    Index power() {
+        Index left = operand();
+        while (left != no_index) {
+            const BinaryOperator* found = peek_operator();
+            if (!found || found->level != power_level) break;
+            at_ += found->text.size();
+            const Index right = signed_value(&FormulaReader::operand);
+            left = right == no_index ? no_index : apply(found->operation, left, right);
+        }
+        return left;
+    }
+    /// A value that `read` parses, with any prefix operators - + ! before it. The operator next to the value applies first.
+    Index signed_value(Index (FormulaReader::*read)()) {
+        const auto from = (skip_blanks(), at_);
+        while (at_ < text_.size() && std::string_view("-+! \t").find(text_[at_]) != std::string_view::npos) ++at_;
+        auto prefix = text_.substr(from, at_ - from);
+        Index k = (this->*read)();
+        for (; !prefix.empty() && k != no_index; prefix.remove_suffix(1)) {
+            if (prefix.back() == '-') k = apply(Operation::negate, k);
+            if (prefix.back() == '!') k = apply(Operation::logical_not, k);
+            if (!count_step()) return no_index;
+        }
+        return k;
+    }
+
+    bool count_step() {
+        if (++step_count_ <= max_steps) return true;
+        fail(fmt::format("the expression has more than {} steps", max_steps));
+        return false;
+    }
+
+    Index operand() {
+        if (!count_step()) return no_index;
+        skip_blanks();
+        const char c = at_ < text_.size() ? text_[at_] : '\0';
+        if (c == '(' || c == '{') return group(c == '(' ? ')' : '}');
+        if (starts_name(c)) return named();
+        if ((c >= '0' && c <= '9') || c == '.') return literal();
+        return fail(fmt::format("expected a number, a name or '(', not {}", text_here()));
+    }
+
+    Index group(char close) {
+        const auto open = at_++;
+        const Index k = nested(&FormulaReader::choice);
+        if (k == no_index || take(close)) return k;
+        if (at_ >= text_.size()) return fail(fmt::format("this '{}' is not closed", text_[open]), open);
+        return fail(fmt::format("expected '{}', not {}", close, text_here()));
+    }
+
+    Index literal() {
+        const auto from = at_;
+        const auto read = parse_leading_number(text_.substr(at_));
+        const auto end = at_ + (read ? read->length : 1);
+        if (!read || (end < text_.size() && (in_name(text_[end])))) {
+            name_here();
+            return fail(fmt::format("'{}' is not a number", text_.substr(from, std::max<std::size_t>(1, at_ - from))), from);
+        }
+        if (auto why = ambiguity(*read, text_.substr(from, end - from))) return fail(std::move(*why), from);
+        at_ = end;
+        return number(read->value);
+    }
+
+    // ---- names ----
+
+    Index named() {
+        const auto from = at_;
+        const std::string name = lower(name_here());
+        skip_blanks();
+        if (at_ < text_.size() && text_[at_] == '(') return call(name, from);
+        if (arguments_)
+            for (const auto& [argument, k] : *arguments_)
+                if (argument == name) return k;
+        if (scope_.parameter)
+            if (const auto value = scope_.parameter(name)) return number(*value);
+        if (name == "time" || name == "temper") return time_or_temperature(name, from);
+        if (name == "hertz") return fail("an expression must not depend on the frequency (hertz)", from);
+        if (const double* value = find_constant(name)) return number(*value);
+        return fail(fmt::format("unknown name '{}'{}", name, suggestion(name)), from);
+    }
+
+    Index time_or_temperature(std::string_view name, std::size_t from) {
+        if (!scope_.allows_inputs)
+            return fail(fmt::format("'{}' is not available in a parameter, only in an expression of the circuit", name), from);
+        return input(name == "time" ? ExpressionInput::Kind::time : ExpressionInput::Kind::temperature);
+    }
+
+    std::string suggestion(std::string_view name) const {
+        std::vector<std::string_view> names(scope_.suggestions.begin(), scope_.suggestions.end());
+        if (arguments_)
+            for (const auto& argument : *arguments_) names.push_back(argument.first);
+        for (std::size_t k = 0; !constant_name(k).empty(); ++k)
+            if (constant_name(k).size() > 1) names.push_back(constant_name(k));
+        return did_you_mean(name, names);
+    }
+    static std::string function_suggestion(std::string_view name) {
+        std::vector<std::string_view> names;
+        for (std::size_t k = 0; !function_name(k).empty(); ++k) names.push_back(function_name(k));
+        return did_you_mean(name, names);
+    }
+
+    Index call(const std::string& name, std::size_t from) {
+        const auto* user_function = scope_.function ? scope_.function(name) : nullptr;
+        if (!user_function && (name == "v" || name == "i")) return voltage_or_current(name[0], from);
+        if (!user_function && (name == "ddt" || name == "idt" || name == "sdt"))
+            return fail(fmt::format("{}() is not supported; for a charge, use a capacitor with q='...'", name), from);
+        const auto* row = user_function ? nullptr : find_function(name, scope_.allows_inputs);
+        if (!user_function && !row) return fail(fmt::format("unknown function '{}'{}", name, function_suggestion(name)), from);
+        std::vector<Index> values;
+        if (!read_arguments(values)) return no_index;
+        if (user_function) return expand_function(name, *user_function, values, from);
+        const int argument_count = static_cast<int>(values.size());
+        if (argument_count < row->min_arguments || argument_count > row->max_arguments)
+            return fail(argument_count_message(*row, argument_count), from);
+        // limit(x,d) is a random function in ngspice; limit(x,a,b) is not.
+        const bool is_nominal = row->operation == Operation::limit && argument_count == 2;
+        values.resize(3, values[0]);  // every function has at least one argument
+        return apply(is_nominal ? Operation::nominal : row->operation, values[0], values[1], values[2]);
+    }
+
+    static std::string argument_count_message(const FunctionInfo& row, int argument_count) {
+        const auto expected = row.min_arguments == row.max_arguments ? fmt::format("{}", row.max_arguments)
+                                                                     : fmt::format("{} or {}", row.min_arguments, row.max_arguments);
+        return fmt::format("{}() takes {} argument{}, not {}", row.name, expected, row.max_arguments == 1 ? "" : "s", argument_count);
+    }
+
+    bool read_arguments(std::vector<Index>& values) {
+        const auto open = at_++;
+        if (take(')')) return true;
+        do {
+            values.push_back(nested(&FormulaReader::choice));
+            if (values.back() == no_index) return false;
+        } while (take(','));
+        if (take(')')) return true;
+        if (at_ >= text_.size())
+            fail("this '(' is not closed", open);
+        else
+            fail(fmt::format("expected ',' or ')', not {}", text_here()));
+        return false;
+    }
+
+    /// Expands a user's function: parses its text with its argument names bound to the values.
+    Index expand_function(const std::string& name, const ExpressionScope::Function& function, const std::vector<Index>& values,
+                          std::size_t from) {
+        const std::size_t expected = function.arguments.size();
+        if (values.size() != expected)
+            return fail(fmt::format("{}() takes {} argument{}, not {}", name, expected, expected == 1 ? "" : "s", values.size()), from);
+        if (std::find(calls_.begin(), calls_.end(), name) != calls_.end()) return fail(fmt::format("{}() calls itself", name), from);
+        if (depth_ >= max_expression_depth)
+            return fail(fmt::format("the expression is nested deeper than the limit of {}", max_expression_depth), from);
+        Arguments bound;
+        for (std::size_t k = 0; k < values.size(); ++k) bound.emplace_back(function.arguments[k], values[k]);
+        const auto text = std::exchange(text_, function.text);
+        const auto at = std::exchange(at_, 0);
+        const auto* arguments = std::exchange(arguments_, &bound);
+        if (calls_.empty()) call_at_ = from;
+        calls_.push_back(name);
+        Index k = nested(&FormulaReader::choice);
+        if (k != no_index) k = expect_end(k);
+        calls_.pop_back();
+        text_ = text, at_ = at, arguments_ = arguments;
+        return k;
+    }
+
+    // ---- v(a), v(a,b), i(vx) ----
+
+    /// Reads the names in parentheses after v or i (`kind`), which is at offset `from`.
+    Index voltage_or_current(char kind, std::size_t from) {
+        if (!scope_.allows_inputs)
+            return fail(fmt::format("{}(...) is not available in a parameter, only in an expression of the circuit", kind), from);
+        const auto close = text_.find(')', at_);
+        if (close == std::string_view::npos) return fail("this '(' is not closed");
+        const auto inside = text_.substr(at_ + 1, close - at_ - 1);
+        const auto comma = inside.find(',');
+        const std::string first = lower(trimmed(inside.substr(0, comma)));
+        const std::string second = comma == std::string_view::npos ? "" : lower(trimmed(inside.substr(comma + 1)));
+        const bool is_difference = comma != std::string_view::npos;
+        if (!is_one_name(first) || (is_difference && (kind == 'i' || !is_one_name(second))))
+            return fail(fmt::format("'{}' is not a {}", text_.substr(from, close + 1 - from),
+                                    kind == 'v' ? "voltage; write v(node) or v(node,node)" : "current; write i(element)"),
+                        from);
+        at_ = close + 1;
+        if (kind == 'i') return input(ExpressionInput::Kind::current, scope_.element ? scope_.element(first) : first);
+        return voltage(node(first), is_difference ? node(second) : "");
+    }
+    static bool is_one_name(std::string_view name) { return !name.empty() && name.find_first_of(" \t({,") == std::string_view::npos; }
+
+    /// The name in the circuit of a node that the expression calls `name`; "" is ground.
+    std::string node(const std::string& name) const {
+        std::string full = name == "0" || name == "gnd" ? "" : scope_.node ? scope_.node(name) : name;
+        return full == "0" ? "" : full;
+    }
+    Index voltage(const std::string& plus, const std::string& minus) {
+        if (plus == minus) return number(0);
+        if (!plus.empty()) return input(ExpressionInput::Kind::voltage, plus, minus);
+        return apply(Operation::negate, input(ExpressionInput::Kind::voltage, minus));
+    }
+};
+
+Result<Expression> Expression::parse(std::string_view text, const SourceLocation& location, const ExpressionScope& scope) {
+    return FormulaReader(text, location, scope).read();
+}
+
+}  // namespace corpuscle::circuit

@@ -1,0 +1,61 @@
+#pragma once
+// Finds curves of a plot by the names that netlists use: v(a,b), vdb(out), vp(out), i(v1), par('v(a)*i(v1)').
+
+#include <memory>
+#include <optional>
+#include <string_view>
+#include <unordered_map>
+
+#include "circuit/expression/expression.hpp"
+#include "circuit/output/point_sink.hpp"
+
+namespace corpuscle::circuit {
+
+/// Finds the index of a curve in a plot by its name, fast enough for many look-ups. The plot must outlive it.
+class CurveIndex {
+    std::unordered_map<std::string_view, int> indices_;
+
+public:
+    explicit CurveIndex(const Plot&);
+    int index_of(std::string_view name) const;  ///< -1 if no curve has this name
+};
+
+/// A quantity that was looked up once in a plot by its name. It is a curve, a difference v(a,b), or one part of a complex curve. The parts
+/// are vm (magnitude), vdb (magnitude in dB), vp (phase in radians, as in ngspice), vr (real part) and vi (imaginary part), and im, idb,
+/// ip, ir, ii of currents. In a real plot it may also be par('EXPRESSION') of voltages, currents and time.
+class CurveView {
+    static constexpr int ground = -1;
+    int plus_ = ground, minus_ = ground;              // the value is curve plus_ minus curve minus_; indices of the plot's curves
+    std::string_view part_{};                         // "m", "db", "p", "r" or "i"; "" is the complex value itself
+    bool is_complex_value_ = true;                    // the name has no part: v(a), i(x), v(a,b)
+    std::shared_ptr<const Expression> expression_{};  // of par('...'), otherwise null
+    std::vector<CurveView> inputs_{};                 // the curves for the inputs of the expression, in their order
+
+    std::complex<double> part_of_value(std::complex<double> difference) const;
+    double evaluate_expression(const PlotRow&) const;
+    static std::optional<CurveView> find_expression(const Plot&, std::string_view name);
+
+public:
+    /// Returns nothing if the plot has no such curve. `index` is the plot's CurveIndex; if it is null, all curves are searched.
+    static std::optional<CurveView> find(const Plot&, std::string_view name, const CurveIndex* index = nullptr);
+
+    std::complex<double> value(const PlotRow& row) const {
+        if (expression_) return evaluate_expression(row);
+        return part_of_value((plus_ < 0 ? 0 : row[static_cast<std::size_t>(plus_)]) -
+                             (minus_ < 0 ? 0 : row[static_cast<std::size_t>(minus_)]));
+    }
+    /// The value for .meas. It is the magnitude if the name does not select a part of a complex curve, as in ngspice.
+    double measured_value(const PlotRow& row) const {
+        const auto x = value(row);
+        return row.is_complex && is_complex_value_ ? std::abs(x) : x.real();
+    }
+    std::vector<std::complex<double>> all_values(const Plot&) const;
+};
+
+/// Parses the expression in "par('...')"; an error is reported at `location`.
+Result<Expression> parse_par_expression(std::string_view name, const SourceLocation& location);
+
+/// The values of the named curve (as in CurveView) at all points of a plot; nothing if the plot has no such curve.
+std::optional<std::vector<std::complex<double>>> find_curve_values(const Plot&, std::string_view name);
+
+}  // namespace corpuscle::circuit

@@ -1,0 +1,296 @@
+#include "circuit/variant/netlist_overrides.hpp"
+
+#include <fmt/format.h>
+#include <algorithm>
+#include <cmath>
+#include <optional>
+
+#include "circuit/device/uicm_card.hpp"
+#include "circuit/variant/hierarchical_names.hpp"
+#include "core/text/ascii_text.hpp"
+#include "core/text/quantity.hpp"
+
+namespace corpuscle::circuit {
+namespace {
+
+constexpr std::string_view reserved_names[] = {"corner", "temp", "mismatch"};
+
+Error error_of(const NetlistOverride& setting, std::string_view why) { return bad_input(fmt::format("{}: {}", setting.text, why)); }
+
+/// A parameter of an element that can be set: w of an M, dtemp of an R; "" is the element's value. `low` and `high` are allowed, too.
+struct ElementParameter {
+    std::string_view name, unit;
+    double low, high;
+};
+
+constexpr double huge = std::numeric_limits<double>::max();  // as `high`: no limit
+
+std::vector<ElementParameter> parameters_of(const Element& e) {
+    if (e.letter == 'm') {
+        std::vector<ElementParameter> out;
+        for (const auto& f : UicmInstance::fields) out.push_back({f.name, f.unit, f.low, f.high});
+        out.push_back({"temp", "", -273, 500}), out.push_back({"dtemp", "", -500, 500});
+        return out;
+    }
+    constexpr double above_zero = std::numeric_limits<double>::min();
+    const ElementParameter m{"m", "", above_zero, huge}, tc1{"tc1", "", -huge, huge}, tc2{"tc2", "", -huge, huge},
+        temp{"temp", "", -273, 500}, dtemp{"dtemp", "", -500, 500};
+    switch (e.letter) {
+        case 'r':
+            return {{"", "ohm", -huge, huge}, {"r", "ohm", -huge, huge}, m, tc1, tc2, temp, dtemp};
+        case 'c':
+            if (e.expression) return {m};
+            return {{"", "F", 0, huge}, {"c", "F", 0, huge}, m, tc1, tc2, temp, dtemp};
+        case 'l':
+            return {{"", "", 0, huge}, {"l", "", 0, huge}, m, tc1, tc2, temp, dtemp};
+        case 'v':
+            return {{"", "V", -huge, huge}, {"dc", "V", -huge, huge}};
+        case 'i':
+            return {{"", "A", -huge, huge}, {"dc", "A", -huge, huge}};
+        case 'd':
+            return {{"area", "", above_zero, huge}, m, temp, dtemp};
+        case 'b':
+            return {};
+        default:
+            if (e.expression) return {};
+            return {{"", "", -huge, huge}};
+    }
+}
+
+bool has_parameter(const Element& e, std::string_view name) {
+    const auto all = parameters_of(e);
+    return std::any_of(all.begin(), all.end(), [&](const ElementParameter& n) { return n.name == name; });
+}
+
+/// Reads "8x4", an array of 8 columns of 4 units in series, as (8, 4); nothing if the text has another form.
+std::optional<std::pair<double, double>> array_of(std::string_view text) {
+    const auto cross = text.find_first_of("xX");
+    if (cross == std::string_view::npos) return {};
+    const auto columns = parse_quantity(text.substr(0, cross), ""), units = parse_quantity(text.substr(cross + 1), "");
+    if (!columns || !units) return {};
+    return std::pair(*columns, *units);
+}
+
+/// Finds the devices that overrides name in a circuit, and adds their new values to `changes`.
+class OverrideResolver {
+    const Circuit& circuit_;
+    const std::vector<std::string>& parameters_;  // names of the top level's .param lines, for error messages
+    ResolvedOverrides& changes_;
+    std::vector<std::string_view> names_;  // of the elements
+
+public:
+    OverrideResolver(const Circuit& circuit, const std::vector<std::string>& parameters, ResolvedOverrides& changes)
+        : circuit_(circuit), parameters_(parameters), changes_(changes) {
+        for (const auto& e : circuit.elements) names_.push_back(e.name);
+    }
+
+    /// A name is tried as a device first, then as a device and its parameter.
+    Result<void> apply(const NetlistOverride& setting) {
+        const auto elements = find_matching_names(names_, setting.name, LastPiece::element);
+        if (elements.size() == 1) return override_device(setting, element(elements[0]), "");
+        const auto dot = setting.name.rfind('.');
+        if (dot != std::string::npos) {
+            const auto owners = find_matching_names(names_, std::string_view(setting.name).substr(0, dot), LastPiece::element);
+            if (owners.size() == 1)
+                return override_device(setting, element(owners[0]), lower(std::string_view(setting.name).substr(dot + 1)));
+            if (elements.empty() && owners.size() > 1) return ambiguous_name(setting, setting.name.substr(0, dot), owners);
+        }
+        return elements.empty() ? unknown(setting) : ambiguous_name(setting, setting.name, elements);
+    }
+
+private:
+    const Element& element(std::size_t k) const { return circuit_.elements[k]; }
+
+    Error ambiguous_name(const NetlistOverride& setting, std::string_view typed, const std::vector<std::size_t>& found) const {
+        std::vector<std::string_view> names;
+        for (const auto k : found) names.push_back(names_[k]);
+        return error_of(setting, fmt::format("'{}' is ambiguous: {}; write more of its path", typed, abbreviated_list(names)));
+    }
+
+    /// The error for a name that is neither a parameter nor a device.
+    Error unknown(const NetlistOverride& setting) const {
+        const auto pieces = piece_count(setting.name);
+        std::vector<std::string> known(std::begin(reserved_names), std::end(reserved_names));
+        known.insert(known.end(), parameters_.begin(), parameters_.end());
+        const auto typed = lower(setting.name);
+        const auto dot = typed.rfind('.');
+        for (const auto& e : circuit_.elements) {
+            known.push_back(short_name(e.name, pieces, LastPiece::element));
+            if (dot != std::string::npos && has_parameter(e, std::string_view(typed).substr(dot + 1)))
+                known.push_back(short_name(e.name, pieces - 1, LastPiece::element) + typed.substr(dot));
+        }
+        const std::vector<std::string_view> views(known.begin(), known.end());
+        const std::vector<std::string_view> params(parameters_.begin(), parameters_.end());
+        return error_of(setting,
+                        fmt::format("{} has no parameter or device '{}'{} (it has {}corner, temp, mismatch, and {} devices, such as {})",
+                                    circuit_.file, setting.name, did_you_mean(typed, views),
+                                    params.empty() ? "" : fmt::format("{}, ", fmt::join(params, ", ")), names_.size(),
+                                    names_.empty() ? "none" : short_name(names_.back(), piece_count(names_.back()), LastPiece::element)));
+    }
+
+    /// Overrides a parameter of a device; "" is the device's value, for a transistor its array.
+    Result<void> override_device(const NetlistOverride& setting, const Element& e, std::string_view parameter) {
+        if (parameter.empty() && e.letter == 'm') return override_array(setting, e);
+        const auto known = parameters_of(e);
+        const auto at = std::find_if(known.begin(), known.end(), [&](const ElementParameter& n) { return n.name == parameter; });
+        if (at == known.end()) return unknown_parameter(setting, e, parameter, known);
+        if (at->name.empty() || at->name == "dc")
+            if (const auto shape = e.waveform.shape; shape != Waveform::Shape::none && shape != Waveform::Shape::force)
+                return error_of(setting, fmt::format("{} is a source with a time waveform; its value is not a single number", e.name));
+        auto value = parse_quantity(setting.value, at->unit);
+        if (!value) return error_of(setting, value.error().message);
+        return add_change(setting, e, *at, *value);
+    }
+
+    Error unknown_parameter(const NetlistOverride& setting, const Element& e, std::string_view parameter,
+                            const std::vector<ElementParameter>& known) const {
+        std::vector<std::string_view> names;
+        for (const auto& n : known)
+            if (!n.name.empty()) names.push_back(n.name);
+        if (names.empty()) return error_of(setting, fmt::format("{} has an expression; its value is not a single number", e.name));
+        if (parameter.empty())
+            return error_of(setting, fmt::format("{} has no single value; set one of its parameters ({})", e.name, fmt::join(names, ", ")));
+        return error_of(setting, fmt::format("{} has no '{}'{} (it has {})", e.name, parameter, did_you_mean(parameter, names),
+                                             fmt::join(names, ", ")));
+    }
+
+    Result<void> override_array(const NetlistOverride& setting, const Element& e) {
+        const auto size = array_of(setting.value);
+        if (!size || size->first != std::floor(size->first) || size->second != std::floor(size->second))
+            return error_of(
+                setting,
+                fmt::format(
+                    "'{}' is not an array; write COLUMNSxSERIES, such as 8x4 (8 columns of 4 units in series), or set {}.w, {}.l ...",
+                    setting.value, setting.name, setting.name));
+        for (const auto& n : parameters_of(e)) {
+            if (n.name == "m" && !(size->first >= 1))
+                return error_of(setting, fmt::format("{} columns; at least 1 is required", size->first));
+            if (n.name == "stack" && !(size->second >= 1))
+                return error_of(setting, fmt::format("{} units in series; at least 1 is required", size->second));
+            if (n.name != "m" && n.name != "stack") continue;
+            if (auto ok = add_change(setting, e, n, n.name == "m" ? size->first : size->second); !ok) return ok;
+        }
+        return {};
+    }
+
+    /// Adds one value to the changes. The names r of an R, c of a C, l of an L and dc of a source mean the element's value. The m of an M
+    /// does not: it is the number of its columns.
+    Result<void> add_change(const NetlistOverride& setting, const Element& e, const ElementParameter& parameter, double value) {
+        const bool means_value = parameter.name == "dc" || parameter.name == std::string_view(&e.letter, 1);
+        if (!(value >= parameter.low && value <= parameter.high))
+            return error_of(
+                setting,
+                parameter.high == huge && parameter.low >= 0
+                    ? fmt::format("{} must {}", format_quantity(value, parameter.unit), parameter.low > 0 ? "be above 0" : "not be below 0")
+                    : fmt::format("{} is outside [{}, {}]", format_quantity(value, parameter.unit),
+                                  format_quantity(parameter.low, parameter.unit), format_quantity(parameter.high, parameter.unit)));
+        if (e.letter == 'r' && (means_value || parameter.name.empty()) && value == 0)
+            return error_of(setting, "a resistor must not be 0 ohm");
+        changes_.numbers[e.name].insert_or_assign(means_value && e.letter != 'm' ? "" : std::string(parameter.name), value);
+        return {};
+    }
+};
+
+Result<double> temperature_of(const NetlistOverride& setting) {
+    auto text = trimmed(setting.value);
+    for (const std::string_view unit : {"degC", "\u00b0C", "C"})
+        if (text.ends_with(unit)) {
+            text.remove_suffix(unit.size());
+            break;
+        }
+    const auto value = parse_quantity(text, "");
+    if (!value) return error_of(setting, fmt::format("'{}' is not a temperature; write degrees Celsius, such as 85", setting.value));
+    if (!(*value > -273.15 && *value <= 500)) return error_of(setting, fmt::format("{:g} C is outside (-273.15, 500]", *value));
+    return *value;
+}
+
+/// Reads "7" or "7/41": a seed, and the number of the chip, counted from 0 (the default).
+Result<std::pair<std::uint64_t, std::uint64_t>> chip_of(const NetlistOverride& setting) {
+    const std::string_view text = setting.value;
+    const auto slash = text.find('/');
+    std::uint64_t out[2] = {};
+    for (std::size_t k = 0; k < (slash == text.npos ? 1u : 2u); ++k) {
+        const auto value = parse_quantity(k == 0 ? text.substr(0, slash) : text.substr(slash + 1), "");
+        if (!value || !(*value >= 0 && *value < 0x1p53) || *value != std::floor(*value))
+            return error_of(setting, fmt::format("'{}' is not a seed; write an integer from 0 to 2^53, or SEED/CHIP", setting.value));
+        out[k] = static_cast<std::uint64_t>(*value);
+    }
+    return std::pair(out[0], out[1]);
+}
+
+/// If the error says that no library has the corner, puts the override's text in front. The texts compared are those of
+/// CornerSelector::check_found().
+Error with_corner_override(std::span<const NetlistOverride> overrides, const std::string& corner, Error error) {
+    if (error.message.find(fmt::format("no corner '{}'", corner)) == std::string::npos &&
+        error.message.find(fmt::format("there is no corner '{}'", corner)) == std::string::npos)
+        return error;
+    for (const auto& setting : overrides)
+        if (lower(setting.name) == "corner") error.message = fmt::format("{}: {}", setting.text, error.message);
+    return error;
+}
+
+Result<void> set_parameter(const NetlistOverride& setting, const std::string& name, ResolvedOverrides& changes) {
+    const auto value = parse_number_with_unit(setting.value);
+    if (!value) return error_of(setting, value.error().message);
+    changes.parameters.insert_or_assign(name, value->value);
+    return {};
+}
+
+}  // namespace
+
+Result<NumberWithUnit> parse_number_with_unit(std::string_view text) {
+    const auto plain = parse_quantity(text, "");
+    if (plain) return NumberWithUnit{*plain, ""};
+    for (const std::string_view unit : {"V", "A", "F", "ohm", "s", "Hz", "m", "S", "N"})
+        if (const auto value = parse_quantity(text, unit)) return NumberWithUnit{*value, unit};
+    const auto example = "write a number and a unit of V, A, F, ohm, s, Hz, m, S, N or none, such as 4pF (M is mega, m is milli)";
+    return bad_input(fmt::format("'{}' is not a number; {}", text, example));
+}
+
+Result<Netlist> apply_overrides(const std::string& name_or_path, std::span<const NetlistOverride> overrides) {
+    return apply_overrides([&](const std::string& corner) { return open_netlist(name_or_path, corner); }, name_or_path, overrides);
+}
+
+Result<Netlist> apply_overrides(const NetlistOpener& open, const std::string& name, std::span<const NetlistOverride> overrides) {
+    ResolvedOverrides changes;
+    for (const auto& setting : overrides)
+        if (lower(setting.name) == "corner") {
+            changes.corner = lower(trimmed(setting.value));
+            if (changes.corner.empty()) return error_of(setting, "the name of the corner is missing; write one, such as ss");
+        }
+    const auto netlist = open(changes.corner);
+    if (!netlist) return with_corner_override(overrides, changes.corner, netlist.error());
+    std::vector<std::string> parameters;
+    for (const auto& [parameter, text] : netlist->parameters()) parameters.push_back(parameter);
+    std::vector<const NetlistOverride*> device_overrides;
+    for (const auto& setting : overrides) {
+        const auto lower_name = lower(setting.name);
+        if (lower_name == "corner") continue;
+        if (lower_name == "temp") {
+            const auto value = temperature_of(setting);
+            if (!value) return value.error();
+            changes.temperature = *value;
+        } else if (lower_name == "mismatch") {
+            const auto chip = chip_of(setting);
+            if (!chip) return chip.error();
+            changes.mismatch_seed = chip->first, changes.chip = chip->second;
+        } else if (std::find(parameters.begin(), parameters.end(), lower_name) != parameters.end()) {
+            if (auto ok = set_parameter(setting, lower_name, changes); !ok) return ok.error();
+        } else if (setting.is_parameter_only) {
+            const std::vector<std::string_view> known(parameters.begin(), parameters.end());
+            return error_of(setting, fmt::format("{} has no .param {}{}", name, lower_name, did_you_mean(lower_name, known)));
+        } else {
+            device_overrides.push_back(&setting);
+        }
+    }
+    if (device_overrides.empty()) return netlist->with_overrides(std::move(changes));
+    // The elements have names and values only in a flat circuit, which depends on the overrides so far.
+    const auto circuit = netlist->with_overrides(changes).elaborate();
+    if (!circuit) return circuit.error();
+    OverrideResolver resolver(*circuit, parameters, changes);
+    for (const auto* setting : device_overrides)
+        if (auto ok = resolver.apply(*setting); !ok) return ok.error();
+    return netlist->with_overrides(std::move(changes));
+}
+
+}  // namespace corpuscle::circuit

@@ -1,0 +1,174 @@
+#include "circuit/variant/netlist_variants.hpp"
+
+#include <fmt/format.h>
+#include <algorithm>
+#include <cmath>
+
+#include "circuit/analysis/analysis_context.hpp"
+#include "circuit/device/uicm_card.hpp"
+#include "circuit/expression/spice_number.hpp"
+
+namespace corpuscle::circuit {
+namespace {
+
+constexpr double max_variants = 1e6;
+
+Error too_many(const Directive& c, double count) {
+    return bad_input(fmt::format(".{}: {:g} variants exceed the limit of {:g}", c.name, count, max_variants), c.location);
+}
+
+Result<std::vector<double>> linear_values(const Directive& c, std::size_t word) {
+    const auto from = read_number(c, word, "the first value"), to = read_number(c, word + 1, "the last value"),
+               step = read_number(c, word + 2, "a step");
+    for (const auto* number : {&from, &to, &step})
+        if (!*number) return number->error();
+    const double steps = std::floor((*to - *from) / *step + 1e-9);
+    if (!(steps >= 0))
+        return bad_input(fmt::format(".step: a step of {:g} does not lead from {:g} to {:g}", *step, *from, *to), c.location);
+    if (!(steps < max_variants)) return too_many(c, steps + 1);
+    std::vector<double> out;
+    for (double k = 0; k <= steps; ++k) out.push_back(*from + k * *step);
+    return out;
+}
+
+/// The values of .step dec (base 10) or oct (base 2).
+Result<std::vector<double>> log_values(const Directive& c, std::size_t word, double base) {
+    const auto from = read_number(c, word, "the first value"), to = read_number(c, word + 1, "the last value"),
+               points = read_number(c, word + 2, "the number of points");
+    for (const auto* number : {&from, &to, &points})
+        if (!*number) return number->error();
+    if (!(*from > 0 && *to >= *from && *points >= 1))
+        return bad_input(fmt::format(".step: {:g} points from {:g} to {:g}; POINTS must be at least 1, FROM above 0, and TO not below FROM",
+                                     *points, *from, *to),
+                         c.location);
+    const double steps = std::floor(std::log(*to / *from) / std::log(base) * *points + 1e-9);
+    if (!(steps < max_variants)) return too_many(c, steps + 1);
+    std::vector<double> out;
+    for (double k = 0; k <= steps; ++k) out.push_back(*from * std::pow(base, k / *points));
+    return out;
+}
+
+}  // namespace
+
+Result<ChipSpec> parse_chip_spec(const Directive& c) {
+    ChipSpec out;
+    const auto count = read_number(c, 0, "the number of chips");
+    if (!count) return count.error();
+    out.count = *count;
+    for (std::size_t k = 1; k < c.words.size(); ++k) {
+        const auto equals = c.words[k].find('=');
+        const auto name = c.words[k].substr(0, equals);
+        const auto value = equals == std::string::npos ? std::nullopt : parse_number(std::string_view(c.words[k]).substr(equals + 1));
+        if (!value || (name != "seed" && name != "process" && name != "mismatch"))
+            return bad_input(fmt::format(".mc: '{}' must be seed=NUMBER, process=0|1 or mismatch=0|1", c.words[k]), c.location);
+        if (name == "seed") {
+            if (!(value->value >= 0 && value->value < 0x1p53))
+                return bad_input(fmt::format(".mc: seed={:g} must be from 0 to 2^53", value->value), c.location);
+            out.seed = static_cast<std::uint64_t>(value->value);
+        }
+        if (name == "process") out.has_process = value->value != 0;
+        if (name == "mismatch") out.has_mismatch = value->value != 0;
+    }
+    return out;
+}
+
+ChipSample ChipSpec::sample(std::uint64_t chip) const {
+    ChipSample out{seed, first_chip + chip, has_mismatch, {}};
+    if (has_process) std::copy_n(sample_process(seed, first_chip + chip).values, 4, out.process);
+    return out;
+}
+
+std::optional<ChipSample> chip_sample_of(const Circuit& c) {
+    if (!c.mismatch_seed) return {};
+    return ChipSpec{1, *c.mismatch_seed, true, true, c.chip}.sample(0);
+}
+
+Result<NetlistVariants> NetlistVariants::create(const Netlist& netlist) {
+    NetlistVariants out{};
+    out.netlist_ = netlist;
+    auto nominal = netlist.elaborate();
+    if (!nominal) return nominal.error();
+    out.nominal_ = std::make_shared<const Circuit>(std::move(*nominal));
+    double count = 1;  // of the variants so far
+    for (const auto& c : out.nominal_->directives) {
+        if (c.name == "step") {
+            // [dec|oct] [param] NAME, then the values
+            std::size_t at = 0;  // index of the word to read next
+            const auto word = [&] { return at < c.words.size() ? c.words[at] : std::string(); };
+            const bool is_log = word() == "dec" || word() == "oct";
+            const double base = word() == "dec" ? 10 : 2;
+            at += is_log;
+            at += word() == "param";
+            Axis axis{word(), {}};
+            if (axis.name.empty()) return bad_input(".step: the name of the parameter is missing", c.location);
+            ++at;
+            if (word() == "list") {
+                for (++at; at < c.words.size(); ++at) {
+                    const auto value = read_number(c, at, "a value");
+                    if (!value) return value.error();
+                    axis.values.push_back(*value);
+                }
+                if (axis.values.empty()) return bad_input(".step: the list is empty", c.location);
+            } else {
+                auto values = is_log ? log_values(c, at, base) : linear_values(c, at);
+                if (!values) return values.error();
+                axis.values = std::move(*values);
+            }
+            count *= static_cast<double>(axis.values.size());
+            if (count > max_variants) return too_many(c, count);
+            out.axes_.push_back(std::move(axis));
+        }
+        if (c.name == "mc") {
+            const auto chips = parse_chip_spec(c);
+            if (!chips) return chips.error();
+            count *= chips->count;
+            if (!(chips->count >= 1)) return bad_input(".mc: the number of chips must be at least 1", c.location);
+            if (!(count <= max_variants)) return too_many(c, count);
+            out.chips_ = *chips;
+            out.chips_.count = std::floor(chips->count);
+        }
+    }
+    return out;
+}
+
+std::size_t NetlistVariants::count() const {
+    std::size_t count = std::max<std::size_t>(static_cast<std::size_t>(chips_.count), 1);
+    for (const auto& axis : axes_) count *= axis.values.size();
+    return count;
+}
+
+Result<void> NetlistVariants::elaborate_step(std::size_t number) {
+    if (last_ && last_->number == number) return {};
+    if (axes_.empty()) {
+        last_ = {number, "", nominal_};
+        return {};
+    }
+    Values parameters;
+    std::optional<double> temperature;
+    std::string label;
+    auto rest = number;  // the number without the digits of the axes that are done
+    for (auto axis = axes_.rbegin(); axis != axes_.rend(); ++axis) {
+        const double value = axis->values[rest % axis->values.size()];
+        rest /= axis->values.size();
+        axis->name == "temp" ? void(temperature = value) : void(parameters[axis->name] = value);
+        label = fmt::format("{}={:g}{}{}", axis->name, value, label.empty() ? "" : " ", label);
+    }
+    auto circuit = netlist_.elaborate(parameters);
+    if (!circuit) return circuit.error();
+    if (temperature) circuit->temperature = *temperature;
+    last_ = {number, std::move(label), std::make_shared<const Circuit>(std::move(*circuit))};
+    return {};
+}
+
+Result<Variant> NetlistVariants::at(std::size_t number) {
+    const std::size_t chip_count = std::max<std::size_t>(static_cast<std::size_t>(chips_.count), 1), chip = number % chip_count;
+    if (auto ok = elaborate_step(number / chip_count); !ok) return ok.error();
+    Variant out{last_->label, last_->circuit, {}};
+    out.sample = chip_sample_of(*out.circuit);
+    if (!this->has_chips()) return out;
+    out.sample = chips_.sample(chip);
+    out.label += fmt::format("{}mc={}", out.label.empty() ? "" : " ", chip + 1);
+    return out;
+}
+
+}  // namespace corpuscle::circuit

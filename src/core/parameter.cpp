@@ -1,0 +1,51 @@
+#include "core/parameter.hpp"
+
+#include <fmt/format.h>
+#include <algorithm>
+#include <numeric>
+
+#include "core/text/ascii_text.hpp"
+
+namespace corpuscle {
+namespace {
+
+/// Levenshtein distance: the number of letters to replace, insert or remove. Upper and lower case are equal.
+std::size_t edit_distance(std::string_view a, std::string_view b) {
+    std::vector<std::size_t> row(b.size() + 1);
+    std::iota(row.begin(), row.end(), std::size_t{0});
+    for (std::size_t i = 0; i < a.size(); ++i) {
+        std::size_t diagonal = std::exchange(row[0], i + 1);
+        for (std::size_t j = 0; j < b.size(); ++j) {
+            const std::size_t replaced = diagonal + (lower(a[i]) != lower(b[j]));
+            diagonal = std::exchange(row[j + 1], std::min({replaced, row[j] + 1, row[j + 1] + 1}));
+        }
+    }
+    return row.back();
+}
+
+}  // namespace
+
+Result<void> check_range(std::string_view owner, const ParameterInfo& row, double value) {
+    if (value >= row.low && value <= row.high) return {};
+    return bad_input(fmt::format("{}: {} = {:g}{}{} is outside [{:g}, {:g}]", owner, row.name, value, row.unit.empty() ? "" : " ", row.unit,
+                                 row.low, row.high));
+}
+
+Result<void> check_order(std::string_view owner, std::string_view lower_name, double lower, std::string_view upper_name, double upper,
+                         bool or_equal) {
+    if (or_equal ? lower <= upper : lower < upper) return {};
+    return bad_input(fmt::format("{}: {} = {:g} must {} {} = {:g}", owner, lower_name, lower, or_equal ? "not be above" : "be below",
+                                 upper_name, upper));
+}
+
+std::string did_you_mean(std::string_view typed, std::span<const std::string_view> names) {
+    if (typed.empty() || typed.size() > 64) return "";
+    std::string_view best;
+    // A name is similar if at most half of the typed letters are changed, or one letter of a short name.
+    std::size_t best_distance = std::max<std::size_t>(1, typed.size() / 2) + 1;
+    for (const auto name : names)
+        if (const auto n = edit_distance(typed, name); n < best_distance) best_distance = n, best = name;
+    return best.empty() ? "" : fmt::format("; did you mean '{}'?", best);
+}
+
+}  // namespace corpuscle

@@ -1,0 +1,21 @@
+#include "core/text/embedded_files.hpp"
+
+#include <fmt/format.h>
+
+#include "embedded_file_table.hpp"
+
+namespace corpuscle {
+
+Result<std::string> embedded_text(const std::string& path) {
+    for (const auto& f : embedded_file_table)
+        if (f.path == path) return std::string(f.begin, f.end);
+    return bad_input(fmt::format("there is no embedded file '{}'", path), {path});
+}
+
+std::vector<std::string_view> embedded_files() {
+    std::vector<std::string_view> out;
+    for (const auto& f : embedded_file_table) out.push_back(f.path);
+    return out;
+}
+
+}  // namespace corpuscle

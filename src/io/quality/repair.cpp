@@ -1,0 +1,79 @@
+#include "io/quality/repair.hpp"
+
+#include <fmt/format.h>
+#include <algorithm>
+#include <cmath>
+
+namespace corpuscle {
+
+/// The sample last_[center_], or NaN if it is an outlier.
+double HampelFilter::filtered() {
+    const double x = last_[center_], median = sorted_.empty() ? x : sorted_[sorted_.size() / 2], deviation = std::abs(x - median);
+    if (!(deviation > 0)) return x;  // also for a missing sample, whose deviation is NaN
+    double limit = limit_.value_or(0);
+    if (!limit_) {
+        std::vector<double> deviations;
+        for (const double y : sorted_) deviations.push_back(std::abs(y - median));
+        const auto middle = deviations.begin() + static_cast<std::ptrdiff_t>(deviations.size() / 2);
+        std::nth_element(deviations.begin(), middle, deviations.end());
+        limit = 6 * 1.4826 * *middle;  // 1.4826: ratio of the standard deviation to the median absolute deviation of a normal distribution
+    }
+    if (deviation <= limit) return x;
+    ++outliers;
+    return std::numeric_limits<double>::quiet_NaN();
+}
+
+void HampelFilter::push(double x, std::vector<double>& out) {
+    if (last_.size() == window) {
+        if (const double oldest = last_.front(); !std::isnan(oldest))
+            sorted_.erase(std::lower_bound(sorted_.begin(), sorted_.end(), oldest));
+        last_.erase(last_.begin());
+    }
+    last_.push_back(x);
+    if (!std::isnan(x)) sorted_.insert(std::upper_bound(sorted_.begin(), sorted_.end(), x), x);
+    if (last_.size() <= half_window) return;
+    center_ = last_.size() - 1 - half_window;
+    out.push_back(filtered());
+}
+
+void HampelFilter::finish(std::vector<double>& out) {
+    // push() has filtered the samples before these.
+    for (center_ = last_.size() > half_window ? last_.size() - half_window : 0; center_ < last_.size(); ++center_)
+        out.push_back(filtered());
+}
+
+Result<void> GapFiller::push(double x, std::vector<double>& out) {
+    if (std::isnan(x)) {
+        if (++missing_ > max_gap) return bad_input(fmt::format("{} consecutive samples are missing or bad", missing_));
+        return {};
+    }
+    const double from = std::isnan(last_good_) ? x : last_good_;
+    const auto steps = static_cast<double>(missing_ + 1);
+    for (std::int64_t k = 1; k <= missing_; ++k) out.push_back(from + (x - from) * (static_cast<double>(k) / steps));
+    filled += missing_;
+    missing_ = 0;
+    out.push_back(last_good_ = x);
+    return {};
+}
+
+Result<void> GapFiller::push(std::span<const double> x, std::vector<double>& out) {
+    for (std::size_t k = 0; k < x.size();) {
+        std::size_t good = k;
+        while (missing_ == 0 && good < x.size() && !std::isnan(x[good])) ++good;
+        out.insert(out.end(), x.begin() + static_cast<std::ptrdiff_t>(k), x.begin() + static_cast<std::ptrdiff_t>(good));
+        if (good > k) last_good_ = x[good - 1];
+        if ((k = good) < x.size())
+            if (auto ok = push(x[k++], out); !ok) return ok;
+    }
+    return {};
+}
+
+Result<void> GapFiller::finish(std::vector<double>& out) {
+    if (missing_ > 0 && std::isnan(last_good_)) return bad_input("all samples are missing or bad");
+    out.insert(out.end(), static_cast<std::size_t>(missing_), last_good_);
+    filled += missing_;
+    missing_ = 0;
+    return {};
+}
+
+}  // namespace corpuscle

@@ -1,0 +1,29 @@
+#pragma once
+// Selects the channels and the time column of a table, and determines their units. `path` is the path of the file, for messages.
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "io/recording/recording.hpp"
+
+namespace corpuscle {
+
+/// The indices of the requested columns. `wanted` are the arguments of --channel: names, names with units ("fz_N"), numbers, and ranges
+/// ("2-5", "fx-fz"). Numbers count the columns from 1, without the time column. If `wanted` is empty, selects all columns except the time,
+/// those that the table excludes, and those in units that are not forces. Appends to `notes` which columns were excluded, and the names of
+/// columns that were selected by number.
+Result<std::vector<std::size_t>> select_columns(const Table&, std::optional<std::size_t> time, const std::vector<std::string>& wanted,
+                                                const std::string& path, std::vector<std::string>* notes = nullptr);
+
+/// The index of the time column. `wanted` is its name, its number (counted from 1), or "none"; by default, it is the time column that the
+/// table found in the file. nullopt: the table has no time column.
+Result<std::optional<std::size_t>> select_time_column(const Table&, const std::optional<std::string>& wanted, const std::string& path);
+
+/// The factor that converts a column's values to newtons. A unit that is not a force is an error.
+Result<double> newtons_per_unit(const Column&, const RecordingOptions&, const std::string& path);
+
+/// The factor that converts the values of a time column to seconds. A unit that is not a time is an error.
+Result<double> seconds_per_unit(const Column&, const RecordingOptions&, const std::string& path);
+
+}  // namespace corpuscle

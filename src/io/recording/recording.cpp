@@ -1,0 +1,322 @@
+#include "io/recording/recording.hpp"
+
+#include <fmt/format.h>
+#include <algorithm>
+#include <filesystem>
+#include <unordered_map>
+#include <utility>
+
+#include "io/recording/column_selection.hpp"
+#include "io/recording/force_rows.hpp"
+#include "io/table/foreign_format.hpp"
+#include "io/quality/quality_report.hpp"
+#include "io/recording/recording_formats.hpp"
+#include "io/recording/row_clock.hpp"
+#include "io/recording/sensor_layout.hpp"
+#include "io/text/transposed_table.hpp"
+#include "core/afferent.hpp"
+#include "core/text/ascii_text.hpp"
+#include "core/text/input_files.hpp"
+
+namespace corpuscle {
+namespace {
+
+constexpr std::size_t max_channels = std::size_t{1} << 17;
+
+/// The name of a recording: "press" for "trials/press.csv.gz".
+std::string name_of_recording(const std::filesystem::path& path) {
+    return (lower(path.extension().string()) == ".gz" ? path.stem().stem() : path.stem()).string();
+}
+
+class Recording final : public ForceSource {
+    std::unique_ptr<Table> table_;
+    RecordingOptions options_;
+    std::string path_, name_;
+    RowClock row_clock_;  // of the rows of the file
+    Clock clock_;         // of the samples that read() returns; differs from row_clock_.clock after resampling
+    std::vector<Channel> channels_;
+    std::unordered_map<std::string, int> name_counts_;  // number of channels with each name
+    std::vector<std::string> notes_, selection_notes_;  // selection_notes_: about the selected columns
+    std::unique_ptr<HumTable> hum_table_;
+    std::optional<ForceRows> rows_;
+    std::int64_t samples_ = 0;  // samples returned so far
+    // For resampling. The next sample is interpolated between the last two rows.
+    std::int64_t next_ = 0;            // index of the next sample
+    std::int64_t row_number_ = 0;      // number of rows used so far
+    std::vector<double> before_, at_;  // forces of the last row but one, and of the last row, N
+    double t_before_ = 0, t_at_ = 0;   // their times, s
+
+    /// The columns that are channels, with their sensors' names and positions if a layout gives them. `time` is the time column.
+    Result<std::vector<SensorPlacement>> choose_sensors(std::optional<std::size_t> time) {
+        std::vector<SensorPlacement> chosen;
+        if (!options_.layout.empty()) {
+            auto layout = read_sensor_layout(options_.layout, *table_, time);
+            if (!layout) return layout.error();
+            if (!layout->has_length_unit)
+                notes_.push_back("the layout has no unit of length, so only the relative positions of the sensors are used");
+            if (options_.channels.empty()) return std::move(layout->sensors);
+            chosen = std::move(layout->sensors);  // --channel selects some of them below
+        }
+        const auto columns = select_columns(*table_, time, options_.channels, path_, &selection_notes_);
+        if (!columns) return columns.error();
+        std::vector<SensorPlacement> out;
+        for (const auto c : *columns) {
+            const auto placed = std::find_if(chosen.begin(), chosen.end(), [&](const SensorPlacement& p) { return p.column == c; });
+            out.push_back(placed == chosen.end() ? SensorPlacement{c, "", {}} : *placed);
+        }
+        return out;
+    }
+
+    /// Determines the clocks of the rows and of the samples.
+    Result<void> set_clock(std::optional<std::size_t> time, const std::vector<std::size_t>& columns) {
+        auto rows = find_row_clock(*table_, options_, path_, time, columns);
+        if (!rows) return rows.error();
+        row_clock_ = std::move(*rows);
+        clock_ = row_clock_.clock;
+        notes_.insert(notes_.end(), row_clock_.notes.begin(), row_clock_.notes.end());
+        if (!options_.resample) return {};
+        const auto resampled = make_clock(*options_.resample, clock_.t0);
+        if (!resampled) return resampled.error();
+        clock_ = *resampled;
+        return {};
+    }
+
+    /// Adds a channel. If neither the file nor an option gives its unit, appends its name to `unitless`.
+    void add_channel(const SensorPlacement& placed, std::vector<std::string>& unitless) {
+        const auto& column = table_->columns()[placed.column];
+        if (column.unit.empty() && !options_.unit && !options_.scale) unitless.push_back("'" + column.name + "'");
+        if (!column.unit.empty() && options_.unit && *options_.unit != column.unit && !options_.scale)
+            notes_.push_back(
+                fmt::format("--unit {} overrides the unit of '{}' in the header, {}", *options_.unit, column.name, column.unit));
+        const auto& name = placed.name.empty() ? column.name : placed.name;
+        const int occurrence = ++name_counts_[name];
+        channels_.push_back({static_cast<std::uint32_t>(channels_.size()),
+                             occurrence == 1 ? name : fmt::format("{} ({})", name, occurrence), placed.position});
+    }
+
+    /// For each channel, the newtons per unit of its values. Computed before the file is read, so that a unit that is not a force is
+    /// reported at once.
+    Result<std::vector<double>> gains_of(const std::vector<SensorPlacement>& chosen) const {
+        std::vector<double> gains;
+        for (const auto& placed : chosen) {
+            const auto gain = newtons_per_unit(table_->columns()[placed.column], options_, path_);
+            if (!gain) return gain.error();
+            gains.push_back(*gain);
+        }
+        return gains;
+    }
+
+    /// Warns if there are more columns than samples and the columns have no names of their own: the table may have to be transposed.
+    void warn_about_orientation(RecordingQuality& quality) const {
+        const auto& columns = table_->columns();
+        const auto samples = samples_;
+        if (options_.table.transpose || options_.resample || static_cast<std::int64_t>(columns.size()) <= samples || samples == 0) return;
+        const auto is_numbered = [this](const Column& c) {  // ch1, ch2 ... or 1, 2 ...
+            if (table_->is_time_guessed() && c.name == "time") return true;
+            const std::string_view digits = std::string_view(c.name).substr(c.name.starts_with("ch") ? 2 : 0);
+            return !digits.empty() && digits.find_first_not_of("0123456789") == std::string_view::npos;
+        };
+        if (table_->is_orientation_known() || !std::all_of(columns.begin(), columns.end(), is_numbered)) return;
+        quality.warnings.push_back(
+            fmt::format("{} columns, but only {} rows. Use --transpose if each row is a channel, or --no-transpose if each row is "
+                        "a sample",
+                        columns.size(), samples));
+    }
+
+    /// True if the table has the columns of a spike file, which are a time and the afferent or unit that fired.
+    bool holds_spikes(std::optional<std::size_t> time) const {
+        const auto& columns = table_->columns();
+        return time && options_.channels.empty() && columns.size() <= 3 && std::any_of(columns.begin(), columns.end(), [](const Column& c) {
+                   constexpr std::string_view words[] = {"unit", "afferent", "cluster", "cluster_id", "unit_id", "neuron", "neuron_id"};
+                   return std::any_of(std::begin(words), std::end(words), [&](auto w) { return equal_ignoring_case(c.name, w); });
+               });
+    }
+
+    /// Adds the channels, and a note about those whose unit is not known.
+    void add_channels(const std::vector<SensorPlacement>& chosen) {
+        std::vector<std::string> unitless;
+        for (const auto& placed : chosen) add_channel(placed, unitless);
+        if (unitless.size() > 6) unitless.resize(6), unitless.push_back("...");
+        if (!unitless.empty()) notes_.push_back(fmt::format("no unit for {}: assuming newtons", fmt::join(unitless, ", ")));
+    }
+
+    /// Creates the pipelines of all channels. The filters run on the rows if these are evenly spaced, otherwise on the resampled samples.
+    Result<std::vector<ChannelPipeline>> make_pipelines(const std::vector<double>& gains) {
+        hum_table_ = std::make_unique<HumTable>(clock_);
+        const bool rows_are_even = !row_clock_.uses_row_times;
+        std::vector<ChannelPipeline> pipelines;
+        for (const double gain : gains) {
+            auto pipeline = ChannelPipeline::make(options_, gain, rows_are_even ? row_clock_.clock : clock_, rows_are_even, *hum_table_);
+            if (!pipeline) return pipeline.error();
+            pipelines.push_back(std::move(*pipeline));
+        }
+        return pipelines;
+    }
+
+    /// Moves at_ to before_ and the next row to at_. Returns false at the end of the file.
+    Result<bool> advance_to_next_row() {
+        const auto has_row = rows_->fetch_row();
+        if (!has_row || !*has_row) return has_row;
+        before_ = at_, t_before_ = t_at_;
+        at_.resize(channels_.size());
+        for (std::size_t c = 0; c < channels_.size(); ++c) at_[c] = rows_->force(c);
+        t_at_ = row_clock_.uses_row_times ? row_clock_.seconds(rows_->time())
+                                          : clock_.t0 + static_cast<double>(row_number_) * row_clock_.clock.T();
+        rows_->advance();
+        ++row_number_;
+        return true;
+    }
+
+    /// Fills the block with samples that are interpolated between rows.
+    Result<void> read_resampled(Frames& block) {
+        if (row_number_ == 0)
+            if (const auto first = advance_to_next_row(); !first || !*first) return first ? Result<void>() : first.error();
+        for (; block.count < block.capacity; ++block.count, ++next_) {
+            const double t = clock_.time(next_);
+            while (t_at_ < t - 1e-9 * clock_.T()) {  // a row at the time of the sample, apart from rounding, is not before it
+                const auto next = advance_to_next_row();
+                if (!next) return next.error();
+                if (!*next) return {};
+            }
+            // The position between the last two rows, 0 to 1. If there is only one row so far, its force is used.
+            const double x = row_number_ == 1 ? 1 : std::clamp((t - t_before_) / (t_at_ - t_before_), 0.0, 1.0);
+            for (std::size_t c = 0; c < channels_.size(); ++c)
+                block.force[c][block.count] = row_number_ == 1 ? at_[c] : before_[c] + (at_[c] - before_[c]) * x;
+        }
+        return {};
+    }
+
+    /// Fills the block with the rows as they are.
+    Result<void> read_rows(Frames& block) {
+        while (block.count < block.capacity) {
+            const auto has_row = rows_->fetch_row();
+            if (!has_row) return has_row.error();
+            if (!*has_row) return {};
+            const auto n = std::min(rows_->ready_rows(), block.capacity - block.count);
+            for (std::size_t c = 0; c < channels_.size(); ++c)
+                std::copy_n(rows_->ready_data(c), n, block.force[c].begin() + static_cast<std::ptrdiff_t>(block.count));
+            block.count += n;
+            rows_->advance(n);
+        }
+        return {};
+    }
+
+public:
+    Recording(std::string path, std::unique_ptr<Table> table, RecordingOptions options)
+        : table_(std::move(table)), options_(std::move(options)), path_(std::move(path)), name_(name_of_recording(path_)) {}
+
+    /// Selects the columns, determines the clock and prepares reading.
+    Result<void> open() {
+        const auto time = select_time_column(*table_, options_.time, path_);
+        if (!time) return time.error();
+        notes_ = table_->notes();
+        if (*time && *time == table_->time_column())
+            for (auto& note : table_->time_notes()) notes_.push_back(std::move(note));
+        if (holds_spikes(*time)) return bad_input("this file holds spikes, not force; 'corpuscle compare' reads it", {path_});
+        const auto chosen = choose_sensors(*time);
+        if (!chosen) return chosen.error();
+        if (chosen->size() > max_channels)
+            return bad_input(fmt::format("{} channels are more than the limit of {}; select some, such as --channel 1-1000", chosen->size(),
+                                         max_channels),
+                             {path_});
+        const auto gains = gains_of(*chosen);
+        if (!gains) return gains.error();
+        std::vector<std::size_t> columns;
+        for (const auto& p : *chosen) columns.push_back(p.column);
+        if (auto ok = set_clock(*time, columns); !ok) return ok;
+        notes_.insert(notes_.end(), selection_notes_.begin(), selection_notes_.end());
+        add_channels(*chosen);
+        auto pipelines = make_pipelines(*gains);
+        if (!pipelines) return pipelines.error();
+        std::vector<std::string> names;
+        for (const auto& c : channels_) names.push_back(c.name);
+        // The times are read with the rows if each row has its own time, or if rows without a time are dropped.
+        const bool with_times = row_clock_.uses_row_times || row_clock_.drops_untimed;
+        rows_.emplace(RowReader(*table_, options_, columns, with_times ? *time : std::nullopt), std::move(*pipelines), path_,
+                      std::move(names), row_clock_.uses_row_times);
+        return {};
+    }
+
+    const std::string& name() const override { return name_; }
+    const Clock& clock() const override { return clock_; }
+    const std::vector<Channel>& channels() const override { return channels_; }
+    double progress() const override { return table_->progress(); }
+    std::vector<MetadataEntry> metadata() const override {
+        std::vector<MetadataEntry> all;
+        for (std::size_t c = 0; c < channels_.size(); ++c)
+            all.push_back({channels_[c].name + ": newtons per unit", rows_->pipelines()[c].gain(), "N"});
+        all.push_back({"absolute value", options_.absolute ? 1.0 : 0.0, ""});
+        if (options_.offset != 0) all.push_back({"offset", options_.offset, ""});
+        if (options_.range)
+            all.push_back({"range, low", options_.range->first, ""}), all.push_back({"range, high", options_.range->second, ""});
+        if (options_.despike) all.push_back({"despike", options_.despike->limit.value_or(0), ""});
+        for (const double f : options_.notch) all.push_back({"notch", f, "Hz"});
+        if (options_.lowpass) all.push_back({"low-pass", *options_.lowpass, "Hz"});
+        if (options_.resample) all.push_back({"resampled from", row_clock_.uses_row_times ? 0 : row_clock_.clock.rate(), "Hz"});
+        return all;
+    }
+    std::string description() const override {
+        return fmt::format("{} of {} at {:g} Hz", channels_.size() == 1 ? "a channel" : fmt::format("{} channels", channels_.size()),
+                           std::filesystem::path(path_).filename().string(), clock_.rate());
+    }
+    std::vector<std::string> notes() const override { return notes_; }
+    RecordingQuality quality() const override {
+        auto found =
+            assess_quality(channels_, rows_->pipelines(), row_clock_, {rows_->rows().dropped, rows_->rows().out_of_range}, rows_->sums());
+        warn_about_orientation(found);
+        return found;
+    }
+
+    Result<void> read(Frames& block) override {
+        block.count = 0;
+        if (auto ok = options_.resample ? read_resampled(block) : read_rows(block); !ok) return ok;
+        for (std::size_t c = 0; c < channels_.size(); ++c) {
+            const std::span<double> force(block.force[c].data(), block.count);
+            rows_->pipelines()[c].finish_force(force);
+            if (const auto bad = first_non_finite(force); bad < force.size())
+                return bad_input(
+                    fmt::format("'{}': sample {} is not finite after processing: a value in the file is too large for --scale or the "
+                                "filters",
+                                channels_[c].name, samples_ + static_cast<std::int64_t>(bad)),
+                    {path_});
+        }
+        samples_ += static_cast<std::int64_t>(block.count);
+        return {};
+    }
+};
+
+/// The format with the file extension of `path`; text if no format has it.
+const RecordingFormat& format_of_recording(const std::string& path) {
+    const auto extension = lower(std::filesystem::path(path).extension().string());
+    if (!extension.empty())
+        for (const auto& f : recording_formats)
+            if ((" " + std::string(f.extensions) + " ").find(" " + extension + " ") != std::string::npos) return f;
+    return recording_formats[0];
+}
+
+}  // namespace
+
+Result<std::unique_ptr<ForceSource>> open_recording(const std::string& path, const RecordingOptions& options) {
+    if (options.unit && options.scale && *options.unit != "raw")
+        return bad_usage("--unit and --scale exclude each other: both convert the values to newtons");
+    const auto& format = format_of_recording(path);
+    if (options.table.skip_lines > 0 && format.name != "text")
+        return bad_usage(
+            fmt::format("--skip {}: only text files have lines to skip, and {} is {}", options.table.skip_lines, path, format.name));
+    if (format.name != "text") {  // MATLAB files before version 7.3 are not HDF5 files, but have the same extension
+        const auto first = peek_input(path, 512);
+        if (auto refusal = describe_foreign_format(first, path); !refusal.empty()) return bad_input(std::move(refusal), {path});
+    }
+    auto table_options = options.table;
+    table_options.should_continue = [&] { return options.should_continue(0); };
+    auto table = format.open(path, table_options);
+    if (!table) return table.error();
+    if (options.table.transpose == true && !(*table)->is_orientation_known()) table = transpose_table(std::move(*table), path);
+    if (!table) return table.error();
+    remember_input(path);
+    auto recording = std::make_unique<Recording>(path, std::move(*table), options);
+    if (auto ok = recording->open(); !ok) return ok.error();
+    return std::unique_ptr<ForceSource>(std::move(recording));
+}
+
+}  // namespace corpuscle

@@ -1,0 +1,48 @@
+#pragma once
+// Opens a recording file as a source of force. The options select its columns, units and clock, and the repair of its samples.
+
+#include <functional>
+#include <memory>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "io/quality/repair.hpp"
+#include "io/table/table.hpp"
+#include "core/force_source.hpp"
+
+namespace corpuscle {
+
+/// The treatment of bad fields, which are not numbers or are outside RecordingOptions::range: an error, dropping their row, or
+/// interpolation.
+enum class BadFields { error, drop, interpolate };
+
+struct RecordingOptions {
+    TableOptions table = {};
+    std::vector<std::string> channels = {};     ///< names, numbers (from 1) or ranges ("fbg11", "3", "2-5"); empty: all force columns
+    std::optional<std::string> time = {};       ///< name or number of the time column, or "none"; default: as in the file
+    std::optional<std::string> time_unit = {};  ///< unit of the time column; default: as in the header, otherwise seconds
+    std::optional<double> rate = {};            ///< Hz; treats the rows as evenly spaced at this rate and ignores their times
+    std::optional<double> resample = {};        ///< Hz; interpolates the samples linearly to this rate
+    std::optional<std::string> unit = {};       ///< of the channels: "N", "mN", "gf", "kgf" or "raw"; default: as in the header
+    std::optional<double> scale = {};           ///< newtons per unit of the values in the file
+    bool absolute = false;                      ///< takes the absolute value of the values in the file
+    double offset = 0;                          ///< the value in the file at zero force
+    std::optional<std::pair<double, double>> range = {};  ///< lowest and highest valid value in the file; others are bad fields
+    std::optional<BadFields> bad_fields = {};             ///< default: an error for a field that is not a number, otherwise interpolation
+    std::optional<DespikeOptions> despike = {};           ///< removes outliers; nullopt: keeps them
+    std::vector<double> notch = {};                       ///< Hz, frequencies to remove
+    std::optional<double> lowpass = {};                   ///< Hz, -3 dB frequency; nullopt: no low-pass filter
+    std::string layout = {};                              ///< path of a file with the names and positions of the sensors; "": none
+    /// Called for each block while the file is read to determine its clock, with the fraction read so far. If it returns false, opening
+    /// stops with an error.
+    std::function<bool(double)> should_continue = [](double) { return true; };
+};
+
+/// Opens a recording in one of the formats of recording_formats.hpp. A unit that is not a force requires a scale. An uneven clock
+/// requires `rate` or `resample`. A file with a time column is read completely when it is opened, to determine its clock, and again by
+/// read().
+Result<std::unique_ptr<ForceSource>> open_recording(const std::string& path, const RecordingOptions&);
+
+}  // namespace corpuscle

@@ -1,0 +1,96 @@
+#include "io/sandbox/remote_samples.hpp"
+
+#include <fcntl.h>
+#include <fmt/format.h>
+#include <sys/stat.h>
+#include <unistd.h>
+#include <algorithm>
+#include <cerrno>
+#include <cstring>
+
+#include "io/sandbox/helper_process.hpp"
+#include "io/sandbox/samples_message.hpp"
+#include "io/table/seekable_bytes.hpp"
+
+namespace corpuscle {
+namespace {
+
+constexpr std::size_t max_numbers_in_response = std::size_t{1} << 17;  // exceeded only if a single row has more numbers
+
+class RemoteSamples final : public Samples {
+    std::string path_, library_;
+    HelperProcess helper_;
+    SamplesInfo info_;
+
+    /// Requests rows from the helper and stores them in the columns of `out` from position `done` on.
+    Result<void> fetch_part(const FetchRequest& request, std::size_t done, std::vector<std::vector<double>>& out) {
+        helper_.send(encode(request));
+        auto response = helper_.receive(path_, library_);
+        if (!response) return response.error();
+        return decode_rows(*response, done, request.rows, out, path_);
+    }
+
+public:
+    RemoteSamples(std::string path, std::string library, HelperProcess helper)
+        : path_(std::move(path)), library_(std::move(library)), helper_(std::move(helper)) {}
+
+    Result<void> open(const TableOptions& options) {
+        helper_.send(encode(OpenRequest{path_, options}));
+        auto response = helper_.receive(path_, library_);
+        if (!response) return response.error();
+        auto info = decode_info(*response, path_);
+        if (!info) return info.error();
+        info_ = *std::move(info);
+        return {};
+    }
+
+    const SamplesInfo& info() const override { return info_; }
+
+    Result<void> fetch(std::int64_t first, std::size_t rows, std::span<const std::size_t> wanted,
+                       std::vector<std::vector<double>>& out) override {
+        const std::size_t max_rows = std::max<std::size_t>(1, max_numbers_in_response / std::max<std::size_t>(1, wanted.size()));
+        FetchRequest request{0, 0, {wanted.begin(), wanted.end()}};  // first row and number of rows are set below
+        for (std::size_t done = 0; done < rows; done += request.rows) {
+            request.first = static_cast<std::uint64_t>(first) + done;
+            request.rows = std::min(max_rows, rows - done);
+            if (auto ok = fetch_part(request, done, out); !ok) return ok;
+        }
+        return {};
+    }
+};
+
+/// A file descriptor that is closed at the end of its scope; the child then has a duplicate of it.
+class OpenedFile {
+    int number_;
+
+public:
+    explicit OpenedFile(const std::string& path) : number_(::open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NOCTTY)) {}
+    OpenedFile(const OpenedFile&) = delete;
+    OpenedFile& operator=(const OpenedFile&) = delete;
+    ~OpenedFile() {
+        if (number_ >= 0) ::close(number_);
+    }
+    int number() const { return number_; }
+};
+
+}  // namespace
+
+SamplesResult open_remote_samples_with(const std::string& program, const std::string& path, const HelperProgram& reader,
+                                       const TableOptions& options) {
+    const OpenedFile file(path);
+    if (file.number() < 0) return bad_input(fmt::format("cannot be opened: {}", std::strerror(errno)), {path});
+    auto helper = HelperProcess::start(program, file.number());
+    if (!helper) return bad_input(helper.error().message, {path});
+    auto samples = std::make_unique<RemoteSamples>(path, reader.library, *std::move(helper));
+    if (auto ok = samples->open(options); !ok) return ok.error();
+    return std::unique_ptr<Samples>(std::move(samples));
+}
+
+SamplesResult open_remote_samples(const std::string& path, const HelperProgram& reader, const TableOptions& options) {
+    if (auto file = open_bytes(path); !file) return file.error();  // for its clear messages, and to register the file as an input
+    const auto program = find_helper_program(reader.program);
+    if (!program) return bad_input(program.error().message, {path});
+    return open_remote_samples_with(*program, path, reader, options);
+}
+
+}  // namespace corpuscle

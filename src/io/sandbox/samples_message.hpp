@@ -1,0 +1,37 @@
+#pragma once
+// The messages between this process and a helper program that reads samples.
+
+#include "io/sandbox/message.hpp"
+#include "io/recording/samples.hpp"
+
+namespace corpuscle {
+
+/// The first message to the program.
+struct OpenRequest {
+    std::string path;      ///< for error messages only: the file is open already
+    TableOptions options;  ///< only `dataset` and `transpose` are sent
+};
+
+/// All further messages to the program: a request for rows of some columns.
+struct FetchRequest {
+    std::uint64_t first = 0, rows = 0;     ///< index of the first row (from 0), and number of rows
+    std::vector<std::size_t> wanted = {};  ///< indices of the columns
+};
+
+Message encode(const OpenRequest&);
+Message encode(const FetchRequest&);
+// Return false if the message is not such a request.
+bool decode(Message&, OpenRequest&);
+bool decode(Message&, FetchRequest&);
+
+// Responses of the program. A response begins with 0; an error begins with its ErrorCode, which is not 0.
+Message encode(const Error&);
+Message encode(const SamplesInfo&);
+Message encode(const std::vector<std::vector<double>>& columns);
+
+// Decode responses; `path` is the path of the file, for messages. The program is not trusted: any bytes give values or an error.
+Result<SamplesInfo> decode_info(Message&, const std::string& path);
+/// Decodes the response to a FetchRequest for `rows` rows, and stores the values of each column in `out` from position `at` on.
+Result<void> decode_rows(Message&, std::size_t at, std::size_t rows, std::vector<std::vector<double>>& out, const std::string& path);
+
+}  // namespace corpuscle

@@ -1,0 +1,254 @@
+#include "io/text/text_input.hpp"
+
+#include <fmt/format.h>
+#include <zlib.h>
+#include <algorithm>
+#include <cerrno>
+#include <cstdio>
+#include <cstring>
+#include <filesystem>
+#include <vector>
+
+#include "io/table/foreign_format.hpp"
+#include "core/text/input_files.hpp"
+
+namespace corpuscle {
+namespace {
+
+constexpr std::size_t packed_block = std::size_t{1} << 17;  // compressed bytes that are read at once
+
+/// A file as it is.
+class PlainText final : public TextInput {
+    struct Close {
+        void operator()(std::FILE* f) const { std::fclose(f); }
+    };
+    std::string path_;
+    std::unique_ptr<std::FILE, Close> file_;
+    double size_ = 0, read_ = 0;  // bytes of the file (0: not known), and bytes read so far
+
+    Result<std::size_t> fetch(char* to, std::size_t max_bytes) override {
+        const auto got = read_input(file_.get(), {to, max_bytes}, path_);
+        if (got) read_ += static_cast<double>(*got);
+        return got;
+    }
+
+    Result<void> restart() override {
+        if (std::fseek(file_.get(), 0, SEEK_SET) != 0)
+            return bad_input("this input cannot be read twice; save it to a file first", {path_});
+        read_ = 0;
+        return {};
+    }
+
+public:
+    explicit PlainText(std::string path) : path_(std::move(path)), file_(open_input(path_)) {
+        std::error_code status;
+        if (const auto size = std::filesystem::file_size(path_, status); !status) size_ = static_cast<double>(size);
+    }
+    bool is_open() const { return file_ != nullptr; }
+    double progress() const override { return size_ > 0 ? std::min(1.0, read_ / size_) : 1; }
+};
+
+/// The decompressed text of a gzip file, which is a sequence of members.
+class GzipText final : public TextInput {
+    std::string path_;
+    std::unique_ptr<TextInput> packed_;                                            // the compressed file
+    std::vector<unsigned char> block_ = std::vector<unsigned char>(packed_block);  // compressed bytes
+    z_stream stream_{};
+    bool within_ = false;        // true inside a member
+    bool packed_ended_ = false;  // true after the last compressed byte was read
+
+    Result<void> refill() {
+        const auto got = packed_->read(reinterpret_cast<char*>(block_.data()), block_.size());
+        if (!got) return got.error();
+        packed_ended_ = *got < block_.size();
+        stream_.next_in = block_.data(), stream_.avail_in = static_cast<uInt>(*got);
+        return {};
+    }
+
+    /// Skips zeros between and after members: files from tapes are padded with them.
+    void skip_zeros() {
+        while (stream_.avail_in > 0 && *stream_.next_in == 0) ++stream_.next_in, --stream_.avail_in;
+    }
+
+    Result<std::size_t> fetch(char* to, std::size_t max_bytes) override {
+        stream_.next_out = reinterpret_cast<Bytef*>(to), stream_.avail_out = static_cast<uInt>(max_bytes);
+        while (stream_.avail_out > 0) {
+            if (stream_.avail_in == 0 && !packed_ended_)
+                if (auto ok = refill(); !ok) return ok.error();
+            if (!within_) skip_zeros();
+            if (stream_.avail_in == 0 && packed_ended_) {
+                if (within_) return bad_input("this gzip file is incomplete", {path_});
+                break;
+            }
+            if (stream_.avail_in == 0) continue;
+            within_ = true;
+            const int status = ::inflate(&stream_, Z_NO_FLUSH);
+            if (status == Z_STREAM_END)
+                within_ = false, ::inflateReset(&stream_);  // another member may follow, as written by 'cat a.gz b.gz'
+            else if (status != Z_OK && status != Z_BUF_ERROR)
+                return bad_input("this gzip file is damaged: it cannot be decompressed", {path_});
+        }
+        return max_bytes - stream_.avail_out;
+    }
+
+    Result<void> restart() override {
+        ::inflateReset(&stream_);
+        stream_.avail_in = 0;
+        within_ = packed_ended_ = false;
+        return packed_->rewind();
+    }
+
+public:
+    GzipText(std::string path, std::unique_ptr<TextInput> packed) : path_(std::move(path)), packed_(std::move(packed)) {
+        ::inflateInit2(&stream_, 15 + 16);  // 15: the largest window; 16: gzip, not zlib, format
+    }
+    GzipText(const GzipText&) = delete;
+    GzipText& operator=(const GzipText&) = delete;
+    ~GzipText() override { ::inflateEnd(&stream_); }
+    double progress() const override { return packed_->progress(); }
+    std::vector<std::string> shell_commands() const override { return {"zcat"}; }
+};
+
+/// Appends a code point as UTF-8.
+void append_code_point(std::string& out, unsigned long c) {
+    const auto byte = [&](unsigned long b) { out += static_cast<char>(b); };
+    if (c < 0x80) return byte(c);
+    if (c < 0x800) return byte(0xc0 | c >> 6), byte(0x80 | (c & 0x3f));
+    if (c < 0x10000) return byte(0xe0 | c >> 12), byte(0x80 | (c >> 6 & 0x3f)), byte(0x80 | (c & 0x3f));
+    byte(0xf0 | c >> 18), byte(0x80 | (c >> 12 & 0x3f)), byte(0x80 | (c >> 6 & 0x3f)), byte(0x80 | (c & 0x3f));
+}
+
+/// A UTF-16 text as UTF-8. U+FFFD replaces a surrogate without its partner.
+class Utf16Text final : public TextInput {
+    std::string path_;
+    std::unique_ptr<TextInput> units_;  // the file, in code units of two bytes
+    bool big_endian_;
+    std::string out_;           // converted text
+    std::size_t returned_ = 0;  // bytes of out_ that have been returned
+    unsigned long high_ = 0;    // a high surrogate whose low surrogate has not come yet; 0: none
+    bool ended_ = false;        // true after the last code unit was read
+
+    /// Converts the next code unit.
+    void append_unit(unsigned long unit) {
+        const bool low = unit >= 0xdc00 && unit < 0xe000;
+        if (high_ != 0) {
+            append_code_point(out_, low ? 0x10000 + ((high_ - 0xd800) << 10) + (unit - 0xdc00) : 0xfffd);
+            high_ = 0;
+            if (low) return;
+        }
+        if (unit >= 0xd800 && unit < 0xdc00)
+            high_ = unit;
+        else
+            append_code_point(out_, low ? 0xfffd : unit);
+    }
+
+    Result<void> refill() {
+        char block[1 << 14];
+        const auto got = units_->read(block, sizeof block);
+        if (!got) return got.error();
+        out_.clear(), returned_ = 0;
+        ended_ = *got < sizeof block;
+        if (*got % 2 != 0) return bad_input("this UTF-16 text is incomplete: it ends within a character", {path_});
+        for (std::size_t k = 0; k < *got; k += 2) {
+            const auto a = static_cast<unsigned char>(block[k]), b = static_cast<unsigned char>(block[k + 1]);
+            append_unit(big_endian_ ? a * 256UL + b : b * 256UL + a);
+        }
+        if (ended_ && high_ != 0) append_code_point(out_, 0xfffd), high_ = 0;
+        return {};
+    }
+
+    Result<std::size_t> fetch(char* to, std::size_t max_bytes) override {
+        std::size_t count = 0;
+        while (count < max_bytes) {
+            if (returned_ == out_.size()) {
+                if (ended_) break;
+                if (auto ok = refill(); !ok) return ok.error();
+                continue;
+            }
+            const std::size_t n = std::min(max_bytes - count, out_.size() - returned_);
+            std::memcpy(to + count, out_.data() + returned_, n);
+            count += n, returned_ += n;
+        }
+        return count;
+    }
+
+    Result<void> restart() override {
+        out_.clear(), returned_ = 0, high_ = 0, ended_ = false;
+        return units_->rewind();
+    }
+
+public:
+    Utf16Text(std::string path, std::unique_ptr<TextInput> units, bool big_endian)
+        : path_(std::move(path)), units_(std::move(units)), big_endian_(big_endian) {}
+    double progress() const override { return units_->progress(); }
+    std::vector<std::string> shell_commands() const override {
+        auto all = units_->shell_commands();
+        all.push_back(fmt::format("iconv -f UTF-16{} -t UTF-8", big_endian_ ? "BE" : "LE"));
+        return all;
+    }
+};
+
+/// The byte order of a UTF-16 text that begins with these bytes: 'L' for little-endian, 'B' for big-endian, '\0' if it is not UTF-16.
+/// UTF-16 has a byte order mark, or every other byte at the beginning is 0.
+char utf16_order(std::string_view first) {
+    if (first.starts_with("\xff\xfe")) return 'L';
+    if (first.starts_with("\xfe\xff")) return 'B';
+    const std::size_t pairs = std::min<std::size_t>(first.size() / 2, 64);
+    std::size_t zeros[2] = {0, 0};  // number of bytes 0 at even and at odd positions
+    for (std::size_t k = 0; k < 2 * pairs; ++k) zeros[k % 2] += first[k] == '\0';
+    if (pairs >= 3 && zeros[1] == pairs && zeros[0] == 0) return 'L';
+    return pairs >= 3 && zeros[0] == pairs && zeros[1] == 0 ? 'B' : '\0';
+}
+
+}  // namespace
+
+Result<std::size_t> TextInput::read(char* to, std::size_t max_bytes) {
+    const std::size_t n = std::min(max_bytes, lookahead_.size());
+    std::memcpy(to, lookahead_.data(), n);
+    lookahead_.erase(0, n);
+    if (n == max_bytes) return n;
+    const auto more = fetch(to + n, max_bytes - n);
+    if (!more) return more.error();
+    return n + *more;
+}
+
+Result<std::string_view> TextInput::peek(std::size_t count) {
+    if (const std::size_t old_size = lookahead_.size(); old_size < count) {
+        lookahead_.resize(count);
+        const auto got = fetch(lookahead_.data() + old_size, count - old_size);
+        lookahead_.resize(old_size + (got ? *got : 0));
+        if (!got) return got.error();
+    }
+    return std::string_view(lookahead_).substr(0, count);
+}
+
+Result<void> TextInput::rewind() {
+    lookahead_.clear();
+    return restart();
+}
+
+Result<std::unique_ptr<TextInput>> open_text_input(const std::string& path) {
+    std::error_code status;
+    if (std::filesystem::is_directory(path, status)) return bad_input("this is a directory, not a recording", {path});
+    auto plain = std::make_unique<PlainText>(path);
+    if (!plain->is_open()) return bad_input(fmt::format("cannot be opened: {}", std::strerror(errno)), {path});
+    std::unique_ptr<TextInput> input = std::move(plain);
+    constexpr std::size_t signature_bytes = 512;  // at the beginning of the file, to recognise its format
+    auto first = input->peek(signature_bytes);
+    const bool packed = first && first->starts_with("\x1f\x8b");
+    if (packed) {
+        input = std::make_unique<GzipText>(path, std::move(input));
+        first = input->peek(signature_bytes);
+    }
+    if (!first) return first.error();
+    const auto foreign = describe_foreign_format(*first, path);
+    if (const auto refusal = foreign.empty() ? describe_misnamed_format(*first, path) : foreign; !refusal.empty())
+        return bad_input(
+            packed ? "this gzip file does not contain text; decompress it first: " + unpack_command("gzip", ".gz", path) : refusal, {path});
+    if (const char order = utf16_order(*first))
+        return std::unique_ptr<TextInput>(std::make_unique<Utf16Text>(path, std::move(input), order == 'B'));
+    if (first->find('\0') != first->npos) return bad_input("not a text file: it contains NUL bytes, as binary files do", {path});
+    return input;
+}
+
+}  // namespace corpuscle

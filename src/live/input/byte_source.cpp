@@ -1,0 +1,166 @@
+#include "live/input/byte_source.hpp"
+
+#include <fcntl.h>
+#include <fmt/format.h>
+#include <poll.h>
+#include <sys/ioctl.h>
+#include <sys/socket.h>
+#include <sys/stat.h>
+#include <termios.h>
+#include <algorithm>
+#include <cerrno>
+#include <cstring>
+
+#include "live/input/sockets.hpp"
+
+namespace corpuscle {
+namespace {
+
+bool is_temporary(int error_number) { return error_number == EAGAIN || error_number == EWOULDBLOCK || error_number == EINTR; }
+
+class StandardInput final : public ByteSource {
+public:
+    int poll_fd() const override { return STDIN_FILENO; }
+    std::string description() const override { return "standard input"; }
+    bool is_live() const override {
+        struct ::stat info = {};
+        return ::fstat(STDIN_FILENO, &info) != 0 || !S_ISREG(info.st_mode);
+    }
+    Result<ReadResult> read(std::span<char> out) override {
+        const auto count = ::read(STDIN_FILENO, out.data(), out.size());
+        if (count > 0) return ReadResult{ReadResult::bytes, static_cast<std::size_t>(count)};
+        if (count == 0) return ReadResult{ReadResult::end};
+        if (is_temporary(errno)) return ReadResult{ReadResult::nothing};
+        return bad_input(fmt::format("standard input cannot be read: {}", std::strerror(errno)));
+    }
+};
+
+/// A server for one client at a time.
+class Listener final : public ByteSource {
+    static constexpr std::int64_t check_interval = 200'000'000;  // ns; once the client is idle, time between checks if another one waits
+    Endpoint at_;
+    Descriptor listener_, client_;  // client_: empty if no client is connected
+    SenderLimits limits_;
+    std::int64_t clients_ = 0, idle_clients_ = 0;  // clients so far; those that were replaced because they were idle
+    std::int64_t due_ = steady_never;              // steady_now() of the next check_idle()
+    int low_watermark_ = 1;                        // bytes
+
+    /// Accepts a client if one waits.
+    ReadResult accept() {
+        client_ = Descriptor(::accept4(listener_.get(), nullptr, nullptr, SOCK_CLOEXEC | SOCK_NONBLOCK));
+        if (!client_) return {ReadResult::nothing};
+        ++clients_;
+        enable_keepalive(client_.get());
+        apply_low_watermark();
+        restart_idle_timer();
+        return {ReadResult::nothing};  // the next read() reads from the client
+    }
+    void apply_low_watermark() const { ::setsockopt(client_.get(), SOL_SOCKET, SO_RCVLOWAT, &low_watermark_, sizeof low_watermark_); }
+    void restart_idle_timer() {
+        if (limits_.idle > 0) due_ = steady_now() + limits_.idle;
+    }
+
+    ReadResult disconnect() {
+        client_.close();
+        due_ = steady_never;
+        return {limits_.clients > 0 && clients_ >= limits_.clients ? ReadResult::end : ReadResult::disconnected};
+    }
+
+    bool is_another_waiting() const {
+        pollfd listener = {listener_.get(), POLLIN, 0};
+        return ::poll(&listener, 1, 0) == 1;
+    }
+
+    /// Called if the client is connected, but nothing has arrived. Disconnects it if it has been idle for the limit and another client
+    /// waits.
+    ReadResult check_idle() {
+        const auto now = steady_now();
+        if (now < due_) return {ReadResult::nothing};
+        due_ = now + check_interval;
+        if (!is_another_waiting()) return {ReadResult::nothing};
+        ++idle_clients_;
+        return disconnect();
+    }
+
+public:
+    Listener(const Endpoint& at, Descriptor listener, const SenderLimits& limits)
+        : at_(at), listener_(std::move(listener)), limits_(limits) {}
+    int poll_fd() const override { return client_ ? client_.get() : listener_.get(); }
+    std::int64_t due_time() const override { return due_; }
+    std::string description() const override { return "listening on " + at_.text(); }
+    void set_low_watermark(std::size_t bytes) override {
+        low_watermark_ = static_cast<int>(std::min<std::size_t>(bytes, 1 << 20));
+        if (client_) apply_low_watermark();
+    }
+    bool has_one_sender() const override { return false; }
+    std::int64_t sender_count() const override { return clients_; }
+    SenderCounts sender_counts() const override { return {.idle = idle_clients_}; }
+    Result<ReadResult> read(std::span<char> out) override {
+        if (!client_) return accept();
+        const auto count = ::recv(client_.get(), out.data(), out.size(), 0);
+        if (count > 0) return restart_idle_timer(), ReadResult{ReadResult::bytes, static_cast<std::size_t>(count)};
+        if (count < 0 && is_temporary(errno)) return check_idle();
+        return disconnect();  // closed or failed: accept the next client
+    }
+};
+
+class Serial final : public ByteSource {
+    std::string path_;
+    Descriptor line_;
+
+public:
+    Serial(std::string path, Descriptor line) : path_(std::move(path)), line_(std::move(line)) {}
+    int poll_fd() const override { return line_.get(); }
+    std::string description() const override { return "serial line " + path_; }
+    Result<ReadResult> read(std::span<char> out) override {
+        const auto count = ::read(line_.get(), out.data(), out.size());
+        if (count > 0) return ReadResult{ReadResult::bytes, static_cast<std::size_t>(count)};
+        if (count < 0 && is_temporary(errno)) return ReadResult{ReadResult::nothing};
+        return ReadResult{ReadResult::end};  // disconnected or unplugged
+    }
+};
+
+constexpr std::pair<long, speed_t> bauds[] = {{9600, B9600},       {19200, B19200},     {38400, B38400},     {57600, B57600},
+                                              {115200, B115200},   {230400, B230400},   {460800, B460800},   {921600, B921600},
+                                              {1000000, B1000000}, {2000000, B2000000}, {3000000, B3000000}, {4000000, B4000000}};
+
+}  // namespace
+
+Result<std::unique_ptr<ByteSource>> open_standard_input() { return std::unique_ptr<ByteSource>(std::make_unique<StandardInput>()); }
+
+std::size_t ByteSource::unread_bytes() const {
+    int bytes = 0;
+    return ::ioctl(poll_fd(), FIONREAD, &bytes) == 0 && bytes > 0 ? static_cast<std::size_t>(bytes) : 0;
+}
+
+Result<std::unique_ptr<ByteSource>> listen_on(const std::string& address, int port, const SenderLimits& limits) {
+    Endpoint at{address, port};
+    auto listener = open_listening_socket(at);
+    if (!listener) return listener.error();
+    return std::unique_ptr<ByteSource>(std::make_unique<Listener>(at, std::move(*listener), limits));
+}
+
+Result<std::unique_ptr<ByteSource>> open_serial(const std::string& path, long baud) {
+    speed_t speed = B0;
+    std::string known;
+    for (const auto& [number, constant] : bauds) {
+        if (number == baud) speed = constant;
+        known += fmt::format("{}{}", known.empty() ? "" : ", ", number);
+    }
+    if (speed == B0) return bad_usage(fmt::format("--baud {}: expected one of {}", baud, known));
+    Descriptor line(::open(path.c_str(), O_RDONLY | O_NOCTTY | O_NONBLOCK | O_CLOEXEC));
+    if (!line) return bad_input(fmt::format("cannot be opened: {}", std::strerror(errno)), {path});
+    termios settings = {};
+    if (::tcgetattr(line.get(), &settings) != 0) return bad_input("this is not a serial device", {path});
+    ::cfmakeraw(&settings);
+    settings.c_cflag |= CLOCAL | CREAD;
+    settings.c_cflag &= ~static_cast<tcflag_t>(CSTOPB | CRTSCTS);
+    settings.c_cc[VMIN] = 1, settings.c_cc[VTIME] = 0;
+    ::cfsetspeed(&settings, speed);
+    if (::tcsetattr(line.get(), TCSANOW, &settings) != 0)
+        return bad_input(fmt::format("cannot be set to {} baud: {}", baud, std::strerror(errno)), {path});
+    ::tcflush(line.get(), TCIFLUSH);
+    return std::unique_ptr<ByteSource>(std::make_unique<Serial>(path, std::move(line)));
+}
+
+}  // namespace corpuscle

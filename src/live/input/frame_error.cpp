@@ -1,0 +1,50 @@
+#include "live/input/frame_error.hpp"
+
+#include <fmt/format.h>
+
+#include "live/input/frame_layout.hpp"
+
+namespace corpuscle {
+namespace {
+
+std::string counted_noun(std::size_t n, std::string_view noun) { return fmt::format("{} {}{}", n, noun, n == 1 ? "" : "s"); }
+
+/// The stamp and the number of values of a frame: "a sequence number and 4793 numbers".
+std::string contents_of(const FrameLayout& layout, std::size_t numbers) {
+    const auto values = counted_noun(numbers, "number");
+    return layout.stamp == FrameStamp::none
+               ? values
+               : fmt::format("a {} and {}", layout.stamp == FrameStamp::sequence ? "sequence number" : "time", values);
+}
+
+/// "'hand' has 4793 sites, so a frame must have 4793 numbers"
+std::string expected_frame(const FrameLayout& layout, std::string_view population) {
+    return fmt::format("'{}' has {}, so a frame must have {}", population, counted_noun(layout.sites, "site"),
+                       contents_of(layout, layout.sites));
+}
+
+}  // namespace
+
+std::string describe_frame_error(const FrameError& error, const FrameLayout& layout, std::string_view population) {
+    const std::size_t stamps = layout.stamp == FrameStamp::none ? 0 : 1;
+    switch (error.reason) {
+        case FrameError::width:
+            return fmt::format("frame {} has {}; {}", error.frame,
+                               error.found < stamps ? "nothing" : contents_of(layout, error.found - stamps),
+                               expected_frame(layout, population));
+        case FrameError::stamp:
+            return fmt::format("frame {} does not begin with {}; {}", error.frame,
+                               layout.stamp == FrameStamp::sequence ? "its sequence number, an integer" : "its time in seconds",
+                               expected_frame(layout, population));
+        case FrameError::too_long:
+            return fmt::format("frame {} is a line longer than any frame; {}", error.frame, expected_frame(layout, population));
+        case FrameError::datagram:
+            return fmt::format("a datagram has {} bytes; {}, which are {} bytes", error.found, expected_frame(layout, population),
+                               layout.bytes());
+        case FrameError::header:
+            return error.detail;
+    }
+    return {};
+}
+
+}  // namespace corpuscle

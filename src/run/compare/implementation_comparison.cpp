@@ -1,0 +1,117 @@
+#include "run/compare/implementation_comparison.hpp"
+
+#include <algorithm>
+#include <nlohmann/json.hpp>
+
+#include "measure/train_distance.hpp"
+#include "run/summary/json_number.hpp"
+
+namespace corpuscle {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+Json count_document(const ImplementationComparison::PhaseCount& c) {
+    return {{"spikes", c.spikes}, {"reference_spikes", c.reference_spikes}, {"excess", json_number(c.excess())}};
+}
+
+Json row_document(const ImplementationComparison& c) {
+    Json out = {{"afferent_type", c.afferent_type}, {"afferent", c.afferent}, {"reference", c.reference}, {"channel", c.channel}};
+    out.update(count_document(c.total));
+    out["phases"] = Json::array();
+    for (const auto& p : c.phases) {
+        Json one = {{"phase", p.phase}};
+        one.update(count_document(p));
+        out["phases"].push_back(std::move(one));
+    }
+    out["matched"] = c.matched;
+    out["mean_shift_s"] = json_number(c.mean_shift);
+    out["median_shift_s"] = json_number(c.median_shift);
+    out["victor_purpura"] = json_number(c.victor_purpura);
+    out["van_rossum"] = c.van_rossum;
+    return out;
+}
+
+/// Number of spikes of a train in [from, to).
+std::size_t count_spikes(std::span<const double> train, double from, double to) {
+    return static_cast<std::size_t>(std::lower_bound(train.begin(), train.end(), to) - std::lower_bound(train.begin(), train.end(), from));
+}
+
+double median_shift_of(std::vector<double> shifts) {
+    std::sort(shifts.begin(), shifts.end());
+    const auto n = shifts.size();
+    return n == 0 ? NAN : n % 2 == 1 ? shifts[n / 2] : (shifts[n / 2 - 1] + shifts[n / 2]) / 2;
+}
+
+/// Fills in the distances and shifts. If there are too many pairs of close spikes to align the trains, only the van Rossum distance.
+void measure_distance(std::span<const double> reference, std::span<const double> train, ImplementationComparison& c) {
+    c.van_rossum = std::sqrt(van_rossum_squared(reference, train, ImplementationComparisons::tau));
+    const auto aligned = align_trains(reference, train, ImplementationComparisons::cost);
+    if (!aligned) return;
+    std::vector<double> shifts;
+    double sum = 0;
+    for (const auto& m : aligned->moved) shifts.push_back(train[m.b] - reference[m.a]), sum += shifts.back();
+    c.matched = shifts.size();
+    c.victor_purpura = aligned->distance;
+    c.mean_shift = shifts.empty() ? NAN : sum / static_cast<double>(shifts.size());
+    c.median_shift = median_shift_of(std::move(shifts));
+}
+
+}  // namespace
+
+double ImplementationComparison::PhaseCount::excess() const {
+    return reference_spikes == 0 ? NAN : static_cast<double>(spikes) / static_cast<double>(reference_spikes) - 1;
+}
+
+Result<void> ImplementationComparisons::begin(const Input& input) {
+    is_kept_.assign(input.plans.size(), false);
+    groups_.clear();
+    const bool has_copies = std::any_of(input.plans.begin(), input.plans.end(), [](const auto& a) { return a.copy_number > 0; });
+    for (auto& group : has_copies ? std::vector<ImplementationGroup>{} : implementation_groups(input.plans)) {
+        if (group.members.size() < 2) continue;
+        for (const auto m : group.members) is_kept_[m] = true;
+        groups_.push_back(std::move(group));
+    }
+    trains_.assign(groups_.empty() ? 0 : input.afferent_count(), {});
+    since_start_ = input.source.clock();
+    since_start_.t0 = 0;
+    return {};
+}
+
+Result<void> ImplementationComparisons::block(const Input& input, const RunBlock& block) {
+    for (const auto& s : block.spikes)
+        if (const auto afferent_index = s.afferent_index - input.first_afferent; is_kept_[afferent_index % is_kept_.size()])
+            trains_[afferent_index].push_back(since_start_.time(s.step, s.offset));
+    return {};
+}
+
+Result<void> ImplementationComparisons::end(const Input& input, std::int64_t) {
+    for (std::size_t c = 0; c < input.source.channels().size(); ++c)
+        for (const auto& group : groups_)
+            for (std::size_t m = 1; m < group.members.size(); ++m) rows_.push_back(compare_implementation(input, c, group, m));
+    trains_.clear();
+    return {};
+}
+
+ImplementationComparison ImplementationComparisons::compare_implementation(const Input& input, std::size_t channel,
+                                                                           const ImplementationGroup& group, std::size_t member) const {
+    const std::size_t first = channel * input.plans.size();
+    const auto &reference = trains_[first + group.members[0]], &train = trains_[first + group.members[member]];
+    ImplementationComparison out{group.afferent_type,
+                                 input.plans[group.members[member]].name,
+                                 input.plans[group.members[0]].name,
+                                 input.channel_name(channel),
+                                 {"", train.size(), reference.size()}};
+    for (const auto& p : input.source.phases())
+        out.phases.push_back({p.name, count_spikes(train, p.from, p.to), count_spikes(reference, p.from, p.to)});
+    measure_distance(reference, train, out);
+    return out;
+}
+
+Json ImplementationComparisons::document() const {
+    Json pairs = Json::array();
+    for (const auto& r : rows_) pairs.push_back(row_document(r));
+    return {{"cost_Hz", cost}, {"tau_s", tau}, {"pairs", pairs}};
+}
+
+}  // namespace corpuscle

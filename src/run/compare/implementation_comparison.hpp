@@ -1,0 +1,56 @@
+#pragma once
+// Compares the implementations of each afferent type on every channel: spikes in each phase, and distances between the spike trains.
+
+#include <cmath>
+#include <nlohmann/json_fwd.hpp>
+
+#include "run/afferent_run.hpp"
+#include "run/compare/implementation_group.hpp"
+
+namespace corpuscle {
+
+/// One implementation on one channel, compared with the reference of its afferent type.
+struct ImplementationComparison {
+    struct PhaseCount {
+        std::string phase;
+        std::size_t spikes = 0, reference_spikes = 0;
+        double excess() const;  ///< spikes / reference_spikes - 1; NaN if reference_spikes is 0
+    };
+    std::string afferent_type, afferent, reference, channel;
+    PhaseCount total;                             ///< over the whole input; its phase name is empty
+    std::vector<PhaseCount> phases = {};          ///< one for each phase of the stimulus; empty if it has no phases
+    std::size_t matched = 0;                      ///< spikes that the Victor-Purpura distance moves onto a spike of the reference
+    double mean_shift = NAN, median_shift = NAN;  ///< s, delay of the matched spikes behind the reference's; NaN if none match
+    double victor_purpura = NAN;  ///< distance from the reference's train; NaN if there are too many pairs of close spikes to compute it
+    double van_rossum = 0;        ///< distance from the reference's train
+};
+
+/// Keeps the spikes of the afferents whose type has several implementations, and compares them at the end of each input. If the run has
+/// copies, nothing is compared.
+class ImplementationComparisons final : public ResponseSink {
+public:
+    static constexpr double cost = 100;   ///< 1/s, of moving a spike in the Victor-Purpura distance; it moves spikes by less than 2 / cost
+    static constexpr double tau = 10e-3;  ///< s, time constant of the van Rossum distance
+
+    Result<void> begin(const Input&) override;
+    Result<void> block(const Input&, const RunBlock&) override;
+    Result<void> end(const Input&, std::int64_t samples) override;
+
+    /// For each input and channel: every implementation except the references.
+    const std::vector<ImplementationComparison>& rows() const { return rows_; }
+    /// The rows as a JSON document, with cost and tau.
+    nlohmann::ordered_json document() const;
+
+private:
+    std::vector<ImplementationGroup> groups_;  // the afferent types with several implementations
+    std::vector<bool> is_kept_;                // for each plan: true if its spikes are kept
+    std::vector<std::vector<double>> trains_;  // spike times of each afferent of the current input, s from the start of the input
+    Clock since_start_;                        // of the current input, with its first sample at 0 s
+    std::vector<ImplementationComparison> rows_;
+
+    /// `member`: an index of ImplementationGroup::members.
+    ImplementationComparison compare_implementation(const Input&, std::size_t channel, const ImplementationGroup&,
+                                                    std::size_t member) const;
+};
+
+}  // namespace corpuscle

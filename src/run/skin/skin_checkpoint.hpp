@@ -1,0 +1,64 @@
+#pragma once
+// Checkpoints of a skin run, so that it can be killed and resumed. FILE, named by --checkpoint, holds the skin's state after some
+// sample; FILE.spikes holds all spikes up to this sample. When the same command is run again, it replays these spikes and continues, so
+// every output is the same as without the interruption.
+
+#include <cstdio>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "core/checksum.hpp"
+#include "run/skin/skin_run.hpp"
+
+namespace corpuscle {
+
+/// All options and files that determine the response of a run, as pairs of name and value: {"--scale", "0.02"}. For a file, the name begins
+/// with "contents of", and the value is its checksum.
+using RunFingerprint = std::vector<std::pair<std::string, std::string>>;
+
+class SkinCheckpoint final : public SkinRunLog {
+public:
+    /// For a skin that has not started. If `file` exists, resumes the skin from it. Returns an error, and leaves the files unchanged, if
+    /// the checkpoint is of another skin or run (the error names the difference), is damaged, is in use by another process, or is not a
+    /// checkpoint.
+    static Result<std::unique_ptr<SkinCheckpoint>> open(const std::string& file, Skin&, RunFingerprint);
+    ~SkinCheckpoint() override;
+
+    std::int64_t resumed_samples() const override { return resumed_samples_; }
+    Result<void> add_force(const SkinForce::Block&, std::int64_t first) override;
+    Result<void> replay(std::int64_t end, std::vector<Spike>&) override;
+    Result<void> append(std::span<const Spike>) override;
+    Result<void> flush() override;
+    Result<void> finish(std::int64_t samples) override;
+    /// Removes both files. Call it when the run is complete and its outputs have their final names.
+    void remove_files();
+
+private:
+    SkinCheckpoint(std::string file, Skin& skin, RunFingerprint fingerprint)
+        : file_(std::move(file)), spikes_file_(file_ + ".spikes"), skin_(skin), fingerprint_(std::move(fingerprint)) {}
+    Result<void> check_file() const;
+    Result<void> lock_spikes();
+    Result<void> check_spikes_header() const;
+    Result<void> resume();
+    Result<void> check_spikes(std::uint64_t checksum);
+    Error system_error(const std::string& path) const;
+    Error changed_force_error() const;
+    std::string remedy() const;
+
+    std::string file_, spikes_file_;
+    Skin& skin_;
+    RunFingerprint fingerprint_;
+    std::FILE* spikes_ = nullptr;  // locked while it is open
+    std::int64_t resumed_samples_ = 0;
+    std::uint64_t spike_count_ = 0;       // number of spikes in FILE.spikes
+    std::uint64_t replayed_ = 0;          // number of these spikes that were read again
+    Checksum spikes_sum_, force_sum_;     // of the spikes in FILE.spikes; of the force of this run so far
+    std::uint64_t force_to_resumed_ = 0;  // checksum, from FILE, of the first `resumed_samples_` samples of force
+    std::vector<Spike> read_ahead_;       // at most one spike, which was read but belongs to a later block
+};
+
+/// Checksum of a file's contents, as used in a RunFingerprint.
+Result<std::string> checksum_of_file(const std::string& path);
+
+}  // namespace corpuscle

@@ -1,0 +1,91 @@
+#include <fmt/format.h>
+#include <algorithm>
+#include <numeric>
+
+#include "core/parameter_override.hpp"
+#include "skin/plan/site_map.hpp"
+#include "run/skin/skin_run.hpp"
+
+namespace corpuscle {
+namespace {
+
+/// Samples per block. Blocks are short, because each site with force at any time in a block is simulated for the complete block.
+constexpr std::size_t pressed_block = 64, site_block = 256;
+
+class PressedForce final : public SkinForce {
+    ForceSource& source_;
+    Contact& contact_;
+    Frames frames_{1, pressed_block};
+    std::int64_t first_ = 0;  // index of the first sample of the next block
+
+public:
+    PressedForce(ForceSource& source, Contact& contact) : source_(source), contact_(contact) {}
+    double progress() const override { return source_.progress(); }
+
+    Result<Block> next() override {
+        frames_.count = 0;
+        if (auto ok = source_.read(frames_); !ok) return ok.error();
+        const std::span<const double> force(frames_.force[0].data(), frames_.count);
+        if (const auto at = first_non_finite(force); at < force.size())
+            return bad_input(
+                fmt::format("the force of sample {} is {}, not a finite number", first_ + static_cast<std::int64_t>(at), force[at]));
+        auto site_force = contact_.press(force, first_);
+        if (!site_force) return site_force.error();
+        first_ += static_cast<std::int64_t>(force.size());
+        return Block{*site_force, force};
+    }
+};
+
+class SitesForce final : public SkinForce {
+    ForceSource& source_;
+    std::vector<std::uint32_t> sites_;  // the site of each channel
+    Frames frames_;
+    std::vector<double> force_;                                    // [site][step], N; 0 at sites without a channel
+    std::vector<double> total_ = std::vector<double>(site_block);  // of all sites, for each step, N
+
+public:
+    SitesForce(ForceSource& source, std::vector<std::uint32_t> sites, std::size_t all_sites)
+        : source_(source), sites_(std::move(sites)), frames_(sites_.size(), site_block), force_(all_sites * site_block) {}
+    double progress() const override { return source_.progress(); }
+
+    Result<Block> next() override {
+        frames_.count = 0;
+        if (auto ok = source_.read(frames_); !ok) return ok.error();
+        std::fill(total_.begin(), total_.end(), 0.0);
+        for (std::size_t c = 0; c < sites_.size(); ++c) {
+            std::copy_n(frames_.force[c].begin(), frames_.count, force_.begin() + static_cast<std::ptrdiff_t>(sites_[c] * site_block));
+            for (std::size_t t = 0; t < frames_.count; ++t) total_[t] += frames_.force[c][t];
+        }
+        return Block{{force_.data(), site_block}, {total_.data(), frames_.count}};
+    }
+};
+
+}  // namespace
+
+std::unique_ptr<SkinForce> make_pressed_force(ForceSource& source, Contact& contact) {
+    return std::make_unique<PressedForce>(source, contact);
+}
+std::unique_ptr<SkinForce> make_site_force(ForceSource& source, std::vector<std::uint32_t> sites, std::size_t all_sites) {
+    return std::make_unique<SitesForce>(source, std::move(sites), all_sites);
+}
+
+Result<std::vector<std::uint32_t>> match_sites(const SkinPlan& plan, const ForceSource& source) {
+    std::vector<std::string> names;
+    for (const auto& c : source.channels()) names.push_back(c.name);
+    std::vector<std::uint32_t> in_order(plan.sites.size());
+    std::iota(in_order.begin(), in_order.end(), 0U);
+    if (names == plan.sites.names) return in_order;
+    auto named = find_sites_if_named(plan.sites, names);
+    if (!named)
+        return bad_input(fmt::format("{}; --layout FILE renames channels, --channel selects some", named.error().message), {source.name()});
+    if (*named) return **std::move(named);
+    if (source.channels().size() != plan.sites.size())
+        return bad_input(
+            fmt::format("{} has {} channels, but {} has {} sites, named {} ...; name the channels after sites with "
+                        "--layout, select one channel for each site with --channel, or use a population with its sites at the channels "
+                        "(sites = \"channels\")",
+                        source.name(), source.channels().size(), plan.name, plan.sites.size(), plan.sites.names[0]));
+    return in_order;
+}
+
+}  // namespace corpuscle

@@ -1,0 +1,164 @@
+#include "skin/plan/site_map.hpp"
+
+#include <fmt/format.h>
+#include <algorithm>
+#include <charconv>
+#include <filesystem>
+#include <optional>
+#include <unordered_map>
+#include <unordered_set>
+#include <utility>
+
+#include "io/text/dialect.hpp"
+#include "io/table/heading.hpp"
+#include "io/text/line_reader.hpp"
+#include "core/text/ascii_text.hpp"
+#include "core/parameter.hpp"
+
+namespace corpuscle {
+namespace {
+
+using SiteIndex = std::unordered_map<std::string_view, std::uint32_t>;
+
+SiteIndex index_sites(const Sites& sites) {
+    SiteIndex index;
+    for (std::size_t s = 0; s < sites.size(); ++s) index.emplace(sites.names[s], static_cast<std::uint32_t>(s));
+    return index;
+}
+
+/// The message for a name that is not a site.
+std::string no_such_site(const Sites& sites, std::string_view name) {
+    const std::vector<std::string_view> some(sites.names.begin(),
+                                             sites.names.begin() + static_cast<std::ptrdiff_t>(std::min<std::size_t>(sites.size(), 1000)));
+    return fmt::format("there is no site '{}'{}; the first are {}; 'corpuscle list POPULATION --sites' prints all", name.substr(0, 64),
+                       did_you_mean(name, some),
+                       fmt::join(some.begin(), some.begin() + static_cast<std::ptrdiff_t>(std::min<std::size_t>(some.size(), 3)), ", "));
+}
+
+/// Reads a layout file row by row.
+class SiteMapReader {
+    LineReader lines_;
+    const Sites& sites_;
+    SiteIndex index_;
+    Dialect dialect_;
+    Fields fields_;
+    std::string_view line_;
+    std::optional<std::size_t> channel_, name_;      // columns, counted from 0
+    std::vector<std::optional<std::uint32_t>> map_;  // for each channel its site, if its row has been read
+    std::vector<char> taken_;                        // for each site: 1 if a channel has it
+
+    /// An error in the current row, at a field; at the row only if there is no such field.
+    Error error_at(std::string message, std::size_t field) const {
+        const long column = field < fields_.size() ? fields_[field].data() - line_.data() + 1 : 0;
+        return bad_input(std::move(message), {lines_.path(), lines_.line_number(), column});
+    }
+
+    /// Reads the next line that is neither empty nor a comment; false at the end of the file.
+    Result<bool> next_row() {
+        for (;;) {
+            const auto more = lines_.next(line_);
+            if (!more || !*more) return more;
+            if (const auto s = trimmed(line_); !s.empty() && s.front() != '#') return true;
+        }
+    }
+
+    Result<void> read_header() {
+        const auto more = next_row();
+        if (!more) return more.error();
+        dialect_ = Dialect::detect(line_);
+        if (*more) dialect_.split(line_, fields_);
+        for (std::size_t f = 0; f < fields_.size(); ++f) {
+            const auto word = lower(fields_[f]);
+            if (word == "channel" || word == "sensor") channel_ = f;
+            if (word == "name") name_ = f;
+        }
+        if (channel_ && name_) return {};
+        return error_at(
+            "a layout of frames needs the columns channel and name: channel is the number of a value in the frame, from 1; name is a site",
+            fields_.size());
+    }
+
+    Result<void> add_row() {
+        if (fields_.size() <= std::max(*channel_, *name_)) return error_at("this row has too few columns", fields_.size());
+        const auto number = fields_[*channel_], name = fields_[*name_];
+        std::size_t channel = 0;
+        const auto [end, status] = std::from_chars(number.data(), number.data() + number.size(), channel);
+        if (status != std::errc{} || end != number.data() + number.size() || channel < 1 || channel > sites_.size())
+            return error_at(
+                fmt::format("channel '{}': must be a number from 1 to {}, the number of sites", number.substr(0, 64), sites_.size()),
+                *channel_);
+        const auto entry = index_.find(name);
+        if (entry == index_.end()) return error_at(no_such_site(sites_, name), *name_);
+        if (map_.size() < channel) map_.resize(channel);
+        if (std::exchange(taken_[entry->second], 1)) return error_at(fmt::format("site '{}' has two channels", name), *name_);
+        if (map_[channel - 1]) return error_at(fmt::format("channel {} has two rows", channel), *channel_);
+        map_[channel - 1] = entry->second;
+        return {};
+    }
+
+public:
+    SiteMapReader(LineReader lines, const Sites& sites)
+        : lines_(std::move(lines)), sites_(sites), index_(index_sites(sites)), taken_(sites.size()) {}
+
+    Result<std::vector<std::uint32_t>> read() {
+        if (auto ok = read_header(); !ok) return ok.error();
+        for (;;) {
+            const auto more = next_row();
+            if (!more) return more.error();
+            if (!*more) break;
+            dialect_.split(line_, fields_);
+            if (auto ok = add_row(); !ok) return ok.error();
+        }
+        std::vector<std::uint32_t> out;
+        for (const auto& site : map_) {
+            if (!site)
+                return bad_input(fmt::format("channel {} has no row, although channel {} has one", out.size() + 1, map_.size()),
+                                 {lines_.path()});
+            out.push_back(*site);
+        }
+        if (out.empty()) return bad_input("no channels in this layout", {lines_.path()});
+        return out;
+    }
+};
+
+}  // namespace
+
+Result<std::vector<std::uint32_t>> find_sites(const Sites& sites, std::span<const std::string> names) {
+    const auto index = index_sites(sites);
+    std::vector<char> taken(sites.size());
+    std::vector<std::uint32_t> found;
+    for (const auto& name : names) {
+        const auto at = index.find(name);
+        if (at == index.end()) return bad_input(no_such_site(sites, name));
+        if (std::exchange(taken[at->second], 1)) return bad_input(fmt::format("two channels have the name '{}', which is one site", name));
+        found.push_back(at->second);
+    }
+    return found;
+}
+
+Result<std::optional<std::vector<std::uint32_t>>> find_sites_if_named(const Sites& sites, std::span<const std::string> names) {
+    std::unordered_set<std::string> known;  // in lower case, so that 'R1C1' is recognised as a site
+    for (const auto& name : sites.names) known.insert(lower(name));
+    const auto is_site = [&](const std::string& name) { return known.contains(lower(name)); };
+    std::vector<std::string> without_units;
+    for (const auto& name : names) without_units.push_back(is_site(name) ? name : parse_heading(name).name);
+    if (std::none_of(without_units.begin(), without_units.end(), is_site)) return std::optional<std::vector<std::uint32_t>>();
+    for (const auto& name : without_units) {
+        // If a recording has two channels r1c1, its reader names the second "r1c1 (2)".
+        const auto first = name.substr(0, name.rfind(" ("));
+        if (!is_site(name) && name.ends_with(')') && is_site(first))
+            return bad_input(fmt::format("two channels have the name '{}', which is one site", first));
+    }
+    auto found = find_sites(sites, without_units);
+    return found ? std::optional(std::move(*found)) : Result<std::optional<std::vector<std::uint32_t>>>(found.error());
+}
+
+Result<std::vector<std::uint32_t>> read_site_map(const std::string& path, const Sites& sites) {
+    std::error_code status;
+    if (!std::filesystem::is_regular_file(path, status)) return bad_input("cannot be read: there is no such file", {path});
+    auto lines = LineReader::open(path);
+    if (!lines) return lines.error();
+    return SiteMapReader(std::move(*lines), sites).read();
+}
+
+}  // namespace corpuscle

@@ -1,0 +1,62 @@
+#pragma once
+// The plan of a skin, as a population file defines it (doc/skin.md): sites, classes of afferents, and how receptive fields are made.
+
+#include <optional>
+#include <string_view>
+
+#include "model/copies.hpp"
+#include "skin/plan/sites.hpp"
+
+namespace corpuscle {
+
+/// The published source of a quantity in a population file.
+struct SourceNote {
+    std::string quantity, source;  ///< "density", "Johansson & Vallbo 1979"
+};
+
+/// One class of afferents in a skin.
+struct SkinClass {
+    std::string name;                  ///< name in outputs: "sa1"
+    AfferentPlan afferent;             ///< the parameters of the class's afferents are sampled around the values of this one
+    std::vector<double> density = {};  ///< afferents per m2 in each of Sites::regions; empty: `per_site` is used
+    std::uint32_t per_site = 0;        ///< afferents at each site, if `density` is empty
+    double sigma = 0;                  ///< m, standard deviation of a hot spot, which is a Gaussian; 0: the field is only the nearest site
+    std::uint32_t hot_spots = 1;       ///< number of hot spots in one receptive field
+    double hot_spot_spread = 0;        ///< m, standard deviation of the hot spots' distance from the afferent, in x and in y
+    double velocity = 0, velocity_spread = 0;  ///< conduction velocity, m/s: mean and standard deviation over afferents; 0: no delay
+    std::vector<ParameterDistribution> distributions = {};  ///< how the parameters of its afferents vary
+    std::vector<SourceNote> sources = {};
+};
+
+/// A skin before its afferents are placed.
+struct SkinPlan {
+    std::string name;  ///< "hand": the name of the built-in population, or of the file without its extension
+    std::string description = {};
+    Sites sites;
+    std::vector<SkinClass> classes;
+    std::uint64_t seed = 1;  ///< of all random values: positions, parameters, hot spots, velocities
+    /// Area in m2. If sites represent an area of skin, the force on an afferent is the weighted mean pressure in its receptive field times
+    /// felt_area: if an area of this size is pressed evenly with 4 N, the afferent responds as to 4 N. If felt_area is 0, the force on an
+    /// afferent is the weighted mean of the forces at its sites.
+    double felt_area = 0;
+    std::vector<SourceNote> sources = {};
+    /// True for a plan made of named afferents, one on every channel, instead of a population. An afferent is then named after its class
+    /// and channel, without a number.
+    bool is_by_channel = false;
+    std::optional<Position> nerve = {};  ///< the recording point: a spike arrives there after distance / velocity; not set: without delay
+};
+
+/// The plan of a population, by its name ("hand", "fingertip", "grid 8x8") or file. `channels` are the channels of the force input, which a
+/// file with sites = "channels" needs. Errors name file, line and column.
+Result<SkinPlan> load_skin_plan(std::string_view name, std::span<const Channel> channels = {});
+/// The plan from the text of a population file; `file` is its name for messages.
+Result<SkinPlan> parse_skin_plan(std::string_view text, const std::string& file, std::span<const Channel> channels = {});
+
+/// A built-in population.
+struct NamedSkin {
+    std::string_view name, description;
+};
+/// All built-in populations except grids.
+std::span<const NamedSkin> named_skins();
+
+}  // namespace corpuscle

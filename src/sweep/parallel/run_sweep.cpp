@@ -1,0 +1,43 @@
+#include "sweep/parallel/run_sweep.hpp"
+
+#include <fmt/format.h>
+
+#include "sweep/parallel/worker_pool.hpp"
+
+namespace corpuscle {
+namespace {
+
+constexpr std::size_t queue_length = 1 << 14;  // items passed to the worker pool at a time
+
+}  // namespace
+
+void SweepProgress::add(const ItemOutcome& o) {
+    ++(o.end == ItemEnd::done ? done : o.end == ItemEnd::iteration_limit ? iteration_limit : diverged);
+    steps += o.steps, iterations += o.iterations, ran_alone += o.ran_alone;
+    for (const auto& train : o.spikes) spikes += static_cast<std::int64_t>(train.size());
+}
+
+Result<void> run_sweep(const Sweep& sweep, SweepResults& results, const SweepRunOptions& run, SweepProgress& progress) {
+    auto missing = results.missing_ranges();
+    if (!missing) return missing.error();
+    ItemQueue queue(std::move(*missing), run.shard);
+    progress = {.planned = queue.remaining()};
+    if (progress.planned == 0) return {};
+    results.announce_run(progress.planned);
+    WorkerPool pool(sweep, run.threads);
+    bool stopped = false;
+    for (;;) {
+        if (!stopped && pool.queued() < queue_length / 2) pool.add(queue.take(queue_length));
+        auto outcomes = pool.collect(run.write_interval);
+        for (const auto& o : outcomes) progress.add(o);
+        if (auto ok = results.add(sweep, std::move(outcomes)); !ok) return ok;
+        run.on_progress(progress);
+        if (!stopped && run.should_stop()) stopped = true, pool.stop();
+        if (pool.is_done() && (stopped || queue.remaining() == 0 || !pool.sweep_error())) break;  // the last term: there was an error
+    }
+    if (auto ok = pool.sweep_error(); !ok) return ok;
+    if (stopped) return Error{ErrorCode::interrupted, "interrupted"};
+    return {};
+}
+
+}  // namespace corpuscle

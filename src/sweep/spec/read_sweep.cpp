@@ -1,0 +1,75 @@
+// Reads a sweep file and makes the sweep of its subject (afferent or netlist). Paths in errors are relative to the current folder.
+
+#include <fmt/format.h>
+#include <filesystem>
+
+#include "circuit/variant/embedded_netlists.hpp"
+#include "core/text/input_files.hpp"
+#include "run/afferent_plan.hpp"
+#include "sweep/subject/subject.hpp"
+
+namespace corpuscle {
+namespace {
+
+namespace fs = std::filesystem;
+using sweeps::SweepText;
+
+constexpr std::size_t max_file_size = std::size_t{1} << 20;  // bytes
+
+Result<SweepText> text_at(const fs::path& path) {
+    const auto text = read_entire_input(path.string(), max_file_size, "sweep file");
+    return text ? sweeps::read_sweep_text(*text, path.string()) : Result<SweepText>(text.error());
+}
+
+/// The text of a sweep over a netlist alone: its .step and .mc lines define what varies.
+SweepText text_of_netlist(const fs::path& path) {
+    SweepText out;
+    out.file = path.string();
+    std::error_code status;
+    out.netlist = LocatedText{fs::exists(path, status) ? path.filename().string() : path.string(), {}};
+    return out;
+}
+
+Result<std::unique_ptr<Sweep>> make_sweep(const SweepText& spec, const std::string& folder) {
+    if (spec.afferent && spec.netlist)
+        return spec.netlist->error_here("give either afferent = ..., which responds to a force, or netlist = ..., with its own analyses");
+    if (spec.netlist) return sweeps::make_analysis_sweep(spec, folder);
+    if (!spec.afferent)
+        return bad_input("the sweep has no subject; give afferent = \"sa1\", or netlist = \"circuits/bias.cir\"", {spec.file});
+    return names_netlist(spec.afferent->text) ? sweeps::make_chip_sweep(spec, folder) : sweeps::make_model_sweep(spec, folder);
+}
+
+/// Replaces a setting of the sweep file by that of the command line, if there is one. The canonical text then ends with the option.
+void replace_setting(OptionalLocatedText& into, std::string_view key, const std::optional<std::string>& requested, SweepText& spec) {
+    if (!requested || (into && into->text == *requested)) return;
+    into = LocatedText{*requested, {}};
+    spec.canonical += fmt::format("--{} {}\n", key, *requested);
+}
+
+template <class N>
+std::optional<std::string> text_of(const std::optional<N>& number) {
+    return number ? std::optional(fmt::format("{}", *number)) : std::nullopt;
+}
+
+}  // namespace
+
+Result<std::unique_ptr<Sweep>> read_sweep(const std::string& path, const SweepOverrides& overrides) {
+    const fs::path file = path;
+    const auto folder = file.parent_path().string();
+    const bool is_netlist = file.extension() != ".toml";
+    auto spec = is_netlist ? Result<SweepText>(text_of_netlist(file)) : text_at(file);
+    if (!spec) return spec.error();
+    replace_setting(spec->seed, "seed", text_of(overrides.seed), *spec);
+    replace_setting(spec->samples, "samples", text_of(overrides.samples), *spec);
+    auto sweep = make_sweep(*spec, folder);
+    if (sweep) return sweep;
+    auto error = sweep.error();  // in it, netlists and the files they include have paths relative to the folder of the sweep file
+    std::error_code status;
+    if (const auto full_path = file.parent_path() / error.location.file;
+        !error.location.file.empty() && error.location.file != spec->file && fs::exists(full_path, status))
+        error.location.file = full_path.string();
+    if (error.location.file.empty()) error.location.file = path;
+    return error;
+}
+
+}  // namespace corpuscle

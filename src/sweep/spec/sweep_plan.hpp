@@ -1,0 +1,55 @@
+#pragma once
+// The values of each item of a sweep. Points are all combinations of the listed values; those of the first axis change most slowly. Each
+// point has the same number of samples, and the index of an item is point * samples + sample. Sample k is the same chip at every point.
+
+#include <optional>
+
+#include "circuit/variant/netlist_variants.hpp"
+#include "sweep/spec/sampling.hpp"
+#include "sweep/spec/sweep.hpp"
+
+namespace corpuscle::sweeps {
+
+/// One quantity that varies.
+struct SweepAxis {
+    SweepColumn column;
+    std::vector<double> values = {};                  ///< listed values; of labels: their indexes; empty for a sampled axis
+    std::optional<UniformNumbers> numbers = {};       ///< of a sampled axis; the following members, too
+    bool is_normal = false, is_logarithmic = false;   ///< distribution: normal, uniform in the logarithm, or (both false) uniform
+    double first = 0, second = 0;                     ///< normal: mean and standard deviation; otherwise: smallest and largest value
+    double min_probability = 0, max_probability = 1;  ///< normal: cumulative probabilities at which it is truncated
+
+    /// The value of a sampled axis for the sample with this index.
+    double sample(std::uint64_t index) const;
+};
+
+/// The axes of a sweep, and the values of each item.
+class SweepPlan {
+    std::vector<SweepAxis> axes_;
+    std::vector<SweepColumn> columns_;
+    circuit::ChipSpec chips_;
+    std::int64_t samples_ = 1, points_ = 1;  // samples per point; number of points
+
+public:
+    static constexpr double max_items = 1e12;  ///< of one sweep
+
+    SweepPlan() = default;
+    /// `chips`: whether process and mismatch are sampled, and with which seed; its count is not used. `samples`: number of samples per
+    /// point.
+    SweepPlan(std::vector<SweepAxis> axes, const circuit::ChipSpec& chips, std::int64_t samples);
+
+    const std::vector<SweepAxis>& axes() const { return axes_; }
+    /// A column for each axis; then, if the process is sampled, one for each of its four deviates.
+    const std::vector<SweepColumn>& columns() const { return columns_; }
+    const circuit::ChipSpec& chips() const { return chips_; }
+    std::int64_t samples() const { return samples_; }  ///< number of samples per point
+    std::int64_t item_count() const { return points_ * samples_; }
+    bool samples_chips() const { return chips_.has_process || chips_.has_mismatch; }
+
+    /// The values of an item, in the order of columns().
+    std::vector<double> values(std::int64_t item) const;
+    /// Process and mismatch of an item; no value if neither is sampled.
+    std::optional<circuit::ChipSample> chip_sample(std::int64_t item) const;
+};
+
+}  // namespace corpuscle::sweeps

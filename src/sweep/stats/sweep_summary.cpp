@@ -1,0 +1,291 @@
+#include "sweep/stats/sweep_summary.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <tuple>
+#include <unordered_map>
+
+#include "core/thread_pool.hpp"
+
+namespace corpuscle {
+namespace {
+
+/// All but the yield. `items`: number of items with and without a value.
+MeasureSummary measure_summary(const SortedSample& sorted, std::size_t items, const SweepSummaryOptions& options) {
+    MeasureSummary out;
+    out.count = static_cast<std::int64_t>(sorted.count());
+    out.missing = static_cast<std::int64_t>(items) - out.count;
+    if (out.count == 0) return out;
+    out.min = sorted.values().front(), out.max = sorted.values().back();
+    out.mean = sorted.mean(), out.sigma = sorted.sigma();
+    for (const double q : options.quantiles) out.quantiles.push_back(sorted.quantile(q));
+    out.normality = sorted.normality(), out.normality_floor = sorted.normality_floor();
+    return out;
+}
+
+/// Summarises one measure at each point, and then over all points. `measure`: its index in the table.
+void put_measure(SweepSummary& out, const SweepTable& table, const SweepGroups& groups, std::size_t measure) {
+    std::vector<SortedSample> sorted;  // for each point
+    std::int64_t total_passed = 0;
+    const auto put = [&](PointSummary& point, const SortedSample& values, std::size_t items, std::int64_t passed) {
+        auto& summary = point.measures[measure];
+        summary = measure_summary(values, items, out.options);
+        if (table.has_limits(measure)) summary.yield = estimate_proportion(passed, static_cast<std::int64_t>(items));
+    };
+    for (std::size_t p = 0; p < groups.groups.size(); ++p) {
+        const auto& rows = groups.groups[p].rows;
+        std::vector<double> values;
+        std::int64_t passed = 0;
+        values.reserve(rows.size());
+        for (const auto r : rows) values.push_back(table.measure_values[measure][r]), passed += table.meets_limits(r, measure);
+        sorted.emplace_back(std::move(values));
+        put(out.points[p], sorted.back(), rows.size(), passed);
+        total_passed += passed;
+    }
+    put(out.all, sorted.size() == 1 ? sorted[0] : SortedSample::merged(sorted), table.rows(), total_passed);
+}
+
+/// Counts the items of a group by their ends. `passed`: for each row of the table.
+PointSummary point_summary(const SweepTable& table, const SweepGroup& group, const std::vector<char>& passed) {
+    PointSummary out;
+    out.label = group.label;
+    for (const auto r : group.rows) {
+        ++(table.ends[r] == ItemEnd::done ? out.done : table.ends[r] == ItemEnd::iteration_limit ? out.iteration_limit : out.diverged);
+        out.passed += passed[r];
+    }
+    return out;
+}
+
+/// Computes the number of items and the yield of a point, and allocates its measures.
+void finish_point(PointSummary& point, std::size_t measures) {
+    point.items = point.done + point.iteration_limit + point.diverged;
+    point.yield = estimate_proportion(point.passed, point.items);
+    point.measures.resize(measures);
+}
+
+/// The value in each row, minus the mean over the rows of its group.
+std::vector<double> inside_groups(const std::vector<double>& values, const SweepGroups& points) {
+    std::vector<double> sums(points.groups.size()), counts(points.groups.size()), out(values.size());
+    for (std::size_t r = 0; r < values.size(); ++r)
+        if (std::isfinite(values[r])) sums[points.group_of[r]] += values[r], ++counts[points.group_of[r]];
+    for (std::size_t r = 0; r < values.size(); ++r) out[r] = values[r] - sums[points.group_of[r]] / counts[points.group_of[r]];
+    return out;
+}
+
+/// The first chips of a sweep, at most max_analysed_chips, and for each chip the mean of a measure over the points. Chip k is sample k: a
+/// chip is simulated at each point with the same mismatch and the same values of the sampled axes.
+class ChipMeans {
+    std::vector<std::size_t> chip_of_;  // for each row: index in chips_, or none
+    std::vector<std::uint64_t> chips_;  // numbers of the chips
+    static constexpr auto none = static_cast<std::size_t>(-1);
+
+public:
+    /// `samples`: number of samples of each point; 0: each item is a separate chip.
+    ChipMeans(const SweepTable& table, std::int64_t samples) {
+        std::unordered_map<std::uint64_t, std::size_t> index;  // by the number of the chip
+        for (const auto item : table.items) {
+            const auto chip = static_cast<std::uint64_t>(samples > 0 ? item % samples : item);
+            const auto known = index.find(chip);
+            if (known == index.end() && chips_.size() == max_analysed_chips) {
+                chip_of_.push_back(none);
+                continue;
+            }
+            if (known == index.end()) index[chip] = chips_.size(), chips_.push_back(chip);
+            chip_of_.push_back(index[chip]);
+        }
+    }
+    const std::vector<std::uint64_t>& chips() const { return chips_; }
+
+    /// For each chip, the mean of the values in its rows; NaN if there are none.
+    std::vector<double> of(const std::vector<double>& values) const {
+        std::vector<double> out(chips_.size()), counts(chips_.size());
+        for (std::size_t r = 0; r < values.size(); ++r)
+            if (chip_of_[r] != none && std::isfinite(values[r])) out[chip_of_[r]] += values[r], ++counts[chip_of_[r]];
+        for (std::size_t c = 0; c < out.size(); ++c) out[c] = counts[c] > 0 ? out[c] / counts[c] : Estimate::none;
+        return out;
+    }
+};
+
+/// The index of the subject of a measure: the only subject, or the one that is named in NAME.MEASURE; -1 if there is none.
+std::ptrdiff_t subject_of(const std::string& measure, const MismatchSamples& mismatch) {
+    if (mismatch.subjects.size() == 1) return 0;
+    for (std::size_t s = 0; s < mismatch.subjects.size(); ++s)
+        if (measure.starts_with(mismatch.subjects[s].name + ".")) return static_cast<std::ptrdiff_t>(s);
+    return -1;
+}
+
+/// All factors that may influence a measure: sampled axes may influence every measure, devices only the measures of their subject. Each
+/// factor has a value for each chip, and a NamedInfluence whose `influence` is not yet set.
+struct Factors {
+    std::vector<SweepFactor> axes;
+    std::vector<NamedInfluence> axis_names;
+    struct SubjectFactors {
+        std::vector<SweepFactor> values;
+        std::vector<NamedInfluence> names;
+    };
+    std::vector<SubjectFactors> subjects;
+};
+
+Factors factors_of(const SweepTable& table, const std::optional<MismatchSamples>& mismatch, const ChipMeans& means) {
+    Factors out;
+    for (std::size_t a = 0; a < table.axes.size(); ++a) {
+        if (table.has_points(a)) continue;
+        out.axes.push_back(means.of(table.axis_values[a]));
+        out.axis_names.push_back({table.axes[a].name, "", -1, -1, static_cast<std::ptrdiff_t>(a), {}});
+    }
+    if (!mismatch) return out;
+    for (std::size_t s = 0; s < mismatch->subjects.size(); ++s) {
+        auto& subject_factors = out.subjects.emplace_back();
+        const auto& devices = mismatch->subjects[s].devices;
+        for (std::size_t d = 0; d < devices.size(); ++d) {
+            if (devices[d].sigma_VT == 0 && devices[d].sigma_IS == 0) continue;
+            auto deviates = deviates_of(devices[d], mismatch->seed, means.chips());
+            const NamedInfluence name{devices[d].name, "", static_cast<std::ptrdiff_t>(d), static_cast<std::ptrdiff_t>(s), -1, {}};
+            const auto add = [&](double sigma, const char* quantity, SweepFactor& values) {
+                if (sigma == 0) return;
+                subject_factors.values.push_back(std::move(values)), subject_factors.names.push_back(name);
+                subject_factors.names.back().quantity = quantity;
+            };
+            add(devices[d].sigma_VT, "V_T", deviates.V_T), add(devices[d].sigma_IS, "I_S", deviates.I_S);
+        }
+    }
+    return out;
+}
+
+/// Sums the fractions of each device. Those of squares count as the quantity itself.
+std::vector<DeviceContribution> device_contributions(const std::vector<NamedInfluence>& influences) {
+    std::vector<DeviceContribution> out;
+    for (const auto& i : influences) {
+        if (i.device < 0 || !(i.influence.fraction.value > 0)) continue;
+        auto at = std::find_if(out.begin(), out.end(), [&](const auto& d) { return d.device == i.device && d.subject == i.subject; });
+        if (at == out.end()) at = out.insert(at, {i.subject, i.device});
+        (i.quantity.starts_with("V_T") ? at->V_T : at->I_S) += i.influence.fraction.value;
+    }
+    std::sort(out.begin(), out.end(), [](const auto& a, const auto& b) {
+        return std::tuple(-a.fraction(), a.subject, a.device) < std::tuple(-b.fraction(), b.subject, b.device);
+    });
+    return out;
+}
+
+/// The parts of the search for dependences that all measures share.
+struct DependenceSearch {
+    const SweepTable& table;
+    const std::optional<MismatchSamples>& mismatch;
+    SweepGroups points;                                        // by all axes with points
+    std::vector<std::pair<std::size_t, SweepGroups>> by_axis;  // index of an axis with two or more points, and its groups
+    ChipMeans means;
+    Factors factors;
+};
+
+/// Adds the square of each factor, for the yield. A measure can have limits on both sides, so deviations in either direction lower the
+/// yield.
+void add_squares(Factors::SubjectFactors& subject_factors) {
+    const auto count = subject_factors.values.size();
+    for (std::size_t f = 0; f < count; ++f) {
+        SweepFactor squares;
+        for (const double x : subject_factors.values[f]) squares.push_back(x * x);
+        subject_factors.values.push_back(std::move(squares)), subject_factors.names.push_back(subject_factors.names[f]);
+        subject_factors.names.back().quantity += " squared";
+    }
+}
+
+/// Finds what one measure depends on. During the search, the factors of its subject's devices are moved to the end of those of the axes.
+Dependence dependence_of(const std::string& name, const std::vector<double>& values, DependenceSearch& search) {
+    Dependence out{name, {}, {}, {}, {}, {}};
+    for (const auto& [axis, groups] : search.by_axis) {
+        const auto between = group_effect(values, groups.group_of, groups.groups.size());
+        if (between.p_value <= false_discovery_rate && between.fraction > 0) out.points.emplace_back(axis, between);
+    }
+    std::sort(out.points.begin(), out.points.end(),
+              [](const auto& a, const auto& b) { return std::pair(-a.second.fraction, a.first) < std::pair(-b.second.fraction, b.first); });
+    auto& all = search.factors.axes;
+    const auto axes = all.size();
+    const auto subject = search.mismatch ? subject_of(name, *search.mismatch) : -1;
+    auto* subject_factors = subject >= 0 ? &search.factors.subjects[static_cast<std::size_t>(subject)] : nullptr;
+    if (subject_factors)
+        for (auto& f : subject_factors->values) all.push_back(std::move(f));
+    out.sensitivity = sensitivity_of(search.means.of(inside_groups(values, search.points)), all);
+    for (const auto& i : out.sensitivity.influences) {
+        out.influences.push_back(i.factor < axes ? search.factors.axis_names[i.factor] : subject_factors->names[i.factor - axes]);
+        out.influences.back().influence = i;
+    }
+    if (subject_factors)
+        for (std::size_t f = 0; f < subject_factors->values.size(); ++f) subject_factors->values[f] = std::move(all[axes + f]);
+    all.resize(axes);
+    out.devices = device_contributions(out.influences);
+    return out;
+}
+
+/// Also sets the number of chips from which the dependences were computed.
+std::vector<Dependence> dependences_of(const SweepTable& table, const std::optional<MismatchSamples>& mismatch,
+                                       const std::vector<char>& passed, std::size_t& analysed_chips) {
+    std::vector<std::size_t> point_axes;
+    for (std::size_t a = 0; a < table.axes.size(); ++a)
+        if (table.has_points(a)) point_axes.push_back(a);
+    auto points = group_rows_by_axes(table, point_axes);
+    const auto count = static_cast<std::int64_t>(points.groups.size());
+    // Without the description of the mismatch, the number of samples follows from the numbers of items and points.
+    const ChipMeans means(table, mismatch ? mismatch->chips : count > 0 && table.item_count % count == 0 ? table.item_count / count : 0);
+    analysed_chips = means.chips().size();
+    DependenceSearch search{table, mismatch, std::move(points), {}, means, factors_of(table, mismatch, means)};
+    for (const auto a : point_axes)
+        if (auto groups = group_rows_by_axes(table, {a}); groups.groups.size() > 1) search.by_axis.emplace_back(a, std::move(groups));
+    std::vector<Dependence> out;
+    for (std::size_t m = 0; m < table.measures.size(); ++m)
+        out.push_back(dependence_of(table.measures[m].name, table.measure_values[m], search));
+    for (auto& subject_factors : search.factors.subjects) add_squares(subject_factors);
+    if (table.has_limits()) out.push_back(dependence_of("yield", {passed.begin(), passed.end()}, search));
+    return out;
+}
+
+/// Removes what makes sense only for random samples: a grid is complete, so it has no confidence intervals, sigmas or tests of normality.
+void remove_statistics(PointSummary& point) {
+    const auto remove_interval = [](Estimate& e) { e.low = e.high = Estimate::none; };
+    remove_interval(point.yield);
+    for (auto& m : point.measures) {
+        remove_interval(m.mean);
+        m.sigma = {}, m.normality = m.normality_floor = Estimate::none;
+        for (auto& q : m.quantiles) remove_interval(q);
+        if (m.yield) remove_interval(*m.yield);
+    }
+}
+
+/// For a grid: the effects of the axes on all measures, and on the yield.
+std::vector<Dependence> effects_on_all(const SweepTable& table, const std::vector<char>& passed) {
+    std::vector<Dependence> out;
+    for (std::size_t m = 0; m < table.measures.size(); ++m)
+        out.push_back({table.measures[m].name, {}, {}, {}, {}, axis_effects(table, table.measure_values[m])});
+    if (table.has_limits()) out.push_back({"yield", {}, {}, {}, {}, axis_effects(table, {passed.begin(), passed.end()})});
+    return out;
+}
+
+}  // namespace
+
+Result<SweepSummary> summary_of(const SweepTable& table, const std::optional<MismatchSamples>& mismatch,
+                                const SweepSummaryOptions& options) {
+    const auto groups = group_rows(table, options.axes);
+    if (!groups) return groups.error();
+    SweepSummary out;
+    out.options = options, out.axes = groups->axes, out.mismatch = mismatch;
+    std::vector<char> passed(table.rows());
+    for (std::size_t r = 0; r < passed.size(); ++r) passed[r] = table.passes(r);
+    for (const auto& g : groups->groups) {
+        auto& point = out.points.emplace_back(point_summary(table, g, passed));
+        out.all.done += point.done, out.all.iteration_limit += point.iteration_limit, out.all.diverged += point.diverged,
+            out.all.passed += point.passed;
+        finish_point(point, table.measures.size());
+    }
+    finish_point(out.all, table.measures.size());
+    ThreadPool pool(table.rows() > 100000 ? 0 : 1);
+    pool.for_each(table.measures.size(), [&](std::size_t m, unsigned) { put_measure(out, table, *groups, m); });
+    if (!table.is_grid) {
+        out.dependences = dependences_of(table, mismatch, passed, out.analysed_chips);
+        return out;
+    }
+    remove_statistics(out.all);
+    for (auto& point : out.points) remove_statistics(point);
+    out.dependences = effects_on_all(table, passed);
+    return out;
+}
+
+}  // namespace corpuscle

@@ -1,0 +1,169 @@
+#include "sweep/stats/sweep_table.hpp"
+
+#include <fmt/format.h>
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "core/parameter.hpp"
+#include "core/thread_pool.hpp"
+#include "sweep/spec/grid.hpp"
+#include "sweep/store/sqlite.hpp"
+
+namespace corpuscle {
+namespace {
+
+/// The indexes of the measures with these names, in this order, each once; without names: of all measures.
+Result<std::vector<std::size_t>> find_measures(const SweepResults& results, const std::vector<std::string>& names) {
+    std::vector<std::size_t> out;
+    std::vector<std::string_view> known;
+    for (const auto& m : results.measures()) known.push_back(m.name);
+    for (std::size_t k = 0; names.empty() && k < known.size(); ++k) out.push_back(k);
+    for (const auto& name : names) {
+        const auto at = std::find(known.begin(), known.end(), name);
+        if (at == known.end())
+            return bad_usage(
+                fmt::format("--measure {}: unknown measure{} (known: {})", name, did_you_mean(name, known), fmt::join(known, ", ")));
+        if (const auto k = static_cast<std::size_t>(at - known.begin()); std::find(out.begin(), out.end(), k) == out.end())
+            out.push_back(k);
+    }
+    return out;
+}
+
+/// The distinct values of an axis in ascending order. Empty if there are more than `limit` or, unless the axis is known to be listed, more
+/// than half the number of rows. `all`: the value in each row.
+std::vector<double> few_values(const std::vector<double>& all, bool is_listed, std::size_t limit) {
+    std::vector<double> known;
+    double last = std::nan("");
+    for (const double x : all) {
+        if (x == last || std::isnan(x)) continue;
+        last = x;
+        const auto at = std::lower_bound(known.begin(), known.end(), x);
+        if (at != known.end() && *at == x) continue;
+        if (known.size() == limit) return {};
+        known.insert(at, x);
+    }
+    return is_listed || 2 * known.size() <= all.size() ? known : std::vector<double>();
+}
+
+/// The columns of a range of items.
+struct ReadPart {
+    std::vector<std::int64_t> items;
+    std::vector<ItemEnd> end;
+    std::vector<std::vector<double>> columns;  // [column][row]
+};
+
+/// Reads the rows of items [from, to). `columns_sql`: names of the columns, separated by commas; `columns`: their number.
+Result<ReadPart> read_part(const SweepResults& results, const std::string& columns_sql, std::size_t columns, std::int64_t from,
+                           std::int64_t to) {
+    auto rows = sql::Statement::make(
+        results.handle(), results.path(),
+        fmt::format("SELECT item, ended, {} FROM items WHERE item >= {} AND item < {} ORDER BY item", columns_sql, from, to));
+    if (!rows) return rows.error();
+    ReadPart out;
+    out.columns.resize(columns);
+    for (;;) {
+        const auto more = rows->step();
+        if (!more) return more.error();
+        if (!*more) return out;
+        out.items.push_back(rows->integer(0));
+        const auto ended = rows->text(1);
+        out.end.push_back(ended == "done" ? ItemEnd::done : ended == "truncated" ? ItemEnd::iteration_limit : ItemEnd::diverged);
+        for (std::size_t k = 0; k < columns; ++k) out.columns[k].push_back(rows->number(static_cast<int>(k) + 2));
+    }
+}
+
+/// Reads all rows; a large table in several parts in parallel, each with its own connection to the file.
+Result<std::vector<ReadPart>> read_parts(const SweepResults& results, const std::string& columns_sql, std::size_t columns) {
+    constexpr std::int64_t large = 100000;  // rows
+    const auto parts = results.finished_count() > large ? std::size_t{4} : std::size_t{1};
+    std::vector<ReadPart> out(parts);
+    std::vector<std::optional<Error>> errors(parts);
+    ThreadPool(parts == 1 ? 1 : 0).for_each(parts, [&](std::size_t k, unsigned) {
+        const auto first_item = [&](std::size_t part) {
+            return part == parts ? std::numeric_limits<std::int64_t>::max() : results.item_count() / 4 * static_cast<std::int64_t>(part);
+        };
+        const auto connection =  // not needed for one part
+            parts == 1 ? Result<SweepResults>(Error{}) : SweepResults::open_read_only(results.path());
+        if (parts > 1 && !connection) return void(errors[k] = connection.error());
+        auto read = read_part(parts == 1 ? results : *connection, columns_sql, columns, first_item(k), first_item(k + 1));
+        read ? void(out[k] = std::move(*read)) : void(errors[k] = read.error());
+    });
+    for (auto& e : errors)
+        if (e) return *e;
+    return out;
+}
+
+}  // namespace
+
+bool SweepTable::meets_limits(std::size_t row, std::size_t measure) const {
+    if (ends[row] != ItemEnd::done) return false;
+    const auto& m = measures[measure];
+    const double x = measure_values[measure][row];
+    return (!m.min || x >= *m.min) && (!m.max || x <= *m.max);
+}
+
+bool SweepTable::has_limits() const {
+    for (std::size_t m = 0; m < measures.size(); ++m)
+        if (has_limits(m)) return true;
+    return false;
+}
+
+bool SweepTable::passes(std::size_t row) const {
+    if (ends[row] != ItemEnd::done) return false;
+    for (std::size_t m = 0; m < measures.size(); ++m)
+        if (!meets_limits(row, m)) return false;
+    return true;
+}
+
+Result<SweepTable> read_table(const SweepResults& results, const std::vector<std::string>& measure_names) {
+    const auto wanted = find_measures(results, measure_names);
+    if (!wanted) return wanted.error();
+    SweepTable out;
+    out.item_count = results.item_count(), out.axes = results.axes();
+    std::vector<std::string> columns_sql;
+    for (std::size_t k = 0; k < results.axes().size(); ++k) columns_sql.push_back(sql::quoted_name(results.stored_column_names()[k]));
+    for (const auto m : *wanted)
+        columns_sql.push_back(sql::quoted_name(results.stored_column_names()[results.axes().size() + m])),
+            out.measures.push_back(results.measures()[m]);
+    const auto has_iterations =
+        sql::query_integer(results.handle(), results.path(), "SELECT EXISTS(SELECT 1 FROM items WHERE iterations > 0)");
+    if (!has_iterations) return has_iterations.error();
+    if (*has_iterations && measure_names.empty()) {
+        columns_sql.emplace_back("iterations");
+        out.measures.push_back({"iterations", "", "Newton iterations of the circuit"});
+    }
+    auto parts = read_parts(results, fmt::format("{}", fmt::join(columns_sql, ", ")), columns_sql.size());
+    if (!parts) return parts.error();
+    out.axis_values.resize(out.axes.size()), out.measure_values.resize(out.measures.size());
+    const auto append = [](auto& all, auto& part) {
+        all.empty() ? void(all = std::move(part)) : void(all.insert(all.end(), part.begin(), part.end()));
+    };
+    for (auto& part : *parts) {
+        append(out.items, part.items), append(out.ends, part.end);
+        for (std::size_t k = 0; k < columns_sql.size(); ++k) {
+            append(k < out.axes.size() ? out.axis_values[k] : out.measure_values[k - out.axes.size()], part.columns[k]);
+            std::vector<double>().swap(part.columns[k]);
+        }
+    }
+    out.is_grid = is_deterministic(results);
+    for (std::size_t a = 0; a < out.axes.size(); ++a)
+        out.points.push_back(few_values(out.axis_values[a], out.is_grid || !out.axes[a].labels.empty(),
+                                        out.is_grid ? SweepTable::max_grid_points : SweepTable::max_points));
+    return out;
+}
+
+Result<std::vector<FailedItem>> failed_items(const SweepResults& results, std::size_t limit) {
+    auto rows = sql::Statement::make(results.handle(), results.path(),
+                                     fmt::format("SELECT item, ended, why FROM items WHERE ended <> 'done' ORDER BY item LIMIT {}", limit));
+    if (!rows) return rows.error();
+    std::vector<FailedItem> out;
+    for (;;) {
+        const auto more = rows->step();
+        if (!more) return more.error();
+        if (!*more) return out;
+        out.push_back({rows->integer(0), rows->text(2).empty() ? rows->text(1) : rows->text(2)});
+    }
+}
+
+}  // namespace corpuscle

@@ -1,0 +1,103 @@
+#include "sweep/store/dump.hpp"
+
+#include <fmt/format.h>
+#include <cmath>
+#include <cstring>
+
+#include "sweep/store/sqlite.hpp"
+
+namespace corpuscle {
+namespace {
+
+/// A text as a CSV field, quoted if necessary.
+std::string csv_field(const std::string& text) {
+    if (text.find_first_of(",\"\n\r") == text.npos) return text;
+    std::string out = "\"";
+    for (const char c : text) out += c == '"' ? "\"\"" : std::string(1, c);
+    return out + "\"";
+}
+
+/// The text of a value: its label if the column has labels, otherwise a number.
+std::string value_text(double x, const SweepColumn& column) {
+    const auto& labels = column.labels;
+    if (!labels.empty() && x >= 0 && x < static_cast<double>(labels.size()) && x == std::floor(x))
+        return csv_field(labels[static_cast<std::size_t>(x)]);
+    return std::isnan(x) ? "" : fmt::format("{}", x);
+}
+
+/// Reads the blobs (arrays of T) of one table, in the order of the items.
+template <class T>
+class BlobReader {
+    sql::Statement rows_;
+    bool has_row_ = false;  // false: all rows are read
+
+    Result<void> advance() {
+        const auto more = rows_.step();
+        if (!more) return more.error();
+        has_row_ = *more;
+        return {};
+    }
+
+public:
+    /// Starts a query whose columns are item, index of the train or probe, and blob, sorted by the first two.
+    Result<void> begin(const SweepResults& results, const std::string& query) {
+        auto statement = sql::Statement::make(results.handle(), results.path(), query);
+        if (!statement) return statement.error();
+        rows_ = std::move(*statement);
+        return advance();
+    }
+
+    /// Appends the blobs of an item to the text as `columns` fields; a train or probe without a blob gives an empty field.
+    Result<void> append(std::int64_t item, std::size_t columns, std::string& text) {
+        while (has_row_ && rows_.integer(0) < item)
+            if (auto ok = advance(); !ok) return ok;
+        for (std::size_t k = 0; k < columns; ++k) {
+            text += ",";
+            if (!has_row_ || rows_.integer(0) != item || rows_.integer(1) != static_cast<std::int64_t>(k)) continue;
+            const auto bytes = rows_.bytes(2);
+            for (std::size_t at = 0; at + sizeof(T) <= bytes.size(); at += sizeof(T)) {
+                T x;
+                std::memcpy(&x, bytes.data() + at, sizeof x);
+                fmt::format_to(std::back_inserter(text), "{}{}", at ? " " : "", x);
+            }
+            if (auto ok = advance(); !ok) return ok;
+        }
+        return {};
+    }
+};
+
+std::string header_line(const SweepResults& results) {
+    std::string text = "item,ended,steps,iterations,alone,why";
+    for (const auto& name : results.stored_column_names()) text += "," + csv_field(name);
+    for (const auto& name : results.train_names()) text += "," + csv_field("spikes of " + name);
+    for (const auto& name : results.probe_names()) text += "," + csv_field("trace of " + name);
+    return text + "\n";
+}
+
+}  // namespace
+
+Result<void> dump_results(const SweepResults& results, const std::function<bool(const std::string&)>& put) {
+    BlobReader<double> spikes;
+    BlobReader<float> probes;
+    if (auto ok = sql::run(results.handle(), results.path(), "BEGIN"); !ok) return ok;  // one consistent state, also during a run
+    auto ok = spikes.begin(results, "SELECT item, train, times FROM spikes ORDER BY item, train");
+    if (ok) ok = probes.begin(results, "SELECT item, trace, samples FROM traces ORDER BY item, trace");
+    bool should_continue = ok && put(header_line(results));
+    Result<void> row_result;
+    if (should_continue)
+        row_result = results.for_each_row([&](const SweepResults::Row& row) {
+            auto text = fmt::format("{},{},{},{},{},{}", row.item, end_name(row.end), row.steps, row.iterations, row.ran_alone ? 1 : 0,
+                                    csv_field(row.reason));
+            for (std::size_t k = 0; k < row.axes.size(); ++k) text += "," + value_text(row.axes[k], results.axes()[k]);
+            for (std::size_t k = 0; k < row.measures.size(); ++k) text += "," + value_text(row.measures[k], results.measures()[k]);
+            ok = spikes.append(row.item, results.train_names().size(), text);
+            if (ok) ok = probes.append(row.item, results.probe_names().size(), text);
+            should_continue = ok && put(text + "\n");
+            return should_continue;
+        });
+    spikes = {}, probes = {};  // ends their queries, before the transaction
+    const auto ended = sql::run(results.handle(), results.path(), "END");
+    return !ok ? ok : !row_result ? row_result : ended;
+}
+
+}  // namespace corpuscle

@@ -1,0 +1,112 @@
+// Merges the rows of one results file into another. In the SQL below, `main` is the file that receives the rows, `source` the other one.
+
+#include <fmt/format.h>
+#include <sqlite3.h>
+#include <filesystem>
+
+#include "sweep/store/results_impl.hpp"
+
+namespace corpuscle {
+namespace {
+
+constexpr int max_listed = 3;  // items listed in a message about differences
+
+/// All columns of the table items except the item, with a table name before each: "i.ended, i.steps, ...".
+std::string result_columns(const std::string& table, const ResultsLayout& layout) {
+    std::string out;
+    for (const char* name : {"ended", "steps", "iterations", "alone", "why"})
+        out += fmt::format("{}{}.{}", out.empty() ? "" : ", ", table, name);
+    for (const auto& name : layout.stored_column_names) out += fmt::format(", {}.{}", table, sql::quoted_name(name));
+    return out;
+}
+
+/// All columns of the table items: "item, ended, ...".
+std::string item_columns(const ResultsLayout& layout) {
+    std::string out = "item, ended, steps, iterations, alone, why";
+    for (const auto& name : layout.stored_column_names) out += ", " + sql::quoted_name(name);
+    return out;
+}
+
+/// The statement that copies the rows that `main` lacks from `source`. `items`: number of items of the sweep.
+std::string insertion_of(std::string_view table, const std::string& columns, std::int64_t items) {
+    return fmt::format("INSERT INTO main.{0}({1}) SELECT {1} FROM source.{0} WHERE item >= 0 AND item < {2} ON CONFLICT DO NOTHING;", table,
+                       columns, items);
+}
+
+/// The query for items that both files have, with different results.
+std::string select_differing(const ResultsLayout& layout) {
+    std::string text = fmt::format("SELECT item FROM main.items i JOIN source.items s USING(item) WHERE ({}) IS NOT ({})",
+                                   result_columns("i", layout), result_columns("s", layout));
+    // A spike train or probe differs if the other file has other bytes or no row for it; so both directions are compared.
+    for (const auto& [table, index, bytes] : {std::tuple{"spikes", "train", "times"}, std::tuple{"traces", "trace", "samples"}})
+        for (const auto& [one, other] : {std::pair{"main", "source"}, std::pair{"source", "main"}})
+            text += fmt::format(
+                " UNION SELECT item FROM {0}.{2} a WHERE EXISTS(SELECT 1 FROM {1}.items b WHERE b.item = a.item) AND EXISTS(SELECT 1 FROM "
+                "{0}.items b WHERE b.item = a.item) AND a.{4} IS NOT (SELECT b.{4} FROM {1}.{2} b WHERE b.item = a.item AND b.{3} = a.{3})",
+                one, other, table, index, bytes);
+    return text + " ORDER BY item";
+}
+
+/// Returns an error if an item has different results in the two files. `path`, `from`: paths of `main` and `source`.
+Result<void> check_differences(sqlite3* file, const ResultsLayout& layout, const std::string& path, const std::string& from) {
+    auto rows = sql::Statement::make(file, path, select_differing(layout));
+    if (!rows) return rows.error();
+    std::string listed;
+    for (int k = 0;; ++k) {
+        const auto more = rows->step();
+        if (!more) return more.error();
+        if (!*more) break;
+        if (k == max_listed) {
+            listed += " ...";
+            break;
+        }
+        listed += fmt::format("{}{}", listed.empty() ? "" : ", ", rows->integer(0));
+    }
+    if (listed.empty()) return {};
+    return bad_input(
+        fmt::format("the results of item {} differ from those in {}, although the sweep is the same: one of the two was changed or made by "
+                    "another program; nothing was merged",
+                    listed, path),
+        {from});
+}
+
+}  // namespace
+
+Result<void> SweepResults::check_same_sweep(const SweepResults& other) const {
+    for (const auto* results : {this, &other})
+        if (!results->impl_->layout.is_current_format()) return results->impl_->layout.read_only_format(results->path());
+    const auto difference = impl_->layout.difference_from(other.impl_->layout);
+    if (difference.empty()) return {};
+    return bad_input(fmt::format("belongs to another sweep than {}: {}", other.path(), difference), {path()});
+}
+
+Result<std::int64_t> SweepResults::merge(const SweepResults& from) {
+    auto& impl = *impl_;
+    if (auto same = from.check_same_sweep(*this); !same) return same.error();
+    std::error_code status;
+    if (std::filesystem::equivalent(path(), from.path(), status)) return bad_input("is also the file to merge into", {from.path()});
+    if (auto ok = impl.begin_writing(); !ok) return ok.error();
+    auto* file = impl.file.get();
+    auto attach = sql::Statement::make(file, path(), "ATTACH ? AS source");
+    if (!attach) return attach.error();
+    if (auto ok = attach->set(1, std::string_view(from.path())).finish(); !ok)
+        return Error{ok.error().code, ok.error().message, {from.path()}};
+    const auto before = impl.finished;
+    auto ok = check_differences(file, impl.layout, path(), from.path());
+    if (ok) {
+        ok = sql::run(file, path(),
+                      "BEGIN IMMEDIATE;" + insertion_of("items", item_columns(impl.layout), item_count()) +
+                          insertion_of("spikes", "item, train, times", item_count()) +
+                          insertion_of("traces", "item, trace, samples", item_count()) + "COMMIT");
+        if (!ok && !sqlite3_get_autocommit(file)) (void)sql::run(file, path(), "ROLLBACK");
+    }
+    if (ok) {
+        const auto rows = sql::query_integer(file, path(), "SELECT count(*) FROM main.items");
+        rows ? void(impl.finished = *rows) : void(ok = rows.error());
+    }
+    if (auto detached = sql::run(file, path(), "DETACH source"); ok) ok = detached;
+    if (!ok) return ok.error();
+    return impl.finished - before;
+}
+
+}  // namespace corpuscle

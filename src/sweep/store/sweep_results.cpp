@@ -1,0 +1,290 @@
+#include "sweep/store/sweep_results.hpp"
+
+#include <fmt/format.h>
+#include <sqlite3.h>
+#include <unistd.h>
+#include <algorithm>
+#include <array>
+#include <bit>
+#include <cstring>
+#include <filesystem>
+
+#include "sweep/store/results_impl.hpp"
+
+namespace corpuscle {
+namespace {
+
+namespace fs = std::filesystem;
+static_assert(std::endian::native == std::endian::little, "spikes and traces have the same byte order in the file and in memory");
+
+constexpr std::array<std::string_view, 3> item_ends = {  // in the order of ItemEnd
+    "done", "truncated", "diverged"};
+
+ItemEnd end_of(std::string_view name) {
+    const auto* at = std::find(item_ends.begin(), item_ends.end(), name);
+    return at == item_ends.end() ? ItemEnd::diverged : static_cast<ItemEnd>(at - item_ends.begin());
+}
+
+/// The statement that inserts a row into the table items. `columns`: stored names of the axes and measures.
+std::string insert_statement(const std::vector<std::string>& columns) {
+    std::string names = "item, ended, steps, iterations, alone, why", values = "?, ?, ?, ?, ?, ?";
+    for (const auto& column : columns) names += ", " + sql::quoted_name(column), values += ", ?";
+    return fmt::format("INSERT INTO items({}) VALUES({}) ON CONFLICT(item) DO NOTHING", names, values);
+}
+
+/// The numbers of a blob; an incomplete last number is ignored.
+template <class T>
+std::vector<T> numbers(std::span<const std::byte> bytes) {
+    std::vector<T> out(bytes.size() / sizeof(T));
+    if (!out.empty()) std::memcpy(out.data(), bytes.data(), out.size() * sizeof(T));
+    return out;
+}
+
+/// The numbers in the blob that a query selects by item and index; empty if there is no row.
+template <class T>
+Result<std::vector<T>> read_blob(sqlite3* file, const std::string& path, const char* query, std::int64_t item, std::size_t index) {
+    auto row = sql::Statement::make(file, path, query);
+    if (!row) return row.error();
+    const auto found = row->set(1, item).set(2, static_cast<std::int64_t>(index)).step();
+    if (!found) return found.error();
+    return *found ? numbers<T>(row->bytes(0)) : std::vector<T>{};
+}
+
+/// Creates the folder of a file.
+Result<void> make_folder(const std::string& path) {
+    const auto folder = fs::path(path).parent_path();
+    std::error_code failed;
+    if (!folder.empty()) fs::create_directories(folder, failed);
+    if (failed) return bad_input(fmt::format("its folder cannot be created ({}); give another path with --out", failed.message()), {path});
+    return {};
+}
+
+Error needs_writable_folder(const std::string& path) {
+    return bad_input(
+        "was left by a run that was killed, and can be read only in a writable folder: copy it, together with "
+        "its -wal file, to such a folder",
+        {path});
+}
+
+}  // namespace
+
+std::string_view end_name(ItemEnd end) { return item_ends[static_cast<std::size_t>(end)]; }
+
+Result<void> SweepResults::Impl::open_file(int flags) {
+    auto opened = sql::open(path, flags);
+    if (!opened) return opened.error();
+    file = std::move(*opened);
+    return {};
+}
+
+Result<void> SweepResults::Impl::begin_writing() {
+    if (is_writing) return {};
+    if (!lock) return bad_input("was opened for reading only", {path});
+    if (auto ok =
+            sql::run(file.get(), path,
+                     "PRAGMA journal_mode = WAL; PRAGMA wal_autocheckpoint = 0; PRAGMA synchronous = FULL; PRAGMA cache_size = -32768");
+        !ok)
+        return ok;
+    const auto prepare = [&](const std::string& text, sql::Statement& out) -> Result<void> {
+        auto statement = sql::Statement::make(file.get(), path, text);
+        if (!statement) return statement.error();
+        out = std::move(*statement);
+        return {};
+    };
+    if (auto ok = prepare(insert_statement(layout.stored_column_names), insert_item); !ok) return ok;
+    if (auto ok = prepare("INSERT INTO spikes(item, train, times) VALUES(?, ?, ?)", insert_spikes); !ok) return ok;
+    if (auto ok = prepare("INSERT INTO traces(item, trace, samples) VALUES(?, ?, ?)", insert_probe); !ok) return ok;
+    set_next_checkpoint_size();
+    is_writing = true;
+    return {};
+}
+
+Result<void> SweepResults::Impl::insert(const Sweep& sweep, const ItemOutcome& o) {
+    const auto values = sweep.values(o.item);
+    if (o.item < 0 || o.item >= layout.item_count || (!o.measures.empty() && o.measures.size() != layout.measures.size()) ||
+        values.size() != layout.axes.size())
+        return bad_input(
+            fmt::format("item {} with {} axes and {} measures does not fit this file of {} items with {} axes and {} measures", o.item,
+                        values.size(), o.measures.size(), layout.item_count, layout.axes.size(), layout.measures.size()),
+            {path});
+    insert_item.set(1, o.item).set(2, end_name(o.end)).set(3, o.steps).set(4, o.iterations).set(5, std::int64_t{o.ran_alone});
+    insert_item.set(6, std::string_view(o.reason));
+    int position = 7;
+    for (const double x : values) insert_item.set(position++, x);
+    for (std::size_t k = 0; k < layout.measures.size(); ++k, ++position)
+        k < o.measures.size() ? insert_item.set(position, o.measures[k]) : insert_item.set_null(position);
+    if (auto ok = insert_item.finish(); !ok) return ok;
+    if (sqlite3_changes(file.get()) == 0) return {};  // the item has a row already
+    ++finished;
+    for (std::size_t k = 0; k < o.spikes.size(); ++k)
+        if (!o.spikes[k].empty())
+            if (auto ok = insert_spikes.set(1, o.item)
+                              .set(2, static_cast<std::int64_t>(k))
+                              .set(3, std::as_bytes(std::span(o.spikes[k])))
+                              .finish();
+                !ok)
+                return ok;
+    for (std::size_t k = 0; k < o.probes.size(); ++k)
+        if (auto ok =
+                insert_probe.set(1, o.item).set(2, static_cast<std::int64_t>(k)).set(3, std::as_bytes(std::span(o.probes[k]))).finish();
+            !ok)
+            return ok;
+    return {};
+}
+
+Result<SweepResults> SweepResults::open(const std::string& path, const Sweep& sweep) {
+    return open_with_layout(path, ResultsLayout::of(sweep));
+}
+
+Result<SweepResults> SweepResults::open(const std::string& path, const SweepResults& other) {
+    return open_with_layout(path, other.impl_->layout);
+}
+
+Result<SweepResults> SweepResults::open_with_layout(const std::string& path, const ResultsLayout& expected) {
+    auto impl = std::make_unique<Impl>();
+    impl->path = path;
+    if (auto ok = make_folder(path); !ok) return ok.error();
+    auto lock = WriterLock::take(path);
+    if (!lock) return lock.error();
+    impl->lock = std::move(*lock);
+    ::unlink(impl->checkpoint_path().c_str());  // left by a killed run
+    if (std::error_code status; !fs::exists(path, status)) {
+        impl->layout = expected;  // create_file() writes it
+        if (auto ok = impl->create_file(); !ok) return ok.error();
+    }
+    if (auto ok = impl->open_file(SQLITE_OPEN_READWRITE); !ok) return ok.error();
+    auto stored = ResultsLayout::read(impl->file.get(), path);
+    if (!stored) return stored.error();
+    impl->layout = std::move(*stored);
+    if (!impl->layout.is_current_format()) return impl->layout.read_only_format(path);
+    if (const auto difference = expected.difference_from(impl->layout); !difference.empty())
+        return bad_input(fmt::format("holds results of another sweep: {}. Give another file with --out, undo the change, or "
+                                     "remove this file",
+                                     difference),
+                         {path});
+    const auto rows = sql::query_integer(impl->file.get(), path, "SELECT count(*) FROM items");
+    if (!rows) return rows.error();
+    impl->finished = *rows;
+    return SweepResults(std::move(impl));
+}
+
+Result<SweepResults> SweepResults::open_read_only(const std::string& path) {
+    std::error_code status;
+    if (!fs::exists(path, status)) return bad_input("does not exist; 'corpuscle sweep FILE --out RESULTS' creates it", {path});
+    auto impl = std::make_unique<Impl>();
+    impl->path = path;
+    if (auto ok = impl->open_file(SQLITE_OPEN_READWRITE | SQLITE_OPEN_NOMUTEX); !ok) return ok.error();
+    auto stored = ResultsLayout::read(impl->file.get(), path);
+    if (!stored && (sqlite3_errcode(impl->file.get()) & 0xff) == SQLITE_CANTOPEN) {
+        // SQLite needs a -shm file beside the results, which cannot be created in a read-only folder. Without rows in the -wal, the file
+        // can be opened as immutable instead.
+        if (fs::exists(impl->wal_path(), status) && fs::file_size(impl->wal_path(), status) > 0) return needs_writable_folder(path);
+        auto opened =
+            sql::open("file:" + fs::absolute(path).string() + "?immutable=1", SQLITE_OPEN_READONLY | SQLITE_OPEN_URI | SQLITE_OPEN_NOMUTEX);
+        if (!opened) return opened.error();
+        impl->file = std::move(*opened);
+        stored = ResultsLayout::read(impl->file.get(), path);
+    }
+    if (!stored) return stored.error();
+    impl->layout = std::move(*stored);
+    if (auto ok = sql::run(impl->file.get(), path, "PRAGMA query_only = 1"); !ok) return ok.error();
+    const auto rows = sql::query_integer(impl->file.get(), path, "SELECT count(*) FROM items");
+    if (!rows) return rows.error();
+    impl->finished = *rows;
+    return SweepResults(std::move(impl));
+}
+
+SweepResults::SweepResults(std::unique_ptr<Impl> impl) : impl_(std::move(impl)) {}
+SweepResults::SweepResults(SweepResults&&) noexcept = default;
+SweepResults& SweepResults::operator=(SweepResults&&) noexcept = default;
+SweepResults::~SweepResults() = default;
+
+Result<void> SweepResults::add(const Sweep& sweep, std::vector<ItemOutcome>&& outcomes) {
+    if (outcomes.empty()) return {};
+    std::sort(outcomes.begin(), outcomes.end(), [](const ItemOutcome& a, const ItemOutcome& b) { return a.item < b.item; });
+    auto& impl = *impl_;
+    const auto before = impl.finished;
+    auto ok = impl.begin_writing();
+    if (ok) ok = sql::run(impl.file.get(), impl.path, "BEGIN IMMEDIATE");
+    for (std::size_t k = 0; ok && k < outcomes.size(); ++k) ok = impl.insert(sweep, outcomes[k]);
+    if (ok) ok = sql::run(impl.file.get(), impl.path, "COMMIT");
+    if (!ok) {
+        impl.finished = before;
+        if (impl.file && !sqlite3_get_autocommit(impl.file.get())) (void)sql::run(impl.file.get(), impl.path, "ROLLBACK");
+        return ok;
+    }
+    std::error_code status;
+    const auto size = fs::file_size(impl.wal_path(), status);
+    if (!status && static_cast<std::int64_t>(size) > impl.next_checkpoint_size && !impl.checkpoint(false))
+        impl.set_next_checkpoint_size();  // if it failed, it is tried again when the -wal has grown
+    return {};
+}
+
+void SweepResults::announce_run(std::int64_t planned_items) const {
+    if (impl_->lock) impl_->lock->write_progress(finished_count(), planned_items);
+}
+
+const std::string& SweepResults::path() const { return impl_->path; }
+std::int64_t SweepResults::item_count() const { return impl_->layout.item_count; }
+std::int64_t SweepResults::finished_count() const { return impl_->finished; }
+const std::vector<SweepColumn>& SweepResults::axes() const { return impl_->layout.axes; }
+const std::vector<SweepColumn>& SweepResults::measures() const { return impl_->layout.measures; }
+const std::vector<std::string>& SweepResults::train_names() const { return impl_->layout.train_names; }
+const std::vector<std::string>& SweepResults::probe_names() const { return impl_->layout.probe_names; }
+const std::vector<double>& SweepResults::probe_times() const { return impl_->layout.probe_times; }
+const std::vector<std::string>& SweepResults::stored_column_names() const { return impl_->layout.stored_column_names; }
+sqlite3* SweepResults::handle() const { return impl_->file.get(); }
+
+std::string SweepResults::about(const std::string& key) const {
+    const auto found = impl_->layout.about.find(key);
+    return found == impl_->layout.about.end() ? "" : found->second;
+}
+
+Result<std::vector<std::pair<std::int64_t, std::int64_t>>> SweepResults::missing_ranges() const {
+    auto rows = sql::Statement::make(handle(), path(), "SELECT item FROM items ORDER BY item");
+    if (!rows) return rows.error();
+    std::vector<std::pair<std::int64_t, std::int64_t>> out;
+    std::int64_t from = 0;
+    for (;;) {
+        const auto more = rows->step();
+        if (!more) return more.error();
+        const auto to = *more ? rows->integer(0) : item_count();
+        if (to > from) out.emplace_back(from, to);
+        if (!*more) return out;
+        from = to + 1;
+    }
+}
+
+Result<std::int64_t> SweepResults::count_ended(ItemEnd end) const {
+    return sql::query_integer(handle(), path(), fmt::format("SELECT count(*) FROM items WHERE ended = '{}'", end_name(end)));
+}
+
+Result<void> SweepResults::for_each_row(const std::function<bool(const Row&)>& on_row) const {
+    std::string text = "SELECT item, ended, steps, iterations, alone, why";
+    for (const auto& column : stored_column_names()) text += ", " + sql::quoted_name(column);
+    auto rows = sql::Statement::make(handle(), path(), text + " FROM items ORDER BY item");
+    if (!rows) return rows.error();
+    Row row;
+    row.axes.resize(axes().size()), row.measures.resize(measures().size());
+    for (;;) {
+        const auto more = rows->step();
+        if (!more) return more.error();
+        if (!*more) return {};
+        row.item = rows->integer(0), row.end = end_of(rows->text(1)), row.steps = rows->integer(2), row.iterations = rows->integer(3);
+        row.ran_alone = rows->integer(4) != 0, row.reason = rows->text(5);
+        int column = 6;
+        for (auto* into : {&row.axes, &row.measures})
+            for (double& x : *into) x = rows->number(column++);
+        if (!on_row(row)) return {};
+    }
+}
+
+Result<std::vector<double>> SweepResults::spikes(std::int64_t item, std::size_t train) const {
+    return read_blob<double>(handle(), path(), "SELECT times FROM spikes WHERE item = ? AND train = ?", item, train);
+}
+
+Result<std::vector<float>> SweepResults::probe_samples(std::int64_t item, std::size_t probe) const {
+    return read_blob<float>(handle(), path(), "SELECT samples FROM traces WHERE item = ? AND trace = ?", item, probe);
+}
+
+}  // namespace corpuscle

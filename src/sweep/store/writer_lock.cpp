@@ -1,0 +1,131 @@
+#include "sweep/store/writer_lock.hpp"
+
+#include <fcntl.h>
+#include <fmt/format.h>
+#include <sys/stat.h>
+#include <unistd.h>
+#include <array>
+#include <cerrno>
+#include <chrono>
+#include <cstring>
+#include <sstream>
+#include <utility>
+
+namespace corpuscle {
+namespace {
+
+std::string lock_path(const std::string& results) { return results + "-writer"; }
+
+/// `kind`: F_RDLCK or F_WRLCK.
+struct flock whole_file_lock(short kind) {
+    struct flock lock = {};
+    lock.l_type = kind;
+    lock.l_whence = SEEK_SET;
+    return lock;
+}
+
+/// True if the open file is still the one at this path: the process that had the lock before may have removed the file.
+bool is_file_at_path(int file, const std::string& path) {
+    struct stat open_file = {}, file_at_path = {};
+    return ::fstat(file, &open_file) == 0 && ::stat(path.c_str(), &file_at_path) == 0 && open_file.st_ino == file_at_path.st_ino &&
+           open_file.st_dev == file_at_path.st_dev;
+}
+
+/// True if the file is empty or looks as if write_progress() wrote it. Any other file must not be overwritten.
+bool is_ours(int file) {
+    struct stat status = {};
+    if (::fstat(file, &status) != 0 || !S_ISREG(status.st_mode) || status.st_nlink > 1 || status.st_size > 512) return false;
+    if (status.st_size == 0) return true;
+    std::array<char, 513> text = {};
+    if (::pread(file, text.data(), text.size() - 1, 0) <= 0) return false;
+    std::istringstream words(text.data());
+    double process = 0, since = 0, finished = 0, planned = 0;
+    std::string host, more;
+    return static_cast<bool>(words >> process >> since >> finished >> planned >> host) && !(words >> more);
+}
+
+/// `why`: a verb and its object, such as "is a link".
+Error not_ours(const std::string& path, std::string_view why) {
+    return bad_input(fmt::format("is at the path of the results' lock file, but {}; move it away, or give another "
+                                 "file with --out",
+                                 why),
+                     {path});
+}
+
+Error locked_error(const std::string& results) {
+    const auto holder = WriterLock::holder(results);
+    const auto writer =
+        holder && holder->process ? fmt::format("process {} on {}", holder->process, holder->host) : std::string("another process");
+    return bad_input(fmt::format("is being written by {}; 'corpuscle sweep FILE --status' shows its progress. Wait for it, or give another "
+                                 "file with --out (each shard needs a separate file, for 'corpuscle sweep merge')",
+                                 writer),
+                     {results});
+}
+
+}  // namespace
+
+WriterLock::WriterLock(WriterLock&& other) noexcept : path_(std::move(other.path_)), file_(std::exchange(other.file_, -1)) {}
+WriterLock& WriterLock::operator=(WriterLock&& other) noexcept {
+    std::swap(path_, other.path_);
+    std::swap(file_, other.file_);
+    return *this;
+}
+WriterLock::~WriterLock() {
+    if (file_ < 0) return;
+    ::unlink(path_.c_str());
+    ::close(file_);
+}
+
+Result<WriterLock> WriterLock::take(const std::string& results) {
+    WriterLock lock;
+    const auto path = lock_path(results);
+    for (;;) {
+        const int file = ::open(path.c_str(), O_RDWR | O_CREAT | O_CLOEXEC | O_NOFOLLOW, 0666);
+        if (file < 0 && errno == ELOOP) return not_ours(path, "is a link");
+        if (file < 0)
+            return bad_input(fmt::format("cannot be written: its folder is not writable ({}); give a writable path "
+                                         "with --out",
+                                         std::strerror(errno)),
+                             {results});
+        auto lock_range = whole_file_lock(F_WRLCK);
+        if (::fcntl(file, F_OFD_SETLK, &lock_range) != 0) {
+            const int cause = errno;
+            ::close(file);
+            if (cause == EAGAIN || cause == EACCES) return locked_error(results);
+            return bad_input(fmt::format("cannot be locked ({}): does this file system support locks?", std::strerror(cause)), {path});
+        }
+        if (is_file_at_path(file, path)) {
+            if (!is_ours(file)) return ::close(file), not_ours(path, "has other content");
+            lock.path_ = path, lock.file_ = file;
+            lock.write_progress(0, 0);
+            return lock;
+        }
+        ::close(file);
+    }
+}
+
+void WriterLock::write_progress(std::int64_t finished, std::int64_t planned) const {
+    std::array<char, 256> host = {};
+    ::gethostname(host.data(), host.size() - 1);
+    const auto now = std::chrono::duration<double>(std::chrono::system_clock::now().time_since_epoch()).count();
+    const auto text = fmt::format("{} {:.3f} {} {} {}\n", ::getpid(), now, finished, planned, host[0] ? host.data() : "-");
+    // The content is only for messages, so errors, such as a full disk, are ignored.
+    if (::ftruncate(file_, 0) == 0) [[maybe_unused]]
+        const auto written = ::pwrite(file_, text.data(), text.size(), 0);
+}
+
+std::optional<WriterLock::Writer> WriterLock::holder(const std::string& results) {
+    const int file = ::open(lock_path(results).c_str(), O_RDONLY | O_CLOEXEC | O_NOFOLLOW | O_NONBLOCK);
+    if (file < 0) return {};
+    auto lock_range = whole_file_lock(F_RDLCK);
+    const bool is_free = ::fcntl(file, F_OFD_GETLK, &lock_range) == 0 && lock_range.l_type == F_UNLCK;
+    std::array<char, 512> text = {};
+    const auto size = ::read(file, text.data(), text.size() - 1);
+    ::close(file);
+    if (is_free) return {};
+    Writer out;
+    if (size > 0) std::istringstream(text.data()) >> out.process >> out.since >> out.finished >> out.planned >> out.host;
+    return out;
+}
+
+}  // namespace corpuscle

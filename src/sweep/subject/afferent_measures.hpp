@@ -1,0 +1,53 @@
+#pragma once
+// The measures of an item of a sweep, by name: every spike measure over the complete force and over each phase of the force; for a circuit
+// also power, time outside operating ranges, and Newton iterations.
+
+#include <span>
+
+#include "sweep/spec/sweep_force.hpp"
+
+namespace corpuscle::sweeps {
+
+/// The result of one simulated item.
+struct ItemResponse {
+    std::span<const double> spikes;  ///< times since the first sample of the force, s
+    // The following are of a circuit only.
+    double power = 0, sensor_power = 0;            ///< mean over the force, W; sensor_power is part of power
+    double time_outside = 0;                       ///< the largest of time_outside_ranges, s
+    std::vector<double> time_outside_ranges = {};  ///< for each operating range (.assert): total time outside it, s
+    double iterations = 0;                         ///< Newton iterations
+};
+
+/// The measures that are available for the items of a sweep, and those that are selected.
+class AfferentMeasures {
+    /// total, phase: a spike measure over the complete force, or over one phase; outside: over all operating ranges; one_range: of one of
+    /// them.
+    enum class Kind { total, phase, first, last, power, sensor_power, outside, one_range, iterations };
+    struct Entry {
+        Kind kind;
+        std::size_t index = 0;   ///< total, phase: index in `measures` of measure/measures.hpp; one_range: index of the range
+        std::string phase = {};  ///< phase: its name
+        SweepColumn column;
+        bool is_default = false;  ///< selected if the sweep file selects no measures
+    };
+    std::vector<Entry> selected_, available_;
+    std::vector<SweepColumn> columns_;  // of selected_
+
+public:
+    /// Makes all measures available for this force and this afferent. `ranges`: names of the operating ranges of a circuit; empty for a
+    /// model.
+    AfferentMeasures(const SweepForce& nominal, bool is_circuit, std::span<const std::string> ranges);
+
+    /// Selects measures by name. Without names: the measures over the complete force, except `iterations`, the time outside each single
+    /// range, and, for a force without cycle, the measures that need one.
+    Result<void> select(const std::optional<std::vector<LocatedText>>& names);
+    /// The index of a measure's column; selects the measure if it was not selected.
+    Result<std::size_t> require_column(const LocatedText& name);
+    std::vector<SweepColumn>& columns() { return columns_; }
+    const std::vector<SweepColumn>& columns() const { return columns_; }
+
+    /// The values of the selected measures, in the order of columns(); NaN: no value.
+    std::vector<double> values(const SweepForce&, const ItemResponse&) const;
+};
+
+}  // namespace corpuscle::sweeps

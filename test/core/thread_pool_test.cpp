@@ -1,0 +1,44 @@
+// The thread pool runs tasks on several threads.
+
+#include "core/thread_pool.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <stdexcept>
+
+namespace corpuscle {
+namespace {
+
+TEST(ThreadPool, EveryTaskRunsOnceForAnyNumberOfThreads) {
+    for (const unsigned threads : {1U, 2U, 7U}) {
+        ThreadPool pool(threads);
+        EXPECT_EQ(pool.threads(), threads);
+        for (const std::size_t count : {0, 1, 2, 1000}) {
+            std::vector<int> done(count);
+            std::atomic<bool> out_of_range = false;
+            pool.for_each(count, [&](std::size_t k, unsigned thread) {
+                ++done[k];
+                if (thread >= threads) out_of_range = true;
+            });
+            EXPECT_EQ(std::count(done.begin(), done.end(), 1), static_cast<std::ptrdiff_t>(count)) << threads;
+            EXPECT_FALSE(out_of_range);
+        }
+    }
+    EXPECT_GE(ThreadPool().threads(), 1U);
+}
+
+TEST(ThreadPool, AnExceptionReachesTheCallerAndThePoolContinues) {
+    ThreadPool pool(3);
+    EXPECT_THROW(pool.for_each(100,
+                               [](std::size_t k, unsigned) {
+                                   if (k == 40) throw std::runtime_error("40");
+                               }),
+                 std::runtime_error);
+    std::atomic<int> done = 0;
+    pool.for_each(100, [&](std::size_t, unsigned) { ++done; });
+    EXPECT_EQ(done, 100);
+}
+
+}  // namespace
+}  // namespace corpuscle

@@ -1,0 +1,171 @@
+#include "reproduction/claims/studies.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <set>
+
+#include "reproduction/claims/study_document.hpp"
+#include "support/support.hpp"
+
+namespace corpuscle {
+namespace {
+
+StudyResult run(std::string_view name) {
+    const auto study = std::find_if(std::begin(all_studies), std::end(all_studies), [&](const Study* s) { return s->name == name; });
+    return test::value_or_throw((*study)->run({}));
+}
+
+const Claim& claim(const StudyResult& outcome, const std::string& what) {
+    for (const auto& c : outcome.claims)
+        if (c.label == what) return c;
+    throw std::runtime_error("no claim '" + what + "'");
+}
+
+void check(const Study& study, const StudyResult& outcome) {
+    EXPECT_FALSE(outcome.claims.empty()) << study.name;
+    for (const auto& c : outcome.claims) {
+        EXPECT_TRUE(std::isfinite(c.computed) || !c.note.empty()) << study.name << ": " << c.label;
+        EXPECT_TRUE((!c.has_allowed_range() && std::isnan(c.published)) || !c.source.empty())
+            << study.name << ": " << c.label << " has a published value but no source";
+        EXPECT_TRUE(!c.needs_explanation() || !c.note.empty()) << study.name << ": " << c.label << " has no note on why it differs";
+    }
+    for (const auto& p : outcome.plots) {
+        EXPECT_FALSE(p.series.empty()) << study.name << ": " << p.title;
+        for (const auto& series : p.series)
+            EXPECT_TRUE(series.style == StudyPlot::Style::raster || (series.x.size() == series.y.size() && !series.x.empty()))
+                << study.name << ": " << p.title << ", " << series.name;
+    }
+}
+
+TEST(Studies, GiveTheTextOfTheReproductionPage) {
+    double last = 0;
+    const auto outcomes = run_studies(all_studies, {[&](double fraction) {
+                                          EXPECT_GE(fraction, last);
+                                          EXPECT_LE(fraction, 1 + 1e-9);
+                                          last = fraction;
+                                          return true;
+                                      }});
+    ASSERT_TRUE(static_cast<bool>(outcomes)) << outcomes.error().text();
+    EXPECT_GT(last, 0.999);
+    std::set<std::string_view> names;
+    for (std::size_t k = 0; k < std::size(all_studies); ++k) {
+        EXPECT_TRUE(names.insert(all_studies[k]->name).second) << all_studies[k]->name;
+        check(*all_studies[k], (*outcomes)[k]);
+    }
+    const auto text = markdown_of(all_studies, *outcomes), page = test::read_file(test::source_root() + "/reproduction/reproduction.md");
+    EXPECT_EQ(text, page) << "reproduction/reproduction.md is stale: make reproduction";
+}
+
+TEST(Studies, OfARecordingGiveTheTextOfTheirPage) {
+    CORPUSCLE_NEEDS(test::shared_file_path("fbg_eskin_press"));
+    const auto outcomes = run_studies(recorded_studies, {.recordings_folder = test::shared_file_path("")});
+    ASSERT_TRUE(static_cast<bool>(outcomes)) << outcomes.error().text();
+    for (std::size_t k = 0; k < std::size(recorded_studies); ++k) check(*recorded_studies[k], (*outcomes)[k]);
+    EXPECT_EQ(markdown_of(recorded_studies, *outcomes), test::read_file(test::source_root() + "/reproduction/recorded.md"))
+        << "stale: make reproduction";
+}
+
+TEST(Studies, OfAMissingRecordingNameTheSearchedPath) {
+    for (const auto* s : recorded_studies) {
+        const auto outcome = s->run({.recordings_folder = "/nowhere"});
+        ASSERT_FALSE(outcome);
+        EXPECT_NE(outcome.error().message.find("'/nowhere/" + std::string(s->recording_folder) + "'"), std::string::npos)
+            << outcome.error().text();
+    }
+}
+
+TEST(Studies, StopOnRequest) {
+    for (const auto* s : all_studies) {
+        const auto outcome = s->run({[](double) { return false; }});
+        ASSERT_FALSE(outcome) << s->name;
+        EXPECT_EQ(outcome.error().code, ErrorCode::interrupted) << s->name;
+    }
+}
+
+TEST(Studies, TheFourAfferentTypesFireWhereTheFigureShowsThem) {
+    for (const auto& c : run("fig3").claims)
+        EXPECT_TRUE(!c.has_allowed_range() || c.is_in_allowed_range()) << c.label << ": " << c.computed;
+}
+
+TEST(Studies, TheHoldOfTheKimModelIsWithinThePublishedSpread) {
+    const auto outcome = run("kim");
+    for (const auto& c : outcome.claims) EXPECT_TRUE(!c.has_allowed_range() || c.is_in_allowed_range()) << c.label << ": " << c.computed;
+    EXPECT_NEAR(claim(outcome, "interval in the hold at 1.3 mm").computed, 56.8e-3, 0.5e-3);
+}
+
+TEST(Studies, MoreBitsAndSamplesGiveSmallerErrors) {
+    const auto outcome = run("resolution");
+    for (const char* name : {"sa1", "fa1"}) {
+        const auto at = [&](const char* what) { return claim(outcome, std::string(name) + what + ": rms error of spike times").computed; };
+        EXPECT_GT(at(": 4 bits, 10 kHz"), 10 * at(": 12 bits, 10 kHz"));
+        EXPECT_LT(at(": 16 bits, 10 kHz"), 0.2e-3);
+        EXPECT_GT(at(": 16 bits, 100 Hz"), 5 * at(": 16 bits, 1 kHz"));
+    }
+}
+
+TEST(Studies, AClaimHoldsOnlyWithinItsAllowedRange) {
+    Claim c{.label = "x", .computed = 2};
+    EXPECT_FALSE(c.has_allowed_range());
+    c.allowed_max = 1;
+    EXPECT_TRUE(c.has_allowed_range());
+    EXPECT_FALSE(c.is_in_allowed_range());
+    c.allowed_max = 2, c.allowed_min = 2;
+    EXPECT_TRUE(c.is_in_allowed_range());
+}
+
+TEST(Studies, AClaimReportsItsDistanceFromThePublishedValue) {
+    StudyResult out;
+    const auto claim = [&](double computed_value, double published_value) {
+        return out.claim("x", computed_value, "V").published_as(published_value, "there");
+    };
+    EXPECT_STREQ(claim(1.09, 1).verdict(), "agrees");
+    EXPECT_STREQ(claim(1.11, 1).verdict(), "differs");
+    EXPECT_STREQ(claim(-1.11, -1).verdict(), "differs");
+    EXPECT_STREQ(claim(0.5, 0).verdict(), "");
+    EXPECT_STREQ(claim(std::numeric_limits<double>::quiet_NaN(), 1).verdict(), "");
+    EXPECT_EQ(format_deviation(claim(0.75, 1)), "-25.0 %");
+    EXPECT_EQ(format_deviation(claim(-0.75, -1)), "+25.0 %");
+    EXPECT_STREQ(out.claim("y", 3).allow_max(2, "there").verdict(), "does not hold");
+    EXPECT_EQ(format_published(out.claim("z", 3).derived_as(2, "an equation")), "(2)");
+    EXPECT_STREQ(out.claim_true("so", true, "there").verdict(), "holds");
+    EXPECT_STREQ(out.claim_true("so", false, "there").verdict(), "does not hold");
+}
+
+TEST(Studies, AClaimIsWrittenInItsUnit) {
+    StudyResult out;
+    EXPECT_EQ(format_claim_value(2e-9, out.claim("a", 2e-9, "A")), "2 nA");
+    EXPECT_EQ(format_claim_value(0.02, out.claim("b", 0.02, "%")), "0.02 %");
+    EXPECT_EQ(format_claim_value(1, out.claim_true("c", true, "there")), "yes");
+    EXPECT_EQ(format_allowed_range(out.claim("d", 1, "V").allow_range(0.5, 2, "there")), "500 mV to 2 V");
+    EXPECT_EQ(format_allowed_range(out.claim("e", 1, "V").allow_min(0.5, "there")), "at least 500 mV");
+    EXPECT_EQ(format_allowed_range(out.claim("f", 1)), "-");
+    EXPECT_EQ(format_claim_value(3e-14, out.claim("g", 3e-14, "%")), "0 %") << "rounding errors differ between machines";
+    EXPECT_EQ(format_claim_value(3e-15, out.claim("h", 3e-15, "V").allow_max(1e-9, "there")), "0 V");
+    EXPECT_EQ(format_claim_value(3e-12, out.claim("i", 3e-12, "V").allow_max(1e-9, "there")), "3 pV");
+}
+
+Result<StudyResult> fails(const StudyOptions&) { return bad_input("no such thing"); }
+Result<StudyResult> succeeds(const StudyOptions&) { return StudyResult{}; }
+
+TEST(Studies, TheFirstErrorEndsAllAndNamesItsStudy) {
+    const Study good{"good", "", "", succeeds}, bad{"bad", "", "", fails};
+    const Study* all[] = {&good, &bad, &good};
+    const auto outcomes = run_studies(all, {});
+    ASSERT_FALSE(outcomes);
+    EXPECT_EQ(outcomes.error().message, "bad: no such thing");
+}
+
+TEST(Studies, TheirMarkdownTableEscapesItsText) {
+    const Study study{"s", "A title", "A question", succeeds};
+    const Study* all[] = {&study};
+    StudyResult out;
+    out.claim("|a| over b", 1, "V").published_as(2, "table 1").explain("x | y");
+    const auto text = markdown_of(all, std::span(&out, 1));
+    EXPECT_NE(text.find("| \\|a\\| over b | 1 V | 2 V | -50.0 % | - | differs | table 1; x \\| y |\n"), std::string::npos) << text;
+    EXPECT_NE(text.find("0 published numbers agree within 10 %, 1 differ by more. 0 numbers agree within 10 % with values"),
+              std::string::npos)
+        << text;
+}
+
+}  // namespace
+}  // namespace corpuscle
