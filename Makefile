@@ -46,7 +46,9 @@ lint: setup-test
 	git ls-files 'src/*.cpp' 'apps/*.cpp' | xargs -P 2 -n 4 clang-tidy-19 -p build/lint --quiet --extra-arg=-Wno-unknown-warning-option
 
 # Every figure and table of the thesis, computed and published values side by side: a page, and the numbers as text.
-reproduction: build
+reproduction: setup-run
+	@cmake --preset release > /dev/null
+	@cmake --build --preset release --target corpuscle-cli corpuscle-study
 	@mkdir -p out
 	$(corpuscle) study all --quiet --report out/reproduction.html --markdown reproduction/reproduction.md
 	if [ -d $(CORPUSCLE_DATA)/fbg_eskin_press ]; then CORPUSCLE_DATA=$(CORPUSCLE_DATA) $(corpuscle) study eskin-press --quiet --markdown reproduction/recorded.md; \
@@ -54,7 +56,7 @@ reproduction: build
 
 install: build
 	@cmake --preset release -D CMAKE_INSTALL_PREFIX=$(PREFIX) > /dev/null  # programs that link the library look for the helper programs there
-	@cmake --build --preset release --target corpuscle-cli
+	@cmake --build --preset release --target corpuscle-cli corpuscle-study
 	cmake --install build/release --prefix $(PREFIX)
 
 # The pictures of README and doc/. Those of real recordings need the recordings in the directory CORPUSCLE_DATA.

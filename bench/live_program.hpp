@@ -13,11 +13,11 @@
 #include <fstream>
 #include <thread>
 
+#include "core/random.hpp"
 #include "io/spikes/address_events.hpp"
 #include "live/input/descriptor.hpp"
 #include "live/input/frame_source.hpp"
 #include "live/input/sockets.hpp"
-#include "core/random.hpp"
 #include "skin/innervation.hpp"
 
 namespace corpuscle {

@@ -24,9 +24,9 @@
 #include <functional>
 #include <string>
 
+#include "core/stimulus/stimuli.hpp"
 #include "model/lane_population.hpp"
 #include "model/lanes/aligned_buffer.hpp"
-#include "core/stimulus/stimuli.hpp"
 
 namespace {
 

@@ -7,8 +7,8 @@
 
 #include <benchmark/benchmark.h>
 
-#include "model/catalog.hpp"
 #include "core/stimulus/stimuli.hpp"
+#include "model/catalog.hpp"
 
 namespace {
 

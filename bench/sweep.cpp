@@ -13,8 +13,8 @@
 #include <filesystem>
 #include <random>
 
-#include "sweep/parallel/rank_messages.hpp"
 #include "run/ranks.hpp"
+#include "sweep/parallel/rank_messages.hpp"
 #include "sweep/store/sqlite.hpp"
 #include "sweep/store/sweep_results.hpp"
 

@@ -20,8 +20,8 @@
 #include "circuit/batch/chip_batch.hpp"
 #include "circuit/device/uicm_card.hpp"
 #include "circuit/variant/netlist_overrides.hpp"
-#include "corpuscle.hpp"
 #include "core/thread_pool.hpp"
+#include "corpuscle.hpp"
 #include "sweep/subject/firing_limits.hpp"
 
 namespace {

@@ -2,7 +2,7 @@
 include(GNUInstallDirs)
 include(CMakePackageConfigHelpers)
 
-install(TARGETS corpuscle-cli)
+install(TARGETS corpuscle-cli corpuscle-study)
 install(TARGETS corpuscle-hdf5 corpuscle-sound RUNTIME DESTINATION ${CMAKE_INSTALL_LIBEXECDIR}/corpuscle)
 install(TARGETS corpuscle EXPORT corpuscle-targets)
 install(DIRECTORY src/ DESTINATION include/corpuscle FILES_MATCHING PATTERN "*.hpp" PATTERN "*.h" PATTERN "*.def")
@@ -16,4 +16,5 @@ install(FILES ${PROJECT_BINARY_DIR}/corpuscle-config.cmake ${PROJECT_BINARY_DIR}
 install(DIRECTORY process circuits skins examples DESTINATION ${CMAKE_INSTALL_DATADIR}/corpuscle)
 
 install(FILES README.md HACKING.md LICENSE NOTICE DESTINATION ${CMAKE_INSTALL_DOCDIR})
-install(DIRECTORY doc reproduction DESTINATION ${CMAKE_INSTALL_DOCDIR} PATTERN "*.py" EXCLUDE)
+install(DIRECTORY doc DESTINATION ${CMAKE_INSTALL_DOCDIR} PATTERN "*.py" EXCLUDE)
+install(FILES reproduction/reproduction.md reproduction/recorded.md DESTINATION ${CMAKE_INSTALL_DOCDIR}/reproduction)

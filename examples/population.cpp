@@ -3,8 +3,8 @@
 
 #include <cstdio>
 
-#include "model/lane_population.hpp"
 #include "core/stimulus/stimuli.hpp"
+#include "model/lane_population.hpp"
 
 int main() {
     using namespace corpuscle;

@@ -1,8 +1,9 @@
 #include "corpuscle.hpp"
 
-#include "measure/measures.hpp"
 #include "core/stimulus/stimuli.hpp"
+#include "measure/measures.hpp"
 #include "run/afferent_plan.hpp"
+#include "run/simulate.hpp"
 
 namespace corpuscle {
 namespace {
@@ -30,12 +31,7 @@ ForceSignal stimulus(const std::string& name, const std::vector<std::string>& se
     const auto overrides = parse_overrides(settings);
     const auto source = value_or_throw(make_stimulus(name, overrides, rate, seed));
     check_used(overrides);
-    ForceSignal signal{source->clock().rate(), {}};
-    for (Frames block(1, 4096);;) {
-        if (auto ok = source->read(block); !ok) throw InputError(ok.error().text());
-        if (block.count == 0) return signal;
-        signal.force.insert(signal.force.end(), block.force[0].begin(), block.force[0].begin() + static_cast<std::ptrdiff_t>(block.count));
-    }
+    return {source->clock().rate(), value_or_throw(read_channel(*source))};
 }
 
 Response respond(const std::string& afferent, const ForceSignal& signal, const std::vector<std::string>& settings) {
@@ -44,14 +40,7 @@ Response respond(const std::string& afferent, const ForceSignal& signal, const s
     check_used(overrides);
     const auto clock = value_or_throw(make_clock(signal.rate));
     const auto model = make_afferent(plan, {clock.T()});
-    auto state = model->start();
-    std::vector<Spike> spikes;
-    ResponseBlock response{spikes};
-    auto force = signal.force;
-    // Hold the last force for the delay of the model, so that the response to the last sample is complete.
-    if (!force.empty()) force.insert(force.end(), static_cast<std::size_t>(model->delay()), force.back());
-    if (auto ok = model->respond(force, state, response); !ok) throw InputError(ok.error().text());
-    return {spike_times(spikes, clock)};
+    return {spike_times(value_or_throw(simulate(*model, signal.force)).spikes, clock)};
 }
 
 std::vector<double> Response::instantaneous_rates() const { return corpuscle::instantaneous_rates(spikes); }

@@ -8,9 +8,9 @@
 #include <nlohmann/json.hpp>
 
 #include "cli/output/printable.hpp"
-#include "core/text/quantity.hpp"
 #include "cli/output/terminal.hpp"
 #include "cli/verbs.hpp"
+#include "core/text/quantity.hpp"
 
 namespace corpuscle {
 namespace {

@@ -3,14 +3,14 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
-#include "circuit/variant/embedded_netlists.hpp"
 #include "circuit/export/ngspice_deck.hpp"
-#include "io/output/output_check.hpp"
-#include "cli/output/output_files.hpp"
+#include "circuit/variant/embedded_netlists.hpp"
 #include "cli/arguments/own_files.hpp"
+#include "cli/output/output_files.hpp"
 #include "cli/output/printable.hpp"
 #include "cli/output/terminal.hpp"
 #include "cli/verbs.hpp"
+#include "io/output/output_check.hpp"
 
 namespace corpuscle {
 namespace {

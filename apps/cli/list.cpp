@@ -9,15 +9,15 @@
 #include "circuit/analyses.hpp"
 #include "circuit/device/uicm_card.hpp"
 #include "circuit/devices.hpp"
-#include "io/recording/recording_formats.hpp"
 #include "cli/list_entry.hpp"
-#include "measure/measures.hpp"
-#include "model/catalog.hpp"
-#include "core/text/quantity.hpp"
-#include "core/stimulus/stimuli.hpp"
-#include "run/afferent_plan.hpp"
 #include "cli/output/terminal.hpp"
 #include "cli/verbs.hpp"
+#include "core/stimulus/stimuli.hpp"
+#include "core/text/quantity.hpp"
+#include "io/recording/recording_formats.hpp"
+#include "measure/measures.hpp"
+#include "model/catalog.hpp"
+#include "run/afferent_plan.hpp"
 
 namespace corpuscle {
 namespace {

@@ -5,9 +5,9 @@
 #include <nlohmann/json.hpp>
 #include <numeric>
 
-#include "io/spikes/spike_files.hpp"
 #include "cli/list_entry.hpp"
 #include "core/text/quantity.hpp"
+#include "io/spikes/spike_files.hpp"
 #include "skin/contact/contact.hpp"
 #include "skin/contact/indenters.hpp"
 #include "skin/innervation.hpp"

@@ -1,24 +1,21 @@
-// Parses the command line and calls the verb. Only this file, help.cpp, option_groups.cpp, sweep_verbs.cpp and stream_verbs.cpp include
-// CLI11.
+// Parses the command line and calls the verb. Only this file, program.cpp, help.cpp, option_groups.cpp, sweep_verbs.cpp and
+// stream_verbs.cpp include CLI11.
 
 #include <fmt/format.h>
 #include <CLI/CLI.hpp>
 #include <algorithm>
-#include <csignal>
-#include <sstream>
-#include <system_error>
 
 #include "circuit/analyses.hpp"
 #include "cli/arguments/force_argument.hpp"
-#include "cli/help.hpp"
-#include "model/copies.hpp"
 #include "cli/arguments/option_groups.hpp"
-#include "core/version.hpp"
-#include "cli/stream_verbs.hpp"
-#include "reproduction/claims/studies.hpp"
-#include "cli/sweep_verbs.hpp"
+#include "cli/help.hpp"
 #include "cli/output/terminal.hpp"
+#include "cli/program.hpp"
+#include "cli/stream_verbs.hpp"
+#include "cli/study_program.hpp"
+#include "cli/sweep/sweep_verbs.hpp"
 #include "cli/verbs.hpp"
+#include "model/copies.hpp"
 
 namespace {
 
@@ -221,27 +218,6 @@ void add_compare(CLI::App& app, CompareArguments& args, CommonArguments& common)
     add_common(verb, common);
 }
 
-void add_study(CLI::App& app, StudyArguments& args, CommonArguments& common) {
-    auto& verb = *app.add_subcommand("study", "reproduce published results and compare them with the published numbers");
-    std::string known;
-    for (const auto* s : all_studies) known += fmt::format("\n  {:14} {}", s->name, s->title);
-    std::string recorded;
-    for (const auto* s : recorded_studies) recorded += fmt::format("\n  {:14} {}", s->name, s->title);
-    verb.footer("Studies:" + known +
-                "\n\nStudies of recordings, not part of 'all' (CORPUSCLE_DATA: directory of the recordings):" + recorded +
-                "\n\nExamples:\n  corpuscle study all --report reproduction.html\n  corpuscle study fig24 table17 --report chips.html\n"
-                "  corpuscle study fig3 --json");
-    verb.add_option("NAME", args.names, "the studies to run (default: all)");
-    verb.add_option("--report", args.report_file, "write a report page: figures, published and computed numbers")->type_name("FILE.html");
-    verb.callback([&args] {
-        if (!args.report_file.empty() && !args.report_file.ends_with(".html"))
-            throw CLI::ValidationError(page_name_error(args.report_file));
-    });
-    verb.add_option("--markdown", args.markdown_file, "write all numbers as Markdown")->type_name("FILE.md");
-    add_common(verb, common);
-    add_overwrite(verb, common);
-}
-
 void add_run(CLI::App& app, RunArguments& args, CommonArguments& common) {
     auto& verb = *app.add_subcommand("run", "run the analyses of a netlist -> .raw, CSV, printed measurements");
     std::string known;
@@ -289,15 +265,6 @@ void add_list(CLI::App& app, ListArguments& args, CommonArguments& common) {
     add_common(verb, common);
 }
 
-/// The options and positional arguments that were given to the verb.
-std::vector<TypedOption> typed_options(const CLI::App& app) {
-    std::vector<TypedOption> out;
-    for (const auto* verb : app.get_subcommands())
-        for (const auto* option : verb->get_options())
-            if (option->count() > 0) out.push_back({option->get_name(), option->results()});
-    return out;
-}
-
 }  // namespace
 
 int main(int argc, char** argv) {
@@ -305,66 +272,31 @@ int main(int argc, char** argv) {
     common.command = quote_command(argc, argv);
     RespondArguments respond_arguments;
     CompareArguments compare_arguments;
-    StudyArguments study_arguments;
     RunArguments run_arguments;
     ExportArguments export_arguments;
     ListArguments list_arguments;
 
-    std::signal(SIGXFSZ, SIG_IGN);  // exceeding the file size limit is a write error
-    CLI::App app(about, "corpuscle");
-    app.formatter(std::make_shared<Help>());
-    app.set_help_flag("--help,-h", "print help");
-    app.set_help_all_flag("--help-all", "print help with all examples and options");
-    app.set_version_flag("--version", fmt::format("corpuscle {}", version));
-    app.footer(first_steps);
-    app.require_subcommand(1);
-    add_respond(app, respond_arguments, common);
-    add_compare(app, compare_arguments, common);
-    add_study(app, study_arguments, common);
-    add_run(app, run_arguments, common);
-    add_export(app, export_arguments, common);
+    auto arguments = normalize_help({argv + 1, argv + argc});
+    if (arguments[0] == "study") return start_study_program(arguments);
+    const auto app = make_command_line(about);
+    app->footer(first_steps);
+    add_respond(*app, respond_arguments, common);
+    add_compare(*app, compare_arguments, common);
+    app->add_subcommand("study", "reproduce published results and compare them with the published numbers");
+    add_run(*app, run_arguments, common);
+    add_export(*app, export_arguments, common);
     SweepVerbs sweeps;
-    sweeps.add_to(app, common);
+    sweeps.add_to(*app, common);
     StreamVerb live;
-    live.add_to(app, common);
-    add_list(app, list_arguments, common);
-    const auto run_verb = [&] {
-        return app.got_subcommand("list")      ? list(list_arguments, common)
-               : app.got_subcommand("run")     ? run(run_arguments, common)
-               : app.got_subcommand("export")  ? export_to(export_arguments, common)
-               : app.got_subcommand("study")   ? study(study_arguments, common)
-               : app.got_subcommand("sweep")   ? sweeps.run(common)
-               : app.got_subcommand("stream")  ? live.run(common)
-               : app.got_subcommand("compare") ? compare_trains(compare_arguments, common)
-                                               : respond(respond_arguments, common);
-    };
-    int status = 0;
-    try {
-        auto arguments = normalize_help({argv + 1, argv + argc});
-        if (const auto error = unknown_verb_error(app, arguments); !error.empty()) return report_error(bad_usage(error));
-        if (const auto error = unknown_option_error(app, arguments); !error.empty()) return report_error(bad_usage(error));
-        std::reverse(arguments.begin(), arguments.end());  // CLI11 takes them in reverse order
-        app.parse(std::move(arguments));
-        common.typed = typed_options(app);
-        status = run_verb();
-    } catch (const CLI::ParseError& e) {
-        if (e.get_exit_code() != 0) {
-            print_message(e.what());
-            print_message("'corpuscle help VERB' prints the most common options, 'corpuscle VERB --help-all' all of them");
-            return 2;
-        }
-        std::ostringstream text;
-        app.exit(e, text, text);
-        std::fwrite(text.str().data(), 1, text.str().size(), stdout);
-    } catch (const std::system_error&) {  // standard output failed: a closed pipe, a full disk
-        if (interrupted()) return report_error({ErrorCode::interrupted, "interrupted"});
-        const auto done = finish_output();
-        return report_error(done ? bad_input("cannot write all of standard output") : done.error());
-    } catch (const std::bad_alloc&) {
-        return report_error(bad_input("not enough memory; use fewer afferents, sites or samples at a time"));
-    } catch (const std::exception& e) {
-        return report_error(bad_input(e.what()));
-    }
-    const auto done = finish_output();
-    return status == 0 && !done ? report_error(done.error()) : status;
+    live.add_to(*app, common);
+    add_list(*app, list_arguments, common);
+    return run_command_line(*app, std::move(arguments), common, [&] {
+        return app->got_subcommand("list")      ? list(list_arguments, common)
+               : app->got_subcommand("run")     ? run(run_arguments, common)
+               : app->got_subcommand("export")  ? export_to(export_arguments, common)
+               : app->got_subcommand("sweep")   ? sweeps.run(common)
+               : app->got_subcommand("stream")  ? live.run(common)
+               : app->got_subcommand("compare") ? compare_trains(compare_arguments, common)
+                                                : respond(respond_arguments, common);
+    });
 }

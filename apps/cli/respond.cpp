@@ -10,19 +10,19 @@
 #include <nlohmann/json.hpp>
 
 #include "cli/arguments/force_argument.hpp"
-#include "cli/output/implementations_table.hpp"
 #include "cli/arguments/netlist_arguments.hpp"
-#include "cli/output/printable.hpp"
 #include "cli/arguments/recording_arguments.hpp"
+#include "cli/output/implementations_table.hpp"
+#include "cli/output/printable.hpp"
 #include "cli/output/respond_outputs.hpp"
+#include "cli/output/terminal.hpp"
+#include "cli/verbs.hpp"
 #include "core/text/ascii_text.hpp"
 #include "core/text/quantity.hpp"
 #include "run/afferent_plan.hpp"
 #include "run/summary/nerve_limit.hpp"
 #include "run/summary/run_summary.hpp"
 #include "run/summary/silent_afferents.hpp"
-#include "cli/output/terminal.hpp"
-#include "cli/verbs.hpp"
 
 namespace corpuscle {
 namespace {

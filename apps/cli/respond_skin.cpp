@@ -7,22 +7,22 @@
 #include <nlohmann/json.hpp>
 
 #include "cli/arguments/force_argument.hpp"
-#include "io/table/foreign_format.hpp"
-#include "cli/output/printable.hpp"
 #include "cli/arguments/recording_arguments.hpp"
-#include "core/text/ascii_text.hpp"
-#include "core/stimulus/stimuli.hpp"
-#include "core/version.hpp"
-#include "skin/plan/class_overrides.hpp"
-#include "skin/plan/indented_array.hpp"
+#include "cli/output/printable.hpp"
 #include "cli/output/skin_outputs.hpp"
 #include "cli/output/skin_spike_times.hpp"
-#include "run/summary/nerve_limit.hpp"
-#include "run/summary/silent_afferents.hpp"
+#include "cli/output/terminal.hpp"
+#include "core/stimulus/stimuli.hpp"
+#include "core/text/ascii_text.hpp"
+#include "core/version.hpp"
+#include "io/table/foreign_format.hpp"
 #include "run/skin/skin_checkpoint.hpp"
 #include "run/skin/skin_ranks.hpp"
+#include "run/summary/nerve_limit.hpp"
+#include "run/summary/silent_afferents.hpp"
 #include "run/summary/skin_silent_classes.hpp"
-#include "cli/output/terminal.hpp"
+#include "skin/plan/class_overrides.hpp"
+#include "skin/plan/indented_array.hpp"
 
 namespace corpuscle {
 namespace {

@@ -6,19 +6,19 @@
 #include <nlohmann/json.hpp>
 #include <optional>
 
-#include "cli/output/budget_tables.hpp"
 #include "circuit/analyses.hpp"
 #include "circuit/cost/cost_meter.hpp"
-#include "circuit/variant/netlist_variants.hpp"
 #include "circuit/output/resolve_probe.hpp"
 #include "circuit/run_directives.hpp"
-#include "cli/output/curve_files.hpp"
+#include "circuit/variant/netlist_variants.hpp"
 #include "cli/arguments/netlist_arguments.hpp"
+#include "cli/output/budget_tables.hpp"
+#include "cli/output/curve_files.hpp"
 #include "cli/output/printable.hpp"
-#include "run/summary/cost_document.hpp"
-#include "run/summary/json_number.hpp"
 #include "cli/output/terminal.hpp"
 #include "cli/verbs.hpp"
+#include "run/summary/cost_document.hpp"
+#include "run/summary/json_number.hpp"
 
 namespace corpuscle {
 namespace {

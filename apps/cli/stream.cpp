@@ -7,20 +7,20 @@
 #include <nlohmann/json.hpp>
 #include <utility>
 
-#include "io/output/output_check.hpp"
-#include "live/live_population.hpp"
-#include "live/input/site_frames.hpp"
-#include "live/stream_state.hpp"
 #include "cli/arguments/own_files.hpp"
 #include "cli/output/printable.hpp"
+#include "cli/output/stream_report.hpp"
+#include "cli/output/terminal.hpp"
+#include "cli/stream_input.hpp"
+#include "cli/verbs.hpp"
 #include "core/text/input_files.hpp"
+#include "io/output/output_check.hpp"
+#include "live/input/site_frames.hpp"
+#include "live/live_population.hpp"
+#include "live/stream_state.hpp"
+#include "run/skin/skin_run.hpp"
 #include "skin/plan/class_overrides.hpp"
 #include "skin/plan/site_map.hpp"
-#include "cli/stream_input.hpp"
-#include "cli/output/stream_report.hpp"
-#include "run/skin/skin_run.hpp"
-#include "cli/output/terminal.hpp"
-#include "cli/verbs.hpp"
 
 namespace corpuscle {
 namespace {

@@ -4,11 +4,11 @@
 #include <charconv>
 
 #include "cli/arguments/force_argument.hpp"
-#include "io/recording/column_selection.hpp"
 #include "cli/arguments/recording_arguments.hpp"
-#include "core/text/quantity.hpp"
-#include "core/stimulus/stimuli.hpp"
 #include "cli/output/terminal.hpp"
+#include "core/stimulus/stimuli.hpp"
+#include "core/text/quantity.hpp"
+#include "io/recording/column_selection.hpp"
 
 namespace corpuscle {
 namespace {

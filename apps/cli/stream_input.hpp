@@ -5,11 +5,11 @@
 #include <span>
 #include <string>
 
+#include "cli/verbs.hpp"
+#include "core/parameter_override.hpp"
 #include "io/recording/recording.hpp"
 #include "live/input/byte_source.hpp"
 #include "live/input/frame_layout.hpp"
-#include "core/parameter_override.hpp"
-#include "cli/verbs.hpp"
 
 namespace corpuscle {
 

@@ -3,7 +3,7 @@
 #include <CLI/CLI.hpp>
 
 #include "cli/arguments/option_groups.hpp"
-#include "cli/sweep_verbs.hpp"
+#include "cli/program.hpp"
 
 namespace corpuscle {
 namespace {

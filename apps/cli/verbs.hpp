@@ -62,11 +62,6 @@ struct CompareArguments {
     std::string window = "5ms", cost = "100Hz", tau = "10ms";
 };
 
-struct StudyArguments {
-    std::vector<std::string> names;
-    std::string report_file, markdown_file;
-};
-
 struct RunArguments {
     NetlistArguments netlists;
     std::vector<std::string> settings;
@@ -131,7 +126,6 @@ struct ListArguments {
 int respond(const RespondArguments&, const CommonArguments&);
 int respond_skin(const RespondArguments&, const CommonArguments&);
 int compare_trains(const CompareArguments&, const CommonArguments&);
-int study(const StudyArguments&, const CommonArguments&);
 int run(const RunArguments&, const CommonArguments&);
 int export_to(const ExportArguments&, const CommonArguments&);
 int sweep(const SweepArguments&, const CommonArguments&);

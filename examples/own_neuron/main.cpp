@@ -3,10 +3,10 @@
 #include <cmath>
 #include <cstdio>
 
+#include "core/stimulus/stimuli.hpp"
 #include "model/chain.hpp"
 #include "model/receptor/sa1b.hpp"
 #include "qif.hpp"
-#include "core/stimulus/stimuli.hpp"
 
 using namespace corpuscle;
 

@@ -4,6 +4,7 @@
 
 #include "core/stimulus/stimuli.hpp"
 #include "run/afferent_plan.hpp"
+#include "run/simulate.hpp"
 
 namespace corpuscle {
 namespace {
@@ -25,12 +26,9 @@ Result<TrialForce> trial_force(const TrialSpec& spec) {
     if (!overrides) return overrides.error();
     auto source = make_stimulus(spec.stimulus, *overrides, spec.rate, spec.seed);
     if (!source) return source.error();
-    TrialForce out{(*source)->clock(), {}, (*source)->phases()};
-    for (Frames block(1, 4096);;) {
-        if (auto ok = (*source)->read(block); !ok) return ok.error();
-        if (block.count == 0) return out;
-        out.force.insert(out.force.end(), block.force[0].begin(), block.force[0].begin() + static_cast<std::ptrdiff_t>(block.count));
-    }
+    auto force = read_channel(**source);
+    if (!force) return force.error();
+    return TrialForce{(*source)->clock(), std::move(*force), (*source)->phases()};
 }
 
 StudyCurve TrialForce::curve() const {
@@ -59,7 +57,7 @@ Result<std::vector<std::size_t>> probe_indexes(const TrialSpec& spec, const Affe
 }  // namespace
 
 Result<TrialResult> run_trial(const TrialSpec& spec) {
-    auto trial = trial_force(spec);
+    const auto trial = trial_force(spec);
     if (!trial) return trial.error();
     // trial_overrides() succeeds here, because it has succeeded in trial_force().
     const auto plan = plan_any_afferent(spec.afferent, *trial_overrides(spec), {.probes = spec.probes});
@@ -67,27 +65,15 @@ Result<TrialResult> run_trial(const TrialSpec& spec) {
     const auto afferent = make_afferent(*plan, {trial->clock.T(), spec.method, spec.sampled});
     const auto indexes = probe_indexes(spec, *afferent);
     if (!indexes) return indexes.error();
-    // The last force is held for the delay of the response; probe values are shifted back by it.
-    const auto delay = static_cast<std::size_t>(afferent->delay());
-    trial->force.insert(trial->force.end(), delay, trial->force.back());
-    auto state = afferent->start();
-    std::vector<Spike> spikes;
-    std::vector<RangeViolation> violations(afferent->ranges().size());
-    std::vector<std::vector<double>> probe_values(spec.probes.empty() ? 0 : afferent->probes().size(),
-                                                  std::vector<double>(trial->force.size()));
-    std::vector<double*> probes;
-    for (auto& values : probe_values) probes.push_back(values.data());
-    ResponseBlock response{spikes};
-    response.range_violations = violations, response.probes = probes;
-    if (auto ok = afferent->respond(trial->force, state, response); !ok) return ok.error();
-    TrialResult out{spike_times(spikes, trial->clock), {}, {}};
-    for (std::size_t k = 0; k < violations.size(); ++k)
-        if (violations[k].samples > 0) out.range_warnings.emplace_back(afferent->ranges()[k].meaning);
-    for (std::size_t k = 0; k < spec.probes.size(); ++k) {
-        auto& curve = out.probes[spec.probes[k]];
-        const auto& values = probe_values[(*indexes)[k]];
-        for (std::size_t j = delay; j < values.size(); ++j)
-            curve.x.push_back(trial->clock.time(static_cast<std::int64_t>(j - delay))), curve.y.push_back(values[j]);
+    auto response = simulate(*afferent, trial->force, {*indexes});
+    if (!response) return response.error();
+    TrialResult out{spike_times(response->spikes, trial->clock), {}, {}};
+    for (std::size_t k = 0; k < response->range_violations.size(); ++k)
+        if (response->range_violations[k].samples > 0) out.range_warnings.emplace_back(afferent->ranges()[k].meaning);
+    for (std::size_t p = 0; p < spec.probes.size(); ++p) {
+        auto& curve = out.probes[spec.probes[p]];
+        curve = trial->curve();
+        curve.y = std::move(response->probes[p]);
     }
     return out;
 }

@@ -5,8 +5,8 @@
 #include <string>
 #include <vector>
 
-#include "model/catalog.hpp"
 #include "core/force_source.hpp"
+#include "model/catalog.hpp"
 #include "reproduction/claims/study_curve.hpp"
 
 namespace corpuscle {

@@ -10,8 +10,8 @@
 
 #include "io/recording/recording.hpp"
 #include "io/spikes/spike_files.hpp"
-#include "reproduction/skin/afferent_sheet.hpp"
 #include "reproduction/claims/studies.hpp"
+#include "reproduction/skin/afferent_sheet.hpp"
 
 namespace corpuscle::studies::eskin_press {
 

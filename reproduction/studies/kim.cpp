@@ -4,8 +4,8 @@
 
 #include <fmt/format.h>
 
-#include "measure/measures.hpp"
 #include "core/number/elementary.hpp"
+#include "measure/measures.hpp"
 #include "reproduction/claims/studies.hpp"
 #include "reproduction/claims/trial.hpp"
 

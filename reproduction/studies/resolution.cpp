@@ -3,9 +3,9 @@
 
 #include <fmt/format.h>
 
-#include "reproduction/thesis/spike_timing_error.hpp"
 #include "reproduction/claims/studies.hpp"
 #include "reproduction/claims/trial.hpp"
+#include "reproduction/thesis/spike_timing_error.hpp"
 
 namespace corpuscle::studies::resolution {
 

@@ -5,8 +5,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "reproduction/skin/fingertip.hpp"
 #include "reproduction/claims/studies.hpp"
+#include "reproduction/skin/fingertip.hpp"
 #include "reproduction/thesis/press.hpp"
 
 namespace corpuscle::studies::touchsim {

@@ -6,16 +6,16 @@
 #include <utility>
 
 #include "circuit/analyses.hpp"
+#include "circuit/expression/spice_number.hpp"
 #include "circuit/output/curve_selector.hpp"
 #include "circuit/output/curve_view.hpp"
 #include "circuit/output/device_currents.hpp"
 #include "circuit/output/measurement_set.hpp"
-#include "circuit/expression/spice_number.hpp"
-#include "circuit/variant/netlist_warnings.hpp"
 #include "circuit/output/output_directives.hpp"
 #include "circuit/output/print_directive.hpp"
 #include "circuit/output/saved_quantities.hpp"
 #include "circuit/solve/topology.hpp"
+#include "circuit/variant/netlist_warnings.hpp"
 #include "core/parameter.hpp"
 
 namespace corpuscle::circuit {

@@ -84,4 +84,7 @@ public:
     virtual Result<void> read(Frames&) = 0;
 };
 
+/// Reads a source to its end: the force of its first channel, N.
+Result<std::vector<double>> read_channel(ForceSource&);
+
 }  // namespace corpuscle

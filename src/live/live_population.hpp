@@ -2,8 +2,8 @@
 // The population of a live stream: a skin by name or file, or named afferents on a number of channels. Also the names and addresses of its
 // afferents in the output.
 
-#include "io/spikes/events.hpp"
 #include "core/parameter_override.hpp"
+#include "io/spikes/events.hpp"
 #include "skin/innervation.hpp"
 
 namespace corpuscle {

@@ -4,9 +4,9 @@
 
 #include <functional>
 
-#include "live/output/event_sink.hpp"
 #include "live/input/frame_source.hpp"
 #include "live/latency_histogram.hpp"
+#include "live/output/event_sink.hpp"
 #include "live/skin_stream.hpp"
 
 namespace corpuscle {

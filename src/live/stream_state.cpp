@@ -3,9 +3,9 @@
 #include <fmt/format.h>
 #include <cstring>
 
+#include "core/checksum.hpp"
 #include "io/output/output_file.hpp"
 #include "io/table/seekable_bytes.hpp"
-#include "core/checksum.hpp"
 
 namespace corpuscle {
 namespace {

@@ -4,8 +4,8 @@
 
 #include <cmath>
 
-#include "measure/measure_base.hpp"
 #include "core/number/elementary.hpp"
+#include "measure/measure_base.hpp"
 
 namespace corpuscle {
 

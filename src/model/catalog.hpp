@@ -10,13 +10,13 @@
 #include <string_view>
 #include <vector>
 
+#include "core/parameter_override.hpp"
 #include "model/chain.hpp"
 #include "model/models.hpp"
 #include "model/sensor/adc.hpp"
 #include "model/sensor/f2i.hpp"
 #include "model/sensor/f2v.hpp"
 #include "model/sensor/fsr.hpp"
-#include "core/parameter_override.hpp"
 
 namespace corpuscle {
 

@@ -7,9 +7,9 @@
 #include <cstring>
 #include <type_traits>
 
-#include "model/current.hpp"
 #include "core/afferent.hpp"
 #include "core/random.hpp"
+#include "model/current.hpp"
 
 namespace corpuscle {
 

@@ -5,9 +5,9 @@
 #include <cmath>
 #include <numeric>
 
+#include "core/random.hpp"
 #include "core/text/ascii_text.hpp"
 #include "core/text/quantity.hpp"
-#include "core/random.hpp"
 
 namespace corpuscle {
 namespace {

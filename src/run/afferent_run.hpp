@@ -5,8 +5,8 @@
 #include <memory>
 #include <vector>
 
-#include "model/lane_population.hpp"
 #include "core/force_source.hpp"
+#include "model/lane_population.hpp"
 
 namespace corpuscle {
 

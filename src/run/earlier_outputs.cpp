@@ -7,8 +7,8 @@
 #include <nlohmann/json.hpp>
 #include <optional>
 
-#include "io/output/output_check.hpp"
 #include "core/text/input_files.hpp"
+#include "io/output/output_check.hpp"
 
 namespace corpuscle {
 namespace {

@@ -96,8 +96,9 @@ Result<void> InputSimulator::place_afferents(const RespondOptions& options, Inst
     for (std::size_t u = 0; u < input_.afferent_count(); ++u) {
         const std::size_t plan = u % plans.size();
         if (!is_scalar[plan]) continue;
-        scalars_.push_back({static_cast<std::uint32_t>(u), afferents_[plan]->start({static_cast<std::uint32_t>(input_.channel_of(u)),
-                                                                                    static_cast<std::uint32_t>(channels)})});
+        scalars_.push_back({static_cast<std::uint32_t>(u),
+                            AfferentSimulation(*afferents_[plan],
+                                               {static_cast<std::uint32_t>(input_.channel_of(u)), static_cast<std::uint32_t>(channels)})});
         scalars_.back().range_violations.resize(afferents_[plan]->ranges().size());
     }
     if (wants_probes_)
@@ -172,17 +173,12 @@ void InputSimulator::simulate_scalar(ScalarAfferent& scalar) {
     scalar.energy_use = response.energy_use;
 }
 
-/// Simulates one block of force. The response of an afferent with a delay lags behind the force by delay() samples. Therefore it receives
-/// its first delay() samples before the first block, and is then always that many samples ahead of the block.
 Result<void> InputSimulator::respond_to_force(ScalarAfferent& scalar, ResponseBlock& response, std::span<double* const> probe_values) {
-    const auto& afferent = *afferents_[scalar.afferent_index % afferents_.size()];
-    const auto delay = static_cast<std::size_t>(afferent.delay()), channel = input_.channel_of(scalar.afferent_index);
-    if (delay > 0 && samples_ == 0)
-        if (auto ok = afferent.respond(lookahead_.samples(channel, 0, delay), scalar.state, response); !ok) return ok;
-    const std::span<const double> force =
-        delay > 0 ? lookahead_.samples(channel, delay, force_.count) : std::span(force_of(scalar.afferent_index), force_.count);
+    const auto delay = static_cast<std::size_t>(afferents_[scalar.afferent_index % afferents_.size()]->delay());
     response.probes = probe_values, response.range_violations = scalar.range_violations;
-    return afferent.respond(force, scalar.state, response);
+    return scalar.simulation.respond(delay > 0 ? lookahead_.samples(input_.channel_of(scalar.afferent_index), 0, force_.count + delay)
+                                               : std::span(force_of(scalar.afferent_index), force_.count),
+                                     response);
 }
 
 /// Among the afferents of one plan, one for each channel: the one that was outside a range for the longest time, null if none was; and the

@@ -5,6 +5,7 @@
 #include "model/lane_population.hpp"
 #include "run/afferent_run.hpp"
 #include "run/lookahead_buffer.hpp"
+#include "run/simulate.hpp"
 
 namespace corpuscle {
 
@@ -34,7 +35,7 @@ private:
     /// An afferent that is not on lanes.
     struct ScalarAfferent {
         std::uint32_t afferent_index;  // within the input, from 0
-        State state;
+        AfferentSimulation simulation;
         // The following values are those of the last block.
         std::vector<Spike> spikes = {};
         std::int64_t truncated_steps = 0, saturated = 0, overflowed = 0, steps = 0, rejected = 0, iterations = 0;  // as in RunStats

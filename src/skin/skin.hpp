@@ -7,9 +7,9 @@
 #include <span>
 #include <vector>
 
-#include "model/chain.hpp"
 #include "core/number/instruction_set.hpp"
 #include "core/thread_pool.hpp"
+#include "model/chain.hpp"
 #include "skin/innervation.hpp"
 
 namespace corpuscle {

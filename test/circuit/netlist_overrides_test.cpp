@@ -7,9 +7,9 @@
 #include <map>
 
 #include "circuit/afferent/circuit_afferent.hpp"
-#include "circuit/variant/hierarchical_names.hpp"
 #include "circuit/netlist_runner.hpp"
 #include "circuit/output/resolve_probe.hpp"
+#include "circuit/variant/hierarchical_names.hpp"
 #include "support/support.hpp"
 
 namespace corpuscle::circuit {

@@ -12,8 +12,8 @@
 #include <vector>
 
 #include "circuit/output/curve_view.hpp"
-#include "circuit/variant/netlist_variants.hpp"
 #include "circuit/run_directives.hpp"
+#include "circuit/variant/netlist_variants.hpp"
 #include "support/test_paths.hpp"
 
 namespace corpuscle::circuit {

@@ -10,8 +10,8 @@
 
 #include "circuit/device/named_values.hpp"
 #include "circuit/device/uicm_card.hpp"
-#include "circuit/variant/netlist_variants.hpp"
 #include "circuit/run_directives.hpp"
+#include "circuit/variant/netlist_variants.hpp"
 #include "core/number/instruction_set.hpp"
 #include "support/test_paths.hpp"
 

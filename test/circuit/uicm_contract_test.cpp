@@ -9,8 +9,8 @@
 #include "circuit/uicm_cards.hpp"
 #include "circuit/uicm_lanes.hpp"
 #include "circuit/uicm_values.hpp"
-#include "model/lanes/aligned_buffer.hpp"
 #include "core/number/instruction_set.hpp"
+#include "model/lanes/aligned_buffer.hpp"
 
 namespace corpuscle::circuit {
 namespace {

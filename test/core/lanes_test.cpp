@@ -9,12 +9,12 @@
 #include <limits>
 #include <vector>
 
-#include "model/lanes/aligned_buffer.hpp"
 #include "core/number/elementary.hpp"
 #include "core/number/instruction_set.hpp"
 #include "core/number_functions.hpp"
 #include "core/number_lanes.hpp"
 #include "core/random.hpp"
+#include "model/lanes/aligned_buffer.hpp"
 
 namespace corpuscle {
 namespace {

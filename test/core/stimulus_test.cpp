@@ -37,7 +37,7 @@ TEST(Stimulus, PhasesCoverTheStimulusWithoutGaps) {
             end = p.to;
         }
         if (end > 0) {
-            EXPECT_NEAR(end * 1e3, static_cast<double>(test::read_first_channel(*source).size()), 0.5) << entry.name;
+            EXPECT_NEAR(end * 1e3, static_cast<double>(test::value_or_throw(read_channel(*source)).size()), 0.5) << entry.name;
         }
     }
 }

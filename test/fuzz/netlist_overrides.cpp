@@ -5,8 +5,8 @@
 #include <cstdlib>
 #include <string>
 
-#include "circuit/variant/netlist_overrides.hpp"
 #include "circuit/output/resolve_probe.hpp"
+#include "circuit/variant/netlist_overrides.hpp"
 
 using namespace corpuscle;
 using namespace corpuscle::circuit;

@@ -6,8 +6,8 @@
 #include <cstdlib>
 #include <string>
 
-#include "model/copies.hpp"
 #include "core/stimulus/stimuli.hpp"
+#include "model/copies.hpp"
 
 using namespace corpuscle;
 

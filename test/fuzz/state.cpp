@@ -4,8 +4,8 @@
 #include <cstdint>
 #include <cstdlib>
 
-#include "model/catalog.hpp"
 #include "core/checksum.hpp"
+#include "model/catalog.hpp"
 
 using namespace corpuscle;
 

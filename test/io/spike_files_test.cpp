@@ -3,8 +3,8 @@
 #include <fmt/format.h>
 #include <map>
 
-#include "io/table/npz.hpp"
 #include "io/output/output_file.hpp"
+#include "io/table/npz.hpp"
 #include "support/property.hpp"
 #include "support/support.hpp"
 

@@ -8,8 +8,8 @@
 #include <limits>
 #include <vector>
 
-#include "live/lanes/kernel.hpp"
 #include "core/random.hpp"
+#include "live/lanes/kernel.hpp"
 
 namespace corpuscle::lanes {
 namespace {

@@ -86,7 +86,7 @@ TEST(Respond, ProbeFilesAreReadBackAsRecordings) {
     options.channels = {"press"};
     const auto reread = test::value_or_throw(open_recording(folder / "probes.csv", options));
     EXPECT_EQ(reread->clock().rate(), 2000);
-    const auto read = test::read_first_channel(*reread), expected = test::force("press", {.rate = 2e3});
+    const auto read = test::value_or_throw(read_channel(*reread)), expected = test::force("press", {.rate = 2e3});
     ASSERT_EQ(read.size(), expected.size());
     for (std::size_t k = 0; k < expected.size(); ++k) EXPECT_NEAR(read[k], expected[k], 1e-8);
 }

@@ -7,14 +7,14 @@
 #include <cmath>
 #include <numeric>
 
-#include "io/table/npz.hpp"
 #include "io/spikes/spike_files.hpp"
+#include "io/table/npz.hpp"
 #include "model/copies.hpp"
 #include "run/earlier_outputs.hpp"
 #include "run/sinks/npz_file.hpp"
 #include "run/sinks/psth_file.hpp"
-#include "run/summary/run_summary.hpp"
 #include "run/sinks/spike_sound_file.hpp"
+#include "run/summary/run_summary.hpp"
 #include "support/property.hpp"
 #include "support/support.hpp"
 

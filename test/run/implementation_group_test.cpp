@@ -5,8 +5,8 @@
 #include <nlohmann/json.hpp>
 
 #include "run/afferent_plan.hpp"
-#include "run/summary/run_summary.hpp"
 #include "run/compare/train_comparison.hpp"
+#include "run/summary/run_summary.hpp"
 #include "support/support.hpp"
 
 namespace corpuscle {

@@ -4,11 +4,11 @@
 #include <unistd.h>
 #include <cstring>
 
+#include "core/stimulus/stimuli.hpp"
 #include "io/spikes/events.hpp"
 #include "io/table/npz.hpp"
-#include "core/stimulus/stimuli.hpp"
-#include "run/skin/skin_checkpoint.hpp"
 #include "run/sinks/skin_events_file.hpp"
+#include "run/skin/skin_checkpoint.hpp"
 #include "support/program.hpp"
 #include "support/support.hpp"
 

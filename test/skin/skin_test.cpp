@@ -2,8 +2,8 @@
 // after its state is saved and resumed.
 
 #include "skin/skin.hpp"
-#include "model/catalog.hpp"
 #include "core/random.hpp"
+#include "model/catalog.hpp"
 #include "support/property.hpp"
 
 namespace corpuscle {

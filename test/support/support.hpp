@@ -8,8 +8,8 @@
 #include <functional>
 #include <sstream>
 
-#include "model/catalog.hpp"
 #include "core/stimulus/stimuli.hpp"
+#include "model/catalog.hpp"
 #include "support/test_paths.hpp"
 
 namespace corpuscle::test {
@@ -41,20 +41,10 @@ inline std::unique_ptr<Afferent> afferent(const std::string& name, const RunSett
     return make_afferent(value_or_throw(plan_afferent(name, parse_settings(run.settings))), {1 / run.rate, run.method, run.sampled});
 }
 
-/// All samples (N) of a source's first channel.
-inline std::vector<double> read_first_channel(ForceSource& source) {
-    std::vector<double> all;
-    for (Frames block(source.channels().size(), 1000);;) {
-        if (auto ok = source.read(block); !ok) throw std::runtime_error(ok.error().text());
-        if (block.count == 0) return all;
-        all.insert(all.end(), block.force[0].begin(), block.force[0].begin() + static_cast<std::ptrdiff_t>(block.count));
-    }
-}
-
 /// Samples (N) of a stimulus.
 inline std::vector<double> force(const std::string& stimulus, const RunSettings& run = {}) {
     const auto overrides = parse_settings(run.settings);
-    return read_first_channel(*value_or_throw(make_stimulus(stimulus, overrides, run.rate, run.seed)));
+    return value_or_throw(read_channel(*value_or_throw(make_stimulus(stimulus, overrides, run.rate, run.seed))));
 }
 
 /// The spikes of an afferent under a force f (N), which it receives in blocks of `block` samples.

@@ -8,12 +8,12 @@
 #include <filesystem>
 #include <fstream>
 
-#include "sweep/store/dump.hpp"
-#include "sweep/parallel/run_sweep.hpp"
-#include "sweep/store/sqlite.hpp"
-#include "sweep/stats/sweep_table.hpp"
 #include "support/plain_sweep.hpp"
 #include "support/support.hpp"
+#include "sweep/parallel/run_sweep.hpp"
+#include "sweep/stats/sweep_table.hpp"
+#include "sweep/store/dump.hpp"
+#include "sweep/store/sqlite.hpp"
 
 namespace corpuscle {
 namespace {

@@ -4,9 +4,9 @@
 
 #include <fmt/format.h>
 
-#include "sweep/spec/sweep_text.hpp"
 #include "support/program.hpp"
 #include "support/support.hpp"
+#include "sweep/spec/sweep_text.hpp"
 
 namespace corpuscle {
 namespace {

@@ -7,11 +7,11 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
+#include "support/program.hpp"
+#include "support/support.hpp"
 #include "sweep/parallel/run_sweep.hpp"
 #include "sweep/spec/sweep_document.hpp"
 #include "sweep/stats/sweep_summary.hpp"
-#include "support/program.hpp"
-#include "support/support.hpp"
 
 namespace corpuscle {
 namespace {

@@ -9,13 +9,13 @@
 #include <regex>
 #include <set>
 
-#include "circuit/variant/netlist_variants.hpp"
 #include "circuit/run_directives.hpp"
+#include "circuit/variant/netlist_variants.hpp"
+#include "support/support.hpp"
 #include "sweep/spec/sampling.hpp"
 #include "sweep/spec/sobol.hpp"
 #include "sweep/spec/sweep.hpp"
 #include "sweep/spec/sweep_text.hpp"
-#include "support/support.hpp"
 
 namespace corpuscle {
 namespace {

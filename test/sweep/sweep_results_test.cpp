@@ -11,11 +11,11 @@
 #include <random>
 #include <thread>
 
-#include "sweep/store/dump.hpp"
-#include "sweep/parallel/run_sweep.hpp"
 #include "support/child_process.hpp"
 #include "support/plain_sweep.hpp"
 #include "support/support.hpp"
+#include "sweep/parallel/run_sweep.hpp"
+#include "sweep/store/dump.hpp"
 
 namespace corpuscle {
 namespace {

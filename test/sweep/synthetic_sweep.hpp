@@ -5,9 +5,9 @@
 #include <cmath>
 
 #include "core/random.hpp"
+#include "support/support.hpp"
 #include "sweep/spec/mismatch_samples.hpp"
 #include "sweep/store/sweep_results.hpp"
-#include "support/support.hpp"
 
 namespace corpuscle::test {
 

@@ -273,7 +273,7 @@ def check_file_names(files):
     seen = collections.defaultdict(list)
     for f in files:
         path = pathlib.PurePosixPath(f)
-        if path.suffix in (".hpp", ".cpp") and path.parts[0] in ("src", "apps"):
+        if path.suffix in (".hpp", ".cpp") and path.parts[0] in ("src", "apps", "reproduction"):
             seen[path.name].append(f)
     for name, paths in seen.items():
         if len(paths) > 1:

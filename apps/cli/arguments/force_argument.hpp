@@ -5,9 +5,9 @@
 #include <span>
 #include <string>
 
-#include "io/recording/recording.hpp"
 #include "core/force_source.hpp"
 #include "core/parameter_override.hpp"
+#include "io/recording/recording.hpp"
 
 namespace corpuscle {
 

@@ -3,8 +3,8 @@
 #include <fmt/format.h>
 #include <algorithm>
 
-#include "core/text/quantity.hpp"
 #include "core/stimulus/stimuli.hpp"
+#include "core/text/quantity.hpp"
 
 namespace corpuscle {
 namespace {

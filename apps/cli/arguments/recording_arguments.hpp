@@ -5,8 +5,8 @@
 #include <string>
 #include <string_view>
 
-#include "io/recording/recording.hpp"
 #include "cli/verbs.hpp"
+#include "io/recording/recording.hpp"
 
 namespace corpuscle {
 

@@ -3,8 +3,8 @@
 #include <fmt/format.h>
 #include <cmath>
 
-#include "core/text/quantity.hpp"
 #include "cli/output/terminal.hpp"
+#include "core/text/quantity.hpp"
 
 namespace corpuscle {
 namespace {

@@ -4,12 +4,12 @@
 #include <chrono>
 #include <deque>
 
-#include "circuit/variant/netlist_variants.hpp"
 #include "circuit/output/plot_formats.hpp"
 #include "circuit/run_directives.hpp"
+#include "circuit/variant/netlist_variants.hpp"
+#include "cli/verbs.hpp"
 #include "io/output/output_check.hpp"
 #include "io/output/output_file.hpp"
-#include "cli/verbs.hpp"
 
 namespace corpuscle {
 

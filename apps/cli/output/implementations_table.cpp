@@ -2,8 +2,8 @@
 
 #include <fmt/format.h>
 
-#include "core/text/quantity.hpp"
 #include "cli/output/terminal.hpp"
+#include "core/text/quantity.hpp"
 
 namespace corpuscle {
 namespace {

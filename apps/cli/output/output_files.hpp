@@ -5,9 +5,9 @@
 #include <string>
 #include <vector>
 
+#include "cli/verbs.hpp"
 #include "io/output/output_check.hpp"
 #include "io/output/output_file.hpp"
-#include "cli/verbs.hpp"
 
 namespace corpuscle {
 

@@ -2,10 +2,10 @@
 
 #include <fmt/format.h>
 
-#include "cli/output/output_files.hpp"
 #include "cli/arguments/recording_arguments.hpp"
-#include "run/sinks/copies_file.hpp"
+#include "cli/output/output_files.hpp"
 #include "run/earlier_outputs.hpp"
+#include "run/sinks/copies_file.hpp"
 #include "run/sinks/npz_file.hpp"
 #include "run/sinks/psth_file.hpp"
 #include "run/sinks/spike_sound_file.hpp"

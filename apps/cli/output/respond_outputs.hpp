@@ -6,10 +6,10 @@
 #include <string>
 #include <vector>
 
+#include "cli/verbs.hpp"
 #include "io/output/output_check.hpp"
 #include "report/respond/respond_report.hpp"
 #include "run/sinks/file_sinks.hpp"
-#include "cli/verbs.hpp"
 
 namespace corpuscle {
 

@@ -3,8 +3,8 @@
 #include <fmt/format.h>
 #include <algorithm>
 
-#include "cli/output/output_files.hpp"
 #include "cli/arguments/recording_arguments.hpp"
+#include "cli/output/output_files.hpp"
 #include "core/text/ascii_text.hpp"
 #include "run/earlier_outputs.hpp"
 #include "run/sinks/skin_afferents_file.hpp"

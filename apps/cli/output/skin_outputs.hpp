@@ -6,10 +6,10 @@
 #include <string>
 #include <vector>
 
+#include "cli/verbs.hpp"
 #include "io/output/output_check.hpp"
 #include "report/skin/skin_page.hpp"
 #include "run/sinks/skin_file_sink.hpp"
-#include "cli/verbs.hpp"
 
 namespace corpuscle {
 

@@ -4,8 +4,8 @@
 #include <filesystem>
 #include <nlohmann/json.hpp>
 
-#include "sweep/store/sqlite.hpp"
 #include "cli/output/terminal.hpp"
+#include "sweep/store/sqlite.hpp"
 
 namespace corpuscle {
 namespace {

@@ -4,8 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "core/text/quantity.hpp"
 #include "cli/output/terminal.hpp"
+#include "core/text/quantity.hpp"
 
 namespace corpuscle {
 namespace {

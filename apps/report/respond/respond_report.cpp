@@ -4,10 +4,10 @@
 #include <algorithm>
 #include <cmath>
 
-#include "report/common_documents.hpp"
-#include "report/respond/implementations_document.hpp"
-#include "report/page_template.hpp"
 #include "core/version.hpp"
+#include "report/common_documents.hpp"
+#include "report/page_template.hpp"
+#include "report/respond/implementations_document.hpp"
 
 namespace corpuscle {
 namespace {

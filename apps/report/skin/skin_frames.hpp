@@ -3,8 +3,8 @@
 
 #include <nlohmann/json.hpp>
 
-#include "report/skin/binned_frames.hpp"
 #include "report/envelope.hpp"
+#include "report/skin/binned_frames.hpp"
 
 namespace corpuscle {
 

@@ -4,9 +4,9 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
+#include "core/version.hpp"
 #include "report/common_documents.hpp"
 #include "report/page_template.hpp"
-#include "core/version.hpp"
 
 namespace corpuscle {
 namespace {

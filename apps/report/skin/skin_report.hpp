@@ -4,8 +4,8 @@
 
 #include <nlohmann/json_fwd.hpp>
 
-#include "report/skin/binned_frames.hpp"
 #include "report/envelope.hpp"
+#include "report/skin/binned_frames.hpp"
 #include "run/skin/skin_run.hpp"
 
 namespace corpuscle {

@@ -5,9 +5,9 @@
 #include <cmath>
 #include <map>
 
+#include "core/version.hpp"
 #include "report/page_template.hpp"
 #include "report/sweep/sweep_plots.hpp"
-#include "core/version.hpp"
 #include "sweep/spec/mismatch_samples.hpp"
 #include "sweep/spec/sweep_document.hpp"
 

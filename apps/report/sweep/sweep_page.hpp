@@ -4,8 +4,8 @@
 
 #include <string>
 
-#include "sweep/store/sweep_results.hpp"
 #include "sweep/stats/sweep_summary.hpp"
+#include "sweep/store/sweep_results.hpp"
 
 namespace corpuscle {
 

@@ -3,8 +3,8 @@
 
 #include <nlohmann/json.hpp>
 
-#include "sweep/store/sweep_results.hpp"
 #include "sweep/stats/sweep_summary.hpp"
+#include "sweep/store/sweep_results.hpp"
 
 namespace corpuscle {
 

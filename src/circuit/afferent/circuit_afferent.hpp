@@ -1,11 +1,11 @@
 #pragma once
 // A netlist with a force input and a spike output, as an afferent.
 
-#include "circuit/analysis/transient_plan.hpp"
-#include "circuit/variant/netlist_variants.hpp"
 #include "circuit/afferent/operating_range.hpp"
-#include "circuit/output/saved_quantities.hpp"
 #include "circuit/afferent/spike_output.hpp"
+#include "circuit/analysis/transient_plan.hpp"
+#include "circuit/output/saved_quantities.hpp"
+#include "circuit/variant/netlist_variants.hpp"
 #include "core/afferent.hpp"
 
 namespace corpuscle::circuit {

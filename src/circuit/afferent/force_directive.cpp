@@ -4,8 +4,8 @@
 
 #include "circuit/analysis/analysis_context.hpp"
 #include "circuit/expression/spice_number.hpp"
-#include "core/text/ascii_text.hpp"
 #include "core/stimulus/stimuli.hpp"
+#include "core/text/ascii_text.hpp"
 
 namespace corpuscle::circuit {
 namespace {

@@ -1,10 +1,10 @@
 #pragma once
 // A transient simulation that is driven by a force given block by block.
 
-#include "circuit/analysis/initial_condition.hpp"
 #include "circuit/afferent/circuit_afferent.hpp"
-#include "circuit/cost/power.hpp"
 #include "circuit/afferent/force_waveform.hpp"
+#include "circuit/analysis/initial_condition.hpp"
+#include "circuit/cost/power.hpp"
 
 namespace corpuscle::circuit {
 

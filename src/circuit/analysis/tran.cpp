@@ -5,13 +5,13 @@
 #include <cmath>
 #include <utility>
 
+#include "circuit/afferent/force_directive.hpp"
+#include "circuit/afferent/operating_range.hpp"
+#include "circuit/afferent/spike_output.hpp"
 #include "circuit/analyses.hpp"
 #include "circuit/analysis/initial_condition.hpp"
 #include "circuit/analysis/transient_plan.hpp"
 #include "circuit/device/named_values.hpp"
-#include "circuit/afferent/force_directive.hpp"
-#include "circuit/afferent/operating_range.hpp"
-#include "circuit/afferent/spike_output.hpp"
 #include "core/text/quantity.hpp"
 
 namespace corpuscle::circuit {

@@ -4,9 +4,9 @@
 
 #include <array>
 
+#include "circuit/afferent/streaming_transient.hpp"
 #include "circuit/batch/chip_batch.hpp"
 #include "circuit/batch/chip_memory.hpp"
-#include "circuit/afferent/streaming_transient.hpp"
 
 namespace corpuscle::circuit {
 

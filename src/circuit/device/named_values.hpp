@@ -5,8 +5,8 @@
 #include <algorithm>
 
 #include "circuit/netlist/netlist.hpp"
-#include "core/text/ascii_text.hpp"
 #include "core/parameter.hpp"
+#include "core/text/ascii_text.hpp"
 
 namespace corpuscle::circuit {
 

@@ -3,10 +3,10 @@
 #include <algorithm>
 #include <iterator>
 
+#include "circuit/afferent/force_waveform.hpp"
 #include "circuit/device/expression_binding.hpp"
 #include "circuit/device/named_values.hpp"
 #include "circuit/device/source_waveform.hpp"
-#include "circuit/afferent/force_waveform.hpp"
 #include "core/number/elementary.hpp"
 
 namespace corpuscle::circuit {

@@ -6,8 +6,8 @@
 #include "circuit/expression/expression.hpp"
 #include "circuit/expression/expression_operations.hpp"
 #include "circuit/expression/spice_number.hpp"
-#include "core/text/ascii_text.hpp"
 #include "core/parameter.hpp"
+#include "core/text/ascii_text.hpp"
 
 namespace corpuscle::circuit {
 namespace {

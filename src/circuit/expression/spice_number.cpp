@@ -58,7 +58,7 @@ Scale scale_of(std::string_view letters) {
 }
 
 /// Converts "10" with power -6 as the text "10e-6", which gives the nearest double. The product 10 * 1e-6 does not always.
-double nearest(std::string_view mantissa, int power) {
+double nearest_double(std::string_view mantissa, int power) {
     const std::string text = std::string(mantissa) + 'e' + std::to_string(power);
     double value = 0;
     if (std::from_chars(text.data(), text.data() + text.size(), value).ec != std::errc::result_out_of_range) return value;
@@ -76,7 +76,7 @@ std::optional<SpiceNumber> parse_leading_number(std::string_view text) {
     const auto letters = text.substr(start, end - start);
     const auto scale = scale_of(letters);
     const int power = exponent_of(text.substr(digits, exponent)) + scale.power;
-    return SpiceNumber{nearest(text.substr(0, digits), power) * scale.factor, end, letters};
+    return SpiceNumber{nearest_double(text.substr(0, digits), power) * scale.factor, end, letters};
 }
 
 std::optional<SpiceNumber> parse_number(std::string_view text) {

@@ -4,8 +4,8 @@
 #include <limits>
 #include <optional>
 
-#include "circuit/output/curve_view.hpp"
 #include "circuit/measure/line_segment.hpp"
+#include "circuit/output/curve_view.hpp"
 
 namespace corpuscle::circuit {
 

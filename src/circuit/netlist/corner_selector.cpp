@@ -4,8 +4,8 @@
 #include <algorithm>
 
 #include "circuit/netlist/statement.hpp"
-#include "core/text/ascii_text.hpp"
 #include "core/parameter.hpp"
+#include "core/text/ascii_text.hpp"
 
 namespace corpuscle::circuit {
 namespace {

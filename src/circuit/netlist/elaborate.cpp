@@ -3,12 +3,12 @@
 #include <fmt/format.h>
 #include <algorithm>
 
+#include "circuit/expression/spice_number.hpp"
 #include "circuit/netlist/circuit_builder.hpp"
 #include "circuit/netlist/netlist_impl.hpp"
 #include "circuit/netlist/netlist_options.hpp"
-#include "circuit/expression/spice_number.hpp"
-#include "core/text/ascii_text.hpp"
 #include "core/parameter.hpp"
+#include "core/text/ascii_text.hpp"
 
 namespace corpuscle::circuit {
 namespace {

@@ -4,8 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "circuit/netlist/circuit_builder.hpp"
 #include "circuit/expression/spice_number.hpp"
+#include "circuit/netlist/circuit_builder.hpp"
 #include "core/parameter.hpp"
 
 namespace corpuscle::circuit {

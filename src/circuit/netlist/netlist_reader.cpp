@@ -4,12 +4,12 @@
 #include <algorithm>
 #include <filesystem>
 
+#include "circuit/expression/spice_number.hpp"
 #include "circuit/netlist/corner_selector.hpp"
 #include "circuit/netlist/parsed_netlist.hpp"
 #include "circuit/netlist/renamed_directives.hpp"
-#include "circuit/expression/spice_number.hpp"
-#include "core/text/ascii_text.hpp"
 #include "core/parameter.hpp"
+#include "core/text/ascii_text.hpp"
 
 namespace corpuscle::circuit {
 namespace {

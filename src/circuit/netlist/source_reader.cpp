@@ -3,8 +3,8 @@
 #include <fmt/format.h>
 #include <algorithm>
 
-#include "circuit/netlist/circuit_builder.hpp"
 #include "circuit/expression/spice_number.hpp"
+#include "circuit/netlist/circuit_builder.hpp"
 #include "core/parameter.hpp"
 
 namespace corpuscle::circuit {

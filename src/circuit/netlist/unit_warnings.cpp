@@ -2,8 +2,8 @@
 
 #include <fmt/format.h>
 
-#include "circuit/netlist/parsed_netlist.hpp"
 #include "circuit/expression/spice_number.hpp"
+#include "circuit/netlist/parsed_netlist.hpp"
 #include "core/text/ascii_text.hpp"
 
 namespace corpuscle::circuit {

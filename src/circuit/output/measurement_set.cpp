@@ -3,8 +3,8 @@
 #include <fmt/format.h>
 #include <algorithm>
 
-#include "circuit/measure/measurement_parser.hpp"
 #include "circuit/expression/expression.hpp"
+#include "circuit/measure/measurement_parser.hpp"
 
 namespace corpuscle::circuit {
 namespace {

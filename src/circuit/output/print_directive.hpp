@@ -4,8 +4,8 @@
 #include <string>
 #include <vector>
 
-#include "circuit/output/curve_view.hpp"
 #include "circuit/netlist/netlist.hpp"
+#include "circuit/output/curve_view.hpp"
 
 namespace corpuscle::circuit {
 

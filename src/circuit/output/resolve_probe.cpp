@@ -3,10 +3,10 @@
 #include <fmt/format.h>
 
 #include "circuit/devices.hpp"
-#include "circuit/variant/hierarchical_names.hpp"
 #include "circuit/output/saved_quantities.hpp"
-#include "core/text/ascii_text.hpp"
+#include "circuit/variant/hierarchical_names.hpp"
 #include "core/parameter.hpp"
+#include "core/text/ascii_text.hpp"
 
 namespace corpuscle::circuit {
 namespace {

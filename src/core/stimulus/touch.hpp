@@ -3,8 +3,8 @@
 
 #include <vector>
 
-#include "core/number/elementary.hpp"
 #include "core/force_source.hpp"
+#include "core/number/elementary.hpp"
 #include "core/parameter.hpp"
 
 namespace corpuscle {

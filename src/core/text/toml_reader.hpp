@@ -9,8 +9,8 @@
 #include <string_view>
 #include <vector>
 
-#include "core/text/located_text.hpp"
 #include "core/parameter.hpp"
+#include "core/text/located_text.hpp"
 
 namespace corpuscle {
 

@@ -9,8 +9,8 @@
 #include <span>
 #include <vector>
 
-#include "io/quality/log_histogram.hpp"
 #include "core/clock.hpp"
+#include "io/quality/log_histogram.hpp"
 
 namespace corpuscle {
 

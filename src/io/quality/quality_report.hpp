@@ -4,9 +4,9 @@
 
 #include <vector>
 
+#include "core/force_source.hpp"
 #include "io/recording/channel_pipeline.hpp"
 #include "io/recording/row_clock.hpp"
-#include "core/force_source.hpp"
 
 namespace corpuscle {
 

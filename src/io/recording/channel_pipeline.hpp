@@ -9,8 +9,8 @@
 
 #include "io/quality/biquad.hpp"
 #include "io/quality/fault_detectors.hpp"
-#include "io/recording/recording.hpp"
 #include "io/quality/repair.hpp"
+#include "io/recording/recording.hpp"
 
 namespace corpuscle {
 

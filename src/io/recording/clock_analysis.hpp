@@ -5,8 +5,8 @@
 #include <cstdint>
 #include <vector>
 
-#include "io/quality/log_histogram.hpp"
 #include "core/clock.hpp"
+#include "io/quality/log_histogram.hpp"
 
 namespace corpuscle {
 

@@ -5,10 +5,10 @@
 #include <charconv>
 #include <span>
 
-#include "io/table/heading.hpp"
-#include "core/text/ascii_text.hpp"
 #include "core/parameter.hpp"
+#include "core/text/ascii_text.hpp"
 #include "core/text/quantity.hpp"
+#include "io/table/heading.hpp"
 
 namespace corpuscle {
 namespace {

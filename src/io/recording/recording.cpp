@@ -6,17 +6,17 @@
 #include <unordered_map>
 #include <utility>
 
-#include "io/recording/column_selection.hpp"
-#include "io/recording/force_rows.hpp"
-#include "io/table/foreign_format.hpp"
-#include "io/quality/quality_report.hpp"
-#include "io/recording/recording_formats.hpp"
-#include "io/recording/row_clock.hpp"
-#include "io/recording/sensor_layout.hpp"
-#include "io/text/transposed_table.hpp"
 #include "core/afferent.hpp"
 #include "core/text/ascii_text.hpp"
 #include "core/text/input_files.hpp"
+#include "io/quality/quality_report.hpp"
+#include "io/recording/column_selection.hpp"
+#include "io/recording/force_rows.hpp"
+#include "io/recording/recording_formats.hpp"
+#include "io/recording/row_clock.hpp"
+#include "io/recording/sensor_layout.hpp"
+#include "io/table/foreign_format.hpp"
+#include "io/text/transposed_table.hpp"
 
 namespace corpuscle {
 namespace {

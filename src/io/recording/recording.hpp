@@ -8,9 +8,9 @@
 #include <utility>
 #include <vector>
 
+#include "core/force_source.hpp"
 #include "io/quality/repair.hpp"
 #include "io/table/table.hpp"
-#include "core/force_source.hpp"
 
 namespace corpuscle {
 

@@ -6,8 +6,8 @@
 #include "io/table/hdf5_table.hpp"
 #include "io/table/npy_table.hpp"
 #include "io/table/table.hpp"
-#include "io/text/text_table.hpp"
 #include "io/table/wav_table.hpp"
+#include "io/text/text_table.hpp"
 
 namespace corpuscle {
 

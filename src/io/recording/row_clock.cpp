@@ -4,11 +4,11 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/text/quantity.hpp"
 #include "io/recording/clock_analysis.hpp"
 #include "io/recording/column_selection.hpp"
 #include "io/recording/row_reader.hpp"
 #include "io/text/time_stamp.hpp"
-#include "core/text/quantity.hpp"
 
 namespace corpuscle {
 namespace {

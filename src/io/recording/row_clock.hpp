@@ -5,8 +5,8 @@
 #include <string>
 #include <vector>
 
-#include "io/recording/recording.hpp"
 #include "core/clock.hpp"
+#include "io/recording/recording.hpp"
 
 namespace corpuscle {
 

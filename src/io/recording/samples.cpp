@@ -6,9 +6,9 @@
 #include <limits>
 #include <numeric>
 
-#include "io/table/column_roles.hpp"
-#include "core/text/ascii_text.hpp"
 #include "core/parameter.hpp"
+#include "core/text/ascii_text.hpp"
+#include "io/table/column_roles.hpp"
 
 namespace corpuscle {
 namespace {

@@ -3,12 +3,12 @@
 #include <fmt/format.h>
 #include <algorithm>
 
+#include "core/text/ascii_text.hpp"
+#include "core/text/quantity.hpp"
 #include "io/recording/column_selection.hpp"
 #include "io/text/dialect.hpp"
 #include "io/text/line_reader.hpp"
 #include "io/text/text_table.hpp"
-#include "core/text/ascii_text.hpp"
-#include "core/text/quantity.hpp"
 
 namespace corpuscle {
 namespace {

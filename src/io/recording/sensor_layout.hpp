@@ -5,8 +5,8 @@
 #include <string>
 #include <vector>
 
-#include "io/table/table.hpp"
 #include "core/force_source.hpp"
+#include "io/table/table.hpp"
 
 namespace corpuscle {
 

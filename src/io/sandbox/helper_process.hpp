@@ -6,8 +6,8 @@
 
 #include <string>
 
-#include "io/sandbox/message.hpp"
 #include "core/error.hpp"
+#include "io/sandbox/message.hpp"
 
 namespace corpuscle {
 

@@ -1,8 +1,8 @@
 #pragma once
 // The messages between this process and a helper program that reads samples.
 
-#include "io/sandbox/message.hpp"
 #include "io/recording/samples.hpp"
+#include "io/sandbox/message.hpp"
 
 namespace corpuscle {
 

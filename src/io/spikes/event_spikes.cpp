@@ -8,8 +8,8 @@
 #include <vector>
 
 #include "io/spikes/address_events.hpp"
-#include "io/table/seekable_bytes.hpp"
 #include "io/spikes/train_collector.hpp"
+#include "io/table/seekable_bytes.hpp"
 
 namespace corpuscle {
 namespace {

@@ -1,8 +1,8 @@
 #include <fmt/format.h>
 #include <cmath>
 
-#include "io/table/npz.hpp"
 #include "io/spikes/train_collector.hpp"
+#include "io/table/npz.hpp"
 
 namespace corpuscle {
 namespace {

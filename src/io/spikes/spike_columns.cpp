@@ -4,8 +4,8 @@
 #include <algorithm>
 #include <charconv>
 
-#include "io/table/heading.hpp"
 #include "core/text/ascii_text.hpp"
+#include "io/table/heading.hpp"
 
 namespace corpuscle {
 namespace {

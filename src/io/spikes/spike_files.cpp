@@ -3,11 +3,11 @@
 #include <fmt/format.h>
 #include <algorithm>
 
+#include "core/text/ascii_text.hpp"
+#include "core/text/input_files.hpp"
 #include "io/spikes/address_events.hpp"
 #include "io/spikes/train_collector.hpp"
 #include "io/text/utf8.hpp"
-#include "core/text/ascii_text.hpp"
-#include "core/text/input_files.hpp"
 
 namespace corpuscle {
 namespace {

@@ -4,13 +4,13 @@
 #include <nlohmann/json.hpp>
 #include <optional>
 
-#include "io/text/dialect.hpp"
-#include "io/table/heading.hpp"
-#include "io/text/json_records.hpp"
-#include "io/text/line_reader.hpp"
+#include "core/text/ascii_text.hpp"
 #include "io/spikes/spike_columns.hpp"
 #include "io/spikes/train_collector.hpp"
-#include "core/text/ascii_text.hpp"
+#include "io/table/heading.hpp"
+#include "io/text/dialect.hpp"
+#include "io/text/json_records.hpp"
+#include "io/text/line_reader.hpp"
 
 namespace corpuscle {
 namespace {

@@ -3,9 +3,9 @@
 #include <algorithm>
 #include <utility>
 
-#include "io/text/utf8.hpp"
 #include "core/text/ascii_text.hpp"
 #include "core/text/quantity.hpp"
+#include "io/text/utf8.hpp"
 
 namespace corpuscle {
 namespace {

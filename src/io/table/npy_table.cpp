@@ -4,8 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "io/table/npz.hpp"
 #include "io/recording/samples.hpp"
+#include "io/table/npz.hpp"
 #include "io/text/text_table.hpp"
 
 namespace corpuscle {

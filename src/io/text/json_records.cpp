@@ -5,9 +5,9 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
-#include "io/table/heading.hpp"
-#include "io/recording/samples.hpp"
 #include "core/text/ascii_text.hpp"
+#include "io/recording/samples.hpp"
+#include "io/table/heading.hpp"
 
 namespace corpuscle {
 namespace {

@@ -1,8 +1,8 @@
 #pragma once
 // JSON lines, and JSON documents of records or columns, as tables. All values are kept in memory.
 
-#include "io/text/line_reader.hpp"
 #include "io/table/table.hpp"
+#include "io/text/line_reader.hpp"
 
 namespace corpuscle {
 

@@ -6,8 +6,8 @@
 #include <string_view>
 #include <vector>
 
-#include "io/text/dialect.hpp"
 #include "io/table/table.hpp"
+#include "io/text/dialect.hpp"
 
 namespace corpuscle {
 

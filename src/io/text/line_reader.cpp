@@ -6,8 +6,8 @@
 #include <filesystem>
 #include <utility>
 
-#include "io/table/foreign_format.hpp"
 #include "core/text/ascii_text.hpp"
+#include "io/table/foreign_format.hpp"
 
 namespace corpuscle {
 

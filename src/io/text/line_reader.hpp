@@ -5,8 +5,8 @@
 #include <string>
 #include <string_view>
 
-#include "io/text/text_input.hpp"
 #include "core/error.hpp"
+#include "io/text/text_input.hpp"
 
 namespace corpuscle {
 

@@ -9,8 +9,8 @@
 #include <filesystem>
 #include <vector>
 
-#include "io/table/foreign_format.hpp"
 #include "core/text/input_files.hpp"
+#include "io/table/foreign_format.hpp"
 
 namespace corpuscle {
 namespace {

@@ -5,8 +5,8 @@
 #include <cctype>
 #include <cmath>
 
-#include "io/text/labview.hpp"
 #include "core/text/ascii_text.hpp"
+#include "io/text/labview.hpp"
 
 namespace corpuscle {
 namespace {

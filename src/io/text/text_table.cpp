@@ -6,11 +6,11 @@
 #include <cstring>
 #include <limits>
 
+#include "core/text/ascii_text.hpp"
 #include "io/recording/field_advice.hpp"
 #include "io/text/json_records.hpp"
 #include "io/text/json_table.hpp"
 #include "io/text/text_layout.hpp"
-#include "core/text/ascii_text.hpp"
 
 namespace corpuscle {
 namespace {

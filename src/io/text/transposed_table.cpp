@@ -4,8 +4,8 @@
 #include <algorithm>
 #include <numeric>
 
-#include "io/table/heading.hpp"
 #include "io/recording/samples.hpp"
+#include "io/table/heading.hpp"
 
 namespace corpuscle {
 namespace {

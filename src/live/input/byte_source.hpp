@@ -5,8 +5,8 @@
 #include <span>
 #include <string>
 
-#include "live/steady_clock.hpp"
 #include "core/error.hpp"
+#include "live/steady_clock.hpp"
 
 namespace corpuscle {
 

@@ -5,13 +5,13 @@
 #include <optional>
 #include <span>
 
+#include "core/force_source.hpp"
 #include "live/input/byte_source.hpp"
 #include "live/input/frame_error.hpp"
 #include "live/input/frame_layout.hpp"
 #include "live/input/frame_sequence.hpp"
 #include "live/input/header_reader.hpp"
 #include "live/steady_clock.hpp"
-#include "core/force_source.hpp"
 
 namespace corpuscle {
 

@@ -5,8 +5,8 @@
 #include <string>
 #include <vector>
 
-#include "live/input/descriptor.hpp"
 #include "core/error.hpp"
+#include "live/input/descriptor.hpp"
 
 namespace corpuscle {
 

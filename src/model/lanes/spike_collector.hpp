@@ -7,8 +7,8 @@
 #include <span>
 #include <vector>
 
-#include "model/lanes/kernel.hpp"
 #include "core/spike.hpp"
+#include "model/lanes/kernel.hpp"
 
 namespace corpuscle::lanes {
 

@@ -1,9 +1,9 @@
 #pragma once
 
-#include "model/current.hpp"
-#include "model/neuron/threshold_crossing.hpp"
 #include "core/afferent.hpp"
 #include "core/parameter.hpp"
+#include "model/current.hpp"
+#include "model/neuron/threshold_crossing.hpp"
 
 namespace corpuscle {
 

@@ -1,8 +1,8 @@
 #pragma once
 
-#include "model/current.hpp"
 #include "core/afferent.hpp"
 #include "core/parameter.hpp"
+#include "model/current.hpp"
 
 namespace corpuscle {
 

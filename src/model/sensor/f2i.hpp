@@ -1,7 +1,7 @@
 #pragma once
 
-#include "model/sensor/front_end_stage.hpp"
 #include "core/parameter.hpp"
+#include "model/sensor/front_end_stage.hpp"
 
 namespace corpuscle {
 

@@ -4,8 +4,8 @@
 
 #include <vector>
 
-#include "model/sensor/front_end_stage.hpp"
 #include "core/parameter.hpp"
+#include "model/sensor/front_end_stage.hpp"
 
 namespace corpuscle {
 

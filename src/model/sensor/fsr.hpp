@@ -1,8 +1,8 @@
 #pragma once
 
-#include "model/sensor/front_end_stage.hpp"
 #include "core/number/elementary.hpp"
 #include "core/parameter.hpp"
+#include "model/sensor/front_end_stage.hpp"
 
 namespace corpuscle {
 

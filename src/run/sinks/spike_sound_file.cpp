@@ -4,8 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "model/copies.hpp"
 #include "core/number/elementary.hpp"
+#include "model/copies.hpp"
 
 namespace corpuscle {
 namespace {

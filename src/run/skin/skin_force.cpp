@@ -3,8 +3,8 @@
 #include <numeric>
 
 #include "core/parameter_override.hpp"
-#include "skin/plan/site_map.hpp"
 #include "run/skin/skin_run.hpp"
+#include "skin/plan/site_map.hpp"
 
 namespace corpuscle {
 namespace {

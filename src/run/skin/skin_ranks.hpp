@@ -2,8 +2,8 @@
 // A skin distributed over MPI ranks. Each rank simulates a part of the afferents of every class, and computes the force on the skin itself.
 // Rank 0 (the coordinator) gathers the spikes of the other ranks (the workers) block by block and writes the files.
 
-#include "run/skin/skin_run.hpp"
 #include "run/ranks.hpp"
+#include "run/skin/skin_run.hpp"
 
 namespace corpuscle {
 

@@ -9,11 +9,11 @@
 #include <unordered_set>
 #include <utility>
 
-#include "io/text/dialect.hpp"
-#include "io/table/heading.hpp"
-#include "io/text/line_reader.hpp"
-#include "core/text/ascii_text.hpp"
 #include "core/parameter.hpp"
+#include "core/text/ascii_text.hpp"
+#include "io/table/heading.hpp"
+#include "io/text/dialect.hpp"
+#include "io/text/line_reader.hpp"
 
 namespace corpuscle {
 namespace {

@@ -6,11 +6,11 @@
 #include <filesystem>
 #include <optional>
 
+#include "core/text/ascii_text.hpp"
+#include "core/text/quantity.hpp"
 #include "io/text/dialect.hpp"
 #include "io/text/line_reader.hpp"
 #include "io/text/text_table.hpp"
-#include "core/text/ascii_text.hpp"
-#include "core/text/quantity.hpp"
 
 namespace corpuscle {
 namespace {

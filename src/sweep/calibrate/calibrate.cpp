@@ -9,8 +9,8 @@
 #include <optional>
 
 #include "circuit/variant/hierarchical_names.hpp"
-#include "core/text/ascii_text.hpp"
 #include "core/parameter.hpp"
+#include "core/text/ascii_text.hpp"
 #include "core/thread_pool.hpp"
 
 namespace corpuscle {

@@ -4,9 +4,9 @@
 #include <algorithm>
 #include <cmath>
 
-#include "core/text/ascii_text.hpp"
 #include "core/number/elementary.hpp"
 #include "core/parameter.hpp"
+#include "core/text/ascii_text.hpp"
 #include "core/text/quantity.hpp"
 #include "sweep/spec/sobol.hpp"
 

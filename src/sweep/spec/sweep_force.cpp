@@ -5,9 +5,9 @@
 #include <bit>
 #include <filesystem>
 
-#include "io/recording/recording.hpp"
-#include "core/text/quantity.hpp"
 #include "core/stimulus/stimuli.hpp"
+#include "core/text/quantity.hpp"
+#include "io/recording/recording.hpp"
 
 namespace corpuscle::sweeps {
 namespace {

@@ -4,8 +4,8 @@
 
 #include <map>
 
-#include "sweep/store/sqlite.hpp"
 #include "sweep/spec/sweep.hpp"
+#include "sweep/store/sqlite.hpp"
 
 namespace corpuscle {
 

@@ -5,9 +5,9 @@
 #include <algorithm>
 #include <map>
 
-#include "model/lane_population.hpp"
 #include "core/parameter.hpp"
 #include "core/text/quantity.hpp"
+#include "model/lane_population.hpp"
 #include "run/afferent_plan.hpp"
 #include "sweep/subject/subject.hpp"
 

@@ -4,10 +4,10 @@
 #include <algorithm>
 #include <filesystem>
 
+#include "core/parameter.hpp"
 #include "core/text/ascii_text.hpp"
 #include "core/text/embedded_files.hpp"
 #include "core/text/input_files.hpp"
-#include "core/parameter.hpp"
 #include "run/netlist_directives.hpp"
 
 namespace corpuscle::sweeps {

@@ -1,42 +1,20 @@
 // Simulates one afferent with a complete force, also for the measures of a reference model.
 
 #include <fmt/format.h>
-#include <algorithm>
 
 #include "run/afferent_plan.hpp"
+#include "run/simulate.hpp"
 #include "sweep/subject/subject.hpp"
 
 namespace corpuscle::sweeps {
-namespace {
-
-constexpr std::size_t block_samples = 4096;
-
-}  // namespace
 
 Result<SimulatedResponse> simulate_afferent(const Afferent& afferent, const SweepForce& force, std::span<const std::size_t> probes,
                                             std::size_t every, const std::function<bool()>& stop) {
-    // The response to a sample comes `delay` samples later, so the last force is held for that time.
-    const auto delay = static_cast<std::size_t>(afferent.delay());
-    auto samples = force.samples;
-    samples.insert(samples.end(), delay, samples.back());
-    std::vector<std::vector<double>> probe_values(probes.empty() ? 0 : afferent.probes().size(), std::vector<double>(block_samples));
-    std::vector<double*> probe_rows;
-    for (auto& s : probe_values) probe_rows.push_back(s.data());
+    const auto response = simulate(afferent, force.samples, {probes, every, stop});
+    if (!response) return response.error();
     SimulatedResponse out;
-    out.probe_samples.resize(probes.size());
-    std::vector<Spike> spikes;
-    auto state = afferent.start();
-    for (std::size_t at = 0; at < samples.size(); at += block_samples) {
-        if (stop && stop()) return Error{ErrorCode::interrupted, "interrupted"};
-        const auto count = std::min(block_samples, samples.size() - at);
-        ResponseBlock response{spikes, 0, probe_rows};
-        if (auto ok = afferent.respond(std::span(samples).subspan(at, count), state, response); !ok) return ok.error();
-        for (std::size_t p = 0; p < probes.size(); ++p)
-            for (std::size_t k = 0; k < count; ++k)
-                if (at + k >= delay && (at + k - delay) % every == 0)
-                    out.probe_samples[p].push_back(static_cast<float>(probe_values[probes[p]][k]));
-    }
-    for (const auto& s : spikes)
+    for (const auto& values : response->probes) out.probe_samples.emplace_back(values.begin(), values.end());
+    for (const auto& s : response->spikes)
         if (s.step <= static_cast<std::int64_t>(force.samples.size())) out.spikes.push_back(force.clock.time(s.step, s.offset));
     return out;
 }

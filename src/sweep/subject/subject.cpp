@@ -5,10 +5,10 @@
 #include <cmath>
 
 #include "circuit/variant/netlist_overrides.hpp"
-#include "model/catalog.hpp"
-#include "core/text/ascii_text.hpp"
 #include "core/parameter.hpp"
+#include "core/text/ascii_text.hpp"
 #include "core/text/quantity.hpp"
+#include "model/catalog.hpp"
 #include "sweep/spec/mismatch_samples.hpp"
 
 namespace corpuscle::sweeps {

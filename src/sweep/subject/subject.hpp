@@ -3,8 +3,8 @@
 // model, a netlist afferent, or a netlist with its own analyses.
 
 #include "core/afferent.hpp"
-#include "sweep/subject/afferent_measures.hpp"
 #include "sweep/spec/sweep_text.hpp"
+#include "sweep/subject/afferent_measures.hpp"
 
 namespace corpuscle::sweeps {
 

@@ -5,10 +5,12 @@
 #include <nlohmann/json.hpp>
 
 #include "circuit/variant/netlist_variants.hpp"
-#include "sweep/calibrate/calibration_report.hpp"
-#include "reproduction/claims/trial.hpp"
 #include "cli/output/terminal.hpp"
 #include "cli/verbs.hpp"
+#include "core/stimulus/stimuli.hpp"
+#include "run/afferent_plan.hpp"
+#include "run/simulate.hpp"
+#include "sweep/calibrate/calibration_report.hpp"
 
 namespace corpuscle {
 namespace {
@@ -47,21 +49,25 @@ constexpr double max_first_spike_error = 10e-3;  // s, between the first spikes 
 
 /// Sets the stimulus, and derives the pass limits from the response of the model in each phase and between the phases.
 Result<void> set_target(ChipCalibration& calibration, const std::string& model, const SweepCalibrateArguments& args) {
-    const TrialSpec trial{model, args.force, {}, 10e3};
-    const auto stimulus = trial_force(trial);
+    const auto stimulus = make_stimulus(args.force, {}, 10e3, 0);
     if (!stimulus) return stimulus.error();
-    const auto train = simulate_train(trial);
-    if (!train) return train.error();
-    calibration.force = stimulus->force, calibration.T = stimulus->clock.T();
+    auto force = read_channel(**stimulus);
+    if (!force) return force.error();
+    const auto& clock = (*stimulus)->clock();
+    const auto plan = plan_any_afferent(model, {});
+    if (!plan) return plan.error();
+    const auto response = simulate(*make_afferent(*plan, {clock.T()}), *force);
+    if (!response) return response.error();
+    calibration.force = std::move(*force), calibration.T = clock.T();
     std::vector<TimeWindow> phases;
     double from = 0;
-    for (const auto& p : stimulus->phases) {
+    for (const auto& p : (*stimulus)->phases()) {
         if (p.from > from) phases.push_back({from, p.from});
         phases.push_back({p.from, p.to}), from = p.to;
     }
     const double end = static_cast<double>(calibration.force.size()) * calibration.T;
     if (end > from) phases.push_back({from, end});
-    calibration.limits = FiringLimits::around(*train, phases, max_first_spike_error);
+    calibration.limits = FiringLimits::around(spike_times(response->spikes, clock), phases, max_first_spike_error);
     return {};
 }
 

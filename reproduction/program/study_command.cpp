@@ -6,16 +6,16 @@
 #include <cstdlib>
 #include <nlohmann/json.hpp>
 
-#include "io/output/output_check.hpp"
-#include "cli/output/output_files.hpp"
 #include "cli/arguments/own_files.hpp"
-#include "report/study/study_page.hpp"
+#include "cli/output/output_files.hpp"
+#include "cli/output/terminal.hpp"
 #include "core/parameter.hpp"
-#include "run/earlier_outputs.hpp"
+#include "io/output/output_check.hpp"
 #include "reproduction/claims/studies.hpp"
 #include "reproduction/claims/study_document.hpp"
-#include "cli/output/terminal.hpp"
-#include "cli/verbs.hpp"
+#include "reproduction/page/study_page.hpp"
+#include "reproduction/program/study_command.hpp"
+#include "run/earlier_outputs.hpp"
 
 namespace corpuscle {
 namespace {

@@ -7,12 +7,12 @@
 #include <nlohmann/json.hpp>
 
 #include "cli/output/printable.hpp"
-#include "sweep/store/dump.hpp"
-#include "sweep/parallel/rank_run.hpp"
-#include "sweep/store/writer_lock.hpp"
 #include "cli/output/sweep_status.hpp"
 #include "cli/output/terminal.hpp"
 #include "cli/verbs.hpp"
+#include "sweep/parallel/rank_run.hpp"
+#include "sweep/store/dump.hpp"
+#include "sweep/store/writer_lock.hpp"
 
 namespace corpuscle {
 namespace {

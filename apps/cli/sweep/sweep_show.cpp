@@ -5,16 +5,16 @@
 #include <filesystem>
 #include <nlohmann/json.hpp>
 
-#include "io/output/output_check.hpp"
 #include "cli/output/output_files.hpp"
 #include "cli/output/printable.hpp"
-#include "report/sweep/sweep_page.hpp"
-#include "core/text/input_files.hpp"
-#include "run/earlier_outputs.hpp"
-#include "sweep/spec/sweep_document.hpp"
 #include "cli/output/sweep_tables.hpp"
 #include "cli/output/terminal.hpp"
 #include "cli/verbs.hpp"
+#include "core/text/input_files.hpp"
+#include "io/output/output_check.hpp"
+#include "report/sweep/sweep_page.hpp"
+#include "run/earlier_outputs.hpp"
+#include "sweep/spec/sweep_document.hpp"
 
 namespace corpuscle {
 namespace {

@@ -1,10 +1,10 @@
-#include "cli/sweep_verbs.hpp"
+#include "cli/sweep/sweep_verbs.hpp"
 
 #include <fmt/format.h>
 #include <CLI/CLI.hpp>
 
 #include "cli/arguments/option_groups.hpp"
-#include "core/version.hpp"
+#include "cli/program.hpp"
 
 namespace corpuscle {
 namespace {
@@ -145,17 +145,6 @@ void add_sweep_calibrate(CLI::App& sweep, SweepCalibrateArguments& args, CommonA
 }
 
 }  // namespace
-
-void add_common(CLI::App& verb, CommonArguments& common) {
-    verb.set_version_flag("--version", fmt::format("corpuscle {}", version))->group("");
-    verb.add_flag("--json", common.json, "print one JSON document on standard output, and nothing else");
-    verb.add_flag("--quiet,-q", common.quiet, "do not print tables, progress and notes; warnings are still printed");
-}
-
-void add_overwrite(CLI::App& verb, CommonArguments& common) {
-    verb.add_flag("--overwrite", common.overwrite,
-                  "also replace files that were not written by an earlier run; input files are never replaced");
-}
 
 void SweepVerbs::add_to(CLI::App& app, CommonArguments& common) {
     verb_ = &add_sweep(app, sweep_, merge_, dump_path_, common);

@@ -1,12 +1,12 @@
-#include "report/study/study_page.hpp"
+#include "reproduction/page/study_page.hpp"
 
 #include <fmt/format.h>
 #include <algorithm>
 #include <cmath>
 #include <nlohmann/json.hpp>
 
-#include "report/page_template.hpp"
 #include "core/version.hpp"
+#include "report/page_template.hpp"
 #include "reproduction/claims/study_document.hpp"
 
 namespace corpuscle {

@@ -9,11 +9,6 @@ class App;
 
 namespace corpuscle {
 
-/// Adds the options that every verb has: --json, --quiet.
-void add_common(CLI::App& verb, CommonArguments&);
-/// Adds --overwrite, for verbs that write complete files.
-void add_overwrite(CLI::App& verb, CommonArguments&);
-
 class SweepVerbs {
     SweepArguments sweep_;
     SweepMergeArguments merge_;
