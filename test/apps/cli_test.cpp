@@ -356,6 +356,16 @@ TEST(Program, StudiesAreListedWrittenAndSelectedByAnyOfTheirNumbers) {
     EXPECT_NE(run_program(folder, "study fig4 --quiet --report numbers.md/page.html").status, 0) << "a file cannot contain a page";
 }
 
+TEST(Program, AStudyWithoutItsProgramIsAnErrorThatSaysHowToBuildIt) {
+    const TemporaryFolder folder;
+    std::filesystem::copy_file(test::program_path(), folder / "corpuscle");
+    const auto command = "cd '" + folder.path() + "' && ./corpuscle study fig4 2>message";
+    EXPECT_EQ(WEXITSTATUS(std::system(command.c_str())), 1);
+    EXPECT_EQ(test::read_file(folder / "message"), "corpuscle: study: the program corpuscle-study is not in " +
+                                                       std::filesystem::canonical(folder.path()).string() +
+                                                       "; 'make reproduction' in the clone builds it\n");
+}
+
 TEST(Program, NamesMayContainAnyBytes) {
     const TemporaryFolder folder;
     folder.write("l.csv",

@@ -5,7 +5,8 @@ set -eu
 prefix=$1
 compiler=$2
 status=0
-for file in bin/corpuscle libexec/corpuscle/corpuscle-hdf5 libexec/corpuscle/corpuscle-sound include/corpuscle/corpuscle.hpp include/corpuscle/corpuscle.h share/corpuscle/circuits/sa1.cir \
+"$prefix/bin/corpuscle" study fig4 --quiet || { echo "the installed corpuscle does not find corpuscle-study"; status=1; }
+for file in bin/corpuscle bin/corpuscle-study libexec/corpuscle/corpuscle-hdf5 libexec/corpuscle/corpuscle-sound include/corpuscle/corpuscle.hpp include/corpuscle/corpuscle.h share/corpuscle/circuits/sa1.cir \
   share/corpuscle/skins/hand.toml share/corpuscle/examples/respond.cpp share/corpuscle/examples/data/touch.csv \
   share/corpuscle/examples/sweeps/bias.toml share/doc/corpuscle/README.md share/doc/corpuscle/LICENSE share/doc/corpuscle/NOTICE \
   share/doc/corpuscle/doc/concepts.md share/doc/corpuscle/doc/press.png; do
