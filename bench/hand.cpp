@@ -21,7 +21,8 @@
 
 #include "core/random.hpp"
 #include "core/stimulus/stimuli.hpp"
-#include "run/sinks/skin_events_file.hpp"
+#include "run/sinks.hpp"
+#include "run/skin/skin_simulator.hpp"
 
 namespace {
 
@@ -84,8 +85,8 @@ void print_times(const char* label, std::vector<double> seconds, double simulate
 int main(int argc, char** argv) {
     const double length = argc > 1 ? std::atof(argv[1]) : 10;
     const int runs = argc > 2 ? std::atoi(argv[2]) : 7;
-    const auto file = (std::filesystem::temp_directory_path() / fmt::format("bench-hand-{}.aer", ::getpid())).string();
-    ThreadPool single_thread(1);
+    const auto folder = (std::filesystem::temp_directory_path() / fmt::format("bench-hand-{}", ::getpid())).string();
+    const auto file = folder + "/spikes.aer";
     const auto set = value_or_exit(instruction_set());
     std::vector<double> build_times;
     std::shared_ptr<const Innervation> skin;
@@ -119,26 +120,29 @@ int main(int argc, char** argv) {
          }}};
     for (const auto& [name, make] : forces) {
         std::vector<double> run_times;
-        SkinStats work;
+        RunStats work;
         std::uintmax_t bytes = 0;
         for (int k = 0; k < runs; ++k) {
             auto force = make();
             auto skin_state = value_or_exit(Skin::make(skin, {1e-3}, set));
-            auto out = SkinEventsFile(value_or_exit(OutputFile::create(file)), "aer");
-            SkinSink* const sinks[] = {&out};
-            const SkinInput input{name, "", *make_clock(1e3), {}, *skin};
-            const auto simulator = local_skin_simulator(*skin_state, single_thread);
+            const auto out = value_or_exit(events_format.make({.directory = folder, .options = {{"--events", "aer"}}}));
+            Sink* const sinks[] = {out.get()};
+            SkinPopulation population(*skin);
+            const Input input{population, name, "", *make_clock(1e3)};
+            std::vector<std::unique_ptr<BlockSimulator>> inputs;
+            inputs.push_back(std::make_unique<SkinSimulator>(population, input, *force.force, *skin_state));
             const double from = processor();
-            work = value_or_exit(run_skin(*force.force, input, *simulator, sinks, {}));
-            if (!out.commit()) return 1;
+            work = value_or_exit(run(std::move(inputs), sinks, {}));
+            if (!out->commit()) return 1;
             run_times.push_back(processor() - from);
             bytes = std::filesystem::file_size(file);
             std::filesystem::remove(file);
         }
-        print_times(name, run_times, static_cast<double>(work.steps) * 1e-3);
+        print_times(name, run_times, static_cast<double>(work.samples) * 1e-3);
         fmt::print("  {:<34} {:.3g} afferent-steps computed, {:.3g} skipped; {} spikes, {} bytes\n", "",
                    static_cast<double>(work.afferent_steps), static_cast<double>(work.skipped_steps), work.spikes, bytes);
     }
+    std::filesystem::remove(folder);
     rusage used{};
     getrusage(RUSAGE_SELF, &used);
     fmt::print("peak memory: {} MB\n", used.ru_maxrss / 1000);

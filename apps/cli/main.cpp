@@ -171,15 +171,7 @@ void add_respond(CLI::App& app, RespondArguments& args, CommonArguments& common)
     verb.add_option("--out,-o", args.out, "write spikes.csv, summary.json and, with --copies, copies.csv into this directory")
         ->type_name("DIR")
         ->group("Output");
-    verb.add_flag("--probe-files", args.probe_files, "with --out, also write probes.csv: force, currents, membranes")->group("Output");
-    verb.add_option("--bin", args.bin, "with --out, also write psth.csv: spike counts and rates in bins of this length")
-        ->type_name("TIME")
-        ->group("Output");
-    verb.add_flag("--npz", args.npz, "with --out, also write spikes.npz: exact times for NumPy and SpikeInterface")->group("Output");
-    verb.add_flag("--wav", args.wav, "with --out, also write spikes.wav: one click per spike")->group("Output");
-    verb.add_flag("--vectors", args.vectors,
-                  "with --out, also write vectors-AFFERENT.csv and rom-AFFERENT.csv: every fixed-point value after the converter")
-        ->group("Output");
+    add_output_formats(verb, args);
     auto* report = verb.add_option("--report", args.report_file, "write a report page (default: report.html, in the directory of --out)")
                        ->expected(0, 1)
                        ->type_name("[FILE.html]")

@@ -18,7 +18,7 @@
 #include "live/input/site_frames.hpp"
 #include "live/live_population.hpp"
 #include "live/stream_state.hpp"
-#include "run/skin/skin_run.hpp"
+#include "run/skin/skin_force.hpp"
 #include "skin/plan/class_overrides.hpp"
 #include "skin/plan/site_map.hpp"
 

@@ -4,6 +4,7 @@
 // the exit status.
 
 #include <cstdint>
+#include <map>
 #include <optional>
 #include <string>
 #include <vector>
@@ -43,12 +44,14 @@ struct RecordingArguments {
 struct RespondArguments : RecordingArguments {
     NetlistArguments netlists;
     std::vector<std::string> forces, afferents = {"sa1", "fa1"}, settings, spreads;
-    std::optional<std::string> noise, bin;
+    std::optional<std::string> noise;
     std::string method = "exact";
-    bool sampled = false, probe_files = false, vectors = false, npz = false, wav = false;
-    bool has_report = false;                              ///< --report was given
-    std::string out, report_file;                         ///< report_file: of --report; "" without a name
-    std::string population, contact, events, checkpoint;  ///< options of a skin; "": not given
+    bool sampled = false;
+    bool has_report = false;                      ///< --report was given
+    std::string out, report_file;                 ///< report_file: of --report; "" without a name
+    std::string population, contact, checkpoint;  ///< options of a skin; "": not given
+    /// The options of the output formats (run/sinks.hpp) with their values; "" for a flag.
+    std::map<std::string, std::string, std::less<>> outputs;
     std::uint64_t seed = 0;
     std::uint32_t copies = 0;   ///< 0: not given
     std::uint32_t threads = 0;  ///< 0: one per core
@@ -124,7 +127,6 @@ struct ListArguments {
 };
 
 int respond(const RespondArguments&, const CommonArguments&);
-int respond_skin(const RespondArguments&, const CommonArguments&);
 int compare_trains(const CompareArguments&, const CommonArguments&);
 int run(const RunArguments&, const CommonArguments&);
 int export_to(const ExportArguments&, const CommonArguments&);

@@ -3,7 +3,7 @@
 #include <fmt/format.h>
 
 #include "core/stimulus/stimuli.hpp"
-#include "run/skin/skin_run.hpp"
+#include "run/skin/skin_force.hpp"
 
 namespace corpuscle {
 namespace {

@@ -5,20 +5,15 @@
 #include <fstream>
 #include <iterator>
 #include <nlohmann/json.hpp>
-#include <optional>
 
 #include "core/text/input_files.hpp"
 #include "io/output/output_check.hpp"
+#include "run/sinks.hpp"
 
 namespace corpuscle {
 namespace {
 
 constexpr std::uintmax_t max_summary_size = std::uintmax_t{256} << 20;  // bytes
-
-/// True for the number in a file name: "" for the first file, "-2" for the second.
-bool is_file_number(std::string_view text) {
-    return text.empty() || (text.size() > 1 && text[0] == '-' && text.find_first_not_of("0123456789", 1) == text.npos);
-}
 
 /// True for a regular file. False for a symbolic link, because its target may be outside the directory.
 bool is_plain_file(const std::filesystem::path& path) {
@@ -37,20 +32,9 @@ bool is_own_page(std::string_view beginning) {
 
 bool is_output_name(std::string_view name) {
     if (name.find('/') != name.npos || name.find('\0') != name.npos) return false;
-    // Earlier versions wrote units.csv and traces*.csv.
-    const std::string_view fixed_names[] = {"spikes.csv", "spikes.jsonl",  "spikes.aer", "spikes.aedat", "spikes.npz",
-                                            "copies.csv", "afferents.csv", "psth.csv",   "summary.json", "units.csv"};
-    if (std::find(std::begin(fixed_names), std::end(fixed_names), name) != std::end(fixed_names)) return true;
-    // The part of the name between two texts, or no value if the name does not begin and end with them.
-    const auto between = [&](std::string_view before, std::string_view after) {
-        return name.size() >= before.size() + after.size() && name.starts_with(before) && name.ends_with(after)
-                   ? std::optional(name.substr(before.size(), name.size() - before.size() - after.size()))
-                   : std::nullopt;
-    };
-    for (const auto& [before, after] : {std::pair{"probes", ".csv"}, std::pair{"traces", ".csv"}, std::pair{"spikes", ".wav"}})
-        if (const auto number = between(before, after); number && is_file_number(*number)) return true;
-    for (const auto* const before : {"vectors-", "rom-"})
-        if (const auto afferent = between(before, ".csv"); afferent && !afferent->empty()) return true;
+    const auto is_of = [&](const OutputFormat* format) { return can_write(*format, name); };
+    const bool is_former = name == "units.csv" || matches_name("traces#.csv", name);  // written by earlier versions
+    if (name == "summary.json" || is_former || std::any_of(std::begin(output_formats), std::end(output_formats), is_of)) return true;
     return name.size() > 5 && name.ends_with(".html");
 }
 

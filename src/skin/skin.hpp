@@ -22,6 +22,14 @@ struct SiteForce {
     /// read.
     std::span<const std::uint32_t> touched = {};
     bool reads_all = true;  ///< true: the force at all sites is read, and `touched` is ignored
+
+    /// Calls f with the index of each site whose force is read, in ascending order. `sites`: number of sites of the skin.
+    template <class F>
+    void for_each_site(std::size_t sites, const F& f) const {
+        for (std::size_t s = 0; reads_all && s < sites; ++s) f(s);
+        for (const auto s : touched)
+            if (!reads_all) f(std::size_t{s});
+    }
 };
 
 /// The afferents of a skin that one process simulates. Each class is divided into `count` ranges of nearly equal size, and the process

@@ -5,6 +5,7 @@
 #include <algorithm>
 
 #include "io/table/foreign_format.hpp"
+#include "run/sinks.hpp"
 
 namespace corpuscle {
 
@@ -111,25 +112,32 @@ void add_recording_options(CLI::App& verb, RecordingArguments& args) {
 
 void add_skin_options(CLI::App& verb, RespondArguments& args) {
     const auto group = "Skins";
-    auto* const population =
-        verb.add_option("--population,-p", args.population,
-                        "simulate a skin (instead of --afferent): hand, fingertip, 'grid 8x8', or a population file (doc/skin.md)")
-            ->type_name("NAME|FILE")
-            ->group(group);
+    verb.add_option("--population,-p", args.population,
+                    "simulate a skin (instead of --afferent): hand, fingertip, 'grid 8x8', or a population file (doc/skin.md)")
+        ->type_name("NAME|FILE")
+        ->group(group);
     verb.add_option("--contact", args.contact,
                     "indenter that applies the force of a single channel to the skin: flat (default), sphere, edge, grating; for its "
                     "parameters see 'corpuscle list contact', and set them by --set contact.radius=5mm")
         ->type_name("INDENTER")
-        ->needs(population)
-        ->group(group);
-    verb.add_option("--events", args.events, "write the spikes as lines, jsonl, aer or aedat2 (doc/events.md) instead of spikes.csv")
-        ->type_name("FORMAT")
-        ->needs(population)
         ->group(group);
     verb.add_option("--checkpoint", args.checkpoint, "save progress in this file; after an interruption the same command continues")
         ->type_name("FILE")
-        ->needs(population)
         ->group(group);
+}
+
+void add_output_formats(CLI::App& verb, RespondArguments& args) {
+    for (const auto* format : output_formats) {
+        const std::string option(format->option), help(format->help);
+        if (option.empty()) continue;
+        if (format->value_name.empty())
+            verb.add_flag_callback(option, [&args, option] { args.outputs[option]; }, help)->group("Output");
+        else
+            verb.add_option_function<std::string>(
+                    option, [&args, option](const std::string& text) { args.outputs[option] = text; }, help)
+                ->type_name(std::string(format->value_name))
+                ->group("Output");
+    }
 }
 
 }  // namespace corpuscle

@@ -20,5 +20,7 @@ void add_netlist_options(CLI::App&, NetlistArguments&);
 /// Adds all recording options except --rate, which means something different in each verb.
 void add_recording_options(CLI::App&, RecordingArguments&);
 void add_skin_options(CLI::App&, RespondArguments&);
+/// Adds the option of each output format.
+void add_output_formats(CLI::App&, RespondArguments&);
 
 }  // namespace corpuscle

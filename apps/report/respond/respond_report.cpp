@@ -8,6 +8,7 @@
 #include "report/common_documents.hpp"
 #include "report/page_template.hpp"
 #include "report/respond/implementations_document.hpp"
+#include "run/channels/channel_population.hpp"
 
 namespace corpuscle {
 namespace {
@@ -74,37 +75,37 @@ Json quality_document(const RunSummary& summary) {
 }  // namespace
 
 Result<void> RespondReport::begin(const Input& input) {
-    groups_ = copy_group_starts(input.plans);
-    const auto channels = input.source.channels().size();
+    const auto& afferents = input.on_channels();
+    const auto channels = afferents.channels();
+    groups_ = copy_group_starts(afferents.plans());
     std::size_t traces = 1;  // number of traces per channel: the force and all probes
-    for (std::size_t g = 0; g < groups(); ++g) traces += input.probes[groups_[g]].size();
+    for (std::size_t g = 0; g < groups(); ++g) traces += afferents.plan_probes(groups_[g]).size();
     // The limit of samples of one trace. The factor 2 is for longer traces, which are kept as pairs of minimum and maximum.
     const std::size_t max_points =
         std::clamp<std::size_t>(max_points_ / (2 * traces * channels * input.input_count), 16, std::size_t{1} << 20);
     forces_.assign(channels, Envelope(max_points));
     probes_.clear();
     for (std::size_t k = 0; wants_probes() && k < channels * groups(); ++k)
-        probes_.emplace_back(input.probes[groups_[k % groups()]].size(), Envelope(max_points));
-    trains_.assign(input.afferent_count(), {});
+        probes_.emplace_back(afferents.plan_probes(groups_[k % groups()]).size(), Envelope(max_points));
+    trains_.assign(afferents.size(), {});
     if (recordables_.empty())
         for (std::size_t g = 0; g < groups(); ++g) {
             Json probe_list = Json::array();
-            for (const auto& p : input.probes[groups_[g]]) probe_list.push_back({{"name", p.name}, {"unit", p.unit}});
+            for (const auto& p : afferents.plan_probes(groups_[g])) probe_list.push_back({{"name", p.name}, {"unit", p.unit}});
             recordables_.push_back(std::move(probe_list));
-            first_copies_.push_back(input.plans[groups_[g]]);
+            first_copies_.push_back(afferents.plans()[groups_[g]]);
         }  // once: the plans and probes are the same for every input
     return {};
 }
 
 Result<void> RespondReport::block(const Input& input, const RunBlock& response) {
     for (std::size_t c = 0; c < forces_.size(); ++c)
-        for (std::size_t k = 0; k < response.force.count; ++k) forces_[c].add(response.force.force[c][k]);
+        for (const double f : response.force[c]) forces_[c].add(f);
     for (std::size_t u = 0; u < probes_.size(); ++u)
         for (std::size_t p = 0; p < probes_[u].size(); ++p)
-            for (std::size_t k = 0; k < response.force.count; ++k)
+            for (std::size_t k = 0; k < response.steps; ++k)
                 probes_[u][p].add(response.probes[afferent_index(u / groups(), u % groups())][p][k]);
-    for (const auto& s : response.spikes)
-        trains_[s.afferent_index - input.first_afferent].push_back(input.source.clock().time(s.step, s.offset));
+    for (const auto& s : response.spikes) trains_[input.afferent_of(s)].push_back(input.clock.time(s.step, s.offset));
     return {};
 }
 
@@ -113,7 +114,7 @@ void RespondReport::add_spikes(const Input& input, std::size_t channel, std::siz
     const std::size_t shown = std::min<std::size_t>(groups_[group + 1] - groups_[group], max_copies);
     for (std::size_t k = 0; k < shown; ++k) {
         const auto& train = trains_[afferent_index(channel, group) + k];
-        spikes_.push_back({{"afferent", input.plans[groups_[group] + k].name},
+        spikes_.push_back({{"afferent", input.on_channels().plans()[groups_[group] + k].name},
                            {"channel", first_channel_ + channel},
                            {"count", train.size()},
                            {"times", base64(train.data(), train.size() * sizeof(double))}});
@@ -122,7 +123,7 @@ void RespondReport::add_spikes(const Input& input, std::size_t channel, std::siz
 
 /// Adds to the page the firing rate in equal bins, Hz: the mean over the copies of an afferent.
 void RespondReport::add_rate(const Input& input, std::size_t channel, std::size_t group, std::int64_t samples) {
-    auto clock = input.source.clock();
+    auto clock = input.clock;
     // With t0 = 0 the clock gives the duration of `samples` samples.
     const double t0 = std::exchange(clock.t0, 0.0), length = clock.time(samples), bin = round_part(length, 100);
     const auto copies = groups_[group + 1] - groups_[group];
@@ -132,30 +133,33 @@ void RespondReport::add_rate(const Input& input, std::size_t channel, std::size_
             ++rates[std::min(static_cast<std::size_t>(std::max(t - t0, 0.0) / bin + 1e-9), rates.size() - 1)];
     for (std::size_t b = 0; b < rates.size(); ++b)
         rates[b] /= static_cast<double>(copies) * std::min(bin, length - static_cast<double>(b) * bin);  // the last bin may be shorter
-    rates_.push_back(
-        {{"afferent", base_name(input.plans[groups_[group]])}, {"channel", first_channel_ + channel}, {"bin", bin}, {"values", rates}});
+    rates_.push_back({{"afferent", base_name(input.on_channels().plans()[groups_[group]])},
+                      {"channel", first_channel_ + channel},
+                      {"bin", bin},
+                      {"values", rates}});
 }
 
-Result<void> RespondReport::end(const Input& input, std::int64_t samples) {
+Result<void> RespondReport::end(const Input& input, std::int64_t samples, std::span<const Spike>) {
+    const auto& afferents = input.on_channels();
     Json channels = Json::array(), phases = Json::array();
     for (std::size_t c = 0; c < forces_.size(); ++c) {
-        channels.push_back({{"id", first_channel_ + c}, {"name", input.channel_name(c)}, {"unit", "N"}});
+        channels.push_back({{"id", first_channel_ + c}, {"name", afferents.channel(c)}, {"unit", "N"}});
         traces_.push_back(curve_document(first_channel_ + static_cast<std::uint32_t>(c), nullptr, "force", "N", forces_[c]));
     }
-    for (const auto& p : input.source.phases()) phases.push_back({{"name", p.name}, {"from", p.from}, {"to", p.to}});
+    for (const auto& p : input.phases) phases.push_back({{"name", p.name}, {"from", p.from}, {"to", p.to}});
     for (std::size_t c = 0; c < forces_.size(); ++c)
         for (std::size_t g = 0; g < groups(); ++g) {
-            const auto& probes = input.probes[groups_[g]];
+            const auto probes = afferents.plan_probes(groups_[g]);
             for (std::size_t p = 0; !probes_.empty() && p < probes.size(); ++p)
-                traces_.push_back(curve_document(first_channel_ + static_cast<std::uint32_t>(c), base_name(input.plans[groups_[g]]),
+                traces_.push_back(curve_document(first_channel_ + static_cast<std::uint32_t>(c), base_name(afferents.plans()[groups_[g]]),
                                                  probes[p].name, probes[p].unit, probes_[c * groups() + g][p]));
             add_spikes(input, c, g);
             if (copies_.count > 0) add_rate(input, c, g, samples);
         }
     inputs_.push_back({{"name", input.name},
-                       {"description", input.source.description()},
-                       {"t0", input.source.clock().t0},
-                       {"T", input.source.clock().T()},
+                       {"description", input.description},
+                       {"t0", input.clock.t0},
+                       {"T", input.clock.T()},
                        {"samples", samples},
                        {"phases", phases},
                        {"channels", channels}});

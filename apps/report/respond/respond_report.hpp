@@ -3,14 +3,14 @@
 
 #include <nlohmann/json.hpp>
 
-#include "io/output/output_file.hpp"
 #include "report/envelope.hpp"
+#include "run/sinks/file_sink.hpp"
 #include "run/summary/run_summary.hpp"
 
 namespace corpuscle {
 
 /// Collects traces and spikes during the run; page() fills the template with them.
-class RespondReport final : public ResponseSink {
+class RespondReport final : public Sink {
 public:
     /// Limit on the stored values of all traces of a page together. With more channels, probes or inputs each trace has fewer points.
     static constexpr std::size_t max_total_points = std::size_t{32} << 20;
@@ -21,12 +21,12 @@ public:
 
     /// The raster shows at most this many copies of each afferent. If there are more copies, no probes are recorded; otherwise those of the
     /// first copy are.
-    static constexpr std::uint32_t max_copies = 50;
+    static constexpr std::uint32_t max_copies = max_recorded_copies;
 
     bool wants_probes() const override { return with_probes_ && copies_.count <= max_copies; }
     Result<void> begin(const Input&) override;
     Result<void> block(const Input&, const RunBlock&) override;
-    Result<void> end(const Input&, std::int64_t samples) override;
+    Result<void> end(const Input&, std::int64_t samples, std::span<const Spike> last) override;
 
     /// The page as HTML. Call it after the end of the last input. The plans are those of the afferents before they are copied. `costs`: the
     /// document of costs_of().

@@ -76,7 +76,8 @@ Json classes_document(const Innervation& skin) {
 
 }  // namespace
 
-std::string skin_page(const SkinSummary& summary, const SkinReport& report, const SkinRunNotes& run_info, const std::string& command) {
+std::string skin_page(const SkinSummary& summary, const SkinReport& report, const RespondOptions& options, const SkinRunNotes& run_info,
+                      const std::string& command) {
     const auto title = fmt::format("{} on {}", summary.name(), summary.skin().plan.name);
     Json notes = run_info.warnings;
     for (const auto& r : run_info.notes) notes.push_back(r);
@@ -84,7 +85,7 @@ std::string skin_page(const SkinSummary& summary, const SkinReport& report, cons
                        {"program", fmt::format("corpuscle {}", version)},
                        {"command", command},
                        {"notes", notes},
-                       {"summary", summary.document(run_info)},
+                       {"summary", summary.document(options, run_info)},
                        {"regions", summary.skin().plan.sites.regions},
                        {"sites", sites_document(summary.skin().plan.sites)},
                        {"marks", marks_document(summary, report.marks())},

@@ -9,6 +9,6 @@
 namespace corpuscle {
 
 /// The page as HTML. The summary and the report must be of the same run, whose Innervation must still exist. `command`: the command line.
-std::string skin_page(const SkinSummary&, const SkinReport&, const SkinRunNotes&, const std::string& command);
+std::string skin_page(const SkinSummary&, const SkinReport&, const RespondOptions&, const SkinRunNotes&, const std::string& command);
 
 }  // namespace corpuscle

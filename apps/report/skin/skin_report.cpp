@@ -22,8 +22,8 @@ std::uint32_t per_mark(std::size_t count, std::size_t max_marks) {
 
 }  // namespace
 
-Result<void> SkinReport::begin(const SkinInput& input) {
-    const auto& skin = input.skin;
+Result<void> SkinReport::begin(const Input& input) {
+    const auto& skin = input.skin();
     clock_ = input.clock;
     const auto samples_of = [&](double seconds) { return std::max<std::int64_t>(std::llround(clock_.rate() * seconds), 1); };
     const auto bin = samples_of(1e-3),
@@ -60,30 +60,27 @@ void SkinReport::add(const Spike& s) {
 }
 
 /// Adds the force of each site to the frames of its mark. Samples `from` to `to` - 1 of the block are in one frame.
-void SkinReport::add_force(const SkinRunBlock& response) {
-    const auto& force = response.force;
+void SkinReport::add_force(const RunBlock& response) {
+    const auto& force = response.sites;
     for (std::size_t from = 0, to = 0; from < response.steps; from = to) {
         to = std::min(
             static_cast<std::size_t>(sites_.select_frame(response.first_sample + static_cast<std::int64_t>(from)) - response.first_sample),
             response.steps);
-        const auto add = [&](std::size_t s) {
+        force.for_each_site(site_count_, [&](std::size_t s) {
             const double* site_force = force.data + s * force.stride;
             for (auto t = from; t < to; ++t) sites_.add(static_cast<std::uint32_t>(s / sites_per_mark_), site_force[t]);
-        };
-        for (std::size_t s = 0; force.reads_all && s < site_count_; ++s) add(s);
-        for (const auto s : force.touched)
-            if (!force.reads_all) add(s);
+        });
     }
 }
 
-Result<void> SkinReport::block(const SkinInput&, const SkinRunBlock& response) {
-    for (const double f : response.total_force) forces_.add(f);
+Result<void> SkinReport::block(const Input&, const RunBlock& response) {
+    for (const double f : response.force[0]) forces_.add(f);
     add_force(response);
     for (const auto& s : response.spikes) add(s);
     return {};
 }
 
-Result<void> SkinReport::end(const SkinInput&, std::int64_t samples, std::span<const Spike> last) {
+Result<void> SkinReport::end(const Input&, std::int64_t samples, std::span<const Spike> last) {
     for (const auto& s : last) add(s);
     samples_ = samples, samples_with_delays_ = std::max(samples, last.empty() ? 0 : last.back().step);
     // The frames of classes, marks and sites all extend to the last spike that arrives.

@@ -6,7 +6,7 @@
 
 #include "report/envelope.hpp"
 #include "report/skin/binned_frames.hpp"
-#include "run/skin/skin_run.hpp"
+#include "run/sink.hpp"
 
 namespace corpuscle {
 
@@ -18,13 +18,13 @@ struct SkinReportLimits {
     std::size_t timed_spikes = 2'000'000;  ///< spikes whose times are kept; if there are more, only counts per frame are kept
 };
 
-class SkinReport final : public SkinSink {
+class SkinReport final : public Sink {
 public:
     explicit SkinReport(SkinReportLimits limits = {}) : limits_(limits), forces_(std::size_t{1} << 16) {}
 
-    Result<void> begin(const SkinInput&) override;
-    Result<void> block(const SkinInput&, const SkinRunBlock&) override;
-    Result<void> end(const SkinInput&, std::int64_t samples, std::span<const Spike> last) override;
+    Result<void> begin(const Input&) override;
+    Result<void> block(const Input&, const RunBlock&) override;
+    Result<void> end(const Input&, std::int64_t samples, std::span<const Spike> last) override;
 
     /// The first afferent of each mark on the maps, then the number of afferents.
     std::span<const std::uint32_t> marks() const { return mark_first_; }
@@ -48,7 +48,7 @@ private:
     std::vector<std::int64_t> spike_ticks_;       // the time of each spike since the start, tenths of a sample
 
     void add(const Spike&);
-    void add_force(const SkinRunBlock&);
+    void add_force(const RunBlock&);
     nlohmann::ordered_json spikes_document() const;
 };
 

@@ -4,6 +4,7 @@
 #include <nlohmann/json.hpp>
 
 #include "measure/train_distance.hpp"
+#include "run/channels/channel_population.hpp"
 #include "run/summary/json_number.hpp"
 
 namespace corpuscle {
@@ -64,29 +65,29 @@ double ImplementationComparison::PhaseCount::excess() const {
 }
 
 Result<void> ImplementationComparisons::begin(const Input& input) {
-    is_kept_.assign(input.plans.size(), false);
+    const auto plans = input.on_channels().plans();
+    is_kept_.assign(plans.size(), false);
     groups_.clear();
-    const bool has_copies = std::any_of(input.plans.begin(), input.plans.end(), [](const auto& a) { return a.copy_number > 0; });
-    for (auto& group : has_copies ? std::vector<ImplementationGroup>{} : implementation_groups(input.plans)) {
+    const bool has_copies = std::any_of(plans.begin(), plans.end(), [](const auto& a) { return a.copy_number > 0; });
+    for (auto& group : has_copies ? std::vector<ImplementationGroup>{} : implementation_groups(plans)) {
         if (group.members.size() < 2) continue;
         for (const auto m : group.members) is_kept_[m] = true;
         groups_.push_back(std::move(group));
     }
-    trains_.assign(groups_.empty() ? 0 : input.afferent_count(), {});
-    since_start_ = input.source.clock();
-    since_start_.t0 = 0;
+    trains_.assign(groups_.empty() ? 0 : input.population.size(), {});
+    since_start_ = input.clock_since_start();
     return {};
 }
 
 Result<void> ImplementationComparisons::block(const Input& input, const RunBlock& block) {
     for (const auto& s : block.spikes)
-        if (const auto afferent_index = s.afferent_index - input.first_afferent; is_kept_[afferent_index % is_kept_.size()])
+        if (const auto afferent_index = input.afferent_of(s); is_kept_[afferent_index % is_kept_.size()])
             trains_[afferent_index].push_back(since_start_.time(s.step, s.offset));
     return {};
 }
 
-Result<void> ImplementationComparisons::end(const Input& input, std::int64_t) {
-    for (std::size_t c = 0; c < input.source.channels().size(); ++c)
+Result<void> ImplementationComparisons::end(const Input& input, std::int64_t, std::span<const Spike>) {
+    for (std::size_t c = 0; c < input.on_channels().channels(); ++c)
         for (const auto& group : groups_)
             for (std::size_t m = 1; m < group.members.size(); ++m) rows_.push_back(compare_implementation(input, c, group, m));
     trains_.clear();
@@ -95,14 +96,16 @@ Result<void> ImplementationComparisons::end(const Input& input, std::int64_t) {
 
 ImplementationComparison ImplementationComparisons::compare_implementation(const Input& input, std::size_t channel,
                                                                            const ImplementationGroup& group, std::size_t member) const {
-    const std::size_t first = channel * input.plans.size();
+    const auto& afferents = input.on_channels();
+    const auto plans = afferents.plans();
+    const std::size_t first = channel * plans.size();
     const auto &reference = trains_[first + group.members[0]], &train = trains_[first + group.members[member]];
     ImplementationComparison out{group.afferent_type,
-                                 input.plans[group.members[member]].name,
-                                 input.plans[group.members[0]].name,
-                                 input.channel_name(channel),
+                                 plans[group.members[member]].name,
+                                 plans[group.members[0]].name,
+                                 afferents.channel(channel),
                                  {"", train.size(), reference.size()}};
-    for (const auto& p : input.source.phases())
+    for (const auto& p : input.phases)
         out.phases.push_back({p.name, count_spikes(train, p.from, p.to), count_spikes(reference, p.from, p.to)});
     measure_distance(reference, train, out);
     return out;

@@ -4,8 +4,8 @@
 #include <cmath>
 #include <nlohmann/json_fwd.hpp>
 
-#include "run/afferent_run.hpp"
 #include "run/compare/implementation_group.hpp"
+#include "run/run.hpp"
 
 namespace corpuscle {
 
@@ -27,14 +27,14 @@ struct ImplementationComparison {
 
 /// Keeps the spikes of the afferents whose type has several implementations, and compares them at the end of each input. If the run has
 /// copies, nothing is compared.
-class ImplementationComparisons final : public ResponseSink {
+class ImplementationComparisons final : public Sink {
 public:
     static constexpr double cost = 100;   ///< 1/s, of moving a spike in the Victor-Purpura distance; it moves spikes by less than 2 / cost
     static constexpr double tau = 10e-3;  ///< s, time constant of the van Rossum distance
 
     Result<void> begin(const Input&) override;
     Result<void> block(const Input&, const RunBlock&) override;
-    Result<void> end(const Input&, std::int64_t samples) override;
+    Result<void> end(const Input&, std::int64_t samples, std::span<const Spike> last) override;
 
     /// For each input and channel: every implementation except the references.
     const std::vector<ImplementationComparison>& rows() const { return rows_; }

@@ -1,44 +1,73 @@
-#include "run/sinks/copies_file.hpp"
+// copies.csv: one row for each copy on each channel, input after input. The columns are afferent, channel, each parameter that differs
+// between copies (f_B_Hz), and every measure over the complete input. A field is empty if the copies of this afferent do not differ in the
+// parameter, or if the measure has no value. Parameters are written with all digits, so that they reproduce the copy's response.
 
 #include <algorithm>
 #include <cmath>
 #include <iterator>
 
 #include "io/spikes/spike_files.hpp"
+#include "run/channels/channel_population.hpp"
+#include "run/sinks.hpp"
 #include "run/summary/run_summary.hpp"
 
 namespace corpuscle {
+namespace {
 
-CopiesFile::CopiesFile(OutputFile file, const CopySpec& copies) : file_(std::move(file)) {
+class CopiesFile final : public FileSink {
+    struct Column {
+        std::string_view parameter, unit;
+        std::vector<std::string> afferents;  // names of the afferents whose copies differ in the parameter
+    };
+    std::vector<Column> columns_;  // of the parameters
+    Clock since_start_;            // of the current input, with its first sample at 0 s
+    MeasureAccumulator tally_;     // the measures of every afferent of the current input; times on that clock
+    fmt::memory_buffer text_;
+
+    /// Appends the row of an afferent to text_; the index is within the input, from 0.
+    void put_row(const Input&, std::size_t afferent_index);
+
+public:
+    CopiesFile(std::string directory, const CopySpec&);
+    Result<void> open();
+    Result<void> begin(const Input&) override;
+    Result<void> block(const Input&, const RunBlock&) override;
+    Result<void> end(const Input&, std::int64_t samples, std::span<const Spike> last) override;
+};
+
+CopiesFile::CopiesFile(std::string directory, const CopySpec& copies) : FileSink(std::move(directory)) {
     for (const auto& s : copies.distributions) {
         auto at =
             std::find_if(columns_.begin(), columns_.end(), [&](const Column& c) { return c.parameter == s.parameter && c.unit == s.unit; });
         if (at == columns_.end()) at = columns_.insert(at, Column{s.parameter, s.unit, {}});
         at->afferents.push_back(s.afferent);
     }
+}
+
+Result<void> CopiesFile::open() {
+    if (auto ok = create("copies.csv"); !ok) return ok;
     std::string header = "afferent,channel";
     for (const auto& c : columns_)
         header += "," + quote_csv_field(c.unit.empty() ? std::string(c.parameter) : fmt::format("{}_{}", c.parameter, c.unit));
     for (const auto& m : measures) header += "," + quote_csv_field(measure_key(m));
-    (void)file_.write(header + "\n");  // commit() reports an error
+    return files_[0].write(header + "\n");
 }
 
 Result<void> CopiesFile::begin(const Input& input) {
-    since_start_ = input.source.clock();
-    since_start_.t0 = 0;
-    tally_ = MeasureAccumulator({{.stimulus_frequency = input.source.cycle_frequency()}}, input.afferent_count());
+    since_start_ = input.clock_since_start();
+    tally_ = MeasureAccumulator({{.stimulus_frequency = input.cycle_frequency}}, input.population.size());
     return {};
 }
 
 Result<void> CopiesFile::block(const Input& input, const RunBlock& block) {
-    for (const auto& s : block.spikes) tally_.spike(s.afferent_index - input.first_afferent, since_start_.time(s.step, s.offset));
+    for (const auto& s : block.spikes) tally_.spike(input.afferent_of(s), since_start_.time(s.step, s.offset));
     return {};
 }
 
 void CopiesFile::put_row(const Input& input, std::size_t afferent_index) {
     const auto out = std::back_inserter(text_);
-    const auto& plan = input.plan_of(afferent_index);
-    fmt::format_to(out, "{},{}", quote_csv_field(plan.name), quote_csv_field(input.channel_name(input.channel_of(afferent_index))));
+    const auto& plan = input.on_channels().plan_of(afferent_index);
+    fmt::format_to(out, "{},{}", quote_csv_field(plan.name), quote_csv_field(input.population.channel_name(afferent_index)));
     for (const auto& c : columns_) {
         const bool differs = std::find(c.afferents.begin(), c.afferents.end(), plan.original_name) != c.afferents.end();
         differs ? fmt::format_to(out, ",{}", *plan.value(c.parameter)) : fmt::format_to(out, ",");
@@ -47,16 +76,27 @@ void CopiesFile::put_row(const Input& input, std::size_t afferent_index) {
     text_.push_back('\n');
 }
 
-Result<void> CopiesFile::end(const Input& input, std::int64_t samples) {
+Result<void> CopiesFile::end(const Input& input, std::int64_t samples, std::span<const Spike>) {
     tally_.set_end(since_start_.time(samples));
-    for (std::size_t u = 0; u < input.afferent_count(); ++u) {
+    for (std::size_t u = 0; u < input.population.size(); ++u) {
         put_row(input, u);
         // Writes in pieces of 64 KiB.
-        if (text_.size() < std::size_t{1} << 16 && u + 1 < input.afferent_count()) continue;
-        if (auto ok = file_.write({text_.data(), text_.size()}); !ok) return ok;
+        if (text_.size() < std::size_t{1} << 16 && u + 1 < input.population.size()) continue;
+        if (auto ok = files_[0].write({text_.data(), text_.size()}); !ok) return ok;
         text_.clear();
     }
     return {};
 }
+
+}  // namespace
+
+const OutputFormat copies_format = {
+    .option = "",
+    .value_name = "",
+    .help = "",
+    .names = {"copies.csv"},
+    .make = [](const OutputRequest& request) { return make_file_sink<CopiesFile>(request.directory, request.copies); },
+    .is_written = [](const OutputRequest& request) { return request.copies.count > 0; },
+};
 
 }  // namespace corpuscle

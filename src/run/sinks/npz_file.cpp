@@ -1,51 +1,82 @@
-#include "run/sinks/npz_file.hpp"
+// spikes.npz: the arrays that SpikeInterface's NpzSortingExtractor reads (unit_ids, num_segment, sampling_frequency, spike_indexes_seg0,
+// spike_labels_seg0), with one segment for each input. A unit is an afferent; its id is Spike::afferent_index. In addition: the names
+// unit_afferent and unit_channel; in a skin the positions unit_x_m and unit_y_m; and spike_times_seg0, the exact times in s on the clock of
+// the input. spike_indexes_seg0 counts microseconds from the segment's first sample, which is finer than the timing of any nerve. The
+// spikes are kept in memory until the end, because the length of an array precedes its data.
 
 #include <cmath>
 #include <numeric>
 
+#include "io/table/npz.hpp"
+#include "run/sinks.hpp"
+
 namespace corpuscle {
+namespace {
 
-Result<void> NpzFile::begin(const Input& input) {
-    for (std::size_t u = 0; u < input.afferent_count(); ++u) {
-        afferents_.push_back(input.plan_of(u).name);
-        channels_.push_back(input.channel_name(input.channel_of(u)));
+constexpr double ticks_per_second = 1e6;  // sampling_frequency; a tick is the unit of the indexes
+
+class NpzFile final : public SpikeFileSink {
+    NpzWriter npz_;
+    std::vector<std::string> afferents_, channels_;  // of each afferent of all inputs
+    std::vector<double> x_, y_;                      // m, of each afferent with a position
+    std::vector<std::int64_t> indexes_, labels_;     // of the current segment
+    std::vector<double> times_;                      // of the current segment, s
+    std::int64_t segments_ = 0;                      // completed segments
+
+    Result<void> add(const Input& input, std::span<const Spike> spikes) override {
+        const auto since_start = input.clock_since_start();
+        for (const auto& s : spikes) {
+            indexes_.push_back(std::llround(since_start.time(s.step, s.offset) * ticks_per_second));
+            labels_.push_back(s.afferent_index);
+            times_.push_back(input.clock.time(s.step, s.offset));
+        }
+        return {};
     }
-    return {};
-}
 
-Result<void> NpzFile::block(const Input& input, const RunBlock& block) {
-    const auto& clock = input.source.clock();
-    auto since_start = clock;
-    since_start.t0 = 0;
-    for (const auto& s : block.spikes) {
-        indexes_.push_back(std::llround(since_start.time(s.step, s.offset) * ticks_per_second));
-        labels_.push_back(s.afferent_index);
-        times_.push_back(clock.time(s.step, s.offset));
+public:
+    using SpikeFileSink::SpikeFileSink;
+    Result<void> open() { return create("spikes.npz"); }
+    Result<void> begin(const Input& input) override {
+        for (std::size_t u = 0; u < input.population.size(); ++u) {
+            afferents_.push_back(input.population.afferent_name(u));
+            channels_.push_back(input.population.channel_name(u));
+            if (const auto position = input.population.position(u)) x_.push_back(position->x), y_.push_back(position->y);
+        }
+        return {};
     }
-    return {};
-}
+    Result<void> end(const Input& input, std::int64_t, std::span<const Spike> last) override {
+        (void)add(input, last);  // never an error
+        npz_.add(fmt::format("spike_indexes_seg{}", segments_), indexes_);
+        npz_.add(fmt::format("spike_labels_seg{}", segments_), labels_);
+        npz_.add(fmt::format("spike_times_seg{}", segments_), times_);
+        ++segments_;
+        indexes_.clear(), labels_.clear(), times_.clear();
+        return {};
+    }
+    Result<void> commit() override {
+        std::vector<std::int64_t> ids(afferents_.size());
+        std::iota(ids.begin(), ids.end(), std::int64_t{0});
+        npz_.add("unit_ids", ids);
+        npz_.add("num_segment", std::vector{segments_});
+        npz_.add("sampling_frequency", std::vector{ticks_per_second});
+        npz_.add("unit_afferent", afferents_);
+        npz_.add("unit_channel", channels_);
+        if (!x_.empty()) npz_.add("unit_x_m", x_), npz_.add("unit_y_m", y_);
+        const auto bytes = npz_.bytes();
+        if (!bytes) return bytes.error();
+        if (auto ok = files_[0].write(*bytes); !ok) return ok;
+        return FileSink::commit();
+    }
+};
 
-Result<void> NpzFile::end(const Input&, std::int64_t) {
-    npz_.add(fmt::format("spike_indexes_seg{}", segments_), indexes_);
-    npz_.add(fmt::format("spike_labels_seg{}", segments_), labels_);
-    npz_.add(fmt::format("spike_times_seg{}", segments_), times_);
-    ++segments_;
-    indexes_.clear(), labels_.clear(), times_.clear();
-    return {};
-}
+}  // namespace
 
-Result<void> NpzFile::commit() {
-    std::vector<std::int64_t> ids(afferents_.size());
-    std::iota(ids.begin(), ids.end(), std::int64_t{0});
-    npz_.add("unit_ids", ids);
-    npz_.add("num_segment", std::vector{segments_});
-    npz_.add("sampling_frequency", std::vector{ticks_per_second});
-    npz_.add("unit_afferent", afferents_);
-    npz_.add("unit_channel", channels_);
-    const auto bytes = npz_.bytes();
-    if (!bytes) return bytes.error();
-    if (auto ok = file_.write(*bytes); !ok) return ok;
-    return file_.commit();
-}
+const OutputFormat npz_format = {
+    .option = "--npz",
+    .value_name = "",
+    .help = "with --out, also write spikes.npz: exact times for NumPy and SpikeInterface",
+    .names = {"spikes.npz"},
+    .make = [](const OutputRequest& request) { return make_file_sink<NpzFile>(request.directory); },
+};
 
 }  // namespace corpuscle

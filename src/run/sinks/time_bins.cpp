@@ -27,7 +27,7 @@ void TimeBins::end_bin(double to) {
     if (std::exchange(lines_taken_, false)) text_.clear();
     const double from = static_cast<double>(current_bin_) * bin_width_;
     for (std::size_t g = 0; g < counts_.size(); ++g)
-        fmt::format_to(std::back_inserter(text_), "{},{:.9f},{:.9f},{},{:.6g}\n", groups_[g].name, t0_ + from, t0_ + to, counts_[g],
+        fmt::format_to(std::back_inserter(text_), "{},{:.9f},{:.9f},{},{:.6g}\n", groups_[g].names, t0_ + from, t0_ + to, counts_[g],
                        static_cast<double>(counts_[g]) / (to - from) / groups_[g].afferents);
     counts_.assign(counts_.size(), 0);
     ++current_bin_;

@@ -8,6 +8,7 @@
 
 #include "core/error.hpp"
 #include "core/spike.hpp"
+#include "run/population.hpp"
 
 namespace corpuscle {
 
@@ -15,11 +16,7 @@ namespace corpuscle {
 /// A spike closer to an edge than 1e-9 bin widths counts as at the edge.
 class TimeBins {
 public:
-    /// The afferents whose spikes are counted together: one line for each bin.
-    struct Group {
-        std::string name;      ///< the first columns of the line, as CSV
-        double afferents = 1;  ///< number of afferents, over which the rate is averaged
-    };
+    using Group = BinGroups::Group;
 
     /// Returns an error if bins are shorter than a hundredth of the sample period, because almost all of them would be empty. `bin_width`
     /// in s.

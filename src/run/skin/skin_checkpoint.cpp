@@ -262,10 +262,8 @@ Result<void> SkinCheckpoint::check_spikes(std::uint64_t checksum) {
 Result<void> SkinCheckpoint::add_force(const SkinForce::Block& block, std::int64_t first) {
     const auto steps = block.total_force.size();
     force_sum_.add(block.total_force.data(), block.total_force.size_bytes());
-    const auto add_site = [&](std::size_t site) { force_sum_.add(block.force.data + site * block.force.stride, steps * sizeof(double)); };
-    for (std::size_t s = 0; block.force.reads_all && s < skin_.sites(); ++s) add_site(s);
-    for (const auto s : block.force.touched)
-        if (!block.force.reads_all) add_site(s);
+    block.force.for_each_site(
+        skin_.sites(), [&](std::size_t site) { force_sum_.add(block.force.data + site * block.force.stride, steps * sizeof(double)); });
     const auto end = first + static_cast<std::int64_t>(steps);
     // A checkpoint is made between two blocks. In the block that ends there, the force so far must have the same checksum.
     if (resumed_samples_ <= first || resumed_samples_ > end) return {};

@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "core/checksum.hpp"
-#include "run/skin/skin_run.hpp"
+#include "run/skin/skin_force.hpp"
 
 namespace corpuscle {
 
@@ -17,20 +17,28 @@ namespace corpuscle {
 /// with "contents of", and the value is its checksum.
 using RunFingerprint = std::vector<std::pair<std::string, std::string>>;
 
-class SkinCheckpoint final : public SkinRunLog {
+class SkinCheckpoint {
 public:
     /// For a skin that has not started. If `file` exists, resumes the skin from it. Returns an error, and leaves the files unchanged, if
     /// the checkpoint is of another skin or run (the error names the difference), is damaged, is in use by another process, or is not a
     /// checkpoint.
     static Result<std::unique_ptr<SkinCheckpoint>> open(const std::string& file, Skin&, RunFingerprint);
-    ~SkinCheckpoint() override;
+    ~SkinCheckpoint();
+    SkinCheckpoint(const SkinCheckpoint&) = delete;
+    SkinCheckpoint& operator=(const SkinCheckpoint&) = delete;
 
-    std::int64_t resumed_samples() const override { return resumed_samples_; }
-    Result<void> add_force(const SkinForce::Block&, std::int64_t first) override;
-    Result<void> replay(std::int64_t end, std::vector<Spike>&) override;
-    Result<void> append(std::span<const Spike>) override;
-    Result<void> flush() override;
-    Result<void> finish(std::int64_t samples) override;
+    std::int64_t resumed_samples() const { return resumed_samples_; }  ///< samples that an earlier run has simulated; 0: it is not resumed
+    /// Adds the force of the next block, which begins with sample `first`. Returns an error if the force so far differs from that of
+    /// the earlier run, at the latest in the block in which the earlier run ended.
+    Result<void> add_force(const SkinForce::Block&, std::int64_t first);
+    /// For a block that an earlier run has simulated: appends its spikes. `end` is the index of the sample after the block.
+    Result<void> replay(std::int64_t end, std::vector<Spike>&);
+    /// Adds the spikes of a newly simulated block.
+    Result<void> append(std::span<const Spike>);
+    /// Writes everything to disk, so that a run can be resumed after the last block.
+    Result<void> flush();
+    /// Call at the end of the force. `samples`: its number of samples. Returns an error if an earlier run has simulated more.
+    Result<void> finish(std::int64_t samples);
     /// Removes both files. Call it when the run is complete and its outputs have their final names.
     void remove_files();
 

@@ -3,7 +3,7 @@
 #include <numeric>
 
 #include "core/parameter_override.hpp"
-#include "run/skin/skin_run.hpp"
+#include "run/skin/skin_force.hpp"
 #include "skin/plan/site_map.hpp"
 
 namespace corpuscle {
@@ -21,6 +21,7 @@ class PressedForce final : public SkinForce {
 public:
     PressedForce(ForceSource& source, Contact& contact) : source_(source), contact_(contact) {}
     double progress() const override { return source_.progress(); }
+    RecordingQuality quality() const override { return source_.quality(); }
 
     Result<Block> next() override {
         frames_.count = 0;
@@ -47,6 +48,7 @@ public:
     SitesForce(ForceSource& source, std::vector<std::uint32_t> sites, std::size_t all_sites)
         : source_(source), sites_(std::move(sites)), frames_(sites_.size(), site_block), force_(all_sites * site_block) {}
     double progress() const override { return source_.progress(); }
+    RecordingQuality quality() const override { return source_.quality(); }
 
     Result<Block> next() override {
         frames_.count = 0;

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <chrono>
 #include <cstring>
-#include <deque>
 #include <thread>
 
 namespace corpuscle {
@@ -49,72 +48,6 @@ void unpack_into(const std::string& text, std::vector<Spike>& spikes) {
 std::string pack_error(const Error& error) { return std::string(1, worker_error) + static_cast<char>(error.code) + error.text(); }
 
 void pause_briefly() { std::this_thread::sleep_for(std::chrono::microseconds(20)); }
-
-class DistributedSimulator final : public SkinSimulator {
-    Ranks& ranks_;
-    Skin& own_;
-    ThreadPool& pool_;
-    std::vector<std::deque<std::string>> received_;  // messages of each rank that were received but not yet read
-    SkinStats workers_stats_;                        // sums over the workers
-
-    /// Waits for the next message of a rank. If it is an error, returns this error.
-    Result<std::string> next_from(int rank) {
-        auto& queue = received_[static_cast<std::size_t>(rank)];
-        while (queue.empty()) {
-            if (auto m = ranks_.receive())
-                received_[static_cast<std::size_t>(m->from)].push_back(std::move(m->message));
-            else
-                pause_briefly();
-        }
-        auto text = std::move(queue.front());
-        queue.pop_front();
-        if (text[0] == worker_error) return Error{static_cast<ErrorCode>(static_cast<unsigned char>(text[1])), text.substr(2)};
-        return text;
-    }
-
-    /// Adds the spikes of all workers for one block, and sorts all spikes.
-    Result<void> gather(std::vector<Spike>& spikes) {
-        for (int rank = 1; rank < ranks_.size(); ++rank) {
-            auto text = next_from(rank);
-            if (!text) return text.error();
-            unpack_into(*text, spikes);
-            ranks_.send(rank, std::string(1, acknowledged));
-        }
-        (void)ranks_.unsent();  // frees the acknowledgements that have been sent
-        std::sort(spikes.begin(), spikes.end());
-        return {};
-    }
-
-public:
-    DistributedSimulator(Ranks& ranks, Skin& own, ThreadPool& pool)
-        : ranks_(ranks), own_(own), pool_(pool), received_(static_cast<std::size_t>(ranks.size())) {}
-
-    Result<void> respond(const SiteForce& force, std::size_t steps, std::vector<Spike>& spikes) override {
-        if (auto ok = own_.respond(force, steps, spikes, pool_); !ok) return ok;
-        return gather(spikes);
-    }
-    Result<void> flush(std::vector<Spike>& spikes) override {
-        own_.finish(spikes);
-        if (auto ok = gather(spikes); !ok) return ok;
-        for (int rank = 1; rank < ranks_.size(); ++rank) {
-            auto text = next_from(rank);
-            if (!text) return text.error();
-            SkinStats worker;
-            std::memcpy(&worker, text->data() + 1, std::min(sizeof worker, text->size() - 1));
-            workers_stats_.afferent_steps += worker.afferent_steps, workers_stats_.skipped_steps += worker.skipped_steps,
-                workers_stats_.spikes += worker.spikes;
-            workers_stats_.truncated_steps += worker.truncated_steps;
-        }
-        return {};
-    }
-    SkinStats stats() const override {
-        auto all = own_.stats();  // `steps` is the same for all ranks
-        all.afferent_steps += workers_stats_.afferent_steps, all.skipped_steps += workers_stats_.skipped_steps,
-            all.spikes += workers_stats_.spikes;
-        all.truncated_steps += workers_stats_.truncated_steps;
-        return all;
-    }
-};
 
 /// A worker's connection to the coordinator. Counts the messages that are not acknowledged yet.
 class WorkerChannel {
@@ -164,8 +97,44 @@ Result<bool> simulate_rank_afferents(WorkerChannel& channel, SkinForce& force, S
 
 }  // namespace
 
-std::unique_ptr<SkinSimulator> distributed_skin_simulator(Ranks& ranks, Skin& own, ThreadPool& pool) {
-    return std::make_unique<DistributedSimulator>(ranks, own, pool);
+/// Waits for the next message of a rank. If it is an error, returns this error.
+Result<std::string> SkinWorkers::next_from(int rank) {
+    auto& queue = received_[static_cast<std::size_t>(rank)];
+    while (queue.empty()) {
+        if (auto m = ranks_.receive())
+            received_[static_cast<std::size_t>(m->from)].push_back(std::move(m->message));
+        else
+            pause_briefly();
+    }
+    auto text = std::move(queue.front());
+    queue.pop_front();
+    if (text[0] == worker_error) return Error{static_cast<ErrorCode>(static_cast<unsigned char>(text[1])), text.substr(2)};
+    return text;
+}
+
+Result<void> SkinWorkers::gather(std::vector<Spike>& spikes) {
+    for (int rank = 1; rank < ranks_.size(); ++rank) {
+        auto text = next_from(rank);
+        if (!text) return text.error();
+        unpack_into(*text, spikes);
+        ranks_.send(rank, std::string(1, acknowledged));
+    }
+    (void)ranks_.unsent();  // frees the acknowledgements that have been sent
+    std::sort(spikes.begin(), spikes.end());
+    return {};
+}
+
+Result<void> SkinWorkers::finish(std::vector<Spike>& spikes, SkinStats& stats) {
+    if (auto ok = gather(spikes); !ok) return ok;
+    for (int rank = 1; rank < ranks_.size(); ++rank) {
+        auto text = next_from(rank);
+        if (!text) return text.error();
+        SkinStats worker;  // its `steps` are the same for all ranks
+        std::memcpy(&worker, text->data() + 1, std::min(sizeof worker, text->size() - 1));
+        stats.afferent_steps += worker.afferent_steps, stats.skipped_steps += worker.skipped_steps;
+        stats.spikes += worker.spikes, stats.truncated_steps += worker.truncated_steps;
+    }
+    return {};
 }
 
 void shut_down_skin_workers(Ranks& ranks) {
@@ -177,13 +146,12 @@ void shut_down_skin_workers(Ranks& ranks) {
     ranks.leave(true);
 }
 
-Result<void> run_skin_worker(Ranks& ranks, Result<SkinForce*> force, Skin* skin, ThreadPool& pool) {
+void run_skin_worker(Ranks& ranks, Result<SkinForce*> force, Skin* skin, ThreadPool& pool) {
     WorkerChannel channel(ranks);
     auto done = force ? simulate_rank_afferents(channel, **force, *skin, pool) : Result<bool>(force.error());
     if (!done) (void)channel.send(pack_error(done.error()));
     channel.wait_for_shutdown();
     ranks.leave(true);
-    return {};
 }
 
 }  // namespace corpuscle

@@ -4,7 +4,7 @@
 #include <nlohmann/json_fwd.hpp>
 
 #include "circuit/cost/cost.hpp"
-#include "run/afferent_run.hpp"
+#include "run/run.hpp"
 
 namespace corpuscle {
 

@@ -6,6 +6,7 @@
 #include <nlohmann/json.hpp>
 
 #include "core/version.hpp"
+#include "run/channels/channel_population.hpp"
 #include "run/summary/cost_document.hpp"
 #include "run/summary/json_number.hpp"
 
@@ -128,48 +129,48 @@ Json document_of(const CopySpec& copies) { return {{"per_afferent", copies.count
 std::string column_heading(const MeasureInfo& m) { return std::string(m.title) + (m.unit.empty() ? "" : " (" + std::string(m.unit) + ")"); }
 
 Result<void> RunSummary::begin(const Input& input) {
-    InputSummary summary{input.name, input.source.clock(), 0, {}, input.source.notes(), input.source.metadata(), INFINITY,
-                         -INFINITY,  input.source.phases()};
-    for (std::size_t c = 0; c < input.source.channels().size(); ++c) summary.channels.push_back(input.channel_name(c));
-    summary.sensors = input.source.channels();
-    inputs_.push_back(std::move(summary));
-    since_start_ = input.source.clock();
-    since_start_.t0 = 0;              // times since 1970 would lose precision
+    const auto& afferents = input.on_channels();
+    inputs_.push_back(
+        {input.name, input.clock, 0, afferents.force_names(), input.notes, input.metadata, INFINITY, -INFINITY, input.phases});
+    inputs_.back().sensors = afferents.sensors();
+    since_start_ = input.clock_since_start();
     std::vector<TimeWindow> windows;  // one for each phase; without phases one for the whole input, whose end is set in end()
-    for (const auto& p : inputs_.back().phases) windows.push_back({p.from, p.to, input.source.cycle_frequency()});
-    if (windows.empty()) windows.push_back({.stimulus_frequency = input.source.cycle_frequency()});
-    tally_ = MeasureAccumulator(std::move(windows), input.afferent_count());
+    for (const auto& p : input.phases) windows.push_back({p.from, p.to, input.cycle_frequency});
+    if (windows.empty()) windows.push_back({.stimulus_frequency = input.cycle_frequency});
+    tally_ = MeasureAccumulator(std::move(windows), afferents.size());
     return comparisons_.begin(input);
 }
 
 Result<void> RunSummary::block(const Input& input, const RunBlock& block) {
     auto& summary = inputs_.back();
-    for (const auto& channel : block.force.force)
-        for (std::size_t k = 0; k < block.force.count; ++k)
-            summary.min_force = std::min(summary.min_force, channel[k]), summary.max_force = std::max(summary.max_force, channel[k]);
-    for (const auto& s : block.spikes) tally_.spike(s.afferent_index - input.first_afferent, since_start_.time(s.step, s.offset));
+    for (const auto& channel : block.force)
+        for (const double f : channel)
+            summary.min_force = std::min(summary.min_force, f), summary.max_force = std::max(summary.max_force, f);
+    for (const auto& s : block.spikes) tally_.spike(input.afferent_of(s), since_start_.time(s.step, s.offset));
     return comparisons_.block(input, block);
 }
 
-Result<void> RunSummary::end(const Input& input, std::int64_t samples) {
+Result<void> RunSummary::end(const Input& input, std::int64_t samples, std::span<const Spike> last) {
     auto& summary = inputs_.back();
     summary.samples = samples;
-    summary.quality = input.source.quality();
+    summary.quality = input.quality;
     tally_.set_end(since_start_.time(samples));
-    const auto groups = copy_group_starts(input.plans);  // groups[g] is the first plan of afferent g, groups.back() the number of plans
+    const auto groups =
+        copy_group_starts(input.on_channels().plans());  // groups[g] is the first plan of afferent g, groups.back() the number of plans
     for (std::size_t c = 0; c < summary.channels.size(); ++c)
         for (std::size_t g = 0; g + 1 < groups.size(); ++g)
             for (std::size_t p = 0; p < std::max<std::size_t>(summary.phases.size(), 1); ++p)
                 rows_.push_back(row(input, c, groups[g], groups[g + 1], p));
-    return comparisons_.end(input, samples);
+    return comparisons_.end(input, samples, last);
 }
 
 MeasureRow RunSummary::row(const Input& input, std::size_t channel, std::size_t from, std::size_t to, std::size_t phase) const {
     const auto& summary = inputs_.back();
-    const std::size_t first = channel * input.plans.size();
-    MeasureRow row{base_name(input.plans[from]), summary.channels[channel], summary.phases.empty() ? "all" : summary.phases[phase].name,
+    const auto plans = input.on_channels().plans();
+    const std::size_t first = channel * plans.size();
+    MeasureRow row{base_name(plans[from]), summary.channels[channel], summary.phases.empty() ? "all" : summary.phases[phase].name,
                    tally_.values(first + from, phase)};
-    if (input.plans[from].copy_number == 0) {                                                            // not a copy
+    if (plans[from].copy_number == 0) {                                                                  // not a copy
         if (row.values[measure_index<SpikeCount>] == 1) row.values[measure_index<MeanRate>] = no_value;  // one spike does not define a rate
         return row;
     }

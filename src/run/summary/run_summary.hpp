@@ -8,8 +8,8 @@
 
 #include "measure/measures.hpp"
 #include "model/copies.hpp"
-#include "run/afferent_run.hpp"
 #include "run/compare/implementation_comparison.hpp"
+#include "run/run.hpp"
 
 namespace corpuscle {
 
@@ -46,7 +46,7 @@ nlohmann::ordered_json document_of(std::span<const ParameterDistribution>);
 /// The number of copies of each afferent and their distributions, as a JSON document.
 nlohmann::ordered_json document_of(const CopySpec&);
 
-class RunSummary final : public ResponseSink {
+class RunSummary final : public Sink {
 public:
     struct InputSummary {
         std::string name;
@@ -62,7 +62,7 @@ public:
 
     Result<void> begin(const Input&) override;
     Result<void> block(const Input&, const RunBlock&) override;
-    Result<void> end(const Input&, std::int64_t samples) override;
+    Result<void> end(const Input&, std::int64_t samples, std::span<const Spike> last) override;
 
     /// The rows in order of input, channel, afferent, phase.
     const std::vector<MeasureRow>& rows() const { return rows_; }

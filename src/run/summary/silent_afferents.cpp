@@ -6,6 +6,7 @@
 
 #include "model/catalog.hpp"
 #include "model/copies.hpp"
+#include "run/channels/channel_population.hpp"
 
 namespace corpuscle {
 namespace {
@@ -46,28 +47,28 @@ std::optional<double> factor_to_fire(const AfferentPlan& plan, const SimulationO
 }
 
 Result<void> SilenceDetector::begin(const Input& input) {
-    force_samples_.assign(input.source.channels().size(), {});
+    force_samples_.assign(input.on_channels().channels(), {});
     channel_max_.assign(force_samples_.size(), 0);
-    has_fired_.resize(input.plans.size());
+    has_fired_.resize(input.on_channels().plans().size());
     return {};
 }
 
 Result<void> SilenceDetector::block(const Input& input, const RunBlock& block) {
     const std::size_t max_samples = max_silence_samples / force_samples_.size();
     for (std::size_t c = 0; c < force_samples_.size(); ++c) {
-        const auto* force = block.force.force[c].data();
-        const auto count = std::min(block.force.count, max_samples - std::min(max_samples, force_samples_[c].size()));
+        const auto* force = block.force[c].data();
+        const auto count = std::min(block.steps, max_samples - std::min(max_samples, force_samples_[c].size()));
         force_samples_[c].insert(force_samples_[c].end(), force, force + count);
-        for (std::size_t k = 0; k < block.force.count; ++k) channel_max_[c] = std::max(channel_max_[c], force[k]);
+        for (std::size_t k = 0; k < block.steps; ++k) channel_max_[c] = std::max(channel_max_[c], force[k]);
     }
-    for (const auto& s : block.spikes) has_fired_[(s.afferent_index - input.first_afferent) % input.plans.size()] = 1;
+    for (const auto& s : block.spikes) has_fired_[input.afferent_of(s) % has_fired_.size()] = 1;
     return {};
 }
 
-Result<void> SilenceDetector::end(const Input& input, std::int64_t) {
+Result<void> SilenceDetector::end(const Input& input, std::int64_t, std::span<const Spike>) {
     const auto max = std::max_element(channel_max_.begin(), channel_max_.end());
     if (*max > largest_force_) {
-        largest_force_ = *max, dt_ = input.source.clock().T();
+        largest_force_ = *max, dt_ = input.clock.T();
         largest_force_samples_ = std::move(force_samples_[static_cast<std::size_t>(max - channel_max_.begin())]);
     }
     force_samples_.clear();

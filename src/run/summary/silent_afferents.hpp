@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "run/afferent_run.hpp"
+#include "run/run.hpp"
 
 namespace corpuscle {
 
@@ -27,7 +27,7 @@ struct SilentAfferent {
 
 /// Finds silent afferents, and their factors for the channel with the largest force of the run. Netlists are left out, because the search
 /// would take longer than the run.
-class SilenceDetector final : public ResponseSink {
+class SilenceDetector final : public Sink {
     std::vector<std::vector<double>> force_samples_;  // kept force samples of each channel of the current input, N
     std::vector<double> channel_max_;                 // largest force of each channel of the current input, N
     std::vector<char> has_fired_;                     // of each plan: 1 if it has fired on any channel of any input
@@ -38,7 +38,7 @@ class SilenceDetector final : public ResponseSink {
 public:
     Result<void> begin(const Input&) override;
     Result<void> block(const Input&, const RunBlock&) override;
-    Result<void> end(const Input&, std::int64_t samples) override;
+    Result<void> end(const Input&, std::int64_t samples, std::span<const Spike> last) override;
     /// `afferents`: the plans of the run, including copies.
     std::vector<SilentAfferent> silent_afferents(std::span<const AfferentPlan> afferents, const RespondOptions&) const;
 };

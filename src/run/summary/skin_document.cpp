@@ -114,9 +114,9 @@ std::string millisecond_cell(double x) { return std::isfinite(x) ? fmt::format("
 
 }  // namespace
 
-Json SkinSummary::document(const SkinRunNotes& notes) const {
+Json SkinSummary::document(const RespondOptions& options, const SkinRunNotes& notes) const {
     Json out = {{"program", "corpuscle"}, {"version", version}};
-    out["options"] = {{"method", notes.method == Method::exact ? "exact" : "backward-euler"}, {"sampled", notes.sampled}};
+    out["options"] = {{"method", options.method == Method::exact ? "exact" : "backward-euler"}, {"sampled", options.sampled}};
     out["skin"] = skin_document(*skin_);
     out["input"] = skin_input_document(*this, notes);
     out["classes"] = Json::array(), out["rates"] = Json::array(), out["first_spikes"] = Json::array();
@@ -128,7 +128,7 @@ Json SkinSummary::document(const SkinRunNotes& notes) const {
                                        {"region", skin_->plan.sites.regions[skin_->afferents[f.afferent_index].region]},
                                        {"time_s", f.time}});
     const auto& stats = notes.stats;
-    out["work"] = {{"steps", stats.steps},
+    out["work"] = {{"steps", stats.samples},
                    {"afferent_steps", stats.afferent_steps},
                    {"at_rest", stats.skipped_steps},
                    {"spikes", stats.spikes},

@@ -6,8 +6,8 @@
 
 namespace corpuscle {
 
-Result<void> SkinSilenceDetector::begin(const SkinInput& input) {
-    skin_ = &input.skin, dt_ = input.clock.T(), max_total_force_ = 0;
+Result<void> SkinSilenceDetector::begin(const Input& input) {
+    skin_ = &input.skin(), dt_ = input.clock.T(), max_total_force_ = 0;
     has_fired_.assign(skin_->plan.classes.size(), 0), class_max_force_.assign(has_fired_.size(), 0);
     site_peak_.assign(skin_->plan.sites.size(), 0), force_on_afferent_.assign(skin_->afferents.size(), 0);
     total_force_.clear();
@@ -15,16 +15,13 @@ Result<void> SkinSilenceDetector::begin(const SkinInput& input) {
 }
 
 /// Finds the sites with force in the block, and the largest force of each.
-void SkinSilenceDetector::find_site_peaks(const SkinRunBlock& block) {
+void SkinSilenceDetector::find_site_peaks(const RunBlock& block) {
     touched_sites_.clear();
-    const auto add_site = [&](std::uint32_t site) {
-        const double* force = block.force.data + site * block.force.stride;
+    block.sites.for_each_site(site_peak_.size(), [&](std::size_t site) {
+        const double* force = block.sites.data + site * block.sites.stride;
         const double max = *std::max_element(force, force + block.steps);
-        if (max > 0) site_peak_[site] = max, touched_sites_.push_back(site);
-    };
-    for (std::uint32_t s = 0; block.force.reads_all && s < site_peak_.size(); ++s) add_site(s);
-    for (const auto s : block.force.touched)
-        if (!block.force.reads_all) add_site(s);
+        if (max > 0) site_peak_[site] = max, touched_sites_.push_back(static_cast<std::uint32_t>(site));
+    });
 }
 
 /// The upper bound of the force on the afferents of a class in the current block, N.
@@ -39,20 +36,20 @@ double SkinSilenceDetector::max_force_on_class(std::size_t class_index) {
     return max;
 }
 
-Result<void> SkinSilenceDetector::block(const SkinInput&, const SkinRunBlock& block) {
+Result<void> SkinSilenceDetector::block(const Input&, const RunBlock& block) {
     for (const auto& s : block.spikes) has_fired_[skin_->afferents[s.afferent_index].class_index] = 1;
     if (std::find(has_fired_.begin(), has_fired_.end(), 0) == has_fired_.end() || block.steps == 0) return {};
     const auto remaining = max_silence_samples - std::min(max_silence_samples, total_force_.size());
-    total_force_.insert(total_force_.end(), block.total_force.begin(),
-                        block.total_force.begin() + static_cast<std::ptrdiff_t>(std::min(remaining, block.steps)));
-    max_total_force_ = std::max(max_total_force_, *std::max_element(block.total_force.begin(), block.total_force.end()));
+    const auto total = block.force[0], kept = total.first(std::min(remaining, block.steps));
+    total_force_.insert(total_force_.end(), kept.begin(), kept.end());
+    max_total_force_ = std::max(max_total_force_, *std::max_element(total.begin(), total.end()));
     find_site_peaks(block);
     for (std::size_t c = 0; c < has_fired_.size(); ++c)
         if (!has_fired_[c]) class_max_force_[c] = std::max(class_max_force_[c], max_force_on_class(c));
     return {};
 }
 
-Result<void> SkinSilenceDetector::end(const SkinInput&, std::int64_t, std::span<const Spike> last) {
+Result<void> SkinSilenceDetector::end(const Input&, std::int64_t, std::span<const Spike> last) {
     for (const auto& s : last) has_fired_[skin_->afferents[s.afferent_index].class_index] = 1;
     return {};
 }

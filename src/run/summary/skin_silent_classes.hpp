@@ -5,7 +5,7 @@
 #include <optional>
 #include <vector>
 
-#include "run/skin/skin_run.hpp"
+#include "run/run.hpp"
 
 namespace corpuscle {
 
@@ -18,7 +18,7 @@ struct SilentClass {
 /// Finds the classes in which no afferent fires. The force on an afferent is estimated by an upper bound: for each block, the sum over its
 /// receptive field of weight times the largest force of the site within the block. The bound is exact if all sites have their largest force
 /// at the same time. Memory is proportional to the number of sites and afferents.
-class SkinSilenceDetector final : public SkinSink {
+class SkinSilenceDetector final : public Sink {
     const Innervation* skin_ = nullptr;
     double dt_ = 0;                             // sample period, s
     double max_total_force_ = 0;                // largest total force of all sites, N
@@ -29,13 +29,13 @@ class SkinSilenceDetector final : public SkinSink {
     std::vector<double> force_on_afferent_;     // zeros between calls; the sums while max_force_on_class() computes them, N
     std::vector<double> total_force_;           // total force of all sites at each sample, the first max_silence_samples of them, N
 
-    void find_site_peaks(const SkinRunBlock&);
+    void find_site_peaks(const RunBlock&);
     double max_force_on_class(std::size_t class_index);
 
 public:
-    Result<void> begin(const SkinInput&) override;
-    Result<void> block(const SkinInput&, const SkinRunBlock&) override;
-    Result<void> end(const SkinInput&, std::int64_t samples, std::span<const Spike> last) override;
+    Result<void> begin(const Input&) override;
+    Result<void> block(const Input&, const RunBlock&) override;
+    Result<void> end(const Input&, std::int64_t samples, std::span<const Spike> last) override;
     /// Valid after end(). The arguments are the options of the run, for the search of the factor.
     std::vector<SilentClass> silent_classes(Method, bool sampled) const;
 };

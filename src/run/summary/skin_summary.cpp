@@ -31,10 +31,10 @@ double median_of(std::vector<double>& values) {
 
 }  // namespace
 
-Result<void> SkinSummary::begin(const SkinInput& input) {
-    skin_ = &input.skin;
-    name_ = input.name, description_ = input.description, clock_ = since_start_ = input.clock, phases_ = input.phases;
-    since_start_.t0 = 0;  // times since 1970 would lose precision
+Result<void> SkinSummary::begin(const Input& input) {
+    skin_ = &input.skin();
+    name_ = input.name, description_ = input.description, clock_ = input.clock, phases_ = input.phases;
+    since_start_ = input.clock_since_start();
     const auto afferents = skin_->afferents.size();
     if (phases_.size() * afferents > max_phase_counts) phases_.clear();
     samples_ = all_spikes_ = 0, min_force_ = max_force_ = 0, touch_start_ = no_value;
@@ -56,15 +56,15 @@ std::size_t SkinSummary::phase_of(double t) const {
 
 /// True if the site where the afferent has its largest weight has force at this sample, counted from the start of the force. The sample
 /// must be in the block.
-bool SkinSummary::is_touched(const SkinRunBlock& block, std::size_t afferent_index, std::int64_t sample) const {
+bool SkinSummary::is_touched(const RunBlock& block, std::size_t afferent_index, std::int64_t sample) const {
     const auto site = main_site_[afferent_index];
-    const auto& [data, stride, touched, reads_all] = block.force;
+    const auto& [data, stride, touched, reads_all] = block.sites;
     if (!reads_all && !std::binary_search(touched.begin(), touched.end(), site)) return false;
     return data[site * stride + static_cast<std::size_t>(sample - block.first_sample)] > 0;
 }
 
 /// Counts spikes. `block`: the block in which they arrive; null if they arrive after the force has ended.
-void SkinSummary::count_spikes(std::span<const Spike> spikes, const SkinRunBlock* block) {
+void SkinSummary::count_spikes(std::span<const Spike> spikes, const RunBlock* block) {
     for (const auto& s : spikes) {
         const double t = since_start_.time(s.step, s.offset);
         const auto phase = phase_of(t);
@@ -79,25 +79,22 @@ void SkinSummary::count_spikes(std::span<const Spike> spikes, const SkinRunBlock
 }
 
 /// Splits the block at the edges of phases, and counts the samples with force of each site in each phase.
-void SkinSummary::count_touched_samples(const SkinRunBlock& block) {
+void SkinSummary::count_touched_samples(const RunBlock& block) {
     const auto sites = skin_->plan.sites.size();
     const auto time = [&](std::size_t k) { return since_start_.time(block.first_sample + static_cast<std::int64_t>(k)); };
     for (std::size_t from = 0, to = 0; from < block.steps; from = to) {
         const auto phase = phase_of(time(from));
         while (to < block.steps && phase_of(time(to)) == phase) ++to;
-        const auto count = [&](std::size_t s) {
-            const double* force = block.force.data + s * block.force.stride;
+        block.sites.for_each_site(sites, [&](std::size_t s) {
+            const double* force = block.sites.data + s * block.sites.stride;
             site_touched_samples_[phase * sites + s] += std::count_if(force + from, force + to, [](double f) { return f > 0; });
-        };
-        for (std::size_t s = 0; block.force.reads_all && s < sites; ++s) count(s);
-        for (const auto s : block.force.touched)
-            if (!block.force.reads_all) count(s);
+        });
     }
 }
 
-Result<void> SkinSummary::block(const SkinInput&, const SkinRunBlock& block) {
+Result<void> SkinSummary::block(const Input&, const RunBlock& block) {
     for (std::size_t k = 0; k < block.steps; ++k) {
-        const double f = block.total_force[k];
+        const double f = block.force[0][k];
         if (block.first_sample == 0 && k == 0) min_force_ = max_force_ = f;
         min_force_ = std::min(min_force_, f), max_force_ = std::max(max_force_, f);
         if (f > 0 && std::isnan(touch_start_)) touch_start_ = since_start_.time(block.first_sample + static_cast<std::int64_t>(k));
@@ -165,7 +162,7 @@ void SkinSummary::add_rows(std::size_t class_index, std::size_t region, const st
     for (std::size_t p = 0; p < phases_.size(); ++p) rows_.push_back(row(class_index, region, p, afferents));
 }
 
-Result<void> SkinSummary::end(const SkinInput&, std::int64_t samples, std::span<const Spike> last) {
+Result<void> SkinSummary::end(const Input&, std::int64_t samples, std::span<const Spike> last) {
     count_spikes(last, nullptr);
     samples_ = samples;
     touched_times_.clear();

@@ -8,19 +8,17 @@
 #include <vector>
 
 #include "measure/measure_base.hpp"
-#include "run/skin/skin_run.hpp"
+#include "run/run.hpp"
 
 namespace corpuscle {
 
-/// The settings of a run and the notes about it, apart from its response.
+/// The work of a run and the notes about it, apart from its response.
 struct SkinRunNotes {
-    Method method = Method::exact;
-    bool sampled = false;                      ///< true: spikes only at sample times
     std::string contact = {};                  ///< description of the contact; empty if a recording gives the force at each site
     std::vector<MetadataEntry> metadata = {};  ///< of the force and of the contact
     std::vector<std::string> notes = {};       ///< about the source, the quality of a recording, and the contact
     std::vector<std::string> warnings = {};    ///< reasons why the response may be wrong
-    SkinStats stats = {};
+    RunStats stats = {};
 };
 
 /// Statistics of a class in one region or in all regions, during one phase or all phases.
@@ -45,7 +43,7 @@ struct SkinSummaryRow {
     }
 };
 
-class SkinSummary final : public SkinSink {
+class SkinSummary final : public Sink {
 public:
     /// If the number of phases times the number of afferents exceeds this, phases are not reported separately.
     static constexpr std::size_t max_phase_counts = std::size_t{1} << 26;
@@ -56,9 +54,9 @@ public:
         double time = no_value;  ///< s, on the clock of the force
     };
 
-    Result<void> begin(const SkinInput&) override;
-    Result<void> block(const SkinInput&, const SkinRunBlock&) override;
-    Result<void> end(const SkinInput&, std::int64_t samples, std::span<const Spike> last) override;
+    Result<void> begin(const Input&) override;
+    Result<void> block(const Input&, const RunBlock&) override;
+    Result<void> end(const Input&, std::int64_t samples, std::span<const Spike> last) override;
 
     /// Valid after end(), as all the following. For each class: all regions together, then region by region if the skin has several. For
     /// each of these: all phases together, then phase by phase.
@@ -89,7 +87,7 @@ public:
     std::pair<std::size_t, double> count_faster_than(std::size_t class_index, double rate) const;
 
     /// The summary as a JSON document: version, options, skin, input, classes, rows, first spikes, work. The same run gives the same bytes.
-    nlohmann::ordered_json document(const SkinRunNotes&) const;
+    nlohmann::ordered_json document(const RespondOptions&, const SkinRunNotes&) const;
     /// The summary as a table for a terminal: the headings, a row for each class, then a row for each class and phase, then one for each
     /// class and region in which afferents fired.
     std::vector<std::vector<std::string>> table() const;
@@ -112,12 +110,12 @@ private:
     std::vector<std::int64_t> spikes_while_touched_;  // number of spikes, [phase][class][region]
     std::vector<SkinSummaryRow> rows_;
 
-    void count_spikes(std::span<const Spike>, const SkinRunBlock*);
-    bool is_touched(const SkinRunBlock&, std::size_t afferent_index, std::int64_t sample) const;
+    void count_spikes(std::span<const Spike>, const RunBlock*);
+    bool is_touched(const RunBlock&, std::size_t afferent_index, std::int64_t sample) const;
     /// Index in spikes_while_touched_ of the phase, and of the class and region of an afferent.
     std::size_t group_index(const SkinAfferent&, std::size_t phase) const;
     std::int64_t count_spikes_while_touched(const SkinSummaryRow&) const;
-    void count_touched_samples(const SkinRunBlock&);
+    void count_touched_samples(const RunBlock&);
     std::size_t phase_of(double t) const;
     std::int64_t touched_samples(std::size_t afferent_index, std::size_t phase) const;
     /// Adds the row over all phases and the row of each phase.

@@ -1,0 +1,81 @@
+// The results of a run of afferents on channels as text for a terminal.
+
+#include <fmt/format.h>
+#include <algorithm>
+#include <cmath>
+#include <map>
+
+#include "cli/output/implementations_table.hpp"
+#include "cli/output/printable.hpp"
+#include "cli/output/terminal.hpp"
+#include "cli/respond/channel_run.hpp"
+#include "core/text/quantity.hpp"
+
+namespace corpuscle {
+namespace {
+
+constexpr std::size_t max_rate_rows = 60;              // of the printed table of measures
+constexpr std::size_t max_rate_rows_with_silent = 24;  // longer tables omit afferents without spikes
+
+std::string cell(const MeasureInfo& m, double x) { return std::isnan(x) ? "-" : fmt::format("{:.{}f}", x, m.decimals); }
+
+/// The cell of measure m in a row: the value of one afferent or, for copies, mean and standard deviation with at least one decimal.
+std::string cell(const MeasureRow& row, std::size_t m) {
+    if (row.copy_statistics.empty()) return cell(measures[m], row.values[m]);
+    const int decimals = std::max(measures[m].decimals, 1);
+    const double mean = row.copy_statistics[m].mean(), deviation = row.copy_statistics[m].standard_deviation();
+    if (std::isnan(mean)) return "-";
+    return fmt::format("{:.{}f}", mean, decimals) + (std::isnan(deviation) ? "" : fmt::format(" +- {:.{}f}", deviation, decimals));
+}
+
+/// One line for each input. It shows sample rate, duration and range of force, so that the user notices a wrong unit or rate.
+std::string inputs_table(const RunSummary& summary) {
+    std::string text;
+    for (const auto& i : summary.inputs())
+        text += fmt::format("{}: {}{} samples at {}, {}, {:.4g} to {:.4g} N\n", printable(i.name),
+                            i.channels.size() == 1 ? "" : fmt::format("{} channels, ", i.channels.size()), i.samples,
+                            format_quantity(i.clock.rate(), "Hz"), format_quantity(static_cast<double>(i.samples) * i.clock.T(), "s"),
+                            i.min_force + 0.0, i.max_force + 0.0);  // no -0
+    return text;
+}
+
+std::string copies_line(const CopySpec& spec) {
+    if (spec.count == 0) return "";
+    return spec.count == 1
+               ? "1 copy of each afferent\n"
+               : fmt::format("{} copies of each afferent; mean +- standard deviation over copies that have a value\n", spec.count);
+}
+
+/// The table of rates and other measures. A long table omits afferents that did not fire.
+std::string rate_table(const RunSummary& summary) {
+    std::map<std::pair<std::string, std::string>, double> spikes;  // by afferent and channel, over all phases
+    for (const auto& r : summary.rows()) spikes[{r.afferent, r.channel}] += r.values[measure_index<SpikeCount>];
+    const bool shows_silent = summary.rows().size() <= max_rate_rows_with_silent;
+    std::vector<std::vector<std::string>> rows = {{"afferent", "channel", "phase"}};
+    const auto columns = summary.columns();
+    for (const auto c : columns) rows[0].push_back(column_heading(measures[c]));
+    std::size_t omitted = 0;
+    for (const auto& r : summary.rows()) {
+        if (!shows_silent && spikes[{r.afferent, r.channel}] == 0) continue;
+        if (rows.size() > max_rate_rows) {
+            ++omitted;
+            continue;
+        }
+        rows.push_back({r.afferent, r.channel, r.phase});
+        for (const auto c : columns) rows.back().push_back(cell(r, c));
+    }
+    auto text = format_table(rows);
+    if (omitted > 0) text += fmt::format("... and {} more rows; --out writes all of them to summary.json\n", omitted);
+    const auto silent = std::count_if(spikes.begin(), spikes.end(), [](const auto& s) { return s.second == 0; });
+    if (!shows_silent && silent > 0)
+        text += fmt::format("Not shown: {} of {} afferents without spikes (counted once per channel).\n", silent, spikes.size());
+    return text;
+}
+
+}  // namespace
+
+std::string ChannelRun::table() const {
+    return inputs_table(summary_) + copies_line(job_.copy_spec) + rate_table(summary_) + implementations_table(summary_.comparisons());
+}
+
+}  // namespace corpuscle

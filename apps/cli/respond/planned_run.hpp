@@ -1,0 +1,48 @@
+#pragma once
+// A run of respond, planned from the arguments but not started: afferents on channels (channel_run.hpp) or a skin (skin_run.hpp).
+
+#include <nlohmann/json_fwd.hpp>
+
+#include "cli/verbs.hpp"
+#include "core/parameter_override.hpp"
+#include "run/run.hpp"
+#include "run/sinks.hpp"
+
+namespace corpuscle {
+
+class PlannedRun {
+public:
+    virtual ~PlannedRun() = default;
+    /// What the output formats need to know of the run. `directory` and `options` are set by the caller.
+    virtual OutputRequest output_request() const = 0;
+    /// The sink of the report page. From then on, the page is part of the run.
+    virtual Sink& start_report() = 0;
+    /// The simulators of all inputs. Call it once.
+    virtual Result<std::vector<std::unique_ptr<BlockSimulator>>> simulators() = 0;
+    /// The summaries, which precede all other sinks.
+    virtual std::vector<Sink*> summaries() = 0;
+    virtual const RespondOptions& options() const = 0;
+    /// Explains how to continue after an interruption.
+    virtual Error interruption(Error error) const { return error; }
+
+    // The following are called after the run, in this order.
+    /// Collects the notes and warnings of the run, and prints them.
+    virtual void collect_warnings(const RunStats&) = 0;
+    /// summary.json, without its list of files.
+    virtual nlohmann::ordered_json document(const RunStats&) = 0;
+    /// The report page. `document`: of this run.
+    virtual std::string page(const nlohmann::ordered_json& document) const = 0;
+    /// Called when all outputs have their final names.
+    virtual void remove_checkpoint() {}
+    /// The result as text for a terminal.
+    virtual std::string table() const = 0;
+    /// Success, or the error of a run that is complete but not correct.
+    virtual Result<void> verdict(const RunStats&) const { return {}; }
+};
+
+/// The settings of --set.
+Result<std::vector<ParameterOverride>> parse_overrides(const std::vector<std::string>& settings);
+/// Reads the options of the simulation.
+Result<void> read_run_options(RespondOptions&, const RespondArguments&);
+
+}  // namespace corpuscle

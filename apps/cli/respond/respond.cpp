@@ -1,0 +1,111 @@
+// corpuscle respond: plans a run from the arguments, opens its outputs, simulates it, and writes and prints the result.
+
+#include <fmt/format.h>
+#include <algorithm>
+#include <nlohmann/json.hpp>
+
+#include "cli/arguments/netlist_arguments.hpp"
+#include "cli/output/printable.hpp"
+#include "cli/output/terminal.hpp"
+#include "cli/respond/channel_run.hpp"
+#include "cli/respond/run_outputs.hpp"
+#include "cli/respond/skin_run.hpp"
+#include "cli/respond/spike_times.hpp"
+#include "run/population_exceptions.hpp"
+
+namespace corpuscle {
+namespace {
+
+/// Returns an error, with the reason and a remedy, for an option that does not apply to this kind of population.
+Result<void> check_population_options(const RespondArguments& args, const CommonArguments& common) {
+    const auto kind = args.population.empty() ? PopulationKind::channels : PopulationKind::skin;
+    for (const auto& typed : common.typed)
+        if (const auto* exception = find_exception(kind, typed.name)) return exception_error(*exception);
+    return {};
+}
+
+Result<std::unique_ptr<PlannedRun>> plan_run(const RespondArguments& args, const CommonArguments& common, Ranks* ranks) {
+    if (!args.population.empty()) {
+        auto job = plan_skin_job(args);
+        if (!job) return job.error();
+        return std::unique_ptr<PlannedRun>(std::make_unique<SkinRun>(std::move(*job), args, common, ranks));
+    }
+    auto job = plan_channel_job(args, common.quiet);
+    if (!job) return job.error();
+    return std::unique_ptr<PlannedRun>(std::make_unique<ChannelRun>(std::move(*job), common));
+}
+
+/// Simulates the run with a progress bar.
+Result<RunStats> simulate_run(PlannedRun& run, std::span<Sink* const> sinks, std::uint32_t threads, bool quiet) {
+    ThreadPool pool(threads);
+    auto simulators = run.simulators();
+    if (!simulators) return simulators.error();
+    auto options = run.options();
+    options.pool = &pool;
+    Progress progress(quiet);
+    options.should_continue = [&](double fraction) { return progress.update(fraction), !interrupted(); };
+    auto stats = corpuscle::run(std::move(*simulators), sinks, options);
+    return stats || stats.error().code != ErrorCode::interrupted ? std::move(stats) : run.interruption(stats.error());
+}
+
+void print_result(const PlannedRun& run, const RunOutputs& outputs, nlohmann::ordered_json document, const SpikeTimes& times,
+                  const CommonArguments& common) {
+    if (common.json && times.is_over_limit())
+        print_warning(fmt::format("{}: more than {} million spikes, which are too many for --json; --out DIR writes them to spikes.csv",
+                                  times.input_name(), SpikeTimes::max_spikes / 1'000'000));
+    if (common.json) {
+        document["spikes"] = times.document();
+        fmt::print("{}\n", json_text(document));
+    } else if (!common.quiet) {
+        print_text(run.table() + outputs.written_text());
+    }
+}
+
+Result<void> respond_with(const RespondArguments& args, const CommonArguments& common, Ranks* ranks) {
+    if (auto ok = check_population_options(args, common); !ok) return ok;
+    const auto planned = plan_run(args, common, ranks);
+    if (!planned) return planned.error();
+    PlannedRun& run = **planned;
+    RunOutputs outputs;
+    if (auto ok = outputs.open(args, run, common.overwrite); !ok) return ok;
+    SpikeTimes times;
+    auto sinks = run.summaries();
+    outputs.add_sinks(sinks);
+    if (common.json) sinks.push_back(&times);
+    const auto stats = simulate_run(run, sinks, ranks ? std::max(1U, args.threads) : args.threads, common.quiet);
+    if (!stats) return stats.error();
+    run.collect_warnings(*stats);
+    auto document = run.document(*stats);
+    document["files"] = outputs.file_names();
+    if (auto ok = outputs.commit(run, document); !ok) return ok;
+    run.remove_checkpoint();
+    print_result(run, outputs, std::move(document), times, common);
+    return run.verdict(*stats);
+}
+
+/// With --probe, the probes are recorded in probes.csv or on the report page.
+Result<void> request_probes(RespondArguments& args) {
+    if (args.netlists.probes.empty()) return {};
+    if (args.out.empty() && !args.has_report)
+        return bad_usage(fmt::format("{} needs --out DIR or --report", first_netlist_option({{}, {}, {}, {}, args.netlists.probes})));
+    if (!args.out.empty()) args.outputs["--probe-files"];
+    return {};
+}
+
+}  // namespace
+
+int respond(const RespondArguments& given, const CommonArguments& common) {
+    catch_interrupt();
+    auto args = given;
+    if (auto ok = request_probes(args); !ok) return report_error(ok.error());
+    const bool has_ranks = !args.population.empty() && Ranks::are_started();
+    auto ranks = has_ranks ? Ranks::join() : Result<std::unique_ptr<Ranks>>(nullptr);
+    if (!ranks) return Ranks::reports_errors() ? report_error(ranks.error()) : static_cast<int>(ranks.error().code);
+    auto* const group = *ranks && (*ranks)->size() > 1 ? ranks->get() : nullptr;
+    if (group && group->rank() > 0) return work_for_skin_run(args, *group), 0;
+    const auto done = respond_with(args, common, group);
+    if (group) shut_down_skin_workers(*group);
+    return done ? 0 : report_error(done.error());
+}
+
+}  // namespace corpuscle

@@ -1,0 +1,94 @@
+#include "cli/respond/run_outputs.hpp"
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include "cli/output/output_files.hpp"
+#include "cli/output/printable.hpp"
+#include "run/earlier_outputs.hpp"
+
+namespace corpuscle {
+namespace {
+
+/// The formats that are written in this run. Returns an error if one of them cannot be written.
+Result<std::vector<const OutputFormat*>> wanted_formats(const OutputRequest& request) {
+    std::vector<const OutputFormat*> wanted;
+    for (const auto* format : output_formats) {
+        if (!is_wanted(*format, request)) continue;
+        if (!format->option.empty() && request.directory.empty()) return bad_usage(fmt::format("{} needs --out DIR", format->option));
+        wanted.push_back(format);
+    }
+    for (const auto* format : wanted)
+        if (auto ok = format->check(request); !ok) return ok.error();
+    if (request.directory.empty()) wanted.clear();
+    return wanted;
+}
+
+}  // namespace
+
+/// Removes the files that were not committed. The last one is removed first: the first one may have created the directory, and removes it
+/// if it is empty by then.
+RunOutputs::~RunOutputs() {
+    report_file_.reset(), summary_file_.reset();
+    while (!files_.empty()) files_.pop_back();
+}
+
+Result<void> RunOutputs::open(const RespondArguments& args, PlannedRun& run, bool overwrite) {
+    auto request = run.output_request();
+    request.directory = directory_ = args.out, request.options = args.outputs;
+    const auto formats = wanted_formats(request);
+    if (!formats) return formats.error();
+    std::vector<std::string> names;
+    for (const auto* format : *formats)
+        for (auto& name : file_names_of(*format, request)) names.push_back(std::move(name));
+    if (!directory_.empty()) names.emplace_back("summary.json");
+    const auto page_path = report_page_path(args);
+    OutputCheck check(overwrite);
+    if (auto ok = check_outputs(args.out, std::move(names), page_path, args.checkpoint, check); !ok) return ok;
+    for (const auto* format : *formats) {
+        auto file = format->make(request);
+        if (!file) return file.error();
+        files_.push_back(std::move(*file));
+    }
+    const auto create = [](std::optional<OutputFile>& file, const std::string& path) -> Result<void> {
+        auto created = OutputFile::create(path);
+        if (!created) return created.error();
+        file = std::move(*created);
+        return {};
+    };
+    if (!directory_.empty())
+        if (auto ok = create(summary_file_, directory_ + "/summary.json"); !ok) return ok;
+    if (!page_path) return {};
+    report_ = &run.start_report();
+    return create(report_file_, *page_path);
+}
+
+void RunOutputs::add_sinks(std::vector<Sink*>& sinks) const {
+    for (const auto& file : files_) sinks.push_back(&*file);
+    if (report_) sinks.push_back(report_);
+}
+
+std::vector<std::string> RunOutputs::paths() const {
+    std::vector<std::string> all;
+    for (const auto& file : files_)
+        for (auto& path : file->paths()) all.push_back(std::move(path));
+    if (summary_file_) all.push_back(summary_file_->path());
+    if (report_file_) all.push_back(report_file_->path());
+    return all;
+}
+
+std::vector<std::string> RunOutputs::file_names() const { return file_names_in(directory_, paths()); }
+
+Result<void> RunOutputs::commit(const PlannedRun& run, const nlohmann::ordered_json& document) {
+    if (report_)
+        if (auto ok = write_and_commit(*report_file_, run.page(document)); !ok) return ok;
+    for (auto& file : files_)
+        if (auto ok = file->commit(); !ok) return ok;
+    if (!summary_file_) return {};
+    removed_ = remove_stale_outputs(directory_, file_names());
+    return write_and_commit(*summary_file_, json_text(document) + "\n");
+}
+
+std::string RunOutputs::written_text() const { return written_files_text(paths(), removed_); }
+
+}  // namespace corpuscle

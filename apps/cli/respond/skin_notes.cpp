@@ -1,0 +1,115 @@
+// Notes and warnings about the run of a skin.
+
+#include <fmt/format.h>
+#include <algorithm>
+
+#include "cli/respond/skin_run.hpp"
+#include "core/stimulus/stimuli.hpp"
+#include "io/table/foreign_format.hpp"
+#include "run/summary/nerve_limit.hpp"
+#include "run/summary/silent_afferents.hpp"
+#include "skin/plan/indented_array.hpp"
+
+namespace corpuscle {
+namespace {
+
+/// Collects metadata and notes of force and contact, and warnings about the force and the steps of the run. Call it after the run.
+void add_force_notes(SkinJob& job) {
+    auto& notes = job.notes;
+    notes.metadata = job.source->metadata();
+    notes.notes = job.source->notes();
+    const auto quality = job.source->quality();
+    notes.notes.insert(notes.notes.end(), quality.descriptions.begin(), quality.descriptions.end());
+    notes.warnings.insert(notes.warnings.end(), quality.warnings.begin(), quality.warnings.end());
+    if (!job.skin_note.empty()) notes.notes.push_back(job.skin_note);
+    if (job.contact) {
+        notes.contact = job.contact->description();
+        for (auto& f : job.contact->metadata()) notes.metadata.push_back(std::move(f));
+        for (auto& r : job.contact->notes()) notes.notes.push_back(std::move(r));
+    }
+    for (const auto& c : job.skin->plan.classes)
+        if (job.source->clock().rate() < c.afferent.min_rate * (1 - 1e-9))
+            notes.warnings.push_back(fmt::format("{}: the sampling rate of the force is {:g} Hz; {:g} Hz or more is needed", c.name,
+                                                 job.source->clock().rate(), c.afferent.min_rate));
+    if (notes.stats.truncated_steps > 0)
+        notes.warnings.push_back(
+            fmt::format("{} time steps reached the spike limit of one step and were truncated; increase the sampling rate or the "
+                        "threshold",
+                        notes.stats.truncated_steps));
+}
+
+/// A remedy for a force that is too weak: the setting or option that multiplies it by `factor`; "" if there is none.
+std::string stronger_stimulus_advice(const SkinJob& job, const RespondArguments& args, double factor) {
+    const auto& plan = job.skin->plan;
+    if (job.contact && plan.sites.area > 0 && !(plan.felt_area > 0)) {
+        const auto area = std::max(factor * plan.sites.area, default_felt_area);
+        return fmt::format("set felt_area = \"{} cm2\" in {}: without it an afferent receives the mean force of its sites",
+                           format_rounded_up(1e4 * area), args.population);
+    }
+    const auto metadata = job.source->metadata();
+    if (!is_stimulus(job.source->name())) {
+        // The metadata of a recording begins with the scale of its first channel.
+        const bool has_gain = !metadata.empty() && metadata[0].name.ends_with("newtons per unit");
+        return has_gain
+                   ? fmt::format("try --scale {}{}", format_rounded_up(factor * metadata[0].value), args.unit ? " instead of --unit" : "")
+                   : "";
+    }
+    // The parameter of the stimulus with the largest force is assumed to be its amplitude.
+    const MetadataEntry* largest = nullptr;
+    for (const auto& f : metadata)
+        if (f.unit == "N" && (!largest || f.value > largest->value)) largest = &f;
+    return largest ? fmt::format("try --set {}={}N", largest->name, format_rounded_up(factor * largest->value)) : "";
+}
+
+/// Reports the silent classes: as a warning if all classes are silent, else as a note.
+void add_silence_notes(SkinJob& job, const RespondArguments& args, const std::vector<SilentClass>& silent) {
+    constexpr double margin = 1.25;  // on the factor, because the afferents of a class vary and receive different forces
+    std::vector<std::string> messages;
+    std::optional<double> min_factor;  // of the class that needs the least additional force
+    for (const auto& s : silent) {
+        auto text = job.skin->plan.classes[s.class_index].name;
+        if (!(s.max_force > 0))
+            text += " received no force";
+        else if (!s.factor)
+            text += fmt::format(" received at most {:.2g} N, and would not fire even at a million times this force", s.max_force);
+        else
+            text += fmt::format(" received at most {:.2g} N, and needs about {} N of the same stimulus to fire ({} times as much)",
+                                s.max_force, format_rounded_up(*s.factor * s.max_force), format_rounded_up(*s.factor));
+        messages.push_back(std::move(text));
+        if (s.factor) min_factor = std::min(*s.factor, min_factor.value_or(*s.factor));
+    }
+    if (silent.empty()) return;
+    const bool any_force = std::any_of(silent.begin(), silent.end(), [](const SilentClass& s) { return s.max_force > 0; });
+    const bool all = silent.size() == job.skin->plan.classes.size();
+    auto text = fmt::format("{}: {}", all ? "no afferent fired" : "never fired", fmt::join(messages, "; "));
+    if (all && min_factor)
+        if (const auto remedy = stronger_stimulus_advice(job, args, margin * *min_factor); !remedy.empty()) text += "; " + remedy;
+    if (all && !any_force && job.contact)
+        text += fmt::format(
+            "; --set contact.x=... and --set contact.y=... place the indenter (for positions see afferents.csv, or type: corpuscle list {} "
+            "--sites)",
+            quote_shell_word(args.population));
+    (all ? job.notes.warnings : job.notes.notes).push_back(std::move(text));
+}
+
+/// Warns of classes in which afferents fire faster than a nerve fibre can.
+void add_rate_warnings(SkinJob& job, const SkinSummary& summary) {
+    for (std::size_t c = 0; c < job.skin->plan.classes.size(); ++c) {
+        const auto& plan = job.skin->plan.classes[c].afferent;
+        const auto [count, rate] = summary.count_faster_than(c, max_nerve_rate);
+        if (count > 0)
+            job.notes.warnings.push_back(
+                fmt::format("{} of {} {} afferents: {}", count, job.skin->class_begin[c + 1] - job.skin->class_begin[c],
+                            job.skin->plan.classes[c].name, excessive_rate_warning(rate, plan, job.skin->plan.classes[c].name)));
+    }
+}
+
+}  // namespace
+
+void collect_notes(SkinJob& job, const RespondArguments& args, const SkinSummary& summary, const SkinSilenceDetector& silence) {
+    add_force_notes(job);
+    add_silence_notes(job, args, silence.silent_classes(job.options.method, job.options.sampled));
+    add_rate_warnings(job, summary);
+}
+
+}  // namespace corpuscle

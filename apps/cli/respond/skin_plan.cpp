@@ -1,0 +1,114 @@
+// Plans the run of a skin: reads the options, opens the force, places the afferents and makes the contact.
+
+#include <fmt/format.h>
+#include <algorithm>
+
+#include "cli/arguments/force_argument.hpp"
+#include "cli/arguments/recording_arguments.hpp"
+#include "cli/respond/skin_run.hpp"
+#include "core/text/ascii_text.hpp"
+#include "skin/plan/class_overrides.hpp"
+#include "skin/plan/indented_array.hpp"
+
+namespace corpuscle {
+namespace {
+
+constexpr double skin_rate = 1e3;  // Hz, default sample rate of stimuli
+constexpr const char* default_indenter = "flat";
+
+/// Adds the settings of a touch as overrides. Overrides of the user take precedence.
+void add_touch_overrides(std::vector<ParameterOverride>& overrides, const NamedTouch& touch) {
+    const auto add = [&](std::string_view target, const std::vector<Setting>& settings) {
+        for (const auto& s : settings)
+            if (std::none_of(overrides.begin(), overrides.end(),
+                             [&](const ParameterOverride& entry) { return entry.target == target && entry.parameter == s.name; }))
+                overrides.push_back({std::string(target), std::string(s.name), fmt::format("{}", s.value), true});
+    };
+    add("contact", touch.settings);
+    add(touch.force, touch.force_settings);
+}
+
+/// Returns an error if an override was not applied.
+Result<void> check_skin_overrides(const SkinJob& job) {
+    std::vector<std::string_view> names = {"contact", job.source->name()};
+    for (const auto& c : job.skin->plan.classes) names.push_back(c.name);
+    for (const auto& entry : job.overrides)
+        if (!entry.is_used)
+            return bad_usage(
+                fmt::format("--set {}: there is no '{}' in this run{}", entry.text(), entry.target, did_you_mean(entry.target, names)));
+    return {};
+}
+
+/// Makes job.force: with an indenter if the force has one channel and the skin several sites, otherwise from one channel for each site.
+Result<void> open_contact(SkinJob& job, const RespondArguments& args, const NamedTouch* touch) {
+    const auto& sites = job.skin->plan.sites;
+    const std::size_t channels = job.source->channels().size();
+    if (channels > 1 || sites.size() == 1) {
+        if (!args.contact.empty())
+            return bad_usage(channels > 1 ? fmt::format("--contact {}: {} has {} channels; an indenter needs a force of one channel",
+                                                        args.contact, job.source->name(), channels)
+                                          : fmt::format("--contact {}: the skin has one site; an indenter needs several", args.contact));
+        auto at = match_sites(job.skin->plan, *job.source);
+        if (!at) return at.error();
+        job.force = make_site_force(*job.source, std::move(*at), sites.size());
+        return {};
+    }
+    const std::string indenter = !args.contact.empty() ? args.contact : touch ? std::string(touch->indenter) : default_indenter;
+    auto contact = make_contact(indenter, job.overrides, sites, job.source->clock());
+    if (!contact) return contact.error();
+    job.contact = std::move(*contact);
+    job.force = make_pressed_force(*job.source, *job.contact);
+    return {};
+}
+
+Result<void> open_source(SkinJob& job, const RespondArguments& args, const NamedTouch* touch) {
+    auto options = recording_options(args);
+    if (!options) return options.error();
+    auto source = open_force(touch ? std::string(touch->force) : args.forces[0], *options, job.overrides, skin_rate, args.seed);
+    if (!source) return source.error();
+    job.source = std::move(*source);
+    job.name = touch ? std::string(touch->name) : job.source->name();
+    return {};
+}
+
+/// Loads the population, applies the overrides to its classes, and places its afferents.
+Result<void> place_afferents(SkinJob& job, const RespondArguments& args) {
+    auto plan = load_skin_plan(args.population, job.source->channels());
+    if (!plan) return plan.error();
+    if (auto ok = apply_class_overrides(*plan, job.overrides); !ok) return ok.error();
+    if (args.seed != 0) plan->seed = args.seed;  // 0, the default, keeps the seed of the population file
+    if (job.source->channels().size() == 1) job.skin_note = treat_as_skin(*plan);
+    auto skin = innervate(std::move(*plan));
+    if (!skin) return skin.error();
+    job.skin = std::move(*skin);
+    return {};
+}
+
+}  // namespace
+
+/// The touch of this name, such as "stroke"; null if there is none.
+const NamedTouch* find_touch(const std::string& force) {
+    const auto all = named_touches();
+    const auto at = std::find_if(all.begin(), all.end(), [&](const NamedTouch& t) { return t.name == force; });
+    return at == all.end() ? nullptr : &*at;
+}
+
+Result<SkinJob> plan_skin_job(const RespondArguments& args) {
+    if (args.forces.size() != 1) return bad_usage(fmt::format("--population takes one FORCE, not {}", args.forces.size()));
+    SkinJob job;
+    auto overrides = parse_overrides(args.settings);
+    if (!overrides) return overrides.error();
+    job.overrides = std::move(*overrides);
+    const auto* touch = find_touch(args.forces[0]);
+    if (touch) add_touch_overrides(job.overrides, *touch);
+    if (auto ok = open_source(job, args, touch); !ok) return ok.error();
+    if (auto ok = place_afferents(job, args); !ok) return ok.error();
+    if (auto ok = open_contact(job, args, touch); !ok) return ok.error();
+    if (auto ok = check_skin_overrides(job); !ok) return ok.error();
+    if (!touch)
+        if (auto ok = check_recording_arguments(args); !ok) return ok.error();
+    if (auto ok = read_run_options(job.options, args); !ok) return ok.error();
+    return job;
+}
+
+}  // namespace corpuscle

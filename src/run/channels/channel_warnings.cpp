@@ -1,0 +1,48 @@
+#include "run/channels/channel_warnings.hpp"
+
+#include <fmt/format.h>
+
+namespace corpuscle {
+
+std::vector<std::string> noise_warnings(std::span<const AfferentPlan> afferents, double noise) {
+    std::vector<std::string> warnings;
+    for (const auto& a : afferents)
+        if (noise > 0 && (a.factory || !a.converter.empty()))
+            warnings.push_back(fmt::format("{}: --noise has no effect; {}", a.name,
+                                           a.factory ? "a netlist has no model membrane" : "behind a converter the membrane is digital"));
+    return warnings;
+}
+
+std::vector<std::string> response_warnings(const RunStats& stats) {
+    std::vector<std::string> warnings;
+    if (stats.truncated_steps > 0)
+        warnings.push_back(
+            fmt::format("{} steps had more spikes than one step can hold ({}, or 1 behind a converter) and were "
+                        "truncated; raise the sample rate, or the threshold of the neuron",
+                        stats.truncated_steps, max_spikes_per_step));
+    if (stats.saturated > 0)
+        warnings.push_back(
+            fmt::format("{} samples saturated a transducer or a converter, so the afferent received less force than was "
+                        "applied; lower R_fb or V_FSR, raise V_DD or I_max, or widen F_low to F_high",
+                        stats.saturated));
+    if (stats.overflowed > 0)
+        warnings.push_back(
+            fmt::format("{} results overflowed their words and were set to the largest or smallest value; lower frac, or raise word",
+                        stats.overflowed));
+    warnings.insert(warnings.end(), stats.range_warnings.begin(), stats.range_warnings.end());
+    for (const auto& error : stats.diverged) warnings.push_back("did not converge, and gave no more spikes: " + error.text());
+    return warnings;
+}
+
+std::vector<std::string> rate_warnings(std::span<const std::unique_ptr<ForceSource>> sources, std::span<const AfferentPlan> afferents) {
+    std::vector<std::string> warnings;
+    for (const auto& source : sources)
+        for (const auto& a : afferents)
+            if (const double rate = source->clock().rate(); rate < a.min_rate)
+                warnings.push_back(
+                    fmt::format("{} on {}: the sample rate is {:g} Hz, but this afferent needs {:g} Hz or more; do not trust its spikes",
+                                a.name, source->name(), rate, a.min_rate));
+    return warnings;
+}
+
+}  // namespace corpuscle

@@ -1,0 +1,18 @@
+#pragma once
+// Warnings about a run of afferents on channels.
+
+#include "model/catalog.hpp"
+#include "run/run.hpp"
+
+namespace corpuscle {
+
+/// Warnings about afferents that membrane noise does not affect. `noise` in A.
+std::vector<std::string> noise_warnings(std::span<const AfferentPlan> afferents, double noise);
+
+/// Warnings about the response: truncated steps, saturation, overflow, quantities outside their range, and circuits that did not converge.
+std::vector<std::string> response_warnings(const RunStats&);
+
+/// Warnings, known before the run, about sources with a sample rate that is too low for an afferent.
+std::vector<std::string> rate_warnings(std::span<const std::unique_ptr<ForceSource>> sources, std::span<const AfferentPlan> afferents);
+
+}  // namespace corpuscle

@@ -1,0 +1,72 @@
+#include "run/run.hpp"
+
+#include <algorithm>
+
+#include "run/channels/channel_simulator.hpp"
+
+namespace corpuscle {
+namespace {
+
+/// The work that the inputs of a run share.
+struct RunLoop {
+    std::span<Sink* const> sinks;
+    const RespondOptions& options;
+    ThreadPool& pool;
+    RunStats stats = {};
+
+    /// Calls a function with each sink, until one returns an error.
+    template <class F>
+    Result<void> for_each_sink(const F& f) const {
+        for (auto* sink : sinks)
+            if (auto ok = f(*sink); !ok) return ok;
+        return {};
+    }
+    Result<void> run_input(BlockSimulator& simulator, bool wants_probes);
+};
+
+Result<void> RunLoop::run_input(BlockSimulator& simulator, bool wants_probes) {
+    if (auto ok = simulator.start(options, wants_probes); !ok) return ok;
+    const Input& input = simulator.input();
+    if (auto ok = for_each_sink([&](Sink& sink) { return sink.begin(input); }); !ok) return ok;
+    std::int64_t samples = 0;
+    for (;;) {
+        const auto block = simulator.next(pool, stats);
+        if (!block) return block.error();
+        if (block->steps == 0) break;
+        if (auto ok = for_each_sink([&](Sink& sink) { return sink.block(input, *block); }); !ok) return ok;
+        samples = block->end_sample();
+        const double inputs_done = static_cast<double>(input.index) + simulator.progress();
+        const bool stops = !options.should_continue(inputs_done / static_cast<double>(input.input_count));
+        if (auto ok = simulator.save(stops); !ok) return ok;
+        if (stops) return Error{ErrorCode::interrupted, "interrupted"};
+    }
+    if (samples == 0) return bad_input("no samples of force", {input.name});
+    std::vector<Spike> last;
+    if (auto ok = simulator.finish(last, stats); !ok) return ok;
+    return for_each_sink([&](Sink& sink) { return sink.end(input, samples, last); });
+}
+
+}  // namespace
+
+Input make_input(const Population& population, std::string name, const ForceSource& source) {
+    return {population,      std::move(name),          source.description(), source.clock(),
+            source.phases(), source.cycle_frequency(), source.metadata(),    source.notes()};
+}
+
+Result<RunStats> run(std::vector<std::unique_ptr<BlockSimulator>> inputs, std::span<Sink* const> sinks, const RespondOptions& options) {
+    const bool wants_probes = std::any_of(sinks.begin(), sinks.end(), [](const Sink* sink) { return sink->wants_probes(); });
+    ThreadPool single_thread(1);
+    RunLoop loop{sinks, options, options.pool ? *options.pool : single_thread};
+    for (auto& simulator : inputs) {
+        if (auto ok = loop.run_input(*simulator, wants_probes); !ok) return ok.error();
+        simulator.reset();
+    }
+    return std::move(loop.stats);
+}
+
+Result<RunStats> run(std::span<const std::unique_ptr<ForceSource>> sources, std::span<const AfferentPlan> plans,
+                     std::span<Sink* const> sinks, const RespondOptions& options) {
+    return run(make_channel_simulators(sources, plans), sinks, options);
+}
+
+}  // namespace corpuscle

@@ -1,0 +1,15 @@
+#pragma once
+// All output formats of a run. To add one, write its file in run/sinks/ and add its name to the two lists below.
+
+#include "run/sinks/file_sink.hpp"
+
+namespace corpuscle {
+
+extern const OutputFormat spikes_format, events_format, copies_format, afferents_format, npz_format, psth_format, sound_format,
+    probes_format, vectors_format;
+
+/// In the order in which outputs are listed.
+inline const OutputFormat* const output_formats[] = {&spikes_format, &events_format, &copies_format, &afferents_format, &npz_format,
+                                                     &psth_format,   &sound_format,  &probes_format, &vectors_format};
+
+}  // namespace corpuscle

@@ -1,0 +1,52 @@
+// afferents.csv: one row for each afferent of a skin, with afferent_index (Spike::afferent_index), names, position, conduction delay,
+// number of spikes, first spike (on the clock of the input), the time for which it was touched, and the number of spikes divided by the
+// duration of the force. All values come from the summary, which must precede this file among the sinks.
+
+#include <cmath>
+
+#include "io/spikes/spike_files.hpp"
+#include "run/sinks.hpp"
+#include "run/summary/skin_summary.hpp"
+
+namespace corpuscle {
+namespace {
+
+std::string afferent_row(const SkinSummary& summary, std::size_t u) {
+    const auto& skin = summary.skin();
+    const auto& afferent = skin.afferents[u];
+    const double first = summary.first_times()[u], seconds = summary.seconds();
+    const auto spikes = summary.counts()[u];
+    return fmt::format("{},{},{},{:.3f},{:.3f},{:.6f},{},{},{:.9g},{:.6g}\n", u, quote_csv_field(skin.afferent_name(u)),
+                       quote_csv_field(skin.plan.sites.regions[afferent.region]), 1e3 * afferent.position.x, 1e3 * afferent.position.y,
+                       1e3 * afferent.delay, spikes, std::isnan(first) ? "" : fmt::format("{:.9f}", summary.clock().t0 + first),
+                       summary.touched_times()[u], seconds > 0 ? static_cast<double>(spikes) / seconds : 0);
+}
+
+class AfferentsFile final : public FileSink {
+    const SkinSummary& summary_;
+
+public:
+    AfferentsFile(std::string directory, const SkinSummary& summary) : FileSink(std::move(directory)), summary_(summary) {}
+    Result<void> open() {
+        if (auto ok = create("afferents.csv"); !ok) return ok;
+        return files_[0].write("afferent_index,afferent,region,x_mm,y_mm,delay_ms,spikes,first_spike_s,touched_s,rate_Hz\n");
+    }
+    Result<void> end(const Input& input, std::int64_t, std::span<const Spike>) override {
+        for (std::size_t u = 0; u < input.population.size(); ++u)
+            if (auto ok = files_[0].write(afferent_row(summary_, u)); !ok) return ok;
+        return {};
+    }
+};
+
+}  // namespace
+
+const OutputFormat afferents_format = {
+    .option = "",
+    .value_name = "",
+    .help = "",
+    .names = {"afferents.csv"},
+    .make = [](const OutputRequest& request) { return make_file_sink<AfferentsFile>(request.directory, *request.skin); },
+    .is_written = [](const OutputRequest& request) { return request.skin != nullptr; },
+};
+
+}  // namespace corpuscle

@@ -1,0 +1,79 @@
+// Spikes as events (doc/events.md), in one of several formats: spikes.aer for the first input, spikes-2.aer for the second.
+
+#include <algorithm>
+
+#include "core/text/ascii_text.hpp"
+#include "io/spikes/events.hpp"
+#include "run/sinks.hpp"
+
+namespace corpuscle {
+namespace {
+
+class EventsFile final : public SpikeFileSink {
+    std::string format_name_, extension_;
+    std::unique_ptr<EventFormat> format_;
+    std::string bytes_;  // of the current block
+
+    Result<void> add(const Input& input, std::span<const Spike> spikes) override {
+        bytes_.resize(spikes.size() * format_->max_bytes());
+        char* at = bytes_.data();
+        for (auto s : spikes) {
+            s.afferent_index -= input.first_afferent;
+            at += format_->write(s, at);
+        }
+        return files_.back().write({bytes_.data(), static_cast<std::size_t>(at - bytes_.data())});
+    }
+
+public:
+    EventsFile(std::string directory, std::string format, std::string_view extension)
+        : SpikeFileSink(std::move(directory)), format_name_(std::move(format)), extension_(extension) {}
+    Result<void> open() { return create("spikes" + extension_); }
+    Result<void> begin(const Input& input) override {
+        if (input.index > 0)
+            if (auto ok = create(numbered_name("spikes#" + extension_, input.index)); !ok) return ok;
+        auto format = make_event_format(format_name_, input.population.event_addressing(input.clock));
+        if (!format) return format.error();
+        format_ = std::move(*format);
+        return files_.back().write(format_->header());
+    }
+};
+
+/// The format of this name; null if there is none.
+const EventFormatInfo* find_event_format(std::string_view name) {
+    const auto formats = event_formats();
+    const auto at = std::find_if(formats.begin(), formats.end(), [&](const auto& f) { return f.name == name; });
+    return at == formats.end() ? nullptr : &*at;
+}
+
+Result<void> check_event_format(const OutputRequest& request) {
+    const auto& name = request.options.at("--events");
+    if (find_event_format(name)) return {};
+    std::vector<std::string_view> names;
+    for (const auto& f : event_formats()) names.push_back(f.name);
+    return bad_usage(fmt::format("--events {}: expected one of {}{}", name, fmt::join(names, ", "), did_you_mean(name, names)));
+}
+
+std::vector<std::string> event_file_names(const OutputRequest& request) {
+    std::vector<std::string> names;
+    const auto name = fmt::format("spikes#{}", find_event_format(request.options.at("--events"))->extension);
+    for (std::size_t k = 0; k < request.inputs; ++k) names.push_back(numbered_name(name, k));
+    return names;
+}
+
+}  // namespace
+
+const OutputFormat events_format = {
+    .option = "--events",
+    .value_name = "FORMAT",
+    .help = "write the spikes as lines, jsonl, aer or aedat2 (doc/events.md) instead of spikes.csv",
+    .names = {"spikes#.csv", "spikes#.jsonl", "spikes#.aer", "spikes#.aedat"},
+    .make =
+        [](const OutputRequest& request) {
+            const auto* const format = find_event_format(request.options.at("--events"));
+            return make_file_sink<EventsFile>(request.directory, std::string(format->name), format->extension);
+        },
+    .check = check_event_format,
+    .names_of = event_file_names,
+};
+
+}  // namespace corpuscle

@@ -1,0 +1,44 @@
+// spikes.csv: afferent,channel,time_s; input after input, each in order of time. Times are on the clock of the input, to the nanosecond.
+
+#include <iterator>
+
+#include "run/sinks.hpp"
+
+namespace corpuscle {
+namespace {
+
+class SpikesFile final : public SpikeFileSink {
+    std::vector<std::string> names_;  // "sa1,press" of each afferent of the current input
+    fmt::memory_buffer text_;
+
+    Result<void> add(const Input& input, std::span<const Spike> spikes) override {
+        text_.clear();
+        for (const auto& s : spikes)
+            fmt::format_to(std::back_inserter(text_), "{},{:.9f}\n", names_[input.afferent_of(s)], input.clock.time(s.step, s.offset));
+        return files_[0].write({text_.data(), text_.size()});
+    }
+
+public:
+    using SpikeFileSink::SpikeFileSink;
+    Result<void> open() {
+        if (auto ok = create("spikes.csv"); !ok) return ok;
+        return files_[0].write("afferent,channel,time_s\n");
+    }
+    Result<void> begin(const Input& input) override {
+        names_ = afferent_csv_names(input.population);
+        return {};
+    }
+};
+
+}  // namespace
+
+const OutputFormat spikes_format = {
+    .option = "",
+    .value_name = "",
+    .help = "",
+    .names = {"spikes.csv"},
+    .make = [](const OutputRequest& request) { return make_file_sink<SpikesFile>(request.directory); },
+    .is_written = [](const OutputRequest& request) { return !request.has("--events"); },
+};
+
+}  // namespace corpuscle

@@ -1,0 +1,35 @@
+#pragma once
+// The force at the sites of a skin, block by block.
+
+#include <memory>
+
+#include "core/force_source.hpp"
+#include "skin/contact/contact.hpp"
+#include "skin/skin.hpp"
+
+namespace corpuscle {
+
+/// Force at the sites, block after block.
+class SkinForce {
+public:
+    /// Valid until the next block.
+    struct Block {
+        SiteForce force;
+        std::span<const double> total_force;  ///< of all sites together, N; one value for each sample of the block
+    };
+    virtual ~SkinForce() = default;
+    /// Returns the next block; at the end of the force, a block without samples.
+    virtual Result<Block> next() = 0;
+    virtual double progress() const = 0;                     ///< completed fraction, 0 to 1
+    virtual RecordingQuality quality() const { return {}; }  ///< of the part of a recording that was read so far
+};
+
+/// The force at the sites when a contact presses one channel of force onto the skin.
+std::unique_ptr<SkinForce> make_pressed_force(ForceSource&, Contact&);
+/// The force at the sites from a recording with one channel for each site. `sites`: the site of each channel; `all_sites`: the number of
+/// sites of the skin.
+std::unique_ptr<SkinForce> make_site_force(ForceSource&, std::vector<std::uint32_t> sites, std::size_t all_sites);
+/// The site of each channel of a recording: by name, or by order if there are as many channels as sites.
+Result<std::vector<std::uint32_t>> match_sites(const SkinPlan&, const ForceSource&);
+
+}  // namespace corpuscle
