@@ -1,21 +1,51 @@
 // corpuscle compare: compares two spike files, train by train.
 
-#include "run/compare/train_comparison.hpp"
-
 #include <fmt/format.h>
 #include <cmath>
 #include <cstdio>
 #include <nlohmann/json.hpp>
 
+#include "cli/arguments/option_rows.hpp"
 #include "cli/output/printable.hpp"
 #include "cli/output/terminal.hpp"
 #include "cli/verbs.hpp"
 #include "core/text/quantity.hpp"
+#include "run/compare/train_comparison.hpp"
 
 namespace corpuscle {
 namespace {
 
 using Json = nlohmann::ordered_json;
+
+constexpr const char* compare_examples =
+    R"(A is the reference. A spike of A without a match in B is missing; a spike of B without a match in A
+is extra.
+
+Files are spikes.csv or spikes.npz of 'corpuscle respond', a list of times in seconds (.txt, .npy),
+or any CSV or JSON Lines file with a column time_s. A column such as afferent, channel, unit or
+cluster separates several trains. --time and --train choose other columns. Trains of the same name
+are compared, and so are two files with one train each. A NAME is an afferent, a channel, or both:
+sa1,fz.
+
+Examples:
+  corpuscle compare yesterday/spikes.csv today/spikes.csv
+  corpuscle compare a/spikes.csv b/spikes.csv --pair sa1=sa1-kim      two afferents, on every channel
+  corpuscle compare a/spikes.csv b/spikes.csv --pair fz=fz_abs        two channels, for every afferent
+  corpuscle compare a/spikes.csv --pair sa1=sa1-kim                   two trains of one file
+  corpuscle compare recorded.csv result/spikes.npz --pair 11=sa1,fz --window 2ms --json
+
+Two spikes match if the Victor-Purpura alignment with a cost of 2 per window shifts one onto the
+other; matches never cross. The Victor-Purpura distance is the minimum total cost to turn A into B:
+1 per spike removed or added, and --cost per second of shift. 'per spike' is this distance divided
+by the number of spikes in A and B, 0 to 1. The van Rossum distance is scaled so that one extra
+spike counts 1.)";
+
+struct CompareArguments {
+    std::vector<std::string> files, pairs;
+    std::optional<std::string> time_column, train_column;  // columns of the spike files, by name or number
+    bool by_order = false;
+    std::string window = "5ms", cost = "100Hz", tau = "10ms";
+};
 
 Result<CompareOptions> options_of(const CompareArguments& args) {
     CompareOptions options{.pairs = args.pairs, .by_order = args.by_order};
@@ -93,7 +123,7 @@ std::string text(const CompareOptions& options, const std::vector<TrainDifferenc
                                             format_quantity(options.window, "s"), options.cost, format_quantity(options.tau, "s"));
 }
 
-Result<void> run(const CompareArguments& args, const CommonArguments& common) {
+Result<void> compare_files(const CompareArguments& args, const CommonArguments& common) {
     const auto options = options_of(args);
     if (!options) return options.error();
     if (args.files.empty()) return bad_usage("compare: no files given; try 'corpuscle compare A/spikes.csv B/spikes.csv'");
@@ -128,12 +158,38 @@ Result<void> run(const CompareArguments& args, const CommonArguments& common) {
     return {};
 }
 
+class CompareVerb final : public Verb {
+    CompareArguments args_;
+
+public:
+    CompareVerb() : Verb({"compare", "compare two spike files: matches, distances, missing and extra spikes", compare_examples}) {}
+
+    void add_options_to(CLI::App& part, CommonArguments& common) override {
+        add_options(
+            part, "",
+            {{.names = "FILES",
+              .target = &args_.files,
+              .value = "A [B]",
+              .description = "the spike files A and B (CSV, NPZ ...), or one file with --pair",
+              .count = std::pair(1, 2)},
+             {"--pair,-p", &args_.pairs, "A-NAME=B-NAME", "compare train A-NAME of the first file with B-NAME of the second (repeatable)"},
+             {"--by-order", &args_.by_order, "", "ignore names: compare the first train of A with the first of B, and so on"},
+             {"--time", &args_.time_column, "COLUMN", "column of spike times, by name or number (default: time_s)"},
+             {"--train", &args_.train_column, "COLUMN", "column that identifies the train, by name or number"},
+             {"--window", &args_.window, "TIME", "maximum time between matching spikes"},
+             {"--cost", &args_.cost, "FREQUENCY", "Victor-Purpura distance: cost per second of shift"},
+             {"--tau", &args_.tau, "TIME", "van Rossum distance: time constant"}});
+        add_common_options(part, common);
+    }
+
+    int run(const CommonArguments& common) override {
+        catch_interrupt();
+        return exit_status(compare_files(args_, common));
+    }
+};
+
 }  // namespace
 
-int compare_trains(const CompareArguments& args, const CommonArguments& common) {
-    catch_interrupt();
-    const auto done = run(args, common);
-    return done ? 0 : report_error(done.error());
-}
+std::unique_ptr<Verb> make_compare_verb() { return std::make_unique<CompareVerb>(); }
 
 }  // namespace corpuscle

@@ -5,6 +5,7 @@
 
 #include "circuit/export/ngspice_deck.hpp"
 #include "circuit/variant/embedded_netlists.hpp"
+#include "cli/arguments/option_rows.hpp"
 #include "cli/arguments/own_files.hpp"
 #include "cli/output/output_files.hpp"
 #include "cli/output/printable.hpp"
@@ -17,6 +18,21 @@ namespace {
 
 using namespace circuit;
 using Json = nlohmann::ordered_json;
+
+constexpr const char* export_examples =
+    R"(The deck is flat: subcircuits are expanded and every parameter is evaluated. Transistors become
+subcircuits of expressions with the same currents (relative error 1e-5) and small-signal parameters
+(0.1 %), but without noise. Directives that ngspice does not have (.step, .mc, .expect ...) become
+comments, with a warning.
+
+Examples:
+  corpuscle export amplifier.cir --for ngspice -o amplifier-ng.cir
+  ngspice -b amplifier-ng.cir -r amplifier.raw                          the same curves as 'corpuscle run amplifier.cir'
+  corpuscle export amplifier.cir --for ngspice > deck.cir && ngspice -b deck.cir       tables and measurements)";
+
+struct ExportArguments {
+    std::string netlist, target = "ngspice", out;
+};
 
 Json document_of(const NgspiceDeck& deck, const std::vector<Error>& warnings) {
     Json texts = Json::array();
@@ -46,11 +62,30 @@ Result<void> export_netlist(const ExportArguments& args, const CommonArguments& 
     return {};
 }
 
+class ExportVerb final : public Verb {
+    ExportArguments args_;
+
+public:
+    ExportVerb() : Verb({"export", "convert a netlist to the format of another simulator", export_examples}) {}
+
+    void add_options_to(CLI::App& part, CommonArguments& common) override {
+        add_options(part, "",
+                    {{.names = "NETLIST",
+                      .target = &args_.netlist,
+                      .value = "",
+                      .description = "a SPICE netlist, or a built-in one: sa1-circuit, fa1-circuit",
+                      .is_required = true},
+                     {"--for", &args_.target, "SIMULATOR", "the target simulator: ngspice (version 39)", one_of("ngspice")}});
+        add_options(part, "Output", {{"--out,-o", &args_.out, "FILE", "write to this file (default: standard output)"}});
+        add_common_options(part, common);
+        add_overwrite_option(part, common);
+    }
+
+    int run(const CommonArguments& common) override { return exit_status(export_netlist(args_, common)); }
+};
+
 }  // namespace
 
-int export_to(const ExportArguments& args, const CommonArguments& common) {
-    const auto done = export_netlist(args, common);
-    return done ? 0 : report_error(done.error());
-}
+std::unique_ptr<Verb> make_export_verb() { return std::make_unique<ExportVerb>(); }
 
 }  // namespace corpuscle

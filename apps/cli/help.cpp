@@ -12,26 +12,6 @@ namespace {
 constexpr std::size_t max_width = 100;     // columns
 constexpr std::size_t short_examples = 3;  // number of examples that --help of a verb prints
 
-/// The options that --help lists for verbs with many options.
-struct CommonOptions {
-    std::string_view verb;
-    std::vector<std::string_view> options;
-};
-
-const CommonOptions common_options[] = {
-    {"respond",
-     {"--help-all", "--afferent", "--set", "--population", "--copies", "--spread", "--rate", "--channel", "--unit", "--scale", "--out",
-      "--report", "--json"}},
-    {"stream",
-     {"--help-all", "--in", "--rate", "--population", "--channels", "--frames", "--scale", "--out", "--to", "--format", "--json"}}};
-
-/// The common options of a verb; null for a verb with few options, which lists all.
-const CommonOptions* common_options_of(const CLI::App& app) {
-    const auto* found =
-        std::find_if(std::begin(common_options), std::end(common_options), [&](const auto& c) { return c.verb == app.get_name(); });
-    return found == std::end(common_options) ? nullptr : found;
-}
-
 /// The width of a UTF-8 text in columns, one per character.
 std::size_t columns_of(std::string_view text) {
     return static_cast<std::size_t>(
@@ -136,26 +116,32 @@ std::string Help::make_subcommand(const CLI::App* verb) const {
     return entry(verb->get_display_name(true), verb->get_description(), width_of_names / 2);
 }
 
+std::span<const std::string> Help::common_options(const CLI::App& app) const {
+    const auto found = std::find_if(verbs_.begin(), verbs_.end(), [&](const auto& verb) { return verb->texts.name == app.get_name(); });
+    return found == verbs_.end() ? std::span<const std::string>() : (*found)->texts.common_options;
+}
+
 std::string Help::make_help(const CLI::App* app, std::string name, CLI::AppFormatMode mode) const {
     if (mode == CLI::AppFormatMode::Sub) return make_expanded(app);
+    const bool has_more_options = !common_options(*app).empty();
     const bool is_short = mode == CLI::AppFormatMode::Normal && app->get_parent() != nullptr;
     const auto [examples, prose, omits_examples] = split_footer(app->get_footer(), is_short ? short_examples : std::string::npos);
     auto out = wrapped(app->get_description(), 0) + make_usage(app, name);
     if (!examples.empty()) out += "\n" + examples;
     out += make_positionals(app) + list_options(app, mode) + make_subcommands(app, CLI::AppFormatMode::Normal);
     if (!prose.empty()) out += "\n" + prose;
-    if (is_short && (omits_examples || common_options_of(*app)))
-        out += fmt::format("\nAll examples{}: {} --help-all\n", common_options_of(*app) ? " and options" : "", name);
+    if (is_short && (omits_examples || has_more_options))
+        out += fmt::format("\nAll examples{}: {} --help-all\n", has_more_options ? " and options" : "", name);
     for (std::size_t at = 0; (at = out.find("\n\n\n", at)) != out.npos;) out.erase(at, 1);
     return out;
 }
 
 std::string Help::list_options(const CLI::App* app, CLI::AppFormatMode mode) const {
-    const auto* common = common_options_of(*app);
-    if (mode != CLI::AppFormatMode::Normal || common == nullptr) return make_groups(app, mode);
+    const auto common = common_options(*app);
+    if (mode != CLI::AppFormatMode::Normal || common.empty()) return make_groups(app, mode);
     return make_group("Options", false, app->get_options([&](const CLI::Option* option) {
-        return option->nonpositional() &&
-               std::find(common->options.begin(), common->options.end(), option->get_name()) != common->options.end();
+        const auto name = option->get_name();
+        return option->nonpositional() && (name == "--help-all" || std::find(common.begin(), common.end(), name) != common.end());
     }));
 }
 

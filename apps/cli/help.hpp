@@ -4,16 +4,23 @@
 
 #include <CLI/CLI.hpp>
 
+#include "cli/verb.hpp"
+
 namespace corpuscle {
 
 class Help final : public CLI::Formatter {
 public:
-    Help() { column_width(width_of_names); }
+    /// `verbs` outlive this object.
+    explicit Help(std::span<const std::unique_ptr<Verb>> verbs) : verbs_(verbs) { column_width(width_of_names); }
     std::string make_help(const CLI::App*, std::string name, CLI::AppFormatMode) const override;
     std::string make_option(const CLI::Option*, bool is_positional) const override;
     std::string make_subcommand(const CLI::App*) const override;
 
 private:
+    std::span<const std::unique_ptr<Verb>> verbs_;
+
+    /// The options that --help of this verb lists; empty: all.
+    std::span<const std::string> common_options(const CLI::App&) const;
     /// The text of the options: all groups for --help-all and for verbs with few options, otherwise the common options.
     std::string list_options(const CLI::App*, CLI::AppFormatMode) const;
     static constexpr std::size_t width_of_names = 30;  // columns, before the descriptions of options

@@ -9,6 +9,7 @@
 #include "circuit/analyses.hpp"
 #include "circuit/device/uicm_card.hpp"
 #include "circuit/devices.hpp"
+#include "cli/arguments/option_rows.hpp"
 #include "cli/list_entry.hpp"
 #include "cli/output/terminal.hpp"
 #include "cli/verbs.hpp"
@@ -176,23 +177,20 @@ Json document_of(const ListEntry& e) {
     return out;
 }
 
-}  // namespace
+struct ListArguments {
+    std::vector<std::string> names;
+    bool list_sites = false;  // list the sites of the population that `names` contains
+};
 
-int list(const ListArguments& args, const CommonArguments& common) {
-    if (args.list_sites) {
-        const auto sites = sites_listing(args.names, common.json);
-        if (!sites) return report_error(sites.error());
-        fmt::print("{}", *sites);
-        return 0;
-    }
+Result<void> print_sections(const ListArguments& args, const CommonArguments& common) {
     const auto sections = select_sections(args.names);
-    if (!sections) return report_error(sections.error());
+    if (!sections) return sections.error();
     if (common.json) {
         Json out = Json::object();
         for (const auto& s : *sections)
             for (const auto& e : s.entries) out[std::string(s.name)].push_back(document_of(e));
         fmt::print("{}\n", out.dump(1));
-        return 0;
+        return {};
     }
     std::string text;
     for (const auto& s : *sections) {
@@ -200,7 +198,42 @@ int list(const ListArguments& args, const CommonArguments& common) {
         for (const auto& e : s.entries) text += text_of(e);
     }
     print_text(text);
-    return 0;
+    return {};
 }
+
+Result<void> print_sites(const ListArguments& args, const CommonArguments& common) {
+    const auto sites = sites_listing(args.names, common.json);
+    if (!sites) return sites.error();
+    fmt::print("{}", *sites);
+    return {};
+}
+
+class ListVerb final : public Verb {
+    ListArguments args_;
+
+public:
+    ListVerb()
+        : Verb({"list", "list all models, stimuli, circuits ... with the default, range and description of every parameter",
+                "Examples:\n  corpuscle list\n  corpuscle list neurons\n  corpuscle list sa1 press\n  corpuscle list 'grid 4x4' --sites"}) {
+    }
+
+    void add_options_to(CLI::App& part, CommonArguments& common) override {
+        add_options(
+            part, "",
+            {{"WHAT", &args_.names, "",
+              "afferents, sensors, transducers, converters, receptors, neurons, stimuli, measures, formats, or the name of an entry"},
+             {"--sites", &args_.list_sites, "",
+              "print the sites of a population (hand, 'grid 4x4', own.toml) in frame order, as CSV: name, x_mm, y_mm, region"}});
+        add_common_options(part, common);
+    }
+
+    int run(const CommonArguments& common) override {
+        return exit_status(args_.list_sites ? print_sites(args_, common) : print_sections(args_, common));
+    }
+};
+
+}  // namespace
+
+std::unique_ptr<Verb> make_list_verb() { return std::make_unique<ListVerb>(); }
 
 }  // namespace corpuscle

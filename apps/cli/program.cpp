@@ -14,6 +14,44 @@
 namespace corpuscle {
 namespace {
 
+using Verbs = std::span<const std::unique_ptr<Verb>>;
+
+/// Adds the part of each verb, and of the verbs that may follow it, to the command line.
+void add_verbs(CLI::App& app, Verbs verbs, CommonArguments& common) {
+    for (const auto& verb : verbs) {
+        auto& part = *app.add_subcommand(verb->texts.name, verb->texts.description);
+        part.footer(verb->texts.examples);
+        if (verb->is_program()) continue;
+        part.set_version_flag("--version", fmt::format("corpuscle {}", version))->group("");
+        verb->add_options_to(part, common);
+        if (!verb->sub_verbs().empty()) part.require_subcommand(0, 1);
+        add_verbs(part, verb->sub_verbs(), common);
+    }
+}
+
+/// The root of a command line: name, description, --help, --help-all and --version, and the verbs.
+std::unique_ptr<CLI::App> make_command_line(const ProgramTexts& texts, Verbs verbs, CommonArguments& common) {
+    auto app = std::make_unique<CLI::App>(texts.about, "corpuscle");
+    app->footer(texts.first_steps);
+    app->formatter(std::make_shared<Help>(verbs));
+    app->set_help_flag("--help,-h", "print help");
+    app->set_help_all_flag("--help-all", "print help with all examples and options");
+    app->set_version_flag("--version", fmt::format("corpuscle {}", version));
+    app->require_subcommand(1);
+    add_verbs(*app, verbs, common);
+    return app;
+}
+
+/// The verb that the parsed command line names: the last one of "sweep show".
+Verb* named_verb(const CLI::App& app, Verbs verbs) {
+    for (const auto& verb : verbs) {
+        if (!app.got_subcommand(verb->texts.name)) continue;
+        auto* const sub_verb = named_verb(*app.get_subcommand(verb->texts.name), verb->sub_verbs());
+        return sub_verb ? sub_verb : verb.get();
+    }
+    return nullptr;
+}
+
 /// The options and positional arguments that were given to the verb.
 std::vector<TypedOption> typed_options(const CLI::App& app) {
     std::vector<TypedOption> out;
@@ -23,47 +61,40 @@ std::vector<TypedOption> typed_options(const CLI::App& app) {
     return out;
 }
 
+int report_usage_error(const std::string& message) {
+    print_message(message);
+    print_message("'corpuscle help VERB' prints the most common options, 'corpuscle VERB --help-all' all of them");
+    return static_cast<int>(ErrorCode::bad_usage);
+}
+
+/// Parses the words of the command line and runs the verb. Returns its exit status; exceptions are those of CLI11 and of standard output.
+int run_command_line(CLI::App& app, Verbs verbs, CommonArguments& common) {
+    for (const auto& error : {unknown_verb_error(app, common.words), unknown_option_error(app, common.words)})
+        if (!error.empty()) return report_error(bad_usage(error));
+    app.parse(std::vector<std::string>(common.words.rbegin(), common.words.rend()));  // CLI11 takes them in reverse order
+    common.typed = typed_options(app);
+    auto& verb = *named_verb(app, verbs);
+    if (const auto ok = verb.check_arguments(common); !ok) return report_usage_error(ok.error().message);
+    return verb.run(common);
+}
+
 }  // namespace
 
-std::unique_ptr<CLI::App> make_command_line(const std::string& description) {
-    auto app = std::make_unique<CLI::App>(description, "corpuscle");
-    app->formatter(std::make_shared<Help>());
-    app->set_help_flag("--help,-h", "print help");
-    app->set_help_all_flag("--help-all", "print help with all examples and options");
-    app->set_version_flag("--version", fmt::format("corpuscle {}", version));
-    app->require_subcommand(1);
-    return app;
-}
-
-void add_common(CLI::App& verb, CommonArguments& common) {
-    verb.set_version_flag("--version", fmt::format("corpuscle {}", version))->group("");
-    verb.add_flag("--json", common.json, "print one JSON document on standard output, and nothing else");
-    verb.add_flag("--quiet,-q", common.quiet, "do not print tables, progress and notes; warnings are still printed");
-}
-
-void add_overwrite(CLI::App& verb, CommonArguments& common) {
-    verb.add_flag("--overwrite", common.overwrite,
-                  "also replace files that were not written by an earlier run; input files are never replaced");
-}
-
-int run_command_line(CLI::App& app, std::vector<std::string> arguments, CommonArguments& common, const std::function<int()>& run_verb) {
+int run_program(const ProgramTexts& texts, const VerbList& verbs, int argc, const char* const* argv) {
     std::signal(SIGXFSZ, SIG_IGN);  // exceeding the file size limit is a write error
+    CommonArguments common;
+    common.command = quote_command(argc, argv), common.words = normalize_help({argv + 1, argv + argc});
+    if (verbs.size() == 1 && common.words[0] != verbs[0]->texts.name) common.words.insert(common.words.begin(), verbs[0]->texts.name);
+    for (const auto& verb : verbs)
+        if (verb->is_program() && common.words[0] == verb->texts.name) return verb->run(common);
+    const auto app = make_command_line(texts, verbs, common);
     int status = 0;
     try {
-        if (const auto error = unknown_verb_error(app, arguments); !error.empty()) return report_error(bad_usage(error));
-        if (const auto error = unknown_option_error(app, arguments); !error.empty()) return report_error(bad_usage(error));
-        std::reverse(arguments.begin(), arguments.end());  // CLI11 takes them in reverse order
-        app.parse(std::move(arguments));
-        common.typed = typed_options(app);
-        status = run_verb();
+        status = run_command_line(*app, verbs, common);
     } catch (const CLI::ParseError& e) {
-        if (e.get_exit_code() != 0) {
-            print_message(e.what());
-            print_message("'corpuscle help VERB' prints the most common options, 'corpuscle VERB --help-all' all of them");
-            return 2;
-        }
+        if (e.get_exit_code() != 0) return report_usage_error(e.what());
         std::ostringstream text;
-        app.exit(e, text, text);
+        app->exit(e, text, text);
         std::fwrite(text.str().data(), 1, text.str().size(), stdout);
     } catch (const std::system_error&) {  // standard output failed: a closed pipe, a full disk
         if (interrupted()) return report_error({ErrorCode::interrupted, "interrupted"});

@@ -12,6 +12,7 @@
 #include "circuit/run_directives.hpp"
 #include "circuit/variant/netlist_variants.hpp"
 #include "cli/arguments/netlist_arguments.hpp"
+#include "cli/arguments/option_rows.hpp"
 #include "cli/output/budget_tables.hpp"
 #include "cli/output/curve_files.hpp"
 #include "cli/output/printable.hpp"
@@ -25,6 +26,33 @@ namespace {
 
 using namespace circuit;
 using Json = nlohmann::ordered_json;
+
+constexpr const char* run_examples = R"(
+
+Further directives:
+  .print dc v(out)                  print a table of curves
+  .meas dc NAME find v(out) at=0.3  measure one number
+  .expect NAME VALUE 1%             fail if a measured number differs: the netlist tests itself
+  .spike v(s) 0.35                  the threshold that defines a spike in a .tran
+  .assert v(a) 0 0.6                the range in which the circuit works as designed
+  .force press                      the stimulus of the FORCE sources
+  .options accuracy=fine|finest     more than the default accuracy
+
+The file of a .tran is written during the run. After Ctrl-C it is readable.
+
+Examples:
+  corpuscle run circuits/divider.cir
+  corpuscle run circuits/spiker.cir -o spiker.raw
+  corpuscle run sa1-circuit --corner ff --temp 85 --set summer.N3B=8x4 --probe 'vf,u,i(N3B)' -o sa1.csv
+  corpuscle run amplifier.cir -o amplifier.raw
+  corpuscle run amplifier.cir -o amplifier.csv --json)";
+
+struct RunArguments {
+    NetlistArguments netlists;
+    std::vector<std::string> settings;
+    std::string netlist, out;
+    bool ascii = false, budget = false;
+};
 
 /// The values of a curve; a complex value is a pair of real and imaginary part.
 Json column(const Plot& plot, const Curve& curve) {
@@ -323,7 +351,7 @@ Result<void> run_netlist(const RunArguments& args, const CommonArguments& common
     if (!variants) return variants.error();
     const bool has_steps = variants->count() > 1;
     VariantPrinter printer(common, has_steps, variants->has_chips());
-    CurveFiles files(args, has_steps, common.overwrite);
+    CurveFiles files({args.out, args.ascii}, has_steps, common.overwrite);
     const auto done = run_all(*variants, args, common, printer, files);
     printer.finish();
     if (!done) return keep_partial_files(files), done;
@@ -337,12 +365,47 @@ Result<void> run_netlist(const RunArguments& args, const CommonArguments& common
     return {};
 }
 
+/// The examples of --help, after the analyses that a netlist may contain.
+std::string run_help() {
+    std::string known;
+    for (const auto& a : circuit::analyses) known += fmt::format("\n  {}\n      {}", a.usage, a.description);
+    return "A netlist is SPICE: a title, elements (R C L V I E F G H B D M X), .model, .subckt, .param, .include,\n"
+           ".lib, .options ... and the analyses to run:" +
+           known + run_examples;
+}
+
+class RunVerb final : public Verb {
+    RunArguments args_;
+
+public:
+    RunVerb() : Verb({"run", "run the analyses of a netlist -> .raw, CSV, printed measurements", run_help()}) {}
+
+    void add_options_to(CLI::App& part, CommonArguments& common) override {
+        add_options(part, "",
+                    {{.names = "NETLIST",
+                      .target = &args_.netlist,
+                      .value = "",
+                      .description = "a SPICE netlist, or a built-in one: sa1-circuit, fa1-circuit",
+                      .is_required = true},
+                     {"--set,-s", &args_.settings, "NAME=VALUE",
+                      "set a .param, an array (summer.N3B=8x4), a device value (cco.cu=4pF) or a device parameter (N3B.w=1.2um)"},
+                     {"--budget", &args_.budget, "", "also print power, area and leakage of each block"}});
+        add_netlist_options(part, args_.netlists);
+        add_options(part, "Output",
+                    {{"--out,-o", &args_.out, "FILE", "write the curves: x.raw (the format of ngspice, binary) or x.csv"},
+                     {"--ascii", &args_.ascii, "", "write the .raw file as text"}});
+        add_common_options(part, common);
+        add_overwrite_option(part, common);
+    }
+
+    int run(const CommonArguments& common) override {
+        catch_interrupt();
+        return exit_status(run_netlist(args_, common));
+    }
+};
+
 }  // namespace
 
-int run(const RunArguments& args, const CommonArguments& common) {
-    catch_interrupt();
-    const auto done = run_netlist(args, common);
-    return done ? 0 : report_error(done.error());
-}
+std::unique_ptr<Verb> make_run_verb() { return std::make_unique<RunVerb>(); }
 
 }  // namespace corpuscle

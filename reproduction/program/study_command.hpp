@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "cli/verbs.hpp"
+#include "cli/verb.hpp"
 
 namespace corpuscle {
 

@@ -1,10 +1,25 @@
 #pragma once
-// Converts the netlist options of respond and run to overrides and probe names.
+// The netlist options of respond and run, and their conversion to overrides and probe names.
+
+#include <optional>
+#include <string>
+#include <vector>
 
 #include "circuit/variant/netlist_overrides.hpp"
-#include "cli/verbs.hpp"
+
+namespace CLI {
+class App;
+}
 
 namespace corpuscle {
+
+/// Options that apply to every netlist of the run.
+struct NetlistArguments {
+    std::optional<std::string> supply, temp, corner, mismatch;
+    std::vector<std::string> probes;
+};
+
+void add_netlist_options(CLI::App& part, NetlistArguments&);
 
 /// The overrides from --supply, --temp, --corner and --mismatch.
 std::vector<circuit::NetlistOverride> netlist_overrides(const NetlistArguments&);

@@ -36,7 +36,7 @@ Result<void> CurveFiles::add_plots(std::span<const Plot> plots) {
     std::vector<Plot> named(plots.begin(), plots.end());
     for (auto& plot : named)
         if (!label_.empty()) plot.name += fmt::format(" ({})", label_);
-    return (*file)->write(raw_text(title_, named, !arguments_.ascii));
+    return (*file)->write(raw_text(title_, named, !options_.ascii));
 }
 
 Result<void> CurveFiles::write_table(const Plot& plot, std::size_t count) {
@@ -54,14 +54,14 @@ Result<void> CurveFiles::begin(const Plot& head) {
     if (is_csv_) return {};
     Plot named = head;
     if (!label_.empty()) named.name += fmt::format(" ({})", label_);
-    const auto text = raw_header(title_, named, !arguments_.ascii);
+    const auto text = raw_header(title_, named, !options_.ascii);
     count_offset_ = file_->size() + text.count_offset;
     return file_->write(text.text);
 }
 
 Result<void> CurveFiles::add_point(std::span<const double> row) {
     if (is_csv_ && has_steps_) rows_ += label_ + ",";
-    is_csv_ ? append_csv_row(rows_, row) : append_raw_point(rows_, point_count_, row, !arguments_.ascii);
+    is_csv_ ? append_csv_row(rows_, row) : append_raw_point(rows_, point_count_, row, !options_.ascii);
     ++point_count_, newest_time_ = row[0];
     has_streamed_ = has_streamed_ || point_count_ > 1;
     return rows_.size() >= block || Clock::now() - last_write_ > max_delay ? write_pending() : Result<void>();
@@ -77,7 +77,7 @@ Result<void> CurveFiles::write_pending() {
 
 Result<void> CurveFiles::end() {
     if (auto ok = write_pending(); !ok || is_csv_) return ok;
-    return file_->write(raw_footer(!arguments_.ascii));
+    return file_->write(raw_footer(!options_.ascii));
 }
 
 Result<void> CurveFiles::finish() {
@@ -85,7 +85,7 @@ Result<void> CurveFiles::finish() {
         if (auto ok = file.commit(); !ok) return ok;
     const bool is_any_synced = std::any_of(files_.begin(), files_.end(), [](const auto& f) { return f.is_synced(); });
     files_.clear();
-    return is_any_synced ? sync_directory_of(arguments_.out) : Result<void>();
+    return is_any_synced ? sync_directory_of(options_.path) : Result<void>();
 }
 
 Result<std::string> CurveFiles::finish_early(bool interrupted) {
@@ -93,22 +93,21 @@ Result<std::string> CurveFiles::finish_early(bool interrupted) {
         files_.clear();  // removes the unfinished files; files of earlier runs at these paths remain
     if (files_.empty()) return std::string();
     const bool in_transient = file_ != nullptr;
-    const auto note =
-        fmt::format("{} ends early{}{}", in_transient ? file_->path() : arguments_.out, label_.empty() ? "" : ", in " + label_,
-                    in_transient ? ", at " + format_quantity(written_time_, "s") : "");
+    const auto note = fmt::format("{} ends early{}{}", in_transient ? file_->path() : options_.path, label_.empty() ? "" : ", in " + label_,
+                                  in_transient ? ", at " + format_quantity(written_time_, "s") : "");
     if (auto ok = finish(); !ok) return ok.error();
     return note;
 }
 
 std::string CurveFiles::path_of(std::size_t file_count, std::size_t index) const {
-    auto path = arguments_.out;
+    auto path = options_.path;
     if (file_count > 1) path.insert(path.size() - std::string_view(".csv").size(), fmt::format("-{}", index + 1));
     return path;
 }
 
 Result<void> CurveFiles::check(std::size_t analysis_count) const {
     auto check = check_;
-    if (arguments_.out.empty()) return {};
+    if (options_.path.empty()) return {};
     const auto count = is_csv_ ? analysis_count : 1;
     for (std::size_t k = 0; k < count; ++k)
         if (auto ok = check.check_growing_file(path_of(count, k), is_csv_ ? is_own_table : is_own_raw); !ok) return ok;

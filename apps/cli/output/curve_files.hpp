@@ -7,18 +7,23 @@
 #include "circuit/output/plot_formats.hpp"
 #include "circuit/run_directives.hpp"
 #include "circuit/variant/netlist_variants.hpp"
-#include "cli/verbs.hpp"
 #include "io/output/output_check.hpp"
 #include "io/output/output_file.hpp"
 
 namespace corpuscle {
+
+/// The options of the files.
+struct CurveFileOptions {
+    std::string path;    ///< x.raw or x.csv; "": no files
+    bool ascii = false;  ///< a .raw file is written as text
+};
 
 /// Writes curves while they are computed: either one .raw file, or one CSV table for each plot (x.csv, or x-1.csv, x-2.csv ... if there are
 /// several). With .step or .mc, each CSV row begins with the label of its variant (a step or a chip). The points of a transient are written
 /// in blocks; the files are readable at any time.
 class CurveFiles final : public circuit::CurveSink {
     using Clock = std::chrono::steady_clock;
-    const RunArguments& arguments_;
+    CurveFileOptions options_;
     OutputCheck check_;
     bool has_steps_, is_csv_;       // has_steps_: the netlist has several variants, by .step or .mc
     std::deque<OutputFile> files_;  // all files so far; a deque keeps their addresses, which file_ and open() use
@@ -45,8 +50,8 @@ class CurveFiles final : public circuit::CurveSink {
 
 public:
     /// `has_steps`: true if the netlist has several variants.
-    CurveFiles(const RunArguments& arguments, bool has_steps, bool overwrite)
-        : arguments_(arguments), check_(overwrite), has_steps_(has_steps), is_csv_(arguments.out.ends_with(".csv")) {}
+    CurveFiles(CurveFileOptions options, bool has_steps, bool overwrite)
+        : options_(std::move(options)), check_(overwrite), has_steps_(has_steps), is_csv_(options_.path.ends_with(".csv")) {}
 
     /// Checks before the run that the files for a netlist with this many analyses may be written.
     Result<void> check(std::size_t analysis_count) const;

@@ -6,6 +6,7 @@
 
 #include "cli/arguments/own_files.hpp"
 #include "cli/output/printable.hpp"
+#include "cli/respond/respond_arguments.hpp"
 #include "run/earlier_outputs.hpp"
 
 namespace corpuscle {

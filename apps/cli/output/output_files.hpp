@@ -5,11 +5,12 @@
 #include <string>
 #include <vector>
 
-#include "cli/verbs.hpp"
 #include "io/output/output_check.hpp"
 #include "io/output/output_file.hpp"
 
 namespace corpuscle {
+
+struct RespondArguments;
 
 /// Writes the complete content of a file and renames the file to its final name.
 Result<void> write_and_commit(OutputFile&, const std::string& text);

@@ -4,6 +4,7 @@
 #include <filesystem>
 #include <nlohmann/json.hpp>
 
+#include "cli/output/printable.hpp"
 #include "cli/output/terminal.hpp"
 #include "sweep/store/sqlite.hpp"
 
@@ -91,6 +92,13 @@ nlohmann::ordered_json document_of(const SweepStatus& s) {
     auto& writer = out["writer"] = {{"process", s.writer->process}, {"host", s.writer->host}};
     if (const auto rate = rate_of(s); rate > 0) writer["items_per_second"] = rate, writer["seconds_left"] = seconds_left(s);
     return out;
+}
+
+void print_sweep_status(const CommonArguments& common, const SweepStatus& state) {
+    if (common.json)
+        fmt::print("{}\n", json_text(document_of(state)));
+    else if (!common.quiet)
+        print_text(sweep_status_text(state));
 }
 
 }  // namespace corpuscle

@@ -3,6 +3,7 @@
 
 #include <nlohmann/json_fwd.hpp>
 
+#include "cli/verb.hpp"
 #include "sweep/parallel/item_queue.hpp"
 #include "sweep/store/sweep_results.hpp"
 #include "sweep/store/writer_lock.hpp"
@@ -30,5 +31,7 @@ Result<SweepStatus> read_sweep_status(const SweepResults&, const Shard&);
 /// The status as a table, with the next command.
 std::string sweep_status_text(const SweepStatus&);
 nlohmann::ordered_json document_of(const SweepStatus&);
+/// Prints the status as text or JSON, unless --quiet was given.
+void print_sweep_status(const CommonArguments&, const SweepStatus&);
 
 }  // namespace corpuscle

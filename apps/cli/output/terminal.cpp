@@ -154,6 +154,8 @@ int report_error(const Error& error) {
     return static_cast<int>(error.code);
 }
 
+int exit_status(const Result<void>& done) { return done ? 0 : report_error(done.error()); }
+
 void catch_interrupt() {
     struct sigaction action = {};  // without SA_RESTART, so that blocked calls end
     // The command timeout, terminals and launchers can signal the program itself and then its process group, so that one signal arrives

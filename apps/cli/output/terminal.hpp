@@ -11,6 +11,8 @@ namespace corpuscle {
 
 /// Prints an error on standard error. Returns the exit status of its code.
 int report_error(const Error&);
+/// The exit status of a verb; prints the error, if there is one.
+int exit_status(const Result<void>& done);
 
 /// Prints one line on standard error. A message begins with "corpuscle:", a warning with "corpuscle: warning:". Control characters are
 /// escaped.

@@ -133,7 +133,7 @@ Result<ChannelJob> plan_channel_job(const RespondArguments& args, bool quiet) {
     if (auto ok = populate(job, args); !ok) return ok.error();
     if (auto ok = open_sources(job, args, quiet); !ok) return ok.error();
     if (auto ok = check_overrides(job); !ok) return ok.error();
-    if (auto ok = check_recording_arguments(args); !ok) return ok.error();
+    if (auto ok = check_recording_arguments(args, args.forces); !ok) return ok.error();
     if (auto ok = check_afferent_count(job); !ok) return ok.error();
     if (auto ok = read_run_options(job.options, args); !ok) return ok.error();
     job.warnings = rate_warnings(job.sources, job.afferents);

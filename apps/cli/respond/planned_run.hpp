@@ -3,7 +3,7 @@
 
 #include <nlohmann/json_fwd.hpp>
 
-#include "cli/verbs.hpp"
+#include "cli/respond/respond_arguments.hpp"
 #include "core/parameter_override.hpp"
 #include "run/run.hpp"
 #include "run/sinks.hpp"

@@ -106,7 +106,7 @@ Result<SkinJob> plan_skin_job(const RespondArguments& args) {
     if (auto ok = open_contact(job, args, touch); !ok) return ok.error();
     if (auto ok = check_skin_overrides(job); !ok) return ok.error();
     if (!touch)
-        if (auto ok = check_recording_arguments(args); !ok) return ok.error();
+        if (auto ok = check_recording_arguments(args, args.forces); !ok) return ok.error();
     if (auto ok = read_run_options(job.options, args); !ok) return ok.error();
     return job;
 }

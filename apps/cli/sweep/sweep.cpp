@@ -1,23 +1,58 @@
-// corpuscle sweep: runs the work items of a sweep into one results file; prints status, merges and dumps results.
+// corpuscle sweep: runs the work items of a sweep into one results file, or prints its status.
 
 #include <fmt/format.h>
 #include <chrono>
 #include <cstdlib>
 #include <filesystem>
-#include <nlohmann/json.hpp>
 
-#include "cli/output/printable.hpp"
+#include "cli/arguments/option_rows.hpp"
 #include "cli/output/sweep_status.hpp"
 #include "cli/output/terminal.hpp"
+#include "cli/sweep/sweep_verbs.hpp"
 #include "cli/verbs.hpp"
 #include "sweep/parallel/rank_run.hpp"
-#include "sweep/store/dump.hpp"
 #include "sweep/store/writer_lock.hpp"
 
 namespace corpuscle {
 namespace {
 
 namespace fs = std::filesystem;
+
+constexpr const char* sweep_examples =
+    R"(FILE is a sweep file (TOML) with the varied parameters, the number of samples, the measures and the
+pass limits; or a netlist with .mc and .step lines. Results go into one SQLite file with one row per
+work item (a grid point and a random sample). Its default name is NAME.sqlite for NAME.toml. A sweep
+may be interrupted or killed at any time: the same command continues with the missing items. Results
+do not depend on threads, lanes, shards or MPI ranks.
+
+  afferent = "sa1-circuit"             # chips.toml
+  force = "press"
+  samples = 1000
+  [[vary]]
+  what = "mismatch"
+
+Examples:
+  corpuscle sweep chips.toml                                        on all cores of this machine
+  corpuscle sweep chips.toml --status                               progress, also while it runs
+  corpuscle sweep show chips.sqlite --report chips.html             means, yields, most influential devices
+  corpuscle sweep dump chips.sqlite > chips.csv                     all rows, in order
+  corpuscle sweep chips.toml --seed 2 --samples 100 -o again.sqlite other random chips, fewer of them
+  corpuscle sweep chips.toml --shard 1/3                            one third, on one of three machines (chips-1of3.sqlite)
+  corpuscle sweep merge chips.sqlite chips-?of3.sqlite              combine the three parts
+  mpirun --enable-recovery -n 64 corpuscle sweep chips.toml         64 MPI processes; if one dies, only its block is repeated
+  sqlite3 chips.sqlite "SELECT ended, count(*) FROM items GROUP BY ended"
+
+Exit status: 0 all items have ended (truncated and diverged ones are reported), 1 bad input, 2 bad
+usage, 3 no item converged, 130 interrupted.)";
+
+struct SweepArguments {
+    std::string file, out, shard;
+    std::optional<std::uint64_t> seed;
+    std::optional<std::int64_t> samples;
+    std::size_t lanes = 8;      // number of chips that one thread simulates at once: 1, 4 or 8
+    std::uint32_t threads = 0;  // 0: one per core, or one per MPI rank
+    bool status = false;        // only print the status of the sweep
+};
 
 /// Parses "K/N", where K counts from 1; Shard::index counts from 0. "" is the complete sweep.
 Result<Shard> shard_of(const std::string& text) {
@@ -34,13 +69,6 @@ std::string results_path(const SweepArguments& args, const Shard& shard) {
     if (!args.out.empty()) return args.out;
     const auto stem = fs::path(args.file).stem().string();
     return shard.shard_count == 1 ? stem + ".sqlite" : fmt::format("{}-{}of{}.sqlite", stem, shard.index + 1, shard.shard_count);
-}
-
-void print_state(const CommonArguments& common, const SweepStatus& state) {
-    if (common.json)
-        fmt::print("{}\n", json_text(document_of(state)));
-    else if (!common.quiet)
-        print_text(sweep_status_text(state));
 }
 
 /// This process among the MPI ranks.
@@ -99,14 +127,14 @@ Result<void> coordinate_run(const SweepProcess& self, const Sweep& sweep, const 
     if (!state) return state.error();
     auto final_state = *state;
     final_state.finished_now = results->finished_count() - finished_before, final_state.sweep = args.file;
-    print_state(common, final_state);
+    print_sweep_status(common, final_state);
     if (results->finished_count() > 0 && final_state.diverged == results->finished_count())
         return Error{ErrorCode::not_converged,
                      fmt::format("none of {} items converged: {}", final_state.diverged, final_state.reasons.front().first)};
     return {};
 }
 
-Result<void> run(const SweepArguments& args, const CommonArguments& common, SweepProcess& self) {
+Result<void> run_as(const SweepArguments& args, const CommonArguments& common, SweepProcess& self) {
     const auto shard = shard_of(args.shard);
     if (!shard) return shard.error();
     if (Ranks::are_started()) {
@@ -136,63 +164,14 @@ Result<void> show_sweep_status(const SweepArguments& args, const CommonArguments
         const auto now = std::chrono::duration<double>(std::chrono::system_clock::now().time_since_epoch()).count();
         state->writer = *writer, state->running_for = now - writer->since;
     }
-    print_state(common, *state);
+    print_sweep_status(common, *state);
     return {};
 }
 
-Result<void> merge_all(SweepResults& out, const std::vector<SweepResults>& in, const CommonArguments& common) {
-    for (const auto& from : in) {
-        if (interrupted()) return Error{ErrorCode::interrupted, "interrupted; the same command resumes"};
-        const auto added = out.merge(from);
-        if (!added) return added.error();
-        if (!common.json && !common.quiet)
-            print_text(fmt::format("{}: {} items, {} of them new\n", from.path(), from.finished_count(), *added));
-    }
-    return {};
-}
-
-Result<void> merge(const SweepMergeArguments& args, const CommonArguments& common) {
-    std::vector<SweepResults> in;
-    for (const auto& path : args.in) {
-        auto results = SweepResults::open_read_only(path);
-        if (!results) return results.error();
-        in.push_back(std::move(*results));
-        if (auto ok = in.back().check_same_sweep(in.front()); !ok) return ok;
-    }
-    auto out = SweepResults::open(args.out, in.front());
-    if (!out) return out.error();
-    auto ok = merge_all(*out, in, common);
-    // A checkpoint also after an error, so that the items merged so far are in the file; the first error is returned.
-    if (auto checkpointed = out->checkpoint(); ok) ok = checkpointed;
-    if (!ok) return ok;
-    const auto state = read_sweep_status(*out, {});
-    if (!state) return state.error();
-    print_state(common, *state);
-    return {};
-}
-
-Result<void> dump(const std::string& path) {
-    const auto results = SweepResults::open_read_only(path);
-    if (!results) return results.error();
-    bool written = true;
-    auto ok = dump_results(*results, [&](const std::string& text) {
-        written = std::fwrite(text.data(), 1, text.size(), stdout) == text.size();
-        return written && !interrupted();
-    });
-    if (ok && (!written || std::fflush(stdout) != 0)) return bad_input("cannot write to standard output");
-    if (ok && interrupted()) return Error{ErrorCode::interrupted, "interrupted"};
-    return ok;
-}
-
-int status_of(const Result<void>& done) { return done ? 0 : report_error(done.error()); }
-
-}  // namespace
-
-int sweep(const SweepArguments& args, const CommonArguments& common) {
-    catch_interrupt();
-    if (args.status) return status_of(show_sweep_status(args, common));
+/// Runs the sweep in this process. Returns the exit status.
+int run_in_process(const SweepArguments& args, const CommonArguments& common) {
     SweepProcess self;
-    const auto done = run(args, common, self);
+    const auto done = run_as(args, common, self);
     // With several ranks the coordinator prints all errors. A worker returns an error only if the coordinator has died.
     const bool prints_errors = self.ranks ? self.is_coordinator() || !done : Ranks::reports_errors();
     const int code = done ? 0 : prints_errors ? report_error(done.error()) : static_cast<int>(done.error().code);
@@ -203,14 +182,46 @@ int sweep(const SweepArguments& args, const CommonArguments& common) {
     return code;
 }
 
-int sweep_merge(const SweepMergeArguments& args, const CommonArguments& common) {
-    catch_interrupt();
-    return status_of(merge(args, common));
-}
+class SweepVerb final : public Verb {
+    SweepArguments args_;
+    VerbList sub_verbs_;
 
-int sweep_dump(const std::string& results, const CommonArguments&) {
-    catch_interrupt();
-    return status_of(dump(results));
-}
+public:
+    SweepVerb() : Verb({"sweep", "run Monte Carlo, corner and grid sweeps -> one results file", sweep_examples}) {
+        for (const auto make : {make_sweep_merge_verb, make_sweep_dump_verb, make_sweep_show_verb, make_sweep_calibrate_verb})
+            sub_verbs_.push_back(make());
+    }
+    std::span<const std::unique_ptr<Verb>> sub_verbs() const override { return sub_verbs_; }
+
+    void add_options_to(CLI::App& part, CommonArguments& common) override {
+        add_options(part, "",
+                    {{"FILE", &args_.file, "", "a sweep file (TOML), or a netlist with .mc and .step lines"},
+                     {"--out,-o", &args_.out, "RESULTS", "results file (default: the name of FILE with .sqlite, in the current directory)"},
+                     {"--threads,-j", &args_.threads, "N",
+                      "number of threads (0: one per core, under mpirun one per rank); results do not depend on it", std::pair(0U, 1024U)},
+                     {"--lanes", &args_.lanes, "1|4|8", "number of chips simulated at once per thread (SIMD); results do not depend on it",
+                      one_of("1", "4", "8")},
+                     {"--shard", &args_.shard, "K/N", "run only part K of N, for several machines without MPI"},
+                     {"--seed", &args_.seed, "N", "random seed (replaces the seed of the file)"},
+                     {"--samples", &args_.samples, "N", "number of random samples at each point (replaces the number in the file)",
+                      OptionSign::positive},
+                     {"--status", &args_.status, "", "print progress: finished items, missing items, speed"}});
+        add_common_options(part, common);
+    }
+
+    Result<void> check_arguments(const CommonArguments&) override {
+        if (!args_.file.empty()) return {};
+        return bad_usage("corpuscle sweep: needs FILE, or one of merge, show, dump, calibrate is required");
+    }
+
+    int run(const CommonArguments& common) override {
+        catch_interrupt();
+        return args_.status ? exit_status(show_sweep_status(args_, common)) : run_in_process(args_, common);
+    }
+};
+
+}  // namespace
+
+std::unique_ptr<Verb> make_sweep_verb() { return std::make_unique<SweepVerb>(); }
 
 }  // namespace corpuscle

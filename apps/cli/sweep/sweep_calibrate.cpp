@@ -5,8 +5,9 @@
 #include <nlohmann/json.hpp>
 
 #include "circuit/variant/netlist_variants.hpp"
+#include "cli/arguments/option_rows.hpp"
 #include "cli/output/terminal.hpp"
-#include "cli/verbs.hpp"
+#include "cli/sweep/sweep_verbs.hpp"
 #include "core/stimulus/stimuli.hpp"
 #include "run/afferent_plan.hpp"
 #include "run/simulate.hpp"
@@ -14,6 +15,24 @@
 
 namespace corpuscle {
 namespace {
+
+constexpr const char* calibrate_examples =
+    "Each chip is simulated with the stimulus. It passes if the spike count of each phase differs from\n"
+    "the model's by at most a quarter (or one spike), if no spike precedes the force, and if the first\n"
+    "spike is within 10 ms of the model's. A chip that fails is trimmed, coarse steps first, and\n"
+    "simulated again.\n\n"
+    "Examples:\n  corpuscle sweep calibrate sa1-circuit\n  corpuscle sweep calibrate fa1-circuit --samples 200 --bits 6 --separately\n"
+    "  corpuscle sweep calibrate own.cir --like sa1 --trim i_leak=50% --trim x1.m3.m+x1.m4.m=25%";
+
+struct SweepCalibrateArguments {
+    std::string netlist, like, force = "press", corner = "mc";
+    std::vector<std::string> trims;
+    int bits = 4;               // maximum number of bits of each trim
+    std::int64_t samples = 64;  // number of chips
+    std::uint64_t seed = 1;
+    std::uint32_t threads = 0;  // 0: one per core
+    bool separately = false;    // also evaluate each trim alone
+};
 
 /// The default trims of a built-in circuit, and the model that it must match.
 struct DefaultTrims {
@@ -126,12 +145,47 @@ Result<void> calibrate_netlist(const SweepCalibrateArguments& args, const Common
     return {};
 }
 
+class SweepCalibrateVerb final : public Verb {
+    SweepCalibrateArguments args_;
+
+public:
+    SweepCalibrateVerb()
+        : Verb({"calibrate", "trim simulated chips to match a model -> yield for each number of trim bits", calibrate_examples}) {}
+
+    void add_options_to(CLI::App& part, CommonArguments& common) override {
+        add_options(
+            part, "",
+            {{.names = "NETLIST",
+              .target = &args_.netlist,
+              .value = "",
+              .description = "sa1-circuit, fa1-circuit, or a netlist with a force input and a spike output",
+              .is_required = true},
+             {"--like", &args_.like, "AFFERENT", "the model to match (default: sa1 for sa1-circuit, fa1 for fa1-circuit)"},
+             {.names = "--trim",
+              .target = &args_.trims,
+              .value = "NAME=RANGE",
+              .description = "a trimmed .param or device parameter (several are joined by +) and its range: the increase at the highest "
+                             "code. The multiplier .m is trimmed in integer steps (default: I_LEAK, I_BIASB and one gain)",
+              .count = std::pair(1, any_number_of_values)},
+             {"--bits", &args_.bits, "N", "maximum number of bits of each trim", std::pair(1, 12)},
+             {"--samples", &args_.samples, "N", "number of chips", OptionSign::positive},
+             {"--seed", &args_.seed, "N", "random seed of process and mismatch"},
+             {"--corner", &args_.corner, "", "process corner; mc includes process variation"},
+             {"--force", &args_.force, "STIMULUS", "the stimulus"},
+             {"--separately", &args_.separately, "", "also evaluate each trim alone"},
+             {"--threads,-j", &args_.threads, "N", "number of threads (0: one per core); results do not depend on it",
+              std::pair(0U, 1024U)}});
+        add_common_options(part, common);
+    }
+
+    int run(const CommonArguments& common) override {
+        catch_interrupt();
+        return exit_status(calibrate_netlist(args_, common));
+    }
+};
+
 }  // namespace
 
-int sweep_calibrate(const SweepCalibrateArguments& args, const CommonArguments& common) {
-    catch_interrupt();
-    const auto done = calibrate_netlist(args, common);
-    return done ? 0 : report_error(done.error());
-}
+std::unique_ptr<Verb> make_sweep_calibrate_verb() { return std::make_unique<SweepCalibrateVerb>(); }
 
 }  // namespace corpuscle

@@ -5,11 +5,13 @@
 #include <filesystem>
 #include <nlohmann/json.hpp>
 
+#include "cli/arguments/option_rows.hpp"
+#include "cli/arguments/report_page.hpp"
 #include "cli/output/output_files.hpp"
 #include "cli/output/printable.hpp"
 #include "cli/output/sweep_tables.hpp"
 #include "cli/output/terminal.hpp"
-#include "cli/verbs.hpp"
+#include "cli/sweep/sweep_verbs.hpp"
 #include "core/text/input_files.hpp"
 #include "io/output/output_check.hpp"
 #include "report/sweep/sweep_page.hpp"
@@ -18,6 +20,23 @@
 
 namespace corpuscle {
 namespace {
+
+constexpr const char* show_examples =
+    R"(All estimates have 95 % confidence intervals: yields by Clopper and Pearson, means by Student,
+standard deviations by Bonett (without assuming a distribution), quantiles between two order
+statistics. doc/sweeps.md explains how to read them.
+
+Examples:
+  corpuscle sweep show chips.sqlite
+  corpuscle sweep show chips.sqlite --by temp --measure spikes --quantile 0.01 --quantile 0.99
+  corpuscle sweep show chips.sqlite --report chips.html
+  corpuscle sweep show chips.sqlite --json)";
+
+struct SweepShowArguments {
+    std::string results, report_file;
+    std::vector<std::string> by, measures;
+    std::vector<double> quantiles;
+};
 
 /// The options of the summary; the quantiles are sorted.
 Result<SweepSummaryOptions> summary_options(const SweepShowArguments& args) {
@@ -33,7 +52,7 @@ Result<SweepSummaryOptions> summary_options(const SweepShowArguments& args) {
     return out;
 }
 
-Result<void> run(const SweepShowArguments& args, const CommonArguments& common) {
+Result<void> show(const SweepShowArguments& args, const CommonArguments& common) {
     const auto options = summary_options(args);
     if (!options) return options.error();
     const auto results = SweepResults::open_read_only(args.results);
@@ -66,11 +85,34 @@ Result<void> run(const SweepShowArguments& args, const CommonArguments& common) 
     return {};
 }
 
+class SweepShowVerb final : public Verb {
+    SweepShowArguments args_;
+
+public:
+    SweepShowVerb() : Verb({"show", "analyse a results file: yields, distributions, most influential devices", show_examples}) {}
+
+    void add_options_to(CLI::App& part, CommonArguments& common) override {
+        add_options(part, "",
+                    {{.names = "RESULTS",
+                      .target = &args_.results,
+                      .value = "",
+                      .description = "a results file; the sweep may still be running",
+                      .is_required = true},
+                     {"--by", &args_.by, "AXIS",
+                      "group the results by these axes (default: all listed axes); random axes are divided into five bands"},
+                     {"--measure,-m", &args_.measures, "NAME", "analyse only these measures; limits of other measures are ignored"},
+                     {"--quantile", &args_.quantiles, "FRACTION", "print this quantile with its confidence interval, such as 0.01"}});
+        add_options(part, "Output", {{"--report", &args_.report_file, "FILE.html", "write a report page"}});
+        add_common_options(part, common);
+        add_overwrite_option(part, common);
+    }
+
+    Result<void> check_arguments(const CommonArguments&) override { return check_page_name(args_.report_file); }
+    int run(const CommonArguments& common) override { return exit_status(show(args_, common)); }
+};
+
 }  // namespace
 
-int sweep_show(const SweepShowArguments& args, const CommonArguments& common) {
-    const auto done = run(args, common);
-    return done ? 0 : report_error(done.error());
-}
+std::unique_ptr<Verb> make_sweep_show_verb() { return std::make_unique<SweepShowVerb>(); }
 
 }  // namespace corpuscle

@@ -1,26 +1,13 @@
 #pragma once
-// The command-line options of `corpuscle sweep` and its sub-verbs, and the options that all verbs have.
+// The verbs that may follow "sweep", in the order of --help.
 
-#include "cli/verbs.hpp"
-
-namespace CLI {
-class App;
-}
+#include "cli/verb.hpp"
 
 namespace corpuscle {
 
-class SweepVerbs {
-    SweepArguments sweep_;
-    SweepMergeArguments merge_;
-    std::string dump_path_;
-    SweepShowArguments show_;
-    SweepCalibrateArguments calibrate_;
-    CLI::App* verb_ = nullptr;  // `sweep`, after add_to()
-
-public:
-    void add_to(CLI::App&, CommonArguments&);
-    /// Runs the requested verb; returns its exit status.
-    int run(const CommonArguments&) const;
-};
+std::unique_ptr<Verb> make_sweep_merge_verb();
+std::unique_ptr<Verb> make_sweep_dump_verb();
+std::unique_ptr<Verb> make_sweep_show_verb();
+std::unique_ptr<Verb> make_sweep_calibrate_verb();
 
 }  // namespace corpuscle

@@ -5,7 +5,7 @@
 #include <span>
 #include <string>
 
-#include "cli/verbs.hpp"
+#include "cli/stream/stream_arguments.hpp"
 #include "core/parameter_override.hpp"
 #include "io/recording/recording.hpp"
 #include "live/input/byte_source.hpp"

@@ -1,4 +1,4 @@
-#include "cli/stream_input.hpp"
+#include "cli/stream/stream_input.hpp"
 
 #include <fmt/format.h>
 #include <charconv>
@@ -6,7 +6,6 @@
 #include "cli/arguments/force_argument.hpp"
 #include "cli/arguments/recording_arguments.hpp"
 #include "cli/output/terminal.hpp"
-#include "core/stimulus/stimuli.hpp"
 #include "core/text/quantity.hpp"
 #include "io/recording/column_selection.hpp"
 
@@ -79,9 +78,7 @@ Result<StreamQuantities> stream_quantities(const StreamArguments& args) {
 
 Result<std::unique_ptr<ForceSource>> open_stream_source(const StreamArguments& args, const StreamQuantities& quantities,
                                                         std::span<const ParameterOverride> overrides) {
-    if (const auto option = first_recording_option(args); !option.empty() && is_stimulus(args.in))
-        return bad_usage(
-            fmt::format("{} is for recordings, but {} is a stimulus; change it by --set {}.PARAMETER=VALUE", option, args.in, args.in));
+    if (auto ok = check_recording_arguments(args, {&args.in, 1}); !ok) return ok.error();
     auto options = quantities.recording;
     options.should_continue = [](double) { return !interrupted(); };
     return open_force(args.in, options, overrides, stimulus_rate, 0);

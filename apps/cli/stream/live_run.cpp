@@ -1,4 +1,4 @@
-// corpuscle stream: simulates afferents live. Frames of force in, spikes out.
+#include "cli/stream/live_run.hpp"
 
 #include <fmt/format.h>
 #include <poll.h>
@@ -11,8 +11,7 @@
 #include "cli/output/printable.hpp"
 #include "cli/output/stream_report.hpp"
 #include "cli/output/terminal.hpp"
-#include "cli/stream_input.hpp"
-#include "cli/verbs.hpp"
+#include "cli/stream/stream_input.hpp"
 #include "core/text/input_files.hpp"
 #include "io/output/output_check.hpp"
 #include "live/input/site_frames.hpp"
@@ -291,17 +290,6 @@ public:
 
 }  // namespace
 
-int stream(const StreamArguments& args, const CommonArguments& common) {
-    catch_interrupt();
-    if (!args.to.empty() && args.out != "-") return report_error(bad_usage("--out and --to cannot be used together"));
-    if (common.json && args.to.empty() && args.out == "-")
-        return report_error(bad_usage("--json prints on standard output; send the spikes elsewhere by --out FILE or --to PORT"));
-    LiveRun run(args, common);
-    const auto done = run.run();
-    if (done) return 0;
-    // The summary has reported the interruption.
-    if (done.error().code == ErrorCode::interrupted) return static_cast<int>(ErrorCode::interrupted);
-    return report_error(done.error());
-}
+Result<void> run_live(const StreamArguments& args, const CommonArguments& common) { return LiveRun(args, common).run(); }
 
 }  // namespace corpuscle

@@ -1,0 +1,64 @@
+#pragma once
+// Options of verbs as rows of a table. The table has the order of --help.
+
+#include <cstdint>
+#include <initializer_list>
+#include <map>
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <variant>
+#include <vector>
+
+namespace CLI {
+class App;
+}
+
+namespace corpuscle {
+
+/// Values by the name of their option: {"--bin", "10ms"}; "" for a flag.
+using OptionValues = std::map<std::string, std::string, std::less<>>;
+
+/// The variable that an option sets. The value of a list is that of all occurrences of the option; a bool is a flag, and the flag "--no-x"
+/// sets an optional bool to false. In OptionValues the option is a flag if it has no placeholder.
+using OptionTarget = std::variant<bool*, std::string*, int*, std::int64_t*, std::uint32_t*, std::uint64_t*, std::optional<bool>*,
+                                  std::optional<std::string>*, std::optional<std::int64_t>*, std::optional<std::uint32_t>*,
+                                  std::optional<std::uint64_t>*, std::vector<std::string>*, std::vector<double>*, OptionValues*>;
+
+enum class OptionSign { not_negative, positive };
+
+/// The values that an option accepts: any, one of several texts, a range of integers, or numbers of a sign.
+using OptionCheck =
+    std::variant<std::monostate, std::vector<std::string>, std::pair<int, int>, std::pair<std::uint32_t, std::uint32_t>, OptionSign>;
+
+template <class... T>
+std::vector<std::string> one_of(T... texts) {
+    return {texts...};
+}
+
+inline constexpr int any_number_of_values = -1;
+
+/// An option ("--out,-o") or a positional argument ("FILE").
+struct OptionRow {
+    std::string_view names;
+    OptionTarget target;     ///< its value before parsing is the default, which --help prints unless `check` refuses it
+    std::string_view value;  ///< the placeholder of the value in --help: "FILE"; "" for flags, and for the name of its type
+    std::string_view description;
+    OptionCheck check = {};
+    /// The numbers of values per occurrence, lowest and highest. Default: one, and any number for a positional list.
+    std::optional<std::pair<int, int>> count = {};
+    bool is_required = false;
+    bool splits_at_commas = false;   ///< a value with commas is a list
+    const char* needs = nullptr;     ///< an option that must also be given
+    const char* excludes = nullptr;  ///< an option that must not be given, too
+};
+
+/// Adds a group of options to the part of the command line that belongs to a verb. The group "" is that of the options without a title.
+void add_options(CLI::App& part, const std::string& group, std::span<const OptionRow> rows);
+inline void add_options(CLI::App& part, const std::string& group, std::initializer_list<OptionRow> rows) {
+    add_options(part, group, std::span(rows.begin(), rows.size()));
+}
+
+}  // namespace corpuscle

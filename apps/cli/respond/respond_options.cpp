@@ -1,0 +1,155 @@
+// corpuscle respond: its options and the examples of its help.
+
+#include <fmt/format.h>
+#include <algorithm>
+#include <utility>
+
+#include "cli/arguments/force_argument.hpp"
+#include "cli/arguments/option_rows.hpp"
+#include "cli/arguments/report_page.hpp"
+#include "cli/respond/respond_arguments.hpp"
+#include "cli/verbs.hpp"
+#include "io/table/foreign_format.hpp"
+#include "model/copies.hpp"
+#include "run/sinks.hpp"
+
+namespace corpuscle {
+namespace {
+
+constexpr const char* respond_examples =
+    R"(FORCE is a file of numbers in columns (- for standard input), or a stimulus: press, ramp-hold, step,
+sine, chirp, noise, grating, or a sum such as press+noise (after its end a shorter stimulus keeps
+its last value).
+
+An afferent is one of
+  a model: sa1 fa1 sa2 fa2 sa1-kim fa1-lee (TouchSim's names SA1 RA PC work, too)
+  a receptor and a neuron: sa1b+izhikevich
+  either of these behind a sensor, a transducer or a converter: fsr+f2i+sa1, fsr+f2v+adc+sa1b+lif-b
+  a circuit: sa1-circuit fa1-circuit, or the path of a netlist with a force input and a spike output
+
+--set changes any parameter. In netlists it changes any .param, array or device value. 'corpuscle
+list' prints all parameters. A value without a unit is in SI: press.t_hold=0.25 means 0.25 s.
+
+Examples:
+  corpuscle respond press --report press.html              press, hold and release, through an SA-I and an FA-I afferent
+  corpuscle respond touch.csv --unit mN --out result       your own recording: spikes.csv, summary.json
+  corpuscle respond press --set press.F_max=2N --set sa1.f_B=25Hz
+  corpuscle respond press --json                           one JSON document, with the time of every spike
+  corpuscle respond sine --set sine.f=250Hz --afferent fa2 --rate 20kHz
+  corpuscle respond press --afferent sa1 --copies 1000 --spread sa1.f_B=10% --spread sa1.V_th=5%
+  corpuscle respond press --afferent sa1,sa1-circuit --corner ss --temp 85 --supply 0.65V
+  corpuscle respond press --afferent sa1-circuit --set sa1-circuit.C_u=4pF --set sa1-circuit.summer.N3B=8x4 --probe 'vf,i(N3B)' -o result
+  corpuscle respond stroke --population hand --out hand --report      a stroke over a hand with 17,000 afferents
+  corpuscle respond frames.csv --population 'grid 8x8' --out skin     64 sensor channels, one per skin site
+  corpuscle respond touch.csv --channel fz --scale 0.02 --abs --out result --report
+  corpuscle respond eskin.csv --rate 100Hz --scale 40      irregular timestamps: assume even sampling
+  corpuscle respond grip.csv --rate 250Hz --scale 0.002 --range 0..4095 --despike 200 --notch 50Hz     remove outliers and mains hum
+
+The unit of a recording is read from its header (fz_N, "fz [mN]"). If the header has none, give
+--unit, or --scale S (newtons per unit of the recording). Sampling times come from the time column
+(--time names it) or from --rate.)";
+
+void add_afferent_options(CLI::App& part, RespondArguments& args) {
+    add_options(
+        part, "",
+        {{"FORCE", &args.forces, "", "recordings and stimuli"},
+         {.names = "--afferent,-a",
+          .target = &args.afferents,
+          .value = "NAME",
+          .description = "the afferents to simulate (repeat the option, or separate by commas)",
+          .splits_at_commas = true},
+         {"--set,-s", &args.settings, "NAME.PARAMETER=VALUE", "set a parameter of an afferent or a stimulus, such as sa1.f_B=25Hz"},
+         {"--copies", &args.copies, "N", "simulate N copies of each afferent on every channel: sa1#1 ... sa1#N", std::pair(1U, max_copies)},
+         {"--spread", &args.spreads, "NAME.PARAMETER=10%",
+          "vary a parameter between copies: its standard deviation, relative (10%) or with its unit"}});
+}
+
+void add_skin_options(CLI::App& part, RespondArguments& args) {
+    add_options(
+        part, "Skins",
+        {{"--population,-p", &args.population, "NAME|FILE",
+          "simulate a skin (instead of --afferent): hand, fingertip, 'grid 8x8', or a population file (doc/skin.md)"},
+         {.names = "--contact",
+          .target = &args.contact,
+          .value = "INDENTER",
+          .description = "indenter that applies the force of a single channel to the skin: flat (default), sphere, edge, grating; for its "
+                         "parameters see 'corpuscle list contact', and set them by --set contact.radius=5mm"},
+         {.names = "--checkpoint",
+          .target = &args.checkpoint,
+          .value = "FILE",
+          .description = "save progress in this file; after an interruption the same command continues"}});
+}
+
+void add_simulation_options(CLI::App& part, RespondArguments& args) {
+    add_options(
+        part, "",
+        {{"--method", &args.method, "METHOD", "time stepping: exact, or backward-euler as in the thesis",
+          one_of("exact", "backward-euler")},
+         {"--sampled", &args.sampled, "", "put spikes on the sampling times, as in the thesis (default: interpolate within the step)"},
+         {"--noise", &args.noise, "CURRENT",
+          "add white noise current to every membrane: its standard deviation in a bandwidth of 1 kHz, such as 100nA"},
+         {"--seed", &args.seed, "N", "seed of all random numbers", OptionSign::not_negative},
+         {"--threads,-j", &args.threads, "N", "number of threads (0: one per core); results do not depend on it", std::pair(0U, 1024U)},
+         {"--float", &args.use_float, "",
+          "single precision: up to twice as fast, but spike times change (see doc/lanes.md); currents and membranes are not recorded"},
+         {"--rate", &args.rate, "FREQUENCY",
+          "sampling rate of a stimulus (default 10 kHz; with --population 1 kHz). For a recording: assume even sampling at this rate"}});
+}
+
+void add_output_options(CLI::App& part, RespondArguments& args) {
+    std::vector<OptionRow> rows = {
+        {"--out,-o", &args.out, "DIR", "write spikes.csv, summary.json and, with --copies, copies.csv into this directory"}};
+    for (const auto* format : output_formats)
+        if (!format->option.empty()) rows.push_back({format->option, &args.outputs, format->value_name, format->help});
+    rows.push_back({.names = "--report",
+                    .target = &args.report_file,
+                    .value = "[FILE.html]",
+                    .description = "write a report page (default: report.html, in the directory of --out)",
+                    .count = std::pair(0, 1)});
+    add_options(part, "Output", rows);
+}
+
+class RespondVerb final : public Verb {
+    RespondArguments args_;
+
+public:
+    RespondVerb()
+        : Verb({"respond",
+                "simulate afferents: force recordings or stimuli -> spikes, rates, report",
+                respond_examples,
+                {"--afferent", "--set", "--population", "--copies", "--spread", "--rate", "--channel", "--unit", "--scale", "--out",
+                 "--report", "--json"}}) {}
+
+    void add_options_to(CLI::App& part, CommonArguments& common) override {
+        add_afferent_options(part, args_);
+        add_skin_options(part, args_);
+        add_simulation_options(part, args_);
+        add_recording_options(part, args_);
+        add_output_options(part, args_);
+        add_netlist_options(part, args_.netlists);
+        add_common_options(part, common);
+        add_overwrite_option(part, common);
+    }
+
+    /// "respond --report press": the argument is not a page, so it is the force. If a force was already given, it may be a misspelt page.
+    Result<void> check_arguments(const CommonArguments& common) override {
+        args_.has_report =
+            std::any_of(common.typed.begin(), common.typed.end(), [](const TypedOption& option) { return option.name == "--report"; });
+        auto ok = check_page_name(args_.report_file);
+        if (ok || !is_force(args_.report_file)) return ok;
+        if (args_.forces.empty()) return args_.forces.push_back(std::exchange(args_.report_file, "")), Result<void>();
+        std::string forces;
+        for (const auto& force : args_.forces) forces += quote_shell_word(force) + " ";
+        if (std::find(args_.forces.begin(), args_.forces.end(), args_.report_file) == args_.forces.end())
+            forces += quote_shell_word(args_.report_file) + " ";
+        return bad_usage(fmt::format("{}; for a report of these forces type: corpuscle respond {}--report", ok.error().message, forces));
+    }
+
+    int run(const CommonArguments& common) override { return respond(args_, common); }
+};
+
+}  // namespace
+
+std::unique_ptr<Verb> make_respond_verb() { return std::make_unique<RespondVerb>(); }
+
+}  // namespace corpuscle

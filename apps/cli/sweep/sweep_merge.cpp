@@ -1,0 +1,79 @@
+// corpuscle sweep merge: combines results files of one sweep.
+
+#include <fmt/format.h>
+
+#include "cli/arguments/option_rows.hpp"
+#include "cli/output/sweep_status.hpp"
+#include "cli/output/terminal.hpp"
+#include "cli/sweep/sweep_verbs.hpp"
+
+namespace corpuscle {
+namespace {
+
+struct SweepMergeArguments {
+    std::string out;
+    std::vector<std::string> in;
+};
+
+Result<void> merge_all(SweepResults& out, const std::vector<SweepResults>& in, const CommonArguments& common) {
+    for (const auto& from : in) {
+        if (interrupted()) return Error{ErrorCode::interrupted, "interrupted; the same command resumes"};
+        const auto added = out.merge(from);
+        if (!added) return added.error();
+        if (!common.json && !common.quiet)
+            print_text(fmt::format("{}: {} items, {} of them new\n", from.path(), from.finished_count(), *added));
+    }
+    return {};
+}
+
+Result<void> merge(const SweepMergeArguments& args, const CommonArguments& common) {
+    std::vector<SweepResults> in;
+    for (const auto& path : args.in) {
+        auto results = SweepResults::open_read_only(path);
+        if (!results) return results.error();
+        in.push_back(std::move(*results));
+        if (auto ok = in.back().check_same_sweep(in.front()); !ok) return ok;
+    }
+    auto out = SweepResults::open(args.out, in.front());
+    if (!out) return out.error();
+    auto ok = merge_all(*out, in, common);
+    // A checkpoint also after an error, so that the items merged so far are in the file; the first error is returned.
+    if (auto checkpointed = out->checkpoint(); ok) ok = checkpointed;
+    if (!ok) return ok;
+    const auto state = read_sweep_status(*out, {});
+    if (!state) return state.error();
+    print_sweep_status(common, *state);
+    return {};
+}
+
+class SweepMergeVerb final : public Verb {
+    SweepMergeArguments args_;
+
+public:
+    SweepMergeVerb()
+        : Verb({"merge", "combine results files of one sweep, such as its shards",
+                "Items that are already in OUT are not added twice. If an item differs, merge stops with an error that names it.\n\n"
+                "Example:\n  corpuscle sweep merge chips.sqlite chips-1of3.sqlite chips-2of3.sqlite chips-3of3.sqlite"}) {}
+
+    void add_options_to(CLI::App& part, CommonArguments& common) override {
+        add_options(part, "",
+                    {{.names = "OUT",
+                      .target = &args_.out,
+                      .value = "",
+                      .description = "the combined results file, created if it does not exist",
+                      .is_required = true},
+                     {.names = "IN", .target = &args_.in, .value = "", .description = "results files", .is_required = true}});
+        add_common_options(part, common);
+    }
+
+    int run(const CommonArguments& common) override {
+        catch_interrupt();
+        return exit_status(merge(args_, common));
+    }
+};
+
+}  // namespace
+
+std::unique_ptr<Verb> make_sweep_merge_verb() { return std::make_unique<SweepMergeVerb>(); }
+
+}  // namespace corpuscle
