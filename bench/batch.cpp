@@ -90,7 +90,7 @@ int main(int argc, char** argv) {
     if (!netlist) return std::fprintf(stderr, "%s\n", netlist.error().text().c_str()), 1;
     const auto design = CircuitAfferentFactory::create(*netlist);
     if (!design) return std::fprintf(stderr, "%s\n", design.error().text().c_str()), 1;
-    const auto press = make_stimulus("press", {}, 1 / T, 0);
+    const auto press = make_stimulus("press", 1 / T, 0);
     Frames frames(1, 20000);
     if (!press || !(*press)->read(frames)) return std::fputs("cannot create the press stimulus\n", stderr), 1;
     const auto force = std::span<const double>(frames.force[0]).first(frames.count);

@@ -65,8 +65,8 @@ struct PressCase {
 
 /// A stimulus at 1 kHz that acts through an indenter.
 PressCase press(const Innervation& skin, std::string_view stimulus, std::string_view indenter, std::vector<ParameterOverride> overrides) {
-    PressCase p{value_or_exit(make_stimulus(stimulus, overrides, 1e3, 0)), {}, {}};
-    p.contact = value_or_exit(make_contact(indenter, overrides, skin.plan.sites, p.source->clock()));
+    PressCase p{value_or_exit(make_stimulus(stimulus, overrides, 1e3, 0)).result, {}, {}};
+    p.contact = value_or_exit(make_contact(indenter, overrides, skin.plan.sites, p.source->clock())).result;
     p.force = make_pressed_force(*p.source, *p.contact);
     return p;
 }

@@ -77,7 +77,7 @@ LatencyHistogram idle_loop(int rate, int seconds) {
 
 std::shared_ptr<const Innervation> skin_of(const std::string& population) {
     auto plan = make_live_plan(population, 1);
-    auto skin = plan ? innervate(std::move(*plan)) : Result<std::shared_ptr<const Innervation>>(plan.error());
+    auto skin = plan ? innervate(std::move(plan->result)) : Result<std::shared_ptr<const Innervation>>(plan.error());
     if (!skin) fmt::print("{}\n", skin.error().text()), std::exit(1);
     return *skin;
 }

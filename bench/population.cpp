@@ -94,7 +94,7 @@ double additions(long count) {
 /// The samples of the press at 10 kHz, N.
 std::vector<double> press() {
     Frames block(1, 10000);
-    const auto source = make_stimulus("press", {}, 10e3, 0);
+    const auto source = make_stimulus("press", 10e3, 0);
     if (!source || !(*source)->read(block)) stop("cannot create the press stimulus");
     return block.force[0];
 }
@@ -144,7 +144,7 @@ struct Case {
     std::function<PopulationForce(std::size_t first, std::size_t steps)> force = {};  // of `steps` steps from step `first`
 
     std::unique_ptr<LanePopulation> make_population() const {
-        const auto plan = plan_afferent("sa1", {});
+        const auto plan = plan_afferent("sa1");
         std::vector<AfferentPlan> plans(own_parameters ? afferents : 1, *plan);
         for (std::size_t u = 0; own_parameters && u < afferents; ++u)
             for (std::size_t k = 0; k < plans[u].values.size(); ++k)

@@ -16,13 +16,13 @@ using namespace corpuscle;
 
 std::vector<double> force_of(const std::string& stimulus) {
     Frames block(1, 10000);
-    const auto source = make_stimulus(stimulus, {}, 10e3, 0);
+    const auto source = make_stimulus(stimulus, 10e3, 0);
     if (!(*source)->read(block)) return {};
     return block.force[0];
 }
 
 void respond(benchmark::State& run, const std::string& name, const std::string& stimulus, Method method) {
-    const auto afferent = make_afferent(*plan_afferent(name, {}), {1e-4, method, method == Method::backward_euler});
+    const auto afferent = make_afferent(*plan_afferent(name), {1e-4, method, method == Method::backward_euler});
     const auto force = force_of(stimulus);
     std::vector<Spike> spikes;
     spikes.reserve(4096);

@@ -30,10 +30,10 @@ using namespace corpuscle;
 using namespace corpuscle::circuit;
 using Trains = std::vector<std::vector<double>>;  // [chip][spike], s
 
-std::shared_ptr<const CircuitAfferentFactory> factory_of(const std::string& name, const std::vector<NetlistOverride>& overrides) {
+std::shared_ptr<const CircuitAfferentFactory> factory_of(const std::string& name, const std::vector<ParameterOverride>& overrides) {
     const auto netlist = apply_overrides(name, overrides);
     if (!netlist) std::fprintf(stderr, "%s\n", netlist.error().text().c_str()), std::exit(1);
-    auto factory = CircuitAfferentFactory::create(*netlist);
+    auto factory = CircuitAfferentFactory::create(netlist->result);
     if (!factory) std::fprintf(stderr, "%s\n", factory.error().text().c_str()), std::exit(1);
     return *factory;
 }
@@ -138,15 +138,15 @@ int main(int argc, char** argv) {
     }
     std::sort(contributions.begin(), contributions.end(),
               [](const Contribution& a, const Contribution& b) { return std::pair(-a.all(), a.device) < std::pair(-b.all(), b.device); });
-    std::vector<NetlistOverride> all;  // of the three
+    std::vector<ParameterOverride> all;  // of the three
     for (std::size_t k = 0; k < 8; ++k)
         fmt::print("  {:20} threshold {:+.2f}, current {:+.2f}\n", contributions[k].device->name, contributions[k].by_threshold,
                    contributions[k].by_current);
     for (std::size_t k = 0; k < 3; ++k) {
         const auto& e = *contributions[k].device;
-        std::vector<NetlistOverride> overrides;
+        std::vector<ParameterOverride> overrides;
         for (const char* dimension : {"w", "l"})
-            overrides.push_back({e.name + "." + dimension, fmt::format("{:.17g}", 2 * e.values.at(dimension)), e.name});
+            overrides.push_back({netlist, e.name + "." + dimension, fmt::format("{:.17g}", 2 * e.values.at(dimension)), e.name});
         all.insert(all.end(), overrides.begin(), overrides.end());
         print_statistics(fmt::format("{} with four times the area", e.name).c_str(),
                          press_chips(factory_of(netlist, overrides), chips, press), limits);

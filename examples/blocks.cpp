@@ -6,7 +6,7 @@
 
 int main() {
     using namespace corpuscle;
-    const auto plan = plan_afferent("fa1", {});
+    const auto plan = plan_afferent("fa1");
     if (!plan) return std::puts(plan.error().text().c_str()), 1;
     const double T = 1e-3;  // sampling period, s
     const auto afferent = make_afferent(*plan, {T});

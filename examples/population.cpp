@@ -8,8 +8,8 @@
 
 int main() {
     using namespace corpuscle;
-    const auto plan = plan_afferent("sa1", {});
-    const auto press = make_stimulus("press", {}, 10e3, 0);
+    const auto plan = plan_afferent("sa1");
+    const auto press = make_stimulus("press", 10e3, 0);
     const AfferentPlan* const plans[] = {&*plan};
     const auto population = make_lane_population({plans, 10'000}, {.dt = 1e-4}, *instruction_set());
     if (!population) return std::puts(population.error().text().c_str()), 1;

@@ -1,5 +1,7 @@
 #include "corpuscle.hpp"
 
+#include <array>
+
 #include "core/stimulus/stimuli.hpp"
 #include "measure/measures.hpp"
 #include "run/afferent_plan.hpp"
@@ -14,30 +16,23 @@ T value_or_throw(Result<T> result) {
     return std::move(*result);
 }
 
-std::vector<ParameterOverride> parse_overrides(const std::vector<std::string>& settings) {
-    std::vector<ParameterOverride> overrides;
-    for (const auto& s : settings) overrides.push_back(value_or_throw(parse_override(s)));
-    return overrides;
-}
-
-void check_used(std::span<const ParameterOverride> overrides) {
-    for (const auto& o : overrides)
-        if (!o.is_used) throw InputError(o.text() + ": no model or stimulus in use is named '" + o.target + "'");
+/// The result of applied overrides; throws if one of them has another target than the thing called `name`.
+template <class T>
+T result_or_throw(Applied<T> applied, std::string_view name) {
+    if (const auto ok = check_all_used(applied.unused, std::array{name}); !ok) throw InputError(ok.error().text());
+    return std::move(applied.result);
 }
 
 }  // namespace
 
 ForceSignal stimulus(const std::string& name, const std::vector<std::string>& settings, double rate, std::uint64_t seed) {
-    const auto overrides = parse_overrides(settings);
-    const auto source = value_or_throw(make_stimulus(name, overrides, rate, seed));
-    check_used(overrides);
+    const auto source = result_or_throw(value_or_throw(make_stimulus(name, value_or_throw(parse_overrides(settings)), rate, seed)), name);
     return {source->clock().rate(), value_or_throw(read_channel(*source))};
 }
 
 Response respond(const std::string& afferent, const ForceSignal& signal, const std::vector<std::string>& settings) {
-    const auto overrides = parse_overrides(settings);
-    const auto plan = value_or_throw(plan_any_afferent(afferent, overrides));
-    check_used(overrides);
+    Applied<AfferentPlan> planned = value_or_throw(plan_any_afferent(afferent, value_or_throw(parse_overrides(settings))));
+    const auto plan = result_or_throw(std::move(planned), afferent);
     const auto clock = value_or_throw(make_clock(signal.rate));
     const auto model = make_afferent(plan, {clock.T()});
     return {spike_times(value_or_throw(simulate(*model, signal.force)).spikes, clock)};

@@ -33,11 +33,9 @@ T success_or_throw(Result<T>&& result) {
 
 LiveSkin::LiveSkin(const std::string& population, double rate, std::size_t channels, const std::vector<std::string>& settings) {
     const auto clock = success_or_throw(make_clock(rate));
-    std::vector<ParameterOverride> overrides;
-    for (const auto& text : settings) overrides.push_back(success_or_throw(parse_override(text)));
-    auto plan = success_or_throw(make_live_plan(population, channels, overrides));
-    success_or_throw(check_overrides_used(plan, overrides));
-    auto placed = success_or_throw(innervate(std::move(plan)));
+    auto applied = success_or_throw(make_live_plan(population, channels, success_or_throw(parse_overrides(settings))));
+    success_or_throw(check_all_used(applied.unused, override_targets(applied.result)));
+    auto placed = success_or_throw(innervate(std::move(applied.result)));
     auto addressing = make_event_addressing(*placed, clock);
     impl_ = std::unique_ptr<Impl>(new Impl{success_or_throw(SkinStream::make(std::move(placed), clock)), std::move(addressing)});
     impl_->events.reserve(8 * impl_->addressing.names.size() + 64);

@@ -47,7 +47,7 @@ const std::shared_ptr<T>& keep_alive(const std::shared_ptr<T>& object) {
 std::vector<ListEntry> afferent_entries() {
     std::vector<ListEntry> entries;
     for (const auto& a : named_afferents()) {
-        const auto plan = plan_afferent(a.name, {});
+        const auto plan = plan_afferent(a.name);
         entries.push_back({std::string(a.name),
                            plan->composition(),
                            std::string(a.description),
@@ -56,7 +56,7 @@ std::vector<ListEntry> afferent_entries() {
                            {a.aliases.begin(), a.aliases.end()}});
     }
     for (const auto& c : circuit::embedded_netlists)
-        if (const auto plan = plan_any_afferent(c.name, {}))
+        if (const auto plan = plan_any_afferent(c.name))
             entries.push_back(
                 {plan->name,
                  plan->composition(),
@@ -117,7 +117,7 @@ Result<std::vector<ListSection>> select_sections(const std::vector<std::string>&
         for (const auto& e : s.entries) known.push_back(e.name);
     }
     for (const auto& typed : what) {
-        const auto plan = plan_afferent(typed, {});
+        const auto plan = plan_afferent(typed);
         const std::string name =
             plan && typed.find('+') == std::string::npos ? plan->name : typed;  // TouchSim's SA1, RA ... are sa1, fa1 ...
         if (std::find(known.begin(), known.end(), name) == known.end())

@@ -7,9 +7,11 @@
 #include <optional>
 
 #include "circuit/analyses.hpp"
+#include "circuit/cost/cost_document.hpp"
 #include "circuit/cost/cost_meter.hpp"
 #include "circuit/output/resolve_probe.hpp"
 #include "circuit/run_directives.hpp"
+#include "circuit/variant/netlist_overrides.hpp"
 #include "circuit/variant/netlist_variants.hpp"
 #include "cli/arguments/netlist_arguments.hpp"
 #include "cli/arguments/option_rows.hpp"
@@ -18,7 +20,6 @@
 #include "cli/output/printable.hpp"
 #include "cli/output/terminal.hpp"
 #include "cli/verbs.hpp"
-#include "run/summary/cost_document.hpp"
 #include "run/summary/json_number.hpp"
 
 namespace corpuscle {
@@ -107,7 +108,7 @@ Json document_of(const VariantResult& result) {
                 {"expectations", expectations},           {"warnings", warnings}};
     for (const auto& a : outcome.analyses)
         if (a.result.spikes) out["spikes"].push_back(*a.result.spikes);  // one list per .tran
-    if (result.cost) out["budget"] = corpuscle::document_of(*result.cost);
+    if (result.cost) out["budget"] = circuit::document_of(*result.cost);
     return out;
 }
 
@@ -312,27 +313,21 @@ void keep_partial_files(CurveFiles& files) {
         print_warning(*note);
 }
 
-/// Parses an override of --set: "summer.N3B=8x4".
-Result<NetlistOverride> parse_override(const std::string& text) {
-    const auto equals = text.find('=');
-    if (equals == 0 || equals == std::string::npos || equals + 1 == text.size())
-        return bad_usage(fmt::format("--set {}: write NAME=VALUE, such as 'C_u=4pF'", text));
-    return NetlistOverride{text.substr(0, equals), text.substr(equals + 1), "--set " + text};
-}
-
 /// The netlist with its overrides and with the probes of --probe in addition to its own.
 Result<Netlist> netlist_of(const RunArguments& args) {
     auto overrides = netlist_overrides(args.netlists);
     for (const auto& text : args.settings) {
-        auto parsed = parse_override(text);
+        auto parsed = parse_netlist_override(args.netlist, text, "--set");
         if (!parsed) return parsed.error();
         overrides.push_back(std::move(*parsed));
     }
-    auto netlist = apply_overrides(args.netlist, overrides);
-    if (!netlist || args.netlists.probes.empty()) return netlist;
-    const auto circuit = netlist->elaborate();
+    const auto applied = apply_overrides(args.netlist, overrides);  // all overrides are for this netlist, so none is unused
+    if (!applied) return applied.error();
+    const auto& netlist = applied->result;
+    if (args.netlists.probes.empty()) return netlist;
+    const auto circuit = netlist.elaborate();
     if (!circuit) return circuit.error();
-    auto changes = netlist->overrides();
+    auto changes = netlist.overrides();
     for (const auto& probe : probe_names(args.netlists)) {
         const auto found = resolve_probe(*circuit, probe);
         if (!found) return found.error();
@@ -341,7 +336,7 @@ Result<Netlist> netlist_of(const RunArguments& args) {
                 fmt::format("--probe {}: {} has no such node or device{}", probe, args.netlist, suggest_probe(*circuit, probe)));
         changes.saved.push_back(**found);
     }
-    return netlist->with_overrides(std::move(changes));
+    return netlist.with_overrides(std::move(changes));
 }
 
 Result<void> run_netlist(const RunArguments& args, const CommonArguments& common) {

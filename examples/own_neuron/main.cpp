@@ -39,7 +39,7 @@ int main() {
     if (!(std::abs(found - expected) < 1e-6)) return 1;
 
     const Chain<Sa1b, Qif> afferent(Sa1bTraits::Params{}, params, {.dt = 1e-4});
-    const auto press = make_stimulus("press", {}, 10e3, 0);
+    const auto press = make_stimulus("press", 10e3, 0);
     auto state = afferent.start({});
     std::vector<Spike> spikes;
     ResponseBlock response{spikes};

@@ -20,9 +20,9 @@ using circuit::Circuit;
 using circuit::find_analysis;
 using circuit::find_curve_values;
 using circuit::Netlist;
-using circuit::NetlistOverride;
 using circuit::NetlistVariants;
 using circuit::parse_embedded;
+using circuit::parse_netlist_override;
 using circuit::RunOptions;
 using circuit::Values;
 
@@ -37,13 +37,15 @@ Result<Netlist> netlist_of(const StudyNetlist& deck) {
         text = std::move(*embedded);
     }
     if (!deck.directives.empty()) text = with_directives(text, deck.directives);
-    std::vector<NetlistOverride> overrides;
+    std::vector<ParameterOverride> overrides;
     for (const auto& setting : deck.settings) {
-        const auto equals = setting.find('=');
-        if (equals == std::string::npos) return bad_input(fmt::format("setting '{}' must be NAME=VALUE", setting));
-        overrides.push_back({setting.substr(0, equals), setting.substr(equals + 1), setting});
+        auto parsed = parse_netlist_override(file, setting);
+        if (!parsed) return parsed.error();
+        overrides.push_back(std::move(*parsed));
     }
-    return apply_overrides([&](const std::string& corner) { return parse_embedded(text, file, corner); }, file, overrides);
+    auto applied = apply_overrides([&](const std::string& corner) { return parse_embedded(text, file, corner); }, file, overrides);
+    if (!applied) return applied.error();
+    return std::move(applied->result);
 }
 
 /// A copy of the circuit with these parameters set in the card of every model.

@@ -1,34 +1,23 @@
 #include "reproduction/claims/trial.hpp"
 
 #include <fmt/format.h>
+#include <algorithm>
 
 #include "core/stimulus/stimuli.hpp"
 #include "run/afferent_plan.hpp"
 #include "run/simulate.hpp"
 
 namespace corpuscle {
-namespace {
-
-Result<std::vector<ParameterOverride>> trial_overrides(const TrialSpec& spec) {
-    std::vector<ParameterOverride> overrides;
-    for (const auto& text : spec.settings) {
-        auto parsed = parse_override(text);
-        if (!parsed) return parsed.error();
-        overrides.push_back(std::move(*parsed));
-    }
-    return overrides;
-}
-
-}  // namespace
 
 Result<TrialForce> trial_force(const TrialSpec& spec) {
-    const auto overrides = trial_overrides(spec);
+    const auto overrides = parse_overrides(spec.settings);
     if (!overrides) return overrides.error();
-    auto source = make_stimulus(spec.stimulus, *overrides, spec.rate, spec.seed);
-    if (!source) return source.error();
-    auto force = read_channel(**source);
+    const auto made = make_stimulus(spec.stimulus, *overrides, spec.rate, spec.seed);
+    if (!made) return made.error();
+    auto& source = *made->result;
+    auto force = read_channel(source);
     if (!force) return force.error();
-    return TrialForce{(*source)->clock(), std::move(*force), (*source)->phases()};
+    return TrialForce{source.clock(), std::move(*force), source.phases()};
 }
 
 StudyCurve TrialForce::curve() const {
@@ -39,17 +28,16 @@ StudyCurve TrialForce::curve() const {
 
 namespace {
 
-/// The index in Afferent::probes() of each probe in the spec. The probes of a netlist may have longer names than requested ("i(xsummer.m1)"
-/// for "i(m1)"); they are in the order of the request.
-Result<std::vector<std::size_t>> probe_indexes(const TrialSpec& spec, const Afferent& afferent) {
+/// The index in Afferent::probes() of each probe in the spec. `requested`: their names, if the afferent has other names for them
+/// ("i(xsummer.m1)" for "i(m1)").
+Result<std::vector<std::size_t>> probe_indexes(const TrialSpec& spec, const Afferent& afferent, std::span<const RequestedProbe> requested) {
     std::vector<std::size_t> out;
+    const auto probes = afferent.probes();
     for (std::size_t k = 0; k < spec.probes.size(); ++k) {
-        std::size_t at = 0;
-        const auto probes = afferent.probes();
-        while (at < probes.size() && probes[at].name != spec.probes[k]) ++at;
-        if (at == probes.size() && names_netlist(spec.afferent) && spec.probes.size() == probes.size()) at = k;
-        if (at == probes.size()) return bad_input(fmt::format("{} has no recordable quantity '{}'", spec.afferent, spec.probes[k]));
-        out.push_back(at);
+        const auto name = requested.empty() ? spec.probes[k] : requested[k].name.value_or(spec.probes[k]);
+        const auto at = std::find_if(probes.begin(), probes.end(), [&](const Probe& p) { return p.name == name; });
+        if (at == probes.end()) return bad_input(fmt::format("{} has no recordable quantity '{}'", spec.afferent, spec.probes[k]));
+        out.push_back(static_cast<std::size_t>(at - probes.begin()));
     }
     return out;
 }
@@ -59,11 +47,12 @@ Result<std::vector<std::size_t>> probe_indexes(const TrialSpec& spec, const Affe
 Result<TrialResult> run_trial(const TrialSpec& spec) {
     const auto trial = trial_force(spec);
     if (!trial) return trial.error();
-    // trial_overrides() succeeds here, because it has succeeded in trial_force().
-    const auto plan = plan_any_afferent(spec.afferent, *trial_overrides(spec), {.probes = spec.probes});
-    if (!plan) return plan.error();
-    const auto afferent = make_afferent(*plan, {trial->clock.T(), spec.method, spec.sampled});
-    const auto indexes = probe_indexes(spec, *afferent);
+    const auto overrides = parse_overrides(spec.settings);
+    if (!overrides) return overrides.error();
+    const auto planned = plan_any_afferent(spec.afferent, *overrides, spec.probes);
+    if (!planned) return planned.error();
+    const auto afferent = make_afferent(planned->result, {trial->clock.T(), spec.method, spec.sampled});
+    const auto indexes = probe_indexes(spec, *afferent, planned->probes);
     if (!indexes) return indexes.error();
     auto response = simulate(*afferent, trial->force, {*indexes});
     if (!response) return response.error();

@@ -64,7 +64,7 @@ struct CentroidSums {
 
 Result<std::vector<SheetSpike>> simulate_sheet(const AfferentSheet& sheet, const std::string& afferent, const SheetForce& force,
                                                double sigma) {
-    const auto plan = plan_afferent(afferent, {});
+    const auto plan = plan_afferent(afferent);
     if (!plan) return plan.error();
     const auto set = instruction_set();
     if (!set) return set.error();

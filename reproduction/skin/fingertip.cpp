@@ -11,16 +11,6 @@ namespace {
 constexpr double fingertip_rate = 1e3;          // Hz
 constexpr Position fingertip_centre{0, 12e-3};  // m: x, y of the middle of the built-in fingertip
 
-Result<std::vector<ParameterOverride>> overrides_of(const std::vector<std::string>& texts) {
-    std::vector<ParameterOverride> out;
-    for (const auto& text : texts) {
-        auto parsed = parse_override(text);
-        if (!parsed) return parsed.error();
-        out.push_back(std::move(*parsed));
-    }
-    return out;
-}
-
 Result<std::vector<FingertipTrain>> press_fingertip(const Innervation& tip, Skin& skin, SkinForce& force, const Clock& clock) {
     std::vector<FingertipTrain> out;
     for (const auto& u : tip.afferents) {
@@ -48,20 +38,20 @@ Result<std::vector<FingertipTrain>> simulate_fingertip(const Punch& punch) {
     plan->nerve.reset();  // no conduction delay
     const auto tip = innervate(std::move(*plan));
     if (!tip) return tip.error();
-    const auto overrides =
-        overrides_of({"press.F_min=0", fmt::format("press.F_max={}", punch.force), fmt::format("contact.radius={}", punch.radius),
-                      fmt::format("contact.x={}", fingertip_centre.x), fmt::format("contact.y={}", fingertip_centre.y)});
+    const auto overrides = parse_overrides(std::vector<std::string>{
+        "press.F_min=0", fmt::format("press.F_max={}", punch.force), fmt::format("contact.radius={}", punch.radius),
+        fmt::format("contact.x={}", fingertip_centre.x), fmt::format("contact.y={}", fingertip_centre.y)});
     if (!overrides) return overrides.error();
     auto source = make_stimulus("press", *overrides, fingertip_rate, 0);
     if (!source) return source.error();
-    auto contact = make_contact("flat", *overrides, (*tip)->plan.sites, (*source)->clock());
+    auto contact = make_contact("flat", *overrides, (*tip)->plan.sites, source->result->clock());
     if (!contact) return contact.error();
     const auto set = instruction_set();
     if (!set) return set.error();
     auto skin = Skin::make(*tip, {.dt = 1 / fingertip_rate}, *set);
     if (!skin) return skin.error();
-    const auto force = make_pressed_force(**source, **contact);
-    return press_fingertip(**tip, **skin, *force, (*source)->clock());
+    const auto force = make_pressed_force(*source->result, *contact->result);
+    return press_fingertip(**tip, **skin, *force, source->result->clock());
 }
 
 }  // namespace corpuscle

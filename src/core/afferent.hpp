@@ -3,11 +3,9 @@
 
 #include <cstddef>
 #include <cstdint>
-#include <memory>
 #include <span>
 #include <string>
 #include <string_view>
-#include <utility>
 #include <vector>
 
 #include "core/error.hpp"
@@ -104,22 +102,6 @@ public:
     virtual std::int64_t delay() const { return 0; }
     /// Simulates the next block (force in newtons, one value for each sample). The spikes do not depend on the length of the blocks.
     virtual Result<void> respond(std::span<const double> force, State&, ResponseBlock&) const = 0;
-};
-
-/// Creates afferents that are not built-in models, for example from a netlist.
-class AfferentFactory {
-public:
-    AfferentFactory() = default;
-    AfferentFactory(const AfferentFactory&) = delete;
-    AfferentFactory& operator=(const AfferentFactory&) = delete;
-    virtual ~AfferentFactory() = default;
-    virtual std::string_view kind() const = 0;   ///< kind of the source of these afferents: "netlist"
-    virtual std::string_view title() const = 0;  ///< title of the source, such as the title line of the netlist
-    /// Settings of the source that are not numbers, as pairs of name and value: {"corner", "ss"}.
-    virtual std::vector<std::pair<std::string, std::string>> labels() const { return {}; }
-    /// Creates an afferent for a sample period of `dt` s. If `sampled`, spikes occur only at sample times. `copy` is the number of
-    /// a copy with its own parameters, counted from 1; 0 selects the nominal parameters.
-    virtual std::unique_ptr<Afferent> make(double dt, bool sampled, std::uint32_t copy) const = 0;
 };
 
 }  // namespace corpuscle

@@ -21,23 +21,24 @@ std::vector<std::string> names_in(std::string_view list) {
 }
 
 /// A class with one afferent of this name at each site.
-Result<SkinClass> class_at_each_site(const std::string& name, std::span<const ParameterOverride> overrides) {
-    const auto plan = plan_afferent(name, overrides);
-    if (!plan) return plan.error();
-    SkinClass result{.name = plan->name, .afferent = *plan};
-    result.per_site = 1;
-    return result;
+Result<Applied<SkinClass>> class_at_each_site(const std::string& name, std::span<const ParameterOverride> overrides) {
+    auto planned = plan_afferent(name, overrides);
+    if (!planned) return planned.error();
+    SkinClass added{.name = planned->result.name, .afferent = planned->result};
+    added.per_site = 1;
+    return Applied<SkinClass>{std::move(added), std::move(planned->unused)};
 }
 
 }  // namespace
 
 bool is_afferent_list(std::string_view list) {
     for (const auto& name : names_in(list))
-        if (!plan_afferent(name, {})) return false;
+        if (!plan_afferent(name)) return false;
     return true;
 }
 
-Result<SkinPlan> make_channel_plan(std::string_view afferents, std::size_t channels, std::span<const ParameterOverride> overrides) {
+Result<Applied<SkinPlan>> make_channel_plan(std::string_view afferents, std::size_t channels,
+                                            std::span<const ParameterOverride> overrides) {
     auto sites = grid_sites(1, channels, 1e-3);  // a site for each channel; the distance of 1 mm is arbitrary
     if (!sites) return sites.error();
     SkinPlan plan;
@@ -45,30 +46,31 @@ Result<SkinPlan> make_channel_plan(std::string_view afferents, std::size_t chann
     plan.description = fmt::format("{} on {} channel{}", afferents, channels, channels == 1 ? "" : "s");
     plan.sites = std::move(*sites);
     for (std::size_t c = 0; c < channels; ++c) plan.sites.names[c] = fmt::format("ch{}", c + 1);
+    std::vector<ParameterOverride> unused(overrides.begin(), overrides.end());
     for (const auto& name : names_in(afferents)) {
         auto added = class_at_each_site(name, overrides);
         if (!added) return added.error();
         for (const auto& other : plan.classes)
-            if (other.name == added->name) return bad_usage(fmt::format("'{}' is given twice", name));
-        plan.classes.push_back(std::move(*added));
+            if (other.name == added->result.name) return bad_usage(fmt::format("'{}' is given twice", name));
+        plan.classes.push_back(std::move(added->result));
+        keep_unused(unused, added->unused);
     }
-    return plan;
+    return Applied<SkinPlan>{std::move(plan), std::move(unused)};
 }
 
-Result<SkinPlan> make_channel_plan(std::string_view afferents, std::span<const Channel> channels,
-                                   std::span<const ParameterOverride> overrides) {
+Result<Applied<SkinPlan>> make_channel_plan(std::string_view afferents, std::span<const Channel> channels,
+                                            std::span<const ParameterOverride> overrides) {
     auto plan = make_channel_plan(afferents, channels.size(), overrides);
     if (plan)
-        for (std::size_t c = 0; c < channels.size(); ++c) plan->sites.names[c] = channels[c].name;
+        for (std::size_t c = 0; c < channels.size(); ++c) plan->result.sites.names[c] = channels[c].name;
     return plan;
 }
 
-Result<SkinPlan> make_live_plan(std::string_view population, std::size_t channels, std::span<const ParameterOverride> overrides) {
+Result<Applied<SkinPlan>> make_live_plan(std::string_view population, std::size_t channels, std::span<const ParameterOverride> overrides) {
     if (is_afferent_list(population)) return make_channel_plan(population, channels, overrides);
     auto plan = load_skin_plan(population);
-    if (!plan) return plan;
-    if (auto ok = apply_class_overrides(*plan, overrides); !ok) return ok.error();
-    return plan;
+    if (!plan) return plan.error();
+    return apply_overrides(std::move(*plan), overrides);
 }
 
 EventAddressing make_event_addressing(const Innervation& skin, const Clock& clock) {

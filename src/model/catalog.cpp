@@ -4,7 +4,7 @@
 #include <algorithm>
 
 #include "model/afferent_components.hpp"
-#include "model/sensor/front_end_afferent.hpp"
+#include "model/model_factory.hpp"
 #include "model/sensor/front_end_factory.hpp"
 
 namespace corpuscle {
@@ -105,101 +105,85 @@ std::vector<CatalogEntry> converter_entries() { return entries_of_list(Converter
 std::vector<CatalogEntry> receptor_entries() { return entries_of_list(Receptors{}); }
 std::vector<CatalogEntry> neuron_entries() { return entries_of_list(Neurons{}); }
 
-std::optional<double> AfferentPlan::value(std::string_view parameter) const {
-    for (std::size_t k = 0; k < values.size(); ++k)
-        if ((*parameters)[k].info.name == parameter) return values[k];
-    return {};
-}
-
-std::string AfferentPlan::composition() const {
-    if (factory) return std::string(factory->kind());
-    std::string text;
-    for (const auto part : {sensor, transducer, converter, receptor, neuron})
-        if (!part.empty()) text += (text.empty() ? "" : "+") + std::string(part);
-    return text;
-}
-
-std::vector<Setting> settings_of(const AfferentPlan& plan) {
-    std::vector<Setting> settings;
-    settings.reserve(plan.values.size());
-    for (std::size_t k = 0; k < plan.values.size(); ++k) settings.push_back({(*plan.parameters)[k].info.name, plan.values[k]});
-    return settings;
-}
-
 bool matches_name(const AfferentPlan& plan, std::string_view requested, std::string_view name) {
     if (name == requested || name == plan.name) return true;
     const auto* named = find_named_afferent(name);
     return named && named->name == plan.name;
 }
 
-Result<AfferentPlan> plan_afferent(std::string_view text, std::span<const ParameterOverride> overrides) {
-    const auto parts = parse_components(text);
-    if (!parts) return parts.error();
-    const auto* named = parts->named;
-    const auto entries = entries_of_components(*parts);
+namespace {
+
+/// The plan of an afferent with the values of its name, before overrides.
+AfferentPlan plan_of_components(std::string_view text, const AfferentComponents& parts) {
+    const auto* named = parts.named;
+    const auto entries = entries_of_components(parts);
     const auto& receptor = entries[entries.size() - 2];  // the neuron is last
-    AfferentPlan plan{std::string(text),
-                      parts->receptor,
-                      parts->neuron,
-                      named ? named->description : receptor.description,
-                      named ? named->source : receptor.source,
-                      {},
-                      {},
-                      0,
-                      parts->sensor,
-                      parts->transducer,
-                      parts->converter};
+    AfferentPlan plan;
+    plan.name = text;
     if (named)
         plan.name =
-            named->front_end.empty() && !parts->front_end().empty() ? fmt::format("{}+{}", parts->front_end(), named->name) : named->name;
-    std::vector<ParameterInfo> rows;
-    std::vector<AfferentParameter> parameters;
-    for (const auto& entry : entries)
-        for (const auto& row : entry.parameters) {
-            rows.push_back(row);
-            parameters.push_back({row, entry.name});
-            plan.values.push_back(row.default_value);
-        }
-    const auto apply = [&](std::span<const Setting> settings, bool by_user) {
-        for (const auto& s : settings)
-            for (std::size_t k = 0; k < parameters.size(); ++k)
-                if (parameters[k].info.name == s.name) plan.values[k] = s.value, parameters[k].set_by_user = by_user;
-    };
-    if (named) {
-        apply(named->settings, false);
-        for (std::size_t k = 0; k < parameters.size(); ++k)
-            if (auto& row = parameters[k].info; plan.values[k] != row.default_value)
-                row.default_value = plan.values[k], row.source = named->source;  // its defaults differ from those of its models
-    }
-    for (const auto& o : overrides) {  // its target may be any name or alias of the afferent
-        if (!matches_name(plan, text, o.target)) continue;
-        const auto settings = settings_for(o.target, rows, std::span(&o, 1));
-        if (!settings) return settings.error();
-        apply(*settings, true);
-    }
-    plan.parameters = std::make_shared<const std::vector<AfferentParameter>>(std::move(parameters));
-    if (const auto ok = check_plan(plan); !ok) return ok.error();
+            named->front_end.empty() && !parts.front_end().empty() ? fmt::format("{}+{}", parts.front_end(), named->name) : named->name;
+    plan.receptor = parts.receptor, plan.neuron = parts.neuron;
+    plan.description = named ? named->description : receptor.description, plan.source = named ? named->source : receptor.source;
+    plan.sensor = parts.sensor, plan.transducer = parts.transducer, plan.converter = parts.converter;
+    plan.factory = model_factory();
     visit_named(Receptors{}, plan.receptor, [&]<template <class> class R>(ModelTag<R>) {
         if constexpr (requires { R<double>::min_rate; }) plan.min_rate = R<double>::min_rate;
     });
+    std::vector<AfferentParameter> parameters;
+    for (const auto& entry : entries)
+        for (const auto& row : entry.parameters) parameters.push_back({row, entry.name}), plan.values.push_back(row.default_value);
+    for (const auto& s : named ? named->settings : std::vector<Setting>{})
+        for (std::size_t k = 0; k < parameters.size(); ++k)
+            if (auto& row = parameters[k].info; row.name == s.name && row.default_value != s.value)
+                plan.values[k] = row.default_value = s.value, row.source = named->source;
+    plan.parameters = std::make_shared<const std::vector<AfferentParameter>>(std::move(parameters));
     return plan;
 }
 
-std::unique_ptr<Afferent> make_afferent(const AfferentPlan& plan, const SimulationOptions& run) {
-    if (plan.factory) return plan.factory->make(run.dt, run.spikes_on_samples, plan.copy_number);
-    if (!plan.converter.empty()) return make_digital(plan, run);
-    const auto settings = settings_of(plan);
-    std::unique_ptr<Afferent> afferent;
-    visit_named(Receptors{}, plan.receptor, [&]<template <class> class R>(ModelTag<R>) {
-        visit_named(Neurons{}, plan.neuron, [&]<template <class> class N>(ModelTag<N>) {
-            const auto r = with_settings<typename R<double>::Params>(R<double>::fields, settings);
-            const auto n = with_settings<typename N<double>::Params>(N<double>::fields, settings);
-            afferent = std::make_unique<Chain<R, N>>(r, n, run);
-        });
-    });
-    // A plan with a transducer also has a sensor.
-    if (!plan.sensor.empty()) return std::make_unique<FrontEndAfferent>(make_front_end(plan), std::move(afferent));
-    return afferent;
+/// The plan with these values, which the user has set.
+AfferentPlan with_user_settings(const AfferentPlan& plan, std::span<const Setting> settings) {
+    auto out = plan;
+    auto parameters = *plan.parameters;
+    for (auto& p : parameters)
+        for (const auto& s : settings) p.set_by_user |= p.info.name == s.name;
+    set_values(out, settings);
+    out.parameters = std::make_shared<const std::vector<AfferentParameter>>(std::move(parameters));
+    return out;
+}
+
+/// The location of the override that made a plan invalid: the first that does so by itself, otherwise the first. `settings` has one entry
+/// for each override.
+SourceLocation location_of_invalid(const AfferentPlan& plan, std::span<const ParameterOverride> overrides,
+                                   std::span<const Setting> settings) {
+    for (std::size_t k = 0; k < overrides.size(); ++k)
+        if (!check_plan(with_user_settings(plan, settings.subspan(k, 1)))) return overrides[k].location;
+    return overrides.empty() ? SourceLocation{} : overrides[0].location;
+}
+
+}  // namespace
+
+Result<Applied<AfferentPlan>> plan_afferent(std::string_view text, std::span<const ParameterOverride> overrides) {
+    const auto parts = parse_components(text);
+    if (!parts) return parts.error();
+    const auto plan = plan_of_components(text, *parts);
+    auto [own, unused] = select_overrides(overrides, [&](std::string_view target) { return matches_name(plan, text, target); });
+    const auto rows = parameter_infos(plan);
+    std::vector<Setting> settings;
+    for (const auto& given : own) {
+        const auto setting = setting_of(given, rows);
+        if (!setting) return setting.error();
+        settings.push_back(*setting);
+    }
+    auto changed = with_user_settings(plan, settings);
+    if (const auto ok = check_plan(changed); !ok) return bad_input(ok.error().message, location_of_invalid(plan, own, settings));
+    return Applied<AfferentPlan>{std::move(changed), std::move(unused)};
+}
+
+Result<AfferentPlan> plan_afferent(std::string_view text) {
+    auto planned = plan_afferent(text, {});
+    if (!planned) return planned.error();
+    return std::move(planned->result);
 }
 
 }  // namespace corpuscle

@@ -9,20 +9,10 @@
 
 #include "core/afferent.hpp"
 #include "core/random.hpp"
+#include "core/simulation_options.hpp"
 #include "model/current.hpp"
 
 namespace corpuscle {
-
-/// Options of a simulation that are the same for all afferents.
-struct SimulationOptions {
-    double dt = 1e-4;  ///< s, sampling interval
-    Method method = Method::exact;
-    bool spikes_on_samples = false;  ///< true: a spike occurs at the sample that ends its step, as in the thesis; false: within the step
-    /// Membrane noise: a white current into each neuron, constant within a step. `noise` is the standard deviation of its part between 0 Hz
-    /// and noise_band, A.
-    double noise = 0;
-    std::uint64_t seed = 0;  ///< of the noise
-};
 
 inline constexpr double noise_band = 1e3;  ///< Hz
 

@@ -24,7 +24,7 @@ std::size_t index_of(const AfferentPlan& plan, std::string_view parameter) {
 /// Parses the standard deviation in o.value: a percentage of the plan's value of the parameter ("10%"), or a number in the parameter's
 /// unit.
 Result<ParameterDistribution> parse_spread(const AfferentPlan& plan, const ParameterOverride& o, const ParameterInfo& row) {
-    const auto error = [&](std::string_view why) { return bad_input(fmt::format("--spread {}: {}", o.text(), why)); };
+    const auto error = [&](std::string_view why) { return bad_input(fmt::format("{}: {}", o.said, why), o.location); };
     const bool is_percentage = trimmed(o.value).ends_with('%');
     const auto read = parse_quantity(o.value, is_percentage ? "" : row.unit);
     if (!read && is_percentage) return error(fmt::format("'{}' is not a percentage; write a number and %, such as '10%'", o.value));
@@ -150,27 +150,27 @@ public:
 
 }  // namespace
 
-Result<std::vector<ParameterDistribution>> distributions_for(const AfferentPlan& plan, std::string_view requested,
-                                                             std::span<const ParameterOverride> overrides) {
-    std::vector<ParameterInfo> rows;
-    for (const auto& p : *plan.parameters) rows.push_back(p.info);
+Result<Applied<std::vector<ParameterDistribution>>> distributions_for(const AfferentPlan& plan, std::string_view requested,
+                                                                      std::span<const ParameterOverride> overrides) {
+    const auto rows = parameter_infos(plan);
+    const bool ignores_case = plan.traits().ignores_case;
+    auto [own, unused] = select_overrides(overrides, [&](std::string_view target) { return matches_name(plan, requested, target); });
     std::vector<ParameterDistribution> distributions;
-    for (const auto& o : overrides) {
-        if (!matches_name(plan, requested, o.target)) continue;
-        o.is_used = true;
+    for (auto& o : own) {
+        if (ignores_case) o.parameter = lower(o.parameter);
+        const auto error = [&](ErrorCode code, std::string why) { return Error{code, fmt::format("{}: {}", o.said, why), o.location}; };
         const auto row = find_parameter(o, rows);
         if (!row) return row.error();
         if ((*row)->is_shared_by_copies)
-            return bad_input(fmt::format("--spread {}: {} has one value for all copies; --set {}.{} changes it", o.text(), o.parameter,
-                                         o.target, o.parameter));
+            return error(ErrorCode::bad_input, fmt::format("{} has one value for all copies; --set {} changes it", o.parameter, o.name()));
         if (std::any_of(distributions.begin(), distributions.end(),
                         [&](const ParameterDistribution& s) { return s.parameter == o.parameter; }))
-            return bad_usage(fmt::format("--spread {}: {}.{} is given twice", o.text(), plan.name, o.parameter));
+            return error(ErrorCode::bad_usage, fmt::format("{}.{} is given twice", plan.name, o.parameter));
         auto distribution = parse_spread(plan, o, **row);
         if (!distribution) return distribution.error();
         distributions.push_back(std::move(*distribution));
     }
-    return distributions;
+    return Applied<std::vector<ParameterDistribution>>{std::move(distributions), std::move(unused)};
 }
 
 Result<std::vector<AfferentPlan>> make_copies(const AfferentPlan& plan, std::uint32_t n,
@@ -181,6 +181,9 @@ Result<std::vector<AfferentPlan>> make_copies(const AfferentPlan& plan, std::uin
     for (std::uint32_t number = 1; number <= n; ++number) {
         auto copy = sampler.copy(number);
         if (!copy) return copy.error();
+        auto rebuilt = plan.factory->rebuilt(*copy, plan);
+        if (!rebuilt) return rebuilt.error();
+        if (*rebuilt) copy->factory = std::move(*rebuilt);
         copies.push_back(std::move(*copy));
     }
     return copies;

@@ -1,16 +1,12 @@
 #pragma once
-// The current from a receptor to a neuron, and the integration methods.
+// The current from a receptor to a neuron.
 
 #include <cstdint>
 
 #include "core/number/elementary.hpp"
+#include "core/simulation_options.hpp"
 
 namespace corpuscle {
-
-/// The integration method of a model.
-/// exact: between samples the force is a straight line (first-order hold), and filters are integrated exactly for such a force.
-/// backward_euler: the algorithms as the thesis prints them, to reproduce its figures.
-enum class Method { exact, backward_euler };
 
 /// The current during one step: a straight line from its value at the beginning of the step to its value at the end, A.
 template <class T>

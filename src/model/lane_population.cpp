@@ -109,9 +109,7 @@ std::unique_ptr<LanePopulation> make_tiled(const PopulationPlan& p, const Simula
 
 }  // namespace
 
-bool can_use_lanes(const AfferentPlan& plan, const SimulationOptions& run) {
-    return !plan.factory && plan.sensor.empty() && plan.transducer.empty() && plan.converter.empty() && run.noise == 0;
-}
+bool can_use_lanes(const AfferentPlan& plan, const SimulationOptions& run) { return run.noise == 0 && plan.traits().can_use_lanes; }
 
 Result<std::unique_ptr<LanePopulation>> make_lane_population(const PopulationPlan& p, const SimulationOptions& run, InstructionSet set) {
     if (p.size == 0 || p.plans.empty() || (p.plans.size() != 1 && p.plans.size() != p.size))

@@ -290,7 +290,7 @@ TEST(Program, BadInputAndBadUsageHaveTheirStatusAndMessageAndLeaveNoFiles) {
          "unknown afferent 'sa9'; did you mean 'sa1'? ('corpuscle list' shows them all; a receptor and a neuron are combined as "
          "'sa1b+lif-b')"},
         {"respond press --set sa1.f_B=25ms", 1, "sa1.f_B: '25ms' is a time; expected a value in Hz, such as '2 Hz'"},
-        {"respond press --set fa2.k=1", 2, "--set fa2.k=1: there is no afferent or stimulus 'fa2' in this run; did you mean 'fa1'?"},
+        {"respond press --set fa2.k=1", 2, "--set fa2.k=1: nothing here is named 'fa2'; did you mean 'fa1'?"},
         {"respond press --set f_B=1", 2, "'f_B=1' is not a setting; write NAME.PARAMETER=VALUE, such as 'sa1.f_B=25Hz'"},
         {"respond press --rate fast", 2, "--rate 'fast' is not a quantity; write a number and a unit, such as '2 Hz'"},
         {"respond press --probe-files", 2, "--probe-files needs --out DIR"},
@@ -301,8 +301,7 @@ TEST(Program, BadInputAndBadUsageHaveTheirStatusAndMessageAndLeaveNoFiles) {
         {"respond", 2, "respond: no FORCE given; try 'corpuscle respond press'"},
         {"respond press --spread sa1.f_B=10%", 2, "--spread sa1.f_B=10% needs --copies N, such as --copies 100"},
         {"respond press --copies 9 --spread f_B=10%", 2, "--spread 'f_B=10%': write NAME.PARAMETER=DEVIATION, such as 'sa1.f_B=10%'"},
-        {"respond press --copies 9 --spread fa2.k=10%", 2,
-         "--spread fa2.k=10%: there is no afferent 'fa2' in this run; did you mean 'fa1'?"},
+        {"respond press --copies 9 --spread fa2.k=10%", 2, "--spread fa2.k=10%: nothing here is named 'fa2'; did you mean 'fa1'?"},
         {"respond press --copies 9 --spread fa1.I_leak0=10ms", 1,
          "--spread fa1.I_leak0=10ms: '10ms' is a time; expected a value in A, such as '2 A'"},
         {"respond press --copies 51 --probe-files --out answer", 2,

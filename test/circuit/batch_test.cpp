@@ -17,10 +17,10 @@ namespace {
 
 constexpr double batch_T = 1e-4;
 
-std::shared_ptr<const CircuitAfferentFactory> design_of(const std::string& file, std::vector<NetlistOverride> overrides = {}) {
+std::shared_ptr<const CircuitAfferentFactory> design_of(const std::string& file, std::vector<ParameterOverride> overrides = {}) {
     const auto netlist = apply_overrides(file, overrides);
     if (!netlist) throw std::runtime_error(netlist.error().text());
-    const auto design = CircuitAfferentFactory::create(*netlist);
+    const auto design = CircuitAfferentFactory::create(netlist->result);
     if (!design) throw std::runtime_error(design.error().text());
     return *design;
 }
@@ -168,7 +168,7 @@ TEST(Batch, StopsOnRequest) {
 TEST(Chips, RespondTheSameBatchedAndScalar) {
     for (const char* name : {"sa1-circuit", "fa1-circuit"}) {
         const auto design = design_of(name);
-        const auto press = make_stimulus("press", {}, 1 / batch_T, 0);
+        const auto press = make_stimulus("press", 1 / batch_T, 0);
         ASSERT_TRUE(press);
         Frames frames(1, 4000);
         ASSERT_TRUE((*press)->read(frames));

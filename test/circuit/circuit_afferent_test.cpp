@@ -321,9 +321,9 @@ TEST(Respond, NetlistsAndModelsRespondTheSameInBlocksOfAnySize) {
     const auto path = corpuscle::test::source_root() + "/circuits/spiker.cir";
     std::vector<RecordingListener> recorders(3);
     for (std::size_t k = 0; k < recorders.size(); ++k) {
-        const std::vector<AfferentPlan> plans = {value_or_throw(plan_any_afferent(path, {})), value_or_throw(plan_any_afferent("fa1", {}))};
+        const std::vector<AfferentPlan> plans = {value_or_throw(plan_any_afferent(path)), value_or_throw(plan_any_afferent("fa1"))};
         std::vector<std::unique_ptr<ForceSource>> sources;
-        sources.push_back(value_or_throw(make_stimulus("press", {}, 1e3, 0)));
+        sources.push_back(value_or_throw(make_stimulus("press", 1e3, 0)));
         ResponseSink* listeners[] = {&recorders[k]};
         RespondOptions options;
         options.block = std::vector<std::size_t>{4096, 1, 37}[k];

@@ -92,7 +92,7 @@ TEST(NetlistOverridesProgram, ImpossibleOverridesAreRejectedByName) {
     expect_error("--afferent a.cir --probe mod -o out", 1,
                  "--probe mod: no netlist of this run has such a node or device; did you mean 'mid'?");
     expect_error("--afferent a.cir --set a.cir.div.rtp=2k", 1, "did you mean 'div.top'?");
-    expect_error("--afferent a.cir --set c.cir.div.rtop=2k", 2, "no afferent or stimulus 'c.cir.div' in this run");
+    expect_error("--afferent a.cir --set c.cir.div.rtop=2k", 2, "nothing here is named 'c.cir.div'");
     expect_error("--afferent a.cir --mismatch half", 1, "--mismatch half: 'half' is not a seed");
     expect_error("--afferent a.cir --copies 3 --spread a.cir.temp=5%", 1, "unknown parameter 'temp'");
     EXPECT_TRUE(folder.file_names().size() == 2) << "no other file is left";

@@ -17,9 +17,8 @@ namespace {
 
 using corpuscle::test::value_or_throw;
 
-NetlistOverride make_override(const std::string& text) {
-    const auto equals = text.find('=');
-    return {text.substr(0, equals), text.substr(equals + 1), "--set " + text};
+ParameterOverride make_override(const std::string& netlist, const std::string& text) {
+    return value_or_throw(parse_netlist_override(netlist, text, "--set"));
 }
 
 /// Temporary netlist files, and overrides of the first one, own.cir.
@@ -32,10 +31,11 @@ public:
         for (const auto& [name, text] : more) folder_.write(name, text);
     }
     Result<Circuit> set(const std::vector<std::string>& texts) const {
-        std::vector<NetlistOverride> overrides;
-        for (const auto& t : texts) overrides.push_back(make_override(t));
-        const auto netlist = apply_overrides(folder_ / "own.cir", overrides);
-        return netlist ? netlist->elaborate() : netlist.error();
+        std::vector<ParameterOverride> overrides;
+        const std::string netlist = folder_ / "own.cir";
+        for (const auto& t : texts) overrides.push_back(make_override(netlist, t));
+        const auto applied = apply_overrides(netlist, overrides);
+        return applied ? applied->result.elaborate() : applied.error();
     }
     std::string error_of(const std::vector<std::string>& texts) const {
         const auto done = set(texts);
@@ -185,8 +185,8 @@ TEST(EmbeddedNetlists, AreTheFilesOfTheProject) {
     }
     EXPECT_NE(find_embedded_netlist("SA1-Circuit"), nullptr);
     EXPECT_EQ(find_embedded_netlist("sa1"), nullptr);
-    const auto overrides = std::vector<NetlistOverride>{make_override("corner=ss"), make_override("summer.N3B=8x4")};
-    const auto ss = value_or_throw(value_or_throw(apply_overrides("sa1-circuit", overrides)).elaborate());
+    const auto overrides = std::vector{make_override("sa1-circuit", "corner=ss"), make_override("sa1-circuit", "summer.N3B=8x4")};
+    const auto ss = value_or_throw(test::applied_or_throw(apply_overrides("sa1-circuit", overrides)).elaborate());
     EXPECT_EQ(element(ss, "xsummer.mn3b").values.at("m"), 8);
     EXPECT_NEAR(
         ss.models[0].values.at("vto") - value_or_throw(value_or_throw(open_netlist("sa1-circuit")).elaborate()).models[0].values.at("vto"),

@@ -29,7 +29,7 @@ TEST(Stimulus, EachIsTheSameAtEveryRate) {
 
 TEST(Stimulus, PhasesCoverTheStimulusWithoutGaps) {
     for (const auto& entry : stimulus_catalog()) {
-        const auto source = test::value_or_throw(make_stimulus(entry.name, {}, 1e3, 0));
+        const auto source = test::value_or_throw(make_stimulus(entry.name, 1e3, 0));
         double end = 0;  // of the phases so far; stays 0 if the stimulus has no phases
         for (const auto& p : source->phases()) {
             EXPECT_EQ(p.from, end) << entry.name;
@@ -64,7 +64,7 @@ TEST(Stimulus, AShorterMemberOfASumHoldsItsLastValue) {
     const auto sum = force("press+chirp", {.settings = {"chirp.duration=100ms", "chirp.F_mean=0"}}), press = force("press");
     for (std::size_t k = 0; k < sum.size(); ++k) ASSERT_LE(std::abs(sum[k] - press[k]), 0.2) << "more than the amplitude of the chirp";
     for (std::size_t k = 1001; k < sum.size(); ++k) ASSERT_NEAR(sum[k] - press[k], sum[1001] - press[1001], 1e-12);
-    const auto source = test::value_or_throw(make_stimulus("press+sine", test::parse_settings({"sine.duration=3s"}), 1e3, 0));
+    const auto source = test::applied_or_throw(make_stimulus("press+sine", test::parse_settings({"sine.duration=3s"}), 1e3, 0));
     EXPECT_EQ(source->phases().back().name, "after");
     EXPECT_EQ(source->phases().back().to, 3);
 }

@@ -38,20 +38,20 @@ void resolve(const Circuit& c, std::string_view text) {
 /// Lines with '=' are overrides, all others are probes.
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
     const std::string_view text(reinterpret_cast<const char*>(data), size);
-    std::vector<NetlistOverride> overrides;
+    std::vector<ParameterOverride> overrides;
     std::string probes;
     for (std::size_t at = 0; at < text.size() && overrides.size() < 8;) {
         const auto end = std::min(text.find('\n', at), text.size());
         const std::string line(text.substr(at, end - at));
         at = end + 1;
         if (const auto equals = line.find('='); equals != std::string::npos)
-            overrides.push_back({line.substr(0, equals), line.substr(equals + 1), "--set " + line});
+            overrides.push_back({"sa1-macro", line.substr(0, equals), line.substr(equals + 1), "--set " + line});
         else
             probes += (probes.empty() ? "" : ",") + line;
     }
     const auto netlist = apply_overrides("sa1-macro", overrides);
     if (!netlist) return require(!netlist.error().message.empty()), 0;
-    const auto circuit = netlist->elaborate();
+    const auto circuit = netlist->result.elaborate();
     if (!circuit) return require(!circuit.error().message.empty()), 0;
     check(*circuit);
     resolve(*circuit, probes);

@@ -46,11 +46,11 @@ void run(const AfferentPlan& plan, ForceSource& source, Method method) {
 
 /// The same settings as parameter distributions. Expected: valid copies, or an error with a message.
 void make_random_copies(std::string_view text, std::span<const ParameterOverride> overrides) {
-    const auto plan = plan_afferent(text, {});
+    const auto plan = plan_afferent(text);
     if (!plan) return;
     const auto spreads = distributions_for(*plan, text, overrides);
     if (!spreads) return spreads.error().message.empty() ? std::abort() : void();
-    const auto copies = make_copies(*plan, 3, *spreads, 1);
+    const auto copies = make_copies(*plan, 3, spreads->result, 1);
     if (!copies) return copies.error().message.empty() ? std::abort() : void();
     for (const auto& copy : *copies) {
         if (!check_plan(copy)) std::abort();
@@ -72,6 +72,6 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     if (lines.size() < 2 || !is_stimulus(lines[1])) return 0;
     const auto source = make_stimulus(lines[1], overrides, 1e3, 1);
     if (!source && source.error().message.empty()) std::abort();
-    if (plan && source) run(*plan, **source, size % 2 ? Method::exact : Method::backward_euler);
+    if (plan && source) run(plan->result, *source->result, size % 2 ? Method::exact : Method::backward_euler);
     return 0;
 }

@@ -17,7 +17,7 @@ void try_state(std::span<const std::byte> bytes) {
     const auto again = pack(*state);
     const bool has_checksum = bytes[6] != std::byte{'1'};  // version 1 has none
     if (has_checksum && !std::equal(bytes.begin(), bytes.end(), again.begin(), again.end())) std::abort();
-    static const auto afferent = make_afferent(*plan_afferent("sa1", {}), {});
+    static const auto afferent = make_afferent(*plan_afferent("sa1"), {});
     std::vector<Spike> spikes;
     ResponseBlock response{spikes};
     const std::vector<double> force(64, 1.0);

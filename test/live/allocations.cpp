@@ -36,7 +36,7 @@ int main() {
     for (const char* population : {"grid 16x16", "sa1,fa1", "fingertip"}) {
         auto plan = make_live_plan(population, 16);
         if (!plan) return std::puts(plan.error().text().c_str()), 1;
-        const auto skin = innervate(std::move(*plan));
+        const auto skin = innervate(std::move(plan->result));
         auto stream = SkinStream::make(*skin, clock);
         const double full_force =
             (*skin)->plan.felt_area > 0 ? (*skin)->plan.sites.area / (*skin)->plan.felt_area : 1;  // N at every site: acts as 1 N

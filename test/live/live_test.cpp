@@ -29,6 +29,7 @@
 namespace corpuscle {
 namespace {
 
+using test::applied_or_throw;
 using test::TemporaryFolder;
 using test::value_or_throw;
 
@@ -100,7 +101,7 @@ TEST(Events, MicrosecondsOfAedatWrapAfterSeventyOneMinutesAndAreUnwrapped) {
 }
 
 TEST(Events, TheAddressOnAChannelIsChannelTimesNumberOfClassesPlusClass) {
-    const auto skin = value_or_throw(innervate(value_or_throw(make_channel_plan("sa1,fa1", 3))));
+    const auto skin = value_or_throw(innervate(applied_or_throw(make_channel_plan("sa1,fa1", 3))));
     const auto afferents = make_event_addressing(*skin, {1000, 1});
     EXPECT_EQ(afferents.names, (std::vector<std::string>{"sa1#1", "sa1#2", "sa1#3", "fa1#1", "fa1#2", "fa1#3"}));
     EXPECT_EQ(afferents.addresses, (std::vector<std::uint32_t>{0, 2, 4, 1, 3, 5}));
@@ -108,7 +109,7 @@ TEST(Events, TheAddressOnAChannelIsChannelTimesNumberOfClassesPlusClass) {
 
 TEST(Events, LinesNameAfferentAndChannelLikeTheOutputOfRespond) {
     const std::vector<Channel> channels = {{0, "fz"}, {1, "thumb, tip"}};
-    const auto on_channels = value_or_throw(innervate(value_or_throw(make_channel_plan("sa1,fa1", channels))));
+    const auto on_channels = value_or_throw(innervate(applied_or_throw(make_channel_plan("sa1,fa1", channels))));
     const auto lines = [](const std::shared_ptr<const Innervation>& skin, std::uint32_t afferent, const char* format) {
         const Spike spike{5, 1, afferent};
         return bytes_of(*value_or_throw(make_event_format(format, make_event_addressing(*skin, {1000, 1}))), {&spike, 1});
@@ -127,7 +128,7 @@ TEST(Events, HeadersOfBinaryFormatsNameTheChannelOfEachAddress) {
     const TemporaryFolder folder;
     const std::vector<Channel> channels = {{0, "fz"}, {1, "thumb\n#x"}, {2, "ch3"}};
     const auto afferents =
-        make_event_addressing(*value_or_throw(innervate(value_or_throw(make_channel_plan("sa1,fa1", channels)))), {1000, 1});
+        make_event_addressing(*value_or_throw(innervate(applied_or_throw(make_channel_plan("sa1,fa1", channels)))), {1000, 1});
     const auto aer = value_or_throw(make_event_format("aer", afferents)), aedat = value_or_throw(make_event_format("aedat2", afferents));
     const std::vector<Spike> spikes = {{5, 1, 0}, {6, 1, 4}, {7, 1, 5}};  // afferents are numbered class after class
     const auto trains = value_or_throw(read_spikes(folder.write("x.aer", aer->header() + bytes_of(*aer, spikes))));
@@ -141,12 +142,13 @@ TEST(Events, HeadersOfBinaryFormatsNameTheChannelOfEachAddress) {
               "# addresses 0, 2 ... 4: sa1#1 ... sa1#3\r\n# addresses 1, 3 ... 5: fa1#1 ... fa1#3\r\n"
               "# addresses 0, 1: channel fz\r\n# addresses 2, 3: channel thumb #x\r\n# addresses 4, 5: channel ch3\r\n");
     EXPECT_EQ(value_or_throw(read_spikes(folder.write("x.aedat", aedat->header() + bytes_of(*aedat, spikes)))).size(), 3U);
-    const auto numbered = make_event_addressing(*value_or_throw(innervate(value_or_throw(make_channel_plan("sa1,fa1", 3, {})))), {1000, 1});
+    const auto numbered =
+        make_event_addressing(*value_or_throw(innervate(applied_or_throw(make_channel_plan("sa1,fa1", 3, {})))), {1000, 1});
     EXPECT_LT(value_or_throw(make_event_format("aer", numbered))->header().size(), aer->header().size()) << "ch1, ch2 ... need no table";
     std::vector<Channel> many(4000);
     for (std::uint32_t c = 0; c < many.size(); ++c) many[c] = {c, fmt::format("a long name {}", c)};
     const auto long_one = value_or_throw(make_event_format(
-        "aedat2", make_event_addressing(*value_or_throw(innervate(value_or_throw(make_channel_plan("sa1", many)))), {1000, 1})));
+        "aedat2", make_event_addressing(*value_or_throw(innervate(applied_or_throw(make_channel_plan("sa1", many)))), {1000, 1})));
     EXPECT_EQ(value_or_throw(read_spikes(folder.write("y.aedat", long_one->header() + bytes_of(*long_one, {spikes.data(), 1})))).size(),
               1U);
 }
@@ -309,7 +311,7 @@ TEST(SkinStream, SpikesInBatchesAndAfterResumeEqualTheOfflineSpikesByteForByte) 
 }
 
 TEST(SkinStream, AStateThatIsDamagedIsRefused) {
-    auto stream = value_or_throw(SkinStream::make(value_or_throw(innervate(value_or_throw(make_channel_plan("sa1", 2)))), {1000, 1}));
+    auto stream = value_or_throw(SkinStream::make(value_or_throw(innervate(applied_or_throw(make_channel_plan("sa1", 2)))), {1000, 1}));
     const auto bytes = pack_stream({{0.5, 0.25}, {}, stream->save()});
     EXPECT_TRUE(unpack_stream(bytes, "x"));
     for (std::size_t size = 0; size < bytes.size(); ++size) EXPECT_FALSE(unpack_stream(std::span(bytes).first(size), "x")) << size;
@@ -321,7 +323,7 @@ TEST(SkinStream, AStateThatIsDamagedIsRefused) {
 }
 
 TEST(SkinStream, AStateOfThePreviousVersionIsReadAndALaterOneRefused) {
-    auto stream = value_or_throw(SkinStream::make(value_or_throw(innervate(value_or_throw(make_channel_plan("sa1", 2)))), {1000, 1}));
+    auto stream = value_or_throw(SkinStream::make(value_or_throw(innervate(applied_or_throw(make_channel_plan("sa1", 2)))), {1000, 1}));
     auto bytes = pack_stream({{0.5, 0.25}, 7, stream->save()});
     bytes[8] = std::byte{3};
     const auto later = unpack_stream(bytes, "now.state");
@@ -536,7 +538,7 @@ TEST(CHeader, AppliesSettingsToTheClassesOfAPopulation) {
         return count;
     };
     EXPECT_GT(spikes({"sa1.V_th=300mV"}), spikes({}));
-    for (const auto& [setting, message] : {std::pair{"sa9.V_th=1V", "unknown name 'sa9'; did you mean 'sa1'?"},
+    for (const auto& [setting, message] : {std::pair{"sa9.V_th=1V", "nothing here is named 'sa9'; did you mean 'sa1'?"},
                                            {"sa1.V=1V", "unknown parameter 'V'"},
                                            {"sa1", "write NAME.PARAMETER=VALUE"}}) {
         EXPECT_EQ(corpuscle_create_with("grid 2x2", 1000, 1, &setting, 1, error, sizeof error), nullptr);

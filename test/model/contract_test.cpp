@@ -58,7 +58,7 @@ TEST(Contract, EveryParameterHasADescriptionAReadableUnitAndItsDefaultInRange) {
 
 TEST(Contract, ValuesOutsideAParametersRangeAreRefusedByName) {
     for (const auto& name : all_afferent_names()) {
-        const auto plan = test::value_or_throw(plan_afferent(name, {}));
+        const auto plan = test::value_or_throw(plan_afferent(name));
         for (const auto& p : *plan.parameters) {
             for (const double value : {p.info.high * 2 + 1, p.info.low - std::abs(p.info.low) - 1}) {
                 const ParameterOverride parameter_override{name, std::string(p.info.name), fmt::format("{}", value)};
@@ -77,7 +77,7 @@ TEST(Contract, BlocksOfAnySizeGiveTheSameSpikesAndProbes) {
         const auto method = *rc::gen::element(Method::exact, Method::backward_euler);
         const auto f = force(*rc::gen::element<std::string>("press+noise", "ramp-hold", "grating", "step+sine"),
                              {.settings = {"noise.F_mean=0"}, .rate = 2e3, .seed = 5});
-        const auto plan = test::value_or_throw(plan_afferent(name, {}));
+        const auto plan = test::value_or_throw(plan_afferent(name));
         std::vector<std::string> settings;
         if (plan.value("t_ref")) settings.push_back(fmt::format("{}.t_ref={}us", name, *rc::gen::inRange(0, 20000)));
         const auto a = afferent(name, {.settings = settings, .rate = 2e3, .method = method});

@@ -20,9 +20,9 @@ struct SampleOptions {
 };
 
 std::vector<AfferentPlan> sample_copies(const std::string& name, const SampleOptions& d) {
-    const auto plan = value_or_throw(plan_afferent(name, test::parse_settings(d.settings)));
+    const auto plan = test::applied_or_throw(plan_afferent(name, test::parse_settings(d.settings)));
     return value_or_throw(
-        make_copies(plan, d.copies, value_or_throw(distributions_for(plan, name, test::parse_settings(d.spreads))), d.seed));
+        make_copies(plan, d.copies, test::applied_or_throw(distributions_for(plan, name, test::parse_settings(d.spreads))), d.seed));
 }
 
 /// The value of a parameter in each copy.
@@ -132,7 +132,7 @@ TEST(ParameterDistribution, GivesCopiesWithNamesAndNumbersThatShareTheirParamete
     const auto other = sample_copies("fa1", {{}, {}, 2});
     all.insert(all.end(), other.begin(), other.end());
     EXPECT_EQ(copy_group_starts(all), (std::vector<std::size_t>{0, 3, 5}));
-    const std::vector originals = {value_or_throw(plan_afferent("sa1", {})), value_or_throw(plan_afferent("fa1", {}))};
+    const std::vector originals = {value_or_throw(plan_afferent("sa1")), value_or_throw(plan_afferent("fa1"))};
     EXPECT_EQ(copy_group_starts(originals), (std::vector<std::size_t>{0, 1, 2}));
     EXPECT_EQ(base_name(all[4]), "fa1");
     EXPECT_EQ(base_name(originals[1]), "fa1");
@@ -140,13 +140,13 @@ TEST(ParameterDistribution, GivesCopiesWithNamesAndNumbersThatShareTheirParamete
 
 TEST(Contract, EveryParameterThatCopiesDoNotShareCanDifferInEveryAfferent) {
     for (const auto& name : test::all_afferent_names()) {
-        const auto plan = value_or_throw(plan_afferent(name, {}));
+        const auto plan = value_or_throw(plan_afferent(name));
         std::vector<ParameterOverride> overrides;
         for (std::size_t k = 0; k < plan.values.size(); ++k) {
             const auto& row = (*plan.parameters)[k].info;
             if (!row.is_shared_by_copies && plan.values[k] != 0) overrides.push_back({name, std::string(row.name), "2%"});
         }
-        const auto spreads = value_or_throw(distributions_for(plan, name, overrides));
+        const auto spreads = test::applied_or_throw(distributions_for(plan, name, overrides));
         const auto copies = value_or_throw(make_copies(plan, 4, spreads, 3));
         for (const auto& copy : copies) {
             EXPECT_TRUE(check_plan(copy)) << copy.name;
@@ -194,15 +194,16 @@ TEST(ParameterDistribution, OfASharedParameterIsRefusedByName) {
         {"sa1", {"sa1.f_B=1Hz", "SA-I.f_B=10%"}, "--spread SA-I.f_B=10%: sa1.f_B is given twice"},
     };
     for (const auto& c : cases) {
-        const auto spreads = distributions_for(value_or_throw(plan_afferent(c.name, {})), c.name, test::parse_settings(c.spreads));
+        const auto spreads = distributions_for(value_or_throw(plan_afferent(c.name)), c.name, test::parse_settings(c.spreads, "--spread"));
         ASSERT_FALSE(spreads) << c.message;
         EXPECT_EQ(spreads.error().text(), c.message);
     }
 }
 
 TEST(ParameterDistribution, WithoutAcceptableSamplesIsAnErrorAfterAThousandTries) {
-    const auto plan = value_or_throw(plan_afferent("sa1", {}));
-    const auto wide = make_copies(plan, 2, value_or_throw(distributions_for(plan, "sa1", test::parse_settings({"sa1.V_th=1GV"}))), 1);
+    const auto plan = value_or_throw(plan_afferent("sa1"));
+    const auto wide =
+        make_copies(plan, 2, test::applied_or_throw(distributions_for(plan, "sa1", test::parse_settings({"sa1.V_th=1GV"}))), 1);
     ASSERT_FALSE(wide);
     EXPECT_EQ(wide.error().text(),
               "sa1#1: none of 1000 samples of V_th about 500 mV with a standard deviation of 1 GV is valid; lower its --spread");
@@ -213,7 +214,7 @@ TEST(ParameterDistribution, WithoutAcceptableSamplesIsAnErrorAfterAThousandTries
 }
 
 TEST(ParameterDistribution, OfZeroWidthLeavesEveryCopyUnchanged) {
-    const auto plan = value_or_throw(plan_afferent("sa1", {}));
+    const auto plan = value_or_throw(plan_afferent("sa1"));
     for (const auto& copy : sample_copies("sa1", {{}, {"sa1.E_L=0%", "sa1.f_B=0Hz"}, 5})) EXPECT_EQ(copy.values, plan.values);
 }
 

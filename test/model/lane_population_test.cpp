@@ -119,8 +119,8 @@ AfferentPlan scattered(AfferentPlan plan, std::uint64_t seed, std::uint32_t affe
 
 /// The plan of an afferent. If its model has substeps, they are coarse: fine substeps would only take more time.
 AfferentPlan plan_of(const std::string& name) {
-    auto plan = value_or_throw(plan_afferent(name, {}));
-    if (plan.value("substep")) plan = value_or_throw(plan_afferent(name, test::parse_settings({name + ".substep=200us"})));
+    auto plan = value_or_throw(plan_afferent(name));
+    if (plan.value("substep")) plan = test::applied_or_throw(plan_afferent(name, test::parse_settings({name + ".substep=200us"})));
     return plan;
 }
 
@@ -168,7 +168,7 @@ TEST(LanePopulation, SpikesDoNotDependOnBlocksThreadsOrInstructionSet) {
 
 TEST(LanePopulation, AHundredThousandRandomAfferentsEqualScalarOnes) {
     const corpuscle::SimulationOptions run{1e-3, Method::exact};
-    const auto plan = value_or_throw(plan_afferent("sa1", {}));
+    const auto plan = value_or_throw(plan_afferent("sa1"));
     const auto press = force("press", {.rate = 1e3});
     std::vector<AfferentPlan> plans;
     for (std::uint32_t u = 0; u < 100'000; ++u) plans.push_back(scattered(plan, 5, u));
@@ -208,7 +208,7 @@ lanes::AlignedBuffer<E> tiles(const Case& c, std::size_t first, std::size_t coun
 TEST(LanePopulation, TilesAndInt16ForcesGiveTheSpikesOfColumns) {
     constexpr double newtons = 1.0 / 4096;
     const corpuscle::SimulationOptions run{5e-4};
-    Case c{{value_or_throw(plan_afferent("sa1", {}))}, forces(150, 2e3, 0.4), run};
+    Case c{{value_or_throw(plan_afferent("sa1"))}, forces(150, 2e3, 0.4), run};
     for (auto& f : c.force)
         for (auto& x : f) x = std::nearbyint(std::clamp(x, -7.9, 7.9) / newtons) * newtons;  // values that an int16 word can hold
     const auto expected = scalar_spikes(c);
@@ -249,7 +249,7 @@ TEST(LanePopulation, AProfileWithGainsGivesTheSpikesOfScaledColumnsWithinRoundin
     for (const auto& receptor : receptor_entries()) {
         const std::string name = fmt::format("{}+lif-b", receptor.name);
         for (const auto method : {Method::exact, Method::backward_euler}) {
-            Case c{{value_or_throw(plan_afferent(name, {}))}, forces(64, 2e3, 0.5), {5e-4, method}};
+            Case c{{value_or_throw(plan_afferent(name))}, forces(64, 2e3, 0.5), {5e-4, method}};
             std::vector<double> gain;
             for (std::size_t u = 0; u < c.afferent_count(); ++u) gain.push_back(static_cast<double>(u) / 20);
             const auto profile = c.force[3];
@@ -274,7 +274,7 @@ TEST(LanePopulation, AProfileWithGainsGivesTheSpikesOfScaledColumnsWithinRoundin
 
 TEST(LanePopulation, SpikeBitsEqualTheListOfSpikes) {
     const corpuscle::SimulationOptions run{5e-4, Method::exact, true};
-    const Case c{{value_or_throw(plan_afferent("sa1", {}))}, forces(100, 2e3, 0.4), run};
+    const Case c{{value_or_throw(plan_afferent("sa1"))}, forces(100, 2e3, 0.4), run};
     std::vector<const double*> columns;
     for (const auto& f : c.force) columns.push_back(f.data());
     const std::size_t steps = c.force[0].size();
@@ -326,7 +326,7 @@ TEST(LanePopulation, AfferentsThatCannotShareLanesAreRefused) {
         return made ? std::string() : made.error().message;
     };
     const auto plan = [](const std::string& name, const std::vector<std::string>& settings = {}) {
-        return value_or_throw(plan_afferent(name, test::parse_settings(settings)));
+        return test::applied_or_throw(plan_afferent(name, test::parse_settings(settings)));
     };
     EXPECT_EQ(refused({plan("sa1"), plan("sa1", {"sa1.f_B=30"})}), "");
     EXPECT_NE(refused({plan("sa1"), plan("fa1")}).find("cannot contain"), std::string::npos);
@@ -338,7 +338,7 @@ TEST(LanePopulation, AfferentsThatCannotShareLanesAreRefused) {
 }
 
 TEST(LanePopulation, AForceWithAnotherLayoutOrSizeIsRefused) {
-    const Case c{{value_or_throw(plan_afferent("sa1", {}))}, forces(3, 1e3, 0.1), {1e-3}};
+    const Case c{{value_or_throw(plan_afferent("sa1"))}, forces(3, 1e3, 0.1), {1e-3}};
     const auto p = population(c, {});
     ThreadPool pool(1);
     PopulationResponse response;
@@ -356,7 +356,7 @@ TEST(LanePopulation, AForceWithAnotherLayoutOrSizeIsRefused) {
 
     // The current of sa1a does not scale with force. So its receptor is computed once for a profile without gains, but for each afferent if
     // there are gains; a population must not change from one to the other.
-    const Case mixed{{value_or_throw(plan_afferent("sa1a+lif-b", {}))}, c.force, c.run};
+    const Case mixed{{value_or_throw(plan_afferent("sa1a+lif-b"))}, c.force, c.run};
     const std::vector<double> ones = {1, 1, 1};
     const auto m = population(mixed, {});
     ASSERT_TRUE(static_cast<bool>(m->respond(ForceProfile{c.force[0]}, 10, response, pool)));
@@ -382,7 +382,7 @@ TEST(LanePopulation, FloatFiresTheSameSpikesUnderThePressWithinFiftyMicroseconds
     for (const auto* name : {"sa1", "fa1", "sa2"})
         for (const auto set : lane_sets())
             for (const auto method : {Method::exact, Method::backward_euler}) {
-                const Case c{{value_or_throw(plan_afferent(name, {}))}, {force("press")}, {1e-4, method}};
+                const Case c{{value_or_throw(plan_afferent(name))}, {force("press")}, {1e-4, method}};
                 expect_near(c, set, 50e-6);
             }
 }

@@ -16,7 +16,7 @@ struct NoisyRun {
 /// between 0 and 1 kHz, A.
 NoisyRun run(const std::string& name, const std::vector<std::string>& settings, const std::vector<double>& f, double rate, double noise,
              std::uint32_t afferent_index = 0, std::uint64_t seed = 7, std::size_t block = 1 << 20) {
-    const auto a = make_afferent(test::value_or_throw(plan_afferent(name, test::parse_settings(settings))),
+    const auto a = make_afferent(test::applied_or_throw(plan_afferent(name, test::parse_settings(settings))),
                                  {1 / rate, Method::exact, false, noise, seed});
     NoisyRun out{std::vector(a->probes().size(), std::vector<double>(f.size())), {}};
     auto state = a->start();

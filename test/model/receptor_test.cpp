@@ -126,16 +126,16 @@ TEST(Afferent, Fa2IsMostSensitiveAt200To300HzAndSilentUnderThePress) {
 
 TEST(Afferent, TouchSimsNamesAndOtherSpellingsAreAccepted) {
     for (const auto& [alias, name] : {std::pair{"SA1", "sa1"}, {"RA", "fa1"}, {"PC", "fa2"}, {"SA-I", "sa1"}, {"FA-II", "fa2"}})
-        EXPECT_EQ(test::value_or_throw(plan_afferent(alias, {})).name, name);
+        EXPECT_EQ(test::value_or_throw(plan_afferent(alias)).name, name);
     const auto overrides = test::parse_settings({"RA.f=3Hz"});
-    EXPECT_EQ(test::value_or_throw(plan_afferent("RA", overrides)).value("f"), 3);
+    EXPECT_EQ(test::applied_or_throw(plan_afferent("RA", overrides)).value("f"), 3);
 }
 
 TEST(Afferent, WrongNamesAreRefusedWithASuggestion) {
-    EXPECT_EQ(plan_afferent("sa", {}).error().message,
+    EXPECT_EQ(plan_afferent("sa").error().message,
               "unknown afferent 'sa'; did you mean 'sa1'? ('corpuscle list' shows them all; a receptor and a neuron are combined as "
               "'sa1b+lif-b')");
-    EXPECT_EQ(plan_afferent("sa1b+lifb", {}).error().message,
+    EXPECT_EQ(plan_afferent("sa1b+lifb").error().message,
               "sa1b+lifb: unknown neuron 'lifb'; did you mean 'lif-b'? (there are lif-a, lif-b, adaptive, izhikevich, adex)");
     EXPECT_EQ(plan_afferent("sa1", test::parse_settings({"sa1.V_reset=600mV"})).error().message,
               "sa1: V_reset = 0.6 must be below V_th = 0.5");

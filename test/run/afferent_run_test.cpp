@@ -26,8 +26,8 @@ RunFiles run(const TemporaryFolder& folder, const std::vector<std::string>& stim
              std::size_t block) {
     std::vector<std::unique_ptr<ForceSource>> sources;
     std::vector<AfferentPlan> plans;
-    for (const auto& s : stimuli) sources.push_back(test::value_or_throw(make_stimulus(s, {}, 2e3, 9)));
-    for (const auto& n : names) plans.push_back(test::value_or_throw(plan_afferent(n, {})));
+    for (const auto& s : stimuli) sources.push_back(test::value_or_throw(make_stimulus(s, 2e3, 9)));
+    for (const auto& n : names) plans.push_back(test::value_or_throw(plan_afferent(n)));
     SpikesFile spikes(test::value_or_throw(OutputFile::create(folder / "spikes.csv")));
     ProbesFile traces(folder.path());
     RunSummary summary;
@@ -93,8 +93,8 @@ TEST(Respond, ProbeFilesAreReadBackAsRecordings) {
 
 TEST(Respond, StopsOnRequestAndReportsIt) {
     std::vector<std::unique_ptr<ForceSource>> sources;
-    sources.push_back(test::value_or_throw(make_stimulus("press", {}, 10e3, 0)));
-    const auto plan = test::value_or_throw(plan_afferent("sa1", {}));
+    sources.push_back(test::value_or_throw(make_stimulus("press", 10e3, 0)));
+    const auto plan = test::value_or_throw(plan_afferent("sa1"));
     RespondOptions options;
     int blocks = 0;
     options.block = 100;
@@ -107,8 +107,8 @@ TEST(Respond, StopsOnRequestAndReportsIt) {
 
 TEST(Respond, ARateTooLowForAnAfferentIsReported) {
     std::vector<std::unique_ptr<ForceSource>> sources;
-    sources.push_back(test::value_or_throw(make_stimulus("press", {}, 500, 0)));
-    const auto fa2 = test::value_or_throw(plan_afferent("fa2", {})), sa1 = test::value_or_throw(plan_afferent("sa1", {}));
+    sources.push_back(test::value_or_throw(make_stimulus("press", 500, 0)));
+    const auto fa2 = test::value_or_throw(plan_afferent("fa2")), sa1 = test::value_or_throw(plan_afferent("sa1"));
     EXPECT_EQ(rate_warnings(sources, std::span(&fa2, 1)).at(0),
               "fa2 on press: the sample rate is 500 Hz, but this afferent needs 1000 Hz or more; do not trust its spikes");
     EXPECT_TRUE(rate_warnings(sources, std::span(&sa1, 1)).empty());
@@ -132,8 +132,8 @@ TEST(OutputFile, LeavesNothingBehindUnlessItIsComplete) {
 TEST(RespondReport, KeepsItsSizeLimitForAnyNumberOfInputs) {
     const auto points_of = [](int inputs) {
         std::vector<std::unique_ptr<ForceSource>> sources;
-        for (int k = 0; k < inputs; ++k) sources.push_back(test::value_or_throw(make_stimulus("press", {}, 20e3, 0)));
-        const auto plan = test::value_or_throw(plan_afferent("sa1", {}));
+        for (int k = 0; k < inputs; ++k) sources.push_back(test::value_or_throw(make_stimulus("press", 20e3, 0)));
+        const auto plan = test::value_or_throw(plan_afferent("sa1"));
         RespondReport report(100'000);
         RunSummary summary;
         ResponseSink* sinks[] = {&report, &summary};

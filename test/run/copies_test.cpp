@@ -26,8 +26,8 @@ CopiesOfAfferents make_test_copies(const std::vector<std::string>& names, std::u
     CopiesOfAfferents out;
     out.population.count = n;
     for (const auto& name : names) {
-        out.base.push_back(value_or_throw(plan_afferent(name, {})));
-        const auto distributions = value_or_throw(distributions_for(out.base.back(), name, test::parse_settings(spreads)));
+        out.base.push_back(value_or_throw(plan_afferent(name)));
+        const auto distributions = test::applied_or_throw(distributions_for(out.base.back(), name, test::parse_settings(spreads)));
         for (auto& c : value_or_throw(make_copies(out.base.back(), n, distributions, 4))) out.copies.push_back(c);
         out.population.distributions.insert(out.population.distributions.end(), distributions.begin(), distributions.end());
     }
@@ -36,8 +36,8 @@ CopiesOfAfferents make_test_copies(const std::vector<std::string>& names, std::u
 
 void simulate_press_and_sine(std::span<const AfferentPlan> plans, std::initializer_list<ResponseSink*> sinks) {
     std::vector<std::unique_ptr<ForceSource>> sources;
-    sources.push_back(value_or_throw(make_stimulus("press", {}, 2e3, 0)));
-    sources.push_back(value_or_throw(make_stimulus("sine", {}, 2e3, 0)));
+    sources.push_back(value_or_throw(make_stimulus("press", 2e3, 0)));
+    sources.push_back(value_or_throw(make_stimulus("sine", 2e3, 0)));
     (void)value_or_throw(respond(sources, plans, std::vector<ResponseSink*>(sinks), {}));
 }
 

@@ -66,7 +66,7 @@ void pass_to_sinks(const ForceSource& source, std::span<const AfferentPlan> plan
 
 std::vector<AfferentPlan> plans(const std::vector<std::string>& names) {
     std::vector<AfferentPlan> all;
-    for (const auto& n : names) all.push_back(value_or_throw(plan_afferent(n, {})));
+    for (const auto& n : names) all.push_back(value_or_throw(plan_afferent(n)));
     return all;
 }
 
@@ -274,7 +274,7 @@ TEST(RemoveStaleOutputs, RemovesOnlyFilesThatAnEarlierSummaryNamesInThatDirector
 TEST(Summary, UsesTheCycleOfAStimulusAndLeavesOutColumnsWithoutValues) {
     const auto columns = [](const std::string& stimulus) {
         std::vector<std::unique_ptr<ForceSource>> sources;
-        sources.push_back(value_or_throw(make_stimulus(stimulus, {}, 10e3, 0)));
+        sources.push_back(value_or_throw(make_stimulus(stimulus, 10e3, 0)));
         const auto afferents = plans({"sa1"});
         RunSummary summary;
         ResponseSink* sinks[] = {&summary};

@@ -36,7 +36,7 @@ std::int64_t spikes_of(const test::ProgramResult& ran) { return nlohmann::json::
 
 TEST(SilenceDetector, TheFactorIsTheSmallestThatMakesAnAfferentFire) {
     const auto press = test::force("press", {.settings = {"press.F_max=300mN"}, .rate = 1e3});
-    const auto factor = factor_to_fire(*plan_afferent("sa1", {}), {1e-3}, press);
+    const auto factor = factor_to_fire(*plan_afferent("sa1"), {1e-3}, press);
     ASSERT_TRUE(factor);
     const auto fires = [&](double times) {
         auto force = press;

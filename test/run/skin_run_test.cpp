@@ -21,8 +21,9 @@ using test::TemporaryFolder, test::read_file, test::value_or_throw;
 Result<SkinStats> press_fingertip(const TemporaryFolder& folder, const std::string& out, int blocks, bool with_checkpoint,
                                   const RunFingerprint& fingerprint = {{"FORCE", "press"}}, double scale = 1) {
     static const auto skin = value_or_throw(innervate(value_or_throw(load_skin_plan("fingertip"))));
-    const auto source = value_or_throw(make_stimulus("press", test::parse_settings({"press.F_max=" + std::to_string(4 * scale)}), 1e3, 0));
-    const auto contact = value_or_throw(make_contact("sphere", {}, skin->plan.sites, source->clock()));
+    const auto source =
+        test::applied_or_throw(make_stimulus("press", test::parse_settings({"press.F_max=" + std::to_string(4 * scale)}), 1e3, 0));
+    const auto contact = test::applied_or_throw(make_contact("sphere", {}, skin->plan.sites, source->clock()));
     const auto force = make_pressed_force(*source, *contact);
     const auto running = value_or_throw(Skin::make(skin, {1e-3}, *instruction_set()));
     std::unique_ptr<SkinCheckpoint> checkpoint;

@@ -29,10 +29,8 @@ Innervation small_skin() {
                        .regions = {"tip", "palm"},
                        .area = 4e-6};
     for (const auto* name : {"sa1", "fa1"})
-        skin.plan.classes.push_back({.name = name,
-                                     .afferent = value_or_throw(plan_afferent(name, {})),
-                                     .density = {1e6, 5e5},
-                                     .sources = {{"density", "made up"}}});
+        skin.plan.classes.push_back(
+            {.name = name, .afferent = value_or_throw(plan_afferent(name)), .density = {1e6, 5e5}, .sources = {{"density", "made up"}}});
     skin.afferents = {
         {0, 1, 0, {0, 0}}, {0, 2, 0, {2e-3, 0}}, {0, 3, 1, {4e-3, 1e-3}, 2e-3}, {1, 1, 0, {2e-3, 1e-3}}, {1, 2, 1, {4e-3, 0}}};
     skin.class_begin = {0, 3, 5};

@@ -16,8 +16,8 @@ std::vector<std::string> write(const test::TemporaryFolder& folder, const std::v
     const auto overrides = test::parse_settings(settings);
     std::vector<std::unique_ptr<ForceSource>> sources;
     std::vector<AfferentPlan> plans;
-    for (const auto& s : stimuli) sources.push_back(test::value_or_throw(make_stimulus(s, overrides, 2e3, 9)));
-    for (const auto& n : names) plans.push_back(test::value_or_throw(plan_afferent(n, overrides)));
+    for (const auto& s : stimuli) sources.push_back(test::value_or_throw(make_stimulus(s, overrides, 2e3, 9)).result);
+    for (const auto& n : names) plans.push_back(test::value_or_throw(plan_afferent(n, overrides)).result);
     TestVectorsFile vectors(folder.path());
     ResponseSink* sinks[] = {&vectors};
     RespondOptions options;

@@ -28,7 +28,7 @@ std::unique_ptr<Contact> make_checked_contact(std::string_view indenter, std::in
     for (const std::string text : settings) overrides.push_back(*parse_override("contact." + text));
     auto made = make_contact(indenter, overrides, sites, *make_clock(rate));
     EXPECT_TRUE(made) << made.error().text();
-    return std::move(*made);
+    return std::move(made->result);
 }
 
 /// The force (N) at each site if the indenter is pressed with `force` (N) at sample `at`.
@@ -70,7 +70,7 @@ RC_GTEST_PROP(Contacts, DistributeAllOfTheForce, ()) {
     const double force = *rc::gen::inRange(1, 4000) * 1e-3;
     auto contact = make_contact(indenter, overrides, sites, *make_clock(1000));
     RC_ASSERT(bool(contact));
-    const double total_force = sum(force_map(**contact, sites, force));
+    const double total_force = sum(force_map(*contact->result, sites, force));
     RC_ASSERT(std::abs(total_force - force) < 1e-12 ||
               (indenter == "grating" && total_force == 0));  // a small contact may lie over a groove, where there is no force
 }

@@ -106,7 +106,7 @@ TEST(HandPopulation, DependsOnlyOnItsPlanAndSeed) {
 RC_GTEST_PROP(Innervate, WeightsAreProportionalToGaussians, ()) {
     SkinPlan plan{"any", "", *grid_sites(*rc::gen::inRange<std::size_t>(1, 9), *rc::gen::inRange<std::size_t>(1, 9), 2e-3), {}};
     for (auto& p : plan.sites.positions) p.x += *rc::gen::inRange(-9, 9) * 1e-4;
-    SkinClass c{"sa1", *plan_afferent("sa1", {})};
+    SkinClass c{"sa1", *plan_afferent("sa1")};
     c.per_site = *rc::gen::inRange(1U, 3U), c.sigma = *rc::gen::inRange(1, 80) * 1e-4;
     c.velocity = 50;
     plan.classes = {c}, plan.nerve = Position{0.01, -0.1, 0};

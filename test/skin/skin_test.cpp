@@ -16,7 +16,7 @@ constexpr double skin_T = 1e-3;  // sampling period, s
 std::shared_ptr<const Innervation> small_skin(std::size_t rows, std::size_t columns, bool spread, double velocity) {
     SkinPlan plan{"small", "", *grid_sites(rows, columns, 2e-3), {}, 7};
     for (const char* name : {"sa1", "fa1", "sa2"}) {
-        SkinClass c{name, *plan_afferent(name, {})};
+        SkinClass c{name, *plan_afferent(name)};
         c.per_site = 2, c.sigma = 1.5e-3, c.hot_spots = 2, c.hot_spot_spread = 1e-3;
         c.velocity = velocity, c.velocity_spread = velocity / 10;
         if (spread) c.distributions.push_back({name, "V_th", "V", 0.03, {}});

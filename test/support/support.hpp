@@ -30,21 +30,27 @@ T value_or_throw(Result<T> result) {
     return std::move(*result);
 }
 
-inline std::vector<ParameterOverride> parse_settings(const std::vector<std::string>& settings) {
-    std::vector<ParameterOverride> out;
-    for (const auto& s : settings) out.push_back(value_or_throw(parse_override(s)));
-    return out;
+/// The result of overrides that all must have been used; throws an error or the unused ones.
+template <class T>
+T applied_or_throw(Result<Applied<T>> result) {
+    auto applied = value_or_throw(std::move(result));
+    if (!applied.unused.empty()) throw std::runtime_error("unused: " + applied.unused[0].text());
+    return std::move(applied.result);
+}
+
+inline std::vector<ParameterOverride> parse_settings(const std::vector<std::string>& settings, std::string_view option = "") {
+    return value_or_throw(parse_overrides(settings, option));
 }
 
 /// The afferent of this name, with the settings of `run`.
 inline std::unique_ptr<Afferent> afferent(const std::string& name, const RunSettings& run = {}) {
-    return make_afferent(value_or_throw(plan_afferent(name, parse_settings(run.settings))), {1 / run.rate, run.method, run.sampled});
+    return make_afferent(value_or_throw(plan_afferent(name, parse_settings(run.settings))).result, {1 / run.rate, run.method, run.sampled});
 }
 
 /// Samples (N) of a stimulus.
 inline std::vector<double> force(const std::string& stimulus, const RunSettings& run = {}) {
     const auto overrides = parse_settings(run.settings);
-    return value_or_throw(read_channel(*value_or_throw(make_stimulus(stimulus, overrides, run.rate, run.seed))));
+    return value_or_throw(read_channel(*value_or_throw(make_stimulus(stimulus, overrides, run.rate, run.seed)).result));
 }
 
 /// The spikes of an afferent under a force f (N), which it receives in blocks of `block` samples.

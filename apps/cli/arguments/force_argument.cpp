@@ -16,16 +16,18 @@ bool is_force(const std::string& argument) {
            std::any_of(touches.begin(), touches.end(), [&](const NamedTouch& t) { return t.name == argument; });
 }
 
-Result<std::unique_ptr<ForceSource>> open_force(const std::string& force, const RecordingOptions& options,
-                                                std::span<const ParameterOverride> overrides, double rate, std::uint64_t seed) {
+Result<Applied<std::unique_ptr<ForceSource>>> open_force(const std::string& force, const RecordingOptions& options,
+                                                         std::span<const ParameterOverride> overrides, double rate, std::uint64_t seed) {
     if (is_stimulus(force)) return make_stimulus(force, overrides, options.rate.value_or(rate), seed);
     std::error_code status;
     if (!std::filesystem::exists(force, status) && force.find_first_of("./") == std::string::npos && force != "-") {
-        auto error = make_stimulus(force, overrides, rate, seed).error();
+        auto error = make_stimulus(force, rate, seed).error();
         error.message += fmt::format(" (and no file '{}' exists)", force.substr(0, 64));
         return error;
     }
-    return open_recording(force == "-" ? "/dev/stdin" : force, options);
+    auto recording = open_recording(force == "-" ? "/dev/stdin" : force, options);
+    if (!recording) return recording.error();
+    return Applied<std::unique_ptr<ForceSource>>{std::move(*recording), {overrides.begin(), overrides.end()}};
 }
 
 }  // namespace corpuscle

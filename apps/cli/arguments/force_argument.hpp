@@ -16,7 +16,7 @@ bool is_force(const std::string& argument);
 
 /// Opens a stimulus or a recording. A stimulus takes precedence over a file of the same name: write ./press for the file. "-" is standard
 /// input. `rate` (Hz) and `seed` are for stimuli; RecordingOptions::rate, if set, replaces `rate`.
-Result<std::unique_ptr<ForceSource>> open_force(const std::string& force, const RecordingOptions&,
-                                                std::span<const ParameterOverride> overrides, double rate, std::uint64_t seed);
+Result<Applied<std::unique_ptr<ForceSource>>> open_force(const std::string& force, const RecordingOptions&,
+                                                         std::span<const ParameterOverride> overrides, double rate, std::uint64_t seed);
 
 }  // namespace corpuscle

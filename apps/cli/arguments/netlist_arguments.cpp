@@ -21,10 +21,10 @@ void add_netlist_options(CLI::App& part, NetlistArguments& args) {
           "the drain or the first terminal; displacement current is not included. The last part of a path is enough: rectb.o"}});
 }
 
-std::vector<circuit::NetlistOverride> netlist_overrides(const NetlistArguments& args) {
-    std::vector<circuit::NetlistOverride> out;
+std::vector<ParameterOverride> netlist_overrides(const NetlistArguments& args) {
+    std::vector<ParameterOverride> out;
     const auto add = [&](const char* name, const std::optional<std::string>& value) {
-        if (value) out.push_back({name, *value, fmt::format("--{} {}", name, *value), /* is_parameter_only = */ true});
+        if (value) out.push_back({"", name, *value, fmt::format("--{} {}", name, *value)});
     };
     add("supply", args.supply), add("temp", args.temp), add("corner", args.corner), add("mismatch", args.mismatch);
     return out;
@@ -35,11 +35,6 @@ std::vector<std::string> probe_names(const NetlistArguments& args) {
     for (const auto& text : args.probes)
         for (auto& probe : circuit::split_probes(text)) out.push_back(std::move(probe));
     return out;
-}
-
-std::string first_netlist_option(const NetlistArguments& args) {
-    const auto overrides = netlist_overrides(args);
-    return !overrides.empty() ? overrides[0].text : !args.probes.empty() ? "--probe " + args.probes[0] : "";
 }
 
 }  // namespace corpuscle

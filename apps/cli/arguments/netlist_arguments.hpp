@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "circuit/variant/netlist_overrides.hpp"
+#include "core/parameter_override.hpp"
 
 namespace CLI {
 class App;
@@ -21,13 +21,10 @@ struct NetlistArguments {
 
 void add_netlist_options(CLI::App& part, NetlistArguments&);
 
-/// The overrides from --supply, --temp, --corner and --mismatch.
-std::vector<circuit::NetlistOverride> netlist_overrides(const NetlistArguments&);
+/// The overrides from --supply, --temp, --corner and --mismatch, which are for every netlist.
+std::vector<ParameterOverride> netlist_overrides(const NetlistArguments&);
 
 /// The names of all probes in the --probe options, each of which may have several.
 std::vector<std::string> probe_names(const NetlistArguments&);
-
-/// The first netlist option that was given, with its value, such as "--temp 85"; "" if none was.
-std::string first_netlist_option(const NetlistArguments&);
 
 }  // namespace corpuscle

@@ -24,16 +24,10 @@ Result<std::vector<ParameterOverride>> spread_overrides(const RespondArguments& 
         return bad_usage(fmt::format("--spread {} needs --copies N, such as --copies 100", args.spreads[0]));
     std::vector<ParameterOverride> overrides;
     for (const auto& text : args.spreads) {
-        auto parsed = parse_override(text);
+        auto parsed = parse_override(text, "--spread");
         if (!parsed) return bad_usage(fmt::format("--spread '{}': write NAME.PARAMETER=DEVIATION, such as 'sa1.f_B=10%'", text));
         overrides.push_back(std::move(*parsed));
     }
-    return overrides;
-}
-
-/// The overrides with their parameter names in lower case, as the parameters of netlists are.
-std::vector<ParameterOverride> in_lower_case(std::vector<ParameterOverride> overrides) {
-    for (auto& entry : overrides) entry.parameter = lower(entry.parameter);
     return overrides;
 }
 
@@ -41,27 +35,21 @@ std::vector<ParameterOverride> in_lower_case(std::vector<ParameterOverride> over
 Result<void> populate(ChannelJob& job, const RespondArguments& args) {
     const auto overrides = spread_overrides(args);
     if (!overrides) return overrides.error();
+    auto unused = *overrides;
     job.copy_spec.count = args.copies;
     if (args.copies == 0) job.copies = job.afferents;
     for (std::size_t a = 0; args.copies > 0 && a < job.afferents.size(); ++a) {
-        const auto afferent_overrides = job.afferents[a].factory ? in_lower_case(*overrides) : *overrides;
-        auto spreads = distributions_for(job.afferents[a], args.afferents[a], afferent_overrides);
-        for (std::size_t k = 0; k < afferent_overrides.size(); ++k) (*overrides)[k].is_used |= afferent_overrides[k].is_used;
+        auto spreads = distributions_for(job.afferents[a], args.afferents[a], *overrides);
         if (!spreads) return spreads.error();
-        auto copies = make_copies(job.afferents[a], args.copies, *spreads, args.seed);
+        keep_unused(unused, spreads->unused);
+        auto copies = make_copies(job.afferents[a], args.copies, spreads->result, args.seed);
         if (!copies) return copies.error();
-        for (auto& copy : *copies)
-            if (auto ok = rebuild_copy(copy, job.afferents[a]); !ok) return ok;
         std::move(copies->begin(), copies->end(), std::back_inserter(job.copies));
-        std::move(spreads->begin(), spreads->end(), std::back_inserter(job.copy_spec.distributions));
+        std::move(spreads->result.begin(), spreads->result.end(), std::back_inserter(job.copy_spec.distributions));
     }
     std::vector<std::string_view> names;
     for (const auto& a : job.afferents) names.push_back(a.name);
-    for (const auto& entry : *overrides)
-        if (!entry.is_used)
-            return bad_usage(fmt::format("--spread {}: there is no afferent '{}' in this run{}", entry.text(), entry.target,
-                                         did_you_mean(entry.target, names)));
-    return {};
+    return check_all_used(unused, names);
 }
 
 /// Returns an error if there are more afferents than 32-bit indexes.
@@ -78,34 +66,34 @@ Result<void> check_overrides(const ChannelJob& job) {
     std::vector<std::string_view> names;
     for (const auto& a : job.afferents) names.push_back(a.name);
     for (const auto& s : job.sources) names.push_back(s->name());
-    for (const auto& entry : job.overrides)
-        if (!entry.is_used)
-            return bad_usage(fmt::format("--set {}: there is no afferent or stimulus '{}' in this run{}", entry.text(), entry.target,
-                                         did_you_mean(entry.target, names)));
-    return {};
+    return check_all_used(job.unused, names);
 }
 
-/// Returns an error if there is a netlist option but no netlist, or if no netlist has one of the probes.
-Result<void> check_netlist_options(const NetlistArguments& args, const NetlistOptions& netlist_options) {
-    if (const auto option = first_netlist_option(args); !option.empty() && !netlist_options.is_used)
-        return bad_usage(fmt::format("{}: there is no netlist in this run; try --afferent sa1-circuit", option));
-    for (std::size_t k = 0; k < netlist_options.probes.size(); ++k)
-        if (!netlist_options.probe_found[k])
-            return bad_input(fmt::format("--probe {}: no netlist of this run has such a node or device{}", netlist_options.probes[k],
-                                         netlist_options.probe_hint));
+/// Returns an error if one of the requested probes is in none of the netlists. `found`: for each netlist, what became of the probes.
+Result<void> check_probes(std::span<const std::string> names, std::span<const std::vector<RequestedProbe>> found) {
+    for (std::size_t k = 0; k < names.size(); ++k) {
+        if (found.empty())
+            return bad_usage(fmt::format("--probe {}: there is no netlist in this run; try --afferent sa1-circuit", names[k]));
+        if (std::none_of(found.begin(), found.end(), [&](const auto& of_netlist) { return of_netlist[k].name.has_value(); }))
+            return bad_input(
+                fmt::format("--probe {}: no netlist of this run has such a node or device{}", names[k], found.front()[k].hint));
+    }
     return {};
 }
 
 Result<void> plan_afferents(ChannelJob& job, const RespondArguments& args) {
-    const NetlistOptions netlist_options{netlist_overrides(args.netlists), probe_names(args.netlists)};
+    const auto probes = probe_names(args.netlists);
+    std::vector<std::vector<RequestedProbe>> found;
     for (const auto& name : args.afferents) {
-        auto plan = plan_any_afferent(name, job.overrides, netlist_options);
-        if (!plan) return plan.error();
-        if (std::any_of(job.afferents.begin(), job.afferents.end(), [&](const auto& a) { return a.name == plan->name; }))
+        auto planned = plan_any_afferent(name, job.overrides, probes);
+        if (!planned) return planned.error();
+        if (std::any_of(job.afferents.begin(), job.afferents.end(), [&](const auto& a) { return a.name == planned->result.name; }))
             return bad_usage(fmt::format("--afferent {}: given twice", name));
-        job.afferents.push_back(std::move(*plan));
+        keep_unused(job.unused, planned->unused);
+        job.afferents.push_back(std::move(planned->result));
+        if (!planned->probes.empty()) found.push_back(std::move(planned->probes));
     }
-    return check_netlist_options(args.netlists, netlist_options);
+    return check_probes(probes, found);
 }
 
 Result<void> open_sources(ChannelJob& job, const RespondArguments& args, bool quiet) {
@@ -116,7 +104,8 @@ Result<void> open_sources(ChannelJob& job, const RespondArguments& args, bool qu
     for (const auto& force : args.forces) {
         auto source = open_force(force, *options, job.overrides, default_rate, args.seed);
         if (!source) return source.error();
-        job.sources.push_back(std::move(*source));
+        keep_unused(job.unused, source->unused);
+        job.sources.push_back(std::move(source->result));
     }
     return {};
 }
@@ -126,9 +115,11 @@ Result<void> open_sources(ChannelJob& job, const RespondArguments& args, bool qu
 Result<ChannelJob> plan_channel_job(const RespondArguments& args, bool quiet) {
     ChannelJob job;
     if (args.forces.empty()) return bad_usage("respond: no FORCE given; try 'corpuscle respond press'");
-    auto overrides = parse_overrides(args.settings);
-    if (!overrides) return overrides.error();
-    job.overrides = std::move(*overrides);
+    const auto settings = parse_overrides(args.settings, "--set");
+    if (!settings) return settings.error();
+    job.overrides = netlist_overrides(args.netlists);  // first, so that a setting for one netlist takes precedence
+    job.overrides.insert(job.overrides.end(), settings->begin(), settings->end());
+    job.unused = job.overrides;
     if (auto ok = plan_afferents(job, args); !ok) return ok.error();
     if (auto ok = populate(job, args); !ok) return ok.error();
     if (auto ok = open_sources(job, args, quiet); !ok) return ok.error();

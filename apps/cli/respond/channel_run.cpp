@@ -15,7 +15,7 @@ namespace {
 std::size_t netlist_count(const ChannelJob& job) {
     std::size_t count = 0;
     for (const auto& s : job.sources)
-        for (const auto& a : job.copies) count += a.factory ? s->channels().size() : 0;
+        for (const auto& a : job.copies) count += a.traits().may_diverge ? s->channels().size() : 0;
     return count;
 }
 

@@ -10,8 +10,8 @@ namespace corpuscle {
 
 /// What the arguments ask for.
 struct ChannelJob {
-    std::vector<ParameterOverride> overrides;
-    std::vector<AfferentPlan> afferents;  // the afferents of --afferent
+    std::vector<ParameterOverride> overrides, unused;  // unused: those that no afferent and no source so far has used
+    std::vector<AfferentPlan> afferents;               // the afferents of --afferent
     CopySpec copy_spec;
     std::vector<AfferentPlan> copies;  // the simulated afferents: all copies, or without --copies the afferents themselves
     std::vector<std::unique_ptr<ForceSource>> sources;

@@ -6,16 +6,6 @@
 
 namespace corpuscle {
 
-Result<std::vector<ParameterOverride>> parse_overrides(const std::vector<std::string>& settings) {
-    std::vector<ParameterOverride> overrides;
-    for (const auto& text : settings) {
-        auto parsed = parse_override(text);
-        if (!parsed) return parsed.error();
-        overrides.push_back(std::move(*parsed));
-    }
-    return overrides;
-}
-
 Result<void> read_run_options(RespondOptions& options, const RespondArguments& args) {
     options.method = args.method == "exact" ? Method::exact : Method::backward_euler;
     options.sampled = args.sampled;

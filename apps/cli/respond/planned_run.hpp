@@ -40,8 +40,6 @@ public:
     virtual Result<void> verdict(const RunStats&) const { return {}; }
 };
 
-/// The settings of --set.
-Result<std::vector<ParameterOverride>> parse_overrides(const std::vector<std::string>& settings);
 /// Reads the options of the simulation.
 Result<void> read_run_options(RespondOptions&, const RespondArguments&);
 

@@ -87,7 +87,7 @@ Result<void> respond_with(const RespondArguments& args, const CommonArguments& c
 Result<void> request_probes(RespondArguments& args) {
     if (args.netlists.probes.empty()) return {};
     if (args.out.empty() && !args.has_report)
-        return bad_usage(fmt::format("{} needs --out DIR or --report", first_netlist_option({{}, {}, {}, {}, args.netlists.probes})));
+        return bad_usage(fmt::format("--probe {} needs --out DIR or --report", args.netlists.probes[0]));
     if (!args.out.empty()) args.outputs["--probe-files"];
     return {};
 }

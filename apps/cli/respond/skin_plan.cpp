@@ -22,7 +22,7 @@ void add_touch_overrides(std::vector<ParameterOverride>& overrides, const NamedT
         for (const auto& s : settings)
             if (std::none_of(overrides.begin(), overrides.end(),
                              [&](const ParameterOverride& entry) { return entry.target == target && entry.parameter == s.name; }))
-                overrides.push_back({std::string(target), std::string(s.name), fmt::format("{}", s.value), true});
+                overrides.push_back({std::string(target), std::string(s.name), fmt::format("{}", s.value)});
     };
     add("contact", touch.settings);
     add(touch.force, touch.force_settings);
@@ -30,13 +30,7 @@ void add_touch_overrides(std::vector<ParameterOverride>& overrides, const NamedT
 
 /// Returns an error if an override was not applied.
 Result<void> check_skin_overrides(const SkinJob& job) {
-    std::vector<std::string_view> names = {"contact", job.source->name()};
-    for (const auto& c : job.skin->plan.classes) names.push_back(c.name);
-    for (const auto& entry : job.overrides)
-        if (!entry.is_used)
-            return bad_usage(
-                fmt::format("--set {}: there is no '{}' in this run{}", entry.text(), entry.target, did_you_mean(entry.target, names)));
-    return {};
+    return check_all_used(job.unused, override_targets(job.skin->plan, {"contact", job.source->name()}));
 }
 
 /// Makes job.force: with an indenter if the force has one channel and the skin several sites, otherwise from one channel for each site.
@@ -56,7 +50,8 @@ Result<void> open_contact(SkinJob& job, const RespondArguments& args, const Name
     const std::string indenter = !args.contact.empty() ? args.contact : touch ? std::string(touch->indenter) : default_indenter;
     auto contact = make_contact(indenter, job.overrides, sites, job.source->clock());
     if (!contact) return contact.error();
-    job.contact = std::move(*contact);
+    keep_unused(job.unused, contact->unused);
+    job.contact = std::move(contact->result);
     job.force = make_pressed_force(*job.source, *job.contact);
     return {};
 }
@@ -66,7 +61,8 @@ Result<void> open_source(SkinJob& job, const RespondArguments& args, const Named
     if (!options) return options.error();
     auto source = open_force(touch ? std::string(touch->force) : args.forces[0], *options, job.overrides, skin_rate, args.seed);
     if (!source) return source.error();
-    job.source = std::move(*source);
+    keep_unused(job.unused, source->unused);
+    job.source = std::move(source->result);
     job.name = touch ? std::string(touch->name) : job.source->name();
     return {};
 }
@@ -75,10 +71,13 @@ Result<void> open_source(SkinJob& job, const RespondArguments& args, const Named
 Result<void> place_afferents(SkinJob& job, const RespondArguments& args) {
     auto plan = load_skin_plan(args.population, job.source->channels());
     if (!plan) return plan.error();
-    if (auto ok = apply_class_overrides(*plan, job.overrides); !ok) return ok.error();
-    if (args.seed != 0) plan->seed = args.seed;  // 0, the default, keeps the seed of the population file
-    if (job.source->channels().size() == 1) job.skin_note = treat_as_skin(*plan);
-    auto skin = innervate(std::move(*plan));
+    auto applied = apply_overrides(std::move(*plan), job.overrides);
+    if (!applied) return applied.error();
+    keep_unused(job.unused, applied->unused);
+    auto& skin_plan = applied->result;
+    if (args.seed != 0) skin_plan.seed = args.seed;  // 0, the default, keeps the seed of the population file
+    if (job.source->channels().size() == 1) job.skin_note = treat_as_skin(skin_plan);
+    auto skin = innervate(std::move(skin_plan));
     if (!skin) return skin.error();
     job.skin = std::move(*skin);
     return {};
@@ -96,9 +95,10 @@ const NamedTouch* find_touch(const std::string& force) {
 Result<SkinJob> plan_skin_job(const RespondArguments& args) {
     if (args.forces.size() != 1) return bad_usage(fmt::format("--population takes one FORCE, not {}", args.forces.size()));
     SkinJob job;
-    auto overrides = parse_overrides(args.settings);
-    if (!overrides) return overrides.error();
-    job.overrides = std::move(*overrides);
+    auto settings = parse_overrides(args.settings, "--set");
+    if (!settings) return settings.error();
+    job.overrides = std::move(*settings);
+    job.unused = job.overrides;
     const auto* touch = find_touch(args.forces[0]);
     if (touch) add_touch_overrides(job.overrides, *touch);
     if (auto ok = open_source(job, args, touch); !ok) return ok.error();

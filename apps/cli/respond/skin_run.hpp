@@ -11,7 +11,7 @@ namespace corpuscle {
 
 /// What the arguments ask for.
 struct SkinJob {
-    std::vector<ParameterOverride> overrides;
+    std::vector<ParameterOverride> overrides, unused;  ///< unused: those of the user that no part of the run so far has used
     std::unique_ptr<ForceSource> source;
     std::shared_ptr<const Innervation> skin;
     std::unique_ptr<Contact> contact;  ///< null: each channel is the force at one site

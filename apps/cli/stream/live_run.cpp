@@ -25,13 +25,13 @@ namespace corpuscle {
 namespace {
 
 /// The plan of the skin of --population. `channels`: of the recording or stimulus; empty for a live input.
-Result<SkinPlan> plan_of(const StreamArguments& args, std::span<const Channel> channels, std::span<const ParameterOverride> overrides) {
+Result<Applied<SkinPlan>> plan_of(const StreamArguments& args, std::span<const Channel> channels,
+                                  std::span<const ParameterOverride> overrides) {
     if (channels.empty()) return make_live_plan(args.population, args.channel_count, overrides);
     if (is_afferent_list(args.population)) return make_channel_plan(args.population, channels, overrides);
     auto plan = load_skin_plan(args.population, channels);
-    if (!plan) return plan;
-    if (auto ok = apply_class_overrides(*plan, overrides); !ok) return ok.error();
-    return plan;
+    if (!plan) return plan.error();
+    return apply_overrides(std::move(*plan), overrides);
 }
 
 /// One stream: its input, skin and output.
@@ -40,8 +40,9 @@ class LiveRun {
     const CommonArguments& common_;
     std::unique_ptr<SkinStream> skin_;
     std::unique_ptr<FrameSource> frames_;
-    const ForceSource* source_ = nullptr;  // the recording or stimulus, owned by frames_; null for a live input
-    FrameLayout layout_;                   // of live frames only
+    const ForceSource* source_ = nullptr;    // the recording or stimulus, owned by frames_; null for a live input
+    std::vector<ParameterOverride> unused_;  // overrides that neither the skin nor the source has used
+    FrameLayout layout_;                     // of live frames only
     std::unique_ptr<EventFormat> format_;
     std::unique_ptr<EventSink> sink_;
     std::unique_ptr<StreamLoop> loop_;
@@ -51,16 +52,19 @@ class LiveRun {
 
     /// Opens a recording or a stimulus, and the skin that it drives.
     Result<void> open_recorded(const StreamQuantities& quantities, std::span<const ParameterOverride> overrides) {
-        auto source = open_stream_source(args_, quantities, overrides);
-        if (!source) return source.error();
-        const auto channels = (*source)->channels();
+        auto opened = open_stream_source(args_, quantities, overrides);
+        if (!opened) return opened.error();
+        auto& source = opened->result;
+        const auto channels = source->channels();
         const auto plan = plan_of(args_, channels, overrides);
         if (!plan) return plan.error();
-        if (auto ok = open_skin(*plan, (*source)->clock()); !ok) return ok;
-        auto sites = match_sites(*plan, **source);
+        unused_ = opened->unused;
+        keep_unused(unused_, plan->unused);
+        if (auto ok = open_skin(plan->result, source->clock()); !ok) return ok;
+        auto sites = match_sites(plan->result, *source);
         if (!sites) return sites.error();
-        source_ = source->get();
-        frames_ = assign_sites(make_frame_source(std::move(*source), args_.pace == "real"), std::move(*sites), skin_->sites());
+        source_ = source.get();
+        frames_ = assign_sites(make_frame_source(std::move(source), args_.pace == "real"), std::move(*sites), skin_->sites());
         return {};
     }
 
@@ -92,10 +96,11 @@ class LiveRun {
         if (!clock) return clock.error();
         const auto plan = plan_of(args_, {}, overrides);
         if (!plan) return plan.error();
-        if (auto ok = open_skin(*plan, *clock); !ok) return ok;
+        unused_ = plan->unused;
+        if (auto ok = open_skin(plan->result, *clock); !ok) return ok;
         std::vector<std::uint32_t> sites;  // the site of each force of a frame; empty: all sites in order
         if (!args_.layout.empty()) {
-            auto map = read_site_map(args_.layout, plan->sites);
+            auto map = read_site_map(args_.layout, plan->result.sites);
             if (!map) return map.error();
             sites = std::move(*map);
         }
@@ -239,8 +244,7 @@ class LiveRun {
         if (auto ok = is_live_input(args_.in) ? open_live(quantities, overrides) : open_recorded(quantities, overrides); !ok) return ok;
         std::vector<std::string_view> others;
         if (source_) others.push_back(source_->name());
-        if (auto ok = check_overrides_used(skin_->innervation().plan, overrides, others); !ok)
-            return bad_usage(fmt::format("--set {}", ok.error().message));
+        if (auto ok = check_all_used(unused_, override_targets(skin_->innervation().plan, others)); !ok) return ok;
         if (auto ok = check_outputs(); !ok) return ok;
         return open_sink(quantities);
     }
@@ -261,15 +265,11 @@ public:
     LiveRun(const StreamArguments& args, const CommonArguments& common) : args_(args), common_(common) {}
 
     Result<void> run() {
-        std::vector<ParameterOverride> overrides;
-        for (const auto& text : args_.settings) {
-            auto parsed = parse_override(text);
-            if (!parsed) return parsed.error();
-            overrides.push_back(std::move(*parsed));
-        }
+        const auto overrides = parse_overrides(args_.settings, "--set");
+        if (!overrides) return overrides.error();
         const auto quantities = stream_quantities(args_);
         if (!quantities) return quantities.error();
-        if (auto ok = open(*quantities, overrides); !ok) return interrupted() ? stopped : ok;
+        if (auto ok = open(*quantities, *overrides); !ok) return interrupted() ? stopped : ok;
         print_notes();
         StreamLoop::StreamOptions options{.stop = interrupted, .busy_poll = args_.busy_poll, .keeps_state = !args_.save_state.empty()};
         options.on_frame_error = [this](const FrameError& frame_error) { warn(frame_error_text(frame_error)); };

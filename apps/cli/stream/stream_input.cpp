@@ -76,8 +76,8 @@ Result<StreamQuantities> stream_quantities(const StreamArguments& args) {
     return quantities;
 }
 
-Result<std::unique_ptr<ForceSource>> open_stream_source(const StreamArguments& args, const StreamQuantities& quantities,
-                                                        std::span<const ParameterOverride> overrides) {
+Result<Applied<std::unique_ptr<ForceSource>>> open_stream_source(const StreamArguments& args, const StreamQuantities& quantities,
+                                                                 std::span<const ParameterOverride> overrides) {
     if (auto ok = check_recording_arguments(args, {&args.in, 1}); !ok) return ok.error();
     auto options = quantities.recording;
     options.should_continue = [](double) { return !interrupted(); };

@@ -29,8 +29,8 @@ struct StreamQuantities {
 Result<StreamQuantities> stream_quantities(const StreamArguments&);
 
 /// Opens the recording, read as by `respond`, or the stimulus of --in.
-Result<std::unique_ptr<ForceSource>> open_stream_source(const StreamArguments&, const StreamQuantities&,
-                                                        std::span<const ParameterOverride>);
+Result<Applied<std::unique_ptr<ForceSource>>> open_stream_source(const StreamArguments&, const StreamQuantities&,
+                                                                 std::span<const ParameterOverride>);
 
 /// The clock of live frames.
 Result<Clock> live_clock(const StreamArguments&, const StreamQuantities&);

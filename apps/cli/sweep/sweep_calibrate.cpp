@@ -68,12 +68,12 @@ constexpr double max_first_spike_error = 10e-3;  // s, between the first spikes 
 
 /// Sets the stimulus, and derives the pass limits from the response of the model in each phase and between the phases.
 Result<void> set_target(ChipCalibration& calibration, const std::string& model, const SweepCalibrateArguments& args) {
-    const auto stimulus = make_stimulus(args.force, {}, 10e3, 0);
+    const auto stimulus = make_stimulus(args.force, 10e3, 0);
     if (!stimulus) return stimulus.error();
     auto force = read_channel(**stimulus);
     if (!force) return force.error();
     const auto& clock = (*stimulus)->clock();
-    const auto plan = plan_any_afferent(model, {});
+    const auto plan = plan_any_afferent(model);
     if (!plan) return plan.error();
     const auto response = simulate(*make_afferent(*plan, {clock.T()}), *force);
     if (!response) return response.error();
@@ -119,7 +119,7 @@ Result<void> calibrate_netlist(const SweepCalibrateArguments& args, const Common
         return bad_usage(fmt::format("--samples {}: must be from 1 to 1000000", args.samples));
     ChipCalibration calibration;
     calibration.netlist = args.netlist, calibration.bits = args.bits, calibration.threads = args.threads;
-    calibration.overrides = {{"corner", args.corner, "--corner " + args.corner}};
+    calibration.overrides = {{"", "corner", args.corner, "--corner " + args.corner}};
     calibration.batch.max_iterations = 60'000;
     calibration.batch.should_stop = interrupted;
     if (auto ok = set_target(calibration, args.like.empty() ? defaults->model : args.like, args); !ok) return ok;

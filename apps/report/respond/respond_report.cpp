@@ -176,7 +176,7 @@ std::string RespondReport::page(const RunSummary& summary, std::span<const Affer
         const auto& plan = plans[a];
         afferents.push_back({{"name", plan.name},
                              {"type", afferent_type_of(plan)},
-                             {"netlist", plan.factory != nullptr},
+                             {"netlist", plan.traits().is_implementation},
                              {"composition", plan.composition()},
                              {"description", plan.description},
                              {"V_th", parameter_or_null(first_copies_[a], "V_th")},

@@ -1,12 +1,16 @@
 #include "circuit/afferent/circuit_afferent.hpp"
 
 #include <fmt/format.h>
+#include <array>
 #include <bit>
 #include <cmath>
 #include <limits>
 #include <mutex>
+#include <nlohmann/json.hpp>
 
+#include "circuit/afferent/force_waveform.hpp"
 #include "circuit/afferent/streaming_transient.hpp"
+#include "circuit/cost/cost_document.hpp"
 
 namespace corpuscle::circuit {
 namespace {
@@ -218,9 +222,52 @@ Result<std::shared_ptr<const CircuitAfferentFactory>> CircuitAfferentFactory::cr
     return std::shared_ptr<const CircuitAfferentFactory>(std::move(factory));
 }
 
-std::vector<std::pair<std::string, std::string>> CircuitAfferentFactory::labels() const {
-    if (!netlist || netlist->overrides().corner.empty()) return {};
-    return {{"corner", netlist->overrides().corner}};
+std::unique_ptr<Afferent> CircuitAfferentFactory::make(const AfferentPlan& afferent_plan, const SimulationOptions& run) const {
+    return make(run.dt, run.spikes_on_samples, afferent_plan.copy_number);
+}
+
+AfferentTraits CircuitAfferentFactory::traits(const AfferentPlan&) const {
+    return {.can_use_lanes = false,
+            .can_search_factor = false,
+            .may_diverge = true,
+            .is_implementation = true,
+            .ignores_case = true,
+            .lane_obstacles = "netlists",
+            .reason_no_noise = "a netlist has no model membrane"};
+}
+
+std::vector<std::pair<std::string, std::string>> CircuitAfferentFactory::labels(const AfferentPlan&) const {
+    std::vector<std::pair<std::string, std::string>> out = {{"description", circuit->title}};
+    if (netlist && !netlist->overrides().corner.empty()) out.emplace_back("corner", netlist->overrides().corner);
+    return out;
+}
+
+Result<std::shared_ptr<const AfferentFactory>> CircuitAfferentFactory::rebuilt(const AfferentPlan& copy,
+                                                                               const AfferentPlan& original) const {
+    if (copy.values == original.values) return std::shared_ptr<const AfferentFactory>();
+    auto changes = netlist->overrides();  // plan_netlist() has made the plan, so there is a netlist
+    for (std::size_t k = 0; k < copy.values.size(); ++k)
+        if (copy.values[k] != original.values[k])
+            changes.parameters.insert_or_assign(std::string((*copy.parameters)[k].info.name), copy.values[k]);
+    const auto changed = create(netlist->with_overrides(std::move(changes)));
+    if (!changed) return Error{changed.error().code, fmt::format("{}: {}", copy.name, changed.error().message), changed.error().location};
+    return std::shared_ptr<const AfferentFactory>(*changed);
+}
+
+nlohmann::ordered_json CircuitAfferentFactory::cost(double rest_force, const EnergyUse& used) const {
+    auto context = AnalysisContext::make(circuit);
+    if (!context) return nullptr;
+    ForceWaveform waveform;
+    waveform.append(std::array{rest_force});
+    (*context)->system.set_force_input(&waveform);
+    auto cost = cost_of(**context);
+    if (!cost) return nullptr;  // the circuit has no operating point under this force
+    if (used.seconds > 0) {
+        // Energy and time are sums over copies and channels, so this is the mean power of one afferent.
+        const double supplies = used.supplies / used.seconds, sensor = used.sensor / used.seconds;
+        cost->power.emplace_back("mean", PowerBreakdown{supplies, sensor, supplies - sensor, {}, {}});
+    }
+    return document_of(*cost);
 }
 
 std::unique_ptr<Afferent> CircuitAfferentFactory::make(double dt, bool sampled, std::uint32_t copy) const {

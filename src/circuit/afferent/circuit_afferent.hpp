@@ -6,7 +6,7 @@
 #include "circuit/analysis/transient_plan.hpp"
 #include "circuit/output/saved_quantities.hpp"
 #include "circuit/variant/netlist_variants.hpp"
-#include "core/afferent.hpp"
+#include "core/afferent_plan.hpp"
 
 namespace corpuscle::circuit {
 
@@ -23,10 +23,16 @@ public:
     static Result<std::shared_ptr<const CircuitAfferentFactory>> create(const Netlist&);
     static Result<std::shared_ptr<const CircuitAfferentFactory>> create(std::shared_ptr<const Circuit>);
 
-    std::string_view kind() const override { return "netlist"; }
-    std::string_view title() const override { return circuit->title; }
-    std::vector<std::pair<std::string, std::string>> labels() const override;
-    std::unique_ptr<Afferent> make(double dt, bool sampled, std::uint32_t copy = 0) const override;
+    std::unique_ptr<Afferent> make(const AfferentPlan&, const SimulationOptions&) const override;
+    AfferentTraits traits(const AfferentPlan&) const override;
+    std::string composition(const AfferentPlan&) const override { return "netlist"; }
+    std::vector<std::pair<std::string, std::string>> labels(const AfferentPlan&) const override;
+    Result<std::shared_ptr<const AfferentFactory>> rebuilt(const AfferentPlan& copy, const AfferentPlan& original) const override;
+    nlohmann::ordered_json cost(double rest_force, const EnergyUse& used) const override;
+
+    /// Creates an afferent for a sample period of `dt` s. If `sampled`, spikes occur only at sample times. `copy` is the number of a copy
+    /// with its own chip, counted from 1; 0 selects the nominal circuit.
+    std::unique_ptr<Afferent> make(double dt, bool sampled, std::uint32_t copy = 0) const;
     /// An afferent of this chip (of the nominal circuit if `chip` is empty), with sample time dt (s) and exact spike times.
     std::unique_ptr<Afferent> make(double dt, const std::optional<ChipSample>& chip) const;
 

@@ -41,7 +41,7 @@ Result<ForceSpec> parse_force_spec(const Directive& c) {
         }
         const std::string stimulus(dot == std::string_view::npos ? std::string_view(c.words[0]) : name.substr(0, dot));
         const auto parameter = dot == std::string_view::npos ? name : name.substr(dot + 1);
-        out.overrides.push_back({stimulus, spelling_of(stimulus, parameter), fmt::format("{}", value->value)});
+        out.overrides.push_back({stimulus, spelling_of(stimulus, parameter), fmt::format("{}", value->value), std::string(word)});
     }
     return out;
 }
@@ -68,10 +68,8 @@ Result<std::unique_ptr<ForceSource>> source_of(const Directive& c) {
     if (!spec) return spec.error();
     auto source = make_stimulus(c.words[0], spec->overrides, spec->rate, 0);  // seed 0
     if (!source) return error_in(c, 0, source.error().message);
-    for (const auto& parameter : spec->overrides)
-        if (!parameter.is_used)
-            return error_in(c, 0, fmt::format("{}: '{}' is not a stimulus of this line", parameter.text(), parameter.target));
-    return source;
+    if (auto ok = check_all_used(source->unused, stimulus_members(c.words[0])); !ok) return error_in(c, 0, ok.error().message);
+    return std::move(source->result);
 }
 
 /// The .force line; null if there is none. A second one is an error.

@@ -22,7 +22,7 @@ bool has_unknown_area(const Element& e) {
 }
 
 void add_areas(const Circuit& circuit, const Blocks& blocks, Cost& out) {
-    for (const auto& name : blocks.names) out.blocks.push_back({name, 0, 0, {}, {}, ""});
+    for (const auto& name : blocks.names) out.blocks.emplace_back().name = name;
     for (std::size_t k = 0; k < circuit.elements.size(); ++k) {
         const auto& e = circuit.elements[k];
         auto& block = out.blocks[blocks.block_of_element[k]];

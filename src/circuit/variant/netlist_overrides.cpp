@@ -15,7 +15,9 @@ namespace {
 
 constexpr std::string_view reserved_names[] = {"corner", "temp", "mismatch"};
 
-Error error_of(const NetlistOverride& setting, std::string_view why) { return bad_input(fmt::format("{}: {}", setting.text, why)); }
+Error error_of(const ParameterOverride& setting, std::string_view why) {
+    return bad_input(fmt::format("{}: {}", setting.said, why), setting.location);
+}
 
 /// A parameter of an element that can be set: w of an M, dtemp of an R; "" is the element's value. `low` and `high` are allowed, too.
 struct ElementParameter {
@@ -85,34 +87,34 @@ public:
     }
 
     /// A name is tried as a device first, then as a device and its parameter.
-    Result<void> apply(const NetlistOverride& setting) {
-        const auto elements = find_matching_names(names_, setting.name, LastPiece::element);
+    Result<void> apply(const ParameterOverride& setting) {
+        const auto elements = find_matching_names(names_, setting.parameter, LastPiece::element);
         if (elements.size() == 1) return override_device(setting, element(elements[0]), "");
-        const auto dot = setting.name.rfind('.');
+        const auto dot = setting.parameter.rfind('.');
         if (dot != std::string::npos) {
-            const auto owners = find_matching_names(names_, std::string_view(setting.name).substr(0, dot), LastPiece::element);
+            const auto owners = find_matching_names(names_, std::string_view(setting.parameter).substr(0, dot), LastPiece::element);
             if (owners.size() == 1)
-                return override_device(setting, element(owners[0]), lower(std::string_view(setting.name).substr(dot + 1)));
-            if (elements.empty() && owners.size() > 1) return ambiguous_name(setting, setting.name.substr(0, dot), owners);
+                return override_device(setting, element(owners[0]), lower(std::string_view(setting.parameter).substr(dot + 1)));
+            if (elements.empty() && owners.size() > 1) return ambiguous_name(setting, setting.parameter.substr(0, dot), owners);
         }
-        return elements.empty() ? unknown(setting) : ambiguous_name(setting, setting.name, elements);
+        return elements.empty() ? unknown(setting) : ambiguous_name(setting, setting.parameter, elements);
     }
 
 private:
     const Element& element(std::size_t k) const { return circuit_.elements[k]; }
 
-    Error ambiguous_name(const NetlistOverride& setting, std::string_view typed, const std::vector<std::size_t>& found) const {
+    Error ambiguous_name(const ParameterOverride& setting, std::string_view typed, const std::vector<std::size_t>& found) const {
         std::vector<std::string_view> names;
         for (const auto k : found) names.push_back(names_[k]);
         return error_of(setting, fmt::format("'{}' is ambiguous: {}; write more of its path", typed, abbreviated_list(names)));
     }
 
     /// The error for a name that is neither a parameter nor a device.
-    Error unknown(const NetlistOverride& setting) const {
-        const auto pieces = piece_count(setting.name);
+    Error unknown(const ParameterOverride& setting) const {
+        const auto pieces = piece_count(setting.parameter);
         std::vector<std::string> known(std::begin(reserved_names), std::end(reserved_names));
         known.insert(known.end(), parameters_.begin(), parameters_.end());
-        const auto typed = lower(setting.name);
+        const auto typed = lower(setting.parameter);
         const auto dot = typed.rfind('.');
         for (const auto& e : circuit_.elements) {
             known.push_back(short_name(e.name, pieces, LastPiece::element));
@@ -123,13 +125,13 @@ private:
         const std::vector<std::string_view> params(parameters_.begin(), parameters_.end());
         return error_of(setting,
                         fmt::format("{} has no parameter or device '{}'{} (it has {}corner, temp, mismatch, and {} devices, such as {})",
-                                    circuit_.file, setting.name, did_you_mean(typed, views),
+                                    circuit_.file, setting.parameter, did_you_mean(typed, views),
                                     params.empty() ? "" : fmt::format("{}, ", fmt::join(params, ", ")), names_.size(),
                                     names_.empty() ? "none" : short_name(names_.back(), piece_count(names_.back()), LastPiece::element)));
     }
 
     /// Overrides a parameter of a device; "" is the device's value, for a transistor its array.
-    Result<void> override_device(const NetlistOverride& setting, const Element& e, std::string_view parameter) {
+    Result<void> override_device(const ParameterOverride& setting, const Element& e, std::string_view parameter) {
         if (parameter.empty() && e.letter == 'm') return override_array(setting, e);
         const auto known = parameters_of(e);
         const auto at = std::find_if(known.begin(), known.end(), [&](const ElementParameter& n) { return n.name == parameter; });
@@ -142,7 +144,7 @@ private:
         return add_change(setting, e, *at, *value);
     }
 
-    Error unknown_parameter(const NetlistOverride& setting, const Element& e, std::string_view parameter,
+    Error unknown_parameter(const ParameterOverride& setting, const Element& e, std::string_view parameter,
                             const std::vector<ElementParameter>& known) const {
         std::vector<std::string_view> names;
         for (const auto& n : known)
@@ -154,14 +156,14 @@ private:
                                              fmt::join(names, ", ")));
     }
 
-    Result<void> override_array(const NetlistOverride& setting, const Element& e) {
+    Result<void> override_array(const ParameterOverride& setting, const Element& e) {
         const auto size = array_of(setting.value);
         if (!size || size->first != std::floor(size->first) || size->second != std::floor(size->second))
             return error_of(
                 setting,
                 fmt::format(
                     "'{}' is not an array; write COLUMNSxSERIES, such as 8x4 (8 columns of 4 units in series), or set {}.w, {}.l ...",
-                    setting.value, setting.name, setting.name));
+                    setting.value, setting.parameter, setting.parameter));
         for (const auto& n : parameters_of(e)) {
             if (n.name == "m" && !(size->first >= 1))
                 return error_of(setting, fmt::format("{} columns; at least 1 is required", size->first));
@@ -175,7 +177,7 @@ private:
 
     /// Adds one value to the changes. The names r of an R, c of a C, l of an L and dc of a source mean the element's value. The m of an M
     /// does not: it is the number of its columns.
-    Result<void> add_change(const NetlistOverride& setting, const Element& e, const ElementParameter& parameter, double value) {
+    Result<void> add_change(const ParameterOverride& setting, const Element& e, const ElementParameter& parameter, double value) {
         const bool means_value = parameter.name == "dc" || parameter.name == std::string_view(&e.letter, 1);
         if (!(value >= parameter.low && value <= parameter.high))
             return error_of(
@@ -191,7 +193,7 @@ private:
     }
 };
 
-Result<double> temperature_of(const NetlistOverride& setting) {
+Result<double> temperature_of(const ParameterOverride& setting) {
     auto text = trimmed(setting.value);
     for (const std::string_view unit : {"degC", "\u00b0C", "C"})
         if (text.ends_with(unit)) {
@@ -205,7 +207,7 @@ Result<double> temperature_of(const NetlistOverride& setting) {
 }
 
 /// Reads "7" or "7/41": a seed, and the number of the chip, counted from 0 (the default).
-Result<std::pair<std::uint64_t, std::uint64_t>> chip_of(const NetlistOverride& setting) {
+Result<std::pair<std::uint64_t, std::uint64_t>> chip_of(const ParameterOverride& setting) {
     const std::string_view text = setting.value;
     const auto slash = text.find('/');
     std::uint64_t out[2] = {};
@@ -220,20 +222,39 @@ Result<std::pair<std::uint64_t, std::uint64_t>> chip_of(const NetlistOverride& s
 
 /// If the error says that no library has the corner, puts the override's text in front. The texts compared are those of
 /// CornerSelector::check_found().
-Error with_corner_override(std::span<const NetlistOverride> overrides, const std::string& corner, Error error) {
+Error with_corner_override(std::span<const ParameterOverride> overrides, const std::string& corner, Error error) {
     if (error.message.find(fmt::format("no corner '{}'", corner)) == std::string::npos &&
         error.message.find(fmt::format("there is no corner '{}'", corner)) == std::string::npos)
         return error;
     for (const auto& setting : overrides)
-        if (lower(setting.name) == "corner") error.message = fmt::format("{}: {}", setting.text, error.message);
+        if (lower(setting.parameter) == "corner") error.message = fmt::format("{}: {}", setting.said, error.message);
     return error;
 }
 
-Result<void> set_parameter(const NetlistOverride& setting, const std::string& name, ResolvedOverrides& changes) {
+Result<void> set_parameter(const ParameterOverride& setting, const std::string& name, ResolvedOverrides& changes) {
     const auto value = parse_number_with_unit(setting.value);
     if (!value) return error_of(setting, value.error().message);
     changes.parameters.insert_or_assign(name, value->value);
     return {};
+}
+
+/// The overrides for this netlist, with the netlist as target (or none) and the rest of the name as parameter; and the other overrides.
+Applied<std::vector<ParameterOverride>> overrides_of_netlist(std::string_view netlist, std::span<const ParameterOverride> overrides) {
+    Applied<std::vector<ParameterOverride>> out;
+    const bool is_embedded = find_embedded_netlist(netlist) != nullptr;
+    for (auto given : overrides) {
+        if (given.target.empty()) {
+            out.result.push_back(std::move(given));
+            continue;
+        }
+        const auto name = given.name();
+        const auto prefix = std::string_view(name).substr(0, netlist.size());
+        const bool is_own = name.size() > netlist.size() + 1 && name[netlist.size()] == '.' &&
+                            (is_embedded ? equal_ignoring_case(prefix, netlist) : prefix == netlist);
+        if (is_own) given.target = netlist, given.parameter = name.substr(netlist.size() + 1);
+        (is_own ? out.result : out.unused).push_back(std::move(given));
+    }
+    return out;
 }
 
 }  // namespace
@@ -247,14 +268,23 @@ Result<NumberWithUnit> parse_number_with_unit(std::string_view text) {
     return bad_input(fmt::format("'{}' is not a number; {}", text, example));
 }
 
-Result<Netlist> apply_overrides(const std::string& name_or_path, std::span<const NetlistOverride> overrides) {
+Result<ParameterOverride> parse_netlist_override(const std::string& netlist, const std::string& text, std::string_view option) {
+    const auto said = fmt::format("{}{}{}", option, option.empty() ? "" : " ", text);
+    const auto equals = text.find('=');
+    if (equals == 0 || equals == std::string::npos || equals + 1 == text.size())
+        return bad_usage(fmt::format("{}: write NAME=VALUE, such as 'C_u=4pF'", said));
+    return ParameterOverride{netlist, text.substr(0, equals), text.substr(equals + 1), said};
+}
+
+Result<Applied<Netlist>> apply_overrides(const std::string& name_or_path, std::span<const ParameterOverride> overrides) {
     return apply_overrides([&](const std::string& corner) { return open_netlist(name_or_path, corner); }, name_or_path, overrides);
 }
 
-Result<Netlist> apply_overrides(const NetlistOpener& open, const std::string& name, std::span<const NetlistOverride> overrides) {
+Result<Applied<Netlist>> apply_overrides(const NetlistOpener& open, const std::string& name, std::span<const ParameterOverride> all) {
+    const auto [overrides, unused] = overrides_of_netlist(name, all);
     ResolvedOverrides changes;
     for (const auto& setting : overrides)
-        if (lower(setting.name) == "corner") {
+        if (lower(setting.parameter) == "corner") {
             changes.corner = lower(trimmed(setting.value));
             if (changes.corner.empty()) return error_of(setting, "the name of the corner is missing; write one, such as ss");
         }
@@ -262,9 +292,9 @@ Result<Netlist> apply_overrides(const NetlistOpener& open, const std::string& na
     if (!netlist) return with_corner_override(overrides, changes.corner, netlist.error());
     std::vector<std::string> parameters;
     for (const auto& [parameter, text] : netlist->parameters()) parameters.push_back(parameter);
-    std::vector<const NetlistOverride*> device_overrides;
+    std::vector<const ParameterOverride*> device_overrides;
     for (const auto& setting : overrides) {
-        const auto lower_name = lower(setting.name);
+        const auto lower_name = lower(setting.parameter);
         if (lower_name == "corner") continue;
         if (lower_name == "temp") {
             const auto value = temperature_of(setting);
@@ -276,21 +306,21 @@ Result<Netlist> apply_overrides(const NetlistOpener& open, const std::string& na
             changes.mismatch_seed = chip->first, changes.chip = chip->second;
         } else if (std::find(parameters.begin(), parameters.end(), lower_name) != parameters.end()) {
             if (auto ok = set_parameter(setting, lower_name, changes); !ok) return ok.error();
-        } else if (setting.is_parameter_only) {
+        } else if (setting.target.empty()) {
             const std::vector<std::string_view> known(parameters.begin(), parameters.end());
             return error_of(setting, fmt::format("{} has no .param {}{}", name, lower_name, did_you_mean(lower_name, known)));
         } else {
             device_overrides.push_back(&setting);
         }
     }
-    if (device_overrides.empty()) return netlist->with_overrides(std::move(changes));
+    if (device_overrides.empty()) return Applied<Netlist>{netlist->with_overrides(std::move(changes)), unused};
     // The elements have names and values only in a flat circuit, which depends on the overrides so far.
     const auto circuit = netlist->with_overrides(changes).elaborate();
     if (!circuit) return circuit.error();
     OverrideResolver resolver(*circuit, parameters, changes);
     for (const auto* setting : device_overrides)
         if (auto ok = resolver.apply(*setting); !ok) return ok.error();
-    return netlist->with_overrides(std::move(changes));
+    return Applied<Netlist>{netlist->with_overrides(std::move(changes)), unused};
 }
 
 }  // namespace corpuscle::circuit

@@ -4,34 +4,33 @@
 #include <span>
 
 #include "circuit/variant/embedded_netlists.hpp"
+#include "core/parameter_override.hpp"
 
 namespace corpuscle::circuit {
 
-/// An override NAME=VALUE, such as C_u=4pF. NAME is one of:
+/// The override of a netlist that "C_u=4pF" or "summer.N3B=8x4" means. `option`: the option of the command line that has this text,
+/// "--set".
+Result<ParameterOverride> parse_netlist_override(const std::string& netlist, const std::string& text, std::string_view option = "");
+
+/// Opens the netlist of a name or path and applies the overrides that are for it: those whose name begins with the netlist's name or path
+/// ("sa1-circuit.C_u"), and those without a target. If two set the same value, the later one wins. The rest of the name is one of:
 ///
 ///  - corner, temp, mismatch
 ///
 ///  - a .param of the top level
 ///
 ///  - a device: sets the value of R C L, the DC value of V I, the gain of E F G H, or the array of a transistor ("8x4" is 8 columns of 4
-///    elements in series)
+///    elements in series); not in an override without a target
 ///
-///  - a device and one of its parameters, "summer.N3B.w"
+///  - a device and one of its parameters, "summer.N3B.w"; not in an override without a target
 ///
 /// Case is ignored. The end of a device's path is enough. The first letter of a device or subcircuit, which tells SPICE its kind, may be
 /// left out: summer.N3B is xsummer.mn3b.
-struct NetlistOverride {
-    std::string name, value;
-    std::string text;                ///< as the user wrote it: "--set sa1-circuit.C_u=4pF"
-    bool is_parameter_only = false;  ///< the name must not be that of a device; for --supply
-};
-
-/// Opens the netlist of a name or path and applies the overrides. If two set the same value, the later one wins.
-Result<Netlist> apply_overrides(const std::string& name_or_path, std::span<const NetlistOverride>);
+Result<Applied<Netlist>> apply_overrides(const std::string& name_or_path, std::span<const ParameterOverride>);
 
 /// The same for a netlist that `open` reads with a given corner ("" if no override sets one). Error messages call the netlist `name`.
 using NetlistOpener = std::function<Result<Netlist>(const std::string& corner)>;
-Result<Netlist> apply_overrides(const NetlistOpener& open, const std::string& name, std::span<const NetlistOverride>);
+Result<Applied<Netlist>> apply_overrides(const NetlistOpener& open, const std::string& name, std::span<const ParameterOverride>);
 
 /// A number in SI units and the unit that was written with it ("" if none): "4pF" is {4e-12, "F"}. Unlike in SPICE, M is mega.
 struct NumberWithUnit {

@@ -34,7 +34,8 @@ bool is_stimulus(std::string_view text);
 /// A stimulus or a sum of stimuli, sampled at `rate` (Hz). `seed` determines its random numbers. A sum is as long as its longest member,
 /// and a shorter member holds its last value. The phases are those of the first member that has phases; if the sum is longer, a phase
 /// "after" follows. The target of an override is a member: "noise.F_sd=50mN".
-Result<std::unique_ptr<ForceSource>> make_stimulus(std::string_view text, std::span<const ParameterOverride> overrides, double rate,
-                                                   std::uint64_t seed);
+Result<Applied<std::unique_ptr<ForceSource>>> make_stimulus(std::string_view text, std::span<const ParameterOverride> overrides,
+                                                            double rate, std::uint64_t seed);
+Result<std::unique_ptr<ForceSource>> make_stimulus(std::string_view text, double rate, std::uint64_t seed);
 
 }  // namespace corpuscle

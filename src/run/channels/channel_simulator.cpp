@@ -90,7 +90,7 @@ Result<std::vector<bool>> ChannelSimulator::place_on_lanes(const SimulationOptio
     if (in_float && (wants_probes_ || !groups.scalar.empty()))
         return bad_usage(wants_probes_ ? "float precision cannot record probes: leave out --probe-files"
                                        : fmt::format("{}: {} cannot run in float", plans[groups.scalar[0]].name,
-                                                     plans[groups.scalar[0]].factory ? "netlists" : "sensors, converters and noise"));
+                                                     plans[groups.scalar[0]].traits().lane_obstacles));
     std::vector<bool> is_scalar(plans.size());
     for (const auto k : groups.scalar) is_scalar[k] = true;
     for (const auto& group : groups.on_lanes) {
@@ -236,8 +236,9 @@ std::vector<std::string> ChannelSimulator::range_warnings() const {
 Result<void> ChannelSimulator::simulate_scalars(ThreadPool& pool, RunStats& stats) {
     pool.for_each(scalars_.size(), [this](std::size_t k, unsigned) { simulate_scalar(scalars_[k]); });
     for (auto& s : scalars_) {
-        // A netlist that did not converge is left out from now on; any other error ends the run.
-        if (s.error && !(s.error->code == ErrorCode::not_converged && population_.plan_of(s.afferent_index).factory)) return *s.error;
+        // An afferent whose solver may diverge is left out from now on if it does; any other error ends the run.
+        if (s.error && !(s.error->code == ErrorCode::not_converged && population_.plan_of(s.afferent_index).traits().may_diverge))
+            return *s.error;
         if (s.error) s.diverged = true, stats.diverged.push_back(*std::exchange(s.error, {}));
         spikes_.insert(spikes_.end(), s.spikes.begin(), s.spikes.end());
         stats.truncated_steps += s.truncated_steps, stats.saturated += s.saturated, stats.overflowed += s.overflowed;

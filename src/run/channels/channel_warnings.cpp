@@ -7,9 +7,8 @@ namespace corpuscle {
 std::vector<std::string> noise_warnings(std::span<const AfferentPlan> afferents, double noise) {
     std::vector<std::string> warnings;
     for (const auto& a : afferents)
-        if (noise > 0 && (a.factory || !a.converter.empty()))
-            warnings.push_back(fmt::format("{}: --noise has no effect; {}", a.name,
-                                           a.factory ? "a netlist has no model membrane" : "behind a converter the membrane is digital"));
+        if (const auto reason = a.traits().reason_no_noise; noise > 0 && !reason.empty())
+            warnings.push_back(fmt::format("{}: --noise has no effect; {}", a.name, reason));
     return warnings;
 }
 

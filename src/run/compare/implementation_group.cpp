@@ -21,15 +21,15 @@ const NamedAfferent* find_afferent(const std::string& name) {
     return nullptr;
 }
 
-/// The afferent with the lowest rank is the reference: 0 the afferent that has the name of the type, 1 another model, 2 a netlist.
+/// The afferent with the lowest rank is the reference: 0 the afferent that has the name of the type, 1 another model, 2 an implementation.
 int reference_rank(const AfferentPlan& plan, const std::string& afferent_type) {
-    return plan.factory ? 2 : plan.name == afferent_type ? 0 : 1;
+    return plan.traits().is_implementation ? 2 : plan.name == afferent_type ? 0 : 1;
 }
 
 }  // namespace
 
 std::string afferent_type_of(const AfferentPlan& plan) {
-    const auto stem = names_netlist(plan.name) ? std::filesystem::path(plan.name).stem().string() : plan.name;
+    const auto stem = std::filesystem::path(plan.name).stem().string();  // without folder and extension, if the name is a path
     const auto name = in_lower_case(stem);
     // A type has a name without hyphen: the alias SA-I leads to sa1 here, but sa1-kim is reduced to its prefix below.
     if (const auto* a = find_afferent(name); a && a->name.find('-') == a->name.npos) return std::string(a->name);

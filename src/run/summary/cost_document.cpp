@@ -1,43 +1,9 @@
 #include "run/summary/cost_document.hpp"
 
-#include <array>
 #include <nlohmann/json.hpp>
-
-#include "circuit/afferent/circuit_afferent.hpp"
-#include "circuit/afferent/force_waveform.hpp"
 
 namespace corpuscle {
 namespace {
-
-using Json = nlohmann::ordered_json;
-
-Json document_of(const circuit::Area& a) {
-    return {{"gates_m2", a.gates},
-            {"arrays_m2", a.arrays},
-            {"islands_m2", a.islands},
-            {"capacitors_m2", a.capacitors},
-            {"total_m2", a.total()}};
-}
-
-Json document_of(const circuit::Cost& cost, const circuit::PowerBreakdown& p) {
-    Json out = {{"delivered_W", p.supplies}, {"sensor_W", p.sensor}, {"without_sensor_W", p.without_sensor}};
-    if (p.blocks.empty()) return out;  // a mean over a run is not divided by block
-    Json sources = Json::object(), blocks = Json::object();
-    for (std::size_t k = 0; k < p.sources.size(); ++k) sources[cost.sources[k]] = p.sources[k];
-    for (std::size_t k = 0; k < p.blocks.size(); ++k) blocks[cost.blocks[k].name] = p.blocks[k];
-    out["sources_W"] = sources, out["blocks_W"] = blocks;
-    return out;
-}
-
-/// The cost of a circuit at rest under this force (N).
-Result<circuit::Cost> cost_under(const circuit::CircuitAfferentFactory& design, double force) {
-    auto context = circuit::AnalysisContext::make(design.circuit);
-    if (!context) return context.error();
-    circuit::ForceWaveform waveform;
-    waveform.append(std::array{force});
-    (*context)->system.set_force_input(&waveform);
-    return circuit::cost_of(**context);
-}
 
 /// The energy that all copies of one afferent used. The statistics have one entry for each copy; the copies of an afferent are adjacent,
 /// and every afferent has the same number of them.
@@ -50,45 +16,13 @@ EnergyUse energy_used_by(const RunStats& stats, std::size_t afferent, std::size_
 
 }  // namespace
 
-Json document_of(const circuit::Cost& cost) {
-    Json power = Json::object(), blocks = Json::array(), leaks = Json::array();
-    for (const auto& [when, p] : cost.power) power[when] = document_of(cost, p);
-    for (const auto& b : cost.blocks) {
-        blocks.push_back(
-            {{"block", b.name}, {"arrays", b.transistors}, {"unit_transistors", b.unit_transistors}, {"area", document_of(b.area)}});
-        if (!b.worst_name.empty()) blocks.back()["worst_leak"] = {{"transistor", b.worst_name}, {"current_A", b.worst_leak.current}};
-    }
-    for (std::size_t k = 0; k < cost.leaks.size(); ++k) {
-        leaks.push_back({{"transistor", cost.leaking_names[k]}, {"current_A", cost.leaks[k].current}});
-        if (!cost.leaks[k].capacitor_node.empty()) leaks.back()["capacitor_node"] = cost.leaks[k].capacitor_node;
-    }
-    Json out = {{"supply_V", cost.supply}, {"power", power}, {"area", document_of(cost.area())}, {"blocks", blocks}};
-    out["unsized_elements"] = cost.unknown_areas;
-    out["smallest_bias_A"] = cost.smallest_bias, out["off_leaks"] = leaks;
-    if (cost.is_afferent) {
-        Json per_mW = Json::object();
-        for (const auto& [when, p] : cost.power)
-            per_mW[when] = {{"without_sensor", p.without_sensor > 0 ? Json(1e-3 / p.without_sensor) : Json()},
-                            {"delivered", p.supplies > 0 ? Json(1e-3 / p.supplies) : Json()}};
-        out["afferents"] = {{"per_mm2", cost.area().total() > 0 ? Json(cost.per_mm2()) : Json()}, {"per_mW", per_mW}};
-    }
-    return out;
-}
-
-Json cost_documents_of(std::span<const AfferentPlan> afferents, const RunStats& stats, double force) {
-    Json out = Json::array();
+nlohmann::ordered_json cost_documents_of(std::span<const AfferentPlan> afferents, const RunStats& stats, double force) {
+    auto out = nlohmann::ordered_json::array();
     for (std::size_t a = 0; a < afferents.size(); ++a) {
-        const auto* design = dynamic_cast<const circuit::CircuitAfferentFactory*>(afferents[a].factory.get());
-        if (design == nullptr) continue;
-        auto cost = cost_under(*design, force);
-        if (!cost) continue;  // the circuit has no operating point under this force
-        if (const auto spent = energy_used_by(stats, a, afferents.size()); spent.seconds > 0) {
-            // Energy and time are sums over copies and channels, so this is the mean power of one afferent.
-            const double supplies = spent.supplies / spent.seconds, sensor = spent.sensor / spent.seconds;
-            cost->power.emplace_back("mean", circuit::PowerBreakdown{supplies, sensor, supplies - sensor, {}, {}});
-        }
+        const auto cost = afferents[a].factory->cost(force, energy_used_by(stats, a, afferents.size()));
+        if (cost.is_null()) continue;
         out.push_back({{"afferent", afferents[a].name}, {"rest_force_N", force}});
-        out.back().update(document_of(*cost));
+        out.back().update(cost);
     }
     return out;
 }

@@ -100,17 +100,10 @@ Json document_of(const AfferentPlan& plan) {
         parameters[std::string(p.info.name)] = {
             {"value", plan.values[k]}, {"unit", p.info.unit}, {"component", p.component}, {"set", p.set_by_user}};
     }
-    if (plan.factory) {
-        Json out = {{"name", plan.name}, {"composition", plan.composition()}, {"description", plan.description}};
-        for (const auto& [name, label] : plan.factory->labels()) out[name] = label;
-        out["parameters"] = std::move(parameters);
-        return out;
-    }
-    return {{"name", plan.name},
-            {"composition", plan.composition()},
-            {"receptor", plan.receptor},
-            {"neuron", plan.neuron},
-            {"parameters", parameters}};
+    Json out = {{"name", plan.name}, {"composition", plan.composition()}};
+    for (const auto& [name, label] : plan.factory->labels(plan)) out[name] = label;
+    out["parameters"] = std::move(parameters);
+    return out;
 }
 
 Json document_of(std::span<const ParameterDistribution> all) {

@@ -83,7 +83,7 @@ std::vector<SilentAfferent> SilenceDetector::silent_afferents(std::span<const Af
         const auto& plan = afferents[groups[g]];
         const auto from = has_fired_.begin() + static_cast<std::ptrdiff_t>(groups[g]),
                    to = has_fired_.begin() + static_cast<std::ptrdiff_t>(groups[g + 1]);
-        if (plan.factory || std::find(from, to, 1) != to) continue;
+        if (!plan.traits().can_search_factor || std::find(from, to, 1) != to) continue;
         out.push_back({base_name(plan), largest_force_, {}});
         if (largest_force_ > 0)
             out.back().factor = factor_to_fire(plan, {dt_, options.method, options.sampled, 0, 0}, largest_force_samples_);

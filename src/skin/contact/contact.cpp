@@ -175,13 +175,14 @@ public:
 
 }  // namespace
 
-Result<std::unique_ptr<Contact>> make_contact(std::string_view name, std::span<const ParameterOverride> overrides, const Sites& sites,
-                                              const Clock& clock) {
+Result<Applied<std::unique_ptr<Contact>>> make_contact(std::string_view name, std::span<const ParameterOverride> overrides,
+                                                       const Sites& sites, const Clock& clock) {
     const auto indenter = find_indenter(name);
     if (!indenter) return indenter.error();
-    const auto params = read_contact_params(**indenter, overrides, sites);
+    auto params = read_contact_params(**indenter, overrides, sites);
     if (!params) return params.error();
-    return std::unique_ptr<Contact>(std::make_unique<IndenterContact>(**indenter, *params, sites, clock));
+    return Applied<std::unique_ptr<Contact>>{std::make_unique<IndenterContact>(**indenter, params->result, sites, clock),
+                                             std::move(params->unused)};
 }
 
 std::span<const NamedTouch> named_touches() {

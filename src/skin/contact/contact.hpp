@@ -24,8 +24,8 @@ public:
 
 /// A contact of an indenter ("flat", "sphere", "edge" or "grating") with these sites, for samples of this clock. Its parameters are set by
 /// the overrides with target "contact". The sites must outlive the contact.
-Result<std::unique_ptr<Contact>> make_contact(std::string_view indenter, std::span<const ParameterOverride> overrides, const Sites&,
-                                              const Clock&);
+Result<Applied<std::unique_ptr<Contact>>> make_contact(std::string_view indenter, std::span<const ParameterOverride> overrides,
+                                                       const Sites&, const Clock&);
 
 /// The parameters of all contacts, for listings.
 std::vector<ParameterInfo> contact_parameters();

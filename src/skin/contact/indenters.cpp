@@ -55,20 +55,22 @@ Result<const Indenter*> find_indenter(std::string_view name) {
     return bad_usage(fmt::format("there is no indenter '{}'{} (there are {})", name, did_you_mean(name, names), fmt::join(names, ", ")));
 }
 
-Result<ContactParams> read_contact_params(const Indenter& indenter, std::span<const ParameterOverride> overrides, const Sites& sites) {
+Result<Applied<ContactParams>> read_contact_params(const Indenter& indenter, std::span<const ParameterOverride> overrides,
+                                                   const Sites& sites) {
     const auto rows = contact_parameters();
-    const auto settings = settings_for("contact", rows, overrides);
-    if (!settings) return settings.error();
+    auto applied = settings_for("contact", rows, overrides);
+    if (!applied) return applied.error();
+    const auto& settings = applied->result;
     const auto is_set = [&](std::string_view name) {
-        return std::any_of(settings->begin(), settings->end(), [&](const Setting& s) { return s.name == name; });
+        return std::any_of(settings.begin(), settings.end(), [&](const Setting& s) { return s.name == name; });
     };
-    for (const auto& s : *settings)
+    for (const auto& s : settings)
         if (!has_parameter(indenter, s.name))
             return bad_input(fmt::format(
                 "contact.{}: {} has no such parameter (it has {}, and for its path {})", s.name, indenter.name,
                 fmt::join(indenter.parameters.begin(), std::find(indenter.parameters.begin(), indenter.parameters.end(), ""), ", "),
                 fmt::join(path_parameters, ", ")));
-    auto p = with_settings<ContactParams>(contact_fields, *settings);
+    auto p = with_settings<ContactParams>(contact_fields, settings);
     if (!is_set("x") && !is_set("y")) {
         const auto middle = centre_of_first_region(sites);
         p.x = middle.x, p.y = middle.y;
@@ -76,7 +78,7 @@ Result<ContactParams> read_contact_params(const Indenter& indenter, std::span<co
     if (!is_set("x1")) p.x1 = p.x;
     if (!is_set("y1")) p.y1 = p.y;
     if (auto ok = check_contact(indenter, p); !ok) return ok.error();
-    return p;
+    return Applied<ContactParams>{p, std::move(applied->unused)};
 }
 
 }  // namespace corpuscle

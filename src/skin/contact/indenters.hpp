@@ -64,7 +64,7 @@ Result<const Indenter*> find_indenter(std::string_view name);
 
 /// The parameters of a contact from the overrides with target "contact". If they set neither x nor y, the position is the middle of the
 /// first region of the sites. A parameter that the indenter does not use is an error.
-Result<ContactParams> read_contact_params(const Indenter&, std::span<const ParameterOverride>, const Sites&);
+Result<Applied<ContactParams>> read_contact_params(const Indenter&, std::span<const ParameterOverride>, const Sites&);
 
 /// True for the name of a parameter of position or movement. Every indenter has these.
 bool is_path_parameter(std::string_view name);

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 namespace corpuscle::skins {
@@ -12,26 +13,18 @@ constexpr double max_width = 0.1;                         // m; largest sigma an
 constexpr double min_velocity = 0.1, max_velocity = 200;  // m/s
 
 /// Converts the settings of a class (`set` or `spread`) to overrides whose target is `afferent`, the text by which the file requests the
-/// afferent. Override k is made from setting k, which has the location for messages.
+/// afferent.
 std::vector<ParameterOverride> overrides_for(std::string_view afferent, std::span<const LocatedSetting> spec) {
     std::vector<ParameterOverride> out;
     for (const auto& s : spec) {
         const auto dot = s.name.rfind('.');  // "adc.bits" has a target of its own, "f_B" has not
-        if (dot == std::string::npos)
-            out.push_back({std::string(afferent), s.name, s.value.text});
-        else
-            out.push_back({s.name.substr(0, dot), s.name.substr(dot + 1), s.value.text});
+        const bool has_target = dot != std::string::npos;
+        ParameterOverride given{has_target ? s.name.substr(0, dot) : std::string(afferent), has_target ? s.name.substr(dot + 1) : s.name,
+                                s.value.text};
+        given.said = given.text(), given.location = s.value.location;
+        out.push_back(std::move(given));
     }
     return out;
-}
-
-/// Adds a location to an error that the settings `spec` have caused: that of the first setting that causes an error by itself, otherwise
-/// that of the first setting. fails_with(settings) is true if these settings alone cause an error.
-template <class F>
-Error locate_error(std::span<const LocatedSetting> spec, const Error& error, F&& fails_with) {
-    for (std::size_t k = 0; k < spec.size(); ++k)
-        if (fails_with(spec.subspan(k, 1))) return spec[k].value.error_here(error.message);
-    return spec.empty() ? error : spec.front().value.error_here(error.message);
 }
 
 /// The plan of a class's afferent, with the values of the key `set` applied.
@@ -39,30 +32,20 @@ Result<AfferentPlan> afferent_of(const ClassSpec& spec) {
     if (!spec.afferent) return bad_input("[[class]]: afferent is missing: afferent = \"sa1\"", spec.location);
     const auto& text = spec.afferent->text;
     // Without overrides, so that an unknown afferent is not reported as an error of a setting.
-    if (const auto known = plan_afferent(text, {}); !known) return spec.afferent->error_here(known.error().message);
-    const auto overrides = overrides_for(text, spec.set);
-    auto plan = plan_afferent(text, overrides);
-    if (!plan) return locate_error(spec.set, plan.error(), [&](auto some) { return !plan_afferent(text, overrides_for(text, some)); });
-    for (std::size_t k = 0; k < overrides.size(); ++k)
-        if (!overrides[k].is_used) return spec.set[k].value.error_here(fmt::format("{} has no parameter '{}'", text, spec.set[k].name));
-    return plan;
+    if (const auto known = plan_afferent(text); !known) return spec.afferent->error_here(known.error().message);
+    auto planned = plan_afferent(text, overrides_for(text, spec.set));
+    if (!planned) return planned.error();
+    if (auto ok = check_all_used(planned->unused, std::array{std::string_view(text)}); !ok) return ok.error();
+    return std::move(planned->result);
 }
 
 /// The distributions of parameters that the key `spread` of a class defines.
 Result<std::vector<ParameterDistribution>> distributions_of(const ClassSpec& spec, const AfferentPlan& plan) {
     const auto& text = spec.afferent->text;
-    const auto overrides = overrides_for(text, spec.spread);
-    auto distributions = distributions_for(plan, text, overrides);
-    if (!distributions) {
-        auto error = locate_error(spec.spread, distributions.error(),
-                                  [&](auto some) { return !distributions_for(plan, text, overrides_for(text, some)); });
-        if (error.message.starts_with("--spread ")) error.message.erase(0, 9);  // a file does not use this option
-        return error;
-    }
-    for (std::size_t k = 0; k < overrides.size(); ++k)
-        if (!overrides[k].is_used)
-            return spec.spread[k].value.error_here(fmt::format("{} has no parameter '{}'", text, spec.spread[k].name));
-    return distributions;
+    auto applied = distributions_for(plan, text, overrides_for(text, spec.spread));
+    if (!applied) return applied.error();
+    if (auto ok = check_all_used(applied->unused, std::array{std::string_view(text)}); !ok) return ok.error();
+    return std::move(applied->result);
 }
 
 /// True if `key` of a density table refers to a region: by its full name ("index.tip"), or by the part after a dot ("tip").

@@ -29,7 +29,7 @@ std::optional<std::pair<std::size_t, std::size_t>> rows_by_columns(std::string_v
 /// A class of a named afferent (which must exist), with one afferent at each site.
 SkinClass class_with_one_per_site(std::string_view afferent) {
     SkinClass c;
-    c.name = afferent, c.afferent = *plan_afferent(afferent, {});
+    c.name = afferent, c.afferent = *plan_afferent(afferent);
     c.per_site = 1, c.sigma = grid_sigma;
     return c;
 }

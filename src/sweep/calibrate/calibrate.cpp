@@ -49,10 +49,11 @@ class ChipPresser {
         if (const auto known = designs_.find(trim_values); known != designs_.end()) return known->second;
         auto overrides = options_.overrides;
         for (std::size_t k = 0; k < trim_values.size(); ++k)
-            for (const auto& name : options_.trims[k].names) overrides.push_back({name, fmt::format("{:.17g}", trim_values[k]), name});
+            for (const auto& name : options_.trims[k].names)
+                overrides.push_back({options_.netlist, name, fmt::format("{:.17g}", trim_values[k]), name});
         const auto netlist = circuit::apply_overrides(options_.netlist, overrides);
         if (!netlist) return netlist.error();
-        auto factory = CircuitAfferentFactory::create(*netlist);
+        auto factory = CircuitAfferentFactory::create(netlist->result);
         if (!factory) return factory.error();
         return designs_.emplace(trim_values, *factory).first->second;
     }
@@ -205,11 +206,11 @@ double Trim::value(int code, int bits) const {
     return is_integer ? std::max(1.0, std::round(value)) : value;
 }
 
-Result<Trim> trim_of(const std::string& netlist, const std::vector<circuit::NetlistOverride>& overrides, std::vector<std::string> names,
+Result<Trim> trim_of(const std::string& netlist, const std::vector<ParameterOverride>& overrides, std::vector<std::string> names,
                      double range, bool is_integer) {
     const auto read = circuit::apply_overrides(netlist, overrides);
     if (!read) return read.error();
-    const auto circuit = read->elaborate();
+    const auto circuit = read->result.elaborate();
     if (!circuit) return circuit.error();
     const auto full_name = lower(names.at(0));
     if (const auto p = circuit->parameters.find(full_name); p != circuit->parameters.end())

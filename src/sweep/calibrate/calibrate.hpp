@@ -28,8 +28,8 @@ struct Trim {
 
 /// The chips to calibrate, their trims, and the target.
 struct ChipCalibration {
-    std::string netlist;                                   ///< name or path
-    std::vector<circuit::NetlistOverride> overrides = {};  ///< fixed settings, e.g. the process corner
+    std::string netlist;                            ///< name or path
+    std::vector<ParameterOverride> overrides = {};  ///< fixed settings, e.g. the process corner
     std::vector<Trim> trims = {};
     int bits = 4;               ///< maximum number of bits of each trim
     std::vector<double> force;  ///< N, of one press
@@ -60,7 +60,7 @@ struct CalibratedChip {
 Result<std::vector<CalibratedChip>> calibrate(const ChipCalibration&, const std::vector<circuit::ChipSample>& chips);
 
 /// Makes a trim. Its designed value is the value of names[0] in the netlist; an error if the netlist has no such number.
-Result<Trim> trim_of(const std::string& netlist, const std::vector<circuit::NetlistOverride>&, std::vector<std::string> names, double range,
+Result<Trim> trim_of(const std::string& netlist, const std::vector<ParameterOverride>&, std::vector<std::string> names, double range,
                      bool is_integer);
 
 }  // namespace corpuscle

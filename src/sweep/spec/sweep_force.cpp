@@ -67,7 +67,7 @@ Result<ForceFactory> ForceFactory::of(const SweepText& spec, const std::string& 
     std::error_code status;
     if (!std::filesystem::exists(path, status)) {
         // This is neither a stimulus nor a file; the error of make_stimulus() says why it is not a stimulus.
-        auto error = make_stimulus(out.text_, {}, out.rate_, seed).error();
+        auto error = make_stimulus(out.text_, out.rate_, seed).error();
         return spec.force->error_here(fmt::format("{} (and there is no file '{}')", error.message, out.text_));
     }
     RecordingOptions options;
@@ -116,12 +116,12 @@ Result<VariedQuantity> ForceFactory::find_quantity(const LocatedText& quantity) 
 
 Result<void> ForceFactory::set(const LocatedSetting& setting) {
     const auto dot = setting.name.find('.');
-    std::vector<ParameterOverride> settings = {{setting.name.substr(0, dot), setting.name.substr(dot + 1), setting.value.text}};
+    ParameterOverride given{setting.name.substr(0, dot), setting.name.substr(dot + 1), setting.value.text, setting.name,
+                            setting.value.location};
     for (const auto& stimulus : stimulus_catalog())
-        if (stimulus.name == settings[0].target)
-            if (const auto ok = settings_for(stimulus.name, stimulus.parameters, settings); !ok)
-                return setting.value.error_here(ok.error().message);
-    overrides_.push_back(std::move(settings[0]));
+        if (stimulus.name == given.target)
+            if (const auto ok = setting_of(given, stimulus.parameters); !ok) return ok.error();
+    overrides_.push_back(std::move(given));
     fixed_count_ = overrides_.size();  // vary() comes after all calls of set()
     return {};
 }
@@ -139,7 +139,7 @@ Result<std::shared_ptr<const SweepForce>> ForceFactory::make(std::span<const dou
     for (std::size_t k = 0; k < varied_values.size(); ++k) overrides[fixed_count_ + k].value = fmt::format("{}", varied_values[k]);
     const auto source = make_stimulus(text_, overrides, rate_, seed_);
     if (!source) return source.error();
-    return read_force(**source);
+    return read_force(*source->result);
 }
 
 Result<void> ForceFactory::prepare() {

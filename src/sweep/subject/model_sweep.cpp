@@ -88,21 +88,15 @@ Result<void> ModelSweep::apply_settings(const SweepText& spec) {
     const auto& afferent_name = spec.afferent->text;
     std::vector<ParameterOverride> overrides;
     for (const auto& s : spec.settings) {
-        if (force_.has_parameter(s.name)) {
-            if (auto ok = force_.set(s); !ok) return ok;
-            continue;
-        }
-        overrides.assign(1, {afferent_name, std::string(parameter_name(afferent_name, s.name)), s.value.text});
-        const auto one = plan_any_afferent(afferent_name, overrides);  // each setting alone, so that an error has its line
-        if (!one) return s.value.error_here(one.error().message);
-    }
-    overrides.clear();
-    for (const auto& s : spec.settings)
         if (!force_.has_parameter(s.name))
-            overrides.push_back({afferent_name, std::string(parameter_name(afferent_name, s.name)), s.value.text});
-    auto plan = plan_any_afferent(afferent_name, overrides);
-    if (!plan) return spec.settings[0].value.error_here(plan.error().message);
-    nominal_ = std::move(*plan);
+            overrides.push_back(
+                {afferent_name, std::string(parameter_name(afferent_name, s.name)), s.value.text, s.name, s.value.location});
+        else if (auto ok = force_.set(s); !ok)
+            return ok;
+    }
+    auto planned = plan_any_afferent(afferent_name, overrides);
+    if (!planned) return planned.error();
+    nominal_ = std::move(planned->result);  // the target of every override is the afferent, so none is unused
     return {};
 }
 
@@ -135,7 +129,7 @@ Result<std::unique_ptr<Sweep>> ModelSweep::make(const SweepText& spec, const std
     const auto& afferent_name = spec.afferent->text;
     if (spec.iterations)
         return spec.iterations->error_here(fmt::format("{} is a model and has no iterations; remove iterations", afferent_name));
-    auto plan = plan_any_afferent(afferent_name, {});
+    auto plan = plan_any_afferent(afferent_name);
     if (!plan) return spec.afferent->error_here(plan.error().message);
     s.nominal_ = std::move(*plan);
     const auto seed = seed_of(spec);

@@ -15,7 +15,6 @@ namespace {
 
 namespace fs = std::filesystem;
 using circuit::Netlist;
-using circuit::NetlistOverride;
 
 constexpr std::size_t max_bytes = std::size_t{64} << 20;  // of one netlist file
 
@@ -31,11 +30,6 @@ Result<std::string> read_netlist_file(const fs::path& path, const std::string& n
         return bad_input("this is not a regular file; save its content to a file", {name});
     auto text = read_entire_input(path.string(), max_bytes, "netlist");
     return text ? std::move(text) : Error{text.error().code, text.error().message, {name}};
-}
-
-/// An override for a setting or a varied value of the sweep file.
-NetlistOverride override_of(const std::string& name, std::string value) {
-    return {name, std::move(value), name, equal_ignoring_case(name, "supply")};
 }
 
 /// A temperature in degrees Celsius. Accepts "85" and "85C".
@@ -120,12 +114,18 @@ Result<Netlist> NetlistFactory::open(const std::string& corner) const {
     return netlist;
 }
 
-Result<Netlist> NetlistFactory::with_overrides(std::span<const NetlistOverride> overrides) const {
-    auto netlist = circuit::apply_overrides([this](const std::string& corner) { return open(corner); }, file_, overrides);
-    if (!netlist || saved_curves_.empty()) return netlist;
-    auto changes = netlist->overrides();
+ParameterOverride NetlistFactory::override_of(const std::string& name, std::string value) const {
+    // "supply" is the .param and not a device, as with --supply; such an override has no target.
+    return {equal_ignoring_case(name, "supply") ? "" : file_, name, std::move(value), name};
+}
+
+Result<Netlist> NetlistFactory::with_overrides(std::span<const ParameterOverride> overrides) const {
+    auto applied = circuit::apply_overrides([this](const std::string& corner) { return open(corner); }, file_, overrides);
+    if (!applied) return applied.error();
+    if (saved_curves_.empty()) return std::move(applied->result);
+    auto changes = applied->result.overrides();
     changes.replaces_saved = true, changes.saved = saved_curves_;
-    return netlist->with_overrides(std::move(changes));
+    return applied->result.with_overrides(std::move(changes));
 }
 
 Result<void> NetlistFactory::set(const LocatedSetting& setting) {

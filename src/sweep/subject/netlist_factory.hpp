@@ -18,7 +18,7 @@ class NetlistFactory {
     std::string file_;        // path of the netlist, relative to folder_, or among the embedded files
     std::string directives_;  // replace those of the netlist; empty: the netlist's own
     bool is_embedded_ = false;
-    std::vector<circuit::NetlistOverride> overrides_;  // fixed settings
+    std::vector<ParameterOverride> overrides_;  // fixed settings
     struct VariedParameter {
         std::string name;
         std::size_t axis;                 // index in the plan
@@ -33,7 +33,9 @@ class NetlistFactory {
     /// The netlist with this corner of the process file; "": the corner that the netlist selects.
     Result<circuit::Netlist> open(const std::string& corner) const;
     /// The netlist with these overrides and the saved curves.
-    Result<circuit::Netlist> with_overrides(std::span<const circuit::NetlistOverride>) const;
+    Result<circuit::Netlist> with_overrides(std::span<const ParameterOverride>) const;
+    /// An override of this netlist for a setting or a varied value of the sweep file.
+    ParameterOverride override_of(const std::string& name, std::string value) const;
 
 public:
     /// `name_or_path`: "sa1-circuit", a path relative to `folder`, or the path of an embedded netlist. `directives`: if not empty, they

@@ -22,7 +22,7 @@ Result<SimulatedResponse> simulate_afferent(const Afferent& afferent, const Swee
 Result<double> model_measure(const LocatedText& model, const ForceFactory& force, const LocatedText& measure) {
     if (force.varies())
         return model.error_here("like: the force varies between items, and so does a model's response; write numbers instead");
-    const auto plan = plan_any_afferent(model.text, {});
+    const auto plan = plan_any_afferent(model.text);
     if (!plan) return model.error_here("like: " + plan.error().message);
     const auto& sweep_force = *force.nominal();
     const auto afferent = make_afferent(*plan, {sweep_force.clock.T()});

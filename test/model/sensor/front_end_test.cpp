@@ -135,19 +135,19 @@ TEST(AfferentComponents, WrongOrUnknownComponentsAreRefusedWithASuggestion) {
         {"adc+fa2",
          "adc+fa2: vibration+lif-b has no fixed-point version; adc can be followed by sa1a, sa1b, fa1a, fa1b with lif-a, lif-b, adaptive"},
     };
-    for (const auto& [text, message] : cases) EXPECT_EQ(plan_afferent(text, {}).error().message, message);
+    for (const auto& [text, message] : cases) EXPECT_EQ(plan_afferent(text).error().message, message);
 }
 
 TEST(AfferentComponents, NamesAreMatchedWithoutRegardToCaseAlsoInSettings) {
-    EXPECT_EQ(test::value_or_throw(plan_afferent("FSR+f2i+RA", {})).name, "fsr+f2i+fa1");
+    EXPECT_EQ(test::value_or_throw(plan_afferent("FSR+f2i+RA")).name, "fsr+f2i+fa1");
     for (const auto* of : {"fsr+f2i+fa1", "FSR+f2i+RA"}) {
         const auto overrides = test::parse_settings({std::string(of) + ".f=3Hz", std::string(of) + ".F_cal=2N"});
-        const auto plan = test::value_or_throw(plan_afferent("FSR+f2i+RA", overrides));
+        const auto plan = test::applied_or_throw(plan_afferent("FSR+f2i+RA", overrides));
         EXPECT_EQ(plan.value("f"), 3);
         EXPECT_EQ(plan.value("F_cal"), 2);
         EXPECT_EQ(plan.value("I_leak0"), 1e-6) << "the default of fa1";
     }
-    EXPECT_EQ(test::value_or_throw(plan_afferent("sa1-kim", {})).composition(), "fsr+f2v+adc+sa1a+lif-a");
+    EXPECT_EQ(test::value_or_throw(plan_afferent("sa1-kim")).composition(), "fsr+f2v+adc+sa1a+lif-a");
 }
 
 TEST(AfferentComponents, AFrontEndThatCannotMeasureItsOwnRangeIsRefused) {
