@@ -5,7 +5,6 @@
 #include <cstdio>
 #include <nlohmann/json.hpp>
 
-#include "cli/arguments/option_rows.hpp"
 #include "cli/output/printable.hpp"
 #include "cli/output/terminal.hpp"
 #include "cli/verbs.hpp"
@@ -158,38 +157,29 @@ Result<void> compare_files(const CompareArguments& args, const CommonArguments& 
     return {};
 }
 
-class CompareVerb final : public Verb {
-    CompareArguments args_;
-
-public:
-    CompareVerb() : Verb({"compare", "compare two spike files: matches, distances, missing and extra spikes", compare_examples}) {}
-
-    void add_options_to(CLI::App& part, CommonArguments& common) override {
-        add_options(
-            part, "",
-            {{.names = "FILES",
-              .target = &args_.files,
-              .value = "A [B]",
-              .description = "the spike files A and B (CSV, NPZ ...), or one file with --pair",
-              .count = std::pair(1, 2)},
-             {"--pair,-p", &args_.pairs, "A-NAME=B-NAME", "compare train A-NAME of the first file with B-NAME of the second (repeatable)"},
-             {"--by-order", &args_.by_order, "", "ignore names: compare the first train of A with the first of B, and so on"},
-             {"--time", &args_.time_column, "COLUMN", "column of spike times, by name or number (default: time_s)"},
-             {"--train", &args_.train_column, "COLUMN", "column that identifies the train, by name or number"},
-             {"--window", &args_.window, "TIME", "maximum time between matching spikes"},
-             {"--cost", &args_.cost, "FREQUENCY", "Victor-Purpura distance: cost per second of shift"},
-             {"--tau", &args_.tau, "TIME", "van Rossum distance: time constant"}});
-        add_common_options(part, common);
-    }
-
-    int run(const CommonArguments& common) override {
-        catch_interrupt();
-        return exit_status(compare_files(args_, common));
-    }
-};
-
 }  // namespace
 
-std::unique_ptr<Verb> make_compare_verb() { return std::make_unique<CompareVerb>(); }
+Verb make_compare_verb() {
+    const auto args = std::make_shared<CompareArguments>();
+    return {
+        .name = "compare",
+        .description = "compare two spike files: matches, distances, missing and extra spikes",
+        .examples = compare_examples,
+        .options = {{"",
+                     {counted(1, 2, {"FILES", &args->files, "A [B]", "the spike files A and B (CSV, NPZ ...), or one file with --pair"}),
+                      {"--pair,-p", &args->pairs, "A-NAME=B-NAME",
+                       "compare train A-NAME of the first file with B-NAME of the second (repeatable)"},
+                      {"--by-order", &args->by_order, "", "ignore names: compare the first train of A with the first of B, and so on"},
+                      {"--time", &args->time_column, "COLUMN", "column of spike times, by name or number (default: time_s)"},
+                      {"--train", &args->train_column, "COLUMN", "column that identifies the train, by name or number"},
+                      {"--window", &args->window, "TIME", "maximum time between matching spikes"},
+                      {"--cost", &args->cost, "FREQUENCY", "Victor-Purpura distance: cost per second of shift"},
+                      {"--tau", &args->tau, "TIME", "van Rossum distance: time constant"}}}},
+        .reports = true,
+        .run = [args](const CommonArguments& common) {
+            catch_interrupt();
+            return exit_status(compare_files(*args, common));
+        }};
+}
 
 }  // namespace corpuscle

@@ -5,7 +5,6 @@
 
 #include "circuit/export/ngspice_deck.hpp"
 #include "circuit/variant/embedded_netlists.hpp"
-#include "cli/arguments/option_rows.hpp"
 #include "cli/arguments/own_files.hpp"
 #include "cli/output/output_files.hpp"
 #include "cli/output/printable.hpp"
@@ -62,30 +61,20 @@ Result<void> export_netlist(const ExportArguments& args, const CommonArguments& 
     return {};
 }
 
-class ExportVerb final : public Verb {
-    ExportArguments args_;
-
-public:
-    ExportVerb() : Verb({"export", "convert a netlist to the format of another simulator", export_examples}) {}
-
-    void add_options_to(CLI::App& part, CommonArguments& common) override {
-        add_options(part, "",
-                    {{.names = "NETLIST",
-                      .target = &args_.netlist,
-                      .value = "",
-                      .description = "a SPICE netlist, or a built-in one: sa1-circuit, fa1-circuit",
-                      .is_required = true},
-                     {"--for", &args_.target, "SIMULATOR", "the target simulator: ngspice (version 39)", one_of("ngspice")}});
-        add_options(part, "Output", {{"--out,-o", &args_.out, "FILE", "write to this file (default: standard output)"}});
-        add_common_options(part, common);
-        add_overwrite_option(part, common);
-    }
-
-    int run(const CommonArguments& common) override { return exit_status(export_netlist(args_, common)); }
-};
-
 }  // namespace
 
-std::unique_ptr<Verb> make_export_verb() { return std::make_unique<ExportVerb>(); }
+Verb make_export_verb() {
+    const auto args = std::make_shared<ExportArguments>();
+    return {.name = "export",
+            .description = "convert a netlist to the format of another simulator",
+            .examples = export_examples,
+            .options = {{"",
+                         {required({"NETLIST", &args->netlist, "", "a SPICE netlist, or a built-in one: sa1-circuit, fa1-circuit"}),
+                          {"--for", &args->target, "SIMULATOR", "the target simulator: ngspice (version 39)", one_of("ngspice")}}},
+                        {"Output", {{"--out,-o", &args->out, "FILE", "write to this file (default: standard output)"}}}},
+            .reports = true,
+            .writes_files = true,
+            .run = [args](const CommonArguments& common) { return exit_status(export_netlist(*args, common)); }};
+}
 
 }  // namespace corpuscle

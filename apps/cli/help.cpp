@@ -117,8 +117,8 @@ std::string Help::make_subcommand(const CLI::App* verb) const {
 }
 
 std::span<const std::string> Help::common_options(const CLI::App& app) const {
-    const auto found = std::find_if(verbs_.begin(), verbs_.end(), [&](const auto& verb) { return verb->texts.name == app.get_name(); });
-    return found == verbs_.end() ? std::span<const std::string>() : (*found)->texts.common_options;
+    const auto found = std::find_if(verbs_.begin(), verbs_.end(), [&](const auto& verb) { return verb.name == app.get_name(); });
+    return found == verbs_.end() ? std::span<const std::string>() : found->common_options;
 }
 
 std::string Help::make_help(const CLI::App* app, std::string name, CLI::AppFormatMode mode) const {

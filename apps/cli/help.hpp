@@ -3,6 +3,7 @@
 // the common options; --help-all prints everything.
 
 #include <CLI/CLI.hpp>
+#include <span>
 
 #include "cli/verb.hpp"
 
@@ -11,13 +12,13 @@ namespace corpuscle {
 class Help final : public CLI::Formatter {
 public:
     /// `verbs` outlive this object.
-    explicit Help(std::span<const std::unique_ptr<Verb>> verbs) : verbs_(verbs) { column_width(width_of_names); }
+    explicit Help(const std::vector<Verb>& verbs) : verbs_(verbs) { column_width(width_of_names); }
     std::string make_help(const CLI::App*, std::string name, CLI::AppFormatMode) const override;
     std::string make_option(const CLI::Option*, bool is_positional) const override;
     std::string make_subcommand(const CLI::App*) const override;
 
 private:
-    std::span<const std::unique_ptr<Verb>> verbs_;
+    const std::vector<Verb>& verbs_;
 
     /// The options that --help of this verb lists; empty: all.
     std::span<const std::string> common_options(const CLI::App&) const;

@@ -9,7 +9,6 @@
 #include "circuit/analyses.hpp"
 #include "circuit/device/uicm_card.hpp"
 #include "circuit/devices.hpp"
-#include "cli/arguments/option_rows.hpp"
 #include "cli/list_entry.hpp"
 #include "cli/output/terminal.hpp"
 #include "cli/verbs.hpp"
@@ -208,32 +207,24 @@ Result<void> print_sites(const ListArguments& args, const CommonArguments& commo
     return {};
 }
 
-class ListVerb final : public Verb {
-    ListArguments args_;
-
-public:
-    ListVerb()
-        : Verb({"list", "list all models, stimuli, circuits ... with the default, range and description of every parameter",
-                "Examples:\n  corpuscle list\n  corpuscle list neurons\n  corpuscle list sa1 press\n  corpuscle list 'grid 4x4' --sites"}) {
-    }
-
-    void add_options_to(CLI::App& part, CommonArguments& common) override {
-        add_options(
-            part, "",
-            {{"WHAT", &args_.names, "",
-              "afferents, sensors, transducers, converters, receptors, neurons, stimuli, measures, formats, or the name of an entry"},
-             {"--sites", &args_.list_sites, "",
-              "print the sites of a population (hand, 'grid 4x4', own.toml) in frame order, as CSV: name, x_mm, y_mm, region"}});
-        add_common_options(part, common);
-    }
-
-    int run(const CommonArguments& common) override {
-        return exit_status(args_.list_sites ? print_sites(args_, common) : print_sections(args_, common));
-    }
-};
-
 }  // namespace
 
-std::unique_ptr<Verb> make_list_verb() { return std::make_unique<ListVerb>(); }
+Verb make_list_verb() {
+    const auto args = std::make_shared<ListArguments>();
+    return {.name = "list",
+            .description = "list all models, stimuli, circuits ... with the default, range and description of every parameter",
+            .examples =
+                "Examples:\n  corpuscle list\n  corpuscle list neurons\n  corpuscle list sa1 press\n  corpuscle list 'grid 4x4' --sites",
+            .options =
+                {{"",
+                  {{"WHAT", &args->names, "",
+                    "afferents, sensors, transducers, converters, receptors, neurons, stimuli, measures, formats, or the name of an entry"},
+                   {"--sites", &args->list_sites, "",
+                    "print the sites of a population (hand, 'grid 4x4', own.toml) in frame order, as CSV: name, x_mm, y_mm, region"}}}},
+            .reports = true,
+            .run = [args](const CommonArguments& common) {
+                return exit_status(args->list_sites ? print_sites(*args, common) : print_sections(*args, common));
+            }};
+}
 
 }  // namespace corpuscle

@@ -14,23 +14,34 @@
 namespace corpuscle {
 namespace {
 
-using Verbs = std::span<const std::unique_ptr<Verb>>;
+/// The options that verbs have in common.
+OptionGroup common_options(const Verb& verb, CommonArguments& common) {
+    OptionGroup out;
+    if (verb.reports)
+        out.rows = {{"--json", &common.json, "", "print one JSON document on standard output, and nothing else"},
+                    {"--quiet,-q", &common.quiet, "", "do not print tables, progress and notes; warnings are still printed"}};
+    if (verb.writes_files)
+        out.rows.push_back({"--overwrite", &common.overwrite, "",
+                            "also replace files that were not written by an earlier run; input files are never replaced"});
+    return out;
+}
 
 /// Adds the part of each verb, and of the verbs that may follow it, to the command line.
-void add_verbs(CLI::App& app, Verbs verbs, CommonArguments& common) {
+void add_verbs(CLI::App& app, const std::vector<Verb>& verbs, CommonArguments& common) {
     for (const auto& verb : verbs) {
-        auto& part = *app.add_subcommand(verb->texts.name, verb->texts.description);
-        part.footer(verb->texts.examples);
-        if (verb->is_program()) continue;
+        auto& part = *app.add_subcommand(verb.name, verb.description);
+        part.footer(verb.examples);
+        if (verb.is_program) continue;
         part.set_version_flag("--version", fmt::format("corpuscle {}", version))->group("");
-        verb->add_options_to(part, common);
-        if (!verb->sub_verbs().empty()) part.require_subcommand(0, 1);
-        add_verbs(part, verb->sub_verbs(), common);
+        for (const auto& group : verb.options) add_options(part, group);
+        add_options(part, common_options(verb, common));
+        if (!verb.sub_verbs.empty()) part.require_subcommand(0, 1);
+        add_verbs(part, verb.sub_verbs, common);
     }
 }
 
 /// The root of a command line: name, description, --help, --help-all and --version, and the verbs.
-std::unique_ptr<CLI::App> make_command_line(const ProgramTexts& texts, Verbs verbs, CommonArguments& common) {
+std::unique_ptr<CLI::App> make_command_line(const ProgramTexts& texts, const std::vector<Verb>& verbs, CommonArguments& common) {
     auto app = std::make_unique<CLI::App>(texts.about, "corpuscle");
     app->footer(texts.first_steps);
     app->formatter(std::make_shared<Help>(verbs));
@@ -43,11 +54,11 @@ std::unique_ptr<CLI::App> make_command_line(const ProgramTexts& texts, Verbs ver
 }
 
 /// The verb that the parsed command line names: the last one of "sweep show".
-Verb* named_verb(const CLI::App& app, Verbs verbs) {
+const Verb* named_verb(const CLI::App& app, const std::vector<Verb>& verbs) {
     for (const auto& verb : verbs) {
-        if (!app.got_subcommand(verb->texts.name)) continue;
-        auto* const sub_verb = named_verb(*app.get_subcommand(verb->texts.name), verb->sub_verbs());
-        return sub_verb ? sub_verb : verb.get();
+        if (!app.got_subcommand(verb.name)) continue;
+        const auto* const sub_verb = named_verb(*app.get_subcommand(verb.name), verb.sub_verbs);
+        return sub_verb ? sub_verb : &verb;
     }
     return nullptr;
 }
@@ -68,25 +79,25 @@ int report_usage_error(const std::string& message) {
 }
 
 /// Parses the words of the command line and runs the verb. Returns its exit status; exceptions are those of CLI11 and of standard output.
-int run_command_line(CLI::App& app, Verbs verbs, CommonArguments& common) {
+int run_command_line(CLI::App& app, const std::vector<Verb>& verbs, CommonArguments& common) {
     for (const auto& error : {unknown_verb_error(app, common.words), unknown_option_error(app, common.words)})
         if (!error.empty()) return report_error(bad_usage(error));
     app.parse(std::vector<std::string>(common.words.rbegin(), common.words.rend()));  // CLI11 takes them in reverse order
     common.typed = typed_options(app);
-    auto& verb = *named_verb(app, verbs);
-    if (const auto ok = verb.check_arguments(common); !ok) return report_usage_error(ok.error().message);
+    const auto& verb = *named_verb(app, verbs);
+    if (const auto ok = verb.check(common); !ok) return report_usage_error(ok.error().message);
     return verb.run(common);
 }
 
 }  // namespace
 
-int run_program(const ProgramTexts& texts, const VerbList& verbs, int argc, const char* const* argv) {
+int run_program(const ProgramTexts& texts, const std::vector<Verb>& verbs, int argc, const char* const* argv) {
     std::signal(SIGXFSZ, SIG_IGN);  // exceeding the file size limit is a write error
     CommonArguments common;
     common.command = quote_command(argc, argv), common.words = normalize_help({argv + 1, argv + argc});
-    if (verbs.size() == 1 && common.words[0] != verbs[0]->texts.name) common.words.insert(common.words.begin(), verbs[0]->texts.name);
+    if (verbs.size() == 1 && common.words[0] != verbs[0].name) common.words.insert(common.words.begin(), verbs[0].name);
     for (const auto& verb : verbs)
-        if (verb->is_program() && common.words[0] == verb->texts.name) return verb->run(common);
+        if (verb.is_program && common.words[0] == verb.name) return verb.run(common);
     const auto app = make_command_line(texts, verbs, common);
     int status = 0;
     try {

@@ -13,6 +13,6 @@ struct ProgramTexts {
 
 /// Parses the command line and runs its verb. Prints help and errors. Returns the exit status. A program with only one verb may be started
 /// without its name.
-int run_program(const ProgramTexts&, const VerbList& verbs, int argc, const char* const* argv);
+int run_program(const ProgramTexts&, const std::vector<Verb>& verbs, int argc, const char* const* argv);
 
 }  // namespace corpuscle

@@ -7,14 +7,13 @@
 #include <optional>
 
 #include "circuit/analyses.hpp"
-#include "circuit/cost/cost_document.hpp"
+#include "circuit/cost/circuit_cost_document.hpp"
 #include "circuit/cost/cost_meter.hpp"
 #include "circuit/output/resolve_probe.hpp"
 #include "circuit/run_directives.hpp"
 #include "circuit/variant/netlist_overrides.hpp"
 #include "circuit/variant/netlist_variants.hpp"
 #include "cli/arguments/netlist_arguments.hpp"
-#include "cli/arguments/option_rows.hpp"
 #include "cli/output/budget_tables.hpp"
 #include "cli/output/curve_files.hpp"
 #include "cli/output/printable.hpp"
@@ -369,38 +368,28 @@ std::string run_help() {
            known + run_examples;
 }
 
-class RunVerb final : public Verb {
-    RunArguments args_;
-
-public:
-    RunVerb() : Verb({"run", "run the analyses of a netlist -> .raw, CSV, printed measurements", run_help()}) {}
-
-    void add_options_to(CLI::App& part, CommonArguments& common) override {
-        add_options(part, "",
-                    {{.names = "NETLIST",
-                      .target = &args_.netlist,
-                      .value = "",
-                      .description = "a SPICE netlist, or a built-in one: sa1-circuit, fa1-circuit",
-                      .is_required = true},
-                     {"--set,-s", &args_.settings, "NAME=VALUE",
-                      "set a .param, an array (summer.N3B=8x4), a device value (cco.cu=4pF) or a device parameter (N3B.w=1.2um)"},
-                     {"--budget", &args_.budget, "", "also print power, area and leakage of each block"}});
-        add_netlist_options(part, args_.netlists);
-        add_options(part, "Output",
-                    {{"--out,-o", &args_.out, "FILE", "write the curves: x.raw (the format of ngspice, binary) or x.csv"},
-                     {"--ascii", &args_.ascii, "", "write the .raw file as text"}});
-        add_common_options(part, common);
-        add_overwrite_option(part, common);
-    }
-
-    int run(const CommonArguments& common) override {
-        catch_interrupt();
-        return exit_status(run_netlist(args_, common));
-    }
-};
-
 }  // namespace
 
-std::unique_ptr<Verb> make_run_verb() { return std::make_unique<RunVerb>(); }
+Verb make_run_verb() {
+    const auto args = std::make_shared<RunArguments>();
+    return {.name = "run",
+            .description = "run the analyses of a netlist -> .raw, CSV, printed measurements",
+            .examples = run_help(),
+            .options = {{"",
+                         {required({"NETLIST", &args->netlist, "", "a SPICE netlist, or a built-in one: sa1-circuit, fa1-circuit"}),
+                          {"--set,-s", &args->settings, "NAME=VALUE",
+                           "set a .param, an array (summer.N3B=8x4), a device value (cco.cu=4pF) or a device parameter (N3B.w=1.2um)"},
+                          {"--budget", &args->budget, "", "also print power, area and leakage of each block"}}},
+                        netlist_options(args->netlists),
+                        {"Output",
+                         {{"--out,-o", &args->out, "FILE", "write the curves: x.raw (the format of ngspice, binary) or x.csv"},
+                          {"--ascii", &args->ascii, "", "write the .raw file as text"}}}},
+            .reports = true,
+            .writes_files = true,
+            .run = [args](const CommonArguments& common) {
+                catch_interrupt();
+                return exit_status(run_netlist(*args, common));
+            }};
+}
 
 }  // namespace corpuscle

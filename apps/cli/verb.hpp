@@ -1,16 +1,13 @@
 #pragma once
 // A verb of the program, such as "respond", and the arguments that all verbs have.
 
+#include <functional>
 #include <memory>
-#include <span>
 #include <string>
 #include <vector>
 
+#include "cli/arguments/option_rows.hpp"
 #include "core/error.hpp"
-
-namespace CLI {
-class App;
-}
 
 namespace corpuscle {
 
@@ -29,41 +26,19 @@ struct CommonArguments {
     std::vector<std::string> words = {};  ///< the words of the command line, beginning with the verb
 };
 
-/// The texts of a verb in --help.
-struct VerbTexts {
+/// A verb: its texts and options, and the function that runs it with the arguments that the options have set.
+struct Verb {
     std::string name, description;                 ///< the description is one line
-    std::string examples = {};                     ///< examples ("Examples:", then one per line) and paragraphs that explain them
+    std::string examples = {};                     ///< for --help: examples ("Examples:", then one per line), and explanations
     std::vector<std::string> common_options = {};  ///< the options that --help lists; empty: all, as --help-all
+    std::vector<OptionGroup> options = {};         ///< without those that follow
+    bool reports = false;                          ///< has the options --json and --quiet
+    bool writes_files = false;                     ///< has the option --overwrite
+    /// Checks the arguments, and completes those that depend on each other. An error is one of usage.
+    std::function<Result<void>(const CommonArguments&)> check = [](const CommonArguments&) { return Result<void>(); };
+    std::function<int(const CommonArguments&)> run;  ///< returns the exit status
+    std::vector<Verb> sub_verbs = {};                ///< may follow this verb: show in "sweep show"
+    bool is_program = false;                         ///< run() starts another program, which reads CommonArguments::words
 };
-
-/// A verb: declares its options, and runs with the arguments that they set.
-class Verb {
-public:
-    const VerbTexts texts;
-
-    explicit Verb(VerbTexts t) : texts(std::move(t)) {}
-    virtual ~Verb() = default;
-    Verb(const Verb&) = delete;
-    Verb& operator=(const Verb&) = delete;
-
-    /// Adds the options of this verb to its part of the command line.
-    virtual void add_options_to(CLI::App& part, CommonArguments&) = 0;
-    /// Checks the parsed arguments, and completes those that depend on each other. An error is one of usage.
-    virtual Result<void> check_arguments(const CommonArguments&) { return {}; }
-    /// Runs the verb. Returns the exit status.
-    virtual int run(const CommonArguments&) = 0;
-
-    /// Verbs that may follow this one, such as show in "sweep show".
-    virtual std::span<const std::unique_ptr<Verb>> sub_verbs() const { return {}; }
-    /// True if run() starts another program, which reads CommonArguments::words; the verb then has no options here.
-    virtual bool is_program() const { return false; }
-};
-
-using VerbList = std::vector<std::unique_ptr<Verb>>;
-
-/// Adds the options --json and --quiet.
-void add_common_options(CLI::App& part, CommonArguments&);
-/// Adds --overwrite, for verbs that write complete files.
-void add_overwrite_option(CLI::App& part, CommonArguments&);
 
 }  // namespace corpuscle

@@ -16,13 +16,13 @@
 
 namespace corpuscle {
 
-#define CORPUSCLE_DECLARE_VERB(name) std::unique_ptr<Verb> make_##name##_verb();
+#define CORPUSCLE_DECLARE_VERB(name) Verb make_##name##_verb();
 CORPUSCLE_VERBS(CORPUSCLE_DECLARE_VERB)
 #undef CORPUSCLE_DECLARE_VERB
 
 /// Makes all verbs of the program.
-inline VerbList make_verbs() {
-    VerbList verbs;
+inline std::vector<Verb> make_verbs() {
+    std::vector<Verb> verbs;
 #define CORPUSCLE_MAKE_VERB(name) verbs.push_back(make_##name##_verb());
     CORPUSCLE_VERBS(CORPUSCLE_MAKE_VERB)
 #undef CORPUSCLE_MAKE_VERB

@@ -2,7 +2,6 @@
 
 #include <fmt/format.h>
 
-#include "cli/arguments/option_rows.hpp"
 #include "cli/arguments/report_page.hpp"
 #include "cli/program.hpp"
 #include "reproduction/claims/studies.hpp"
@@ -22,29 +21,21 @@ std::string study_help() {
            "  corpuscle study fig3 --json";
 }
 
-class StudyVerb final : public Verb {
-    StudyArguments args_;
-
-public:
-    StudyVerb() : Verb({"study", "reproduce published results and compare them with the published numbers", study_help()}) {}
-
-    void add_options_to(CLI::App& part, CommonArguments& common) override {
-        add_options(part, "",
-                    {{"NAME", &args_.names, "", "the studies to run (default: all)"},
-                     {"--report", &args_.report_file, "FILE.html", "write a report page: figures, published and computed numbers"},
-                     {"--markdown", &args_.markdown_file, "FILE.md", "write all numbers as Markdown"}});
-        add_common_options(part, common);
-        add_overwrite_option(part, common);
-    }
-
-    Result<void> check_arguments(const CommonArguments&) override { return check_page_name(args_.report_file); }
-    int run(const CommonArguments& common) override { return study(args_, common); }
-};
+Verb make_study_verb() {
+    const auto args = std::make_shared<StudyArguments>();
+    return {.name = "study",
+            .description = "reproduce published results and compare them with the published numbers",
+            .examples = study_help(),
+            .options = {{"",
+                         {{"NAME", &args->names, "", "the studies to run (default: all)"},
+                          {"--report", &args->report_file, "FILE.html", "write a report page: figures, published and computed numbers"},
+                          {"--markdown", &args->markdown_file, "FILE.md", "write all numbers as Markdown"}}}},
+            .reports = true,
+            .writes_files = true,
+            .check = [args](const CommonArguments&) { return check_page_name(args->report_file); },
+            .run = [args](const CommonArguments& common) { return study(*args, common); }};
+}
 
 }  // namespace
 
-int main(int argc, char** argv) {
-    VerbList verbs;
-    verbs.push_back(std::make_unique<StudyVerb>());
-    return run_program({"Corpuscle: the reproduction of the thesis."}, verbs, argc, argv);
-}
+int main(int argc, char** argv) { return run_program({"Corpuscle: the reproduction of the thesis."}, {make_study_verb()}, argc, argv); }

@@ -26,7 +26,7 @@ std::string unknown_parameter(const ParameterOverride& given, std::span<const Pa
 
 bool ParameterOverride::operator==(const ParameterOverride& other) const {
     const auto all = [](const ParameterOverride& o) {
-        return std::tie(o.target, o.parameter, o.value, o.said, o.location.file, o.location.line, o.location.column);
+        return std::tie(o.target, o.parameter, o.value, o.typed, o.location.file, o.location.line, o.location.column);
     };
     return all(*this) == all(other);
 }
@@ -93,9 +93,9 @@ void keep_unused(std::vector<ParameterOverride>& unused, std::span<const Paramet
 Result<void> check_all_used(std::span<const ParameterOverride> unused, std::span<const std::string_view> targets) {
     if (unused.empty()) return {};
     const auto& given = unused.front();
-    if (given.target.empty()) return bad_usage(fmt::format("{}: there is no netlist in this run; try --afferent sa1-circuit", given.said));
+    if (given.target.empty()) return bad_usage(fmt::format("{}: there is no netlist in this run; try --afferent sa1-circuit", given.typed));
     return Error{given.location.line > 0 ? ErrorCode::bad_input : ErrorCode::bad_usage,
-                 fmt::format("{}: nothing here is named '{}'{} (parameters of {} can be set)", given.said, given.target,
+                 fmt::format("{}: nothing here is named '{}'{} (parameters of {} can be set)", given.typed, given.target,
                              did_you_mean(given.target, targets), fmt::join(targets, ", ")),
                  given.location};
 }

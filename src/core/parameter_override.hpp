@@ -19,7 +19,7 @@ struct ParameterOverride {
     std::string target;            ///< "sa1", "press", "contact", "sa1-circuit"; "": every netlist of the run, as with --temp
     std::string parameter;         ///< "f_B"; of a netlist also the path of a device, "summer.N3B.w"
     std::string value;             ///< "25Hz"
-    std::string said = {};         ///< as the user wrote it, for messages: "--set sa1.f_B=25Hz"
+    std::string typed = {};        ///< as the user wrote it, for messages: "--set sa1.f_B=25Hz"
     SourceLocation location = {};  ///< where it is written, if in a sweep or population file
 
     std::string name() const { return target + "." + parameter; }

@@ -6,7 +6,7 @@
 #include <string_view>
 #include <vector>
 
-#include "core/afferent_plan.hpp"
+#include "core/afferent_factory.hpp"
 #include "model/chain.hpp"
 #include "model/models.hpp"
 #include "model/sensor/adc.hpp"

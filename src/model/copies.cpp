@@ -24,7 +24,7 @@ std::size_t index_of(const AfferentPlan& plan, std::string_view parameter) {
 /// Parses the standard deviation in o.value: a percentage of the plan's value of the parameter ("10%"), or a number in the parameter's
 /// unit.
 Result<ParameterDistribution> parse_spread(const AfferentPlan& plan, const ParameterOverride& o, const ParameterInfo& row) {
-    const auto error = [&](std::string_view why) { return bad_input(fmt::format("{}: {}", o.said, why), o.location); };
+    const auto error = [&](std::string_view why) { return bad_input(fmt::format("{}: {}", o.typed, why), o.location); };
     const bool is_percentage = trimmed(o.value).ends_with('%');
     const auto read = parse_quantity(o.value, is_percentage ? "" : row.unit);
     if (!read && is_percentage) return error(fmt::format("'{}' is not a percentage; write a number and %, such as '10%'", o.value));
@@ -158,7 +158,7 @@ Result<Applied<std::vector<ParameterDistribution>>> distributions_for(const Affe
     std::vector<ParameterDistribution> distributions;
     for (auto& o : own) {
         if (ignores_case) o.parameter = lower(o.parameter);
-        const auto error = [&](ErrorCode code, std::string why) { return Error{code, fmt::format("{}: {}", o.said, why), o.location}; };
+        const auto error = [&](ErrorCode code, std::string why) { return Error{code, fmt::format("{}: {}", o.typed, why), o.location}; };
         const auto row = find_parameter(o, rows);
         if (!row) return row.error();
         if ((*row)->is_shared_by_copies)

@@ -1,7 +1,7 @@
 #pragma once
 // Makes and describes the afferents that are equations.
 
-#include "core/afferent_plan.hpp"
+#include "core/afferent_factory.hpp"
 
 namespace corpuscle {
 

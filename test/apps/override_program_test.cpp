@@ -48,11 +48,11 @@ const std::map<std::pair<std::string, Verb>, std::string> exceptions = {
 };
 
 std::vector<OverrideKind> override_kinds() {
-    const std::set<Verb> models = {Verb::respond, Verb::sweep, Verb::stream}, netlists = {Verb::respond, Verb::run, Verb::sweep},
+    const std::set<Verb> front_ends = {Verb::respond, Verb::sweep}, netlists = {Verb::respond, Verb::run, Verb::sweep},
                          every_model = {Verb::respond, Verb::skin, Verb::sweep, Verb::stream};
     return {{"parameter of a model", "sa1", "sa1", "f_B=60Hz", every_model, "f_B"},
-            {"parameter of a sensor", "fsr+f2i+sa1", "fsr+f2i+sa1", "I_max=1u", models, "fsr+f2i+sa1"},
-            {"parameter of a converter", "sa1-kim", "sa1-kim", "bits=4", models, "sa1-kim"},
+            {"parameter of a sensor", "fsr+f2i+sa1", "fsr+f2i+sa1", "F_cal=2N", front_ends, "fsr+f2i+sa1"},
+            {"parameter of a converter", "sa1-kim", "sa1-kim", "bits=4", front_ends, "sa1-kim"},
             {"parameter of a stimulus", "sa1", "press", "F_max=3N", every_model, "press"},
             {"parameter of a class of a skin", "sa1", "slow", "V_th=300mV", {Verb::skin, Verb::stream}, "slow", {}, {}, "skin.toml"},
             {".param of a netlist", "own.cir", "own.cir", "r_top=2k", netlists, "own.cir"},
@@ -99,7 +99,7 @@ class OverrideRuns {
             case Verb::run:
                 return "run own.cir --json " + given;
             case Verb::sweep:
-                return "sweep " + folder_.write("a.toml", sweep_file(kind, with)) + " --quiet --overwrite -o a.sqlite";
+                return "sweep " + folder_.write("a.toml", sweep_file(kind, with)) + " --quiet -o a.sqlite";
             default:
                 return "stream --in press --pace fast --quiet -o - --population '" +
                        (kind.stream_population.empty() ? kind.afferent : kind.stream_population) + "' " + given;
@@ -146,11 +146,12 @@ TEST(OverrideTable, EveryKindInEveryVerbChangesTheResultOrIsNamedInAnError) {
 TEST(OverrideTable, AnUnusedOverrideHasOneErrorInAllVerbs) {
     const OverrideRuns runs;
     const OverrideKind unknown = {"unknown target", "sa1", "sa9", "f_B=60Hz", {}, "sa9"};
-    for (const auto verb : {Verb::respond, Verb::skin, Verb::stream})
-        EXPECT_NE(
-            runs.run(unknown, verb, true).err.find("--set sa9.f_B=60Hz: nothing here is named 'sa9'; did you mean 'sa1'? (parameters of "),
-            std::string::npos)
-            << name_of(verb);
+    const std::string message = "sa9.f_B=60Hz: nothing here is named 'sa9'; did you mean 'sa1'? (parameters of ";
+    for (const auto verb : {Verb::respond, Verb::skin, Verb::stream, Verb::sweep}) {
+        const auto err = runs.run(unknown, verb, true).err;
+        EXPECT_NE(err.find((verb == Verb::sweep ? "a.toml:6:13: " : "--set ") + message), std::string::npos)
+            << name_of(verb) << ": " << err;
+    }
     const OverrideKind unknown_spread = {"spread", "sa1", "", "", {}, "sa9", "--spread sa9.f_B=10%", "--copies 2"};
     EXPECT_NE(
         runs.run(unknown_spread, Verb::respond, true).err.find("--spread sa9.f_B=10%: nothing here is named 'sa9'; did you mean 'sa1'?"),

@@ -10,7 +10,7 @@
 
 #include "circuit/netlist_runner.hpp"
 #include "run/afferent_plan.hpp"
-#include "run/afferent_run.hpp"
+#include "run/run_inputs.hpp"
 #include "support/program.hpp"
 #include "support/property.hpp"
 
@@ -298,19 +298,19 @@ TEST(Run, ReportsSpikesUnderTheForceOfTheNetlist) {
 }
 
 /// Stores everything it receives.
-struct RecordingListener final : ResponseSink {
+struct RecordingListener final : Sink {
     std::vector<Spike> spikes;
     std::vector<double> probe_values;
     std::int64_t samples = 0;
     bool wants_probes() const override { return true; }
     Result<void> block(const Input&, const RunBlock& a) override {
         EXPECT_EQ(a.first_sample, samples);
-        samples += static_cast<std::int64_t>(a.force.count);
+        samples += static_cast<std::int64_t>(a.steps);
         for (const auto& s : a.spikes) {
             EXPECT_TRUE(s.step >= a.first_sample && s.step < samples);
             spikes.push_back(s);
         }
-        for (std::size_t k = 0; k < a.force.count; ++k)
+        for (std::size_t k = 0; k < a.steps; ++k)
             for (const auto& unit : a.probes)
                 for (const auto& probe : unit) probe_values.push_back(probe[k]);
         return {};
@@ -324,10 +324,10 @@ TEST(Respond, NetlistsAndModelsRespondTheSameInBlocksOfAnySize) {
         const std::vector<AfferentPlan> plans = {value_or_throw(plan_any_afferent(path)), value_or_throw(plan_any_afferent("fa1"))};
         std::vector<std::unique_ptr<ForceSource>> sources;
         sources.push_back(value_or_throw(make_stimulus("press", 1e3, 0)));
-        ResponseSink* listeners[] = {&recorders[k]};
+        Sink* listeners[] = {&recorders[k]};
         RespondOptions options;
         options.block = std::vector<std::size_t>{4096, 1, 37}[k];
-        const auto work = value_or_throw(respond(sources, plans, listeners, options));
+        const auto work = value_or_throw(corpuscle::run(sources, plans, listeners, options));
         EXPECT_EQ(work.samples, 1000);
         EXPECT_GT(work.steps, 10000);
         EXPECT_EQ(recorders[k].samples, 1000);

@@ -7,7 +7,7 @@
 #include "circuit/afferent/circuit_afferent.hpp"
 #include "circuit/netlist/renamed_directives.hpp"
 #include "circuit/netlist_runner.hpp"
-#include "run/afferent_run.hpp"
+#include "run/run_inputs.hpp"
 #include "support/program.hpp"
 #include "support/support.hpp"
 

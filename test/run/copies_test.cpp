@@ -1,15 +1,14 @@
 // Output for copies: the summary over them, and the table of each copy's parameters and measures.
 
-#include "run/sinks/copies_file.hpp"
-
 #include <algorithm>
 #include <cmath>
 #include <nlohmann/json.hpp>
 
 #include "io/spikes/spike_files.hpp"
+#include "run/run_inputs.hpp"
 #include "run/summary/run_summary.hpp"
 #include "support/property.hpp"
-#include "support/support.hpp"
+#include "support/sinks.hpp"
 
 namespace corpuscle {
 namespace {
@@ -27,18 +26,18 @@ CopiesOfAfferents make_test_copies(const std::vector<std::string>& names, std::u
     out.population.count = n;
     for (const auto& name : names) {
         out.base.push_back(value_or_throw(plan_afferent(name)));
-        const auto distributions = test::applied_or_throw(distributions_for(out.base.back(), name, test::parse_settings(spreads)));
+        const auto distributions = value_or_throw(distributions_for(out.base.back(), name, test::parse_settings(spreads))).result;
         for (auto& c : value_or_throw(make_copies(out.base.back(), n, distributions, 4))) out.copies.push_back(c);
         out.population.distributions.insert(out.population.distributions.end(), distributions.begin(), distributions.end());
     }
     return out;
 }
 
-void simulate_press_and_sine(std::span<const AfferentPlan> plans, std::initializer_list<ResponseSink*> sinks) {
+void simulate_press_and_sine(std::span<const AfferentPlan> plans, std::initializer_list<Sink*> sinks) {
     std::vector<std::unique_ptr<ForceSource>> sources;
     sources.push_back(value_or_throw(make_stimulus("press", 2e3, 0)));
     sources.push_back(value_or_throw(make_stimulus("sine", 2e3, 0)));
-    (void)value_or_throw(respond(sources, plans, std::vector<ResponseSink*>(sinks), {}));
+    (void)value_or_throw(corpuscle::run(sources, plans, std::vector<Sink*>(sinks), {}));
 }
 
 struct Statistics {
@@ -147,10 +146,10 @@ std::vector<std::vector<std::string>> table_of(const std::string& text) {
 TEST(CopiesFile, HasTheParametersOfEachCopyAndTheMeasuresOfItsTrain) {
     const TemporaryFolder folder;
     const auto p = make_test_copies({"sa1", "fa1"}, 4, {"sa1.f_B=20%", "sa1.V_th=10%", "fa1.V_th=10%", "fa1.k_A=10%"});
-    CopiesFile file(value_or_throw(OutputFile::create(folder / "copies.csv")), p.population);
-    SpikesFile spikes(value_or_throw(OutputFile::create(folder / "spikes.csv")));
-    simulate_press_and_sine(p.copies, {&file, &spikes});
-    ASSERT_TRUE(bool(file.commit()) && bool(spikes.commit()));
+    const auto file = test::make_sink(copies_format, folder.path(), {.copies = p.population}),
+               spikes = test::make_sink(spikes_format, folder.path());
+    simulate_press_and_sine(p.copies, {file.get(), spikes.get()});
+    ASSERT_TRUE(bool(file->commit()) && bool(spikes->commit()));
     const auto rows = table_of(test::read_file(folder / "copies.csv"));
     ASSERT_EQ(rows.size(), 1U + 2 * 8);
     const auto at = [&](const std::string& name) {

@@ -57,10 +57,10 @@ ImplementationRun run_implementations(const std::vector<std::string>& stimuli, c
     for (const auto& p : plans)
         for (auto& copy : copies ? value_or_throw(make_copies(p, copies, {}, 1)) : std::vector{p}) all_plans.push_back(std::move(copy));
     ImplementationRun ran;
-    ResponseSink* sinks[] = {&ran.summary};
+    Sink* sinks[] = {&ran.summary};
     RespondOptions options;
     options.block = block;
-    const auto work = value_or_throw(respond(sources, all_plans, sinks, options));
+    const auto work = value_or_throw(run(sources, all_plans, sinks, options));
     ran.document = ran.summary.document(plans, work, options, 9, {}).dump();
     return ran;
 }

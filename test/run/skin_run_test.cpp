@@ -7,10 +7,9 @@
 #include "core/stimulus/stimuli.hpp"
 #include "io/spikes/events.hpp"
 #include "io/table/npz.hpp"
-#include "run/sinks/skin_events_file.hpp"
-#include "run/skin/skin_checkpoint.hpp"
+#include "run/skin/skin_simulator.hpp"
 #include "support/program.hpp"
-#include "support/support.hpp"
+#include "support/sinks.hpp"
 
 namespace corpuscle {
 namespace {
@@ -18,8 +17,8 @@ namespace {
 using test::TemporaryFolder, test::read_file, test::value_or_throw;
 
 /// Simulates a press on a fingertip and writes the events to `out`; stops after `blocks` blocks (-1: does not stop).
-Result<SkinStats> press_fingertip(const TemporaryFolder& folder, const std::string& out, int blocks, bool with_checkpoint,
-                                  const RunFingerprint& fingerprint = {{"FORCE", "press"}}, double scale = 1) {
+Result<RunStats> press_fingertip(const TemporaryFolder& folder, const std::string& out, int blocks, bool with_checkpoint,
+                                 const RunFingerprint& fingerprint = {{"FORCE", "press"}}, double scale = 1) {
     static const auto skin = value_or_throw(innervate(value_or_throw(load_skin_plan("fingertip"))));
     const auto source =
         test::applied_or_throw(make_stimulus("press", test::parse_settings({"press.F_max=" + std::to_string(4 * scale)}), 1e3, 0));
@@ -32,13 +31,14 @@ Result<SkinStats> press_fingertip(const TemporaryFolder& folder, const std::stri
         if (!opened) return opened.error();
         checkpoint = std::move(*opened);
     }
-    ThreadPool pool(1);
-    const auto simulator = local_skin_simulator(*running, pool);
-    SkinEventsFile file(value_or_throw(OutputFile::create(folder / out)), "aer");
-    SkinSink* const sinks[] = {&file};
-    const SkinInput input{"press", "", source->clock(), {}, *skin};
-    auto done = run_skin(*force, input, *simulator, sinks, {[&](double) { return blocks-- != 0; }, checkpoint.get()});
-    if (done && file.commit() && checkpoint) checkpoint->remove_files();
+    const auto file = test::make_sink(events_format, folder / out, {.options = {{"--events", "aer"}}});
+    Sink* const sinks[] = {file.get()};
+    SkinPopulation population(*skin);
+    std::vector<std::unique_ptr<BlockSimulator>> inputs;
+    inputs.push_back(std::make_unique<SkinSimulator>(population, make_input(population, "press", *source), *force, *running,
+                                                     SkinRunParts{.checkpoint = checkpoint.get()}));
+    auto done = run(std::move(inputs), sinks, {.should_continue = [&](double) { return blocks-- != 0; }});
+    if (done && file->commit() && checkpoint) checkpoint->remove_files();
     return done;
 }
 
@@ -57,7 +57,7 @@ TEST(SkinRun, StoppedRepeatedlyItResumesToTheSameBytes) {
         ASSERT_EQ(done.error().code, ErrorCode::interrupted);
         EXPECT_FALSE(std::filesystem::exists(folder / "parts"));
     }
-    EXPECT_EQ(read_file(folder / "parts"), read_file(folder / "whole"));
+    EXPECT_EQ(read_file(folder / "parts/spikes.aer"), read_file(folder / "whole/spikes.aer"));
     EXPECT_FALSE(std::filesystem::exists(folder / "state")) << "the checkpoint of a complete run is removed";
     EXPECT_FALSE(std::filesystem::exists(folder / "state.spikes"));
 }
@@ -270,7 +270,7 @@ TEST(SkinRun, SpikesOfASkinAreWrittenAsNumPyArraysToo) {
 
 TEST(SkinRun, OptionsForAfferentsOnChannelsAreRefused) {
     const TemporaryFolder folder;
-    for (const char* arguments : {"--afferent fa2", "--copies 3", "--noise 10nA", "--probe-files --out x", "--corner ss"}) {
+    for (const char* arguments : {"--afferent fa2", "--copies 3", "--noise 10nA", "--vectors --out x", "--corner ss"}) {
         const auto ran = test::run_program(folder, std::string("respond press --population fingertip ") + arguments);
         EXPECT_EQ(ran.status, 2) << arguments << ran.err;
         EXPECT_NE(ran.err.find("cannot be used with --population"), std::string::npos) << ran.err;

@@ -7,11 +7,9 @@
 
 #include "report/skin/binned_frames.hpp"
 #include "report/skin/skin_page.hpp"
-#include "run/sinks/skin_afferents_file.hpp"
-#include "run/sinks/skin_psth_file.hpp"
-#include "run/sinks/skin_spikes_file.hpp"
+#include "run/skin/skin_population.hpp"
 #include "support/property.hpp"
-#include "support/support.hpp"
+#include "support/sinks.hpp"
 
 namespace corpuscle {
 namespace {
@@ -48,8 +46,9 @@ double force_at(std::size_t site, std::int64_t k) { return site == 0 && k >= 2 &
 
 /// Passes a complete run to the sinks in blocks. `listed`: the blocks have a list of touched sites, and the force at other sites must not
 /// be read.
-void run_sinks(const Innervation& skin, std::vector<SkinSink*> sinks, std::int64_t block = samples, bool listed = false) {
-    const SkinInput input{"poke", "by hand", {1000, 1, 0}, {{"on", 0, 0.01}, {"off", 0.01, 0.02}}, skin};
+void run_sinks(const Innervation& skin, const std::vector<Sink*>& sinks, std::int64_t block = samples, bool listed = false) {
+    const SkinPopulation population(skin);
+    const Input input{population, "poke", "by hand", {1000, 1, 0}, {{"on", 0, 0.01}, {"off", 0.01, 0.02}}};
     for (auto* l : sinks) ASSERT_TRUE(l->begin(input));
     for (std::int64_t first = 0; first < samples; first += block) {
         const auto steps = std::min(block, samples - first);
@@ -64,7 +63,8 @@ void run_sinks(const Innervation& skin, std::vector<SkinSink*> sinks, std::int64
             if (s.step >= first && s.step < first + steps) spikes.push_back(s);
         const std::vector<std::uint32_t> touched = {0, 1};
         const SiteForce at{force.data(), static_cast<std::size_t>(steps), touched, !listed};
-        for (auto* l : sinks) ASSERT_TRUE(l->block(input, {first, static_cast<std::size_t>(steps), at, total, spikes}));
+        const std::span<const double> total_force = total;
+        for (auto* l : sinks) ASSERT_TRUE(l->block(input, {first, static_cast<std::size_t>(steps), {&total_force, 1}, at, spikes}));
     }
     for (auto* l : sinks) ASSERT_TRUE(l->end(input, samples, late_spikes));
 }
@@ -178,13 +178,11 @@ TEST(SkinSummary, FilesContainTheGivenSpikes) {
     const auto skin = small_skin();
     const TemporaryFolder folder;
     SkinSummary s;
-    SkinSpikesFile spikes(value_or_throw(OutputFile::create(folder / "spikes.csv")));
-    SkinAfferentsFile afferents_file(value_or_throw(OutputFile::create(folder / "afferents.csv")), s);
-    SkinPsthFile bins(value_or_throw(OutputFile::create(folder / "psth.csv")), 10e-3);
-    run_sinks(skin, {&s, &spikes, &afferents_file, &bins}, 7);
-    for (SkinFileSink* file :
-         {static_cast<SkinFileSink*>(&spikes), static_cast<SkinFileSink*>(&afferents_file), static_cast<SkinFileSink*>(&bins)})
-        ASSERT_TRUE(file->commit());
+    const auto spikes = test::make_sink(spikes_format, folder.path()),
+               afferents = test::make_sink(afferents_format, folder.path(), {.skin = &s}),
+               bins = test::make_sink(psth_format, folder.path(), {.options = {{"--bin", "10ms"}}});
+    run_sinks(skin, {&s, spikes.get(), afferents.get(), bins.get()}, 7);
+    for (auto* file : {spikes.get(), afferents.get(), bins.get()}) ASSERT_TRUE(file->commit());
     EXPECT_EQ(test::read_file(folder / "spikes.csv"),
               "afferent,channel,time_s\nsa1#1,tip,0.002500000\nsa1#2,tip,0.006000000\nfa1#1,tip,0.006000000\nsa1#1,tip,0.010250000\n"
               "sa1#2,tip,0.015000000\nfa1#1,tip,0.015000000\nfa1#1,tip,0.020500000\n");
@@ -206,7 +204,7 @@ TEST(SkinPage, ContainsForceMapsAndEverySpike) {
     SkinSummary s;
     SkinReport report;
     run_sinks(skin, {&s, &report});
-    const auto data = page_data(skin_page(s, report, {.notes = {"</script> left out"}}, "corpuscle respond poke"));
+    const auto data = page_data(skin_page(s, report, {}, {.notes = {"</script> left out"}}, "corpuscle respond poke"));
     EXPECT_EQ(data["notes"], (SkinJson{"</script> left out"}));
     const auto& over = data["over"];
     EXPECT_EQ(over["samples"], 20);
@@ -240,7 +238,7 @@ TEST(SkinPage, DoesNotDependOnTheBlock) {
         SkinSummary s;
         SkinReport report({.frames = 4, .bins = 4});
         run_sinks(skin, {&s, &report}, block, listed);
-        return skin_page(s, report, {}, "") + s.document({}).dump();
+        return skin_page(s, report, {}, {}, "") + s.document({}, {}).dump();
     };
     const auto in_one_block = page_for(samples, false);
     for (const std::int64_t block : {1, 3, 16}) EXPECT_EQ(page_for(block, block == 3), in_one_block) << block;

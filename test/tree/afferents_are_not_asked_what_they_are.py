@@ -1,6 +1,6 @@
 """afferents_are_not_asked_what_they_are.py ROOT: outside src/circuit no code asks whether an afferent is a netlist.
 
-It asks the interface (AfferentTraits and AfferentFactory in src/core/afferent_plan.hpp) what it needs to know. If the interface lacks the
+It asks the interface (AfferentTraits and AfferentFactory in src/core/afferent_factory.hpp) what it needs to know. If the interface lacks the
 answer, add it there."""
 import pathlib
 import re

@@ -3,22 +3,20 @@
 #include <fmt/format.h>
 
 #include "circuit/output/resolve_probe.hpp"
-#include "cli/arguments/option_rows.hpp"
 
 namespace corpuscle {
 
-void add_netlist_options(CLI::App& part, NetlistArguments& args) {
-    add_options(
-        part, "Netlists",
-        {{"--supply", &args.supply, "VOLTAGE", "supply voltage of the circuit (its .param supply), such as 0.65V"},
-         {"--temp", &args.temp, "DEGREES", "temperature in degrees Celsius"},
-         {"--corner", &args.corner, "CORNER",
-          "process corner (library section): tt ss ff sf fs, or mc (--mismatch then also samples the process)"},
-         {"--mismatch", &args.mismatch, "SEED[/CHIP]",
-          "simulate one mismatched chip: random threshold and current of each transistor (replaces .mc)"},
-         {"--probe", &args.probes, "WHAT,WHAT",
-          "record these instead of the .save list (run: in addition to it): vf, v(a,b), i(vdd), i(N3B). A device current flows into "
-          "the drain or the first terminal; displacement current is not included. The last part of a path is enough: rectb.o"}});
+OptionGroup netlist_options(NetlistArguments& args) {
+    return {"Netlists",
+            {{"--supply", &args.supply, "VOLTAGE", "supply voltage of the circuit (its .param supply), such as 0.65V"},
+             {"--temp", &args.temp, "DEGREES", "temperature in degrees Celsius"},
+             {"--corner", &args.corner, "CORNER",
+              "process corner (library section): tt ss ff sf fs, or mc (--mismatch then also samples the process)"},
+             {"--mismatch", &args.mismatch, "SEED[/CHIP]",
+              "simulate one mismatched chip: random threshold and current of each transistor (replaces .mc)"},
+             {"--probe", &args.probes, "WHAT,WHAT",
+              "record these instead of the .save list (run: in addition to it): vf, v(a,b), i(vdd), i(N3B). A device current flows into "
+              "the drain or the first terminal; displacement current is not included. The last part of a path is enough: rectb.o"}}};
 }
 
 std::vector<ParameterOverride> netlist_overrides(const NetlistArguments& args) {

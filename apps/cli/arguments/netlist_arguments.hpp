@@ -5,11 +5,8 @@
 #include <string>
 #include <vector>
 
+#include "cli/arguments/option_rows.hpp"
 #include "core/parameter_override.hpp"
-
-namespace CLI {
-class App;
-}
 
 namespace corpuscle {
 
@@ -19,7 +16,7 @@ struct NetlistArguments {
     std::vector<std::string> probes;
 };
 
-void add_netlist_options(CLI::App& part, NetlistArguments&);
+OptionGroup netlist_options(NetlistArguments&);
 
 /// The overrides from --supply, --temp, --corner and --mismatch, which are for every netlist.
 std::vector<ParameterOverride> netlist_overrides(const NetlistArguments&);

@@ -56,11 +56,11 @@ CLI::Validator validator_of(const OptionCheck& check) {
 
 }  // namespace
 
-void add_options(CLI::App& part, const std::string& group, std::span<const OptionRow> rows) {
-    for (const auto& row : rows) {
+void add_options(CLI::App& part, const OptionGroup& group) {
+    for (const auto& row : group.rows) {
         auto& option = *add_option(part, row);
         if (!row.value.empty()) option.type_name(std::string(row.value));
-        if (!group.empty()) option.group(group);
+        if (!group.title.empty()) option.group(group.title);
         if (row.check.index() != 0) option.check(validator_of(row.check));
         if (row.count) option.expected(row.count->first, row.count->second);
         option.required(row.is_required);

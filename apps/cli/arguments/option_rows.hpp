@@ -2,10 +2,8 @@
 // Options of verbs as rows of a table. The table has the order of --help.
 
 #include <cstdint>
-#include <initializer_list>
 #include <map>
 #include <optional>
-#include <span>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -55,10 +53,20 @@ struct OptionRow {
     const char* excludes = nullptr;  ///< an option that must not be given, too
 };
 
-/// Adds a group of options to the part of the command line that belongs to a verb. The group "" is that of the options without a title.
-void add_options(CLI::App& part, const std::string& group, std::span<const OptionRow> rows);
-inline void add_options(CLI::App& part, const std::string& group, std::initializer_list<OptionRow> rows) {
-    add_options(part, group, std::span(rows.begin(), rows.size()));
-}
+/// A row with a further property; the properties are those of the members.
+inline OptionRow required(OptionRow row) { return row.is_required = true, row; }
+inline OptionRow counted(int lowest, int highest, OptionRow row) { return row.count = {lowest, highest}, row; }
+inline OptionRow needing(const char* option, OptionRow row) { return row.needs = option, row; }
+inline OptionRow excluding(const char* option, OptionRow row) { return row.excludes = option, row; }
+inline OptionRow split_at_commas(OptionRow row) { return row.splits_at_commas = true, row; }
+
+/// A group of options. The title "" is that of the options without a title.
+struct OptionGroup {
+    std::string title;
+    std::vector<OptionRow> rows;
+};
+
+/// Adds a group to the part of the command line that belongs to a verb.
+void add_options(CLI::App& part, const OptionGroup&);
 
 }  // namespace corpuscle

@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 #include <algorithm>
 
-#include "cli/arguments/option_rows.hpp"
 #include "core/stimulus/stimuli.hpp"
 #include "core/text/quantity.hpp"
 
@@ -56,35 +55,32 @@ Result<std::optional<double>> scale_of(const std::optional<std::string>& text) {
 
 }  // namespace
 
-void add_recording_options(CLI::App& part, RecordingArguments& args) {
-    add_options(part, "Recordings",
-                {{"--channel,-c", &args.channels, "CHANNEL",
-                  "channels of a recording: names, or numbers and ranges (2-5) that count all columns except time"},
-                 {"--dataset", &args.dataset, "NAME", "array to read from a file with several (HDF5, NPZ), by path or name"},
-                 {"--transpose", &args.transpose, "", "rows of a recording are channels"},
-                 {.names = "--no-transpose",
-                  .target = &args.transpose,
-                  .value = "",
-                  .description = "rows of a recording are samples, even if there are fewer rows than channels",
-                  .excludes = "--transpose"},
-                 {"--skip", &args.skip, "LINES", "number of lines to skip at the beginning of a text file", std::pair(0U, 1'000'000U)},
-                 {"--time", &args.time, "COLUMN", "time column of a recording by name or number, or 'none'"},
-                 {"--time-unit", &args.time_unit, "UNIT", "unit of the time column, if the header has none: s, ms, us, ns"},
-                 {"--unit", &args.unit, "UNIT", "unit of the recording: N, mN, gf, kgf, or raw (with --scale)"},
-                 {"--scale", &args.scale, "S", "newtons per unit of the recording: 0.002, 2mN"},
-                 {"--abs", &args.absolute, "", "use the absolute value of each reading"},
-                 {"--offset", &args.offset, "X", "reading at zero force, subtracted before --scale"},
-                 {"--range", &args.range, "LO..HI", "valid range of readings; --bad-fields says what happens to others"},
-                 {"--bad-fields", &args.bad_fields, "WHAT",
-                  "what to do with fields that are not numbers and readings out of --range: error (default for fields), drop the row, "
-                  "interpolate (default for readings)",
-                  one_of("error", "drop", "interpolate")},
-                 {"--despike", &args.despike, "LIMIT",
-                  "outlier limit: readings further than this from the median of 25 neighbours are bad (auto is 6 standard deviations)"},
-                 {"--notch", &args.notch, "FREQUENCY", "remove mains hum: 50Hz, with a bandwidth of 4 Hz (repeatable)"},
-                 {"--lowpass", &args.lowpass, "FREQUENCY", "low-pass filter at this frequency (Butterworth, second order)"},
-                 {"--layout", &args.layout, "FILE", "CSV table of sensor names and positions: channel,name,x_mm,y_mm"},
-                 {"--resample", &args.resample, "FREQUENCY", "resample a recording to this rate by interpolation"}});
+OptionGroup recording_option_group(RecordingArguments& args) {
+    return {"Recordings",
+            {{"--channel,-c", &args.channels, "CHANNEL",
+              "channels of a recording: names, or numbers and ranges (2-5) that count all columns except time"},
+             {"--dataset", &args.dataset, "NAME", "array to read from a file with several (HDF5, NPZ), by path or name"},
+             {"--transpose", &args.transpose, "", "rows of a recording are channels"},
+             excluding("--transpose", {"--no-transpose", &args.transpose, "",
+                                       "rows of a recording are samples, even if there are fewer rows than channels"}),
+             {"--skip", &args.skip, "LINES", "number of lines to skip at the beginning of a text file", std::pair(0U, 1'000'000U)},
+             {"--time", &args.time, "COLUMN", "time column of a recording by name or number, or 'none'"},
+             {"--time-unit", &args.time_unit, "UNIT", "unit of the time column, if the header has none: s, ms, us, ns"},
+             {"--unit", &args.unit, "UNIT", "unit of the recording: N, mN, gf, kgf, or raw (with --scale)"},
+             {"--scale", &args.scale, "S", "newtons per unit of the recording: 0.002, 2mN"},
+             {"--abs", &args.absolute, "", "use the absolute value of each reading"},
+             {"--offset", &args.offset, "X", "reading at zero force, subtracted before --scale"},
+             {"--range", &args.range, "LO..HI", "valid range of readings; --bad-fields says what happens to others"},
+             {"--bad-fields", &args.bad_fields, "WHAT",
+              "what to do with fields that are not numbers and readings out of --range: error (default for fields), drop the row, "
+              "interpolate (default for readings)",
+              one_of("error", "drop", "interpolate")},
+             {"--despike", &args.despike, "LIMIT",
+              "outlier limit: readings further than this from the median of 25 neighbours are bad (auto is 6 standard deviations)"},
+             {"--notch", &args.notch, "FREQUENCY", "remove mains hum: 50Hz, with a bandwidth of 4 Hz (repeatable)"},
+             {"--lowpass", &args.lowpass, "FREQUENCY", "low-pass filter at this frequency (Butterworth, second order)"},
+             {"--layout", &args.layout, "FILE", "CSV table of sensor names and positions: channel,name,x_mm,y_mm"},
+             {"--resample", &args.resample, "FREQUENCY", "resample a recording to this rate by interpolation"}}};
 }
 
 Result<std::optional<double>> optional_quantity(const std::optional<std::string>& text, std::string_view unit, std::string_view option) {
@@ -119,35 +115,29 @@ Result<RecordingOptions> recording_options(const RecordingArguments& args) {
     return options;
 }
 
-std::string_view first_recording_option(const RecordingArguments& args) {
-    const std::pair<std::string_view, bool> options[] = {{"--channel", !args.channels.empty()},
-                                                         {"--dataset", args.dataset.has_value()},
-                                                         {"--skip", args.skip.has_value()},
-                                                         {"--transpose", args.transpose.has_value()},
-                                                         {"--time", args.time.has_value()},
-                                                         {"--time-unit", args.time_unit.has_value()},
-                                                         {"--unit", args.unit.has_value()},
-                                                         {"--scale", args.scale.has_value()},
-                                                         {"--abs", args.absolute},
-                                                         {"--resample", args.resample.has_value()},
-                                                         {"--offset", args.offset.has_value()},
-                                                         {"--range", args.range.has_value()},
-                                                         {"--bad-fields", args.bad_fields.has_value()},
-                                                         {"--despike", args.despike.has_value()},
-                                                         {"--notch", !args.notch.empty()},
-                                                         {"--lowpass", args.lowpass.has_value()},
-                                                         {"--layout", !args.layout.empty()}};
-    for (const auto& [option, given] : options)
-        if (given) return option;
-    return "";
+std::vector<std::string_view> given_recording_options(const RecordingArguments& args) {
+    const std::pair<std::string_view, bool> options[] = {
+        {"--channel", !args.channels.empty()},       {"--dataset", args.dataset.has_value()},
+        {"--skip", args.skip.has_value()},           {"--transpose", args.transpose == true},
+        {"--no-transpose", args.transpose == false}, {"--time", args.time.has_value()},
+        {"--time-unit", args.time_unit.has_value()}, {"--unit", args.unit.has_value()},
+        {"--scale", args.scale.has_value()},         {"--abs", args.absolute},
+        {"--resample", args.resample.has_value()},   {"--offset", args.offset.has_value()},
+        {"--range", args.range.has_value()},         {"--bad-fields", args.bad_fields.has_value()},
+        {"--despike", args.despike.has_value()},     {"--notch", !args.notch.empty()},
+        {"--lowpass", args.lowpass.has_value()},     {"--layout", !args.layout.empty()}};
+    std::vector<std::string_view> given;
+    for (const auto& [option, is_given] : options)
+        if (is_given) given.push_back(option);
+    return given;
 }
 
 Result<void> check_recording_arguments(const RecordingArguments& args, std::span<const std::string> forces) {
     if (!std::all_of(forces.begin(), forces.end(), [](const auto& f) { return is_stimulus(f); })) return {};
-    const auto option = first_recording_option(args);
-    if (option.empty()) return {};
+    const auto options = given_recording_options(args);
+    if (options.empty()) return {};
     return bad_usage(
-        fmt::format("{} is for recordings, but {} is a stimulus; change it by --set {}.PARAMETER=VALUE", option, forces[0], forces[0]));
+        fmt::format("{} is for recordings, but {} is a stimulus; change it by --set {}.PARAMETER=VALUE", options[0], forces[0], forces[0]));
 }
 
 }  // namespace corpuscle

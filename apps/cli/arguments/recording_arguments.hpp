@@ -8,11 +8,8 @@
 #include <string_view>
 #include <vector>
 
+#include "cli/arguments/option_rows.hpp"
 #include "io/recording/recording.hpp"
-
-namespace CLI {
-class App;
-}
 
 namespace corpuscle {
 
@@ -26,8 +23,8 @@ struct RecordingArguments {
     bool absolute = false;              ///< --abs
 };
 
-/// Adds all of these options except --rate, which means something different in each verb.
-void add_recording_options(CLI::App& part, RecordingArguments&);
+/// All of these options except --rate, which means something different in each verb.
+OptionGroup recording_option_group(RecordingArguments&);
 
 /// The value of an option in SI; no value if the option was not given. Errors name the option.
 Result<std::optional<double>> optional_quantity(const std::optional<std::string>& text, std::string_view unit, std::string_view option);
@@ -35,8 +32,8 @@ Result<std::optional<double>> optional_quantity(const std::optional<std::string>
 /// Converts the options to those of the reader.
 Result<RecordingOptions> recording_options(const RecordingArguments&);
 
-/// The first recording option that was given, such as "--channel"; "" if none was. --rate is not considered.
-std::string_view first_recording_option(const RecordingArguments&);
+/// The options that were given, such as "--channel", without --rate.
+std::vector<std::string_view> given_recording_options(const RecordingArguments&);
 
 /// Returns an error if a recording option was given although all `forces` are stimuli.
 Result<void> check_recording_arguments(const RecordingArguments&, std::span<const std::string> forces);

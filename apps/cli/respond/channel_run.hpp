@@ -8,7 +8,7 @@
 
 namespace corpuscle {
 
-/// What the arguments ask for.
+/// The run that the arguments request.
 struct ChannelJob {
     std::vector<ParameterOverride> overrides, unused;  // unused: those that no afferent and no source so far has used
     std::vector<AfferentPlan> afferents;               // the afferents of --afferent

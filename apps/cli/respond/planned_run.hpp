@@ -5,7 +5,7 @@
 
 #include "cli/respond/respond_arguments.hpp"
 #include "core/parameter_override.hpp"
-#include "run/run.hpp"
+#include "run/run_inputs.hpp"
 #include "run/sinks.hpp"
 
 namespace corpuscle {
@@ -13,7 +13,7 @@ namespace corpuscle {
 class PlannedRun {
 public:
     virtual ~PlannedRun() = default;
-    /// What the output formats need to know of the run. `directory` and `options` are set by the caller.
+    /// The properties of the run for the output formats. `directory` and `options` are set by the caller.
     virtual OutputRequest output_request() const = 0;
     /// The sink of the report page. From then on, the page is part of the run.
     virtual Sink& start_report() = 0;

@@ -62,7 +62,6 @@ void print_result(const PlannedRun& run, const RunOutputs& outputs, nlohmann::or
 }
 
 Result<void> respond_with(const RespondArguments& args, const CommonArguments& common, Ranks* ranks) {
-    if (auto ok = check_population_options(args, common); !ok) return ok;
     const auto planned = plan_run(args, common, ranks);
     if (!planned) return planned.error();
     PlannedRun& run = **planned;
@@ -97,6 +96,7 @@ Result<void> request_probes(RespondArguments& args) {
 int respond(const RespondArguments& given, const CommonArguments& common) {
     catch_interrupt();
     auto args = given;
+    if (auto ok = check_population_options(args, common); !ok) return report_error(ok.error());
     if (auto ok = request_probes(args); !ok) return report_error(ok.error());
     const bool has_ranks = !args.population.empty() && Ranks::are_started();
     auto ranks = has_ranks ? Ranks::join() : Result<std::unique_ptr<Ranks>>(nullptr);

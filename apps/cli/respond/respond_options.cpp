@@ -5,7 +5,6 @@
 #include <utility>
 
 #include "cli/arguments/force_argument.hpp"
-#include "cli/arguments/option_rows.hpp"
 #include "cli/arguments/report_page.hpp"
 #include "cli/respond/respond_arguments.hpp"
 #include "cli/verbs.hpp"
@@ -49,40 +48,31 @@ The unit of a recording is read from its header (fz_N, "fz [mN]"). If the header
 --unit, or --scale S (newtons per unit of the recording). Sampling times come from the time column
 (--time names it) or from --rate.)";
 
-void add_afferent_options(CLI::App& part, RespondArguments& args) {
-    add_options(
-        part, "",
+OptionGroup afferent_options(RespondArguments& args) {
+    return {
+        "",
         {{"FORCE", &args.forces, "", "recordings and stimuli"},
-         {.names = "--afferent,-a",
-          .target = &args.afferents,
-          .value = "NAME",
-          .description = "the afferents to simulate (repeat the option, or separate by commas)",
-          .splits_at_commas = true},
+         split_at_commas(
+             {"--afferent,-a", &args.afferents, "NAME", "the afferents to simulate (repeat the option, or separate by commas)"}),
          {"--set,-s", &args.settings, "NAME.PARAMETER=VALUE", "set a parameter of an afferent or a stimulus, such as sa1.f_B=25Hz"},
          {"--copies", &args.copies, "N", "simulate N copies of each afferent on every channel: sa1#1 ... sa1#N", std::pair(1U, max_copies)},
          {"--spread", &args.spreads, "NAME.PARAMETER=10%",
-          "vary a parameter between copies: its standard deviation, relative (10%) or with its unit"}});
+          "vary a parameter between copies: its standard deviation, relative (10%) or with its unit"}}};
 }
 
-void add_skin_options(CLI::App& part, RespondArguments& args) {
-    add_options(
-        part, "Skins",
-        {{"--population,-p", &args.population, "NAME|FILE",
-          "simulate a skin (instead of --afferent): hand, fingertip, 'grid 8x8', or a population file (doc/skin.md)"},
-         {.names = "--contact",
-          .target = &args.contact,
-          .value = "INDENTER",
-          .description = "indenter that applies the force of a single channel to the skin: flat (default), sphere, edge, grating; for its "
-                         "parameters see 'corpuscle list contact', and set them by --set contact.radius=5mm"},
-         {.names = "--checkpoint",
-          .target = &args.checkpoint,
-          .value = "FILE",
-          .description = "save progress in this file; after an interruption the same command continues"}});
+OptionGroup skin_options(RespondArguments& args) {
+    return {"Skins",
+            {{"--population,-p", &args.population, "NAME|FILE",
+              "simulate a skin (instead of --afferent): hand, fingertip, 'grid 8x8', or a population file (doc/skin.md)"},
+             {"--contact", &args.contact, "INDENTER",
+              "indenter that applies the force of a single channel to the skin: flat (default), sphere, edge, grating; for its "
+              "parameters see 'corpuscle list contact', and set them by --set contact.radius=5mm"},
+             {"--checkpoint", &args.checkpoint, "FILE", "save progress in this file; after an interruption the same command continues"}}};
 }
 
-void add_simulation_options(CLI::App& part, RespondArguments& args) {
-    add_options(
-        part, "",
+OptionGroup simulation_options(RespondArguments& args) {
+    return {
+        "",
         {{"--method", &args.method, "METHOD", "time stepping: exact, or backward-euler as in the thesis",
           one_of("exact", "backward-euler")},
          {"--sampled", &args.sampled, "", "put spikes on the sampling times, as in the thesis (default: interpolate within the step)"},
@@ -93,63 +83,48 @@ void add_simulation_options(CLI::App& part, RespondArguments& args) {
          {"--float", &args.use_float, "",
           "single precision: up to twice as fast, but spike times change (see doc/lanes.md); currents and membranes are not recorded"},
          {"--rate", &args.rate, "FREQUENCY",
-          "sampling rate of a stimulus (default 10 kHz; with --population 1 kHz). For a recording: assume even sampling at this rate"}});
+          "sampling rate of a stimulus (default 10 kHz; with --population 1 kHz). For a recording: assume even sampling at this rate"}}};
 }
 
-void add_output_options(CLI::App& part, RespondArguments& args) {
-    std::vector<OptionRow> rows = {
-        {"--out,-o", &args.out, "DIR", "write spikes.csv, summary.json and, with --copies, copies.csv into this directory"}};
+OptionGroup output_options(RespondArguments& args) {
+    OptionGroup group{
+        "Output", {{"--out,-o", &args.out, "DIR", "write spikes.csv, summary.json and, with --copies, copies.csv into this directory"}}};
     for (const auto* format : output_formats)
-        if (!format->option.empty()) rows.push_back({format->option, &args.outputs, format->value_name, format->help});
-    rows.push_back({.names = "--report",
-                    .target = &args.report_file,
-                    .value = "[FILE.html]",
-                    .description = "write a report page (default: report.html, in the directory of --out)",
-                    .count = std::pair(0, 1)});
-    add_options(part, "Output", rows);
+        if (!format->option.empty()) group.rows.push_back({format->option, &args.outputs, format->value_name, format->help});
+    group.rows.push_back(counted(
+        0, 1, {"--report", &args.report_file, "[FILE.html]", "write a report page (default: report.html, in the directory of --out)"}));
+    return group;
 }
 
-class RespondVerb final : public Verb {
-    RespondArguments args_;
-
-public:
-    RespondVerb()
-        : Verb({"respond",
-                "simulate afferents: force recordings or stimuli -> spikes, rates, report",
-                respond_examples,
-                {"--afferent", "--set", "--population", "--copies", "--spread", "--rate", "--channel", "--unit", "--scale", "--out",
-                 "--report", "--json"}}) {}
-
-    void add_options_to(CLI::App& part, CommonArguments& common) override {
-        add_afferent_options(part, args_);
-        add_skin_options(part, args_);
-        add_simulation_options(part, args_);
-        add_recording_options(part, args_);
-        add_output_options(part, args_);
-        add_netlist_options(part, args_.netlists);
-        add_common_options(part, common);
-        add_overwrite_option(part, common);
-    }
-
-    /// "respond --report press": the argument is not a page, so it is the force. If a force was already given, it may be a misspelt page.
-    Result<void> check_arguments(const CommonArguments& common) override {
-        args_.has_report =
-            std::any_of(common.typed.begin(), common.typed.end(), [](const TypedOption& option) { return option.name == "--report"; });
-        auto ok = check_page_name(args_.report_file);
-        if (ok || !is_force(args_.report_file)) return ok;
-        if (args_.forces.empty()) return args_.forces.push_back(std::exchange(args_.report_file, "")), Result<void>();
-        std::string forces;
-        for (const auto& force : args_.forces) forces += quote_shell_word(force) + " ";
-        if (std::find(args_.forces.begin(), args_.forces.end(), args_.report_file) == args_.forces.end())
-            forces += quote_shell_word(args_.report_file) + " ";
-        return bad_usage(fmt::format("{}; for a report of these forces type: corpuscle respond {}--report", ok.error().message, forces));
-    }
-
-    int run(const CommonArguments& common) override { return respond(args_, common); }
-};
+/// "respond --report press": the argument is not a page, so it is the force. If a force was already given, it may be a misspelt page.
+Result<void> complete_arguments(RespondArguments& args, const CommonArguments& common) {
+    args.has_report =
+        std::any_of(common.typed.begin(), common.typed.end(), [](const TypedOption& option) { return option.name == "--report"; });
+    auto ok = check_page_name(args.report_file);
+    if (ok || !is_force(args.report_file)) return ok;
+    if (args.forces.empty()) return args.forces.push_back(std::exchange(args.report_file, "")), Result<void>();
+    std::string forces;
+    for (const auto& force : args.forces) forces += quote_shell_word(force) + " ";
+    if (std::find(args.forces.begin(), args.forces.end(), args.report_file) == args.forces.end())
+        forces += quote_shell_word(args.report_file) + " ";
+    return bad_usage(fmt::format("{}; for a report of these forces type: corpuscle respond {}--report", ok.error().message, forces));
+}
 
 }  // namespace
 
-std::unique_ptr<Verb> make_respond_verb() { return std::make_unique<RespondVerb>(); }
+Verb make_respond_verb() {
+    const auto args = std::make_shared<RespondArguments>();
+    return {.name = "respond",
+            .description = "simulate afferents: force recordings or stimuli -> spikes, rates, report",
+            .examples = respond_examples,
+            .common_options = {"--afferent", "--set", "--population", "--copies", "--spread", "--rate", "--channel", "--unit", "--scale",
+                               "--out", "--report", "--json"},
+            .options = {afferent_options(*args), skin_options(*args), simulation_options(*args), recording_option_group(*args),
+                        output_options(*args), netlist_options(args->netlists)},
+            .reports = true,
+            .writes_files = true,
+            .check = [args](const CommonArguments& common) { return complete_arguments(*args, common); },
+            .run = [args](const CommonArguments& common) { return respond(*args, common); }};
+}
 
 }  // namespace corpuscle

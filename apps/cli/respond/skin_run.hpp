@@ -9,7 +9,7 @@
 
 namespace corpuscle {
 
-/// What the arguments ask for.
+/// The run that the arguments request.
 struct SkinJob {
     std::vector<ParameterOverride> overrides, unused;  ///< unused: those of the user that no part of the run so far has used
     std::unique_ptr<ForceSource> source;

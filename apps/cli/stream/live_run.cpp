@@ -7,6 +7,7 @@
 #include <nlohmann/json.hpp>
 #include <utility>
 
+#include "circuit/variant/embedded_netlists.hpp"
 #include "cli/arguments/own_files.hpp"
 #include "cli/output/printable.hpp"
 #include "cli/output/stream_report.hpp"
@@ -32,6 +33,23 @@ Result<Applied<SkinPlan>> plan_of(const StreamArguments& args, std::span<const C
     auto plan = load_skin_plan(args.population, channels);
     if (!plan) return plan.error();
     return apply_overrides(std::move(*plan), overrides);
+}
+
+/// Returns an error if --population or --set names a netlist.
+Result<void> check_no_netlist(const StreamArguments& args, std::span<const ParameterOverride> overrides) {
+    const auto check = [&](std::string_view name, const std::string& option) -> Result<void> {
+        if (!circuit::find_embedded_netlist(name) && !name.ends_with(".cir")) return {};
+        return bad_usage(fmt::format("{}: a stream simulates models, not netlists; for a netlist type: corpuscle respond {} --afferent {}",
+                                     option, is_live_input(args.in) ? "FORCE" : args.in, name));
+    };
+    for (std::string_view rest = args.population; !rest.empty();) {
+        const auto comma = std::min(rest.find(','), rest.size());
+        if (auto ok = check(rest.substr(0, comma), "--population " + args.population); !ok) return ok;
+        rest.remove_prefix(std::min(comma + 1, rest.size()));
+    }
+    for (const auto& o : overrides)
+        if (auto ok = check(o.target, "--set " + o.text()); !ok) return ok;
+    return {};
 }
 
 /// One stream: its input, skin and output.
@@ -92,6 +110,7 @@ class LiveRun {
 
     /// Opens a live input, and the skin that it drives.
     Result<void> open_live(const StreamQuantities& quantities, std::span<const ParameterOverride> overrides) {
+        if (auto ok = check_live_options(args_); !ok) return ok;
         const auto clock = live_clock(args_, quantities);
         if (!clock) return clock.error();
         const auto plan = plan_of(args_, {}, overrides);
@@ -112,6 +131,9 @@ class LiveRun {
         layout_ = *layout;
         frames_ = make_frame_source(std::move(*bytes), *layout, in_frames(quantities.hold), in_frames(quantities.max_gap),
                                     args_.batch_frames, header_reader(sites));
+        auto filtered = filter_live_frames(std::move(frames_), quantities, layout->sites, *clock);
+        if (!filtered) return filtered.error();
+        frames_ = std::move(*filtered);
         if (!sites.empty()) frames_ = assign_sites(std::move(frames_), std::move(sites), skin_->sites());
         return {};
     }
@@ -267,6 +289,7 @@ public:
     Result<void> run() {
         const auto overrides = parse_overrides(args_.settings, "--set");
         if (!overrides) return overrides.error();
+        if (auto ok = check_no_netlist(args_, *overrides); !ok) return ok;
         const auto quantities = stream_quantities(args_);
         if (!quantities) return quantities.error();
         if (auto ok = open(*quantities, *overrides); !ok) return interrupted() ? stopped : ok;

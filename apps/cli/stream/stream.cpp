@@ -1,6 +1,5 @@
 // corpuscle stream: its options and the examples of its help.
 
-#include "cli/arguments/option_rows.hpp"
 #include "cli/output/terminal.hpp"
 #include "cli/stream/live_run.hpp"
 #include "cli/verbs.hpp"
@@ -36,94 +35,85 @@ Examples:
 Ctrl-C ends the stream: received frames are processed, files and the state are saved, and a summary
 is printed on standard error.)";
 
-void add_population_options(CLI::App& part, StreamArguments& args) {
-    add_options(
-        part, "",
-        {{"--population,-p", &args.population, "POPULATION", "the afferents to simulate"},
-         {"--channels,-n", &args.channel_count, "N", "forces per frame, if the population is given by names of afferents",
-          std::pair(1, 1 << 22)},
-         {"--set,-s", &args.settings, "NAME.PARAMETER=VALUE",
-          "set a parameter of an afferent, a class of the population or a stimulus, such as sa1.f_B=25Hz"},
-         {"--sampled", &args.sampled, "", "put spikes on the sampling times, as in the thesis (default: interpolate within the step)"},
-         {"--batch-frames", &args.batch_frames, "N",
-          "process N frames at once: less CPU time, but up to N frames more latency; the spikes are the same", std::pair(1, 1024)},
-         {"--busy-poll", &args.busy_poll, "", "poll for frames without sleeping: lower latency, but occupies one core"}});
+OptionGroup population_options(StreamArguments& args) {
+    return {"",
+            {{"--population,-p", &args.population, "POPULATION", "the afferents to simulate"},
+             {"--channels,-n", &args.channel_count, "N", "forces per frame, if the population is given by names of afferents",
+              std::pair(1, 1 << 22)},
+             {"--set,-s", &args.settings, "NAME.PARAMETER=VALUE",
+              "set a parameter of an afferent, a class of the population or a stimulus, such as sa1.f_B=25Hz"},
+             {"--sampled", &args.sampled, "", "put spikes on the sampling times, as in the thesis (default: interpolate within the step)"},
+             {"--batch-frames", &args.batch_frames, "N",
+              "process N frames at once: less CPU time, but up to N frames more latency; the spikes are the same", std::pair(1, 1024)},
+             {"--busy-poll", &args.busy_poll, "", "poll for frames without sleeping: lower latency, but occupies one core"}}};
 }
 
-void add_frame_options(CLI::App& part, StreamArguments& args) {
-    add_options(part, "",
-                {{"--in,-i", &args.in, "WHERE",
-                  "source of the frames: - (standard input), tcp:PORT or udp:PORT to listen on (0: any free port), serial:DEVICE, a "
-                  "recording, or a stimulus"},
-                 {"--rate,-r", &args.rate, "FREQUENCY", "frame rate (default for a recording: its sampling rate)"}});
-    add_options(
-        part, "Frames",
-        {{"--frames", &args.frames, "KIND", "frame format: csv, or little-endian f32, f64, i16", one_of("csv", "f32", "f64", "i16")},
-         {"--stamp", &args.stamp, "WHAT", "first field of a frame: none, sequence (its number), or time (in seconds)",
-          one_of("none", "sequence", "time")},
-         {"--max-force", &args.max_force, "FORCE", "maximum valid force; beyond it the last force of the site is used"},
-         {"--hold", &args.hold, "TIME", "hold the last force for TIME in a gap, then use 0 N"},
-         {"--max-gap", &args.max_gap, "TIME", "treat a larger jump of the stamp as a restart of the sender"},
-         {"--listen", &args.listen, "ADDRESS", "local address for tcp:PORT and udp:PORT; 0.0.0.0: all addresses"},
-         {"--clients", &args.clients, "N", "end after N senders to tcp:PORT or udp:PORT, one after another (0: no limit)",
-          OptionSign::not_negative},
-         {"--idle-timeout", &args.idle_timeout, "TIME", "disconnect a sender that is silent for TIME if another is waiting (0: never)"},
-         {"--baud", &args.baud, "N", "baud rate of a serial device"},
-         {"--pace", &args.pace, "PACE", "pace of a recording or stimulus: real (real time), or fast (no waiting)",
-          one_of("real", "fast")}});
+OptionGroup input_options(StreamArguments& args) {
+    return {"",
+            {{"--in,-i", &args.in, "WHERE",
+              "source of the frames: - (standard input), tcp:PORT or udp:PORT to listen on (0: any free port), serial:DEVICE, a "
+              "recording, or a stimulus"},
+             {"--rate,-r", &args.rate, "FREQUENCY", "frame rate (default for a recording: its sampling rate)"}}};
 }
 
-void add_spike_options(CLI::App& part, StreamArguments& args) {
-    add_options(
-        part, "Spikes",
-        {{"--out,-o", &args.out, "FILE", "write the spikes to - (standard output) or to a file, named FILE.part until the end"},
-         {"--to", &args.to, "[HOST:]PORT", "send the spikes to a TCP server (default host: this machine)"},
-         {"--format,-f", &args.format, "FORMAT",
-          "spike format: lines (afferent,channel,time_s), jsonl, aer (binary, exact times), aedat2; binary headers map addresses to "
-          "afferents and channels (doc/events.md)"},
-         {"--buffer", &args.buffer, "BYTES", "buffer for a slow receiver, in bytes; spikes beyond it are dropped and counted"},
-         {"--allow-drops", &args.allow_drops, "", "exit with status 0 even if spikes were dropped or datagrams lost"},
-         {"--save-state", &args.save_state, "FILE", "save the state at the end, including spikes that are not yet due"},
-         {"--resume", &args.resume, "FILE", "continue from a saved state, with the same population and rate"}});
+OptionGroup frame_options(StreamArguments& args) {
+    return {"Frames",
+            {{"--frames", &args.frames, "KIND", "frame format: csv, or little-endian f32, f64, i16", one_of("csv", "f32", "f64", "i16")},
+             {"--stamp", &args.stamp, "WHAT", "first field of a frame: none, sequence (its number), or time (in seconds)",
+              one_of("none", "sequence", "time")},
+             {"--max-force", &args.max_force, "FORCE", "maximum valid force; beyond it the last force of the site is used"},
+             {"--hold", &args.hold, "TIME", "hold the last force for TIME in a gap, then use 0 N"},
+             {"--max-gap", &args.max_gap, "TIME", "treat a larger jump of the stamp as a restart of the sender"},
+             {"--listen", &args.listen, "ADDRESS", "local address for tcp:PORT and udp:PORT; 0.0.0.0: all addresses"},
+             {"--clients", &args.clients, "N", "end after N senders to tcp:PORT or udp:PORT, one after another (0: no limit)",
+              OptionSign::not_negative},
+             {"--idle-timeout", &args.idle_timeout, "TIME", "disconnect a sender that is silent for TIME if another is waiting (0: never)"},
+             {"--baud", &args.baud, "N", "baud rate of a serial device"},
+             {"--pace", &args.pace, "PACE", "pace of a recording or stimulus: real (real time), or fast (no waiting)",
+              one_of("real", "fast")}}};
 }
 
-class StreamVerb final : public Verb {
-    StreamArguments args_;
+OptionGroup spike_options(StreamArguments& args) {
+    return {"Spikes",
+            {{"--out,-o", &args.out, "FILE", "write the spikes to - (standard output) or to a file, named FILE.part until the end"},
+             {"--to", &args.to, "[HOST:]PORT", "send the spikes to a TCP server (default host: this machine)"},
+             {"--format,-f", &args.format, "FORMAT",
+              "spike format: lines (afferent,channel,time_s), jsonl, aer (binary, exact times), aedat2; binary headers map addresses to "
+              "afferents and channels (doc/events.md)"},
+             {"--buffer", &args.buffer, "BYTES", "buffer for a slow receiver, in bytes; spikes beyond it are dropped and counted"},
+             {"--allow-drops", &args.allow_drops, "", "exit with status 0 even if spikes were dropped or datagrams lost"},
+             {"--save-state", &args.save_state, "FILE", "save the state at the end, including spikes that are not yet due"},
+             {"--resume", &args.resume, "FILE", "continue from a saved state, with the same population and rate"}}};
+}
 
-    Result<void> check_outputs(const CommonArguments& common) const {
-        if (!args_.to.empty() && args_.out != "-") return bad_usage("--out and --to cannot be used together");
-        if (common.json && args_.to.empty() && args_.out == "-")
-            return bad_usage("--json prints on standard output; send the spikes elsewhere by --out FILE or --to PORT");
-        return {};
-    }
-
-public:
-    StreamVerb()
-        : Verb({"stream",
-                "simulate live: frames of force in, spikes out",
-                stream_examples,
-                {"--in", "--rate", "--population", "--channels", "--frames", "--scale", "--out", "--to", "--format", "--json"}}) {}
-
-    void add_options_to(CLI::App& part, CommonArguments& common) override {
-        add_population_options(part, args_);
-        add_frame_options(part, args_);
-        add_recording_options(part, args_);
-        add_spike_options(part, args_);
-        add_common_options(part, common);
-        add_overwrite_option(part, common);
-    }
-
-    int run(const CommonArguments& common) override {
-        catch_interrupt();
-        if (const auto ok = check_outputs(common); !ok) return report_error(ok.error());
-        const auto done = run_live(args_, common);
-        if (!done && done.error().code == ErrorCode::interrupted) return static_cast<int>(done.error().code);  // its summary has said so
-        return exit_status(done);
-    }
-};
+Result<void> check_destination(const StreamArguments& args, const CommonArguments& common) {
+    if (!args.to.empty() && args.out != "-") return bad_usage("--out and --to cannot be used together");
+    if (common.json && args.to.empty() && args.out == "-")
+        return bad_usage("--json prints on standard output; send the spikes elsewhere by --out FILE or --to PORT");
+    return {};
+}
 
 }  // namespace
 
-std::unique_ptr<Verb> make_stream_verb() { return std::make_unique<StreamVerb>(); }
+Verb make_stream_verb() {
+    const auto args = std::make_shared<StreamArguments>();
+    return {
+        .name = "stream",
+        .description = "simulate live: frames of force in, spikes out",
+        .examples = stream_examples,
+        .common_options = {"--in", "--rate", "--population", "--channels", "--frames", "--scale", "--out", "--to", "--format", "--json"},
+        .options = {population_options(*args), input_options(*args), frame_options(*args), recording_option_group(*args),
+                    spike_options(*args)},
+        .reports = true,
+        .writes_files = true,
+        .run = [args](const CommonArguments& common) {
+            catch_interrupt();
+            if (const auto ok = check_destination(*args, common); !ok) return report_error(ok.error());
+            const auto done = run_live(*args, common);
+            if (!done && done.error().code == ErrorCode::interrupted)
+                return static_cast<int>(done.error().code);  // its summary has said so
+            return exit_status(done);
+        }};
+}
 
 }  // namespace corpuscle

@@ -6,8 +6,10 @@
 #include "cli/arguments/force_argument.hpp"
 #include "cli/arguments/recording_arguments.hpp"
 #include "cli/output/terminal.hpp"
+#include "cli/stream/live_options.hpp"
 #include "core/text/quantity.hpp"
 #include "io/recording/column_selection.hpp"
+#include "live/input/filtered_frames.hpp"
 
 namespace corpuscle {
 namespace {
@@ -19,22 +21,6 @@ Result<double> required_quantity(const std::string& text, std::string_view unit,
     const auto value = optional_quantity(text, unit, option);
     if (!value) return value.error();
     return **value;
-}
-
-/// Returns an error, with the reason, if an option was given that applies to recordings but not to live frames.
-Result<void> check_live_options(const StreamArguments& args) {
-    RecordingArguments others = args;  // without the options that also apply to live frames
-    others.unit.reset(), others.scale.reset(), others.offset.reset(), others.layout.clear();
-    const auto option = first_recording_option(others);
-    if (option.empty()) return {};
-    const auto reason = option == "--channel" ? "every number of a frame belongs to a site, in the order of the sites or of --layout"
-                        : option == "--time" || option == "--time-unit"
-                            ? "the time of a frame is its number divided by --rate; use --stamp time if frames begin with their time"
-                        : option == "--dataset" || option == "--skip" ? "live frames are not read from a file"
-                        : option == "--range" || option == "--bad-fields"
-                            ? "an invalid force, or one beyond --max-force, is replaced by the last force of the site"
-                            : "it needs later readings, and live frames are processed at once";
-    return bad_usage(fmt::format("{} is for recordings (--in FILE), not for live frames from {}: {}", option, input_name(args.in), reason));
 }
 
 /// The port of "tcp:PORT" or "udp:PORT".
@@ -84,13 +70,25 @@ Result<Applied<std::unique_ptr<ForceSource>>> open_stream_source(const StreamArg
     return open_force(args.in, options, overrides, stimulus_rate, 0);
 }
 
+Result<void> check_live_options(const StreamArguments& args) {
+    for (const auto given : given_recording_options(args))
+        for (const auto& o : live_options) {
+            if (o.option != given) continue;
+            if (o.effect == LiveEffect::refused)
+                return bad_usage(
+                    fmt::format("{} is for recordings (--in FILE), not for live frames from {}: {}", given, input_name(args.in), o.text));
+            if ((given == "--notch" || given == "--lowpass") && !(args.save_state.empty() && args.resume.empty()))
+                return bad_usage(fmt::format("{}: a saved state does not contain the filters; remove --save-state and --resume", given));
+        }
+    return {};
+}
+
 Result<Clock> live_clock(const StreamArguments& args, const StreamQuantities& quantities) {
     if (quantities.recording.rate) return make_clock(*quantities.recording.rate);
     return bad_usage(fmt::format("--rate is required: the frame rate of {}", input_name(args.in)));
 }
 
 Result<FrameLayout> live_layout(const StreamArguments& args, const StreamQuantities& quantities, std::size_t sites, const Clock& clock) {
-    if (auto ok = check_live_options(args); !ok) return ok.error();
     Column column;  // only for the name of the frame in error messages
     column.name = "a frame";
     const auto scale = newtons_per_unit(column, quantities.recording, input_name(args.in));
@@ -102,8 +100,20 @@ Result<FrameLayout> live_layout(const StreamArguments& args, const StreamQuantit
                                          : FrameKind::i16;
     layout.stamp = args.stamp == "none" ? FrameStamp::none : args.stamp == "sequence" ? FrameStamp::sequence : FrameStamp::time;
     layout.sites = sites, layout.rate = clock.rate();
+    layout.absolute = args.absolute, layout.range = quantities.recording.range;
     layout.scale = *scale, layout.offset = quantities.recording.offset, layout.limit = quantities.max_force;
     return layout;
+}
+
+Result<std::unique_ptr<FrameSource>> filter_live_frames(std::unique_ptr<FrameSource> frames, const StreamQuantities& quantities,
+                                                        std::size_t sites, const Clock& clock) {
+    std::vector<Biquad> filters;
+    const auto add = [&](const Result<Biquad>& filter) { return filter ? (filters.push_back(*filter), Result<void>()) : filter.error(); };
+    for (const double f : quantities.recording.notch)
+        if (auto ok = add(Biquad::notch(f, clock)); !ok) return ok.error();
+    if (quantities.recording.lowpass)
+        if (auto ok = add(Biquad::lowpass(*quantities.recording.lowpass, clock)); !ok) return ok.error();
+    return filter_frames(std::move(frames), sites, filters);
 }
 
 Result<std::unique_ptr<ByteSource>> open_live_input(const StreamArguments& args, const StreamQuantities& quantities,

@@ -10,6 +10,7 @@
 #include "io/recording/recording.hpp"
 #include "live/input/byte_source.hpp"
 #include "live/input/frame_layout.hpp"
+#include "live/input/frame_source.hpp"
 
 namespace corpuscle {
 
@@ -20,7 +21,7 @@ std::string input_name(const std::string& in);
 
 /// The options of the command line that are quantities.
 struct StreamQuantities {
-    RecordingOptions recording;                      ///< rate, scale, offset and unit apply to live frames, too
+    RecordingOptions recording;                      ///< live_options.hpp says which of them apply to live frames
     double max_force = 0;                            ///< N
     double hold = 0, max_gap = 0, idle_timeout = 0;  ///< s
     double buffer = 0;                               ///< bytes
@@ -32,10 +33,15 @@ Result<StreamQuantities> stream_quantities(const StreamArguments&);
 Result<Applied<std::unique_ptr<ForceSource>>> open_stream_source(const StreamArguments&, const StreamQuantities&,
                                                                  std::span<const ParameterOverride>);
 
+/// Returns an error, with the reason, if a recording option was given that live frames cannot have.
+Result<void> check_live_options(const StreamArguments&);
 /// The clock of live frames.
 Result<Clock> live_clock(const StreamArguments&, const StreamQuantities&);
 /// The layout of live frames. `sites`: number of forces in a frame.
 Result<FrameLayout> live_layout(const StreamArguments&, const StreamQuantities&, std::size_t sites, const Clock&);
+/// The frames with the filters of --notch and --lowpass. `sites`: number of forces in a frame.
+Result<std::unique_ptr<FrameSource>> filter_live_frames(std::unique_ptr<FrameSource>, const StreamQuantities&, std::size_t sites,
+                                                        const Clock&);
 /// Opens a live input: standard input, a port or a serial device.
 Result<std::unique_ptr<ByteSource>> open_live_input(const StreamArguments&, const StreamQuantities&, const FrameLayout&);
 

@@ -5,7 +5,6 @@
 #include <cstdlib>
 #include <filesystem>
 
-#include "cli/arguments/option_rows.hpp"
 #include "cli/output/sweep_status.hpp"
 #include "cli/output/terminal.hpp"
 #include "cli/sweep/sweep_verbs.hpp"
@@ -182,46 +181,38 @@ int run_in_process(const SweepArguments& args, const CommonArguments& common) {
     return code;
 }
 
-class SweepVerb final : public Verb {
-    SweepArguments args_;
-    VerbList sub_verbs_;
-
-public:
-    SweepVerb() : Verb({"sweep", "run Monte Carlo, corner and grid sweeps -> one results file", sweep_examples}) {
-        for (const auto make : {make_sweep_merge_verb, make_sweep_dump_verb, make_sweep_show_verb, make_sweep_calibrate_verb})
-            sub_verbs_.push_back(make());
-    }
-    std::span<const std::unique_ptr<Verb>> sub_verbs() const override { return sub_verbs_; }
-
-    void add_options_to(CLI::App& part, CommonArguments& common) override {
-        add_options(part, "",
-                    {{"FILE", &args_.file, "", "a sweep file (TOML), or a netlist with .mc and .step lines"},
-                     {"--out,-o", &args_.out, "RESULTS", "results file (default: the name of FILE with .sqlite, in the current directory)"},
-                     {"--threads,-j", &args_.threads, "N",
-                      "number of threads (0: one per core, under mpirun one per rank); results do not depend on it", std::pair(0U, 1024U)},
-                     {"--lanes", &args_.lanes, "1|4|8", "number of chips simulated at once per thread (SIMD); results do not depend on it",
-                      one_of("1", "4", "8")},
-                     {"--shard", &args_.shard, "K/N", "run only part K of N, for several machines without MPI"},
-                     {"--seed", &args_.seed, "N", "random seed (replaces the seed of the file)"},
-                     {"--samples", &args_.samples, "N", "number of random samples at each point (replaces the number in the file)",
-                      OptionSign::positive},
-                     {"--status", &args_.status, "", "print progress: finished items, missing items, speed"}});
-        add_common_options(part, common);
-    }
-
-    Result<void> check_arguments(const CommonArguments&) override {
-        if (!args_.file.empty()) return {};
-        return bad_usage("corpuscle sweep: needs FILE, or one of merge, show, dump, calibrate is required");
-    }
-
-    int run(const CommonArguments& common) override {
-        catch_interrupt();
-        return args_.status ? exit_status(show_sweep_status(args_, common)) : run_in_process(args_, common);
-    }
-};
-
 }  // namespace
 
-std::unique_ptr<Verb> make_sweep_verb() { return std::make_unique<SweepVerb>(); }
+Verb make_sweep_verb() {
+    const auto args = std::make_shared<SweepArguments>();
+    return {
+        .name = "sweep",
+        .description = "run Monte Carlo, corner and grid sweeps -> one results file",
+        .examples = sweep_examples,
+        .options = {{"",
+                     {{"FILE", &args->file, "", "a sweep file (TOML), or a netlist with .mc and .step lines"},
+                      {"--out,-o", &args->out, "RESULTS",
+                       "results file (default: the name of FILE with .sqlite, in the current directory)"},
+                      {"--threads,-j", &args->threads, "N",
+                       "number of threads (0: one per core, under mpirun one per rank); results do not depend on it", std::pair(0U, 1024U)},
+                      {"--lanes", &args->lanes, "1|4|8", "number of chips simulated at once per thread (SIMD); results do not depend on it",
+                       one_of("1", "4", "8")},
+                      {"--shard", &args->shard, "K/N", "run only part K of N, for several machines without MPI"},
+                      {"--seed", &args->seed, "N", "random seed (replaces the seed of the file)"},
+                      {"--samples", &args->samples, "N", "number of random samples at each point (replaces the number in the file)",
+                       OptionSign::positive},
+                      {"--status", &args->status, "", "print progress: finished items, missing items, speed"}}}},
+        .reports = true,
+        .check = [args](const CommonArguments&) -> Result<void> {
+            if (!args->file.empty()) return {};
+            return bad_usage("corpuscle sweep: needs FILE, or one of merge, show, dump, calibrate is required");
+        },
+        .run =
+            [args](const CommonArguments& common) {
+                catch_interrupt();
+                return args->status ? exit_status(show_sweep_status(*args, common)) : run_in_process(*args, common);
+            },
+        .sub_verbs = {make_sweep_merge_verb(), make_sweep_dump_verb(), make_sweep_show_verb(), make_sweep_calibrate_verb()}};
+}
 
 }  // namespace corpuscle

@@ -5,7 +5,6 @@
 #include <nlohmann/json.hpp>
 
 #include "circuit/variant/netlist_variants.hpp"
-#include "cli/arguments/option_rows.hpp"
 #include "cli/output/terminal.hpp"
 #include "cli/sweep/sweep_verbs.hpp"
 #include "core/stimulus/stimuli.hpp"
@@ -145,47 +144,35 @@ Result<void> calibrate_netlist(const SweepCalibrateArguments& args, const Common
     return {};
 }
 
-class SweepCalibrateVerb final : public Verb {
-    SweepCalibrateArguments args_;
-
-public:
-    SweepCalibrateVerb()
-        : Verb({"calibrate", "trim simulated chips to match a model -> yield for each number of trim bits", calibrate_examples}) {}
-
-    void add_options_to(CLI::App& part, CommonArguments& common) override {
-        add_options(
-            part, "",
-            {{.names = "NETLIST",
-              .target = &args_.netlist,
-              .value = "",
-              .description = "sa1-circuit, fa1-circuit, or a netlist with a force input and a spike output",
-              .is_required = true},
-             {"--like", &args_.like, "AFFERENT", "the model to match (default: sa1 for sa1-circuit, fa1 for fa1-circuit)"},
-             {.names = "--trim",
-              .target = &args_.trims,
-              .value = "NAME=RANGE",
-              .description = "a trimmed .param or device parameter (several are joined by +) and its range: the increase at the highest "
-                             "code. The multiplier .m is trimmed in integer steps (default: I_LEAK, I_BIASB and one gain)",
-              .count = std::pair(1, any_number_of_values)},
-             {"--bits", &args_.bits, "N", "maximum number of bits of each trim", std::pair(1, 12)},
-             {"--samples", &args_.samples, "N", "number of chips", OptionSign::positive},
-             {"--seed", &args_.seed, "N", "random seed of process and mismatch"},
-             {"--corner", &args_.corner, "", "process corner; mc includes process variation"},
-             {"--force", &args_.force, "STIMULUS", "the stimulus"},
-             {"--separately", &args_.separately, "", "also evaluate each trim alone"},
-             {"--threads,-j", &args_.threads, "N", "number of threads (0: one per core); results do not depend on it",
-              std::pair(0U, 1024U)}});
-        add_common_options(part, common);
-    }
-
-    int run(const CommonArguments& common) override {
-        catch_interrupt();
-        return exit_status(calibrate_netlist(args_, common));
-    }
-};
-
 }  // namespace
 
-std::unique_ptr<Verb> make_sweep_calibrate_verb() { return std::make_unique<SweepCalibrateVerb>(); }
+Verb make_sweep_calibrate_verb() {
+    const auto args = std::make_shared<SweepCalibrateArguments>();
+    return {
+        .name = "calibrate",
+        .description = "trim simulated chips to match a model -> yield for each number of trim bits",
+        .examples = calibrate_examples,
+        .options = {{"",
+                     {required(
+                          {"NETLIST", &args->netlist, "", "sa1-circuit, fa1-circuit, or a netlist with a force input and a spike output"}),
+                      {"--like", &args->like, "AFFERENT", "the model to match (default: sa1 for sa1-circuit, fa1 for fa1-circuit)"},
+                      counted(1, any_number_of_values,
+                              {"--trim", &args->trims, "NAME=RANGE",
+                               "a trimmed .param or device parameter (several are joined by +) and its range: the increase at the highest "
+                               "code. The multiplier .m is trimmed in integer steps (default: I_LEAK, I_BIASB and one gain)"}),
+                      {"--bits", &args->bits, "N", "maximum number of bits of each trim", std::pair(1, 12)},
+                      {"--samples", &args->samples, "N", "number of chips", OptionSign::positive},
+                      {"--seed", &args->seed, "N", "random seed of process and mismatch"},
+                      {"--corner", &args->corner, "", "process corner; mc includes process variation"},
+                      {"--force", &args->force, "STIMULUS", "the stimulus"},
+                      {"--separately", &args->separately, "", "also evaluate each trim alone"},
+                      {"--threads,-j", &args->threads, "N", "number of threads (0: one per core); results do not depend on it",
+                       std::pair(0U, 1024U)}}}},
+        .reports = true,
+        .run = [args](const CommonArguments& common) {
+            catch_interrupt();
+            return exit_status(calibrate_netlist(*args, common));
+        }};
+}
 
 }  // namespace corpuscle

@@ -2,7 +2,6 @@
 
 #include <cstdio>
 
-#include "cli/arguments/option_rows.hpp"
 #include "cli/output/terminal.hpp"
 #include "cli/sweep/sweep_verbs.hpp"
 #include "sweep/store/dump.hpp"
@@ -23,27 +22,20 @@ Result<void> dump(const std::string& path) {
     return ok;
 }
 
-class SweepDumpVerb final : public Verb {
-    std::string path_;
-
-public:
-    SweepDumpVerb()
-        : Verb({"dump", "print all rows of a results file as CSV, in order, with spikes",
-                "The output does not depend on how the sweep was run, so two dumps can be compared with 'cmp' or 'sha256sum'.\n\n"
-                "Example:\n  corpuscle sweep dump chips.sqlite > chips.csv"}) {}
-
-    void add_options_to(CLI::App& part, CommonArguments&) override {
-        add_options(part, "", {{.names = "RESULTS", .target = &path_, .value = "", .description = "a results file", .is_required = true}});
-    }
-
-    int run(const CommonArguments&) override {
-        catch_interrupt();
-        return exit_status(dump(path_));
-    }
-};
-
 }  // namespace
 
-std::unique_ptr<Verb> make_sweep_dump_verb() { return std::make_unique<SweepDumpVerb>(); }
+Verb make_sweep_dump_verb() {
+    const auto args = std::make_shared<std::string>();
+    return {.name = "dump",
+            .description = "print all rows of a results file as CSV, in order, with spikes",
+            .examples =
+                "The output does not depend on how the sweep was run, so two dumps can be compared with 'cmp' or 'sha256sum'.\n\n"
+                "Example:\n  corpuscle sweep dump chips.sqlite > chips.csv",
+            .options = {{"", {required({"RESULTS", args.get(), "", "a results file"})}}},
+            .run = [args](const CommonArguments&) {
+                catch_interrupt();
+                return exit_status(dump(*args));
+            }};
+}
 
 }  // namespace corpuscle

@@ -2,7 +2,6 @@
 
 #include <fmt/format.h>
 
-#include "cli/arguments/option_rows.hpp"
 #include "cli/output/sweep_status.hpp"
 #include "cli/output/terminal.hpp"
 #include "cli/sweep/sweep_verbs.hpp"
@@ -46,34 +45,23 @@ Result<void> merge(const SweepMergeArguments& args, const CommonArguments& commo
     return {};
 }
 
-class SweepMergeVerb final : public Verb {
-    SweepMergeArguments args_;
-
-public:
-    SweepMergeVerb()
-        : Verb({"merge", "combine results files of one sweep, such as its shards",
-                "Items that are already in OUT are not added twice. If an item differs, merge stops with an error that names it.\n\n"
-                "Example:\n  corpuscle sweep merge chips.sqlite chips-1of3.sqlite chips-2of3.sqlite chips-3of3.sqlite"}) {}
-
-    void add_options_to(CLI::App& part, CommonArguments& common) override {
-        add_options(part, "",
-                    {{.names = "OUT",
-                      .target = &args_.out,
-                      .value = "",
-                      .description = "the combined results file, created if it does not exist",
-                      .is_required = true},
-                     {.names = "IN", .target = &args_.in, .value = "", .description = "results files", .is_required = true}});
-        add_common_options(part, common);
-    }
-
-    int run(const CommonArguments& common) override {
-        catch_interrupt();
-        return exit_status(merge(args_, common));
-    }
-};
-
 }  // namespace
 
-std::unique_ptr<Verb> make_sweep_merge_verb() { return std::make_unique<SweepMergeVerb>(); }
+Verb make_sweep_merge_verb() {
+    const auto args = std::make_shared<SweepMergeArguments>();
+    return {.name = "merge",
+            .description = "combine results files of one sweep, such as its shards",
+            .examples =
+                "Items that are already in OUT are not added twice. If an item differs, merge stops with an error that names it.\n\n"
+                "Example:\n  corpuscle sweep merge chips.sqlite chips-1of3.sqlite chips-2of3.sqlite chips-3of3.sqlite",
+            .options = {{"",
+                         {required({"OUT", &args->out, "", "the combined results file, created if it does not exist"}),
+                          required({"IN", &args->in, "", "results files"})}}},
+            .reports = true,
+            .run = [args](const CommonArguments& common) {
+                catch_interrupt();
+                return exit_status(merge(*args, common));
+            }};
+}
 
 }  // namespace corpuscle

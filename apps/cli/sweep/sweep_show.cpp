@@ -5,7 +5,6 @@
 #include <filesystem>
 #include <nlohmann/json.hpp>
 
-#include "cli/arguments/option_rows.hpp"
 #include "cli/arguments/report_page.hpp"
 #include "cli/output/output_files.hpp"
 #include "cli/output/printable.hpp"
@@ -85,34 +84,24 @@ Result<void> show(const SweepShowArguments& args, const CommonArguments& common)
     return {};
 }
 
-class SweepShowVerb final : public Verb {
-    SweepShowArguments args_;
-
-public:
-    SweepShowVerb() : Verb({"show", "analyse a results file: yields, distributions, most influential devices", show_examples}) {}
-
-    void add_options_to(CLI::App& part, CommonArguments& common) override {
-        add_options(part, "",
-                    {{.names = "RESULTS",
-                      .target = &args_.results,
-                      .value = "",
-                      .description = "a results file; the sweep may still be running",
-                      .is_required = true},
-                     {"--by", &args_.by, "AXIS",
-                      "group the results by these axes (default: all listed axes); random axes are divided into five bands"},
-                     {"--measure,-m", &args_.measures, "NAME", "analyse only these measures; limits of other measures are ignored"},
-                     {"--quantile", &args_.quantiles, "FRACTION", "print this quantile with its confidence interval, such as 0.01"}});
-        add_options(part, "Output", {{"--report", &args_.report_file, "FILE.html", "write a report page"}});
-        add_common_options(part, common);
-        add_overwrite_option(part, common);
-    }
-
-    Result<void> check_arguments(const CommonArguments&) override { return check_page_name(args_.report_file); }
-    int run(const CommonArguments& common) override { return exit_status(show(args_, common)); }
-};
-
 }  // namespace
 
-std::unique_ptr<Verb> make_sweep_show_verb() { return std::make_unique<SweepShowVerb>(); }
+Verb make_sweep_show_verb() {
+    const auto args = std::make_shared<SweepShowArguments>();
+    return {.name = "show",
+            .description = "analyse a results file: yields, distributions, most influential devices",
+            .examples = show_examples,
+            .options = {{"",
+                         {required({"RESULTS", &args->results, "", "a results file; the sweep may still be running"}),
+                          {"--by", &args->by, "AXIS",
+                           "group the results by these axes (default: all listed axes); random axes are divided into five bands"},
+                          {"--measure,-m", &args->measures, "NAME", "analyse only these measures; limits of other measures are ignored"},
+                          {"--quantile", &args->quantiles, "FRACTION", "print this quantile with its confidence interval, such as 0.01"}}},
+                        {"Output", {{"--report", &args->report_file, "FILE.html", "write a report page"}}}},
+            .reports = true,
+            .writes_files = true,
+            .check = [args](const CommonArguments&) -> Result<void> { return check_page_name(args->report_file); },
+            .run = [args](const CommonArguments& common) { return exit_status(show(*args, common)); }};
+}
 
 }  // namespace corpuscle

@@ -5,9 +5,9 @@
 
 namespace corpuscle {
 
-std::unique_ptr<Verb> make_sweep_merge_verb();
-std::unique_ptr<Verb> make_sweep_dump_verb();
-std::unique_ptr<Verb> make_sweep_show_verb();
-std::unique_ptr<Verb> make_sweep_calibrate_verb();
+Verb make_sweep_merge_verb();
+Verb make_sweep_dump_verb();
+Verb make_sweep_show_verb();
+Verb make_sweep_calibrate_verb();
 
 }  // namespace corpuscle

@@ -10,7 +10,7 @@
 
 #include "circuit/afferent/force_waveform.hpp"
 #include "circuit/afferent/streaming_transient.hpp"
-#include "circuit/cost/cost_document.hpp"
+#include "circuit/cost/circuit_cost_document.hpp"
 
 namespace corpuscle::circuit {
 namespace {

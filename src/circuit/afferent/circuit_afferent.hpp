@@ -6,7 +6,7 @@
 #include "circuit/analysis/transient_plan.hpp"
 #include "circuit/output/saved_quantities.hpp"
 #include "circuit/variant/netlist_variants.hpp"
-#include "core/afferent_plan.hpp"
+#include "core/afferent_factory.hpp"
 
 namespace corpuscle::circuit {
 

@@ -16,7 +16,7 @@ namespace {
 constexpr std::string_view reserved_names[] = {"corner", "temp", "mismatch"};
 
 Error error_of(const ParameterOverride& setting, std::string_view why) {
-    return bad_input(fmt::format("{}: {}", setting.said, why), setting.location);
+    return bad_input(fmt::format("{}: {}", setting.typed, why), setting.location);
 }
 
 /// A parameter of an element that can be set: w of an M, dtemp of an R; "" is the element's value. `low` and `high` are allowed, too.
@@ -227,7 +227,7 @@ Error with_corner_override(std::span<const ParameterOverride> overrides, const s
         error.message.find(fmt::format("there is no corner '{}'", corner)) == std::string::npos)
         return error;
     for (const auto& setting : overrides)
-        if (lower(setting.parameter) == "corner") error.message = fmt::format("{}: {}", setting.said, error.message);
+        if (lower(setting.parameter) == "corner") error.message = fmt::format("{}: {}", setting.typed, error.message);
     return error;
 }
 
@@ -269,11 +269,11 @@ Result<NumberWithUnit> parse_number_with_unit(std::string_view text) {
 }
 
 Result<ParameterOverride> parse_netlist_override(const std::string& netlist, const std::string& text, std::string_view option) {
-    const auto said = fmt::format("{}{}{}", option, option.empty() ? "" : " ", text);
+    const auto typed = fmt::format("{}{}{}", option, option.empty() ? "" : " ", text);
     const auto equals = text.find('=');
     if (equals == 0 || equals == std::string::npos || equals + 1 == text.size())
-        return bad_usage(fmt::format("{}: write NAME=VALUE, such as 'C_u=4pF'", said));
-    return ParameterOverride{netlist, text.substr(0, equals), text.substr(equals + 1), said};
+        return bad_usage(fmt::format("{}: write NAME=VALUE, such as 'C_u=4pF'", typed));
+    return ParameterOverride{netlist, text.substr(0, equals), text.substr(equals + 1), typed};
 }
 
 Result<Applied<Netlist>> apply_overrides(const std::string& name_or_path, std::span<const ParameterOverride> overrides) {

@@ -1,5 +1,6 @@
 #pragma once
-// The recording formats. The file extension selects one. To add a format, put its source file into io/ and its row into the list below.
+// The recording formats. The file extension selects one. To add a format, put its source file into io/table/, and declare its function and
+// add its row here.
 
 #include <span>
 

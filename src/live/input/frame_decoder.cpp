@@ -183,7 +183,41 @@ FrameDecoder::Status FrameDecoder::read_line(const std::string_view line) {
     return has_valid_stamp ? Status::frame : unreadable(FrameError::stamp);
 }
 
+/// Value k of the found frame.
+double FrameDecoder::value(std::size_t k) const {
+    const auto load = [&]<class V>(V x) {
+        std::memcpy(&x, found_ + k * sizeof x, sizeof x);
+        return static_cast<double>(x);
+    };
+    switch (layout_.kind) {
+        case FrameKind::f32:
+            return load(float{});
+        case FrameKind::i16:
+            return load(std::int16_t{});
+        case FrameKind::f64:
+            return load(double{});
+        case FrameKind::csv:
+            break;
+    }
+    return values_[k];
+}
+
+/// read_forces() for the options that the lanes do not have.
+std::size_t FrameDecoder::read_forces_one_by_one(std::span<double> force) const {
+    std::size_t invalid = 0;
+    for (std::size_t k = 0; k < force.size(); ++k) {
+        const double x = layout_.absolute ? std::abs(value(k)) : value(k), newtons = (x - layout_.offset) * layout_.scale;
+        const bool is_in_range = !layout_.range || (x >= layout_.range->first && x <= layout_.range->second);
+        if (is_in_range && std::abs(newtons) <= layout_.limit)
+            force[k] = newtons;
+        else
+            ++invalid;
+    }
+    return invalid;
+}
+
 std::size_t FrameDecoder::read_forces(std::span<double> force) const {
+    if (layout_.absolute || layout_.range) return read_forces_one_by_one(force);
     const lanes::ForceScaling scaling{layout_.offset, layout_.scale, layout_.limit};
     switch (layout_.kind) {
         case FrameKind::f32:

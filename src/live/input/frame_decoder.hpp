@@ -43,6 +43,8 @@ private:
     Status read_line(std::string_view line);
     bool read_stamp(double seconds);
     bool read_stamp(std::string_view text);
+    double value(std::size_t k) const;
+    std::size_t read_forces_one_by_one(std::span<double> force) const;
 
 public:
     /// The size of the buffer follows from `frames`, the number of frames that are read at once.
@@ -66,8 +68,8 @@ public:
     const std::optional<Error>& header_error() const { return header_error_; }
     std::int64_t headers() const { return headers_; }  ///< number of first lines that contained names instead of numbers
     const std::optional<FrameError>& first_error() const { return first_error_; }  ///< the first frame that could not be read
-    /// Writes the forces of the found frame to `force` (N). If a force is NaN or beyond the limit, the element of `force` is not changed.
-    /// Returns the number of such forces.
+    /// Writes the forces of the found frame to `force` (N). If a force is NaN or beyond the limit, or its value out of range, the element
+    /// of `force` is not changed. Returns the number of such forces.
     std::size_t read_forces(std::span<double> force) const;
 };
 

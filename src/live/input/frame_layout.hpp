@@ -3,6 +3,8 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <optional>
+#include <utility>
 
 namespace corpuscle {
 
@@ -19,6 +21,9 @@ struct FrameLayout {
     double rate = 1000;            ///< frames per second; a frame with a time stamp gets the number time * rate, rounded
     double scale = 1, offset = 0;  ///< force (N) = (value - offset) * scale
     double limit = 1000;           ///< N; a force of larger magnitude is not a valid reading
+    bool absolute = false;         ///< the absolute value of each value is used
+    /// Lowest and highest valid value, after `absolute`. Others are not valid readings.
+    std::optional<std::pair<double, double>> range = {};
     std::size_t stamp_bytes() const { return stamp == FrameStamp::none ? 0 : stamp == FrameStamp::sequence ? 4 : 8; }
     std::size_t value_bytes() const { return kind == FrameKind::i16 ? 2 : kind == FrameKind::f32 ? 4 : 8; }
     std::size_t bytes() const { return stamp_bytes() + sites * value_bytes(); }  ///< size of a binary frame

@@ -2,28 +2,18 @@
 
 #include <algorithm>
 
+#include "live/input/wrapped_frames.hpp"
+
 namespace corpuscle {
 namespace {
 
-class SiteFrames final : public FrameSource {
-    std::unique_ptr<FrameSource> source_;
+class SiteFrames final : public WrappedFrames {
     std::vector<std::uint32_t> sites_;
     std::vector<double> frame_;  // the frame of source_
 
 public:
     SiteFrames(std::unique_ptr<FrameSource> from, std::vector<std::uint32_t> sites)
-        : source_(std::move(from)), sites_(std::move(sites)), frame_(sites_.size()) {}
-
-    int poll_fd() const override { return source_->poll_fd(); }
-    std::int64_t due_time() const override { return source_->due_time(); }
-    Result<bool> receive() override { return source_->receive(); }
-    void disable_batching() override { source_->disable_batching(); }
-    FrameCounts counts() const override { return source_->counts(); }
-    std::string description() const override { return source_->description(); }
-    bool is_live() const override { return source_->is_live(); }
-    std::size_t unread_bytes() const override { return source_->unread_bytes(); }
-    std::optional<FrameError> first_error() const override { return source_->first_error(); }
-    FrameSequence* sequence() override { return source_->sequence(); }
+        : WrappedFrames(std::move(from)), sites_(std::move(sites)), frame_(sites_.size()) {}
 
     /// The last frame of `source_` is taken from `force`. So a resumed stream, whose `force` is set by the caller, repeats the right
     /// values.

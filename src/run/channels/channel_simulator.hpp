@@ -4,7 +4,7 @@
 
 #include "run/channels/channel_population.hpp"
 #include "run/channels/lookahead_buffer.hpp"
-#include "run/run.hpp"
+#include "run/run_inputs.hpp"
 #include "run/simulate.hpp"
 
 namespace corpuscle {

@@ -2,7 +2,7 @@
 // Warnings about a run of afferents on channels.
 
 #include "model/catalog.hpp"
-#include "run/run.hpp"
+#include "run/run_inputs.hpp"
 
 namespace corpuscle {
 

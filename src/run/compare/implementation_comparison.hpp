@@ -5,7 +5,7 @@
 #include <nlohmann/json_fwd.hpp>
 
 #include "run/compare/implementation_group.hpp"
-#include "run/run.hpp"
+#include "run/run_inputs.hpp"
 
 namespace corpuscle {
 

@@ -1,6 +1,6 @@
-// afferents.csv: one row for each afferent of a skin, with afferent_index (Spike::afferent_index), names, position, conduction delay,
-// number of spikes, first spike (on the clock of the input), the time for which it was touched, and the number of spikes divided by the
-// duration of the force. All values come from the summary, which must precede this file among the sinks.
+// afferents.csv: one row for each afferent of a skin. The column afferent_index is Spike::afferent_index, delay_ms the conduction delay,
+// first_spike_s a time on the clock of the input, touched_s a duration. The rate is the number of spikes divided by the duration of the
+// force. All values come from the summary, which must precede this file among the sinks.
 
 #include <cmath>
 
@@ -41,9 +41,6 @@ public:
 }  // namespace
 
 const OutputFormat afferents_format = {
-    .option = "",
-    .value_name = "",
-    .help = "",
     .names = {"afferents.csv"},
     .make = [](const OutputRequest& request) { return make_file_sink<AfferentsFile>(request.directory, *request.skin); },
     .is_written = [](const OutputRequest& request) { return request.skin != nullptr; },

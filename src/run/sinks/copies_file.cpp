@@ -91,9 +91,6 @@ Result<void> CopiesFile::end(const Input& input, std::int64_t samples, std::span
 }  // namespace
 
 const OutputFormat copies_format = {
-    .option = "",
-    .value_name = "",
-    .help = "",
     .names = {"copies.csv"},
     .make = [](const OutputRequest& request) { return make_file_sink<CopiesFile>(request.directory, request.copies); },
     .is_written = [](const OutputRequest& request) { return request.copies.count > 0; },

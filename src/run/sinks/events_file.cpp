@@ -63,10 +63,10 @@ std::vector<std::string> event_file_names(const OutputRequest& request) {
 }  // namespace
 
 const OutputFormat events_format = {
+    .names = {"spikes#.csv", "spikes#.jsonl", "spikes#.aer", "spikes#.aedat"},
     .option = "--events",
     .value_name = "FORMAT",
     .help = "write the spikes as lines, jsonl, aer or aedat2 (doc/events.md) instead of spikes.csv",
-    .names = {"spikes#.csv", "spikes#.jsonl", "spikes#.aer", "spikes#.aedat"},
     .make =
         [](const OutputRequest& request) {
             const auto* const format = find_event_format(request.options.at("--events"));

@@ -27,6 +27,7 @@ public:
     FileSink& operator=(const FileSink&) = delete;
     /// Removes the files that were not committed. The last one is removed first: the first one may have created the directory.
     ~FileSink() override;
+    Result<void> open() { return {}; }       ///< creates the first file, if it exists before the run starts
     std::vector<std::string> paths() const;  ///< final paths of the files
     virtual Result<void> commit();
 };
@@ -42,7 +43,7 @@ public:
     Result<void> end(const Input& input, std::int64_t, std::span<const Spike> last) override { return add(input, last); }
 };
 
-/// What is known about the outputs before a run.
+/// The files that the user requests, and the properties of the run that are known before it starts.
 struct OutputRequest {
     std::string directory = {};
     std::map<std::string, std::string, std::less<>> options = {};  ///< the output options of the user with their values; "" for a flag
@@ -60,11 +61,11 @@ inline constexpr std::uint32_t max_recorded_copies = 50;
 
 /// An output format. The user requests it by its option.
 struct OutputFormat {
-    std::string_view option;      ///< "--npz"; "" if it is not requested by an option
-    std::string_view value_name;  ///< placeholder of the option's value: "TIME"; "" for a flag
-    std::string_view help;
     /// Names of the files that it can write. # stands for "" in the name of the first file and "-2" in that of the second; * for any text.
     std::vector<std::string_view> names;
+    std::string_view option = {};      ///< "--npz"; "" if it is not requested by an option
+    std::string_view value_name = {};  ///< placeholder of the option's value: "TIME"; "" for a flag
+    std::string_view help = {};
     Result<std::unique_ptr<FileSink>> (*make)(const OutputRequest&);
     /// For a format without an option: true if it is written.
     bool (*is_written)(const OutputRequest&) = nullptr;
@@ -84,7 +85,7 @@ std::vector<std::string> file_names_of(const OutputFormat&, const OutputRequest&
 bool matches_name(std::string_view name, std::string_view file_name);
 /// True if the format can write a file of this name.
 bool can_write(const OutputFormat&, std::string_view file_name);
-/// A name of OutputFormat::names with the number of an input, from 0, in place of #.
+/// A name of OutputFormat::names with the number of an input, from 0, instead of #.
 std::string numbered_name(std::string_view name, std::size_t index);
 /// Returns an error if the run has more copies than max_recorded_copies.
 Result<void> check_recorded_copies(const OutputRequest&, std::string_view option);
@@ -95,6 +96,12 @@ Result<std::unique_ptr<FileSink>> make_file_sink(A&&... arguments) {
     auto sink = std::make_unique<F>(std::forward<A>(arguments)...);
     if (auto ok = sink->open(); !ok) return ok.error();
     return std::unique_ptr<FileSink>(std::move(sink));
+}
+
+/// The same for a sink that needs only the directory.
+template <class F>
+Result<std::unique_ptr<FileSink>> make_in_directory(const OutputRequest& request) {
+    return make_file_sink<F>(request.directory);
 }
 
 /// Names of afferent and channel of each afferent of an input as two CSV fields: "sa1,press".

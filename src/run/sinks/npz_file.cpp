@@ -1,8 +1,8 @@
 // spikes.npz: the arrays that SpikeInterface's NpzSortingExtractor reads (unit_ids, num_segment, sampling_frequency, spike_indexes_seg0,
-// spike_labels_seg0), with one segment for each input. A unit is an afferent; its id is Spike::afferent_index. In addition: the names
-// unit_afferent and unit_channel; in a skin the positions unit_x_m and unit_y_m; and spike_times_seg0, the exact times in s on the clock of
-// the input. spike_indexes_seg0 counts microseconds from the segment's first sample, which is finer than the timing of any nerve. The
-// spikes are kept in memory until the end, because the length of an array precedes its data.
+// spike_labels_seg0), with one segment for each input. A unit is an afferent; its id is Spike::afferent_index. The names of the
+// afferents are unit_afferent and unit_channel, their positions in a skin unit_x_m and unit_y_m. The array spike_times_seg0 has the exact
+// times in s on the clock of the input. The indexes count microseconds from the segment's first sample, which is finer than the timing of
+// any nerve. The spikes are kept in memory until the end, because the length of an array precedes its data.
 
 #include <cmath>
 #include <numeric>
@@ -72,11 +72,10 @@ public:
 }  // namespace
 
 const OutputFormat npz_format = {
-    .option = "--npz",
-    .value_name = "",
-    .help = "with --out, also write spikes.npz: exact times for NumPy and SpikeInterface",
     .names = {"spikes.npz"},
-    .make = [](const OutputRequest& request) { return make_file_sink<NpzFile>(request.directory); },
+    .option = "--npz",
+    .help = "with --out, also write spikes.npz: exact times for NumPy and SpikeInterface",
+    .make = make_in_directory<NpzFile>,
 };
 
 }  // namespace corpuscle

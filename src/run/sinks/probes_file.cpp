@@ -13,8 +13,7 @@ class ProbesFile final : public FileSink {
     fmt::memory_buffer text_;
 
 public:
-    explicit ProbesFile(std::string directory) : FileSink(std::move(directory)) {}
-    Result<void> open() { return {}; }
+    using FileSink::FileSink;
     bool wants_probes() const override { return true; }
 
     Result<void> begin(const Input& input) override {
@@ -46,11 +45,10 @@ public:
 }  // namespace
 
 const OutputFormat probes_format = {
-    .option = "--probe-files",
-    .value_name = "",
-    .help = "with --out, also write probes.csv: force, currents, membranes",
     .names = {"probes#.csv"},
-    .make = [](const OutputRequest& request) { return make_file_sink<ProbesFile>(request.directory); },
+    .option = "--probe-files",
+    .help = "with --out, also write probes.csv: force, currents, membranes",
+    .make = make_in_directory<ProbesFile>,
     .check = [](const OutputRequest& request) { return check_recorded_copies(request, "--probe-files"); },
 };
 

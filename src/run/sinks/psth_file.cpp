@@ -53,10 +53,10 @@ Result<double> bin_width_of(const OutputRequest& request) {
 }  // namespace
 
 const OutputFormat psth_format = {
+    .names = {"psth.csv"},
     .option = "--bin",
     .value_name = "TIME",
     .help = "with --out, also write psth.csv: spike counts and rates in bins of this length",
-    .names = {"psth.csv"},
     .make = [](const OutputRequest& request) { return make_file_sink<PsthFile>(request.directory, *bin_width_of(request)); },
     .check =
         [](const OutputRequest& request) {

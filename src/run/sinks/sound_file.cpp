@@ -49,8 +49,7 @@ class SpikeSoundFile final : public FileSink {
     Result<void> write_up_to(std::int64_t frame);
 
 public:
-    explicit SpikeSoundFile(std::string directory) : FileSink(std::move(directory)) {}
-    Result<void> open() { return {}; }
+    using FileSink::FileSink;
     Result<void> begin(const Input&) override;
     Result<void> block(const Input&, const RunBlock&) override;
     Result<void> end(const Input&, std::int64_t samples, std::span<const Spike> last) override;
@@ -156,11 +155,10 @@ Result<void> SpikeSoundFile::end(const Input& input, std::int64_t samples, std::
 }  // namespace
 
 const OutputFormat sound_format = {
-    .option = "--wav",
-    .value_name = "",
-    .help = "with --out, also write spikes.wav: one click per spike",
     .names = {"spikes#.wav"},
-    .make = [](const OutputRequest& request) { return make_file_sink<SpikeSoundFile>(request.directory); },
+    .option = "--wav",
+    .help = "with --out, also write spikes.wav: one click per spike",
+    .make = make_in_directory<SpikeSoundFile>,
 };
 
 }  // namespace corpuscle

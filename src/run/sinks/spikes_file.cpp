@@ -33,11 +33,8 @@ public:
 }  // namespace
 
 const OutputFormat spikes_format = {
-    .option = "",
-    .value_name = "",
-    .help = "",
     .names = {"spikes.csv"},
-    .make = [](const OutputRequest& request) { return make_file_sink<SpikesFile>(request.directory); },
+    .make = make_in_directory<SpikesFile>,
     .is_written = [](const OutputRequest& request) { return !request.has("--events"); },
 };
 

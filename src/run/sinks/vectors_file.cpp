@@ -67,8 +67,7 @@ class VectorsFile final : public FileSink {
     Result<void> open_vectors_file(const Input&, std::size_t afferent_index);
 
 public:
-    explicit VectorsFile(std::string directory) : FileSink(std::move(directory)) {}
-    Result<void> open() { return {}; }
+    using FileSink::FileSink;
     Result<void> begin(const Input&) override;
     Result<void> block(const Input&, const RunBlock&) override;
 };
@@ -131,7 +130,7 @@ Result<void> VectorsFile::block(const Input& input, const RunBlock& block) {
 Result<void> check_vectors(const OutputRequest& request) {
     const auto has_converter = [](const AfferentPlan& plan) { return !plan.converter.empty(); };
     if (std::none_of(request.plans.begin(), request.plans.end(), has_converter)) {
-        const auto& name = base_name(request.plans[0]);
+        const auto name = request.plans.empty() ? std::string("skin") : base_name(request.plans[0]);
         return bad_usage(fmt::format("--vectors: {} has no converter, and so no fixed-point values; try 'adc+{}'", name, name));
     }
     return check_recorded_copies(request, "--vectors");
@@ -150,11 +149,10 @@ std::vector<std::string> vectors_file_names(const OutputRequest& request) {
 }  // namespace
 
 const OutputFormat vectors_format = {
-    .option = "--vectors",
-    .value_name = "",
-    .help = "with --out, also write vectors-AFFERENT.csv and rom-AFFERENT.csv: every fixed-point value after the converter",
     .names = {"vectors-*.csv", "rom-*.csv"},
-    .make = [](const OutputRequest& request) { return make_file_sink<VectorsFile>(request.directory); },
+    .option = "--vectors",
+    .help = "with --out, also write vectors-AFFERENT.csv and rom-AFFERENT.csv: every fixed-point value after the converter",
+    .make = make_in_directory<VectorsFile>,
     .check = check_vectors,
     .names_of = vectors_file_names,
 };

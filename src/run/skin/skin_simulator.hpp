@@ -4,7 +4,7 @@
 #include <chrono>
 #include <optional>
 
-#include "run/run.hpp"
+#include "run/run_inputs.hpp"
 #include "run/skin/skin_checkpoint.hpp"
 #include "run/skin/skin_force.hpp"
 #include "run/skin/skin_population.hpp"
@@ -13,7 +13,7 @@
 
 namespace corpuscle {
 
-/// What the run of a skin can have besides the skin and its force.
+/// Parts that not every run of a skin has.
 struct SkinRunParts {
     SkinWorkers* workers = nullptr;        ///< the other ranks; null: a single process
     SkinCheckpoint* checkpoint = nullptr;  ///< null: the run cannot be resumed

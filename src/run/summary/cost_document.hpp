@@ -3,7 +3,7 @@
 
 #include <nlohmann/json_fwd.hpp>
 
-#include "run/run.hpp"
+#include "run/run_inputs.hpp"
 
 namespace corpuscle {
 

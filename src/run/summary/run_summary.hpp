@@ -9,7 +9,7 @@
 #include "measure/measures.hpp"
 #include "model/copies.hpp"
 #include "run/compare/implementation_comparison.hpp"
-#include "run/run.hpp"
+#include "run/run_inputs.hpp"
 
 namespace corpuscle {
 

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "run/run.hpp"
+#include "run/run_inputs.hpp"
 
 namespace corpuscle {
 

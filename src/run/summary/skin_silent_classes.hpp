@@ -5,7 +5,7 @@
 #include <optional>
 #include <vector>
 
-#include "run/run.hpp"
+#include "run/run_inputs.hpp"
 
 namespace corpuscle {
 

@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "measure/measure_base.hpp"
-#include "run/run.hpp"
+#include "run/run_inputs.hpp"
 
 namespace corpuscle {
 

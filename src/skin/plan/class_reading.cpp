@@ -5,6 +5,8 @@
 #include <array>
 #include <cmath>
 
+#include "core/located_override.hpp"
+
 namespace corpuscle::skins {
 namespace {
 
@@ -16,14 +18,7 @@ constexpr double min_velocity = 0.1, max_velocity = 200;  // m/s
 /// afferent.
 std::vector<ParameterOverride> overrides_for(std::string_view afferent, std::span<const LocatedSetting> spec) {
     std::vector<ParameterOverride> out;
-    for (const auto& s : spec) {
-        const auto dot = s.name.rfind('.');  // "adc.bits" has a target of its own, "f_B" has not
-        const bool has_target = dot != std::string::npos;
-        ParameterOverride given{has_target ? s.name.substr(0, dot) : std::string(afferent), has_target ? s.name.substr(dot + 1) : s.name,
-                                s.value.text};
-        given.said = given.text(), given.location = s.value.location;
-        out.push_back(std::move(given));
-    }
+    for (const auto& s : spec) out.push_back(located_override(s, afferent));
     return out;
 }
 

@@ -5,6 +5,7 @@
 #include <bit>
 #include <filesystem>
 
+#include "core/located_override.hpp"
 #include "core/stimulus/stimuli.hpp"
 #include "core/text/quantity.hpp"
 #include "io/recording/recording.hpp"
@@ -115,9 +116,7 @@ Result<VariedQuantity> ForceFactory::find_quantity(const LocatedText& quantity) 
 }
 
 Result<void> ForceFactory::set(const LocatedSetting& setting) {
-    const auto dot = setting.name.find('.');
-    ParameterOverride given{setting.name.substr(0, dot), setting.name.substr(dot + 1), setting.value.text, setting.name,
-                            setting.value.location};
+    auto given = located_override(setting, text_);
     for (const auto& stimulus : stimulus_catalog())
         if (stimulus.name == given.target)
             if (const auto ok = setting_of(given, stimulus.parameters); !ok) return ok.error();

@@ -5,7 +5,8 @@
 #include <algorithm>
 #include <map>
 
-#include "core/parameter.hpp"
+#include "core/located_override.hpp"
+#include "core/stimulus/stimuli.hpp"
 #include "core/text/quantity.hpp"
 #include "model/lane_population.hpp"
 #include "run/afferent_plan.hpp"
@@ -89,15 +90,16 @@ Result<void> ModelSweep::apply_settings(const SweepText& spec) {
     std::vector<ParameterOverride> overrides;
     for (const auto& s : spec.settings) {
         if (!force_.has_parameter(s.name))
-            overrides.push_back(
-                {afferent_name, std::string(parameter_name(afferent_name, s.name)), s.value.text, s.name, s.value.location});
+            overrides.push_back(located_override(s, afferent_name));
         else if (auto ok = force_.set(s); !ok)
             return ok;
     }
     auto planned = plan_any_afferent(afferent_name, overrides);
     if (!planned) return planned.error();
-    nominal_ = std::move(planned->result);  // the target of every override is the afferent, so none is unused
-    return {};
+    nominal_ = std::move(planned->result);
+    auto targets = is_stimulus(force_.name()) ? stimulus_members(force_.name()) : std::vector<std::string_view>();
+    targets.insert(targets.begin(), afferent_name);
+    return check_all_used(planned->unused, targets);
 }
 
 /// Selects the probes that are written to the results.

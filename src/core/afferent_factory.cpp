@@ -1,4 +1,4 @@
-#include "core/afferent_plan.hpp"
+#include "core/afferent_factory.hpp"
 
 #include <nlohmann/json.hpp>
 

@@ -1,4 +1,4 @@
-#include "circuit/cost/cost_document.hpp"
+#include "circuit/cost/circuit_cost_document.hpp"
 
 #include <nlohmann/json.hpp>
 

@@ -1,4 +1,4 @@
-#include "run/run.hpp"
+#include "run/run_inputs.hpp"
 
 #include <algorithm>
 

@@ -27,16 +27,13 @@ Error start_study_program(const std::vector<std::string>& words) {
                                  path.parent_path().string()));
 }
 
-class StudyVerb final : public Verb {
-public:
-    StudyVerb() : Verb({"study", "reproduce published results and compare them with the published numbers"}) {}
-    bool is_program() const override { return true; }
-    void add_options_to(CLI::App&, CommonArguments&) override {}
-    int run(const CommonArguments& common) override { return report_error(start_study_program(common.words)); }
-};
-
 }  // namespace
 
-std::unique_ptr<Verb> make_study_verb() { return std::make_unique<StudyVerb>(); }
+Verb make_study_verb() {
+    return {.name = "study",
+            .description = "reproduce published results and compare them with the published numbers",
+            .run = [](const CommonArguments& common) { return report_error(start_study_program(common.words)); },
+            .is_program = true};
+}
 
 }  // namespace corpuscle

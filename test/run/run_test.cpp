@@ -1,4 +1,4 @@
-#include "run/afferent_run.hpp"
+#include "run/run_inputs.hpp"
 
 #include <fmt/format.h>
 
@@ -7,10 +7,10 @@
 #include "io/recording/recording.hpp"
 #include "report/envelope.hpp"
 #include "report/respond/respond_report.hpp"
-#include "run/sinks/file_sinks.hpp"
+#include "run/channels/channel_warnings.hpp"
 #include "run/summary/run_summary.hpp"
 #include "support/property.hpp"
-#include "support/support.hpp"
+#include "support/sinks.hpp"
 
 namespace corpuscle {
 namespace {
@@ -28,15 +28,14 @@ RunFiles run(const TemporaryFolder& folder, const std::vector<std::string>& stim
     std::vector<AfferentPlan> plans;
     for (const auto& s : stimuli) sources.push_back(test::value_or_throw(make_stimulus(s, 2e3, 9)));
     for (const auto& n : names) plans.push_back(test::value_or_throw(plan_afferent(n)));
-    SpikesFile spikes(test::value_or_throw(OutputFile::create(folder / "spikes.csv")));
-    ProbesFile traces(folder.path());
+    const auto spikes = test::make_sink(spikes_format, folder.path()), probes = test::make_sink(probes_format, folder.path());
     RunSummary summary;
-    ResponseSink* sinks[] = {&spikes, &traces, &summary};
+    Sink* sinks[] = {spikes.get(), probes.get(), &summary};
     RespondOptions options;
     options.block = block;
-    const auto work = test::value_or_throw(respond(sources, plans, sinks, options));
-    EXPECT_TRUE(spikes.commit());
-    EXPECT_TRUE(traces.commit());
+    const auto work = test::value_or_throw(corpuscle::run(sources, plans, sinks, options));
+    EXPECT_TRUE(spikes->commit());
+    EXPECT_TRUE(probes->commit());
     return {test::read_file(folder / "spikes.csv"), test::read_file(folder / "probes.csv"),
             summary.document(plans, work, options, 9, {}).dump(), work};
 }
@@ -99,7 +98,7 @@ TEST(Respond, StopsOnRequestAndReportsIt) {
     int blocks = 0;
     options.block = 100;
     options.should_continue = [&](double) { return ++blocks < 3; };
-    const auto work = respond(sources, std::span(&plan, 1), {}, options);
+    const auto work = corpuscle::run(sources, std::span(&plan, 1), {}, options);
     ASSERT_FALSE(work);
     EXPECT_EQ(work.error().code, ErrorCode::interrupted);
     EXPECT_EQ(blocks, 3);
@@ -136,8 +135,8 @@ TEST(RespondReport, KeepsItsSizeLimitForAnyNumberOfInputs) {
         const auto plan = test::value_or_throw(plan_afferent("sa1"));
         RespondReport report(100'000);
         RunSummary summary;
-        ResponseSink* sinks[] = {&report, &summary};
-        (void)test::value_or_throw(respond(sources, std::span(&plan, 1), sinks, {}));
+        Sink* sinks[] = {&report, &summary};
+        (void)test::value_or_throw(corpuscle::run(sources, std::span(&plan, 1), sinks, {}));
         const auto page = report.page(summary, std::span(&plan, 1), "", {}, nlohmann::ordered_json::array());
         EXPECT_EQ(page.find("{{page"), std::string::npos);
         EXPECT_EQ(page.find("{{dygraphs"), std::string::npos) << "every part of the template was filled";

@@ -1,6 +1,6 @@
 // Files that respond writes, read back.
 
-#include "run/sinks/file_sinks.hpp"
+#include "run/sinks.hpp"
 
 #include <sndfile.h>
 
@@ -11,17 +11,15 @@
 #include "io/table/npz.hpp"
 #include "model/copies.hpp"
 #include "run/earlier_outputs.hpp"
-#include "run/sinks/npz_file.hpp"
-#include "run/sinks/psth_file.hpp"
-#include "run/sinks/spike_sound_file.hpp"
+#include "run/run_inputs.hpp"
 #include "run/summary/run_summary.hpp"
 #include "support/property.hpp"
-#include "support/support.hpp"
+#include "support/sinks.hpp"
 
 namespace corpuscle {
 namespace {
 
-using test::TemporaryFolder;
+using test::TemporaryFolder, test::make_sink, test::pass_to_sinks;
 using test::value_or_throw;
 
 /// A source of which only the clock and the channels are used; it returns no samples.
@@ -41,28 +39,6 @@ public:
     std::string description() const override { return "still"; }
     Result<void> read(Frames&) override { return {}; }
 };
-
-/// Passes spikes to sinks in blocks, as a run does.
-void pass_to_sinks(const ForceSource& source, std::span<const AfferentPlan> plans, std::vector<Spike> spikes, std::int64_t samples,
-                   std::int64_t block, std::initializer_list<ResponseSink*> sinks) {
-    const std::vector<std::span<const Probe>> probes(plans.size());
-    const Input input{source, "still", plans, probes};
-    std::sort(spikes.begin(), spikes.end());
-    for (auto* l : sinks)
-        if (auto ok = l->begin(input); !ok) throw std::runtime_error(ok.error().text());
-    for (std::int64_t first = 0; first < samples; first += block) {
-        Frames force(source.channels().size(), static_cast<std::size_t>(block));
-        force.count = static_cast<std::size_t>(std::min(block, samples - first));
-        std::vector<Spike> in_block;
-        for (const auto& s : spikes)
-            if (s.step >= first && s.step < first + block) in_block.push_back(s);
-        const RunBlock run_block{first, force, in_block, {}};
-        for (auto* l : sinks)
-            if (auto ok = l->block(input, run_block); !ok) throw std::runtime_error(ok.error().text());
-    }
-    for (auto* l : sinks)
-        if (auto ok = l->end(input, samples); !ok) throw std::runtime_error(ok.error().text());
-}
 
 std::vector<AfferentPlan> plans(const std::vector<std::string>& names) {
     std::vector<AfferentPlan> all;
@@ -85,10 +61,9 @@ TEST(SpikeSinks, AreReadBackFromCsvToTheNanosecondAndFromNpzExactly) {
     EXPECT_TRUE(rc::check("written and read", [&] {
         const SilentSource source(Clock{3000, 1, *rc::gen::element(0.0, 12.3456, 1.7e6)}, {"a", "b c"});
         const auto spikes = any_spikes(500, 4);
-        SpikesFile csv(value_or_throw(OutputFile::create(folder / "spikes.csv")));
-        NpzFile npz(value_or_throw(OutputFile::create(folder / "spikes.npz")));
-        pass_to_sinks(source, afferents, spikes, 500, *rc::gen::element(1, 7, 500), {&csv, &npz});
-        RC_ASSERT(bool(csv.commit()) && bool(npz.commit()));
+        const auto csv = make_sink(spikes_format, folder.path()), npz = make_sink(npz_format, folder.path());
+        pass_to_sinks(source, afferents, spikes, 500, *rc::gen::element(1, 7, 500), {csv.get(), npz.get()});
+        RC_ASSERT(bool(csv->commit()) && bool(npz->commit()));
         std::vector<std::vector<double>> expected(4);
         for (const auto& s : spikes) expected[s.afferent_index].push_back(source.clock().time(s.step, s.offset));
         for (auto& r : expected) std::sort(r.begin(), r.end());
@@ -112,9 +87,9 @@ TEST(SpikeSinks, AreReadBackFromCsvToTheNanosecondAndFromNpzExactly) {
 TEST(SpikeSinks, NpzHasTheListsThatSpikeInterfaceReads) {
     const TemporaryFolder folder;
     const SilentSource source(Clock{1000, 1, 5.0}, {"a"});
-    NpzFile npz(value_or_throw(OutputFile::create(folder / "spikes.npz")));
-    pass_to_sinks(source, plans({"sa1", "fa1"}), {{2, 0.5, 1}, {1, 0.25, 0}}, 10, 4, {&npz});
-    ASSERT_TRUE(npz.commit());
+    const auto npz = make_sink(npz_format, folder.path());
+    pass_to_sinks(source, plans({"sa1", "fa1"}), {{2, 0.5, 1}, {1, 0.25, 0}}, 10, 4, {npz.get()});
+    ASSERT_TRUE(npz->commit());
     const auto checked = std::system(("/usr/bin/python3 -c \"\nimport numpy as np\nz = np.load('" + folder / "spikes.npz" + R"(')
 assert z['unit_ids'].dtype == np.int64 and list(z['unit_ids']) == [0, 1]
 assert int(z['num_segment'][0]) == 1 and z['num_segment'].dtype == np.int64
@@ -136,9 +111,9 @@ TEST(PsthFile, CountsEverySpikeOnceInEqualBinsForAnyBlock) {
         const SilentSource source(Clock{1000, 1, *rc::gen::element(0.0, 100.0)}, {"a", "b"});
         const auto spikes = any_spikes(250, 2);
         const int per_bin = *rc::gen::element(1, 7, 10, 250, 1000);  // samples
-        PsthFile bins(value_or_throw(OutputFile::create(folder / "psth.csv")), per_bin * 1e-3);
-        pass_to_sinks(source, afferents, spikes, 250, *rc::gen::element(1, 9, 250), {&bins});
-        RC_ASSERT(bool(bins.commit()));
+        const auto bins = make_sink(psth_format, folder.path(), {.options = {{"--bin", fmt::format("{}ms", per_bin)}}});
+        pass_to_sinks(source, afferents, spikes, 250, *rc::gen::element(1, 9, 250), {bins.get()});
+        RC_ASSERT(bool(bins->commit()));
         std::vector<std::string> expected = {"afferent,channel,from_s,to_s,spikes,rate_Hz"};
         for (int from = 0; from < 250; from += per_bin)
             for (std::uint32_t u = 0; u < 2; ++u) {
@@ -177,9 +152,9 @@ TEST(SpikeSoundFile, HasAClickForEachSpikeAtItsSampleForAnyBlock) {
     std::vector<Spike> spikes;
     for (std::int64_t k = 0; k < 40; ++k) spikes.push_back({50 + 37 * k, static_cast<double>(1 + k % 7) / 7, 0});
     for (const std::int64_t block : {1, 13, 2000}) {
-        SpikeSoundFile clicks(folder.path());
-        pass_to_sinks(source, plans({"sa1"}), spikes, 2000, block, {&clicks});
-        ASSERT_TRUE(clicks.commit());
+        const auto clicks = make_sink(sound_format, folder.path());
+        pass_to_sinks(source, plans({"sa1"}), spikes, 2000, block, {clicks.get()});
+        ASSERT_TRUE(clicks->commit());
         const auto clicks_read = read_clicks(folder / "spikes.wav");
         EXPECT_EQ(clicks_read.channels, 1);
         EXPECT_EQ(clicks_read.samples.size(), 8820U) << "as long as the input";
@@ -200,18 +175,18 @@ TEST(SpikeSoundFile, PansAfferentsFromLeftToRightAndNeverSaturates) {
     std::vector<Spike> all;  // all afferents at once, several times, some within each other's clicks
     for (const std::int64_t step : {10, 11, 12, 100, 101, 300})
         for (std::uint32_t u = 0; u < 6; ++u) all.push_back({step, 1, u});
-    SpikeSoundFile clicks(folder.path());
-    pass_to_sinks(source, plans({"sa1", "fa1", "sa2"}), all, 400, 50, {&clicks});
-    ASSERT_TRUE(clicks.commit());
+    const auto clicks = make_sink(sound_format, folder.path());
+    pass_to_sinks(source, plans({"sa1", "fa1", "sa2"}), all, 400, 50, {clicks.get()});
+    ASSERT_TRUE(clicks->commit());
     const auto clicks_read = read_clicks(folder / "spikes.wav");
     EXPECT_EQ(clicks_read.channels, 2);
     EXPECT_LE(*std::max_element(clicks_read.samples.begin(), clicks_read.samples.end()), 29490) << "nine tenths of the full range";
     EXPECT_GE(*std::max_element(clicks_read.samples.begin(), clicks_read.samples.end()), 29480);
     EXPECT_GE(*std::min_element(clicks_read.samples.begin(), clicks_read.samples.end()), 0)
         << "clicks do not wrap around to negative samples";
-    SpikeSoundFile left(folder.path());
-    pass_to_sinks(source, plans({"sa1", "fa1"}), {{100, 1, 0}}, 400, 50, {&left});
-    ASSERT_TRUE(left.commit());
+    const auto left = make_sink(sound_format, folder.path());
+    pass_to_sinks(source, plans({"sa1", "fa1"}), {{100, 1, 0}}, 400, 50, {left.get()});
+    ASSERT_TRUE(left->commit());
     const auto one = read_clicks(folder / "spikes.wav");
     int on_left = 0, right_channel = 0;
     for (std::size_t k = 0; k < one.samples.size(); k += 2) on_left += one.samples[k] != 0, right_channel += one.samples[k + 1] != 0;
@@ -226,9 +201,9 @@ TEST(SpikeSoundFile, PansCopiesLikeTheirAfferent) {
     for (const auto& plan : plans({"sa1", "fa1"}))
         for (auto& copy : value_or_throw(make_copies(plan, 3, {}, 0))) copies.push_back(std::move(copy));
     for (std::uint32_t afferent_index = 0; afferent_index < 6; ++afferent_index) {
-        SpikeSoundFile clicks(folder.path());
-        pass_to_sinks(source, copies, {{100, 1, afferent_index}}, 400, 50, {&clicks});
-        ASSERT_TRUE(clicks.commit());
+        const auto clicks = make_sink(sound_format, folder.path());
+        pass_to_sinks(source, copies, {{100, 1, afferent_index}}, 400, 50, {clicks.get()});
+        ASSERT_TRUE(clicks->commit());
         const auto clicks_read = read_clicks(folder / "spikes.wav");
         ASSERT_EQ(clicks_read.channels, 2);
         int loudest[2] = {0, 0};
@@ -242,9 +217,9 @@ TEST(SpikeSoundFile, RefusesMoreThanAWavFileHoldsAndLeavesNothing) {
     const TemporaryFolder folder;
     const SilentSource source(Clock{1, 1000, 0.0}, {"a"});  // a sample every 1000 s
     {
-        SpikeSoundFile clicks(folder.path());
+        const auto clicks = make_sink(sound_format, folder.path());
         try {
-            pass_to_sinks(source, plans({"sa1"}), {}, 30, 1, {&clicks});
+            pass_to_sinks(source, plans({"sa1"}), {}, 30, 1, {clicks.get()});
             ADD_FAILURE() << "was written";
         } catch (const std::runtime_error& e) {
             EXPECT_NE(std::string(e.what()).find("'still' is longer than 6 hours, which is the limit of a WAV file; run it without --wav"),
@@ -277,8 +252,8 @@ TEST(Summary, UsesTheCycleOfAStimulusAndLeavesOutColumnsWithoutValues) {
         sources.push_back(value_or_throw(make_stimulus(stimulus, 10e3, 0)));
         const auto afferents = plans({"sa1"});
         RunSummary summary;
-        ResponseSink* sinks[] = {&summary};
-        (void)value_or_throw(respond(sources, afferents, sinks, {}));
+        Sink* sinks[] = {&summary};
+        (void)value_or_throw(corpuscle::run(sources, afferents, sinks, {}));
         std::vector<std::string_view> names;
         for (const auto c : summary.columns()) names.push_back(measures[c].name);
         return names;

@@ -1,8 +1,7 @@
 // Test vectors for hardware: the program writes the files stored here, and a second implementation, made from the documentation, agrees.
 
-#include "run/sinks/test_vectors_file.hpp"
-
-#include "support/support.hpp"
+#include "run/run_inputs.hpp"
+#include "support/sinks.hpp"
 
 namespace corpuscle {
 namespace {
@@ -18,13 +17,13 @@ std::vector<std::string> write(const test::TemporaryFolder& folder, const std::v
     std::vector<AfferentPlan> plans;
     for (const auto& s : stimuli) sources.push_back(test::value_or_throw(make_stimulus(s, overrides, 2e3, 9)).result);
     for (const auto& n : names) plans.push_back(test::value_or_throw(plan_afferent(n, overrides)).result);
-    TestVectorsFile vectors(folder.path());
-    ResponseSink* sinks[] = {&vectors};
+    const auto vectors = test::make_sink(vectors_format, folder.path());
+    Sink* sinks[] = {vectors.get()};
     RespondOptions options;
     options.block = block;
-    (void)test::value_or_throw(respond(sources, plans, sinks, options));
-    EXPECT_TRUE(vectors.commit());
-    return vectors.paths();
+    (void)test::value_or_throw(run(sources, plans, sinks, options));
+    EXPECT_TRUE(vectors->commit());
+    return vectors->paths();
 }
 
 /// Settings of a small converter of 8 bits at 250 Hz, for files that are short enough to store.

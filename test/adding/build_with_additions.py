@@ -1,0 +1,116 @@
+"""Builds the program from a copy of the tree, with some files added and some lists extended.
+
+Only the objects that depend on an extended list are compiled, with the commands of the build; all others are those of the build."""
+
+import concurrent.futures
+import os
+import pathlib
+import re
+import subprocess
+
+
+def run(command, folder):
+    done = subprocess.run(command, shell=True, cwd=folder, capture_output=True, text=True)
+    if done.returncode != 0:
+        raise SystemExit(f"failed: {command[-300:]}\n{done.stdout}{done.stderr}")
+    return done.stdout
+
+
+def included_files(path, tree):
+    """The files of the tree that a file includes, by their path below src or apps."""
+    for name in re.findall(r'#include "([^"]+)"', path.read_text()):
+        for folder in (tree / "src", tree / "apps"):
+            if (folder / name).exists():
+                yield folder / name
+
+
+def files_read(source, tree, known):
+    """The file and all files of the tree that it includes."""
+    if source not in known:
+        known[source] = {source}
+        for file in included_files(source, tree):
+            known[source] |= files_read(file, tree, known)
+    return known[source]
+
+
+class Build:
+    """The commands that build the program, for another tree. Their outputs go to the directory `out`."""
+
+    def __init__(self, root, build, tree, out):
+        self.root, self.build, self.tree, self.out = root, build, tree, out
+        self.replaced = {}  # object of the build: the objects that take its place
+        commands = run("ninja -t commands corpuscle", build).splitlines()
+        self.compile = [c for c in commands if " -c " in c and "/src/corpuscle" not in c]  # the program does not use the public interface
+        self.archive = [c for c in commands if " qc " in c]
+        self.link = next(c for c in commands if " -o corpuscle " in c)
+        self.known = {}
+
+    def moved(self, text):
+        for folder in ("src", "apps"):
+            text = text.replace(f"{self.root}/{folder}", f"{self.tree}/{folder}")
+        return text
+
+    def sources(self, command):
+        """The files of the tree that a command compiles: one, or those of a unity file."""
+        source = command.split(" -c ")[1].split()[0]
+        text = [source] if "/Unity/" not in source else re.findall(r'#include "([^"]+)"', pathlib.Path(source).read_text())
+        return [pathlib.Path(self.moved(s)) for s in text]
+
+    def uses(self, command, additions):
+        """True if a command compiles a file that uses an extended list."""
+        for source in self.sources(command):
+            files = files_read(source, self.tree, self.known) if source.is_relative_to(self.tree) else set()
+            for addition in additions:
+                names = re.compile(rf"\b({addition.list_names})\b")
+                own = self.tree / addition.list
+                if own in files and any(names.search(f.read_text()) for f in files if f != own):
+                    return True
+        return False
+
+    def compiled(self, command, number, source=None):
+        """The command for the other tree, of a source file or of the sources of the command; also its object."""
+        original = command.split(" -c ")[1].split()[0]
+        if source is None:
+            source = self.moved(original)
+            if "/Unity/" in original:
+                source = self.out / f"unity{number}.cxx"
+                source.write_text(self.moved(pathlib.Path(original).read_text()))
+        changed = re.sub(r" -MD -MT \S+ -MF \S+", "", self.moved(command))
+        target = self.out / f"object{number}.o"
+        changed = re.sub(r" -o \S+ -c \S+", lambda _: f" -o {target} -c {source}", changed)
+        if "-include " not in changed:
+            changed += " -O0"  # a precompiled header needs the options that it was compiled with
+        return changed, str(target)
+
+    def make(self, additions):
+        """Compiles and links. Returns the path of the program and the number of compiled objects."""
+        jobs = []
+        for command in self.compile:
+            if self.uses(command, additions):
+                changed, target = self.compiled(command, len(jobs))
+                jobs.append(changed)
+                self.replaced[re.search(r" -o (\S+)", command)[1]] = [target]
+        for addition in additions:
+            file = self.tree / addition.file
+            if file.suffix != ".cpp":
+                continue
+            command = next(c for c in self.compile if "-include " in c and any(s.parent == file.parent for s in self.sources(c)))
+            changed, target = self.compiled(command, len(jobs), file)
+            jobs.append(changed)
+            neighbour = re.search(r" -o (\S+)", command)[1]
+            self.replaced[neighbour] = self.replaced.get(neighbour, [neighbour]) + [target]
+        with concurrent.futures.ThreadPoolExecutor(min(4, os.cpu_count() or 1)) as pool:
+            list(pool.map(lambda job: run(job, self.build), jobs))
+        link = self.with_objects(self.link)
+        for number, command in enumerate(self.archive):
+            library = re.search(r" qc (\S+)", command)[1]
+            mine = self.out / f"library{number}.a"
+            objects = self.with_objects(command.split(" qc ")[1].split(" && ")[0].split(" ", 1)[1])
+            run(f"rm -f {mine} && ar qc {mine} {objects}", self.build)
+            link = link.replace(f" {library}", f" {mine}")
+        program = self.out / "corpuscle"
+        run(link.replace(" -o corpuscle ", f" -o {program} "), self.build)
+        return program, len(jobs)
+
+    def with_objects(self, text):
+        return " ".join(" ".join(self.replaced.get(word, [word])) for word in text.split(" "))
