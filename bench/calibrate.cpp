@@ -47,7 +47,7 @@ int main(int argc, char** argv) {
 
     ChipCalibration calibration;
     calibration.netlist = std::string(chosen_case->model) + "-circuit", calibration.bits = bits;
-    calibration.overrides = {{"corner", "mc", "corner=mc"}};
+    calibration.overrides = {{"", "corner", "mc", "corner=mc"}};
     calibration.batch.max_iterations = 60'000;
     const auto press = stimulus("press");
     calibration.force = press.force, calibration.T = 1 / press.rate;

@@ -1,22 +1,28 @@
 #pragma once
-// The studies listed in studies.def. The study NAME is defined in a file of studies/, in the namespace corpuscle::studies::NAME.
+// The studies listed in studies.def. A study is a data file, studies/NAME.toml, or a C++ file, studies/NAME.cpp, or both. The C++ file uses
+// the namespace corpuscle::studies::NAME.
 
 #include "reproduction/claims/study.hpp"
+#include "reproduction/data/study_value.hpp"
 
 #define STUDY(name)                      \
     namespace corpuscle::studies::name { \
     extern const Study study;            \
     }
+#define STUDY_FILE(name)
+#define STUDY_FILE_WITH_VALUES(name)                         \
+    namespace corpuscle::studies::name {                     \
+    Result<StudyValues> compute_values(const StudyOptions&); \
+    }
 #include "reproduction/claims/studies.def"
 #undef STUDY
+#undef STUDY_FILE
+#undef STUDY_FILE_WITH_VALUES
 
 namespace corpuscle {
 
-#define STUDY(name) &studies::name::study,
-inline constexpr const Study* all_studies[] = {
-#include "reproduction/claims/studies.def"
-};
-#undef STUDY
+/// All studies, in the order of studies.def.
+std::span<const Study* const> all_studies();
 
 /// Studies of published recordings. The recordings are not part of the project and may be absent, so `corpuscle study all` leaves
 /// these studies out; they run only if they are named.

@@ -48,7 +48,7 @@ struct StudyOptions {
 struct Study {
     std::string_view name, title;
     std::string_view question;  ///< the published statement or the question, and its source
-    Result<StudyResult> (*compute)(const StudyOptions&);
+    std::function<Result<StudyResult>(const StudyOptions&)> compute;
     /// The folder within StudyOptions::recordings_folder that the study reads; "" if it reads no recording.
     std::string_view recording_folder = {};
 

@@ -39,12 +39,12 @@ bool covers(std::string_view study, std::string_view requested) {
 /// The studies that the names select, each of them once.
 Result<std::vector<const Study*>> selected_studies(const std::vector<std::string>& names) {
     std::vector<std::string_view> known = {"all"};
-    for (const auto* s : all_studies) known.push_back(s->name);
+    for (const auto* s : all_studies()) known.push_back(s->name);
     for (const auto* s : recorded_studies) known.push_back(s->name);
     std::vector<const Study*> out;
     for (const auto& name : names) {
         bool found = false;
-        for (const auto* s : all_studies) {
+        for (const auto* s : all_studies()) {
             if (name != "all" && name != s->name && !covers(s->name, name)) continue;
             found = true;
             if (std::find(out.begin(), out.end(), s) == out.end()) out.push_back(s);

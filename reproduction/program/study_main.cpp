@@ -13,7 +13,7 @@ using namespace corpuscle;
 
 std::string study_help() {
     std::string known;
-    for (const auto* s : all_studies) known += fmt::format("\n  {:14} {}", s->name, s->title);
+    for (const auto* s : all_studies()) known += fmt::format("\n  {:14} {}", s->name, s->title);
     std::string recorded;
     for (const auto* s : recorded_studies) recorded += fmt::format("\n  {:14} {}", s->name, s->title);
     return "Studies:" + known + "\n\nStudies of recordings, not part of 'all' (CORPUSCLE_DATA: directory of the recordings):" + recorded +

@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "core/text/quantity.hpp"
+#include "reproduction/claims/check_all.hpp"
 #include "reproduction/claims/studies.hpp"
 #include "reproduction/thesis/bias/bias_figure.hpp"
 
@@ -92,8 +93,7 @@ Result<void> claim_causes(StudyResult& out) {
     const auto r = s->working_range();
     const auto low = simulate_bias_state({bias_setting(BiasAxis::current, r.from)}),
                high = simulate_bias_state({bias_setting(BiasAxis::current, r.to)}), state_at_2_uA = simulate_bias_state({"i_bias=2u"});
-    for (const auto* state : {&low, &high, &state_at_2_uA})
-        if (!*state) return state->error();
+    if (auto ok = check_all(low, high, state_at_2_uA); !ok) return ok.error();
     out.claim_true(
         "at the lower end of the range of I_BIAS M4A is in the linear region and the bulk current is below a thousandth of I_BIAS",
         low->V_M4A < low->V_sat_M4A && low->bulk_current < 1e-3 * low->I_BIAS,

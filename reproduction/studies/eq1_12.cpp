@@ -7,6 +7,7 @@
 #include <cmath>
 #include <complex>
 
+#include "reproduction/claims/check_all.hpp"
 #include "reproduction/claims/studies.hpp"
 #include "reproduction/thesis/algorithms.hpp"
 #include "reproduction/thesis/press.hpp"
@@ -72,8 +73,7 @@ Result<void> equations_5_to_7(StudyResult& out) {
     double error_A = 0, error_B = 0, error_raised = 0;  // largest relative errors; raised: u_rest is 0.2 V
     for (const double I : {1.05e-6, 1.2e-6, 1.5e-6, 2e-6, 3e-6, 5e-6, 10e-6, 30e-6}) {
         const auto a = frequency("lif-a", I, 0), raised = frequency("lif-a", I, 0.2), b = frequency("lif-b", I, 0);
-        for (const auto* f : {&a, &raised, &b})
-            if (!*f) return f->error();
+        if (auto ok = check_all(a, raised, b); !ok) return ok.error();
         const auto exact_frequency_A = [&](double u_rest) {
             return 1 / std::log((1e6 * I + u_rest - 0.5) / (1e6 * I + u_rest - 1));
         };  // RC is 1 s

@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "circuit/device/physical_constants.hpp"
+#include "reproduction/claims/check_all.hpp"
 #include "reproduction/claims/studies.hpp"
 #include "reproduction/claims/study_netlist.hpp"
 #include "reproduction/thesis/array_text.hpp"
@@ -104,7 +105,7 @@ StudyPlot inversion_plot() {
 Result<StudyResult> compute(const StudyOptions&) {
     const auto simple = solve_bias_points(simple_card, "plain"), complete = solve_bias_points(process_card, "nch"),
                channel = solve_bias_points(process_card, "nch", true);
-    if (!simple || !complete || !channel) return !simple ? simple.error() : !complete ? complete.error() : channel.error();
+    if (auto ok = check_all(simple, complete, channel); !ok) return ok.error();
     StudyResult out;
     for (const auto& e : equations) out.claim(e.label, largest_error(*simple, e.error), "%").allow_max(solver_accuracy, e.source);
     add_errata(out, *simple);

@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 #include <cmath>
 
+#include "reproduction/claims/check_all.hpp"
 #include "reproduction/claims/studies.hpp"
 #include "reproduction/claims/study_netlist.hpp"
 #include "reproduction/thesis/array_text.hpp"
@@ -60,7 +61,7 @@ Result<void> add_parallel_series(StudyResult& out) {
     for (const int n : sizes) {
         const auto simple = simulate_parallel_series(simple_card, "plain", n),
                    with_process_card = simulate_parallel_series(process_card, "nch", n);
-        if (!simple || !with_process_card) return simple ? with_process_card.error() : simple.error();
+        if (auto ok = check_all(simple, with_process_card); !ok) return ok.error();
         const auto prefix = fmt::format("parallel-series, N = {}: I_in/I_out, ", n);
         out.claim(prefix + "equations only", I_in / -simple->operating_point("i(vout)")).derived_as(n * n, "thesis eq. 34; errata C1");
         auto& c = out.claim(prefix + "with the process card", I_in / -with_process_card->operating_point("i(vout)"))
@@ -83,7 +84,7 @@ Result<void> add_split(StudyResult& out) {
     StudyCurve by_40, exact, simple_line, process_line;  // over N^4
     for (const int n : sizes) {
         const auto simple = simulate_split(simple_card, "plain", n), with_process_card = simulate_split(process_card, "nch", n);
-        if (!simple || !with_process_card) return simple ? with_process_card.error() : simple.error();
+        if (auto ok = check_all(simple, with_process_card); !ok) return ok.error();
         const double N2 = n * n, by_38_39 = N2 * (N2 + 2);
         const auto prefix = fmt::format("current splitting, N = {}: ", n);
         out.claim(prefix + "I_DC + I_DD over I_DB, equations only", (simple->I_C + simple->I_out) / simple->I_B)

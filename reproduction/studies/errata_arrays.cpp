@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "circuit/cost/area.hpp"
+#include "reproduction/claims/check_all.hpp"
 #include "reproduction/claims/studies.hpp"
 #include "reproduction/claims/study_netlist.hpp"
 #include "reproduction/thesis/array_text.hpp"
@@ -53,7 +54,7 @@ Result<void> add_mismatch_by_inversion(StudyResult& out) {
         return 100 * A_VT / std::sqrt(0.42e-6 * 0.18e-6) * found->operating_info("m1", "g_mg") / found->operating_info("m1", "i_d");
     };
     const auto weak = sigma(0.25), strong = sigma(0.9);
-    if (!weak || !strong) return weak ? strong.error() : weak.error();
+    if (auto ok = check_all(weak, strong); !ok) return ok.error();
     out.claim("A: standard deviation of I_D caused by threshold mismatch, at V_G = 0.25 V", *weak, "%");
     out.claim("A: standard deviation of I_D caused by threshold mismatch, at V_G = 0.9 V", *strong, "%")
         .allow_max(*weak, "errata U14: it falls as the inversion level rises");

@@ -10,6 +10,7 @@
 
 #include "io/recording/recording.hpp"
 #include "io/spikes/spike_files.hpp"
+#include "reproduction/claims/check_all.hpp"
 #include "reproduction/claims/studies.hpp"
 #include "reproduction/skin/afferent_sheet.hpp"
 
@@ -55,8 +56,7 @@ Result<Published> read_published(const std::string& from_folder) {
     Published out;
     const auto network = read_spikes(from_folder + "/snn_spikes_S6_T16.csv"),
                motors = read_spikes(from_folder + "/motor_spikes_S6_T16.csv");
-    if (!network) return network.error();
-    if (!motors) return motors.error();
+    if (auto ok = check_all(network, motors); !ok) return ok.error();
     for (const auto& train : *network)
         for (const double t : train.times) out.network.push_back({t, std::stoul(train.afferent) - 1});
     std::sort(out.network.begin(), out.network.end(), [](const auto& a, const auto& b) { return a.time < b.time; });

@@ -2,6 +2,7 @@
 
 #include <cmath>
 
+#include "reproduction/claims/check_all.hpp"
 #include "reproduction/claims/studies.hpp"
 #include "reproduction/thesis/press.hpp"
 
@@ -69,8 +70,7 @@ Result<StudyResult> compute(const StudyOptions&) {
     if (!slow_retraction) return slow_retraction.error();
     for (const char* name : {"sa1", "fa1"}) {
         const auto as_used = simulate_train({name}), as_printed = simulate_train({name, "press", {"press.t_down=250ms"}});
-        if (!as_used) return as_used.error();
-        if (!as_printed) return as_printed.error();
+        if (auto ok = check_all(as_used, as_printed); !ok) return ok.error();
         const TimeWindow later{press::retraction.from, 2};
         out.claim(std::string(name) + ": spikes from the start of a retraction of 125 ms", press::spike_count(*as_used, later), "spikes");
         out.claim(std::string(name) + ": spikes from the start of a retraction of 250 ms", press::spike_count(*as_printed, later),

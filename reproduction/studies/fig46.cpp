@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "circuit/cost/area.hpp"
+#include "reproduction/claims/check_all.hpp"
 #include "reproduction/claims/sample_statistics.hpp"
 #include "reproduction/claims/studies.hpp"
 #include "reproduction/claims/study_netlist.hpp"
@@ -31,7 +32,7 @@ Result<void> add_lengths(StudyResult& out) {
     };
     const auto by_length = mirror(fmt::format("mb out in 0 0 nch018 w=0.42u l={} delvto={}\n", L, shift));
     const auto by_array = mirror(array_lines("b", "out", "in", "0", 1, n, unit));
-    if (!by_length || !by_array) return by_length ? by_array.error() : by_length.error();
+    if (auto ok = check_all(by_length, by_array); !ok) return ok.error();
     const double long_transistor = I_in / -by_length->operating_point("i(vo)"), array = I_in / -by_array->operating_point("i(vo)");
     out.claim(fmt::format("0.18 um to {:g} um: I_in/I_out over the ratio of aspect ratios", 1e6 * L), long_transistor / ratio)
         .derived_as(1, "thesis eq. 33");
@@ -59,7 +60,7 @@ Result<void> add_spread(StudyResult& out) {
         return sample_statistics(*chips, "i(vo)").cv_percent();
     };
     const auto arrays = deviation(4, 4), parallel = deviation(16, 1);
-    if (!arrays || !parallel) return arrays ? parallel.error() : arrays.error();
+    if (auto ok = check_all(arrays, parallel); !ok) return ok.error();
     out.claim("1/16 by 4 unit transistors in parallel to 4 in series: standard deviation of I_out over 1000 chips", std::abs(*arrays), "%")
         .allow_max(
             std::abs(*parallel),

@@ -2,6 +2,7 @@
 // Symbols. V_BN and V_BP are the body voltages that the generator sets, V_REF is half the supply, V_Q and I_Q are voltage and current of
 // the replica, an inverter with its output tied to its input.
 
+#include "reproduction/claims/check_all.hpp"
 #include "reproduction/claims/studies.hpp"
 #include "reproduction/thesis/bias/bias_figure.hpp"
 
@@ -33,8 +34,7 @@ Result<StudyResult> compute(const StudyOptions& options) {
     out.claim_true("V_BN rises with I_BIAS", V_BN.slope().between(20e-9, 2e-6).min() > 0, figure.source());
     const auto inside = is_saturated(200e-9),  // inside, below and above the working range
         below = is_saturated(0.5 * typical.working_range.from), above = is_saturated(2 * typical.working_range.to);
-    for (const auto* s : {&inside, &below, &above})
-        if (!*s) return s->error();
+    if (auto ok = check_all(inside, below, above); !ok) return ok.error();
     const char* source = "E.2: saturated in the range, in the linear region below and above it";
     out.claim_true("M3B and M4A are saturated at 200 nA", *inside, source);
     out.claim_true("at least one of them is not saturated at half the lower end of the working range", !*below, source);

@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 #include <cmath>
 
+#include "reproduction/claims/check_all.hpp"
 #include "reproduction/claims/studies.hpp"
 #include "reproduction/thesis/force_sensor.hpp"
 
@@ -79,14 +80,12 @@ struct NoiseParts {
 Result<NoiseParts> noise_parts(double newtons) {
     const auto dI_dF = gain(newtons);
     const auto cco = run_study_netlist({oscillator, {}, fmt::format(".noise v(out) ilk dec 20 {} {}", from, to)});
-    if (!dI_dF) return dI_dF.error();
-    if (!cco) return cco.error();
+    if (auto ok = check_all(dI_dF, cco); !ok) return ok.error();
     const std::string readout = "ha i_a 0 via 1\nra i_a 0 1g\n";
     const auto t = force_noise(chain, "i_f", newtons), all = force_noise(chain, "i_m", newtons),
                asp = force_noise("asp_sa1", "i_a", newtons, readout);
     const auto b = force_noise(chain, "hpb", newtons), c = force_noise(chain, "hpc", newtons);
-    for (const auto* r : {&t, &all, &asp, &b, &c})
-        if (!*r) return r->error();
+    if (auto ok = check_all(t, all, asp, b, c); !ok) return ok.error();
     return NoiseParts{sensor_noise(newtons), *t, *asp, cco->number("onoise_total") / *dI_dF, *all, *b, *c};
 }
 
@@ -128,8 +127,7 @@ Result<StudyResult> compute(const StudyOptions& options) {
     StudyCurve transducer, membrane, sensor;
     for (const double newtons : {0.05, 0.1, 0.2, 0.5, 1.0, 2.0, 3.0, 4.0, 5.0}) {
         const auto t = force_noise(chain, "i_f", newtons), m = force_noise(chain, "i_m", newtons);
-        if (!t) return t.error();
-        if (!m) return m.error();
+        if (auto ok = check_all(t, m); !ok) return ok.error();
         for (auto [line, value] : {std::pair{&transducer, *t}, {&membrane, *m}, {&sensor, repeatability * newtons}})
             line->x.push_back(newtons), line->y.push_back(1e3 * value);
     }

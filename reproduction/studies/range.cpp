@@ -9,7 +9,7 @@
 
 #include "core/thread_pool.hpp"
 #include "reproduction/claims/studies.hpp"
-#include "reproduction/thesis/chip_vs_model.hpp"
+#include "reproduction/thesis/press.hpp"
 
 namespace corpuscle::studies::range {
 

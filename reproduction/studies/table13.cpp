@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "reproduction/claims/check_all.hpp"
 #include "reproduction/claims/studies.hpp"
 #include "reproduction/thesis/arrays.hpp"
 
@@ -12,7 +13,7 @@ namespace corpuscle::studies::table13 {
 Result<StudyResult> compute(const StudyOptions&) {
     const auto found = simulate_arrays(trapezoids);
     const auto rectangular = simulate_arrays(rectangles);
-    if (!found || !rectangular) return found ? rectangular.error() : found.error();
+    if (auto ok = check_all(found, rectangular); !ok) return ok.error();
     const auto& ours = *found;
     StudyResult out;
     add_sizes(out, trapezoids, ours);

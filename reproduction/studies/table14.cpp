@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 #include <cmath>
 
+#include "reproduction/claims/check_all.hpp"
 #include "reproduction/claims/studies.hpp"
 #include "reproduction/thesis/arrays.hpp"
 
@@ -29,7 +30,7 @@ Result<void> add_f(StudyResult& out) {
 Result<StudyResult> compute(const StudyOptions&) {
     const auto found = simulate_arrays(trapezoids);
     const auto rectangular = simulate_arrays(rectangles);
-    if (!found || !rectangular) return found ? rectangular.error() : found.error();
+    if (auto ok = check_all(found, rectangular); !ok) return ok.error();
     StudyResult out;
     add_small_signals(out, trapezoids, *found);
     if (auto ok = add_f(out); !ok) return ok.error();

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "reproduction/claims/check_all.hpp"
 #include "reproduction/claims/studies.hpp"
 #include "reproduction/claims/study_netlist.hpp"
 #include "reproduction/thesis/arrays.hpp"
@@ -97,11 +98,11 @@ Result<StudyResult> compute(const StudyOptions&) {
     matches.push_back({&find_published(trapezoids, "F"), "xf_printed"});
     auto ours = simulate_arrays(trapezoids.circuit, matches);
     const auto rectangular = simulate_arrays(rectangles);
-    if (!ours || !rectangular) return ours ? rectangular.error() : ours.error();
+    if (auto ok = check_all(ours, rectangular); !ok) return ok.error();
     auto sigma = simulate_mismatch(trapezoids.circuit, matches);
     const ArrayMatch a{&find_published(rectangles, "A"), "xa"};
     const auto sigma_of_A = simulate_mismatch(rectangles.circuit, {&a, 1});
-    if (!sigma || !sigma_of_A) return sigma ? sigma_of_A.error() : sigma.error();
+    if (auto ok = check_all(sigma, sigma_of_A); !ok) return ok.error();
     StudyResult orientations;
     add_f(orientations, *ours, *sigma);
     if (auto ok = add_wider(orientations, (*ours)[1].gain(), (*ours)[0].gain()); !ok) return ok.error();

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "reproduction/claims/check_all.hpp"
 #include "reproduction/claims/studies.hpp"
 #include "reproduction/skin/fingertip.hpp"
 #include "reproduction/thesis/press.hpp"
@@ -114,8 +115,7 @@ Result<void> report_touch(StudyResult& out, const Contact& contact) {
     if (!matching_force) return matching_force.error();
     const auto equivalent = simulate_fingertip({contact.radius, equivalent_force}),
                matched = simulate_fingertip({contact.radius, *matching_force});
-    if (!equivalent) return equivalent.error();
-    if (!matched) return matched.error();
+    if (auto ok = check_all(equivalent, matched); !ok) return ok.error();
     out.claim(fmt::format("{}: equivalent force", contact.name), equivalent_force, "N");
     for (const auto& [afferent, theirs] : {std::pair{"sa1", &contact.sa1}, {"fa1", &contact.ra}})
         report_row(
@@ -217,8 +217,7 @@ Result<void> report_tuning(StudyResult& out, const StudyOptions& options) {
 /// Claims under the press stimulus, 4 N, for which the thesis's models are made.
 Result<void> report_press(StudyResult& out) {
     const auto sa1 = simulate_train({"sa1"}), fa1 = simulate_train({"fa1"});
-    if (!sa1) return sa1.error();
-    if (!fa1) return fa1.error();
+    if (auto ok = check_all(sa1, fa1); !ok) return ok.error();
     constexpr auto bound = "our bound after Birznieks et al. 2001, as described in thesis 1.2";
     const auto peak = [](const std::vector<double>& t, const TimeWindow& window) { return measure<PeakRate>(t, window); };
     out.claim("4 N: SA-I, peak of protraction over the end of the hold",

@@ -29,11 +29,6 @@ StudyCurve frequency_at_end(const std::vector<double>& train) {
     return out;
 }
 
-Claim& set_reference(Claim& c, double value, const std::string& mark) {
-    c.source = fmt::format("{}: {}", format_claim_value(value, c), mark);
-    return c;
-}
-
 TrialSpec thesis_algorithm(std::string afferent, std::vector<std::string> settings) {
     return {
         .afferent = std::move(afferent), .settings = std::move(settings), .rate = 1e3, .method = Method::backward_euler, .sampled = true};

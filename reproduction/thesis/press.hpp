@@ -5,7 +5,6 @@
 #include <vector>
 
 #include "measure/measures.hpp"
-#include "reproduction/claims/claim.hpp"
 #include "reproduction/claims/trial.hpp"
 
 namespace corpuscle::press {
@@ -25,9 +24,6 @@ std::string phase_counts(const std::vector<double>& train);
 StudyCurve frequency_at_start(const std::vector<double>& train);
 /// The same at the time of the second spike, as many tools plot it.
 StudyCurve frequency_at_end(const std::vector<double>& train);
-
-/// Writes a reference value (in the claim's unit) and a mark of its reliability as the claim's source. No verdict depends on it.
-Claim& set_reference(Claim&, double value, const std::string& mark);
 
 /// The trial that runs a model as the thesis does: Algorithms 4 to 6 in steps of 1 ms, with spikes at sample times.
 TrialSpec thesis_algorithm(std::string afferent, std::vector<std::string> settings = {});

@@ -33,6 +33,10 @@ def files_read(source, tree, known):
     return known[source]
 
 
+PRECOMPILED = re.compile(r" -Winvalid-pch| (-Xclang )?-include-pch (-Xclang )?\S+| (-Xclang )?-include (-Xclang )?\S+/cmake_pch.hxx")
+QUICK = "-O0 -g0 -U_FORTIFY_SOURCE"  # most of the time is spent on the optimisation of templates
+
+
 class Build:
     """The commands that build the program, for another tree. Their outputs go to the directory `out`."""
 
@@ -75,15 +79,25 @@ class Build:
             if "/Unity/" in original:
                 source = self.out / f"unity{number}.cxx"
                 source.write_text(self.moved(pathlib.Path(original).read_text()))
-        changed = re.sub(r" -MD -MT \S+ -MF \S+", "", self.moved(command))
         target = self.out / f"object{number}.o"
-        changed = re.sub(r" -o \S+ -c \S+", lambda _: f" -o {target} -c {source}", changed)
-        if "-include " not in changed:
-            changed += " -O0"  # a precompiled header needs the options that it was compiled with
-        return changed, str(target)
+        mine = re.sub(r" -MD -MT \S+ -MF \S+| -o \S+ -c \S+", "", self.moved(command))
+        if "cmake_pch" in command:  # one precompiled header for all, so the options of one target for all, with further directories
+            own = re.findall(r" (?:-I|-isystem )\S+| -D\S+", mine)
+            mine = self.options + "".join(o for o in own if o not in self.options) + f" -include {self.out}/common.hxx"
+        return f"{mine} {QUICK} -o {target} -c {source}", str(target)
+
+    def precompile(self):
+        """Makes the precompiled header of the program for QUICK options."""
+        command = next(c for c in self.compile if "/cmake_pch.hxx" in c and "corpuscle-cli.dir" in c and "-x c++-header" not in c)
+        header = re.search(r"(\S+/cmake_pch.hxx)", command)[1]
+        includes = re.findall(r"#include <.*", pathlib.Path(header).read_text())
+        (self.out / "common.hxx").write_text("\n".join(includes) + "\n")
+        self.options = PRECOMPILED.sub("", re.sub(r" -MD -MT \S+ -MF \S+| -o \S+ -c \S+", "", self.moved(command)))
+        run(f"{self.options} {QUICK} -x c++-header -o {self.out}/common.hxx.gch -c {self.out}/common.hxx", self.build)
 
     def make(self, additions):
         """Compiles and links. Returns the path of the program and the number of compiled objects."""
+        self.precompile()
         jobs = []
         for command in self.compile:
             if self.uses(command, additions):
@@ -94,7 +108,7 @@ class Build:
             file = self.tree / addition.file
             if file.suffix != ".cpp":
                 continue
-            command = next(c for c in self.compile if "-include " in c and any(s.parent == file.parent for s in self.sources(c)))
+            command = next(c for c in self.compile if "cmake_pch" in c and any(s.parent == file.parent for s in self.sources(c)))
             changed, target = self.compiled(command, len(jobs), file)
             jobs.append(changed)
             neighbour = re.search(r" -o (\S+)", command)[1]

@@ -10,19 +10,17 @@
 #include "circuit/variant/netlist_overrides.hpp"
 #include "core/number/instruction_set.hpp"
 #include "core/stimulus/stimuli.hpp"
-#include "support/test_paths.hpp"
+#include "support/support.hpp"
 
 namespace corpuscle::circuit {
 namespace {
 
 constexpr double batch_T = 1e-4;
 
-std::shared_ptr<const CircuitAfferentFactory> design_of(const std::string& file, std::vector<ParameterOverride> overrides = {}) {
-    const auto netlist = apply_overrides(file, overrides);
-    if (!netlist) throw std::runtime_error(netlist.error().text());
-    const auto design = CircuitAfferentFactory::create(netlist->result);
-    if (!design) throw std::runtime_error(design.error().text());
-    return *design;
+std::shared_ptr<const CircuitAfferentFactory> design_of(const std::string& file, const std::vector<std::string>& settings = {}) {
+    std::vector<ParameterOverride> overrides;
+    for (const auto& text : settings) overrides.push_back(test::value_or_throw(parse_netlist_override(file, text)));
+    return test::value_or_throw(CircuitAfferentFactory::create(test::applied_or_throw(apply_overrides(file, overrides))));
 }
 
 /// 0 N, then 1.5 N after a tenth of the samples.
@@ -110,8 +108,8 @@ TEST(Batch, ABatchedChipRespondsLikeAScalarOne) {
 
 TEST(Batch, ChipsMayDifferInTheirParameters) {
     const auto nominal = design_of(test::source_root() + "/circuits/spiker.cir");
-    const auto large = design_of(test::source_root() + "/circuits/spiker.cir", {{"cu", "3.6p", "cu"}});
-    const auto warm = design_of(test::source_root() + "/circuits/spiker.cir", {{"temp", "60", "temp"}});
+    const auto large = design_of(test::source_root() + "/circuits/spiker.cir", {"cu=3.6p"});
+    const auto warm = design_of(test::source_root() + "/circuits/spiker.cir", {"temp=60"});
     const auto force = force_step(500), soft = std::vector<double>(700, 0.7);
     const std::vector<Chip> chips = {
         {0, nominal, {}, force, batch_T}, {1, large, {}, force, batch_T}, {2, warm, {}, force, batch_T}, {3, large, {}, soft, batch_T}};

@@ -11,7 +11,7 @@ namespace corpuscle {
 namespace {
 
 StudyResult run(std::string_view name) {
-    const auto study = std::find_if(std::begin(all_studies), std::end(all_studies), [&](const Study* s) { return s->name == name; });
+    const auto study = std::find_if(all_studies().begin(), all_studies().end(), [&](const Study* s) { return s->name == name; });
     return test::value_or_throw((*study)->run({}));
 }
 
@@ -39,7 +39,7 @@ void check(const Study& study, const StudyResult& outcome) {
 
 TEST(Studies, GiveTheTextOfTheReproductionPage) {
     double last = 0;
-    const auto outcomes = run_studies(all_studies, {[&](double fraction) {
+    const auto outcomes = run_studies(all_studies(), {[&](double fraction) {
                                           EXPECT_GE(fraction, last);
                                           EXPECT_LE(fraction, 1 + 1e-9);
                                           last = fraction;
@@ -48,11 +48,11 @@ TEST(Studies, GiveTheTextOfTheReproductionPage) {
     ASSERT_TRUE(static_cast<bool>(outcomes)) << outcomes.error().text();
     EXPECT_GT(last, 0.999);
     std::set<std::string_view> names;
-    for (std::size_t k = 0; k < std::size(all_studies); ++k) {
-        EXPECT_TRUE(names.insert(all_studies[k]->name).second) << all_studies[k]->name;
-        check(*all_studies[k], (*outcomes)[k]);
+    for (std::size_t k = 0; k < all_studies().size(); ++k) {
+        EXPECT_TRUE(names.insert(all_studies()[k]->name).second) << all_studies()[k]->name;
+        check(*all_studies()[k], (*outcomes)[k]);
     }
-    const auto text = markdown_of(all_studies, *outcomes), page = test::read_file(test::source_root() + "/reproduction/reproduction.md");
+    const auto text = markdown_of(all_studies(), *outcomes), page = test::read_file(test::source_root() + "/reproduction/reproduction.md");
     EXPECT_EQ(text, page) << "reproduction/reproduction.md is stale: make reproduction";
 }
 
@@ -75,7 +75,7 @@ TEST(Studies, OfAMissingRecordingNameTheSearchedPath) {
 }
 
 TEST(Studies, StopOnRequest) {
-    for (const auto* s : all_studies) {
+    for (const auto* s : all_studies()) {
         const auto outcome = s->run({[](double) { return false; }});
         ASSERT_FALSE(outcome) << s->name;
         EXPECT_EQ(outcome.error().code, ErrorCode::interrupted) << s->name;

@@ -1,5 +1,6 @@
 #pragma once
-// The operations of expressions: a value from up to three operands, and its derivatives. Used inside circuit/netlist only.
+// The operations of expressions: a value from up to three operands, and its derivatives. Used by circuit/netlist, and by the data files of
+// the reproduction.
 
 #include <cstdint>
 #include <string_view>

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 #include <map>
@@ -53,6 +54,7 @@ class ChipPresser {
                 overrides.push_back({options_.netlist, name, fmt::format("{:.17g}", trim_values[k]), name});
         const auto netlist = circuit::apply_overrides(options_.netlist, overrides);
         if (!netlist) return netlist.error();
+        if (auto ok = check_all_used(netlist->unused, std::array{std::string_view(options_.netlist)}); !ok) return ok.error();
         auto factory = CircuitAfferentFactory::create(netlist->result);
         if (!factory) return factory.error();
         return designs_.emplace(trim_values, *factory).first->second;
@@ -210,6 +212,7 @@ Result<Trim> trim_of(const std::string& netlist, const std::vector<ParameterOver
                      double range, bool is_integer) {
     const auto read = circuit::apply_overrides(netlist, overrides);
     if (!read) return read.error();
+    if (auto ok = check_all_used(read->unused, std::array{std::string_view(netlist)}); !ok) return ok.error();
     const auto circuit = read->result.elaborate();
     if (!circuit) return circuit.error();
     const auto full_name = lower(names.at(0));
