@@ -314,7 +314,7 @@ void keep_partial_files(CurveFiles& files) {
 
 /// The netlist with its overrides and with the probes of --probe in addition to its own.
 Result<Netlist> netlist_of(const RunArguments& args) {
-    auto overrides = netlist_overrides(args.netlists);
+    auto overrides = args.netlists.overrides;
     for (const auto& text : args.settings) {
         auto parsed = parse_netlist_override(args.netlist, text, "--set");
         if (!parsed) return parsed.error();
@@ -327,7 +327,7 @@ Result<Netlist> netlist_of(const RunArguments& args) {
     const auto circuit = netlist.elaborate();
     if (!circuit) return circuit.error();
     auto changes = netlist.overrides();
-    for (const auto& probe : probe_names(args.netlists)) {
+    for (const auto& probe : args.netlists.probes) {
         const auto found = resolve_probe(*circuit, probe);
         if (!found) return found.error();
         if (!*found)

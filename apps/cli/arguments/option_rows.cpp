@@ -20,19 +20,33 @@ bool has_visible_default(const T& value, const OptionCheck& check) {
     return std::is_same_v<T, std::string> || std::is_arithmetic_v<T>;
 }
 
+/// Adds an option whose text, or texts if it is repeatable, a function reads. Without a placeholder it is a flag.
+CLI::Option* add_read_option(CLI::App& part, const OptionRow& row, const OptionReader& reader) {
+    const std::string names(row.names), option = names.substr(0, names.find(',')), description(row.description);
+    const auto read = [reader, option](const std::string& text) {
+        if (const auto ok = reader(text); !ok) throw UsageError(fmt::format("{} {}", option, ok.error().message));
+    };
+    const auto read_all = [read](const std::vector<std::string>& texts) {
+        for (const auto& text : texts) read(text);
+    };
+    if (row.value.empty()) return part.add_flag_callback(names, [read] { read(""); }, description);
+    if (row.is_repeatable) return part.add_option_function<std::vector<std::string>>(names, read_all, description)->allow_extra_args(false);
+    auto* const added = part.add_option_function<std::string>(names, read, description);
+    return row.shown_default ? added->default_str(row.shown_default) : added;
+}
+
 /// Adds the option of a row without the properties that do not depend on the type of its target.
 CLI::Option* add_option(CLI::App& part, const OptionRow& row) {
-    const auto add = [&]<class T>(T* target) {
+    const auto add = [&]<class Target>(const Target& target) -> CLI::Option* {
+        using T = std::remove_pointer_t<Target>;
         const std::string names(row.names), description(row.description);
-        if constexpr (std::is_same_v<T, bool>) {
+        if constexpr (std::is_same_v<T, OptionReader>) {
+            return add_read_option(part, row, target);
+        } else if constexpr (std::is_same_v<T, bool>) {
             return part.add_flag(names, *target, description);
         } else if constexpr (std::is_same_v<T, std::optional<bool>>) {
             const bool value = !names.starts_with("--no-");
             return part.add_flag_callback(names, [target, value] { *target = value; }, description);
-        } else if constexpr (std::is_same_v<T, OptionValues>) {
-            if (row.value.empty()) return part.add_flag_callback(names, [target, names] { (*target)[names]; }, description);
-            return part.add_option_function<std::string>(
-                names, [target, names](const std::string& text) { (*target)[names] = text; }, description);
         } else {
             auto* const option = part.add_option(names, *target, description);
             if (has_visible_default(*target, row.check)) option->capture_default_str();
@@ -55,6 +69,15 @@ CLI::Validator validator_of(const OptionCheck& check) {
 }
 
 }  // namespace
+
+OptionReader override_reader(std::vector<ParameterOverride>& to, std::string option) {
+    return [&to, option = std::move(option)](const std::string& text) -> Result<void> {
+        auto parsed = parse_override(text, option);
+        if (!parsed) return parsed.error();
+        to.push_back(std::move(*parsed));
+        return {};
+    };
+}
 
 void add_options(CLI::App& part, const OptionGroup& group) {
     for (const auto& row : group.rows) {

@@ -2,13 +2,17 @@
 // Options of verbs as rows of a table. The table has the order of --help.
 
 #include <cstdint>
-#include <map>
+#include <functional>
 #include <optional>
+#include <stdexcept>
 #include <string>
 #include <string_view>
 #include <utility>
 #include <variant>
 #include <vector>
+
+#include "core/parameter_override.hpp"
+#include "core/text/quantity.hpp"
 
 namespace CLI {
 class App;
@@ -16,14 +20,14 @@ class App;
 
 namespace corpuscle {
 
-/// Values by the name of their option: {"--bin", "10ms"}; "" for a flag.
-using OptionValues = std::map<std::string, std::string, std::less<>>;
+/// Reads the text of an option into a typed value. An error is one of usage; its message follows the name of the option.
+using OptionReader = std::function<Result<void>(const std::string& text)>;
 
-/// The variable that an option sets. The value of a list is that of all occurrences of the option; a bool is a flag, and the flag "--no-x"
-/// sets an optional bool to false. In OptionValues the option is a flag if it has no placeholder.
+/// The variable that an option sets, or the function that reads it. The value of a list is that of all occurrences of the option; a bool is
+/// a flag, and the flag "--no-x" sets an optional bool to false. With a reader the option is a flag if it has no placeholder.
 using OptionTarget = std::variant<bool*, std::string*, int*, std::int64_t*, std::uint32_t*, std::uint64_t*, std::optional<bool>*,
                                   std::optional<std::string>*, std::optional<std::int64_t>*, std::optional<std::uint32_t>*,
-                                  std::optional<std::uint64_t>*, std::vector<std::string>*, std::vector<double>*, OptionValues*>;
+                                  std::optional<std::uint64_t>*, std::vector<std::string>*, std::vector<double>*, OptionReader>;
 
 enum class OptionSign { not_negative, positive };
 
@@ -48,9 +52,11 @@ struct OptionRow {
     /// The numbers of values per occurrence, lowest and highest. Default: one, and any number for a positional list.
     std::optional<std::pair<int, int>> count = {};
     bool is_required = false;
-    bool splits_at_commas = false;   ///< a value with commas is a list
-    const char* needs = nullptr;     ///< an option that must also be given
-    const char* excludes = nullptr;  ///< an option that must not be given, too
+    bool splits_at_commas = false;        ///< a value with commas is a list
+    bool is_repeatable = false;           ///< with a reader: may be given several times
+    const char* shown_default = nullptr;  ///< with a reader: the default that --help prints
+    const char* needs = nullptr;          ///< an option that must also be given
+    const char* excludes = nullptr;       ///< an option that must not be given, too
 };
 
 /// A row with a further property; the properties are those of the members.
@@ -58,12 +64,33 @@ inline OptionRow required(OptionRow row) { return row.is_required = true, row; }
 inline OptionRow counted(int lowest, int highest, OptionRow row) { return row.count = {lowest, highest}, row; }
 inline OptionRow needing(const char* option, OptionRow row) { return row.needs = option, row; }
 inline OptionRow excluding(const char* option, OptionRow row) { return row.excludes = option, row; }
+inline OptionRow repeatable(OptionRow row) { return row.is_repeatable = true, row; }
+inline OptionRow with_default(const char* text, OptionRow row) { return row.shown_default = text, row; }
 inline OptionRow split_at_commas(OptionRow row) { return row.splits_at_commas = true, row; }
+
+/// Reads a quantity, in SI, into a variable. `unit`: as for parse_quantity().
+template <class T>
+OptionReader quantity_reader(T& to, std::string_view unit) {
+    return [&to, unit](const std::string& text) -> Result<void> {
+        const auto value = parse_quantity(text, unit);
+        if (!value) return bad_usage(value.error().message);
+        to = *value;
+        return {};
+    };
+}
+/// Reads settings ("sa1.f_B=25Hz") of this option into a list.
+OptionReader override_reader(std::vector<ParameterOverride>&, std::string option);
 
 /// A group of options. The title "" is that of the options without a title.
 struct OptionGroup {
     std::string title;
     std::vector<OptionRow> rows;
+};
+
+/// An option whose text a reader refused.
+class UsageError : public std::runtime_error {
+public:
+    using std::runtime_error::runtime_error;
 };
 
 /// Adds a group to the part of the command line that belongs to a verb.

@@ -19,30 +19,18 @@ namespace {
 
 constexpr double default_rate = 10e3;  // Hz, sample rate of stimuli
 
-Result<std::vector<ParameterOverride>> spread_overrides(const RespondArguments& args) {
-    if (args.copies == 0 && !args.spreads.empty())
-        return bad_usage(fmt::format("--spread {} needs --copies N, such as --copies 100", args.spreads[0]));
-    std::vector<ParameterOverride> overrides;
-    for (const auto& text : args.spreads) {
-        auto parsed = parse_override(text, "--spread");
-        if (!parsed) return bad_usage(fmt::format("--spread '{}': write NAME.PARAMETER=DEVIATION, such as 'sa1.f_B=10%'", text));
-        overrides.push_back(std::move(*parsed));
-    }
-    return overrides;
-}
-
 /// Fills in job.copies and job.copy_spec.
 Result<void> populate(ChannelJob& job, const RespondArguments& args) {
-    const auto overrides = spread_overrides(args);
-    if (!overrides) return overrides.error();
-    auto unused = *overrides;
+    if (args.copies == 0 && !args.spreads.empty())
+        return bad_usage(fmt::format("{} needs --copies N, such as --copies 100", args.spreads[0].typed));
+    auto unused = args.spreads;
     job.copy_spec.count = args.copies;
     if (args.copies == 0) job.copies = job.afferents;
     for (std::size_t a = 0; args.copies > 0 && a < job.afferents.size(); ++a) {
-        auto spreads = distributions_for(job.afferents[a], args.afferents[a], *overrides);
+        auto spreads = distributions_for(job.afferents[a], args.afferents[a], args.spreads);
         if (!spreads) return spreads.error();
         keep_unused(unused, spreads->unused);
-        auto copies = make_copies(job.afferents[a], args.copies, spreads->result, args.seed);
+        auto copies = make_copies(job.afferents[a], args.copies, spreads->result, args.simulation.seed);
         if (!copies) return copies.error();
         std::move(copies->begin(), copies->end(), std::back_inserter(job.copies));
         std::move(spreads->result.begin(), spreads->result.end(), std::back_inserter(job.copy_spec.distributions));
@@ -82,7 +70,7 @@ Result<void> check_probes(std::span<const std::string> names, std::span<const st
 }
 
 Result<void> plan_afferents(ChannelJob& job, const RespondArguments& args) {
-    const auto probes = probe_names(args.netlists);
+    const auto& probes = args.netlists.probes;
     std::vector<std::vector<RequestedProbe>> found;
     for (const auto& name : args.afferents) {
         auto planned = plan_any_afferent(name, job.overrides, probes);
@@ -97,12 +85,11 @@ Result<void> plan_afferents(ChannelJob& job, const RespondArguments& args) {
 }
 
 Result<void> open_sources(ChannelJob& job, const RespondArguments& args, bool quiet) {
-    auto options = recording_options(args);
-    if (!options) return options.error();
+    auto options = args.recording;
     Progress progress(quiet);
-    options->should_continue = [&](double fraction) { return progress.update(fraction), !interrupted(); };
+    options.should_continue = [&](double fraction) { return progress.update(fraction), !interrupted(); };
     for (const auto& force : args.forces) {
-        auto source = open_force(force, *options, job.overrides, default_rate, args.seed);
+        auto source = open_force(force, options, job.overrides, default_rate, args.simulation.seed);
         if (!source) return source.error();
         keep_unused(job.unused, source->unused);
         job.sources.push_back(std::move(source->result));
@@ -114,19 +101,16 @@ Result<void> open_sources(ChannelJob& job, const RespondArguments& args, bool qu
 
 Result<ChannelJob> plan_channel_job(const RespondArguments& args, bool quiet) {
     ChannelJob job;
+    job.options = args.simulation;
     if (args.forces.empty()) return bad_usage("respond: no FORCE given; try 'corpuscle respond press'");
-    const auto settings = parse_overrides(args.settings, "--set");
-    if (!settings) return settings.error();
-    job.overrides = netlist_overrides(args.netlists);  // first, so that a setting for one netlist takes precedence
-    job.overrides.insert(job.overrides.end(), settings->begin(), settings->end());
+    job.overrides = args.netlists.overrides;  // first, so that a setting for one netlist takes precedence
+    job.overrides.insert(job.overrides.end(), args.settings.begin(), args.settings.end());
     job.unused = job.overrides;
     if (auto ok = plan_afferents(job, args); !ok) return ok.error();
     if (auto ok = populate(job, args); !ok) return ok.error();
     if (auto ok = open_sources(job, args, quiet); !ok) return ok.error();
     if (auto ok = check_overrides(job); !ok) return ok.error();
-    if (auto ok = check_recording_arguments(args, args.forces); !ok) return ok.error();
     if (auto ok = check_afferent_count(job); !ok) return ok.error();
-    if (auto ok = read_run_options(job.options, args); !ok) return ok.error();
     job.warnings = rate_warnings(job.sources, job.afferents);
     for (auto& warning : noise_warnings(job.afferents, job.options.noise)) job.warnings.push_back(std::move(warning));
     return job;

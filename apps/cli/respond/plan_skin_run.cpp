@@ -57,9 +57,8 @@ Result<void> open_contact(SkinJob& job, const RespondArguments& args, const Name
 }
 
 Result<void> open_source(SkinJob& job, const RespondArguments& args, const NamedTouch* touch) {
-    auto options = recording_options(args);
-    if (!options) return options.error();
-    auto source = open_force(touch ? std::string(touch->force) : args.forces[0], *options, job.overrides, skin_rate, args.seed);
+    auto source =
+        open_force(touch ? std::string(touch->force) : args.forces[0], args.recording, job.overrides, skin_rate, args.simulation.seed);
     if (!source) return source.error();
     keep_unused(job.unused, source->unused);
     job.source = std::move(source->result);
@@ -75,7 +74,7 @@ Result<void> place_afferents(SkinJob& job, const RespondArguments& args) {
     if (!applied) return applied.error();
     keep_unused(job.unused, applied->unused);
     auto& skin_plan = applied->result;
-    if (args.seed != 0) skin_plan.seed = args.seed;  // 0, the default, keeps the seed of the population file
+    if (args.simulation.seed != 0) skin_plan.seed = args.simulation.seed;  // 0, the default, keeps the seed of the population file
     if (job.source->channels().size() == 1) job.skin_note = treat_as_skin(skin_plan);
     auto skin = innervate(std::move(skin_plan));
     if (!skin) return skin.error();
@@ -95,19 +94,14 @@ const NamedTouch* find_touch(const std::string& force) {
 Result<SkinJob> plan_skin_job(const RespondArguments& args) {
     if (args.forces.size() != 1) return bad_usage(fmt::format("--population takes one FORCE, not {}", args.forces.size()));
     SkinJob job;
-    auto settings = parse_overrides(args.settings, "--set");
-    if (!settings) return settings.error();
-    job.overrides = std::move(*settings);
-    job.unused = job.overrides;
+    job.options = args.simulation;
+    job.overrides = job.unused = args.settings;
     const auto* touch = find_touch(args.forces[0]);
     if (touch) add_touch_overrides(job.overrides, *touch);
     if (auto ok = open_source(job, args, touch); !ok) return ok.error();
     if (auto ok = place_afferents(job, args); !ok) return ok.error();
     if (auto ok = open_contact(job, args, touch); !ok) return ok.error();
     if (auto ok = check_skin_overrides(job); !ok) return ok.error();
-    if (!touch)
-        if (auto ok = check_recording_arguments(args, args.forces); !ok) return ok.error();
-    if (auto ok = read_run_options(job.options, args); !ok) return ok.error();
     return job;
 }
 

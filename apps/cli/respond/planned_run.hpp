@@ -40,7 +40,4 @@ public:
     virtual Result<void> verdict(const RunStats&) const { return {}; }
 };
 
-/// Reads the options of the simulation.
-Result<void> read_run_options(RespondOptions&, const RespondArguments&);
-
 }  // namespace corpuscle

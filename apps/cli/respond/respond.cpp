@@ -97,6 +97,7 @@ int respond(const RespondArguments& given, const CommonArguments& common) {
     catch_interrupt();
     auto args = given;
     if (auto ok = check_population_options(args, common); !ok) return report_error(ok.error());
+    if (auto ok = check_recording_arguments(common, args.forces); !ok) return report_error(ok.error());
     if (auto ok = request_probes(args); !ok) return report_error(ok.error());
     const bool has_ranks = !args.population.empty() && Ranks::are_started();
     auto ranks = has_ranks ? Ranks::join() : Result<std::unique_ptr<Ranks>>(nullptr);

@@ -48,16 +48,40 @@ The unit of a recording is read from its header (fz_N, "fz [mN]"). If the header
 --unit, or --scale S (newtons per unit of the recording). Sampling times come from the time column
 (--time names it) or from --rate.)";
 
+/// The method; its texts are those that the row accepts.
+OptionReader method_reader(RespondOptions& options) {
+    return [&options](const std::string& text) {
+        options.method = text == "exact" ? Method::exact : Method::backward_euler;
+        return Result<void>();
+    };
+}
+
+OptionReader noise_reader(RespondOptions& options) {
+    return [&options](const std::string& text) -> Result<void> {
+        if (auto ok = quantity_reader(options.noise, "A")(text); !ok) return ok;
+        if (options.noise >= 0) return {};
+        return bad_usage(fmt::format("'{}' is negative; write a standard deviation, such as '50 nA'", text));
+    };
+}
+
+OptionReader spread_reader(std::vector<ParameterOverride>& spreads) {
+    return [read = override_reader(spreads, "--spread")](const std::string& text) -> Result<void> {
+        if (read(text)) return {};
+        return bad_usage(fmt::format("'{}': write NAME.PARAMETER=DEVIATION, such as 'sa1.f_B=10%'", text));
+    };
+}
+
 OptionGroup afferent_options(RespondArguments& args) {
     return {
         "",
         {{"FORCE", &args.forces, "", "recordings and stimuli"},
          split_at_commas(
              {"--afferent,-a", &args.afferents, "NAME", "the afferents to simulate (repeat the option, or separate by commas)"}),
-         {"--set,-s", &args.settings, "NAME.PARAMETER=VALUE", "set a parameter of an afferent or a stimulus, such as sa1.f_B=25Hz"},
+         repeatable({"--set,-s", override_reader(args.settings, "--set"), "NAME.PARAMETER=VALUE",
+                     "set a parameter of an afferent or a stimulus, such as sa1.f_B=25Hz"}),
          {"--copies", &args.copies, "N", "simulate N copies of each afferent on every channel: sa1#1 ... sa1#N", std::pair(1U, max_copies)},
-         {"--spread", &args.spreads, "NAME.PARAMETER=10%",
-          "vary a parameter between copies: its standard deviation, relative (10%) or with its unit"}}};
+         repeatable({"--spread", spread_reader(args.spreads), "NAME.PARAMETER=10%",
+                     "vary a parameter between copies: its standard deviation, relative (10%) or with its unit"})}};
 }
 
 OptionGroup skin_options(RespondArguments& args) {
@@ -71,18 +95,22 @@ OptionGroup skin_options(RespondArguments& args) {
 }
 
 OptionGroup simulation_options(RespondArguments& args) {
+    const auto use_single_precision = [&args](const std::string&) {
+        return args.simulation.precision = Precision::single_precision, Result<void>();
+    };
     return {
         "",
-        {{"--method", &args.method, "METHOD", "time stepping: exact, or backward-euler as in the thesis",
-          one_of("exact", "backward-euler")},
-         {"--sampled", &args.sampled, "", "put spikes on the sampling times, as in the thesis (default: interpolate within the step)"},
-         {"--noise", &args.noise, "CURRENT",
+        {with_default("exact", {"--method", method_reader(args.simulation), "METHOD",
+                                "time stepping: exact, or backward-euler as in the thesis", one_of("exact", "backward-euler")}),
+         {"--sampled", &args.simulation.sampled, "",
+          "put spikes on the sampling times, as in the thesis (default: interpolate within the step)"},
+         {"--noise", noise_reader(args.simulation), "CURRENT",
           "add white noise current to every membrane: its standard deviation in a bandwidth of 1 kHz, such as 100nA"},
-         {"--seed", &args.seed, "N", "seed of all random numbers", OptionSign::not_negative},
+         {"--seed", &args.simulation.seed, "N", "seed of all random numbers", OptionSign::not_negative},
          {"--threads,-j", &args.threads, "N", "number of threads (0: one per core); results do not depend on it", std::pair(0U, 1024U)},
-         {"--float", &args.use_float, "",
+         {"--float", use_single_precision, "",
           "single precision: up to twice as fast, but spike times change (see doc/lanes.md); currents and membranes are not recorded"},
-         {"--rate", &args.rate, "FREQUENCY",
+         {"--rate", quantity_reader(args.recording.rate, "Hz"), "FREQUENCY",
           "sampling rate of a stimulus (default 10 kHz; with --population 1 kHz). For a recording: assume even sampling at this rate"}}};
 }
 
@@ -90,7 +118,10 @@ OptionGroup output_options(RespondArguments& args) {
     OptionGroup group{
         "Output", {{"--out,-o", &args.out, "DIR", "write spikes.csv, summary.json and, with --copies, copies.csv into this directory"}}};
     for (const auto* format : output_formats)
-        if (!format->option.empty()) group.rows.push_back({format->option, &args.outputs, format->value_name, format->help});
+        if (const std::string option(format->option); !option.empty()) {
+            const auto keep = [&args, option](const std::string& text) { return args.outputs[option] = text, Result<void>(); };
+            group.rows.push_back({format->option, keep, format->value_name, format->help});
+        }
     group.rows.push_back(counted(
         0, 1, {"--report", &args.report_file, "[FILE.html]", "write a report page (default: report.html, in the directory of --out)"}));
     return group;
@@ -119,7 +150,7 @@ Verb make_respond_verb() {
             .examples = respond_examples,
             .common_options = {"--afferent", "--set", "--population", "--copies", "--spread", "--rate", "--channel", "--unit", "--scale",
                                "--out", "--report", "--json"},
-            .options = {afferent_options(*args), skin_options(*args), simulation_options(*args), recording_option_group(*args),
+            .options = {afferent_options(*args), skin_options(*args), simulation_options(*args), recording_option_group(args->recording),
                         output_options(*args), netlist_options(args->netlists)},
             .reports = true,
             .writes_files = true,

@@ -50,7 +50,7 @@ Result<RunFingerprint> fingerprint_of(const SkinJob& job, const RespondArguments
     if (!is_stimulus(args.forces[0]) && !find_touch(args.forces[0]))
         if (auto ok = add_contents(all, "recording", args.forces[0]); !ok) return ok.error();
     if (auto ok = add_contents(all, "population file", args.population); !ok) return ok.error();
-    if (auto ok = add_contents(all, "layout file", args.layout); !ok) return ok.error();
+    if (auto ok = add_contents(all, "layout file", args.recording.layout); !ok) return ok.error();
     all.emplace_back("contents of the table of sites", sites_checksum(job.skin->plan.sites));
     return all;
 }

@@ -26,17 +26,16 @@ namespace corpuscle {
 namespace {
 
 /// The plan of the skin of --population. `channels`: of the recording or stimulus; empty for a live input.
-Result<Applied<SkinPlan>> plan_of(const StreamArguments& args, std::span<const Channel> channels,
-                                  std::span<const ParameterOverride> overrides) {
-    if (channels.empty()) return make_live_plan(args.population, args.channel_count, overrides);
-    if (is_afferent_list(args.population)) return make_channel_plan(args.population, channels, overrides);
+Result<Applied<SkinPlan>> plan_of(const StreamArguments& args, std::span<const Channel> channels) {
+    if (channels.empty()) return make_live_plan(args.population, args.channel_count, args.settings);
+    if (is_afferent_list(args.population)) return make_channel_plan(args.population, channels, args.settings);
     auto plan = load_skin_plan(args.population, channels);
     if (!plan) return plan.error();
-    return apply_overrides(std::move(*plan), overrides);
+    return apply_overrides(std::move(*plan), args.settings);
 }
 
 /// Returns an error if --population or --set names a netlist.
-Result<void> check_no_netlist(const StreamArguments& args, std::span<const ParameterOverride> overrides) {
+Result<void> check_no_netlist(const StreamArguments& args) {
     const auto check = [&](std::string_view name, const std::string& option) -> Result<void> {
         if (!circuit::find_embedded_netlist(name) && !name.ends_with(".cir")) return {};
         return bad_usage(fmt::format("{}: a stream simulates models, not netlists; for a netlist type: corpuscle respond {} --afferent {}",
@@ -47,7 +46,7 @@ Result<void> check_no_netlist(const StreamArguments& args, std::span<const Param
         if (auto ok = check(rest.substr(0, comma), "--population " + args.population); !ok) return ok;
         rest.remove_prefix(std::min(comma + 1, rest.size()));
     }
-    for (const auto& o : overrides)
+    for (const auto& o : args.settings)
         if (auto ok = check(o.target, "--set " + o.text()); !ok) return ok;
     return {};
 }
@@ -69,12 +68,12 @@ class LiveRun {
     StreamReportInput report_input() const { return {*skin_, *frames_, *sink_, *format_, *loop_}; }
 
     /// Opens a recording or a stimulus, and the skin that it drives.
-    Result<void> open_recorded(const StreamQuantities& quantities, std::span<const ParameterOverride> overrides) {
-        auto opened = open_stream_source(args_, quantities, overrides);
+    Result<void> open_recorded() {
+        auto opened = open_stream_source(args_, common_);
         if (!opened) return opened.error();
         auto& source = opened->result;
         const auto channels = source->channels();
-        const auto plan = plan_of(args_, channels, overrides);
+        const auto plan = plan_of(args_, channels);
         if (!plan) return plan.error();
         unused_ = opened->unused;
         keep_unused(unused_, plan->unused);
@@ -102,36 +101,36 @@ class LiveRun {
             for (std::size_t k = 0; k < sites.size(); ++k)
                 if ((**named)[k] != sites[k])
                     return bad_input(fmt::format("column {} is site '{}' in the header, but '{}' in {}; remove --layout or the header",
-                                                 k + 1, all.names[(**named)[k]], all.names[sites[k]], args_.layout),
+                                                 k + 1, all.names[(**named)[k]], all.names[sites[k]], args_.recording.layout),
                                      {from + ": header"});
             return std::vector<std::uint32_t>();
         };
     }
 
     /// Opens a live input, and the skin that it drives.
-    Result<void> open_live(const StreamQuantities& quantities, std::span<const ParameterOverride> overrides) {
-        if (auto ok = check_live_options(args_); !ok) return ok;
-        const auto clock = live_clock(args_, quantities);
+    Result<void> open_live() {
+        if (auto ok = check_live_options(args_, common_); !ok) return ok;
+        const auto clock = live_clock(args_);
         if (!clock) return clock.error();
-        const auto plan = plan_of(args_, {}, overrides);
+        const auto plan = plan_of(args_, {});
         if (!plan) return plan.error();
         unused_ = plan->unused;
         if (auto ok = open_skin(plan->result, *clock); !ok) return ok;
         std::vector<std::uint32_t> sites;  // the site of each force of a frame; empty: all sites in order
-        if (!args_.layout.empty()) {
-            auto map = read_site_map(args_.layout, plan->result.sites);
+        if (!args_.recording.layout.empty()) {
+            auto map = read_site_map(args_.recording.layout, plan->result.sites);
             if (!map) return map.error();
             sites = std::move(*map);
         }
-        const auto layout = live_layout(args_, quantities, sites.empty() ? skin_->sites() : sites.size(), *clock);
+        const auto layout = live_layout(args_, sites.empty() ? skin_->sites() : sites.size(), *clock);
         if (!layout) return layout.error();
-        auto bytes = open_live_input(args_, quantities, *layout);
+        auto bytes = open_live_input(args_, *layout);
         if (!bytes) return bytes.error();
         const auto in_frames = [&](double seconds) { return static_cast<std::int64_t>(std::min(seconds * clock->rate(), 2e9)); };
         layout_ = *layout;
-        frames_ = make_frame_source(std::move(*bytes), *layout, in_frames(quantities.hold), in_frames(quantities.max_gap),
-                                    args_.batch_frames, header_reader(sites));
-        auto filtered = filter_live_frames(std::move(frames_), quantities, layout->sites, *clock);
+        frames_ = make_frame_source(std::move(*bytes), *layout, in_frames(args_.hold), in_frames(args_.max_gap), args_.batch_frames,
+                                    header_reader(sites));
+        auto filtered = filter_live_frames(std::move(frames_), args_.recording, layout->sites, *clock);
         if (!filtered) return filtered.error();
         frames_ = std::move(*filtered);
         if (!sites.empty()) frames_ = assign_sites(std::move(frames_), std::move(sites), skin_->sites());
@@ -149,11 +148,11 @@ class LiveRun {
         return {};
     }
 
-    Result<void> open_sink(const StreamQuantities& quantities) {
+    Result<void> open_sink() {
         auto format = make_event_format(args_.format, make_event_addressing(skin_->innervation(), skin_->clock()));
         if (!format) return format.error();
         format_ = std::move(*format);
-        const auto buffer_size = static_cast<std::size_t>(quantities.buffer);
+        const auto buffer_size = static_cast<std::size_t>(args_.buffer);
         auto sink = !args_.to.empty()  ? connect_event_client(args_.to, *format_, buffer_size)
                     : args_.out == "-" ? open_standard_output(*format_, buffer_size)
                                        : create_event_file(args_.out, *format_, buffer_size);
@@ -211,10 +210,11 @@ class LiveRun {
 
     /// Describes the error of a frame. If the width of a frame is wrong, adds the option that would make it right.
     std::string frame_error_text(const FrameError& frame_error) const {
-        const auto text = describe_frame_error(frame_error, layout_, args_.layout.empty() ? args_.population : args_.layout);
+        const auto text =
+            describe_frame_error(frame_error, layout_, args_.recording.layout.empty() ? args_.population : args_.recording.layout);
         const auto stamps = layout_.stamp == FrameStamp::none ? 0U : 1U;  // number of fields before the forces
         if (frame_error.reason == FrameError::header) return "header: " + text;
-        if (frame_error.reason != FrameError::width || !args_.layout.empty() || frame_error.found <= stamps) return text;
+        if (frame_error.reason != FrameError::width || !args_.recording.layout.empty() || frame_error.found <= stamps) return text;
         const auto& plan = skin_->innervation().plan;
         if (plan.is_by_channel) return fmt::format("{}; use --channels {} for frames of this width", text, frame_error.found - stamps);
         if (frame_error.found - stamps > plan.sites.size()) return text;
@@ -262,13 +262,13 @@ class LiveRun {
     }
 
     /// Opens input, skin and output.
-    Result<void> open(const StreamQuantities& quantities, std::span<const ParameterOverride> overrides) {
-        if (auto ok = is_live_input(args_.in) ? open_live(quantities, overrides) : open_recorded(quantities, overrides); !ok) return ok;
+    Result<void> open() {
+        if (auto ok = is_live_input(args_.in) ? open_live() : open_recorded(); !ok) return ok;
         std::vector<std::string_view> others;
         if (source_) others.push_back(source_->name());
         if (auto ok = check_all_used(unused_, override_targets(skin_->innervation().plan, others)); !ok) return ok;
         if (auto ok = check_outputs(); !ok) return ok;
-        return open_sink(quantities);
+        return open_sink();
     }
 
     /// Checks that the output files may be written. The file of --resume may be replaced by --save-state, but by no other output.
@@ -287,12 +287,8 @@ public:
     LiveRun(const StreamArguments& args, const CommonArguments& common) : args_(args), common_(common) {}
 
     Result<void> run() {
-        const auto overrides = parse_overrides(args_.settings, "--set");
-        if (!overrides) return overrides.error();
-        if (auto ok = check_no_netlist(args_, *overrides); !ok) return ok;
-        const auto quantities = stream_quantities(args_);
-        if (!quantities) return quantities.error();
-        if (auto ok = open(*quantities, *overrides); !ok) return interrupted() ? stopped : ok;
+        if (auto ok = check_no_netlist(args_); !ok) return ok;
+        if (auto ok = open(); !ok) return interrupted() ? stopped : ok;
         print_notes();
         StreamLoop::StreamOptions options{.stop = interrupted, .busy_poll = args_.busy_poll, .keeps_state = !args_.save_state.empty()};
         options.on_frame_error = [this](const FrameError& frame_error) { warn(frame_error_text(frame_error)); };

@@ -35,13 +35,28 @@ Examples:
 Ctrl-C ends the stream: received frames are processed, files and the state are saved, and a summary
 is printed on standard error.)";
 
+/// A quantity that is not negative.
+OptionReader positive_reader(double& to, std::string_view unit) {
+    return [&to, unit](const std::string& text) -> Result<void> {
+        if (auto ok = quantity_reader(to, unit)(text); !ok) return ok;
+        return to >= 0 ? Result<void>() : bad_usage(text + ": must not be negative");
+    };
+}
+
+OptionReader buffer_reader(double& to) {
+    return [&to](const std::string& text) -> Result<void> {
+        if (auto ok = positive_reader(to, "")(text); !ok) return ok;
+        return to >= 1000 && to <= 1e10 ? Result<void>() : bad_usage(text + ": must be between 1k and 10G bytes");
+    };
+}
+
 OptionGroup population_options(StreamArguments& args) {
     return {"",
             {{"--population,-p", &args.population, "POPULATION", "the afferents to simulate"},
              {"--channels,-n", &args.channel_count, "N", "forces per frame, if the population is given by names of afferents",
               std::pair(1, 1 << 22)},
-             {"--set,-s", &args.settings, "NAME.PARAMETER=VALUE",
-              "set a parameter of an afferent, a class of the population or a stimulus, such as sa1.f_B=25Hz"},
+             repeatable({"--set,-s", override_reader(args.settings, "--set"), "NAME.PARAMETER=VALUE",
+                         "set a parameter of an afferent, a class of the population or a stimulus, such as sa1.f_B=25Hz"}),
              {"--sampled", &args.sampled, "", "put spikes on the sampling times, as in the thesis (default: interpolate within the step)"},
              {"--batch-frames", &args.batch_frames, "N",
               "process N frames at once: less CPU time, but up to N frames more latency; the spikes are the same", std::pair(1, 1024)},
@@ -53,24 +68,29 @@ OptionGroup input_options(StreamArguments& args) {
             {{"--in,-i", &args.in, "WHERE",
               "source of the frames: - (standard input), tcp:PORT or udp:PORT to listen on (0: any free port), serial:DEVICE, a "
               "recording, or a stimulus"},
-             {"--rate,-r", &args.rate, "FREQUENCY", "frame rate (default for a recording: its sampling rate)"}}};
+             {"--rate,-r", quantity_reader(args.recording.rate, "Hz"), "FREQUENCY",
+              "frame rate (default for a recording: its sampling rate)"}}};
 }
 
 OptionGroup frame_options(StreamArguments& args) {
-    return {"Frames",
-            {{"--frames", &args.frames, "KIND", "frame format: csv, or little-endian f32, f64, i16", one_of("csv", "f32", "f64", "i16")},
-             {"--stamp", &args.stamp, "WHAT", "first field of a frame: none, sequence (its number), or time (in seconds)",
-              one_of("none", "sequence", "time")},
-             {"--max-force", &args.max_force, "FORCE", "maximum valid force; beyond it the last force of the site is used"},
-             {"--hold", &args.hold, "TIME", "hold the last force for TIME in a gap, then use 0 N"},
-             {"--max-gap", &args.max_gap, "TIME", "treat a larger jump of the stamp as a restart of the sender"},
-             {"--listen", &args.listen, "ADDRESS", "local address for tcp:PORT and udp:PORT; 0.0.0.0: all addresses"},
-             {"--clients", &args.clients, "N", "end after N senders to tcp:PORT or udp:PORT, one after another (0: no limit)",
-              OptionSign::not_negative},
-             {"--idle-timeout", &args.idle_timeout, "TIME", "disconnect a sender that is silent for TIME if another is waiting (0: never)"},
-             {"--baud", &args.baud, "N", "baud rate of a serial device"},
-             {"--pace", &args.pace, "PACE", "pace of a recording or stimulus: real (real time), or fast (no waiting)",
-              one_of("real", "fast")}}};
+    return {
+        "Frames",
+        {{"--frames", &args.frames, "KIND", "frame format: csv, or little-endian f32, f64, i16", one_of("csv", "f32", "f64", "i16")},
+         {"--stamp", &args.stamp, "WHAT", "first field of a frame: none, sequence (its number), or time (in seconds)",
+          one_of("none", "sequence", "time")},
+         with_default("1kN", {"--max-force", positive_reader(args.max_force, "N"), "FORCE",
+                              "maximum valid force; beyond it the last force of the site is used"}),
+         with_default("100ms", {"--hold", positive_reader(args.hold, "s"), "TIME", "hold the last force for TIME in a gap, then use 0 N"}),
+         with_default("10s", {"--max-gap", positive_reader(args.max_gap, "s"), "TIME",
+                              "treat a larger jump of the stamp as a restart of the sender"}),
+         {"--listen", &args.listen, "ADDRESS", "local address for tcp:PORT and udp:PORT; 0.0.0.0: all addresses"},
+         {"--clients", &args.clients, "N", "end after N senders to tcp:PORT or udp:PORT, one after another (0: no limit)",
+          OptionSign::not_negative},
+         with_default("10s", {"--idle-timeout", positive_reader(args.idle_timeout, "s"), "TIME",
+                              "disconnect a sender that is silent for TIME if another is waiting (0: never)"}),
+         {"--baud", &args.baud, "N", "baud rate of a serial device"},
+         {"--pace", &args.pace, "PACE", "pace of a recording or stimulus: real (real time), or fast (no waiting)",
+          one_of("real", "fast")}}};
 }
 
 OptionGroup spike_options(StreamArguments& args) {
@@ -80,7 +100,8 @@ OptionGroup spike_options(StreamArguments& args) {
              {"--format,-f", &args.format, "FORMAT",
               "spike format: lines (afferent,channel,time_s), jsonl, aer (binary, exact times), aedat2; binary headers map addresses to "
               "afferents and channels (doc/events.md)"},
-             {"--buffer", &args.buffer, "BYTES", "buffer for a slow receiver, in bytes; spikes beyond it are dropped and counted"},
+             with_default("1M", {"--buffer", buffer_reader(args.buffer), "BYTES",
+                                 "buffer for a slow receiver, in bytes; spikes beyond it are dropped and counted"}),
              {"--allow-drops", &args.allow_drops, "", "exit with status 0 even if spikes were dropped or datagrams lost"},
              {"--save-state", &args.save_state, "FILE", "save the state at the end, including spikes that are not yet due"},
              {"--resume", &args.resume, "FILE", "continue from a saved state, with the same population and rate"}}};
@@ -102,7 +123,7 @@ Verb make_stream_verb() {
         .description = "simulate live: frames of force in, spikes out",
         .examples = stream_examples,
         .common_options = {"--in", "--rate", "--population", "--channels", "--frames", "--scale", "--out", "--to", "--format", "--json"},
-        .options = {population_options(*args), input_options(*args), frame_options(*args), recording_option_group(*args),
+        .options = {population_options(*args), input_options(*args), frame_options(*args), recording_option_group(args->recording),
                     spike_options(*args)},
         .reports = true,
         .writes_files = true,

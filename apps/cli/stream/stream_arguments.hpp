@@ -9,10 +9,13 @@
 
 namespace corpuscle {
 
-struct StreamArguments : RecordingArguments {
+struct StreamArguments {
     std::string population = "sa1,fa1", in = "-", listen = "127.0.0.1", frames = "csv", stamp = "none", pace = "real";
-    std::vector<std::string> settings;
-    std::string max_force = "1kN", hold = "100ms", max_gap = "10s", buffer = "1M", idle_timeout = "10s";
+    std::vector<ParameterOverride> settings;
+    RecordingOptions recording;                          ///< live_options.hpp says which of them apply to live frames
+    double max_force = 1e3;                              ///< N
+    double hold = 0.1, max_gap = 10, idle_timeout = 10;  ///< s
+    double buffer = 1e6;                                 ///< bytes
     std::string out = "-", to, format = "lines", save_state, resume;
     std::uint64_t channel_count = 1;  ///< forces per frame, if `population` is a list of afferents
     std::uint64_t batch_frames = 1;   ///< frames per batch

@@ -19,30 +19,19 @@ bool is_live_input(const std::string& in);
 /// The name of an input in messages: "standard input" for "-", otherwise as typed, such as "tcp:7000" or "grip.csv".
 std::string input_name(const std::string& in);
 
-/// The options of the command line that are quantities.
-struct StreamQuantities {
-    RecordingOptions recording;                      ///< live_options.hpp says which of them apply to live frames
-    double max_force = 0;                            ///< N
-    double hold = 0, max_gap = 0, idle_timeout = 0;  ///< s
-    double buffer = 0;                               ///< bytes
-};
-/// Parses these options.
-Result<StreamQuantities> stream_quantities(const StreamArguments&);
-
 /// Opens the recording, read as by `respond`, or the stimulus of --in.
-Result<Applied<std::unique_ptr<ForceSource>>> open_stream_source(const StreamArguments&, const StreamQuantities&,
-                                                                 std::span<const ParameterOverride>);
+Result<Applied<std::unique_ptr<ForceSource>>> open_stream_source(const StreamArguments&, const CommonArguments&);
 
 /// Returns an error, with the reason, if a recording option was given that live frames cannot have.
-Result<void> check_live_options(const StreamArguments&);
+Result<void> check_live_options(const StreamArguments&, const CommonArguments&);
 /// The clock of live frames.
-Result<Clock> live_clock(const StreamArguments&, const StreamQuantities&);
+Result<Clock> live_clock(const StreamArguments&);
 /// The layout of live frames. `sites`: number of forces in a frame.
-Result<FrameLayout> live_layout(const StreamArguments&, const StreamQuantities&, std::size_t sites, const Clock&);
+Result<FrameLayout> live_layout(const StreamArguments&, std::size_t sites, const Clock&);
 /// The frames with the filters of --notch and --lowpass. `sites`: number of forces in a frame.
-Result<std::unique_ptr<FrameSource>> filter_live_frames(std::unique_ptr<FrameSource>, const StreamQuantities&, std::size_t sites,
+Result<std::unique_ptr<FrameSource>> filter_live_frames(std::unique_ptr<FrameSource>, const RecordingOptions&, std::size_t sites,
                                                         const Clock&);
 /// Opens a live input: standard input, a port or a serial device.
-Result<std::unique_ptr<ByteSource>> open_live_input(const StreamArguments&, const StreamQuantities&, const FrameLayout&);
+Result<std::unique_ptr<ByteSource>> open_live_input(const StreamArguments&, const FrameLayout&);
 
 }  // namespace corpuscle
