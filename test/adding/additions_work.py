@@ -10,15 +10,13 @@ import shutil
 import subprocess
 import sys
 
-import additions
+from additions import ADDITIONS
 from build_with_additions import Build, run
 
 root, build = (pathlib.Path(a).resolve() for a in sys.argv[1:3])
 here = pathlib.Path(__file__).parent
 out = build / "adding"
 tree = out / "tree"
-# A tree in which the output formats have no list yet is tested without one.
-ADDITIONS = [a for a in additions.ADDITIONS if (root / a.list).exists()]
 
 
 def check(holds, message):
@@ -42,7 +40,7 @@ def promised_places():
     rows = {}
     for line in (root / "HACKING.md").read_text().splitlines():
         cells = [c.strip() for c in line.strip("|").split(" | ")]
-        if line.startswith("| a ") and len(cells) == 3:
+        if line.startswith(("| a ", "| an ")) and len(cells) == 3:
             rows[cells[0]] = (re.findall(r"`([^`]+)`", cells[1]), re.findall(r"`([^`]+)`", cells[2]))
     return rows
 

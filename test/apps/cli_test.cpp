@@ -292,7 +292,7 @@ TEST(Program, BadInputAndBadUsageHaveTheirStatusAndMessageAndLeaveNoFiles) {
         {"respond press --set sa1.f_B=25ms", 1, "sa1.f_B: '25ms' is a time; expected a value in Hz, such as '2 Hz'"},
         {"respond press --set fa2.k=1", 2,
          "--set fa2.k=1: nothing here is named 'fa2'; did you mean 'fa1'? (parameters of sa1, fa1, press can be set)"},
-        {"respond press --set f_B=1", 2, "'f_B=1' is not a setting; write NAME.PARAMETER=VALUE, such as 'sa1.f_B=25Hz'"},
+        {"respond press --set f_B=1", 2, "--set 'f_B=1' is not a setting; write NAME.PARAMETER=VALUE, such as 'sa1.f_B=25Hz'"},
         {"respond press --rate fast", 2, "--rate 'fast' is not a quantity; write a number and a unit, such as '2 Hz'"},
         {"respond press --probe-files", 2, "--probe-files needs --out DIR"},
         {"respond press --vectors", 2, "--vectors needs --out DIR"},

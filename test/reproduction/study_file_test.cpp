@@ -9,13 +9,13 @@
 namespace corpuscle {
 namespace {
 
-Result<StudyResult> run(const std::string& text, StudyValues values = {}) {
+Result<StudyResult> run_text(const std::string& text, StudyValues values = {}) {
     const auto file = read_study_file("title = 'A study'\nquestion = 'Why?'\n" + text, "x.toml");
     if (!file) return file.error();
     return run_study_file(*file, {}, std::move(values));
 }
 std::string error_of(const std::string& text) {
-    const auto outcome = run(text);
+    const auto outcome = run_text(text);
     return outcome ? "no error" : outcome.error().text();
 }
 Result<StudyValue> value_of(const std::string& expression) {
@@ -76,7 +76,7 @@ TEST(StudyExpression, NamesTheFaultAndItsPlace) {
 }
 
 TEST(StudyFile, ComputesClaimsAndPlotsFromARun) {
-    const auto out = test::value_or_throw(run(std::string(divider) + R"toml(
+    const auto out = test::value_or_throw(run_text(std::string(divider) + R"toml(
 [values]
 V = "run.dc[v(b)]"
 V_2 = "V.at(2)"
@@ -122,7 +122,7 @@ text = "ends at {V.last:g} V"
 }
 
 TEST(StudyFile, RepeatsItemsForEachValueOfItsVariables) {
-    const auto out = test::value_or_throw(run(R"toml(
+    const auto out = test::value_or_throw(run_text(R"toml(
 [[values]]
 each = { k = ["a", "b"], n = [1, 2] }
 "twice_{k}" = "2 * {n}"
@@ -151,7 +151,7 @@ each = { k = [7, 8] }
 label = "{k}"
 value = "{k} * from_cpp"
 )toml",
-                                              {{"from_cpp", 10.0}}));
+                                                   {{"from_cpp", 10.0}}));
     std::vector<std::pair<std::string, double>> claims;
     for (const auto& c : out.claims) claims.emplace_back(c.label, c.computed);
     EXPECT_EQ(claims, (std::vector<std::pair<std::string, double>>{
@@ -159,7 +159,7 @@ value = "{k} * from_cpp"
 }
 
 TEST(StudyFile, RunsTrials) {
-    const auto out = test::value_or_throw(run(R"toml(
+    const auto out = test::value_or_throw(run_text(R"toml(
 [[trial]]
 name = "sa1"
 afferent = "sa1"

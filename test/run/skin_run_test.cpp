@@ -295,6 +295,10 @@ TEST(SkinRanks, GiveTheSpikesOfOneProcess) {
     }
     EXPECT_EQ(ranks(2, "press --population fingertip --set press.F_max=no"), 1);
     EXPECT_NE(read_file(folder / "log").find("F_max"), std::string::npos);
+    EXPECT_EQ(ranks(2, "press --population fingertip --noise 1nA"), 2);
+    const auto log = read_file(folder / "log");
+    EXPECT_NE(log.find("--noise cannot be used"), std::string::npos);
+    EXPECT_EQ(log.find("--noise cannot be used"), log.rfind("--noise cannot be used")) << "printed by one process only";
 }
 
 }  // namespace

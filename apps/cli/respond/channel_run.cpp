@@ -60,25 +60,21 @@ void ChannelRun::warn_of_rates() {
     }
 }
 
-/// The quality of the recordings, the response, rates that are too high, and silent afferents.
-void ChannelRun::collect_warnings(const RunStats& stats) {
+nlohmann::ordered_json ChannelRun::summarize(const RunStats& stats) {
     for (const auto& i : summary_.inputs()) {
         for (const auto& s : quiet_ ? std::vector<std::string>{} : i.quality.descriptions) print_message(fmt::format("{}: {}", i.name, s));
         for (const auto& s : i.quality.warnings) warn(fmt::format("{}: {}", i.name, s));
     }
     for (const auto& warning : response_warnings(stats)) warn(warning);
     warn_of_rates();
-    silent_ = silence_.silent_afferents(job_.copies, job_.options);
-    for (const auto& s : quiet_ ? std::vector<SilentAfferent>{} : silent_) print_message(silence_message(s));
-}
-
-nlohmann::ordered_json ChannelRun::document(const RunStats& stats) {
     auto result = summary_.document(job_.afferents, stats, job_.options, job_.options.seed, job_.warnings);
     if (job_.copy_spec.count > 0) result["copies"] = document_of(job_.copy_spec);
-    for (const auto& s : silent_)
+    for (const auto& s : silence_.silent_afferents(job_.copies, job_.options)) {
+        if (!quiet_) print_message(silence_message(s));
         result["silent"].push_back({{"afferent", s.name},
                                     {"force_max_N", s.force},
                                     {"factor_to_fire", s.factor ? nlohmann::ordered_json(*s.factor) : nlohmann::ordered_json(nullptr)}});
+    }
     return result;
 }
 

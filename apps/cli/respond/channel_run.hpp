@@ -29,7 +29,6 @@ class ChannelRun final : public PlannedRun {
     RunSummary summary_;
     SilenceDetector silence_;
     std::optional<RespondReport> report_;
-    std::vector<SilentAfferent> silent_ = {};
 
     void warn(std::string message);
     void warn_of_rates();
@@ -41,8 +40,7 @@ public:
     Result<std::vector<std::unique_ptr<BlockSimulator>>> simulators() override;
     std::vector<Sink*> summaries() override { return {&summary_, &silence_}; }
     const RespondOptions& options() const override { return job_.options; }
-    void collect_warnings(const RunStats&) override;
-    nlohmann::ordered_json document(const RunStats&) override;
+    nlohmann::ordered_json summarize(const RunStats&) override;
     std::string page(const nlohmann::ordered_json& document) const override;
     std::string table() const override;
     Result<void> verdict(const RunStats&) const override;

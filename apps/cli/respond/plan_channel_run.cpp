@@ -5,10 +5,8 @@
 #include <iterator>
 #include <limits>
 
-#include "cli/arguments/force_argument.hpp"
 #include "cli/arguments/netlist_arguments.hpp"
 #include "cli/arguments/recording_arguments.hpp"
-#include "cli/output/terminal.hpp"
 #include "cli/respond/channel_run.hpp"
 #include "core/text/ascii_text.hpp"
 #include "run/afferent_plan.hpp"
@@ -84,12 +82,10 @@ Result<void> plan_afferents(ChannelJob& job, const RespondArguments& args) {
     return check_probes(probes, found);
 }
 
+/// Opens every FORCE, and keeps the overrides that they have not used.
 Result<void> open_sources(ChannelJob& job, const RespondArguments& args, bool quiet) {
-    auto options = args.recording;
-    Progress progress(quiet);
-    options.should_continue = [&](double fraction) { return progress.update(fraction), !interrupted(); };
     for (const auto& force : args.forces) {
-        auto source = open_force(force, options, job.overrides, default_rate, args.simulation.seed);
+        auto source = open_source(force, args, job.overrides, default_rate, quiet);
         if (!source) return source.error();
         keep_unused(job.unused, source->unused);
         job.sources.push_back(std::move(source->result));

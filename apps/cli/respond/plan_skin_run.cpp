@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 #include <algorithm>
 
-#include "cli/arguments/force_argument.hpp"
 #include "cli/arguments/recording_arguments.hpp"
 #include "cli/respond/skin_run.hpp"
 #include "core/text/ascii_text.hpp"
@@ -56,16 +55,6 @@ Result<void> open_contact(SkinJob& job, const RespondArguments& args, const Name
     return {};
 }
 
-Result<void> open_source(SkinJob& job, const RespondArguments& args, const NamedTouch* touch) {
-    auto source =
-        open_force(touch ? std::string(touch->force) : args.forces[0], args.recording, job.overrides, skin_rate, args.simulation.seed);
-    if (!source) return source.error();
-    keep_unused(job.unused, source->unused);
-    job.source = std::move(source->result);
-    job.name = touch ? std::string(touch->name) : job.source->name();
-    return {};
-}
-
 /// Loads the population, applies the overrides to its classes, and places its afferents.
 Result<void> place_afferents(SkinJob& job, const RespondArguments& args) {
     auto plan = load_skin_plan(args.population, job.source->channels());
@@ -84,21 +73,25 @@ Result<void> place_afferents(SkinJob& job, const RespondArguments& args) {
 
 }  // namespace
 
-/// The touch of this name, such as "stroke"; null if there is none.
 const NamedTouch* find_touch(const std::string& force) {
     const auto all = named_touches();
     const auto at = std::find_if(all.begin(), all.end(), [&](const NamedTouch& t) { return t.name == force; });
     return at == all.end() ? nullptr : &*at;
 }
 
-Result<SkinJob> plan_skin_job(const RespondArguments& args) {
+Result<SkinJob> plan_skin_job(const RespondArguments& args, bool quiet) {
     if (args.forces.size() != 1) return bad_usage(fmt::format("--population takes one FORCE, not {}", args.forces.size()));
     SkinJob job;
     job.options = args.simulation;
     job.overrides = job.unused = args.settings;
     const auto* touch = find_touch(args.forces[0]);
     if (touch) add_touch_overrides(job.overrides, *touch);
-    if (auto ok = open_source(job, args, touch); !ok) return ok.error();
+    const auto force = touch ? std::string(touch->force) : args.forces[0];
+    auto source = open_source(force, args, job.overrides, skin_rate, quiet);
+    if (!source) return source.error();
+    keep_unused(job.unused, source->unused);
+    job.source = std::move(source->result);
+    job.name = touch ? std::string(touch->name) : job.source->name();
     if (auto ok = place_afferents(job, args); !ok) return ok.error();
     if (auto ok = open_contact(job, args, touch); !ok) return ok.error();
     if (auto ok = check_skin_overrides(job); !ok) return ok.error();

@@ -26,10 +26,8 @@ public:
     virtual Error interruption(Error error) const { return error; }
 
     // The following are called after the run, in this order.
-    /// Collects the notes and warnings of the run, and prints them.
-    virtual void collect_warnings(const RunStats&) = 0;
-    /// summary.json, without its list of files.
-    virtual nlohmann::ordered_json document(const RunStats&) = 0;
+    /// Collects and prints the notes and warnings of the run. Returns summary.json, without its list of files.
+    virtual nlohmann::ordered_json summarize(const RunStats&) = 0;
     /// The report page. `document`: of this run.
     virtual std::string page(const nlohmann::ordered_json& document) const = 0;
     /// Called when all outputs have their final names.
@@ -39,5 +37,9 @@ public:
     /// Success, or the error of a run that is complete but not correct.
     virtual Result<void> verdict(const RunStats&) const { return {}; }
 };
+
+/// Opens a stimulus or a recording. `rate`: default sample rate of stimuli, Hz. `quiet`: without progress bar.
+Result<Applied<std::unique_ptr<ForceSource>>> open_source(const std::string& force, const RespondArguments&,
+                                                          std::span<const ParameterOverride>, double rate, bool quiet);
 
 }  // namespace corpuscle

@@ -26,7 +26,7 @@ Result<void> check_population_options(const RespondArguments& args, const Common
 
 Result<std::unique_ptr<PlannedRun>> plan_run(const RespondArguments& args, const CommonArguments& common, Ranks* ranks) {
     if (!args.population.empty()) {
-        auto job = plan_skin_job(args);
+        auto job = plan_skin_job(args, common.quiet);
         if (!job) return job.error();
         return std::unique_ptr<PlannedRun>(std::make_unique<SkinRun>(std::move(*job), args, common, ranks));
     }
@@ -73,8 +73,7 @@ Result<void> respond_with(const RespondArguments& args, const CommonArguments& c
     if (common.json) sinks.push_back(&times);
     const auto stats = simulate_run(run, sinks, ranks ? std::max(1U, args.threads) : args.threads, common.quiet);
     if (!stats) return stats.error();
-    run.collect_warnings(*stats);
-    auto document = run.document(*stats);
+    auto document = run.summarize(*stats);
     document["files"] = outputs.file_names();
     if (auto ok = outputs.commit(run, document); !ok) return ok;
     run.remove_checkpoint();
@@ -91,17 +90,20 @@ Result<void> request_probes(RespondArguments& args) {
     return {};
 }
 
+/// Prints an error; under mpirun in one process only. Returns the exit status.
+int report_once(const Error& error) { return Ranks::reports_errors() ? report_error(error) : static_cast<int>(error.code); }
+
 }  // namespace
 
 int respond(const RespondArguments& given, const CommonArguments& common) {
     catch_interrupt();
     auto args = given;
-    if (auto ok = check_population_options(args, common); !ok) return report_error(ok.error());
-    if (auto ok = check_recording_arguments(common, args.forces); !ok) return report_error(ok.error());
-    if (auto ok = request_probes(args); !ok) return report_error(ok.error());
+    if (auto ok = check_population_options(args, common); !ok) return report_once(ok.error());
+    if (auto ok = check_recording_arguments(common, args.forces); !ok) return report_once(ok.error());
+    if (auto ok = request_probes(args); !ok) return report_once(ok.error());
     const bool has_ranks = !args.population.empty() && Ranks::are_started();
     auto ranks = has_ranks ? Ranks::join() : Result<std::unique_ptr<Ranks>>(nullptr);
-    if (!ranks) return Ranks::reports_errors() ? report_error(ranks.error()) : static_cast<int>(ranks.error().code);
+    if (!ranks) return report_once(ranks.error());
     auto* const group = *ranks && (*ranks)->size() > 1 ? ranks->get() : nullptr;
     if (group && group->rank() > 0) return work_for_skin_run(args, *group), 0;
     const auto done = respond_with(args, common, group);

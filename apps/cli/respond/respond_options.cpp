@@ -116,7 +116,9 @@ OptionGroup simulation_options(RespondArguments& args) {
 
 OptionGroup output_options(RespondArguments& args) {
     OptionGroup group{
-        "Output", {{"--out,-o", &args.out, "DIR", "write spikes.csv, summary.json and, with --copies, copies.csv into this directory"}}};
+        "Output",
+        {{"--out,-o", &args.out, "DIR",
+          "write spikes.csv and summary.json into this directory; also copies.csv with --copies, afferents.csv with --population"}}};
     for (const auto* format : output_formats)
         if (const std::string option(format->option); !option.empty()) {
             const auto keep = [&args, option](const std::string& text) { return args.outputs[option] = text, Result<void>(); };

@@ -50,9 +50,9 @@ std::string stronger_stimulus_advice(const SkinJob& job, const RespondArguments&
     if (!is_stimulus(job.source->name())) {
         // The metadata of a recording begins with the scale of its first channel.
         const bool has_gain = !metadata.empty() && metadata[0].name.ends_with("newtons per unit");
-        return has_gain
-                   ? fmt::format("try --scale {}{}", format_rounded_up(factor * metadata[0].value), args.recording.unit ? " instead of --unit" : "")
-                   : "";
+        return has_gain ? fmt::format("try --scale {}{}", format_rounded_up(factor * metadata[0].value),
+                                      args.recording.unit ? " instead of --unit" : "")
+                        : "";
     }
     // The parameter of the stimulus with the largest force is assumed to be its amplitude.
     const MetadataEntry* largest = nullptr;

@@ -21,7 +21,7 @@ Result<std::unique_ptr<Skin>> make_skin(const SkinJob& job, const Ranks* ranks) 
 
 void work_for_skin_run(const RespondArguments& args, Ranks& ranks) {
     ThreadPool pool(std::max(1U, args.threads));
-    auto job = plan_skin_job(args);
+    auto job = plan_skin_job(args, true);
     if (!job) return run_skin_worker(ranks, job.error(), nullptr, pool);
     auto skin = make_skin(*job, &ranks);
     if (!skin) return run_skin_worker(ranks, skin.error(), nullptr, pool);
@@ -60,14 +60,13 @@ Error SkinRun::interruption(Error error) const {
     return error;
 }
 
-void SkinRun::collect_warnings(const RunStats& stats) {
+nlohmann::ordered_json SkinRun::summarize(const RunStats& stats) {
     job_.notes.stats = stats;
     collect_notes(job_, args_, summary_, silence_);
     for (const auto& r : common_.quiet ? std::vector<std::string>{} : job_.notes.notes) print_message(fmt::format("{}: {}", job_.name, r));
     for (const auto& warning : job_.notes.warnings) print_warning(warning);
+    return summary_.document(job_.options, job_.notes);
 }
-
-nlohmann::ordered_json SkinRun::document(const RunStats&) { return summary_.document(job_.options, job_.notes); }
 
 std::string SkinRun::page(const nlohmann::ordered_json&) const {
     return skin_page(summary_, *report_, job_.options, job_.notes, common_.command);

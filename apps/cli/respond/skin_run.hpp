@@ -25,7 +25,7 @@ struct SkinJob {
 /// The touch of this name, such as "stroke"; null if there is none.
 const NamedTouch* find_touch(const std::string& force);
 /// Reads the options, opens the force and places the afferents.
-Result<SkinJob> plan_skin_job(const RespondArguments&);
+Result<SkinJob> plan_skin_job(const RespondArguments&, bool quiet);
 /// All that determines the response: the program's version, the force, all options except those of outputs, and the contents of the files
 /// that they name.
 Result<RunFingerprint> fingerprint_of(const SkinJob&, const RespondArguments&, const CommonArguments&);
@@ -58,8 +58,7 @@ public:
     std::vector<Sink*> summaries() override { return {&summary_, &silence_}; }
     const RespondOptions& options() const override { return job_.options; }
     Error interruption(Error) const override;
-    void collect_warnings(const RunStats&) override;
-    nlohmann::ordered_json document(const RunStats&) override;
+    nlohmann::ordered_json summarize(const RunStats&) override;
     std::string page(const nlohmann::ordered_json& document) const override;
     void remove_checkpoint() override;
     std::string table() const override;

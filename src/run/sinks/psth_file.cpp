@@ -1,12 +1,15 @@
-// psth.csv: spikes in time bins of equal width, written bin after bin from the start of the input. from_s and to_s are on its clock. For
-// the edges of bins, see time_bins.hpp. On channels: afferent,channel,from_s,to_s,spikes,rate_Hz, with one line for each afferent. In a
-// skin one line for each class in each region, with a column of the number of its afferents; the rate is the mean over them.
+// psth.csv: spikes in time bins of equal width, written bin after bin from the start of the input. from_s and to_s are on its clock. The
+// first bin begins with the input; the last one ends with it, and may be shorter. A bin includes its start and excludes its end. A spike
+// closer to an edge than 1e-9 bin widths counts as at the edge. On channels: afferent,channel,from_s,to_s,spikes,rate_Hz, with one line for
+// each afferent. In a skin one line for each class in each region, with a column of the number of its afferents; the rate is the mean over
+// them.
 
 #include <algorithm>
+#include <cmath>
+#include <iterator>
 
 #include "core/text/quantity.hpp"
 #include "run/sinks.hpp"
-#include "run/sinks/time_bins.hpp"
 
 namespace corpuscle {
 namespace {
@@ -14,32 +17,76 @@ namespace {
 class PsthFile final : public FileSink {
     double bin_width_;  // s
     bool has_header_ = false;
-    std::vector<std::uint32_t> group_of_;  // for each afferent of the current input
-    TimeBins bins_;
+    BinGroups groups_;                  // of the current input
+    Clock since_start_;                 // of the current input, with its first sample at 0 s
+    double t0_ = 0;                     // s, start of the current input on its own clock
+    std::int64_t current_bin_ = 0;      // index of the current bin, from 0
+    std::vector<std::int64_t> counts_;  // spikes in the current bin, for each group
+    fmt::memory_buffer text_;           // lines of complete bins that are not yet written
+
+    std::int64_t bin_index(double t) const { return static_cast<std::int64_t>(std::floor(t / bin_width_ + 1e-9)); }
+    void end_bin(double to);
+    void end_bins_before(std::int64_t bin) {
+        while (current_bin_ < bin) end_bin(static_cast<double>(current_bin_ + 1) * bin_width_);
+    }
+    void count(const Input& input, std::span<const Spike> spikes) {
+        for (const auto& s : spikes) {
+            end_bins_before(bin_index(since_start_.time(s.step, s.offset)));
+            ++counts_[groups_.group_of[input.afferent_of(s)]];
+        }
+    }
+    Result<void> write_lines() {
+        auto ok = files_[0].write({text_.data(), text_.size()});
+        text_.clear();
+        return ok;
+    }
 
 public:
     PsthFile(std::string directory, double bin_width) : FileSink(std::move(directory)), bin_width_(bin_width) {}
     Result<void> open() { return create("psth.csv"); }
-    Result<void> begin(const Input& input) override {
-        if (auto ok = TimeBins::check(input.clock, bin_width_); !ok) return ok;
-        auto [columns, groups, group_of] = input.population.bin_groups();
-        group_of_ = std::move(group_of);
-        bins_ = TimeBins(std::move(groups), input.clock, bin_width_);
-        if (std::exchange(has_header_, true)) return {};
-        return files_[0].write(columns + ",from_s,to_s,spikes,rate_Hz\n");
-    }
+    Result<void> begin(const Input&) override;
+    /// Spikes of later blocks are after the last sample of this block.
     Result<void> block(const Input& input, const RunBlock& block) override {
-        for (const auto& s : block.spikes) bins_.count(s, group_of_[input.afferent_of(s)]);
-        bins_.advance_to(block.end_sample() - 1);
-        return files_[0].write(bins_.take_lines());
+        count(input, block.spikes);
+        end_bins_before(bin_index(since_start_.time(block.end_sample() - 1)));
+        return write_lines();
     }
     /// Spikes that are still being conducted can arrive after the end of the force. The bins then end after the last one.
     Result<void> end(const Input& input, std::int64_t samples, std::span<const Spike> last) override {
-        for (const auto& s : last) bins_.count(s, group_of_[input.afferent_of(s)]);
-        bins_.end(last.empty() ? samples : std::max(samples, last.back().step + 1));
-        return files_[0].write(bins_.take_lines());
+        count(input, last);
+        const double end = since_start_.time(last.empty() ? samples : std::max(samples, last.back().step + 1));
+        end_bins_before(std::max<std::int64_t>(static_cast<std::int64_t>(std::ceil(end / bin_width_ - 1e-9)) - 1, 0));
+        end_bin(end);
+        return write_lines();
     }
 };
+
+/// Returns an error if bins are shorter than a hundredth of the sample period, because almost all of them would be empty.
+Result<void> check_bin_width(const Clock& clock, double bin_width) {
+    const double min = 0.01 * clock.T();
+    if (bin_width >= min * (1 - 1e-9)) return {};
+    return bad_usage(fmt::format("--bin {}: shorter than a hundredth of the {} between samples; write {} or more",
+                                 format_quantity(bin_width, "s"), format_quantity(clock.T(), "s"), format_quantity(min, "s")));
+}
+
+Result<void> PsthFile::begin(const Input& input) {
+    if (auto ok = check_bin_width(input.clock, bin_width_); !ok) return ok;
+    groups_ = input.population.bin_groups();
+    since_start_ = input.clock_since_start(), t0_ = input.clock.t0;
+    current_bin_ = 0, counts_.assign(groups_.groups.size(), 0);
+    if (std::exchange(has_header_, true)) return {};
+    return files_[0].write(groups_.columns + ",from_s,to_s,spikes,rate_Hz\n");
+}
+
+/// Completes the current bin, which ends at `to` (s since the start).
+void PsthFile::end_bin(double to) {
+    const double from = static_cast<double>(current_bin_) * bin_width_;
+    for (std::size_t g = 0; g < counts_.size(); ++g)
+        fmt::format_to(std::back_inserter(text_), "{},{:.9f},{:.9f},{},{:.6g}\n", groups_.groups[g].names, t0_ + from, t0_ + to, counts_[g],
+                       static_cast<double>(counts_[g]) / (to - from) / groups_.groups[g].afferents);
+    counts_.assign(counts_.size(), 0);
+    ++current_bin_;
+}
 
 /// The value of --bin, s.
 Result<double> bin_width_of(const OutputRequest& request) {
