@@ -40,33 +40,29 @@ by the number of spikes in A and B, 0 to 1. The van Rossum distance is scaled so
 spike counts 1.)";
 
 struct CompareArguments {
-    std::vector<std::string> files, pairs;
+    std::vector<std::string> files;
     std::optional<std::string> time_column, train_column;  // columns of the spike files, by name or number
-    bool by_order = false;
-    std::string window = "5ms", cost = "100Hz", tau = "10ms";
+    CompareOptions options;
 };
 
-Result<CompareOptions> options_of(const CompareArguments& args) {
-    CompareOptions options{.pairs = args.pairs, .by_order = args.by_order};
-    for (const auto& [text, unit, option, to] : {std::tuple{&args.window, "s", "--window", &options.window},
-                                                 {&args.cost, "Hz", "--cost", &options.cost},
-                                                 {&args.tau, "s", "--tau", &options.tau}}) {
-        const auto value = parse_quantity(*text, unit);
-        if (!value) return bad_usage(fmt::format("{} {}", option, value.error().message));
-        if (!(*value > 0) && !(to == &options.cost && *value == 0))
-            return bad_usage(fmt::format("{} {}: must be {}", option, *text, to == &options.cost ? "0 or more" : "greater than 0"));
-        *to = *value;
-    }
-    return options;
+/// A quantity above 0.
+OptionReader above_zero_reader(double& to, std::string_view unit) {
+    return refuse_if([&to] { return !(to > 0); }, "must be greater than 0", quantity_reader(to, unit));
+}
+
+OptionReader cost_reader(double& to) {
+    return refuse_if([&to] { return !(to >= 0); }, "must be 0 or more", quantity_reader(to, "Hz"));
 }
 
 /// Warns of a window above 0.5 s. It was probably meant in milliseconds, but a number without a unit is in seconds.
-void warn_of_window(const CompareOptions& options, const CompareArguments& args) {
+void warn_of_window(double window, const CommonArguments& common) {
     constexpr double max_usual = 0.5;  // s
-    if (options.window <= max_usual) return;
-    const bool has_no_unit = args.window.find_first_not_of("+0123456789.eE") == std::string::npos;
-    fmt::print(stderr, "corpuscle: warning: --window {} matches spikes up to {} apart{}\n", args.window,
-               format_quantity(options.window, "s"), has_no_unit ? fmt::format("; for milliseconds write --window {}ms", args.window) : "");
+    for (const auto& [name, values] : common.typed) {
+        if (name != "--window" || window <= max_usual) continue;
+        const bool has_no_unit = values[0].find_first_not_of("+0123456789.eE") == std::string::npos;
+        fmt::print(stderr, "corpuscle: warning: --window {} matches spikes up to {} apart{}\n", values[0], format_quantity(window, "s"),
+                   has_no_unit ? fmt::format("; for milliseconds write --window {}ms", values[0]) : "");
+    }
 }
 
 Json document_of(const TrainDifference& d) {
@@ -123,12 +119,11 @@ std::string text(const CompareOptions& options, const std::vector<TrainDifferenc
 }
 
 Result<void> compare_files(const CompareArguments& args, const CommonArguments& common) {
-    const auto options = options_of(args);
-    if (!options) return options.error();
+    const auto& options = args.options;
     if (args.files.empty()) return bad_usage("compare: no files given; try 'corpuscle compare A/spikes.csv B/spikes.csv'");
-    if (args.files.size() == 1 && args.pairs.empty())
+    if (args.files.size() == 1 && options.pairs.empty())
         return bad_usage(fmt::format("compare {}: needs a second file, or two trains of this file: --pair sa1=fa1", args.files[0]));
-    warn_of_window(*options, args);
+    warn_of_window(options.window, common);
     const SpikeColumns columns{args.time_column, args.train_column};
     auto a = read_spikes(args.files.front(), columns);
     auto b = args.files.size() == 1 ? a : read_spikes(args.files.back(), columns);
@@ -139,21 +134,21 @@ Result<void> compare_files(const CompareArguments& args, const CommonArguments& 
         if (auto with_defaults = read_spikes(args.files.back())) b = std::move(with_defaults);
     if (!a) return a.error();
     if (!b) return b.error();
-    const auto pairs = pair_trains(*a, *b, *options);
+    const auto pairs = pair_trains(*a, *b, options);
     if (!pairs) return pairs.error();
     std::vector<TrainDifference> all;
     TrainDifference total;
     for (const auto& p : *pairs) {
         if (interrupted()) return Error{ErrorCode::interrupted, "interrupted"};
-        const auto difference = compare_trains(p, *options);
+        const auto difference = compare_trains(p, options);
         if (!difference) return difference.error();
         all.push_back(*difference);
         total.add(*difference);
     }
     if (common.json)
-        fmt::print("{}", document(*options, all, total));
+        fmt::print("{}", document(options, all, total));
     else if (!common.quiet)
-        print_text(text(*options, all, total));
+        print_text(text(options, all, total));
     return {};
 }
 
@@ -165,16 +160,19 @@ Verb make_compare_verb() {
         .name = "compare",
         .description = "compare two spike files: matches, distances, missing and extra spikes",
         .examples = compare_examples,
-        .options = {{"",
-                     {counted(1, 2, {"FILES", &args->files, "A [B]", "the spike files A and B (CSV, NPZ ...), or one file with --pair"}),
-                      {"--pair,-p", &args->pairs, "A-NAME=B-NAME",
-                       "compare train A-NAME of the first file with B-NAME of the second (repeatable)"},
-                      {"--by-order", &args->by_order, "", "ignore names: compare the first train of A with the first of B, and so on"},
-                      {"--time", &args->time_column, "COLUMN", "column of spike times, by name or number (default: time_s)"},
-                      {"--train", &args->train_column, "COLUMN", "column that identifies the train, by name or number"},
-                      {"--window", &args->window, "TIME", "maximum time between matching spikes"},
-                      {"--cost", &args->cost, "FREQUENCY", "Victor-Purpura distance: cost per second of shift"},
-                      {"--tau", &args->tau, "TIME", "van Rossum distance: time constant"}}}},
+        .options =
+            {{"",
+              {counted(1, 2, {"FILES", &args->files, "A [B]", "the spike files A and B (CSV, NPZ ...), or one file with --pair"}),
+               {"--pair,-p", &args->options.pairs, "A-NAME=B-NAME",
+                "compare train A-NAME of the first file with B-NAME of the second (repeatable)"},
+               {"--by-order", &args->options.by_order, "", "ignore names: compare the first train of A with the first of B, and so on"},
+               {"--time", &args->time_column, "COLUMN", "column of spike times, by name or number (default: time_s)"},
+               {"--train", &args->train_column, "COLUMN", "column that identifies the train, by name or number"},
+               with_default("5ms",
+                            {"--window", above_zero_reader(args->options.window, "s"), "TIME", "maximum time between matching spikes"}),
+               with_default("100Hz",
+                            {"--cost", cost_reader(args->options.cost), "FREQUENCY", "Victor-Purpura distance: cost per second of shift"}),
+               with_default("10ms", {"--tau", above_zero_reader(args->options.tau, "s"), "TIME", "van Rossum distance: time constant"})}}},
         .reports = true,
         .run = [args](const CommonArguments& common) {
             catch_interrupt();

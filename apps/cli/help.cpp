@@ -4,6 +4,7 @@
 #include <algorithm>
 
 #include "cli/arguments/renamed_arguments.hpp"
+#include "cli/output/printable.hpp"
 #include "core/parameter.hpp"
 
 namespace corpuscle {
@@ -11,12 +12,6 @@ namespace {
 
 constexpr std::size_t max_width = 100;     // columns
 constexpr std::size_t short_examples = 3;  // number of examples that --help of a verb prints
-
-/// The width of a UTF-8 text in columns, one per character.
-std::size_t columns_of(std::string_view text) {
-    return static_cast<std::size_t>(
-        std::count_if(text.begin(), text.end(), [](char c) { return (static_cast<unsigned char>(c) & 0xc0) != 0x80; }));
-}
 
 /// Breaks a line at blanks so that it fits max_width. Continuation lines begin with `indent` blanks.
 std::string wrapped(std::string_view line, std::size_t indent) {

@@ -25,16 +25,20 @@ namespace {
 using Json = nlohmann::ordered_json;
 
 ListEntry entry_of(const CatalogEntry& model) {
-    ListEntry e{std::string(model.name), "", std::string(model.description), std::string(model.source), {}, {}};
+    auto e = list_entry(model.name, "", model.description, model.source);
     for (const auto& row : model.parameters) e.parameters.push_back({row, model.name});
     return e;
 }
 
-std::vector<ListEntry> entries_of(const std::vector<CatalogEntry>& models) {
+/// An entry for each row of a table. `entry` makes it from the row.
+template <class Table, class MakeEntry>
+std::vector<ListEntry> entries_of(const Table& table, std::string_view detail_key, MakeEntry entry) {
     std::vector<ListEntry> entries;
-    for (const auto& m : models) entries.push_back(entry_of(m));
+    for (const auto& row : table) entries.push_back(entry(row)), entries.back().detail_key = detail_key;
     return entries;
 }
+
+std::vector<ListEntry> entries_of(const std::vector<CatalogEntry>& models) { return entries_of(models, "", entry_of); }
 
 /// Keeps an object alive until the program ends. It is used for parameters of netlists, to whose names the entries only refer.
 template <class T>
@@ -45,30 +49,22 @@ const std::shared_ptr<T>& keep_alive(const std::shared_ptr<T>& object) {
 
 std::vector<ListEntry> afferent_entries() {
     std::vector<ListEntry> entries;
+    const auto add = [&](std::string_view name, const AfferentPlan& plan, const std::string& description, std::string_view source) {
+        entries.push_back(list_entry(name, plan.composition(), description, source));
+        entries.back().parameters = *keep_alive(plan.parameters);
+    };
     for (const auto& a : named_afferents()) {
-        const auto plan = plan_afferent(a.name);
-        entries.push_back({std::string(a.name),
-                           plan->composition(),
-                           std::string(a.description),
-                           std::string(a.source),
-                           *plan->parameters,
-                           {a.aliases.begin(), a.aliases.end()}});
+        add(a.name, *plan_afferent(a.name), std::string(a.description), a.source);
+        entries.back().other_names.assign(a.aliases.begin(), a.aliases.end());
     }
     for (const auto& c : circuit::embedded_netlists)
         if (const auto plan = plan_any_afferent(c.name))
-            entries.push_back(
-                {plan->name,
-                 plan->composition(),
-                 std::string(plan->description) + "; also settable: temp, corner, mismatch, every array and device (doc/circuits.md)",
-                 std::string(c.file),
-                 *keep_alive(plan->parameters),
-                 {}});
-    entries.push_back({"path/own.cir",
-                       "netlist",
-                       "any netlist with a force input (a source with FORCE) and a spike output (.spike)",
-                       "doc/circuits.md; circuits/spiker.cir",
-                       {},
-                       {}});
+            add(plan->name, *plan,
+                std::string(plan->description) + "; also settable: temp, corner, mismatch, every array and device (doc/circuits.md)",
+                c.file);
+    entries.push_back(list_entry("path/own.cir", "netlist",
+                                 "any netlist with a force input (a source with FORCE) and a spike output (.spike)",
+                                 "doc/circuits.md; circuits/spiker.cir"));
     return entries;
 }
 
@@ -78,19 +74,16 @@ std::vector<ListSection> circuit_sections() {
     const CatalogEntry card{UicmCard::name, UicmCard::description, UicmCard::source, parameters_of<UicmCard>(UicmCard::fields)};
     const CatalogEntry size{"m", "transistor size: the parameters of an M line", "choice: 1 um / 1 um",
                             parameters_of<UicmInstance>(UicmInstance::fields)};
-    std::vector<ListEntry> elements, analysis_entries;
-    for (const auto& d : circuit::devices) elements.push_back({std::string(1, d.letter), "", std::string(d.description), "", {}, {}});
-    for (const auto& a : circuit::analyses)
-        analysis_entries.push_back({"." + std::string(a.name), std::string(a.usage), std::string(a.description), "", {}, {}, "usage"});
-    return {{"devices", elements}, {"models", entries_of({card, size})}, {"analyses", analysis_entries}};
+    const auto element = [](const auto& d) { return list_entry({&d.letter, 1}, "", d.description); };
+    const auto analysis = [](const auto& a) { return list_entry("." + std::string(a.name), a.usage, a.description); };
+    return {{"devices", entries_of(circuit::devices, "", element)},
+            {"models", entries_of({card, size})},
+            {"analyses", entries_of(circuit::analyses, "usage", analysis)}};
 }
 
 std::vector<ListSection> catalogue() {
-    std::vector<ListEntry> measure_entries, format_entries;
-    for (const auto& m : measures)
-        measure_entries.push_back({std::string(m.name), std::string(m.unit), std::string(m.description), "", {}, {}, "unit"});
-    for (const auto& f : recording_formats)
-        format_entries.push_back({std::string(f.name), std::string(f.extensions), std::string(f.description), "", {}, {}, "extensions"});
+    const auto measure = [](const auto& m) { return list_entry(m.name, m.unit, m.description); };
+    const auto format = [](const auto& f) { return list_entry(f.name, f.extensions, f.description); };
     std::vector<ListSection> all = {{"afferents", afferent_entries()},
                                     {"sensors", entries_of(sensor_entries())},
                                     {"transducers", entries_of(transducer_entries())},
@@ -98,8 +91,8 @@ std::vector<ListSection> catalogue() {
                                     {"receptors", entries_of(receptor_entries())},
                                     {"neurons", entries_of(neuron_entries())},
                                     {"stimuli", entries_of(stimulus_catalog())},
-                                    {"measures", measure_entries},
-                                    {"formats", format_entries}};
+                                    {"measures", entries_of(measures, "unit", measure)},
+                                    {"formats", entries_of(recording_formats, "extensions", format)}};
     for (auto& s : skin_sections()) all.push_back(std::move(s));
     for (auto& s : circuit_sections()) all.push_back(std::move(s));
     return all;

@@ -23,6 +23,10 @@ struct ListEntry {
     std::vector<CatalogNote> notes = {};
 };
 
+inline ListEntry list_entry(std::string_view name, std::string_view detail, std::string_view description, std::string_view source = {}) {
+    return {std::string(name), std::string(detail), std::string(description), std::string(source), {}, {}};
+}
+
 struct ListSection {
     std::string_view name;
     std::vector<ListEntry> entries;

@@ -70,7 +70,7 @@ void add_class_notes(const SkinPlan& plan, std::uint32_t class_index, std::vecto
 }
 
 ListEntry entry_of_skin(const NamedSkin& named) {
-    ListEntry e{std::string(named.name), "", std::string(named.description), fmt::format("skins/{}.toml", named.name), {}, {}};
+    auto e = list_entry(named.name, "", named.description, fmt::format("skins/{}.toml", named.name));
     const auto plan = load_skin_plan(named.name);
     if (!plan) return e;  // a test checks that every built-in skin loads
     const auto& sites = plan->sites;
@@ -85,18 +85,18 @@ std::vector<ListEntry> contact_entries() {
     std::vector<ListEntry> out;
     const auto rows = contact_parameters();
     for (const auto& i : indenters) {
-        ListEntry e{std::string(i.name), "", std::string(i.description), std::string(i.source), {}, {}};
+        auto e = list_entry(i.name, "", i.description, i.source);
         for (const auto& row : rows)
             if (std::find(i.parameters.begin(), i.parameters.end(), row.name) != i.parameters.end())
                 e.parameters.push_back({row, "contact"});
         out.push_back(std::move(e));
     }
-    ListEntry path{"path", "", "position and movement of any indenter", "", {}, {}};
+    auto path = list_entry("path", "", "position and movement of any indenter");
     for (const auto& row : rows)
         if (is_path_parameter(row.name)) path.parameters.push_back({row, "contact"});
     out.push_back(std::move(path));
     for (const auto& t : named_touches()) {
-        ListEntry e{std::string(t.name), fmt::format("{}, {}", t.force, t.indenter), std::string(t.description), "choice", {}, {}};
+        auto e = list_entry(t.name, fmt::format("{}, {}", t.force, t.indenter), t.description, "choice");
         const auto add_note = [&](std::string_view subject, const std::vector<Setting>& settings) {
             std::string text;
             for (const auto& s : settings) text += fmt::format("{}{} = {:.4g}", text.empty() ? "" : ", ", s.name, s.value);
@@ -136,13 +136,10 @@ Result<std::string> sites_listing(const std::vector<std::string>& populations, b
 std::vector<ListSection> skin_sections() {
     std::vector<ListEntry> skins;
     for (const auto& s : named_skins()) skins.push_back(entry_of_skin(s));
-    skins.push_back({"grid 8x8",
-                     "",
-                     "a sensor array of this many rows and columns, 2 mm apart, with an SA-I and an FA-I afferent at each site",
-                     "choice",
-                     {},
-                     {}});
-    skins.push_back({"path/own.toml", "", "any population file", "doc/skin.md", {}, {}});
+    skins.push_back(list_entry("grid 8x8", "",
+                               "a sensor array of this many rows and columns, 2 mm apart, with an SA-I and an FA-I afferent at each site",
+                               "choice"));
+    skins.push_back(list_entry("path/own.toml", "", "any population file", "doc/skin.md"));
     return {{"skins", skins}, {"contact", contact_entries()}};
 }
 

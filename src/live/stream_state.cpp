@@ -74,12 +74,8 @@ Result<StreamState> unpack_stream(std::span<const std::byte> bytes, const std::s
 }
 
 Result<void> save_stream(const std::string& path, const StreamState& state) {
-    auto file = OutputFile::create(path);
-    if (!file) return file.error();
     const auto bytes = pack_stream(state);
-    if (auto ok = file->write({reinterpret_cast<const char*>(bytes.data()), bytes.size()}); !ok) return ok;
-    if (auto ok = file->commit(SyncPolicy::always); !ok) return ok;
-    return sync_directory_of(path);
+    return replace_file(path, {reinterpret_cast<const char*>(bytes.data()), bytes.size()});
 }
 
 Result<StreamState> load_stream(const std::string& path) {

@@ -13,6 +13,7 @@
 
 namespace corpuscle {
 
+struct AfferentPlan;
 class ChannelPopulation;
 struct Innervation;
 
@@ -31,13 +32,14 @@ struct BinGroups {
 class Population {
 public:
     virtual ~Population() = default;
-    virtual std::size_t size() const = 0;                            ///< number of afferents
-    virtual std::string afferent_name(std::size_t u) const = 0;      ///< "sa1"; of a copy or in a skin "sa1#17"
-    virtual std::string channel_name(std::size_t u) const = 0;       ///< the channel, or the region of the skin
-    virtual std::vector<std::string> force_names() const = 0;        ///< of the rows of RunBlock::force
-    virtual std::size_t class_count() const = 0;                     ///< number of requested afferents, or of classes of the skin
-    virtual std::size_t class_of(std::size_t u) const = 0;           ///< copies of an afferent are one class
-    virtual std::span<const Probe> probes(std::size_t u) const = 0;  ///< the recorded quantities; empty if none are recorded
+    virtual std::size_t size() const = 0;                             ///< number of afferents
+    virtual std::string afferent_name(std::size_t u) const = 0;       ///< "sa1"; of a copy or in a skin "sa1#17"
+    virtual std::string channel_name(std::size_t u) const = 0;        ///< the channel, or the region of the skin
+    virtual std::vector<std::string> force_names() const = 0;         ///< of the rows of RunBlock::force
+    virtual std::size_t class_count() const = 0;                      ///< number of requested afferents, or of classes of the skin
+    virtual std::size_t class_of(std::size_t u) const = 0;            ///< copies of an afferent are one class
+    virtual const AfferentPlan& class_plan(std::size_t c) const = 0;  ///< of the first copy, or around which the class of a skin varies
+    virtual std::span<const Probe> probes(std::size_t u) const = 0;   ///< the recorded quantities; empty if none are recorded
     virtual BinGroups bin_groups() const = 0;
     /// Names and addresses in event formats, for spikes whose afferent indexes are those within the input.
     virtual EventAddressing event_addressing(const Clock&) const = 0;

@@ -31,6 +31,9 @@ struct Input {
     std::size_t afferent_of(const Spike& s) const { return s.afferent_index - first_afferent; }
     /// The clock with the first sample at 0 s. Times since 1970 would lose precision.
     Clock clock_since_start() const { return {clock.rate_numerator, clock.rate_denominator, 0}; }
+    /// The time of a spike or of a sample on that clock, s.
+    double since_start(const Spike& s) const { return clock_since_start().time(s.step, s.offset); }
+    double since_start(std::int64_t sample) const { return clock_since_start().time(sample); }
 };
 
 /// The input that a source gives to a population.

@@ -78,6 +78,8 @@ OptionReader quantity_reader(T& to, std::string_view unit) {
         return {};
     };
 }
+/// A reader that refuses a text after reading it if `is_invalid()`: "TEXT: MESSAGE".
+OptionReader refuse_if(std::function<bool()> is_invalid, std::string_view message, OptionReader);
 /// Reads settings ("sa1.f_B=25Hz") of this option into a list.
 OptionReader override_reader(std::vector<ParameterOverride>&, std::string option);
 

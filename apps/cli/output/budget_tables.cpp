@@ -1,7 +1,9 @@
 #include "cli/output/budget_tables.hpp"
 
 #include <fmt/format.h>
+#include <algorithm>
 #include <cmath>
+#include <functional>
 
 #include "cli/output/terminal.hpp"
 #include "core/text/quantity.hpp"
@@ -24,36 +26,34 @@ std::string cell(double x) { return x == 0 ? "0" : std::abs(x) < 100 ? fmt::form
 /// An area in m^2 as a number in um^2.
 std::string um2(double area) { return cell(area * 1e12); }
 
+using PowerOf = std::function<double(const PowerBreakdown&)>;
+
 /// Adds a row with a power in nW for each column of Cost::power: "op", "mean" ... `power_of` selects the power (W) from a PowerBreakdown.
-template <class Power>
-void add_row(Rows& rows, const Cost& cost, std::string name, Power&& power_of) {
+void add_row(Rows& rows, const Cost& cost, std::string name, const PowerOf& power_of) {
     rows.push_back({std::move(name)});
     for (const auto& [when, p] : cost.power) rows.back().push_back(cell(power_of(p) * 1e9));
 }
 
-/// True if a power exceeds 1e-6 of the delivered power in any column.
-template <class Power>
-bool is_visible(const Cost& cost, Power&& power_of) {
+/// Adds the row if its power exceeds 1e-6 of the delivered power in any column.
+void add_visible_row(Rows& rows, const Cost& cost, std::string name, const PowerOf& power_of) {
     constexpr double visible = 1e-6;
-    for (const auto& [when, p] : cost.power)
-        if (std::abs(power_of(p)) > visible * std::abs(p.supplies)) return true;
-    return false;
+    if (std::any_of(cost.power.begin(), cost.power.end(),
+                    [&](const auto& column) { return std::abs(power_of(column.second)) > visible * std::abs(column.second.supplies); }))
+        add_row(rows, cost, std::move(name), power_of);
 }
 
 std::string power_table(const Cost& cost) {
     Rows rows = {{"power, nW"}};
     for (const auto& [when, p] : cost.power) rows[0].push_back(when == "op" ? ".op" : when);
-    add_row(rows, cost, "delivered", [](const PowerBreakdown& p) { return p.supplies; });
+    add_row(rows, cost, "delivered", &PowerBreakdown::supplies);
     for (std::size_t k = 0; k < cost.sources.size(); ++k)
-        if (is_visible(cost, [k](const PowerBreakdown& p) { return p.sources[k]; }))
-            add_row(rows, cost, "  by " + cost.sources[k], [k](const PowerBreakdown& p) { return p.sources[k]; });
+        add_visible_row(rows, cost, "  by " + cost.sources[k], [k](const PowerBreakdown& p) { return p.sources[k]; });
     if (cost.has_sensor) {
-        add_row(rows, cost, "  for the sensor current", [](const PowerBreakdown& p) { return p.sensor; });
-        add_row(rows, cost, "  without the sensor", [](const PowerBreakdown& p) { return p.without_sensor; });
+        add_row(rows, cost, "  for the sensor current", &PowerBreakdown::sensor);
+        add_row(rows, cost, "  without the sensor", &PowerBreakdown::without_sensor);
     }
     for (std::size_t k = 0; k < cost.blocks.size(); ++k)
-        if (is_visible(cost, [k](const PowerBreakdown& p) { return p.blocks[k]; }))
-            add_row(rows, cost, "dissipated in " + cost.blocks[k].name, [k](const PowerBreakdown& p) { return p.blocks[k]; });
+        add_visible_row(rows, cost, "dissipated in " + cost.blocks[k].name, [k](const PowerBreakdown& p) { return p.blocks[k]; });
     return format_table(rows);
 }
 

@@ -17,11 +17,17 @@ constexpr auto max_delay = std::chrono::milliseconds(500);  // longest time betw
 
 using namespace circuit;
 
-void CurveFiles::begin_variant(const Variant& variant) {
+Result<void> CurveFiles::begin_variant(const Variant& variant) {
     title_ = variant.circuit->title, label_ = variant.label;
     plot_count_ = 0, file_ = nullptr;
     analysis_count_ = static_cast<std::size_t>(std::count_if(variant.circuit->directives.begin(), variant.circuit->directives.end(),
                                                              [](const Directive& c) { return find_analysis(c.name) != nullptr; }));
+    if (!files_.empty()) return {};
+    auto check = check_;
+    const auto count = is_csv_ ? analysis_count_ : 1;
+    for (std::size_t k = 0; k < count; ++k)
+        if (auto ok = check.check_growing_file(path_of(count, k), is_csv_ ? is_own_table : is_own_raw); !ok) return ok;
+    return {};
 }
 
 Result<void> CurveFiles::add_plots(std::span<const Plot> plots) {
@@ -103,15 +109,6 @@ std::string CurveFiles::path_of(std::size_t file_count, std::size_t index) const
     auto path = options_.path;
     if (file_count > 1) path.insert(path.size() - std::string_view(".csv").size(), fmt::format("-{}", index + 1));
     return path;
-}
-
-Result<void> CurveFiles::check(std::size_t analysis_count) const {
-    auto check = check_;
-    if (options_.path.empty()) return {};
-    const auto count = is_csv_ ? analysis_count : 1;
-    for (std::size_t k = 0; k < count; ++k)
-        if (auto ok = check.check_growing_file(path_of(count, k), is_csv_ ? is_own_table : is_own_raw); !ok) return ok;
-    return {};
 }
 
 /// Returns file `index`, from 0, of `file_count`. The first call creates it and writes `head`.

@@ -53,10 +53,8 @@ public:
     CurveFiles(CurveFileOptions options, bool has_steps, bool overwrite)
         : options_(std::move(options)), check_(overwrite), has_steps_(has_steps), is_csv_(options_.path.ends_with(".csv")) {}
 
-    /// Checks before the run that the files for a netlist with this many analyses may be written.
-    Result<void> check(std::size_t analysis_count) const;
-    /// Call before the analyses of each variant.
-    void begin_variant(const circuit::Variant&);
+    /// Call before the analyses of each variant. The first call checks that the files may be written.
+    Result<void> begin_variant(const circuit::Variant&);
     /// Writes the plots of an analysis other than a transient. The three functions below write a transient.
     Result<void> add_plots(std::span<const circuit::Plot>) override;
     Result<void> begin(const circuit::Plot& head) override;

@@ -1,10 +1,12 @@
 #include "cli/output/printable.hpp"
 
 #include <fmt/format.h>
-#include <array>
+#include <algorithm>
 #include <cstdint>
 #include <iterator>
 #include <nlohmann/json.hpp>
+
+#include "io/text/utf8.hpp"
 
 namespace corpuscle {
 namespace {
@@ -21,14 +23,9 @@ Character first_character(std::string_view text) {
     const auto byte = [&](std::size_t k) { return static_cast<std::uint32_t>(static_cast<unsigned char>(text[k])); };
     if (byte(0) < 0x80) return {byte(0), 1, true};
     const std::size_t bytes = byte(0) >= 0xf0 ? 4 : byte(0) >= 0xe0 ? 3 : 2;
-    if (byte(0) < 0xc2 || byte(0) > 0xf4 || text.size() < bytes) return {};
+    if (!is_utf8(text.substr(0, bytes))) return {};
     auto code = byte(0) & (0xffU >> (bytes + 1));
-    for (std::size_t k = 1; k < bytes; ++k) {
-        if ((byte(k) & 0xc0U) != 0x80) return {};
-        code = code << 6 | (byte(k) & 0x3fU);
-    }
-    constexpr std::array<std::uint32_t, 5> min_code = {0, 0, 0x80, 0x800, 0x10000};
-    if (code < min_code[bytes] || code > 0x10ffff || (code >= 0xd800 && code <= 0xdfff)) return {};
+    for (std::size_t k = 1; k < bytes; ++k) code = code << 6 | (byte(k) & 0x3fU);
     return {code, bytes, true};
 }
 
@@ -66,6 +63,11 @@ std::string escape_except(std::string_view text, std::string_view kept) {
 
 std::string printable(std::string_view text) { return escape_except(text, ""); }
 std::string printable_lines(std::string_view text) { return escape_except(text, "\n"); }
+
+std::size_t columns_of(std::string_view text) {
+    return static_cast<std::size_t>(
+        std::count_if(text.begin(), text.end(), [](char c) { return (static_cast<unsigned char>(c) & 0xc0) != 0x80; }));
+}
 
 std::string json_text(const nlohmann::ordered_json& document) {
     const auto text = document.dump(1, ' ', false, nlohmann::ordered_json::error_handler_t::replace);  // names may contain any bytes

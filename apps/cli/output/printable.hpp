@@ -14,6 +14,9 @@ std::string printable(std::string_view);
 /// The same, but keeps line breaks; for text of several lines that the program composed.
 std::string printable_lines(std::string_view);
 
+/// The width of a UTF-8 text in columns of a terminal, one per character.
+std::size_t columns_of(std::string_view);
+
 /// The text of a JSON document, in which the same characters are escaped as JSON does it (\u202e). The content is unchanged, except that
 /// bytes that are not UTF-8 are replaced.
 std::string json_text(const nlohmann::ordered_json&);

@@ -12,7 +12,8 @@ namespace {
 
 using Rows = std::vector<std::vector<std::string>>;
 
-constexpr std::size_t max_devices = 5;   // listed for each measure
+constexpr std::size_t max_devices = 5;  // listed for each measure
+constexpr const char* interval_heading = "95 % CI";
 constexpr double min_fraction = 0.0005;  // smaller fractions of variance would print as 0.0 %
 
 /// Formats the values of one measure: all with the same unit prefix, and with a number of decimals that follows from the standard
@@ -22,12 +23,14 @@ class NumberFormat {
     int decimals_ = 4;
     bool scientific_ = false;  // true for very large or small values whose unit takes no prefix
     bool integers_ = false;    // true: integers are printed without decimals
-    std::string unit_;         // with prefix
+    std::string name_, unit_;  // of the measure; with prefix
 
 public:
     /// `counts`: values without a unit are printed as integers if the smallest and the largest are.
-    NumberFormat(const std::string& unit, const MeasureSummary& m, bool counts = false)
-        : integers_(counts && unit.empty() && m.min == std::round(m.min) && m.max == std::round(m.max)), unit_(unit) {
+    NumberFormat(const SweepColumn& column, const MeasureSummary& m, bool counts)
+        : integers_(counts && column.unit.empty() && m.min == std::round(m.min) && m.max == std::round(m.max)), name_(column.name),
+          unit_(column.unit) {
+        const auto& unit = column.unit;
         const double size = std::max(std::abs(m.min), std::abs(m.max)),
                      typical = std::abs(m.mean.value) > 0.01 * size ? std::abs(m.mean.value) : size;
         if (!(typical > 0)) return;
@@ -40,7 +43,8 @@ public:
         decimals_ = std::clamp(2 - static_cast<int>(std::floor(std::log10(resolution * factor_))), 0, 12);
         scientific_ = typical * factor_ >= 1e7 || typical * factor_ < 1e-4;
     }
-    const std::string& unit() const { return unit_; }
+    /// The name of the measure with the unit, as a heading.
+    std::string heading() const { return unit_.empty() ? name_ : fmt::format("{} ({})", name_, unit_); }
     std::string operator()(double x) const {
         if (std::isnan(x)) return "-";
         if (integers_ && !scientific_ && x == std::round(x)) return fmt::format("{:.0f}", x);
@@ -57,9 +61,19 @@ std::string percent_interval(const Estimate& e) {
     return std::isnan(e.low) ? "-" : fmt::format("{:.1f} ... {:.1f}", 100 * e.low, 100 * e.high);
 }
 
-/// The name of a measure with a unit, as a heading.
-std::string heading_of(const SweepColumn& c, const std::string& unit) {
-    return unit.empty() ? c.name : fmt::format("{} ({})", c.name, unit);
+/// The formats of all measures.
+std::vector<NumberFormat> formats_of(const SweepTable& table, const SweepSummary& s, bool counts) {
+    std::vector<NumberFormat> out;
+    for (std::size_t m = 0; m < table.measures.size(); ++m) out.emplace_back(table.measures[m], s.all.measures[m], counts);
+    return out;
+}
+
+/// Formats a table. The values of a grid are exact, so that its tables have no confidence intervals.
+std::string table_text(const SweepTable& table, Rows rows) {
+    for (auto c = static_cast<std::ptrdiff_t>(rows[0].size()); table.is_grid && c-- > 0;)
+        if (rows[0].begin()[c] == interval_heading)
+            for (auto& row : rows) row.erase(row.begin() + c);
+    return "\n" + format_table(rows);
 }
 
 /// The pass limits of a measure, of which there is at least one.
@@ -81,61 +95,70 @@ std::string opening(const SweepTable& table, const SweepSummary& s, const std::s
     return text + ".\n";
 }
 
-/// A table of the yield and of the yield of each measure with limits.
+/// A table of the yield and of the yield of each measure with limits; "" for a grid of which all items passed.
 std::string yields(const SweepTable& table, const SweepSummary& s) {
-    Rows rows = {{"yield", "limits", "passed", "of", "%", "95 % CI"}};
+    if (table.is_grid && s.all.passed == s.all.items) return "";
+    Rows rows = {{"yield", "limits", "passed", "of", "%", interval_heading}};
     const auto line = [&](const std::string& name, const std::string& limits, std::int64_t passed, const Estimate& fraction) {
         rows.push_back(
-            {name, limits, fmt::format("{}", passed), fmt::format("{}", s.all.items), percent(fraction.value), percent_interval(fraction)});
+            {name, limits, std::to_string(passed), std::to_string(s.all.items), percent(fraction.value), percent_interval(fraction)});
     };
     line(table.has_limits() ? "all limits" : "completed", "", s.all.passed, s.all.yield);
     for (std::size_t m = 0; m < table.measures.size(); ++m)
         if (const auto& measure_yield = s.all.measures[m].yield)
             line(table.measures[m].name, limits_of(table.measures[m]),
                  std::llround(measure_yield->value * static_cast<double>(s.all.items)), *measure_yield);
-    return "\n" + format_table(rows);
+    return table_text(table, rows);
 }
 
 /// A table of the statistics of each measure over all items.
 std::string measures_text(const SweepTable& table, const SweepSummary& s) {
-    Rows rows = {{"measure", "items", "mean", "95 % CI", "sigma", "95 % CI", "min"}};
+    Rows rows = {{"measure", "items", "mean", interval_heading, "sigma", interval_heading, "min"}};
     for (const double q : s.options.quantiles) rows[0].push_back(q == 0.5 ? "median" : fmt::format("{:g} %", 100 * q));
     for (const char* heading : {"max", "normality (r)"}) rows[0].emplace_back(heading);
+    const auto formats = formats_of(table, s, false);
     for (std::size_t m = 0; m < table.measures.size(); ++m) {
         const auto& one = s.all.measures[m];
-        const NumberFormat format(table.measures[m].unit, one);
-        rows.push_back({heading_of(table.measures[m], format.unit()), fmt::format("{}", one.count), format(one.mean.value),
-                        format.interval(one.mean), format(one.sigma.value), format.interval(one.sigma), format(one.min)});
+        const auto& format = formats[m];
+        rows.push_back({format.heading(), std::to_string(one.count), format(one.mean.value), format.interval(one.mean),
+                        format(one.sigma.value), format.interval(one.sigma), format(one.min)});
         for (std::size_t q = 0; q < s.options.quantiles.size(); ++q)
             rows.back().push_back(q < one.quantiles.size() ? format(one.quantiles[q].value) : "-");
         rows.back().push_back(format(one.max));
-        rows.back().push_back(std::isnan(one.normality)              ? "-"
-                              : one.normality >= one.normality_floor ? fmt::format("{:.4f}, normal", one.normality)
-                                                                     : fmt::format("{:.4f}, not normal", one.normality));
+        rows.back().push_back(std::isnan(one.normality)
+                                  ? "-"
+                                  : fmt::format("{:.4f}, {}normal", one.normality, one.normality >= one.normality_floor ? "" : "not "));
     }
-    return "\n" + format_table(rows);
+    return table_text(table, rows);
+}
+
+/// The mean of a measure at a point; in a sampled sweep with its standard deviation.
+std::string mean_text(const MeasureSummary& m, const NumberFormat& format, bool is_grid) {
+    if (m.count == 0) return "-";
+    return format(m.mean.value) + (is_grid || std::isnan(m.sigma.value) ? "" : " +- " + format(m.sigma.value));
 }
 
 /// A table of the yield and the measures at each grid point.
 std::string points_text(const SweepTable& table, const SweepSummary& s) {
     if (s.points.size() < 2) return "";
-    Rows rows = {{"point", "items", "yield %", "95 % CI"}};
-    std::vector<NumberFormat> formats;
-    for (std::size_t m = 0; m < table.measures.size(); ++m) {
-        formats.emplace_back(table.measures[m].unit, s.all.measures[m]);
-        rows[0].push_back(heading_of(table.measures[m], formats.back().unit()));
-    }
+    const bool shows_passed = table.is_grid && table.has_limits();
+    const auto formats = formats_of(table, s, table.is_grid);
+    Rows rows = {{"point"}};
+    if (shows_passed) rows[0].emplace_back("passed");
+    if (!table.is_grid) rows[0].insert(rows[0].end(), {"items", "yield %", interval_heading});
+    for (const auto& format : formats) rows[0].push_back(format.heading());
     for (const auto& p : s.points) {
-        rows.push_back({p.label, fmt::format("{}", p.items), percent(p.yield.value), percent_interval(p.yield)});
-        for (std::size_t m = 0; m < table.measures.size(); ++m) {
-            const auto& one = p.measures[m];
-            rows.back().push_back(one.count == 0 ? "-"
-                                  : std::isnan(one.sigma.value)
-                                      ? formats[m](one.mean.value)
-                                      : fmt::format("{} +- {}", formats[m](one.mean.value), formats[m](one.sigma.value)));
-        }
+        auto& row = rows.emplace_back(1, p.label);
+        if (shows_passed) row.push_back(p.items == 1 ? (p.passed ? "yes" : "no") : fmt::format("{} of {}", p.passed, p.items));
+        if (!table.is_grid) row.insert(row.end(), {std::to_string(p.items), percent(p.yield.value), percent_interval(p.yield)});
+        for (std::size_t m = 0; m < formats.size(); ++m) row.push_back(mean_text(p.measures[m], formats[m], table.is_grid));
     }
-    return fmt::format("\nBy grid point, mean and standard deviation:\n{}", format_table(rows));
+    const bool means = std::any_of(s.points.begin(), s.points.end(), [](const PointSummary& p) { return p.items > 1; });
+    return fmt::format("\nBy grid point{}:{}",
+                       !table.is_grid ? ", mean and standard deviation"
+                       : means        ? ", means"
+                                      : "",
+                       table_text(table, rows));
 }
 
 /// The array and transistor size of a device: "4x2 of 2 x 0.5 um".
@@ -201,21 +224,6 @@ std::string grid_opening(const SweepTable& table) {
     return fmt::format("Grid of {}, without random parameters: the values are exact, not estimates.\n", axes);
 }
 
-/// As yields(), for a grid, without confidence intervals. "" if all items passed.
-std::string grid_yields(const SweepTable& table, const SweepSummary& s) {
-    if (s.all.passed == s.all.items) return "";
-    Rows rows = {{"yield", "limits", "passed", "of", "%"}};
-    const auto line = [&](const std::string& name, const std::string& limits, std::int64_t passed, double fraction) {
-        rows.push_back({name, limits, fmt::format("{}", passed), fmt::format("{}", s.all.items), percent(fraction)});
-    };
-    line(table.has_limits() ? "all limits" : "completed", "", s.all.passed, s.all.yield.value);
-    for (std::size_t m = 0; m < table.measures.size(); ++m)
-        if (const auto& measure_yield = s.all.measures[m].yield)
-            line(table.measures[m].name, limits_of(table.measures[m]),
-                 std::llround(measure_yield->value * static_cast<double>(s.all.items)), measure_yield->value);
-    return "\n" + format_table(rows);
-}
-
 /// The label of the grid point of the first row in which a measure (by index) has this value.
 std::string point_of(const SweepTable& table, std::size_t measure, double value) {
     const auto& values = table.measure_values[measure];
@@ -226,26 +234,25 @@ std::string point_of(const SweepTable& table, std::size_t measure, double value)
 /// A table of the smallest and largest value of each measure, and the grid points at which they occur.
 std::string grid_measures(const SweepTable& table, const SweepSummary& s) {
     Rows rows = {{"measure", "items", "min", "at", "max", "at", "mean"}};
+    const auto formats = formats_of(table, s, true);
     for (std::size_t m = 0; m < table.measures.size(); ++m) {
         const auto& one = s.all.measures[m];
-        const NumberFormat format(table.measures[m].unit, one, true);
-        const bool varies = one.min < one.max;
-        rows.push_back({heading_of(table.measures[m], format.unit()), fmt::format("{}", one.count), format(one.min),
-                        varies ? point_of(table, m, one.min) : "all", format(one.max), varies ? point_of(table, m, one.max) : "all",
-                        format(one.mean.value)});
+        const auto at = [&](double value) { return one.min < one.max ? point_of(table, m, value) : "all"; };
+        rows.push_back({formats[m].heading(), std::to_string(one.count), formats[m](one.min), at(one.min), formats[m](one.max), at(one.max),
+                        formats[m](one.mean.value)});
     }
-    return "\n" + format_table(rows);
+    return table_text(table, rows);
 }
 
 /// A table with the effect of every axis on each measure and on the yield.
 std::string effects_text(const SweepTable& table, const SweepSummary& s) {
     Rows rows = {{"measure", "axis", "variance (%)", "from", "mean there", "to", "mean there"}};
+    const auto formats = formats_of(table, s, true);
     for (std::size_t d = 0; d < s.dependences.size(); ++d) {  // in the order of the measures; then the yield
         const auto& one = s.dependences[d];
-        const bool is_yield = d >= table.measures.size();
-        const NumberFormat format(is_yield ? "" : table.measures[d].unit, is_yield ? MeasureSummary{} : s.all.measures[d], true);
-        const auto mean = [&](double x) { return is_yield ? percent(x) + " %" : format(x); };
-        const auto name = is_yield ? one.measure : heading_of(table.measures[d], format.unit());
+        const bool is_yield = d >= formats.size();
+        const auto mean = [&](double x) { return is_yield ? percent(x) + " %" : formats[d](x); };
+        const auto name = is_yield ? one.measure : formats[d].heading();
         double rest = 1;  // fraction of the variance that no single axis explains
         for (const auto& e : one.effects) {
             const auto& axis = table.axes[e.axis];
@@ -266,56 +273,30 @@ std::string effects_text(const SweepTable& table, const SweepSummary& s) {
                      format_table(rows);
 }
 
-/// As points_text(), for a grid.
-std::string grid_points(const SweepTable& table, const SweepSummary& s) {
-    if (s.points.size() < 2) return "";
-    Rows rows = {{"point"}};
-    const bool limits = table.has_limits();
-    if (limits) rows[0].emplace_back("passed");
-    std::vector<NumberFormat> formats;
-    for (std::size_t m = 0; m < table.measures.size(); ++m) {
-        formats.emplace_back(table.measures[m].unit, s.all.measures[m], true);
-        rows[0].push_back(heading_of(table.measures[m], formats.back().unit()));
-    }
-    for (const auto& p : s.points) {
-        rows.push_back({p.label});
-        if (limits) rows.back().push_back(p.items == 1 ? (p.passed ? "yes" : "no") : fmt::format("{} of {}", p.passed, p.items));
-        for (std::size_t m = 0; m < table.measures.size(); ++m)
-            rows.back().push_back(p.measures[m].count == 0 ? "-" : formats[m](p.measures[m].mean.value));
-    }
-    const bool means = std::any_of(s.points.begin(), s.points.end(), [](const PointSummary& p) { return p.items > 1; });
-    return fmt::format("\nBy grid point{}:\n{}", means ? ", means" : "", format_table(rows));
-}
-
 /// A table of the requested quantiles, with confidence intervals unless the sweep is a grid.
 std::string quantiles_text(const SweepTable& table, const SweepSummary& s) {
     Rows rows = {{"quantile"}};
-    for (std::size_t m = 0; m < table.measures.size(); ++m) {
-        const NumberFormat format(table.measures[m].unit, s.all.measures[m]);
-        rows[0].push_back(heading_of(table.measures[m], format.unit()));
-        if (!table.is_grid) rows[0].push_back("95 % CI");
-        for (std::size_t q = 0; q < s.options.quantiles.size(); ++q) {
-            if (m == 0) rows.push_back({fmt::format("{:g} %", 100 * s.options.quantiles[q])});
-            const auto& all = s.all.measures[m].quantiles;
-            rows[q + 1].push_back(q < all.size() ? format(all[q].value) : "-");
-            if (!table.is_grid) rows[q + 1].push_back(q < all.size() ? format.interval(all[q]) : "-");
+    for (const double q : s.options.quantiles) rows.push_back({fmt::format("{:g} %", 100 * q)});
+    const auto formats = formats_of(table, s, false);
+    for (std::size_t m = 0; m < formats.size(); ++m) {
+        const auto& quantiles = s.all.measures[m].quantiles;
+        rows[0].insert(rows[0].end(), {formats[m].heading(), interval_heading});
+        for (std::size_t q = 0; q + 1 < rows.size(); ++q) {
+            const auto quantile = q < quantiles.size() ? quantiles[q] : Estimate();
+            rows[q + 1].insert(rows[q + 1].end(), {formats[m](quantile.value), formats[m].interval(quantile)});
         }
     }
-    return "\n" + format_table(rows);
+    return table_text(table, rows);
 }
 
 }  // namespace
 
 std::string sweep_tables(const SweepTable& table, const SweepSummary& s, const std::string& title, bool quantiles) {
     if (table.rows() == 0) return fmt::format("{}: none of {} items is finished yet.\n", title, table.item_count);
-    if (table.is_grid) {
-        auto text = opening(table, s, title) + grid_opening(table) + grid_yields(table, s);
-        if (!table.measures.empty()) text += grid_measures(table, s) + (quantiles ? quantiles_text(table, s) : "");
-        return text + effects_text(table, s) + grid_points(table, s);
-    }
-    auto text = opening(table, s, title) + yields(table, s);
-    if (!table.measures.empty()) text += measures_text(table, s) + (quantiles ? quantiles_text(table, s) : "");
-    return text + points_text(table, s) + dependences_text(table, s);
+    auto text = opening(table, s, title) + (table.is_grid ? grid_opening(table) : "") + yields(table, s);
+    if (!table.measures.empty()) text += table.is_grid ? grid_measures(table, s) : measures_text(table, s);
+    if (!table.measures.empty() && quantiles) text += quantiles_text(table, s);
+    return text + (table.is_grid ? effects_text(table, s) + points_text(table, s) : points_text(table, s) + dependences_text(table, s));
 }
 
 }  // namespace corpuscle

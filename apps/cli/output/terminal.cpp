@@ -38,12 +38,6 @@ bool is_number(std::string_view cell) {
     return !cell.empty() && cell.find_first_not_of("0123456789.-+e") == std::string::npos;
 }
 
-/// The width of a UTF-8 text in columns, one per character.
-std::size_t width(const std::string& text) {
-    return static_cast<std::size_t>(
-        std::count_if(text.begin(), text.end(), [](char c) { return (static_cast<unsigned char>(c) & 0xc0) != 0x80; }));
-}
-
 /// Splits a heading at blanks and after hyphens: "Victor-", "Purpura".
 std::vector<std::string> split_heading(const std::string& heading) {
     std::vector<std::string> out;
@@ -65,8 +59,8 @@ std::size_t wrap_heading(std::vector<std::vector<std::string>>& rows) {
     std::size_t total = 0;
     for (std::size_t c = 0; c < rows[0].size(); ++c) {
         for (std::size_t r = 1; r < rows.size(); ++r)
-            if (c < rows[r].size()) widths[c] = std::max(widths[c], width(rows[r][c]));
-        total += std::max(widths[c], width(rows[0][c])) + (c ? 2 : 0);
+            if (c < rows[r].size()) widths[c] = std::max(widths[c], columns_of(rows[r][c]));
+        total += std::max(widths[c], columns_of(rows[0][c])) + (c ? 2 : 0);
     }
     if (total <= max_table_width) return 1;
     std::vector<std::vector<std::string>> lines;
@@ -74,7 +68,7 @@ std::size_t wrap_heading(std::vector<std::vector<std::string>>& rows) {
         std::vector<std::string> parts;
         for (const auto& word : split_heading(rows[0][c])) {
             const bool joined = !parts.empty() && parts.back().ends_with('-');
-            if (!parts.empty() && width(parts.back()) + (joined ? 0 : 1) + width(word) <= widths[c])
+            if (!parts.empty() && columns_of(parts.back()) + (joined ? 0 : 1) + columns_of(word) <= widths[c])
                 parts.back() += (joined ? "" : " ") + word;
             else
                 parts.push_back(word);
@@ -191,7 +185,7 @@ std::string format_table(const std::vector<std::vector<std::string>>& raw_rows, 
     for (std::size_t r = 0; r < rows.size(); ++r)
         for (std::size_t c = 0; c < rows[r].size(); ++c) {
             if (widths.size() <= c) widths.push_back(0), numeric.push_back(true);
-            widths[c] = std::max(widths[c], width(rows[r][c]));
+            widths[c] = std::max(widths[c], columns_of(rows[r][c]));
             if (r >= heading_rows && !rows[r][c].empty() && !is_number(rows[r][c])) numeric[c] = false;
         }
     std::string text;
@@ -201,7 +195,7 @@ std::string format_table(const std::vector<std::vector<std::string>>& raw_rows, 
             std::string line;
             for (const auto c : block) {
                 if (c >= row.size()) continue;
-                const std::string pad(widths[c] - width(row[c]), ' ');
+                const std::string pad(widths[c] - columns_of(row[c]), ' ');
                 line += (c ? "  " : "") + (numeric[c] ? pad + row[c] : row[c] + pad);
             }
             line.erase(line.find_last_not_of(' ') + 1);

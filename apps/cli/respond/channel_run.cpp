@@ -69,10 +69,11 @@ nlohmann::ordered_json ChannelRun::summarize(const RunStats& stats) {
     warn_of_rates();
     auto result = summary_.document(job_.afferents, stats, job_.options, job_.options.seed, job_.warnings);
     if (job_.copy_spec.count > 0) result["copies"] = document_of(job_.copy_spec);
-    for (const auto& s : silence_.silent_afferents(job_.copies, job_.options)) {
-        if (!quiet_) print_message(silence_message(s));
-        result["silent"].push_back({{"afferent", s.name},
-                                    {"force_max_N", s.force},
+    for (const auto& s : silence_.silent_classes(job_.options)) {
+        const auto& name = job_.afferents[s.class_index].name;
+        if (!quiet_) print_message(silence_message(name, s));
+        result["silent"].push_back({{"afferent", name},
+                                    {"force_max_N", s.max_force},
                                     {"factor_to_fire", s.factor ? nlohmann::ordered_json(*s.factor) : nlohmann::ordered_json(nullptr)}});
     }
     return result;

@@ -4,6 +4,7 @@
 #include <algorithm>
 
 #include "cli/arguments/recording_arguments.hpp"
+#include "cli/assign.hpp"
 #include "cli/respond/skin_run.hpp"
 #include "core/text/ascii_text.hpp"
 #include "skin/plan/class_overrides.hpp"
@@ -65,10 +66,7 @@ Result<void> place_afferents(SkinJob& job, const RespondArguments& args) {
     auto& skin_plan = applied->result;
     if (args.simulation.seed != 0) skin_plan.seed = args.simulation.seed;  // 0, the default, keeps the seed of the population file
     if (job.source->channels().size() == 1) job.skin_note = treat_as_skin(skin_plan);
-    auto skin = innervate(std::move(skin_plan));
-    if (!skin) return skin.error();
-    job.skin = std::move(*skin);
-    return {};
+    return assign(job.skin, innervate(std::move(skin_plan)));
 }
 
 }  // namespace

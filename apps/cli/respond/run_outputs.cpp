@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
+#include "cli/assign.hpp"
 #include "cli/output/output_files.hpp"
 #include "cli/output/printable.hpp"
 #include "run/earlier_outputs.hpp"
@@ -50,17 +51,11 @@ Result<void> RunOutputs::open(const RespondArguments& args, PlannedRun& run, boo
         if (!file) return file.error();
         files_.push_back(std::move(*file));
     }
-    const auto create = [](std::optional<OutputFile>& file, const std::string& path) -> Result<void> {
-        auto created = OutputFile::create(path);
-        if (!created) return created.error();
-        file = std::move(*created);
-        return {};
-    };
     if (!directory_.empty())
-        if (auto ok = create(summary_file_, directory_ + "/summary.json"); !ok) return ok;
+        if (auto ok = assign(summary_file_, OutputFile::create(directory_ + "/summary.json")); !ok) return ok;
     if (!page_path) return {};
     report_ = &run.start_report();
-    return create(report_file_, *page_path);
+    return assign(report_file_, OutputFile::create(*page_path));
 }
 
 void RunOutputs::add_sinks(std::vector<Sink*>& sinks) const {

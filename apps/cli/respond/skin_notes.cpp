@@ -7,7 +7,6 @@
 #include "core/stimulus/stimuli.hpp"
 #include "io/table/foreign_format.hpp"
 #include "run/summary/nerve_limit.hpp"
-#include "run/summary/silent_afferents.hpp"
 #include "skin/plan/indented_array.hpp"
 
 namespace corpuscle {
@@ -106,9 +105,9 @@ void add_rate_warnings(SkinJob& job, const SkinSummary& summary) {
 
 }  // namespace
 
-void collect_notes(SkinJob& job, const RespondArguments& args, const SkinSummary& summary, const SkinSilenceDetector& silence) {
+void collect_notes(SkinJob& job, const RespondArguments& args, const SkinSummary& summary, const SilenceDetector& silence) {
     add_force_notes(job);
-    add_silence_notes(job, args, silence.silent_classes(job.options.method, job.options.sampled));
+    add_silence_notes(job, args, silence.silent_classes(job.options));
     add_rate_warnings(job, summary);
 }
 

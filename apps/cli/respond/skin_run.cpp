@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <nlohmann/json.hpp>
 
+#include "cli/assign.hpp"
 #include "cli/output/terminal.hpp"
 
 namespace corpuscle {
@@ -33,9 +34,7 @@ Result<void> SkinRun::open_checkpoint() {
     if (ranks_) return bad_usage("--checkpoint works with one process only, not under mpirun");
     auto fingerprint = fingerprint_of(job_, args_, common_);
     if (!fingerprint) return fingerprint.error();
-    auto opened = SkinCheckpoint::open(args_.checkpoint, *skin_, std::move(*fingerprint));
-    if (!opened) return opened.error();
-    checkpoint_ = std::move(*opened);
+    if (auto ok = assign(checkpoint_, SkinCheckpoint::open(args_.checkpoint, *skin_, std::move(*fingerprint))); !ok) return ok;
     if (checkpoint_->resumed_samples() > 0 && !common_.quiet)
         print_message(fmt::format("resuming after {:.3f} s, from {}",
                                   job_.source->clock().T() * static_cast<double>(checkpoint_->resumed_samples()), args_.checkpoint));
@@ -43,9 +42,7 @@ Result<void> SkinRun::open_checkpoint() {
 }
 
 Result<std::vector<std::unique_ptr<BlockSimulator>>> SkinRun::simulators() {
-    auto skin = make_skin(job_, ranks_);
-    if (!skin) return skin.error();
-    skin_ = std::move(*skin);
+    if (auto ok = assign(skin_, make_skin(job_, ranks_)); !ok) return ok.error();
     if (auto ok = open_checkpoint(); !ok) return ok.error();
     if (ranks_) workers_.emplace(*ranks_);
     const SkinRunParts parts{workers_ ? &*workers_ : nullptr, checkpoint_.get()};

@@ -4,7 +4,7 @@
 #include "cli/respond/planned_run.hpp"
 #include "report/skin/skin_page.hpp"
 #include "run/skin/skin_simulator.hpp"
-#include "run/summary/skin_silent_classes.hpp"
+#include "run/summary/silent_afferents.hpp"
 #include "run/summary/skin_summary.hpp"
 
 namespace corpuscle {
@@ -30,7 +30,7 @@ Result<SkinJob> plan_skin_job(const RespondArguments&, bool quiet);
 /// that they name.
 Result<RunFingerprint> fingerprint_of(const SkinJob&, const RespondArguments&, const CommonArguments&);
 /// After the run: adds all notes and warnings to job.notes.
-void collect_notes(SkinJob&, const RespondArguments&, const SkinSummary&, const SkinSilenceDetector&);
+void collect_notes(SkinJob&, const RespondArguments&, const SkinSummary&, const SilenceDetector&);
 /// For an MPI rank other than 0: plans the run and simulates its part of the afferents. Errors are sent to rank 0.
 void work_for_skin_run(const RespondArguments&, Ranks&);
 
@@ -44,7 +44,7 @@ class SkinRun final : public PlannedRun {
     std::unique_ptr<SkinCheckpoint> checkpoint_;
     std::optional<SkinWorkers> workers_;
     SkinSummary summary_;
-    SkinSilenceDetector silence_;
+    SilenceDetector silence_;
     std::optional<SkinReport> report_;
 
     Result<void> open_checkpoint();

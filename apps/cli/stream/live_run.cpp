@@ -9,6 +9,7 @@
 
 #include "circuit/variant/embedded_netlists.hpp"
 #include "cli/arguments/own_files.hpp"
+#include "cli/assign.hpp"
 #include "cli/output/printable.hpp"
 #include "cli/output/stream_report.hpp"
 #include "cli/output/terminal.hpp"
@@ -72,13 +73,9 @@ class LiveRun {
         auto opened = open_stream_source(args_, common_);
         if (!opened) return opened.error();
         auto& source = opened->result;
-        const auto channels = source->channels();
-        const auto plan = plan_of(args_, channels);
-        if (!plan) return plan.error();
-        unused_ = opened->unused;
-        keep_unused(unused_, plan->unused);
-        if (auto ok = open_skin(plan->result, source->clock()); !ok) return ok;
-        auto sites = match_sites(plan->result, *source);
+        keep_unused(unused_, opened->unused);
+        if (auto ok = open_skin(source->channels(), source->clock()); !ok) return ok;
+        auto sites = match_sites(skin_->innervation().plan, *source);
         if (!sites) return sites.error();
         source_ = source.get();
         frames_ = assign_sites(make_frame_source(std::move(source), args_.pace == "real"), std::move(*sites), skin_->sites());
@@ -112,53 +109,39 @@ class LiveRun {
         if (auto ok = check_live_options(args_, common_); !ok) return ok;
         const auto clock = live_clock(args_);
         if (!clock) return clock.error();
-        const auto plan = plan_of(args_, {});
-        if (!plan) return plan.error();
-        unused_ = plan->unused;
-        if (auto ok = open_skin(plan->result, *clock); !ok) return ok;
+        if (auto ok = open_skin({}, *clock); !ok) return ok;
         std::vector<std::uint32_t> sites;  // the site of each force of a frame; empty: all sites in order
-        if (!args_.recording.layout.empty()) {
-            auto map = read_site_map(args_.recording.layout, plan->result.sites);
-            if (!map) return map.error();
-            sites = std::move(*map);
-        }
-        const auto layout = live_layout(args_, sites.empty() ? skin_->sites() : sites.size(), *clock);
-        if (!layout) return layout.error();
-        auto bytes = open_live_input(args_, *layout);
+        if (const auto& path = args_.recording.layout; !path.empty())
+            if (auto ok = assign(sites, read_site_map(path, skin_->innervation().plan.sites)); !ok) return ok;
+        if (auto ok = assign(layout_, live_layout(args_, sites.empty() ? skin_->sites() : sites.size(), *clock)); !ok) return ok;
+        auto bytes = open_live_input(args_, layout_);
         if (!bytes) return bytes.error();
         const auto in_frames = [&](double seconds) { return static_cast<std::int64_t>(std::min(seconds * clock->rate(), 2e9)); };
-        layout_ = *layout;
-        frames_ = make_frame_source(std::move(*bytes), *layout, in_frames(args_.hold), in_frames(args_.max_gap), args_.batch_frames,
+        frames_ = make_frame_source(std::move(*bytes), layout_, in_frames(args_.hold), in_frames(args_.max_gap), args_.batch_frames,
                                     header_reader(sites));
-        auto filtered = filter_live_frames(std::move(frames_), args_.recording, layout->sites, *clock);
-        if (!filtered) return filtered.error();
-        frames_ = std::move(*filtered);
+        if (auto ok = assign(frames_, filter_live_frames(std::move(frames_), args_.recording, layout_.sites, *clock)); !ok) return ok;
         if (!sites.empty()) frames_ = assign_sites(std::move(frames_), std::move(sites), skin_->sites());
         return {};
     }
 
-    /// `clock`: of the frames.
-    Result<void> open_skin(const SkinPlan& plan, Clock clock) {
+    /// `channels`: as for plan_of(). `clock`: of the frames.
+    Result<void> open_skin(std::span<const Channel> channels, Clock clock) {
         clock.t0 = 0;  // time 0 is the first frame
-        auto innervation = innervate(plan);
+        const auto plan = plan_of(args_, channels);
+        if (!plan) return plan.error();
+        keep_unused(unused_, plan->unused);
+        auto innervation = innervate(plan->result);
         if (!innervation) return innervation.error();
-        auto skin = SkinStream::make(*innervation, clock, args_.sampled, args_.batch_frames);
-        if (!skin) return skin.error();
-        skin_ = std::move(*skin);
-        return {};
+        return assign(skin_, SkinStream::make(*innervation, clock, args_.sampled, args_.batch_frames));
     }
 
     Result<void> open_sink() {
-        auto format = make_event_format(args_.format, make_event_addressing(skin_->innervation(), skin_->clock()));
-        if (!format) return format.error();
-        format_ = std::move(*format);
+        const auto addressing = make_event_addressing(skin_->innervation(), skin_->clock());
+        if (auto ok = assign(format_, make_event_format(args_.format, addressing)); !ok) return ok;
         const auto buffer_size = static_cast<std::size_t>(args_.buffer);
-        auto sink = !args_.to.empty()  ? connect_event_client(args_.to, *format_, buffer_size)
-                    : args_.out == "-" ? open_standard_output(*format_, buffer_size)
-                                       : create_event_file(args_.out, *format_, buffer_size);
-        if (!sink) return sink.error();
-        sink_ = std::move(*sink);
-        return {};
+        return assign(sink_, !args_.to.empty()  ? connect_event_client(args_.to, *format_, buffer_size)
+                             : args_.out == "-" ? open_standard_output(*format_, buffer_size)
+                                                : create_event_file(args_.out, *format_, buffer_size));
     }
 
     /// Loads the state of --resume: the skin, the last force of each site, and the number of the last frame if frames are numbered.
@@ -284,7 +267,7 @@ class LiveRun {
     const Error stopped{ErrorCode::interrupted, "interrupted"};
 
 public:
-    LiveRun(const StreamArguments& args, const CommonArguments& common) : args_(args), common_(common) {}
+    LiveRun(const StreamArguments& args, const CommonArguments& common) : args_(args), common_(common), unused_(args.settings) {}
 
     Result<void> run() {
         if (auto ok = check_no_netlist(args_); !ok) return ok;

@@ -37,17 +37,11 @@ is printed on standard error.)";
 
 /// A quantity that is not negative.
 OptionReader positive_reader(double& to, std::string_view unit) {
-    return [&to, unit](const std::string& text) -> Result<void> {
-        if (auto ok = quantity_reader(to, unit)(text); !ok) return ok;
-        return to >= 0 ? Result<void>() : bad_usage(text + ": must not be negative");
-    };
+    return refuse_if([&to] { return !(to >= 0); }, "must not be negative", quantity_reader(to, unit));
 }
 
 OptionReader buffer_reader(double& to) {
-    return [&to](const std::string& text) -> Result<void> {
-        if (auto ok = positive_reader(to, "")(text); !ok) return ok;
-        return to >= 1000 && to <= 1e10 ? Result<void>() : bad_usage(text + ": must be between 1k and 10G bytes");
-    };
+    return refuse_if([&to] { return !(to >= 1000 && to <= 1e10); }, "must be between 1k and 10G bytes", positive_reader(to, ""));
 }
 
 OptionGroup population_options(StreamArguments& args) {

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "run/summary/json_number.hpp"
+
 namespace corpuscle {
 namespace {
 
@@ -31,11 +33,10 @@ Json counts_row(const ImplementationComparison& c, const std::string& afferent, 
 
 /// The complete row of an implementation that is compared with the reference.
 Json row_document(const ImplementationComparison& c, const std::vector<std::string>& phases) {
-    const auto number = [](double x) { return std::isfinite(x) ? Json(x) : Json(nullptr); };
     auto row = counts_row(c, c.afferent, phases, &Count::spikes);
-    row.push_back(number(100 * c.total.excess()));
+    row.push_back(json_number(100 * c.total.excess()));
     row.push_back(c.matched);
-    for (const double x : {1e3 * c.mean_shift, 1e3 * c.median_shift, c.victor_purpura, c.van_rossum}) row.push_back(number(x));
+    for (const double x : {1e3 * c.mean_shift, 1e3 * c.median_shift, c.victor_purpura, c.van_rossum}) row.push_back(json_number(x));
     return row;
 }
 

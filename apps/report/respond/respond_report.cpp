@@ -9,6 +9,7 @@
 #include "report/page_template.hpp"
 #include "report/respond/implementations_document.hpp"
 #include "run/channels/channel_population.hpp"
+#include "run/summary/json_number.hpp"
 
 namespace corpuscle {
 namespace {
@@ -32,9 +33,8 @@ double round_part(double length, int parts) {
 
 /// The cell of measure m: its value, or the array [mean, standard deviation] over the copies if at least two of them have a value.
 Json cell_document(const MeasureRow& row, std::size_t m) {
-    const auto number = [](double x) { return std::isfinite(x) ? Json(x) : Json(nullptr); };
-    if (row.copy_statistics.empty() || row.copy_statistics[m].copies < 2) return number(row.values[m]);
-    return {number(row.copy_statistics[m].mean()), number(row.copy_statistics[m].standard_deviation())};
+    if (row.copy_statistics.empty() || row.copy_statistics[m].copies < 2) return json_number(row.values[m]);
+    return {json_number(row.copy_statistics[m].mean()), json_number(row.copy_statistics[m].standard_deviation())};
 }
 
 /// The table of all measures, with a row for each afferent, channel and phase.
@@ -66,7 +66,7 @@ Json quality_document(const RunSummary& summary) {
         for (const auto& f : i.quality.metrics) {
             if (rows.empty() || rows.back()[0] != i.channels[f.channel]) rows.push_back(Json::array({i.channels[f.channel]}));
             if (rows.size() == 1) columns.push_back(f.unit.empty() ? std::string(f.name) : fmt::format("{} ({})", f.name, f.unit));
-            rows.back().push_back(std::isfinite(f.value) ? Json(f.value) : Json(nullptr));
+            rows.back().push_back(json_number(f.value));
         }
     }
     return {{"notes", messages}, {"columns", columns}, {"rows", rows}};

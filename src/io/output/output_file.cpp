@@ -187,4 +187,12 @@ Result<void> OutputFile::commit(SyncPolicy sync) {
     return {};
 }
 
+Result<void> replace_file(const std::string& path, std::string_view bytes) {
+    auto file = OutputFile::create(path);
+    if (!file) return file.error();
+    if (auto ok = file->write(bytes); !ok) return ok;
+    if (auto ok = file->commit(SyncPolicy::always); !ok) return ok;
+    return sync_directory_of(path);
+}
+
 }  // namespace corpuscle

@@ -61,4 +61,7 @@ public:
 /// Synchronises the directory of `path` to disk, so that the names of its files survive a power failure.
 Result<void> sync_directory_of(const std::string& path);
 
+/// Writes a complete file, which replaces an earlier one only when all its bytes are on the disk.
+Result<void> replace_file(const std::string& path, std::string_view bytes);
+
 }  // namespace corpuscle

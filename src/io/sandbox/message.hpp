@@ -1,5 +1,5 @@
 #pragma once
-// A message of numbers and texts to another process, over a socket or to another MPI rank.
+// A message of numbers and texts to another process: over a socket, to another MPI rank, or in a file.
 
 #include <cstdint>
 #include <string>
@@ -27,6 +27,7 @@ public:
     bool get(void* data, std::size_t size);
     bool get(std::uint64_t& n) { return get(&n, sizeof n); }
     bool get(std::string& s);
+    bool ended() const { return position_ == bytes_.size(); }  ///< true if all values were read
 
     /// Sends the size and the bytes of the message. Returns false on failure.
     bool send(int socket) const;

@@ -19,6 +19,11 @@ ChannelPopulation::ChannelPopulation(const ForceSource& source, std::span<const 
 
 std::size_t ChannelPopulation::class_count() const { return class_of_.empty() ? 0 : class_of_.back() + 1; }
 
+const AfferentPlan& ChannelPopulation::class_plan(std::size_t c) const {
+    const auto first = std::lower_bound(class_of_.begin(), class_of_.end(), c);
+    return plans_[static_cast<std::size_t>(first - class_of_.begin())];
+}
+
 BinGroups ChannelPopulation::bin_groups() const {
     BinGroups out{"afferent,channel", {}, {}};
     for (std::size_t u = 0; u < size(); ++u) {

@@ -29,6 +29,7 @@ public:
     std::vector<std::string> force_names() const override { return names_; }
     std::size_t class_count() const override;
     std::size_t class_of(std::size_t u) const override { return class_of_[u % plans_.size()]; }
+    const AfferentPlan& class_plan(std::size_t c) const override;
     std::span<const Probe> probes(std::size_t u) const override { return plan_probes(u % plans_.size()); }
     BinGroups bin_groups() const override;
     EventAddressing event_addressing(const Clock&) const override;

@@ -180,23 +180,16 @@ void ChannelSimulator::simulate_scalar(ScalarAfferent& scalar) {
     std::vector<double*> probe_values;
     if (wants_probes_)
         for (auto& p : probe_values_[u]) probe_values.push_back(p.data());
+    const auto delay = static_cast<std::size_t>(afferents_[u % afferents_.size()]->delay());
+    const auto force =
+        delay > 0 ? lookahead_.samples(population_.channel_of(u), 0, force_.count + delay) : std::span(force_of(u), force_.count);
     scalar.spikes.clear();
-    ResponseBlock response{scalar.spikes, input_.first_afferent + scalar.afferent_index};
+    auto& response = scalar.response.emplace(
+        ResponseBlock{scalar.spikes, input_.first_afferent + scalar.afferent_index, probe_values, scalar.range_violations});
     if (scalar.diverged)
         for (double* p : probe_values) std::fill_n(p, force_.count, std::numeric_limits<double>::quiet_NaN());
-    else if (auto ok = respond_to_force(scalar, response, probe_values); !ok)
+    else if (auto ok = scalar.simulation.respond(force, response); !ok)
         scalar.error = with_afferent_name(ok.error(), u);
-    scalar.truncated_steps = response.truncated_steps, scalar.saturated = response.saturated, scalar.overflowed = response.overflowed;
-    scalar.steps = response.steps, scalar.rejected = response.rejected_steps, scalar.iterations = response.newton_iterations;
-    scalar.energy_use = response.energy_use;
-}
-
-Result<void> ChannelSimulator::respond_to_force(ScalarAfferent& scalar, ResponseBlock& response, std::span<double* const> probe_values) {
-    const auto delay = static_cast<std::size_t>(afferents_[scalar.afferent_index % afferents_.size()]->delay());
-    response.probes = probe_values, response.range_violations = scalar.range_violations;
-    return scalar.simulation.respond(delay > 0 ? lookahead_.samples(population_.channel_of(scalar.afferent_index), 0, force_.count + delay)
-                                               : std::span(force_of(scalar.afferent_index), force_.count),
-                                     response);
 }
 
 /// Among the afferents of one plan, one for each channel: the one that was outside a range for the longest time, null if none was; and the
@@ -241,10 +234,11 @@ Result<void> ChannelSimulator::simulate_scalars(ThreadPool& pool, RunStats& stat
             return *s.error;
         if (s.error) s.diverged = true, stats.diverged.push_back(*std::exchange(s.error, {}));
         spikes_.insert(spikes_.end(), s.spikes.begin(), s.spikes.end());
-        stats.truncated_steps += s.truncated_steps, stats.saturated += s.saturated, stats.overflowed += s.overflowed;
-        stats.steps += s.steps, stats.rejected += s.rejected, stats.iterations += s.iterations;
+        const auto& r = *s.response;
+        stats.truncated_steps += r.truncated_steps, stats.saturated += r.saturated, stats.overflowed += r.overflowed;
+        stats.steps += r.steps, stats.rejected += r.rejected_steps, stats.iterations += r.newton_iterations;
         stats.energy_use.resize(afferents_.size());
-        stats.energy_use[s.afferent_index % afferents_.size()] += s.energy_use;
+        stats.energy_use[s.afferent_index % afferents_.size()] += r.energy_use;
     }
     return {};
 }

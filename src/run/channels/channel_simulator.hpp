@@ -39,8 +39,7 @@ private:
         AfferentSimulation simulation;
         // The following values are those of the last block.
         std::vector<Spike> spikes = {};
-        std::int64_t truncated_steps = 0, saturated = 0, overflowed = 0, steps = 0, rejected = 0, iterations = 0;  // as in RunStats
-        EnergyUse energy_use = {};
+        std::optional<ResponseBlock> response = {};  // its probes are not valid after the block
         std::optional<Error> error = {};
         // Counted since the start of the input, for each of Afferent::ranges().
         std::vector<RangeViolation> range_violations = {};
@@ -52,7 +51,6 @@ private:
     void make_scalar_afferents(const std::vector<bool>& is_scalar, const SimulationOptions& run);
     Result<void> simulate_lane_group(LaneGroup& group, ThreadPool& pool, RunStats& stats);
     void simulate_scalar(ScalarAfferent& scalar);
-    Result<void> respond_to_force(ScalarAfferent& scalar, ResponseBlock& response, std::span<double* const> probe_values);
     Result<void> simulate_scalars(ThreadPool& pool, RunStats& stats);
     std::pair<const ScalarAfferent*, std::size_t> longest_violation(std::size_t plan, std::size_t range) const;
     std::vector<std::string> range_warnings() const;

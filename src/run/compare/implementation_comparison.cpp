@@ -75,14 +75,13 @@ Result<void> ImplementationComparisons::begin(const Input& input) {
         groups_.push_back(std::move(group));
     }
     trains_.assign(groups_.empty() ? 0 : input.population.size(), {});
-    since_start_ = input.clock_since_start();
     return {};
 }
 
 Result<void> ImplementationComparisons::block(const Input& input, const RunBlock& block) {
     for (const auto& s : block.spikes)
         if (const auto afferent_index = input.afferent_of(s); is_kept_[afferent_index % is_kept_.size()])
-            trains_[afferent_index].push_back(since_start_.time(s.step, s.offset));
+            trains_[afferent_index].push_back(input.since_start(s));
     return {};
 }
 

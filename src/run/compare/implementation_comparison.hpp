@@ -45,7 +45,6 @@ private:
     std::vector<ImplementationGroup> groups_;  // the afferent types with several implementations
     std::vector<bool> is_kept_;                // for each plan: true if its spikes are kept
     std::vector<std::vector<double>> trains_;  // spike times of each afferent of the current input, s from the start of the input
-    Clock since_start_;                        // of the current input, with its first sample at 0 s
     std::vector<ImplementationComparison> rows_;
 
     /// `member`: an index of ImplementationGroup::members.

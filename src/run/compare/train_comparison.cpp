@@ -4,8 +4,8 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <span>
 #include <string_view>
-#include <unordered_map>
 #include <utility>
 
 #include "measure/train_distance.hpp"
@@ -26,7 +26,6 @@ std::string list_names(const Trains& trains) {
 /// Looks up the trains of a file by name.
 class TrainIndex {
     std::map<std::pair<std::string_view, std::string_view>, const NamedTrain*> by_name_;  // afferent and channel
-    std::unordered_map<std::string, const NamedTrain*> by_shown_name_;                    // NamedTrain::name()
     std::map<std::string_view, std::vector<const NamedTrain*>> by_afferent_;
 
     /// The train of this afferent if there is exactly one, otherwise null.
@@ -37,20 +36,13 @@ class TrainIndex {
 
 public:
     explicit TrainIndex(const Trains& trains) {
-        for (const auto& t : trains)
-            by_name_.try_emplace({t.afferent, t.channel}, &t), by_shown_name_.try_emplace(t.name(), &t),
-                by_afferent_[t.afferent].push_back(&t);
+        for (const auto& t : trains) by_name_.try_emplace({t.afferent, t.channel}, &t), by_afferent_[t.afferent].push_back(&t);
     }
 
     const NamedTrain* of_name(std::string_view afferent, std::string_view channel) const {
         const auto found = by_name_.find({afferent, channel});
         return found == by_name_.end() ? nullptr : found->second;
     }
-    const NamedTrain* of_shown_name(const std::string& name) const {
-        const auto found = by_shown_name_.find(name);
-        return found == by_shown_name_.end() ? nullptr : found->second;
-    }
-
     /// The train with the same afferent and channel as a train of another file. If one of the two files has no channels (address events):
     /// the only train of the same afferent; "sa1#1" without a channel also matches the only train of "sa1". Null if there is none.
     const NamedTrain* partner_of(const NamedTrain& train) const {
@@ -78,9 +70,12 @@ std::vector<const NamedTrain*> trains_named(const Trains& trains, const std::str
 }
 
 /// The train of file B whose name is that of a train of file A with `from` (the complete name, the afferent or the channel) replaced by
-/// `to`; null if there is none.
-const NamedTrain* renamed_partner(const TrainIndex& b, const NamedTrain& train, const std::string& from, const std::string& to) {
-    if (const auto* found = train.name() == from ? b.of_shown_name(to) : nullptr) return found;
+/// `to`; null if there is none. `candidates`: the trains of file B that `to` names.
+const NamedTrain* renamed_partner(const TrainIndex& b, std::span<const NamedTrain* const> candidates, const NamedTrain& train,
+                                  const std::string& from, const std::string& to) {
+    if (train.name() == from)
+        for (const auto* candidate : candidates)
+            if (candidate->name() == to) return candidate;
     const auto* found = train.afferent == from ? b.of_name(to, train.channel) : nullptr;
     return found || train.channel != from ? found : b.of_name(train.afferent, to);
 }
@@ -99,7 +94,7 @@ Result<void> add_pairs(const Trains& a, const Trains& b, const std::string& text
     const std::size_t before = out.size();
     const TrainIndex index(b);
     for (const auto* train : in_a)
-        if (const auto* other = renamed_partner(index, *train, from, to)) out.push_back(train_pair(train, other));
+        if (const auto* other = renamed_partner(index, in_b, *train, from, to)) out.push_back(train_pair(train, other));
     if (out.size() > before) return {};
     return bad_usage(
         fmt::format("--pair {}: matches {} trains of the first file and {} of the second, and no two of their names differ only "

@@ -20,8 +20,7 @@ class CopiesFile final : public FileSink {
         std::vector<std::string> afferents;  // names of the afferents whose copies differ in the parameter
     };
     std::vector<Column> columns_;  // of the parameters
-    Clock since_start_;            // of the current input, with its first sample at 0 s
-    MeasureAccumulator tally_;     // the measures of every afferent of the current input; times on that clock
+    MeasureAccumulator tally_;     // the measures of every afferent of the current input; times since its start
     fmt::memory_buffer text_;
 
     /// Appends the row of an afferent to text_; the index is within the input, from 0.
@@ -54,13 +53,12 @@ Result<void> CopiesFile::open() {
 }
 
 Result<void> CopiesFile::begin(const Input& input) {
-    since_start_ = input.clock_since_start();
     tally_ = MeasureAccumulator({{.stimulus_frequency = input.cycle_frequency}}, input.population.size());
     return {};
 }
 
 Result<void> CopiesFile::block(const Input& input, const RunBlock& block) {
-    for (const auto& s : block.spikes) tally_.spike(input.afferent_of(s), since_start_.time(s.step, s.offset));
+    for (const auto& s : block.spikes) tally_.spike(input.afferent_of(s), input.since_start(s));
     return {};
 }
 
@@ -77,13 +75,12 @@ void CopiesFile::put_row(const Input& input, std::size_t afferent_index) {
 }
 
 Result<void> CopiesFile::end(const Input& input, std::int64_t samples, std::span<const Spike>) {
-    tally_.set_end(since_start_.time(samples));
+    tally_.set_end(input.since_start(samples));
     for (std::size_t u = 0; u < input.population.size(); ++u) {
         put_row(input, u);
         // Writes in pieces of 64 KiB.
         if (text_.size() < std::size_t{1} << 16 && u + 1 < input.population.size()) continue;
-        if (auto ok = files_[0].write({text_.data(), text_.size()}); !ok) return ok;
-        text_.clear();
+        if (auto ok = write_text(text_); !ok) return ok;
     }
     return {};
 }

@@ -13,6 +13,12 @@ Result<void> FileSink::create(const std::string& name) {
     return {};
 }
 
+Result<void> FileSink::write_text(fmt::memory_buffer& text) {
+    auto ok = files_.back().write({text.data(), text.size()});
+    text.clear();
+    return ok;
+}
+
 FileSink::~FileSink() {
     while (!files_.empty()) files_.pop_back();
 }

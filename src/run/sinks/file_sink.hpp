@@ -20,6 +20,8 @@ protected:
     std::vector<OutputFile> files_;  // in the order in which they were created
     /// Creates a file of this name in the directory, as the last of files_.
     Result<void> create(const std::string& name);
+    /// Appends the text to the last of files_, and clears it.
+    Result<void> write_text(fmt::memory_buffer& text);
 
 public:
     explicit FileSink(std::string directory) : directory_(std::move(directory)) {}

@@ -29,7 +29,6 @@ public:
     }
 
     Result<void> block(const Input& input, const RunBlock& block) override {
-        text_.clear();
         const auto out = std::back_inserter(text_);
         for (std::size_t k = 0; k < block.steps; ++k) {
             fmt::format_to(out, "{:.9f}", input.clock.time(block.first_sample + static_cast<std::int64_t>(k)));
@@ -38,7 +37,7 @@ public:
                 for (const auto& probe : afferent) fmt::format_to(out, ",{:.9g}", probe[k]);
             text_.push_back('\n');
         }
-        return files_.back().write({text_.data(), text_.size()});
+        return write_text(text_);
     }
 };
 

@@ -18,7 +18,6 @@ class PsthFile final : public FileSink {
     double bin_width_;  // s
     bool has_header_ = false;
     BinGroups groups_;                  // of the current input
-    Clock since_start_;                 // of the current input, with its first sample at 0 s
     double t0_ = 0;                     // s, start of the current input on its own clock
     std::int64_t current_bin_ = 0;      // index of the current bin, from 0
     std::vector<std::int64_t> counts_;  // spikes in the current bin, for each group
@@ -31,14 +30,9 @@ class PsthFile final : public FileSink {
     }
     void count(const Input& input, std::span<const Spike> spikes) {
         for (const auto& s : spikes) {
-            end_bins_before(bin_index(since_start_.time(s.step, s.offset)));
+            end_bins_before(bin_index(input.since_start(s)));
             ++counts_[groups_.group_of[input.afferent_of(s)]];
         }
-    }
-    Result<void> write_lines() {
-        auto ok = files_[0].write({text_.data(), text_.size()});
-        text_.clear();
-        return ok;
     }
 
 public:
@@ -48,16 +42,16 @@ public:
     /// Spikes of later blocks are after the last sample of this block.
     Result<void> block(const Input& input, const RunBlock& block) override {
         count(input, block.spikes);
-        end_bins_before(bin_index(since_start_.time(block.end_sample() - 1)));
-        return write_lines();
+        end_bins_before(bin_index(input.since_start(block.end_sample() - 1)));
+        return write_text(text_);
     }
     /// Spikes that are still being conducted can arrive after the end of the force. The bins then end after the last one.
     Result<void> end(const Input& input, std::int64_t samples, std::span<const Spike> last) override {
         count(input, last);
-        const double end = since_start_.time(last.empty() ? samples : std::max(samples, last.back().step + 1));
+        const double end = input.since_start(last.empty() ? samples : std::max(samples, last.back().step + 1));
         end_bins_before(std::max<std::int64_t>(static_cast<std::int64_t>(std::ceil(end / bin_width_ - 1e-9)) - 1, 0));
         end_bin(end);
-        return write_lines();
+        return write_text(text_);
     }
 };
 
@@ -72,8 +66,7 @@ Result<void> check_bin_width(const Clock& clock, double bin_width) {
 Result<void> PsthFile::begin(const Input& input) {
     if (auto ok = check_bin_width(input.clock, bin_width_); !ok) return ok;
     groups_ = input.population.bin_groups();
-    since_start_ = input.clock_since_start(), t0_ = input.clock.t0;
-    current_bin_ = 0, counts_.assign(groups_.groups.size(), 0);
+    t0_ = input.clock.t0, current_bin_ = 0, counts_.assign(groups_.groups.size(), 0);
     if (std::exchange(has_header_, true)) return {};
     return files_[0].write(groups_.columns + ",from_s,to_s,spikes,rate_Hz\n");
 }

@@ -34,7 +34,6 @@ struct SoundCloser {
 
 class SpikeSoundFile final : public FileSink {
     std::unique_ptr<SNDFILE, SoundCloser> wav_;  // of the current input; writes to the last of files_
-    Clock since_start_;
     std::size_t ears_ = 1;                       // 1 mono, 2 stereo
     std::vector<std::vector<int>> click_shape_;  // [class of afferents][frame * ears_ + ear], 16-bit levels
     std::vector<std::int64_t> last_click_;       // for each afferent of the input: first frame of its last click
@@ -96,7 +95,6 @@ Result<void> SpikeSoundFile::begin(const Input& input) {
     info.format = SF_FORMAT_WAV | SF_FORMAT_PCM_16;
     wav_.reset(sf_open_fd(fileno(files_.back().stream()), SFM_WRITE, &info, SF_FALSE));
     if (!wav_) return bad_input(fmt::format("cannot write: {}", sf_strerror(nullptr)), {files_.back().path()});
-    since_start_ = input.clock_since_start();
     last_click_.assign(input.population.size(), -click_frames);  // ended before the first frame
     pending_.clear();
     written_ = 0;
@@ -106,7 +104,7 @@ Result<void> SpikeSoundFile::begin(const Input& input) {
 void SpikeSoundFile::add_clicks(const Input& input, std::span<const Spike> spikes) {
     for (const auto& s : spikes) {
         const auto afferent = input.afferent_of(s);
-        add_click(afferent, click_shape_[input.population.class_of(afferent)], frame_of(since_start_.time(s.step, s.offset)));
+        add_click(afferent, click_shape_[input.population.class_of(afferent)], frame_of(input.since_start(s)));
     }
 }
 
@@ -135,7 +133,7 @@ Result<void> SpikeSoundFile::write_up_to(std::int64_t frame) {
 }
 
 Result<void> SpikeSoundFile::block(const Input& input, const RunBlock& block) {
-    const double elapsed = since_start_.time(block.end_sample() - 1);
+    const double elapsed = input.since_start(block.end_sample() - 1);
     if (elapsed > max_sound_duration)
         return bad_input(fmt::format("'{}' is longer than {:g} hours, which is the limit of a WAV file; run it without --wav", input.name,
                                      max_sound_duration / 3600),
@@ -147,7 +145,7 @@ Result<void> SpikeSoundFile::block(const Input& input, const RunBlock& block) {
 Result<void> SpikeSoundFile::end(const Input& input, std::int64_t samples, std::span<const Spike> last) {
     add_clicks(input, last);
     const auto clicks_end = written_ + static_cast<std::int64_t>(pending_.size() / ears_);
-    if (auto ok = write_up_to(std::max(frame_of(since_start_.time(samples)), clicks_end)); !ok) return ok;
+    if (auto ok = write_up_to(std::max(frame_of(input.since_start(samples)), clicks_end)); !ok) return ok;
     if (sf_close(wav_.release()) != 0) return bad_input("cannot write the complete sound", {files_.back().path()});
     return {};
 }

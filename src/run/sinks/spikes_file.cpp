@@ -12,10 +12,9 @@ class SpikesFile final : public SpikeFileSink {
     fmt::memory_buffer text_;
 
     Result<void> add(const Input& input, std::span<const Spike> spikes) override {
-        text_.clear();
         for (const auto& s : spikes)
             fmt::format_to(std::back_inserter(text_), "{},{:.9f}\n", names_[input.afferent_of(s)], input.clock.time(s.step, s.offset));
-        return files_[0].write({text_.data(), text_.size()});
+        return write_text(text_);
     }
 
 public:

@@ -6,13 +6,14 @@
 #include <sys/stat.h>
 #include <unistd.h>
 #include <algorithm>
-#include <array>
 #include <cerrno>
 #include <cstring>
 #include <filesystem>
 #include <fstream>
 
+#include "io/output/output_check.hpp"
 #include "io/output/output_file.hpp"
+#include "io/sandbox/message.hpp"
 #include "io/table/seekable_bytes.hpp"
 
 namespace corpuscle {
@@ -20,8 +21,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// FILE: magic and version, fingerprint, checksum of the force, number and checksum of the spikes, the skin's state, checksum of all this.
-constexpr std::string_view checkpoint_magic = "corpuscle checkpoint ", checkpoint_version = "2";
+// FILE: header, fingerprint, checksum of the force, number and checksum of the spikes, the skin's state, checksum of all this.
+constexpr std::string_view checkpoint_magic = "corpuscle checkpoint ", checkpoint_header = "corpuscle checkpoint 2\n";
 constexpr std::string_view spikes_header = "corpuscle told spikes 2\n";
 static_assert(spikes_header.size() % sizeof(std::uint64_t) == 0);  // the spikes after the header are aligned
 
@@ -32,46 +33,17 @@ struct StoredSpike {
     std::uint64_t afferent_index;
 };
 
-template <class T>
-void append_bytes(std::string& to, const T& x) {
-    to.append(reinterpret_cast<const char*>(&x), sizeof x);
-}
+Spike spike_of(const StoredSpike& s) { return {s.step, s.offset, static_cast<std::uint32_t>(s.afferent_index)}; }
 
-void append_text(std::string& to, std::string_view text) {
-    append_bytes(to, std::uint64_t{text.size()});
-    to += text;
-}
+/// The position in FILE.spikes of the spike with this index, bytes.
+long position_of_spike(std::uint64_t index) { return static_cast<long>(spikes_header.size() + index * sizeof(StoredSpike)); }
 
-template <class T>
-bool take_front(std::string_view& from, T& x) {
-    if (from.size() < sizeof x) return false;
-    std::memcpy(&x, from.data(), sizeof x);
-    from.remove_prefix(sizeof x);
-    return true;
-}
-
-bool take_text(std::string_view& from, std::string& text) {
-    std::uint64_t size = 0;
-    if (!take_front(from, size) || size > from.size()) return false;
-    text = from.substr(0, size);
-    from.remove_prefix(size);
-    return true;
-}
-
-bool take_fingerprint(std::string_view& from, RunFingerprint& out) {
+bool get_fingerprint(Message& from, RunFingerprint& out) {
     std::uint64_t count = 0;
-    if (!take_front(from, count) || count > from.size()) return false;
+    if (!from.get(count)) return false;
     for (std::uint64_t k = 0; k < count; ++k)
-        if (auto& [name, value] = out.emplace_back(); !take_text(from, name) || !take_text(from, value)) return false;
+        if (auto& [name, value] = out.emplace_back(); !from.get(name) || !from.get(value)) return false;
     return true;
-}
-
-/// Says how an entry of the fingerprint differs: `then` is its value in the checkpoint, `now` in this run; null if the entry is
-/// missing.
-std::string difference(const std::string& name, const std::string* then, const std::string* now) {
-    if (name.starts_with("contents of")) return fmt::format("the {} have changed", name);
-    if (!then) return fmt::format("{} was not given and now is {}", name, *now);
-    return now ? fmt::format("{} was {} and now is {}", name, *then, *now) : fmt::format("{} was {} and now is not given", name, *then);
 }
 
 /// The differences between the fingerprints of two runs, in words; "" if there are none.
@@ -81,20 +53,17 @@ std::string differences(const RunFingerprint& then, const RunFingerprint& now) {
         return at == all.end() ? nullptr : &at->second;
     };
     std::vector<std::string> found;
-    for (const auto& [name, value] : then)
-        if (const auto* other = value_in(now, name); !other || *other != value) found.push_back(difference(name, &value, other));
-    for (const auto& [name, value] : now)
-        if (!value_in(then, name)) found.push_back(difference(name, nullptr, &value));
+    const auto compare = [&](const std::string& name) {
+        const auto *before = value_in(then, name), *after = value_in(now, name);
+        if (before && after && *before == *after) return;
+        found.push_back(name.starts_with("contents of")
+                            ? fmt::format("the {} have changed", name)
+                            : fmt::format("{} was {} and now is {}", name, before ? *before : "not given", after ? *after : "not given"));
+    };
+    for (const auto& entry : then) compare(entry.first);
+    for (const auto& entry : now)
+        if (!value_in(then, entry.first)) compare(entry.first);
     return fmt::format("{}", fmt::join(found, "; "));
-}
-
-/// True for a regular file that begins with this text.
-bool begins_with(const std::string& path, std::string_view prefix) {
-    std::error_code status;
-    if (!fs::is_regular_file(path, status)) return false;
-    std::ifstream in(path, std::ios::binary);
-    std::string head(prefix.size(), '\0');
-    return in.read(head.data(), static_cast<std::streamsize>(head.size())) && head == prefix;
 }
 
 /// True if the open file is still the file at this path.
@@ -121,12 +90,17 @@ Result<std::unique_ptr<SkinCheckpoint>> SkinCheckpoint::open(const std::string& 
     std::unique_ptr<SkinCheckpoint> checkpoint(new SkinCheckpoint(file, skin, std::move(fingerprint)));
     if (auto ok = checkpoint->check_file(); !ok) return ok.error();
     if (auto ok = checkpoint->lock_spikes(); !ok) return ok.error();
+    if (!read_beginning(checkpoint->spikes_file_).starts_with(spikes_header))
+        return bad_input(fmt::format("this file was not written by a checkpoint of this version and was left unchanged; move it away, or "
+                                     "name another file than {} with --checkpoint",
+                                     file),
+                         {checkpoint->spikes_file_});
     std::error_code status;
     if (fs::exists(file, status))
         if (auto ok = checkpoint->resume(); !ok) return ok.error();
     // Spikes after the last checkpoint are removed; this run computes them again.
-    const auto end = spikes_header.size() + checkpoint->spike_count_ * sizeof(StoredSpike);
-    if (::ftruncate(::fileno(checkpoint->spikes_), static_cast<off_t>(end)) != 0) return checkpoint->system_error(checkpoint->spikes_file_);
+    if (::ftruncate(::fileno(checkpoint->spikes_.get()), position_of_spike(checkpoint->spike_count_)) != 0)
+        return checkpoint->system_error(checkpoint->spikes_file_);
     return checkpoint;
 }
 
@@ -134,27 +108,24 @@ Result<std::unique_ptr<SkinCheckpoint>> SkinCheckpoint::open(const std::string& 
 SkinCheckpoint::~SkinCheckpoint() {
     if (!spikes_) return;
     std::error_code ignored;
-    if (!fs::exists(file_, ignored) && is_file_at(::fileno(spikes_), spikes_file_) && begins_with(spikes_file_, spikes_header))
+    if (!fs::exists(file_, ignored) && is_file_at(::fileno(spikes_.get()), spikes_file_) &&
+        read_beginning(spikes_file_).starts_with(spikes_header))
         fs::remove(spikes_file_, ignored);
-    std::fclose(spikes_);
 }
 
 /// Returns an error if FILE exists and is not a checkpoint of the current version.
 Result<void> SkinCheckpoint::check_file() const {
     std::error_code status;
     if (!fs::exists(file_, status)) return {};
-    if (!begins_with(file_, checkpoint_magic))
+    const auto beginning = read_beginning(file_);
+    if (!beginning.starts_with(checkpoint_magic))
         return bad_input("this file is not a checkpoint and was left unchanged; name another with --checkpoint", {file_});
-    if (!begins_with(file_, fmt::format("{}{}\n", checkpoint_magic, checkpoint_version))) {
-        std::ifstream in(file_, std::ios::binary);
-        std::string line;
-        std::getline(in, line);
-        const auto file_version = line.substr(checkpoint_magic.size(), 20);
+    if (!beginning.starts_with(checkpoint_header)) {
+        const auto file_version = beginning.substr(0, beginning.find('\n')).substr(checkpoint_magic.size(), 20);
         return bad_input(
-            fmt::format("this is a checkpoint of version {}; this program resumes only version {} (version 1 does not record how "
+            fmt::format("this is a checkpoint of version {}; this program resumes only version 2 (version 1 does not record how "
                         "the force was made). Finish the run with the program that started it, or {}",
-                        file_version.find_first_not_of("0123456789") == std::string::npos ? file_version : "?", checkpoint_version,
-                        remedy()),
+                        file_version.find_first_not_of("0123456789") == std::string::npos ? file_version : "?", remedy()),
             {file_});
     }
     if (!fs::exists(spikes_file_, status))
@@ -173,56 +144,42 @@ Result<void> SkinCheckpoint::lock_spikes() {
         if (!is_new) file = ::open(spikes_file_.c_str(), O_RDWR | O_NONBLOCK | O_CLOEXEC);
         if (file < 0 && errno == ENOENT) continue;
         if (file < 0) return system_error(spikes_file_);
+        std::unique_ptr<std::FILE, FileCloser> spikes(::fdopen(file, "r+b"));
         if (::flock(file, LOCK_EX | LOCK_NB) != 0) {
-            const int why = errno;
-            ::close(file);
-            errno = why;
-            if (why != EWOULDBLOCK) return system_error(spikes_file_);
+            if (errno != EWOULDBLOCK) return system_error(spikes_file_);
             return bad_input("another run is using this checkpoint; wait for it to end, or name another file with --checkpoint", {file_});
         }
-        if (!is_file_at(file, spikes_file_)) {
-            ::close(file);
-            continue;
-        }
+        if (!is_file_at(file, spikes_file_)) continue;
         if (is_new && ::write(file, spikes_header.data(), spikes_header.size()) != static_cast<ssize_t>(spikes_header.size())) {
             const auto error = system_error(spikes_file_);
             ::unlink(spikes_file_.c_str());
-            ::close(file);
             return error;
         }
-        spikes_ = ::fdopen(file, "r+b");
-        return check_spikes_header();
+        spikes_ = std::move(spikes);
+        return {};
     }
     return bad_input("cannot be opened", {spikes_file_});
 }
 
-Result<void> SkinCheckpoint::check_spikes_header() const {
-    if (begins_with(spikes_file_, spikes_header)) return {};
-    return bad_input(fmt::format("this file was not written by a checkpoint of this version and was left unchanged; move it away, or name "
-                                 "another file than {} with --checkpoint",
-                                 file_),
-                     {spikes_file_});
-}
-
 Result<void> SkinCheckpoint::resume() {
     std::ifstream in(file_, std::ios::binary);
-    const std::string all((std::istreambuf_iterator<char>(in)), {});
+    std::string all((std::istreambuf_iterator<char>(in)), {});
     const auto damaged = bad_input(fmt::format("this checkpoint is damaged; {}", remedy()), {file_});
     std::uint64_t sum = 0, spikes_sum = 0;
     if (all.size() < sizeof sum) return damaged;
     std::memcpy(&sum, all.data() + all.size() - sizeof sum, sizeof sum);
-    std::string_view left(all.data(), all.size() - sizeof sum);
-    if (checksum_of(std::as_bytes(std::span(left))) != sum) return damaged;
-    left.remove_prefix(std::min(left.size(), left.find('\n') + 1));
+    all.resize(all.size() - sizeof sum);
+    if (checksum_of(std::as_bytes(std::span(all))) != sum) return damaged;
+    Message message(std::move(all));
+    std::string header(checkpoint_header.size(), '\0'), state;  // check_file() has read the header
     RunFingerprint then;
-    if (!take_fingerprint(left, then)) return damaged;
+    if (!message.get(header.data(), header.size()) || !get_fingerprint(message, then)) return damaged;
     if (const auto differing = differences(then, fingerprint_); !differing.empty())
         return bad_input(
             fmt::format("this checkpoint belongs to another run: {}. Repeat the run with its original options, {}", differing, remedy()),
             {file_});
-    std::string state;
-    if (!take_front(left, force_to_resumed_) || !take_front(left, spike_count_) || !take_front(left, spikes_sum) ||
-        !take_text(left, state) || !left.empty())
+    if (!message.get(force_to_resumed_) || !message.get(spike_count_) || !message.get(spikes_sum) || !message.get(state) ||
+        !message.ended())
         return damaged;
     if (auto ok = skin_.resume(std::as_bytes(std::span(state))); !ok)
         return bad_input(fmt::format("{}; {}", ok.error().message, remedy()), {file_});
@@ -234,26 +191,21 @@ Result<void> SkinCheckpoint::resume() {
 /// times.
 Result<void> SkinCheckpoint::check_spikes(std::uint64_t checksum) {
     std::error_code status;
-    const auto size = fs::file_size(spikes_file_, status), stored = (size - std::min(size, spikes_header.size())) / sizeof(StoredSpike);
-    if (status || spike_count_ > stored)
-        return bad_input(fmt::format("it has {} spikes, but {} was written after {} spikes; {}", stored, file_, spike_count_, remedy()),
+    const auto size = fs::file_size(spikes_file_, status), in_file = (size - std::min(size, spikes_header.size())) / sizeof(StoredSpike);
+    if (status || spike_count_ > in_file)
+        return bad_input(fmt::format("it has {} spikes, but {} was written after {} spikes; {}", in_file, file_, spike_count_, remedy()),
                          {spikes_file_});
-    std::fseek(spikes_, static_cast<long>(spikes_header.size()), SEEK_SET);
-    std::array<StoredSpike, 1024> buffer;
-    Spike last;
+    std::fseek(spikes_.get(), position_of_spike(0), SEEK_SET);
     bool is_valid = true;
-    for (std::uint64_t at = 0; at < spike_count_ && is_valid;) {
-        const auto count = std::fread(buffer.data(), sizeof buffer[0], std::min<std::uint64_t>(buffer.size(), spike_count_ - at), spikes_);
-        if (count == 0) return system_error(spikes_file_);
-        spikes_sum_.add(buffer.data(), count * sizeof buffer[0]);
-        for (std::size_t k = 0; k < count; ++k) {
-            const auto& s = buffer[k];
-            const Spike spike{s.step, s.offset, static_cast<std::uint32_t>(s.afferent_index)};
-            is_valid &= s.afferent_index < skin_.innervation().afferents.size() && s.step >= 0 && s.step < resumed_samples_ &&
-                        s.offset > 0 && s.offset <= 1 && ((at == 0 && k == 0) || last <= spike);
-            last = spike;
-        }
-        at += count;
+    Spike last{-1};
+    for (std::uint64_t k = 0; k < spike_count_ && is_valid; ++k) {
+        StoredSpike stored;
+        if (std::fread(&stored, sizeof stored, 1, spikes_.get()) != 1) return system_error(spikes_file_);
+        spikes_sum_.add(&stored, sizeof stored);
+        const auto spike = spike_of(stored);
+        is_valid = stored.afferent_index < skin_.innervation().afferents.size() && spike.step >= 0 && spike.step < resumed_samples_ &&
+                   spike.offset > 0 && spike.offset <= 1 && last <= spike;
+        last = spike;
     }
     if (is_valid && spikes_sum_.value() == checksum) return {};
     return bad_input(fmt::format("these spikes are damaged: they do not match {}; {}", file_, remedy()), {spikes_file_});
@@ -275,54 +227,46 @@ Result<void> SkinCheckpoint::finish(std::int64_t samples) {
 }
 
 Result<void> SkinCheckpoint::replay(std::int64_t end, std::vector<Spike>& spikes) {
-    // A block includes the spikes with a step before `end`, the first sample of the next block.
-    if (replayed_ == 0 && read_ahead_.empty()) std::fseek(spikes_, static_cast<long>(spikes_header.size()), SEEK_SET);
-    for (StoredSpike stored{};;) {
-        if (read_ahead_.empty()) {
-            if (replayed_ >= spike_count_) return {};
-            if (std::fread(&stored, sizeof stored, 1, spikes_) != 1) return system_error(spikes_file_);
-            ++replayed_;
-            read_ahead_.push_back({stored.step, stored.offset, static_cast<std::uint32_t>(stored.afferent_index)});
-        }
-        if (read_ahead_[0].step >= end) return {};
-        spikes.push_back(read_ahead_[0]);
-        read_ahead_.clear();
+    std::fseek(spikes_.get(), position_of_spike(replayed_), SEEK_SET);
+    for (; replayed_ < spike_count_; ++replayed_) {
+        StoredSpike stored;
+        if (std::fread(&stored, sizeof stored, 1, spikes_.get()) != 1) return system_error(spikes_file_);
+        if (stored.step >= end) return {};  // it belongs to a later block
+        spikes.push_back(spike_of(stored));
     }
+    return {};
 }
 
 Result<void> SkinCheckpoint::append(std::span<const Spike> spikes) {
-    std::string bytes;
-    for (const auto& s : spikes) append_bytes(bytes, StoredSpike{s.step, s.offset, s.afferent_index});
-    std::fseek(spikes_, static_cast<long>(spikes_header.size() + spike_count_ * sizeof(StoredSpike)), SEEK_SET);
-    if (std::fwrite(bytes.data(), 1, bytes.size(), spikes_) != bytes.size()) return system_error(spikes_file_);
-    spikes_sum_.add(bytes.data(), bytes.size());
-    spike_count_ += spikes.size();
+    std::vector<StoredSpike> stored;
+    for (const auto& s : spikes) stored.push_back({s.step, s.offset, s.afferent_index});
+    std::fseek(spikes_.get(), position_of_spike(spike_count_), SEEK_SET);
+    if (std::fwrite(stored.data(), sizeof(StoredSpike), stored.size(), spikes_.get()) != stored.size()) return system_error(spikes_file_);
+    spikes_sum_.add(stored.data(), stored.size() * sizeof(StoredSpike));
+    spike_count_ += stored.size();
     return {};
 }
 
 /// Writes the spikes to disk before FILE, which contains their number; FILE gets its name only when it is complete on disk.
 Result<void> SkinCheckpoint::flush() {
-    if (std::fflush(spikes_) != 0 || ::fsync(::fileno(spikes_)) != 0) return system_error(spikes_file_);
-    std::string bytes = fmt::format("{}{}\n", checkpoint_magic, checkpoint_version);
-    append_bytes(bytes, std::uint64_t{fingerprint_.size()});
-    for (const auto& [name, value] : fingerprint_) append_text(bytes, name), append_text(bytes, value);
-    append_bytes(bytes, force_sum_.value()), append_bytes(bytes, spike_count_), append_bytes(bytes, spikes_sum_.value());
+    if (std::fflush(spikes_.get()) != 0 || ::fsync(::fileno(spikes_.get())) != 0) return system_error(spikes_file_);
+    Message message;
+    message.put(checkpoint_header.data(), checkpoint_header.size());
+    message.put(fingerprint_.size());
+    for (const auto& [name, value] : fingerprint_) message.put(name), message.put(value);
+    message.put(force_sum_.value()), message.put(spike_count_), message.put(spikes_sum_.value());
     const auto state = skin_.save();
-    append_text(bytes, {reinterpret_cast<const char*>(state.data()), state.size()});
-    append_bytes(bytes, checksum_of(std::as_bytes(std::span(bytes))));
-    auto out = OutputFile::create(file_);
-    if (!out) return out.error();
-    if (auto ok = out->write(bytes); !ok) return ok;
-    if (auto ok = out->commit(SyncPolicy::always); !ok) return ok;
-    return sync_directory_of(file_);
+    message.put(state.size()), message.put(state.data(), state.size());
+    message.put(checksum_of(std::as_bytes(std::span(message.bytes()))));
+    return replace_file(file_, message.bytes());
 }
 
 /// The lock is held until both files are removed. An output of the same name is not a checkpoint and is not removed.
 void SkinCheckpoint::remove_files() {
     std::error_code ignored;
-    if (begins_with(file_, checkpoint_magic)) fs::remove(file_, ignored);
-    if (is_file_at(::fileno(spikes_), spikes_file_)) fs::remove(spikes_file_, ignored);
-    std::fclose(std::exchange(spikes_, nullptr));
+    if (read_beginning(file_).starts_with(checkpoint_magic)) fs::remove(file_, ignored);
+    if (is_file_at(::fileno(spikes_.get()), spikes_file_)) fs::remove(spikes_file_, ignored);
+    spikes_.reset();
 }
 
 Result<std::string> checksum_of_file(const std::string& path) {

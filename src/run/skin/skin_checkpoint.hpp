@@ -4,6 +4,7 @@
 // every output is the same as without the interruption.
 
 #include <cstdio>
+#include <memory>
 #include <string>
 #include <utility>
 #include <vector>
@@ -43,11 +44,13 @@ public:
     void remove_files();
 
 private:
+    struct FileCloser {
+        void operator()(std::FILE* file) const { std::fclose(file); }
+    };
     SkinCheckpoint(std::string file, Skin& skin, RunFingerprint fingerprint)
         : file_(std::move(file)), spikes_file_(file_ + ".spikes"), skin_(skin), fingerprint_(std::move(fingerprint)) {}
     Result<void> check_file() const;
     Result<void> lock_spikes();
-    Result<void> check_spikes_header() const;
     Result<void> resume();
     Result<void> check_spikes(std::uint64_t checksum);
     Error system_error(const std::string& path) const;
@@ -57,13 +60,12 @@ private:
     std::string file_, spikes_file_;
     Skin& skin_;
     RunFingerprint fingerprint_;
-    std::FILE* spikes_ = nullptr;  // locked while it is open
+    std::unique_ptr<std::FILE, FileCloser> spikes_;  // locked while it is open
     std::int64_t resumed_samples_ = 0;
     std::uint64_t spike_count_ = 0;       // number of spikes in FILE.spikes
     std::uint64_t replayed_ = 0;          // number of these spikes that were read again
     Checksum spikes_sum_, force_sum_;     // of the spikes in FILE.spikes; of the force of this run so far
     std::uint64_t force_to_resumed_ = 0;  // checksum, from FILE, of the first `resumed_samples_` samples of force
-    std::vector<Spike> read_ahead_;       // at most one spike, which was read but belongs to a later block
 };
 
 /// Checksum of a file's contents, as used in a RunFingerprint.

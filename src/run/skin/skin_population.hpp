@@ -24,6 +24,7 @@ public:
     std::vector<std::string> force_names() const override { return {force_name_}; }
     std::size_t class_count() const override { return skin_.plan.classes.size(); }
     std::size_t class_of(std::size_t u) const override { return afferent(u).class_index; }
+    const AfferentPlan& class_plan(std::size_t c) const override { return skin_.plan.classes[c].afferent; }
     std::span<const Probe> probes(std::size_t u) const override {
         return probes_.empty() ? std::span<const Probe>{} : probes_[class_of(u)];
     }

@@ -126,7 +126,6 @@ Result<void> RunSummary::begin(const Input& input) {
     inputs_.push_back(
         {input.name, input.clock, 0, afferents.force_names(), input.notes, input.metadata, INFINITY, -INFINITY, input.phases});
     inputs_.back().sensors = afferents.sensors();
-    since_start_ = input.clock_since_start();
     std::vector<TimeWindow> windows;  // one for each phase; without phases one for the whole input, whose end is set in end()
     for (const auto& p : input.phases) windows.push_back({p.from, p.to, input.cycle_frequency});
     if (windows.empty()) windows.push_back({.stimulus_frequency = input.cycle_frequency});
@@ -139,7 +138,7 @@ Result<void> RunSummary::block(const Input& input, const RunBlock& block) {
     for (const auto& channel : block.force)
         for (const double f : channel)
             summary.min_force = std::min(summary.min_force, f), summary.max_force = std::max(summary.max_force, f);
-    for (const auto& s : block.spikes) tally_.spike(input.afferent_of(s), since_start_.time(s.step, s.offset));
+    for (const auto& s : block.spikes) tally_.spike(input.afferent_of(s), input.since_start(s));
     return comparisons_.block(input, block);
 }
 
@@ -147,7 +146,7 @@ Result<void> RunSummary::end(const Input& input, std::int64_t samples, std::span
     auto& summary = inputs_.back();
     summary.samples = samples;
     summary.quality = input.quality;
-    tally_.set_end(since_start_.time(samples));
+    tally_.set_end(input.since_start(samples));
     const auto groups =
         copy_group_starts(input.on_channels().plans());  // groups[g] is the first plan of afferent g, groups.back() the number of plans
     for (std::size_t c = 0; c < summary.channels.size(); ++c)

@@ -78,8 +78,7 @@ public:
 
 private:
     std::vector<InputSummary> inputs_;
-    Clock since_start_;         // of the current input, with its first sample at 0 s
-    MeasureAccumulator tally_;  // the measures of every afferent of the current input in every phase; times on that clock
+    MeasureAccumulator tally_;  // the measures of every afferent of the current input in every phase; times since its start
     std::vector<MeasureRow> rows_;
     ImplementationComparisons comparisons_;
 

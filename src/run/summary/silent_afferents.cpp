@@ -5,8 +5,6 @@
 #include <cmath>
 
 #include "model/catalog.hpp"
-#include "model/copies.hpp"
-#include "run/channels/channel_population.hpp"
 
 namespace corpuscle {
 namespace {
@@ -30,6 +28,23 @@ bool fires_with_factor(const Afferent& afferent, std::span<const double> force, 
     return false;
 }
 
+/// Raises the upper bounds of the force on the afferents of each silent class of a skin to those of this block.
+void raise_class_forces(const Innervation& skin, const RunBlock& block, std::span<const char> is_silent, std::vector<double>& class_force) {
+    std::vector<std::pair<std::size_t, double>> peaks;  // the sites with force in the block, and the largest force of each, N
+    block.sites.for_each_site(skin.plan.sites.size(), [&](std::size_t site) {
+        const double* force = block.sites.data + site * block.sites.stride;
+        if (const double peak = *std::max_element(force, force + block.steps); peak > 0) peaks.emplace_back(site, peak);
+    });
+    for (std::size_t c = 0; c < class_force.size(); ++c) {
+        if (!is_silent[c]) continue;
+        const auto& fields = skin.fields[c];
+        std::vector<double> on_afferent(skin.class_begin[c + 1] - skin.class_begin[c]);
+        for (const auto& [site, peak] : peaks)
+            for (auto k = fields.begin[site]; k < fields.begin[site + 1]; ++k)
+                class_force[c] = std::max(class_force[c], on_afferent[fields.afferent[k]] += fields.weight[k] * peak);
+    }
+}
+
 }  // namespace
 
 std::optional<double> factor_to_fire(const AfferentPlan& plan, const SimulationOptions& run, std::span<const double> force) {
@@ -47,54 +62,60 @@ std::optional<double> factor_to_fire(const AfferentPlan& plan, const SimulationO
 }
 
 Result<void> SilenceDetector::begin(const Input& input) {
-    force_samples_.assign(input.on_channels().channels(), {});
-    channel_max_.assign(force_samples_.size(), 0);
-    has_fired_.resize(input.on_channels().plans().size());
+    const auto& population = input.population;
+    if (input.index == 0) {
+        plans_.clear(), is_silent_.assign(population.class_count(), 0);
+        for (std::size_t c = 0; c < is_silent_.size(); ++c) plans_.push_back(&population.class_plan(c));
+        for (std::size_t u = 0; u < population.size(); ++u) is_silent_[population.class_of(u)] = 1;
+        class_force_.assign(population.skin() ? is_silent_.size() : 0, 0);
+    }
+    row_samples_.assign(population.force_names().size(), {});
+    row_max_.assign(row_samples_.size(), 0);
     return {};
 }
 
 Result<void> SilenceDetector::block(const Input& input, const RunBlock& block) {
-    const std::size_t max_samples = max_silence_samples / force_samples_.size();
-    for (std::size_t c = 0; c < force_samples_.size(); ++c) {
-        const auto* force = block.force[c].data();
-        const auto count = std::min(block.steps, max_samples - std::min(max_samples, force_samples_[c].size()));
-        force_samples_[c].insert(force_samples_[c].end(), force, force + count);
-        for (std::size_t k = 0; k < block.steps; ++k) channel_max_[c] = std::max(channel_max_[c], force[k]);
+    for (const auto& s : block.spikes) is_silent_[input.population.class_of(input.afferent_of(s))] = 0;
+    if (std::find(is_silent_.begin(), is_silent_.end(), 1) == is_silent_.end()) return {};
+    const std::size_t max_samples = max_silence_samples / row_samples_.size();
+    for (std::size_t r = 0; r < row_samples_.size(); ++r) {
+        const auto force = block.force[r],
+                   kept = force.first(std::min(block.steps, max_samples - std::min(max_samples, row_samples_[r].size())));
+        row_samples_[r].insert(row_samples_[r].end(), kept.begin(), kept.end());
+        for (const double f : force) row_max_[r] = std::max(row_max_[r], f);
     }
-    for (const auto& s : block.spikes) has_fired_[input.afferent_of(s) % has_fired_.size()] = 1;
+    if (!class_force_.empty()) raise_class_forces(input.skin(), block, is_silent_, class_force_);
     return {};
 }
 
-Result<void> SilenceDetector::end(const Input& input, std::int64_t, std::span<const Spike>) {
-    const auto max = std::max_element(channel_max_.begin(), channel_max_.end());
+Result<void> SilenceDetector::end(const Input& input, std::int64_t, std::span<const Spike> last) {
+    for (const auto& s : last) is_silent_[input.population.class_of(input.afferent_of(s))] = 0;
+    const auto max = std::max_element(row_max_.begin(), row_max_.end());
     if (*max > largest_force_) {
         largest_force_ = *max, dt_ = input.clock.T();
-        largest_force_samples_ = std::move(force_samples_[static_cast<std::size_t>(max - channel_max_.begin())]);
+        largest_force_samples_ = std::move(row_samples_[static_cast<std::size_t>(max - row_max_.begin())]);
     }
-    force_samples_.clear();
+    row_samples_.clear();
     return {};
 }
 
-std::vector<SilentAfferent> SilenceDetector::silent_afferents(std::span<const AfferentPlan> afferents,
-                                                              const RespondOptions& options) const {
-    std::vector<SilentAfferent> out;
-    const auto groups = copy_group_starts(afferents);
-    for (std::size_t g = 0; g + 1 < groups.size(); ++g) {
-        const auto& plan = afferents[groups[g]];
-        const auto from = has_fired_.begin() + static_cast<std::ptrdiff_t>(groups[g]),
-                   to = has_fired_.begin() + static_cast<std::ptrdiff_t>(groups[g + 1]);
-        if (!plan.traits().can_search_factor || std::find(from, to, 1) != to) continue;
-        out.push_back({base_name(plan), largest_force_, {}});
-        if (largest_force_ > 0)
-            out.back().factor = factor_to_fire(plan, {dt_, options.method, options.sampled, 0, 0}, largest_force_samples_);
+std::vector<SilentClass> SilenceDetector::silent_classes(const RespondOptions& options) const {
+    std::vector<SilentClass> out;
+    for (std::size_t c = 0; c < is_silent_.size(); ++c) {
+        if (!is_silent_[c] || !plans_[c]->traits().can_search_factor) continue;
+        out.push_back({c, class_force_.empty() ? largest_force_ : class_force_[c], {}});
+        if (!(out.back().max_force > 0 && largest_force_ > 0)) continue;
+        auto force = largest_force_samples_;  // scaled to the largest force on an afferent of the class
+        for (auto& f : force) f *= out.back().max_force / largest_force_;
+        out.back().factor = factor_to_fire(*plans_[c], {dt_, options.method, options.sampled, 0, 0}, force);
     }
     return out;
 }
 
-std::string silence_message(const SilentAfferent& silent) {
-    const auto never = fmt::format("{} never fired: the largest force was {:.3g} N", silent.name, silent.force);
+std::string silence_message(const std::string& name, const SilentClass& silent) {
+    const auto never = fmt::format("{} never fired: the largest force was {:.3g} N", name, silent.max_force);
     if (silent.factor) return fmt::format("{}; it would fire at about {} times this force", never, format_rounded_up(*silent.factor));
-    return silent.force > 0 ? fmt::format("{}, and even a million times this force would not make it fire", never) : never;
+    return silent.max_force > 0 ? fmt::format("{}, and even a million times this force would not make it fire", never) : never;
 }
 
 std::string format_rounded_up(double x) {

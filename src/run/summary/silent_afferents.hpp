@@ -1,5 +1,5 @@
 #pragma once
-// Afferents that never fired, and the factor by which the same force must be multiplied to make them fire.
+// Classes of afferents that never fired, and the factor by which the same force must be multiplied to make them fire.
 
 #include <optional>
 #include <span>
@@ -10,42 +10,46 @@
 
 namespace corpuscle {
 
-/// Largest number of force samples of an input, summed over its channels, that are kept for the search of the factor. Later samples are
-/// ignored.
+/// Largest number of force samples of an input, summed over the rows of RunBlock::force, that are kept for the search of the factor. Later
+/// samples are ignored.
 inline constexpr std::size_t max_silence_samples = std::size_t{1} << 18;
 
 /// The smallest factor, at least 1, by which `force` (N) must be multiplied for the afferent to fire; the result is at most 2 %
 /// larger. No value if the factor exceeds a million.
 std::optional<double> factor_to_fire(const AfferentPlan&, const SimulationOptions&, std::span<const double> force);
 
-/// An afferent that, with all of its copies, never fired on any channel of any input.
-struct SilentAfferent {
-    std::string name;
-    double force = 0;              ///< N, the largest force on any channel of any input
+/// A class of the population, none of whose afferents fired on any input.
+struct SilentClass {
+    std::size_t class_index = 0;   ///< see Population::class_of()
+    double max_force = 0;          ///< N, the largest force on any channel of any input; in a skin see SilenceDetector
     std::optional<double> factor;  ///< see factor_to_fire(); for copies, of the first copy
 };
 
-/// Finds silent afferents, and their factors for the channel with the largest force of the run. Netlists are left out, because the search
-/// would take longer than the run.
+/// Finds silent classes, and their factors for the row of RunBlock::force with the largest force of the run. Netlists are left out, because
+/// the search would take longer than the run. In a skin, the row is the total force, scaled to the largest force on an afferent of the
+/// class. This is estimated by an upper bound: for each block, the sum over the receptive field of weight times the largest force of the
+/// site within the block. The bound is exact if all sites have their largest force at the same time.
 class SilenceDetector final : public Sink {
-    std::vector<std::vector<double>> force_samples_;  // kept force samples of each channel of the current input, N
-    std::vector<double> channel_max_;                 // largest force of each channel of the current input, N
-    std::vector<char> has_fired_;                     // of each plan: 1 if it has fired on any channel of any input
-    double largest_force_ = 0;                        // of all channels of all inputs so far, N
-    std::vector<double> largest_force_samples_;       // kept force samples of the channel with the largest force, N
-    double dt_ = 0;                                   // sample period of that channel, s
+    std::vector<const AfferentPlan*> plans_;        // of each class
+    std::vector<char> is_silent_;                   // for each class: 1 if it has afferents, and none has fired on any input
+    std::vector<double> class_force_;               // for each class of a skin: upper bound of the force on its afferents so far, N
+    std::vector<std::vector<double>> row_samples_;  // kept force samples of each row of the current input, N
+    std::vector<double> row_max_;                   // largest force of each row of the current input, N
+    double largest_force_ = 0;                      // of all rows of all inputs so far, N
+    std::vector<double> largest_force_samples_;     // kept force samples of the row with the largest force, N
+    double dt_ = 0;                                 // sample period of that row, s
 
 public:
     Result<void> begin(const Input&) override;
     Result<void> block(const Input&, const RunBlock&) override;
     Result<void> end(const Input&, std::int64_t samples, std::span<const Spike> last) override;
-    /// `afferents`: the plans of the run, including copies.
-    std::vector<SilentAfferent> silent_afferents(std::span<const AfferentPlan> afferents, const RespondOptions&) const;
+    /// Valid after the run, while its plans exist.
+    std::vector<SilentClass> silent_classes(const RespondOptions&) const;
 };
 
 /// A message such as "fa1 never fired: the largest force was 0.5 N; it would fire at about 6.3 times this
-/// force".
-std::string silence_message(const SilentAfferent&);
+/// force". `name`: of the class.
+std::string silence_message(const std::string& name, const SilentClass&);
 
 /// A number with two significant digits, rounded up: "1.5", "0.0021".
 std::string format_rounded_up(double);

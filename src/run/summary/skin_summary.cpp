@@ -42,16 +42,25 @@ Result<void> SkinSummary::begin(const Input& input) {
     last_times_.assign(afferents, -INFINITY), shortest_intervals_.assign(afferents, INFINITY);
     phase_counts_.assign(phases_.size() * afferents, 0);
     site_touched_samples_.assign((phases_.size() + 1) * skin_->plan.sites.size(), 0);
-    spikes_while_touched_.assign((phases_.size() + 1) * skin_->plan.classes.size() * skin_->plan.sites.regions.size(), 0);
+    spikes_while_touched_.assign((phases_.size() + 1) * skin_->plan.classes.size() * (skin_->plan.sites.regions.size() + 1), 0);
     main_site_ = main_sites(*skin_);
     return {};
 }
 
-/// The index of the phase that contains the time t, s since the start of the force; the number of phases if none does. Phases do not
+/// The index of the phase that contains the time t, s since the start of the force; SkinSummaryRow::all if none does. Phases do not
 /// overlap.
 std::size_t SkinSummary::phase_of(double t) const {
     const auto found = std::find_if(phases_.begin(), phases_.end(), [t](const Phase& p) { return t >= p.from && t < p.to; });
-    return static_cast<std::size_t>(found - phases_.begin());
+    return found == phases_.end() ? SkinSummaryRow::all : static_cast<std::size_t>(found - phases_.begin());
+}
+
+std::size_t SkinSummary::site_index(std::size_t phase, std::size_t site) const {
+    return std::min(phase, phases_.size()) * skin_->plan.sites.size() + site;
+}
+
+std::size_t SkinSummary::group_index(std::size_t phase, std::size_t class_index, std::size_t region) const {
+    const auto regions = skin_->plan.sites.regions.size();
+    return (std::min(phase, phases_.size()) * skin_->plan.classes.size() + class_index) * (regions + 1) + std::min(region, regions);
 }
 
 /// True if the site where the afferent has its largest weight has force at this sample, counted from the start of the force. The sample
@@ -71,23 +80,29 @@ void SkinSummary::count_spikes(std::span<const Spike> spikes, const RunBlock* bl
         if (counts_[s.afferent_index]++ == 0) first_times_[s.afferent_index] = t;
         shortest_intervals_[s.afferent_index] =
             std::min(shortest_intervals_[s.afferent_index], t - std::exchange(last_times_[s.afferent_index], t));
-        if (phase < phases_.size()) ++phase_counts_[phase * counts_.size() + s.afferent_index];
-        if (block && is_touched(*block, s.afferent_index, s.step))
-            ++spikes_while_touched_[group_index(skin_->afferents[s.afferent_index], phase)];
+        const bool is_in_phase = phase != SkinSummaryRow::all;
+        if (is_in_phase) ++phase_counts_[phase * counts_.size() + s.afferent_index];
+        if (!block || !is_touched(*block, s.afferent_index, s.step)) continue;
+        const auto& afferent = skin_->afferents[s.afferent_index];
+        for (const auto region : {std::size_t{afferent.region}, SkinSummaryRow::all}) {
+            ++spikes_while_touched_[group_index(SkinSummaryRow::all, afferent.class_index, region)];
+            if (is_in_phase) ++spikes_while_touched_[group_index(phase, afferent.class_index, region)];
+        }
     }
     all_spikes_ += static_cast<std::int64_t>(spikes.size());
 }
 
 /// Splits the block at the edges of phases, and counts the samples with force of each site in each phase.
 void SkinSummary::count_touched_samples(const RunBlock& block) {
-    const auto sites = skin_->plan.sites.size();
     const auto time = [&](std::size_t k) { return since_start_.time(block.first_sample + static_cast<std::int64_t>(k)); };
     for (std::size_t from = 0, to = 0; from < block.steps; from = to) {
         const auto phase = phase_of(time(from));
         while (to < block.steps && phase_of(time(to)) == phase) ++to;
-        block.sites.for_each_site(sites, [&](std::size_t s) {
+        block.sites.for_each_site(skin_->plan.sites.size(), [&](std::size_t s) {
             const double* force = block.sites.data + s * block.sites.stride;
-            site_touched_samples_[phase * sites + s] += std::count_if(force + from, force + to, [](double f) { return f > 0; });
+            const auto samples = std::count_if(force + from, force + to, [](double f) { return f > 0; });
+            site_touched_samples_[site_index(SkinSummaryRow::all, s)] += samples;
+            if (phase != SkinSummaryRow::all) site_touched_samples_[site_index(phase, s)] += samples;
         });
     }
 }
@@ -106,30 +121,6 @@ Result<void> SkinSummary::block(const Input&, const RunBlock& block) {
 
 double SkinSummary::seconds() const { return since_start_.time(samples_); }
 
-std::size_t SkinSummary::group_index(const SkinAfferent& afferent, std::size_t phase) const {
-    return (phase * skin_->plan.classes.size() + afferent.class_index) * skin_->plan.sites.regions.size() + afferent.region;
-}
-
-/// Number of spikes of a row that arrived while their afferents were touched.
-std::int64_t SkinSummary::count_spikes_while_touched(const SkinSummaryRow& r) const {
-    std::int64_t sum = 0;
-    for (std::uint32_t region = 0; region < skin_->plan.sites.regions.size(); ++region)
-        for (std::size_t phase = 0; phase <= phases_.size(); ++phase)
-            if ((r.region == SkinSummaryRow::all || r.region == region) && (r.phase == SkinSummaryRow::all || r.phase == phase))
-                sum +=
-                    spikes_while_touched_[group_index({.class_index = static_cast<std::uint32_t>(r.class_index), .region = region}, phase)];
-    return sum;
-}
-
-/// Number of samples at which an afferent is touched, in one phase or, for SkinSummaryRow::all, during the whole force.
-std::int64_t SkinSummary::touched_samples(std::size_t afferent_index, std::size_t phase) const {
-    const auto sites = skin_->plan.sites.size();
-    if (phase != SkinSummaryRow::all) return site_touched_samples_[phase * sites + main_site_[afferent_index]];
-    std::int64_t sum = 0;
-    for (std::size_t p = 0; p <= phases_.size(); ++p) sum += site_touched_samples_[p * sites + main_site_[afferent_index]];
-    return sum;
-}
-
 /// The row of these afferents, which are those of the class in the region.
 SkinSummaryRow SkinSummary::row(std::size_t class_index, std::size_t region, std::size_t phase,
                                 std::span<const std::uint32_t> afferents) const {
@@ -141,7 +132,7 @@ SkinSummaryRow SkinSummary::row(std::size_t class_index, std::size_t region, std
     std::vector<double> first_times;
     for (const auto u : afferents) {
         const std::int64_t spikes = phase == SkinSummaryRow::all ? counts_[u] : phase_counts_[phase * counts_.size() + u];
-        const auto samples = touched_samples(u, phase);
+        const auto samples = site_touched_samples_[site_index(phase, main_site_[u])];
         r.spikes += spikes, r.active += spikes > 0, r.touched += samples > 0;
         max_spikes = std::max(max_spikes, spikes), total_touched_samples += samples;
         if (phase == SkinSummaryRow::all && spikes > 0) first_times.push_back(first_times_[u]);
@@ -151,7 +142,8 @@ SkinSummaryRow SkinSummary::row(std::size_t class_index, std::size_t region, std
     else if (r.seconds > 0)
         r.max_rate = static_cast<double>(max_spikes) / r.seconds;
     if (total_touched_samples > 0 && r.spikes != 1)
-        r.touched_rate = static_cast<double>(count_spikes_while_touched(r)) / since_start_.time(total_touched_samples);
+        r.touched_rate =
+            static_cast<double>(spikes_while_touched_[group_index(phase, class_index, region)]) / since_start_.time(total_touched_samples);
     if (!first_times.empty()) r.first_spike = *std::min_element(first_times.begin(), first_times.end());
     r.median_first_spike = median_of(first_times);
     return r;
@@ -166,7 +158,8 @@ Result<void> SkinSummary::end(const Input&, std::int64_t samples, std::span<cons
     count_spikes(last, nullptr);
     samples_ = samples;
     touched_times_.clear();
-    for (std::size_t u = 0; u < counts_.size(); ++u) touched_times_.push_back(since_start_.time(touched_samples(u, SkinSummaryRow::all)));
+    for (const auto site : main_site_)
+        touched_times_.push_back(since_start_.time(site_touched_samples_[site_index(SkinSummaryRow::all, site)]));
     rows_.clear();
     const auto regions = skin_->plan.sites.regions.size();
     for (std::size_t c = 0; c + 1 < skin_->class_begin.size(); ++c) {

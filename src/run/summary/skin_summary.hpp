@@ -102,22 +102,20 @@ private:
     std::vector<std::int64_t> counts_;
     std::vector<std::uint32_t> phase_counts_;  // spikes, [phase][afferent]
     std::vector<double> first_times_, touched_times_;
-    std::vector<double> last_times_;          // time of the last spike of each afferent, s since the start
-    std::vector<double> shortest_intervals_;  // shortest interspike interval of each afferent, s
-    std::vector<std::uint32_t> main_site_;    // for each afferent, the site with its largest weight
-    // In the following two, an extra phase after the last one is for times outside all phases.
-    std::vector<std::int64_t> site_touched_samples_;  // number of samples with force, [phase][site]
-    std::vector<std::int64_t> spikes_while_touched_;  // number of spikes, [phase][class][region]
+    std::vector<double> last_times_;                  // time of the last spike of each afferent, s since the start
+    std::vector<double> shortest_intervals_;          // shortest interspike interval of each afferent, s
+    std::vector<std::uint32_t> main_site_;            // for each afferent, the site with its largest weight
+    std::vector<std::int64_t> site_touched_samples_;  // number of samples with force, see site_index()
+    std::vector<std::int64_t> spikes_while_touched_;  // number of spikes that arrived at touched afferents, see group_index()
     std::vector<SkinSummaryRow> rows_;
 
     void count_spikes(std::span<const Spike>, const RunBlock*);
     bool is_touched(const RunBlock&, std::size_t afferent_index, std::int64_t sample) const;
-    /// Index in spikes_while_touched_ of the phase, and of the class and region of an afferent.
-    std::size_t group_index(const SkinAfferent&, std::size_t phase) const;
-    std::int64_t count_spikes_while_touched(const SkinSummaryRow&) const;
+    // Indexes in site_touched_samples_ and spikes_while_touched_. Phase and region may be SkinSummaryRow::all, which has the last index.
+    std::size_t site_index(std::size_t phase, std::size_t site) const;
+    std::size_t group_index(std::size_t phase, std::size_t class_index, std::size_t region) const;
     void count_touched_samples(const RunBlock&);
     std::size_t phase_of(double t) const;
-    std::int64_t touched_samples(std::size_t afferent_index, std::size_t phase) const;
     /// Adds the row over all phases and the row of each phase.
     void add_rows(std::size_t class_index, std::size_t region, const std::vector<std::uint32_t>& afferents);
     SkinSummaryRow row(std::size_t class_index, std::size_t region, std::size_t phase, std::span<const std::uint32_t> afferents) const;
