@@ -134,16 +134,14 @@ Result<void> compare_files(const CompareArguments& args, const CommonArguments& 
         if (auto with_defaults = read_spikes(args.files.back())) b = std::move(with_defaults);
     if (!a) return a.error();
     if (!b) return b.error();
-    const auto pairs = pair_trains(*a, *b, options);
-    if (!pairs) return pairs.error();
+    const auto pairs = TRY(pair_trains(*a, *b, options));
     std::vector<TrainDifference> all;
     TrainDifference total;
-    for (const auto& p : *pairs) {
+    for (const auto& p : pairs) {
         if (interrupted()) return Error{ErrorCode::interrupted, "interrupted"};
-        const auto difference = compare_trains(p, options);
-        if (!difference) return difference.error();
-        all.push_back(*difference);
-        total.add(*difference);
+        const auto difference = TRY(compare_trains(p, options));
+        all.push_back(difference);
+        total.add(difference);
     }
     if (common.json)
         fmt::print("{}", document(options, all, total));

@@ -40,24 +40,19 @@ Json document_of(const NgspiceDeck& deck, const std::vector<Error>& warnings) {
 }
 
 Result<void> export_netlist(const ExportArguments& args, const CommonArguments& common) {
-    const auto netlist = open_netlist(args.netlist);
-    if (!netlist) return netlist.error();
+    const auto netlist = TRY(open_netlist(args.netlist));
     OutputCheck outputs(common.overwrite);
-    if (!args.out.empty())
-        if (auto ok = outputs.check_file(args.out, is_own_deck); !ok) return ok;
-    auto circuit = netlist->elaborate();
-    if (!circuit) return circuit.error();
-    auto warnings = circuit->warnings;
-    const auto deck = ngspice_deck(std::make_shared<const Circuit>(std::move(*circuit)));
-    if (!deck) return deck.error();
-    warnings.insert(warnings.end(), deck->warnings.begin(), deck->warnings.end());
-    if (!args.out.empty())
-        if (auto ok = write_file(args.out, deck->text); !ok) return ok;
+    if (!args.out.empty()) TRY(outputs.check_file(args.out, is_own_deck));
+    auto circuit = TRY(netlist.elaborate());
+    auto warnings = circuit.warnings;
+    const auto deck = TRY(ngspice_deck(std::make_shared<const Circuit>(std::move(circuit))));
+    warnings.insert(warnings.end(), deck.warnings.begin(), deck.warnings.end());
+    if (!args.out.empty()) TRY(write_file(args.out, deck.text));
     for (const auto& warning : warnings) print_warning(warning.text());
     if (common.json)
-        fmt::print("{}\n", json_text(document_of(*deck, warnings)));
+        fmt::print("{}\n", json_text(document_of(deck, warnings)));
     else if (args.out.empty())
-        fmt::print("{}", deck->text);
+        fmt::print("{}", deck.text);
     return {};
 }
 

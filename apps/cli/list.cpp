@@ -175,17 +175,16 @@ struct ListArguments {
 };
 
 Result<void> print_sections(const ListArguments& args, const CommonArguments& common) {
-    const auto sections = select_sections(args.names);
-    if (!sections) return sections.error();
+    const auto sections = TRY(select_sections(args.names));
     if (common.json) {
         Json out = Json::object();
-        for (const auto& s : *sections)
+        for (const auto& s : sections)
             for (const auto& e : s.entries) out[std::string(s.name)].push_back(document_of(e));
         fmt::print("{}\n", out.dump(1));
         return {};
     }
     std::string text;
-    for (const auto& s : *sections) {
+    for (const auto& s : sections) {
         text += fmt::format("{}{}\n", text.empty() ? "" : "\n", s.name);
         for (const auto& e : s.entries) text += text_of(e);
     }
@@ -194,9 +193,8 @@ Result<void> print_sections(const ListArguments& args, const CommonArguments& co
 }
 
 Result<void> print_sites(const ListArguments& args, const CommonArguments& common) {
-    const auto sites = sites_listing(args.names, common.json);
-    if (!sites) return sites.error();
-    fmt::print("{}", *sites);
+    const auto sites = TRY(sites_listing(args.names, common.json));
+    fmt::print("{}", sites);
     return {};
 }
 

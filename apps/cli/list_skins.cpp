@@ -114,11 +114,10 @@ Result<std::string> sites_listing(const std::vector<std::string>& populations, b
     if (populations.size() != 1)
         return bad_usage(
             fmt::format("list --sites takes one population, such as 'corpuscle list hand --sites', not {}", populations.size()));
-    const auto plan = load_skin_plan(populations[0]);
-    if (!plan) return plan.error();
-    const auto& sites = plan->sites;
+    const auto plan = TRY(load_skin_plan(populations[0]));
+    const auto& sites = plan.sites;
     if (json) {
-        nlohmann::ordered_json out = {{"population", plan->name}, {"site_area_m2", sites.area}, {"sites", nlohmann::ordered_json::array()}};
+        nlohmann::ordered_json out = {{"population", plan.name}, {"site_area_m2", sites.area}, {"sites", nlohmann::ordered_json::array()}};
         for (std::size_t s = 0; s < sites.size(); ++s)
             out["sites"].push_back({{"name", sites.names[s]},
                                     {"x_m", sites.positions[s].x},

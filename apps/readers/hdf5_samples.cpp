@@ -134,15 +134,11 @@ class Hdf5Samples final : public Samples {
         hints.is_column_major = hdf5::text_attribute(dataset_, "MATLAB_class").has_value();
         for (const auto* attribute : channel_name_attributes)
             if (const auto labels = hdf5::string_attributes(dataset_, attribute); labels.size() > 1) hints.channel_names = labels.size();
-        const auto extent = extent_of(array, path_, hints);
-        if (!extent) return extent.error();
-        extent_ = *extent;
+        extent_ = TRY(extent_of(array, path_, hints));
         rank_ = array.shape.size();
         if (!extent_.note.empty()) info_.notes.push_back(extent_.note);
         info_.rows = static_cast<std::int64_t>(extent_.rows);
-        auto storage = hdf5::check_storage(dataset_, array, path_);
-        if (!storage) return storage.error();
-        storage_ = *std::move(storage);
+        storage_ = TRY(hdf5::check_storage(dataset_, array, path_));
         info_.notes.insert(info_.notes.end(), storage_.notes.begin(), storage_.notes.end());
         return {};
     }
@@ -185,8 +181,8 @@ public:
         : path_(std::move(path)), name_(std::move(name)), dataset_(std::move(dataset)) {}
 
     Result<void> open(const ArrayInfo& array, const ExtentHints& hints) {
-        if (auto ok = read_shape(array, hints); !ok) return ok;
-        if (auto ok = name_columns(); !ok) return ok;
+        TRY(read_shape(array, hints));
+        TRY(name_columns());
         read_unit();
         return {};
     }
@@ -198,8 +194,7 @@ public:
                        std::vector<std::vector<double>>& out) override {
         for (std::size_t done = 0, count = 0; done < rows && !columns.empty(); done += count) {
             const auto row = static_cast<std::uint64_t>(start) + done;
-            if (!is_in_band(row, columns))
-                if (auto ok = load_band(row, columns); !ok) return ok;
+            if (!is_in_band(row, columns)) TRY(load_band(row, columns));
             const auto from = static_cast<std::size_t>(row - first_);
             count = std::min<std::size_t>(rows - done, band_rows_ - from);
             for (std::size_t i = 0; i < columns.size(); ++i) {
@@ -243,7 +238,7 @@ Result<std::unique_ptr<Hdf5Samples>> samples_of(hid_t file, const std::string& p
     auto dataset = hdf5::open_dataset(file, array.name);
     if (!dataset) return bad_input(fmt::format("cannot open {}; the file may be damaged", array.name), {path});
     auto samples = std::make_unique<Hdf5Samples>(path, array.name, std::move(dataset));
-    if (auto ok = samples->open(array, hints); !ok) return ok.error();
+    TRY(samples->open(array, hints));
     return samples;
 }
 
@@ -272,25 +267,22 @@ bool is_external_link(hid_t file, const std::string& name) {
 }  // namespace
 
 SamplesResult open_hdf5_samples(int descriptor, const std::string& path, const TableOptions& options) {
-    const auto file = hdf5::open_file(descriptor, path);
-    if (!file) return file.error();
-    const auto arrays = hdf5::datasets_in(*file);
+    const auto file = TRY(hdf5::open_file(descriptor, path));
+    const auto arrays = hdf5::datasets_in(file);
     const auto chosen = choose_array(arrays, options.dataset, path);
-    if (!chosen && options.dataset && is_external_link(*file, *options.dataset))
+    if (!chosen && options.dataset && is_external_link(file, *options.dataset))
         return bad_input(fmt::format("'{}' is a link to another file, which is not followed; open that file instead", *options.dataset),
                          {path});
     if (!chosen) return chosen.error();
     const auto& array = arrays[*chosen];
     ExtentHints hints{options.transpose};
     for (const auto* times : time_arrays(array, arrays)) hints.time_lengths.push_back(*time_list_length(*times));
-    auto samples = samples_of(*file, path, array, hints);
-    if (!samples) return samples.error();
-    (*samples)->set_rate(rate_of(*file, array.name, arrays));
-    const auto* times = times_of(array, (*samples)->info().rows, arrays);
-    if (!times) return std::unique_ptr<Samples>(*std::move(samples));
-    auto clock = samples_of(*file, path, *times, {});
-    if (!clock) return clock.error();
-    return add_time_column(*std::move(clock), *std::move(samples));
+    auto samples = TRY(samples_of(file, path, array, hints));
+    samples->set_rate(rate_of(file, array.name, arrays));
+    const auto* times = times_of(array, samples->info().rows, arrays);
+    if (!times) return std::unique_ptr<Samples>(std::move(samples));
+    auto clock = TRY(samples_of(file, path, *times, {}));
+    return add_time_column(std::move(clock), std::move(samples));
 }
 
 }  // namespace corpuscle

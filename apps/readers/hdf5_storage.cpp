@@ -134,9 +134,9 @@ Result<StorageInfo> check_storage(hid_t dataset, const ArrayInfo& array, const s
     const auto layout = H5Pget_layout(properties);
     if (auto files = external_files(properties); !files.empty()) return data_in_other_files(array, files, path);
     if (layout == H5D_VIRTUAL) return data_in_other_files(array, virtual_sources(properties), path);
-    if (auto ok = check_filters(properties, array, path); !ok) return ok.error();
+    TRY(check_filters(properties, array, path));
     if (layout == H5D_CHUNKED) {
-        if (auto ok = check_chunks(dataset, properties, array, path, storage); !ok) return ok.error();
+        TRY(check_chunks(dataset, properties, array, path, storage));
         return storage;
     }
     const auto stored = H5Dget_storage_size(dataset);

@@ -61,7 +61,7 @@ public:
 
 SamplesResult open_sound_samples(int file, const std::string& path, const TableOptions&) {
     auto samples = std::make_unique<SoundSamples>(path);
-    if (auto ok = samples->open(file); !ok) return ok.error();
+    TRY(samples->open(file));
     return std::unique_ptr<Samples>(std::move(samples));
 }
 

@@ -54,10 +54,10 @@ struct Study {
 
     /// Runs the study. If should_continue stops it, returns an error of code `interrupted`.
     Result<StudyResult> run(const StudyOptions& options) const {
-        if (auto ok = options.report_progress(0); !ok) return ok.error();
+        TRY(options.report_progress(0));
         auto outcome = compute(options);
         if (!outcome) return outcome;
-        if (auto ok = options.report_progress(1); !ok) return ok.error();
+        TRY(options.report_progress(1));
         return outcome;
     }
 };

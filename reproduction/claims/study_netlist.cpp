@@ -31,18 +31,10 @@ Result<Netlist> netlist_of(const StudyNetlist& deck) {
     const bool is_text = deck.circuit.find('\n') != std::string::npos;
     const auto file = is_text ? std::string("circuits/study.cir") : fmt::format("circuits/{}.cir", deck.circuit);
     std::string text = deck.circuit;
-    if (!is_text) {
-        auto embedded = embedded_text(file);
-        if (!embedded) return embedded.error();
-        text = std::move(*embedded);
-    }
+    if (!is_text) text = TRY(embedded_text(file));
     if (!deck.directives.empty()) text = with_directives(text, deck.directives);
     std::vector<ParameterOverride> overrides;
-    for (const auto& setting : deck.settings) {
-        auto parsed = parse_netlist_override(file, setting);
-        if (!parsed) return parsed.error();
-        overrides.push_back(std::move(*parsed));
-    }
+    for (const auto& setting : deck.settings) overrides.push_back(TRY(parse_netlist_override(file, setting)));
     auto applied = apply_overrides([&](const std::string& corner) { return parse_embedded(text, file, corner); }, file, overrides);
     if (!applied) return applied.error();
     return std::move(applied->result);
@@ -113,60 +105,49 @@ double NetlistResult::operating_info(std::string_view device, std::string_view n
 }
 
 Result<std::vector<NetlistResult>> run_study_variants(const StudyNetlist& deck) {
-    const auto netlist = netlist_of(deck);
-    if (!netlist) return netlist.error();
-    auto variants = NetlistVariants::create(*netlist);
-    if (!variants) return variants.error();
+    const auto netlist = TRY(netlist_of(deck));
+    auto variants = TRY(NetlistVariants::create(netlist));
     std::vector<NetlistResult> out;
     std::unique_ptr<AnalysisContext> context;
     RunOptions run_options;
     run_options.print_tables = false;
-    for (std::size_t k = 0; k < variants->count(); ++k) {
-        auto variant = variants->at(k);
-        if (!variant) return variant.error();
-        if (!deck.model_parameters.empty()) variant->circuit = with_model_parameters(*variant->circuit, deck.model_parameters);
+    for (std::size_t k = 0; k < variants.count(); ++k) {
+        auto variant = TRY(variants.at(k));
+        if (!deck.model_parameters.empty()) variant.circuit = with_model_parameters(*variant.circuit, deck.model_parameters);
         // The chips of .mc share one circuit, and therefore one context.
-        if (!context || context->circuit != variant->circuit) {
-            auto new_context = AnalysisContext::make(variant->circuit);
-            if (!new_context) return new_context.error();
-            context = std::move(*new_context);
-        }
+        if (!context || context->circuit != variant.circuit) context = TRY(AnalysisContext::make(variant.circuit));
         context->is_brief = true;  // no tables and no warnings
-        if (variant->sample) context->apply_variation(*variant->sample);
+        if (variant.sample) context->apply_variation(*variant.sample);
         auto outcome = circuit::run_directives(*context, run_options);
         if (!outcome) {
             auto error = outcome.error();
-            if (!variant->label.empty()) error.message = fmt::format("{}: {}", variant->label, error.message);
+            if (!variant.label.empty()) error.message = fmt::format("{}: {}", variant.label, error.message);
             return error;
         }
-        out.push_back({variant->label, variant->circuit, std::move(*outcome)});
+        out.push_back({variant.label, variant.circuit, std::move(*outcome)});
     }
     return out;
 }
 
 Result<NetlistResult> run_study_netlist(const StudyNetlist& deck) {
-    auto all = run_study_variants(deck);
-    if (!all) return all.error();
-    return std::move(all->front());
+    auto all = TRY(run_study_variants(deck));
+    return std::move(all.front());
 }
 
 Result<std::string> substitute_in_embedded_text(const std::string& file, const std::vector<std::pair<std::string, std::string>>& changes) {
-    auto text = embedded_text(file);
-    if (!text) return text.error();
+    auto text = TRY(embedded_text(file));
     for (const auto& [from, to] : changes) {
-        auto at = text->find(from);
+        auto at = text.find(from);
         if (at == std::string::npos) return bad_input(fmt::format("{}: does not contain '{}'", file, from));
-        for (; at != std::string::npos; at = text->find(from, at + to.size())) text->replace(at, from.size(), to);
+        for (; at != std::string::npos; at = text.find(from, at + to.size())) text.replace(at, from.size(), to);
     }
     return text;
 }
 
 Result<std::shared_ptr<const Circuit>> elaborate_study_netlist(const StudyNetlist& deck) {
-    const auto netlist = netlist_of(deck);
-    if (!netlist) return netlist.error();
-    auto circuit = netlist->elaborate();
-    if (!circuit) return circuit.error();
-    return std::make_shared<const Circuit>(std::move(*circuit));
+    const auto netlist = TRY(netlist_of(deck));
+    auto circuit = TRY(netlist.elaborate());
+    return std::make_shared<const Circuit>(std::move(circuit));
 }
 
 }  // namespace corpuscle

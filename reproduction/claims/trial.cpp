@@ -10,14 +10,11 @@
 namespace corpuscle {
 
 Result<TrialForce> trial_force(const TrialSpec& spec) {
-    const auto overrides = parse_overrides(spec.settings);
-    if (!overrides) return overrides.error();
-    const auto made = make_stimulus(spec.stimulus, *overrides, spec.rate, spec.seed);
-    if (!made) return made.error();
-    auto& source = *made->result;
-    auto force = read_channel(source);
-    if (!force) return force.error();
-    return TrialForce{source.clock(), std::move(*force), source.phases()};
+    const auto overrides = TRY(parse_overrides(spec.settings));
+    const auto made = TRY(make_stimulus(spec.stimulus, overrides, spec.rate, spec.seed));
+    auto& source = *made.result;
+    auto force = TRY(read_channel(source));
+    return TrialForce{source.clock(), std::move(force), source.phases()};
 }
 
 StudyCurve TrialForce::curve() const {
@@ -45,32 +42,26 @@ Result<std::vector<std::size_t>> probe_indexes(const TrialSpec& spec, const Affe
 }  // namespace
 
 Result<TrialResult> run_trial(const TrialSpec& spec) {
-    const auto trial = trial_force(spec);
-    if (!trial) return trial.error();
-    const auto overrides = parse_overrides(spec.settings);
-    if (!overrides) return overrides.error();
-    const auto planned = plan_any_afferent(spec.afferent, *overrides, spec.probes);
-    if (!planned) return planned.error();
-    const auto afferent = make_afferent(planned->result, {trial->clock.T(), spec.method, spec.sampled});
-    const auto indexes = probe_indexes(spec, *afferent, planned->probes);
-    if (!indexes) return indexes.error();
-    auto response = simulate(*afferent, trial->force, {*indexes});
-    if (!response) return response.error();
-    TrialResult out{spike_times(response->spikes, trial->clock), {}, {}};
-    for (std::size_t k = 0; k < response->range_violations.size(); ++k)
-        if (response->range_violations[k].samples > 0) out.range_warnings.emplace_back(afferent->ranges()[k].meaning);
+    const auto trial = TRY(trial_force(spec));
+    const auto overrides = TRY(parse_overrides(spec.settings));
+    const auto planned = TRY(plan_any_afferent(spec.afferent, overrides, spec.probes));
+    const auto afferent = make_afferent(planned.result, {trial.clock.T(), spec.method, spec.sampled});
+    const auto indexes = TRY(probe_indexes(spec, *afferent, planned.probes));
+    auto response = TRY(simulate(*afferent, trial.force, {indexes}));
+    TrialResult out{spike_times(response.spikes, trial.clock), {}, {}};
+    for (std::size_t k = 0; k < response.range_violations.size(); ++k)
+        if (response.range_violations[k].samples > 0) out.range_warnings.emplace_back(afferent->ranges()[k].meaning);
     for (std::size_t p = 0; p < spec.probes.size(); ++p) {
         auto& curve = out.probes[spec.probes[p]];
-        curve = trial->curve();
-        curve.y = std::move(response->probes[p]);
+        curve = trial.curve();
+        curve.y = std::move(response.probes[p]);
     }
     return out;
 }
 
 Result<std::vector<double>> simulate_train(const TrialSpec& spec) {
-    auto result = run_trial(spec);
-    if (!result) return result.error();
-    return std::move(result->spikes);
+    auto result = TRY(run_trial(spec));
+    return std::move(result.spikes);
 }
 
 }  // namespace corpuscle

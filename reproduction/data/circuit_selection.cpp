@@ -29,9 +29,8 @@ struct ArraySize {
 Result<ArraySize> size_of(const Circuit& circuit, const std::string& device) {
     ArraySize out;
     for (const auto& [part, key] : {std::pair{&out.W, "w"}, {&out.L, "l"}, {&out.columns, "m"}, {&out.stack, "stack"}}) {
-        const auto value = device_value(circuit, fmt::format("{} {}", device, key));
-        if (!value) return value.error();
-        *part = std::get<double>(*value);
+        const auto value = TRY(device_value(circuit, fmt::format("{} {}", device, key)));
+        *part = std::get<double>(value);
     }
     return out;
 }
@@ -50,9 +49,8 @@ Result<StudyValue> model_value(const Circuit& circuit, const std::string& name) 
 }
 
 Result<StudyValue> aspect_ratio(const Circuit& circuit, const std::string& device) {
-    const auto size = size_of(circuit, device);
-    if (!size) return size.error();
-    return StudyValue(size->W / size->L * size->columns / size->stack);
+    const auto size = TRY(size_of(circuit, device));
+    return StudyValue(size.W / size.L * size.columns / size.stack);
 }
 
 Result<StudyValue> has_device(const Circuit& circuit, const std::string& name) {
@@ -63,9 +61,8 @@ Result<StudyValue> has_sizes(const Circuit& circuit, const std::string& devices_
     const auto colon = devices_and_size.find(": ");
     if (colon == std::string::npos) return bad_input("write sizes[DEVICES: COLUMNSxSTACK of W/L], W and L in um");
     for (const auto& device : split_words(devices_and_size.substr(0, colon))) {
-        const auto size = size_of(circuit, device);
-        if (!size) return size.error();
-        const auto text = fmt::format("{:g}x{:g} of {:g}/{:g}", size->columns, size->stack, 1e6 * size->W, 1e6 * size->L);
+        const auto size = TRY(size_of(circuit, device));
+        const auto text = fmt::format("{:g}x{:g} of {:g}/{:g}", size.columns, size.stack, 1e6 * size.W, 1e6 * size.L);
         if (text != devices_and_size.substr(colon + 2)) return StudyValue(0.0);
     }
     return StudyValue(1.0);
@@ -74,9 +71,8 @@ Result<StudyValue> has_sizes(const Circuit& circuit, const std::string& devices_
 Result<StudyValue> gate_area(const Circuit& circuit, const std::string& devices) {
     double area = 0;
     for (const auto& device : split_words(devices)) {
-        const auto size = size_of(circuit, device);
-        if (!size) return size.error();
-        area += 1e12 * size->columns * size->stack * size->W * size->L;
+        const auto size = TRY(size_of(circuit, device));
+        area += 1e12 * size.columns * size.stack * size.W * size.L;
     }
     return StudyValue(area);
 }

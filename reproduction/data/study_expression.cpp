@@ -184,12 +184,11 @@ std::size_t format_colon(std::string_view field) {
 /// The value of "expression:format" as text.
 Result<std::string> field_text(std::string_view field, const SourceLocation& location, const StudyLookup& lookup) {
     const auto colon = format_colon(field);
-    const auto value = evaluate_study_expression(field.substr(0, colon), location, lookup);
-    if (!value) return value.error();
+    const auto value = TRY(evaluate_study_expression(field.substr(0, colon), location, lookup));
     const std::string format(colon == std::string_view::npos ? "" : field.substr(colon + 1));
-    if (const auto* number = std::get_if<double>(&*value)) return fmt::format(fmt::runtime("{:" + format + "}"), *number);
-    if (const auto* word = std::get_if<std::string>(&*value)) return *word;
-    return bad_input(fmt::format("{{{}}} is {}; a text can contain only numbers and texts", field, kind_of(*value).name), location);
+    if (const auto* number = std::get_if<double>(&value)) return fmt::format(fmt::runtime("{:" + format + "}"), *number);
+    if (const auto* word = std::get_if<std::string>(&value)) return *word;
+    return bad_input(fmt::format("{{{}}} is {}; a text can contain only numbers and texts", field, kind_of(value).name), location);
 }
 
 }  // namespace

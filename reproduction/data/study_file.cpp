@@ -188,9 +188,8 @@ private:
 }  // namespace
 
 Result<StudyFile> read_study_file(std::string_view text, const std::string& file) {
-    const auto table = parse_toml(text, file);
-    if (!table) return table.error();
-    return StudyFileReader(file).read(*table);
+    const auto table = TRY(parse_toml(text, file));
+    return StudyFileReader(file).read(table);
 }
 
 }  // namespace corpuscle

@@ -36,7 +36,7 @@ public:
             if (!is_simulated(item)) continue;
             simulate(item);
             if (error_) return *error_;
-            if (auto ok = options.report_progress(++done / static_cast<double>(count + 1)); !ok) return ok.error();
+            TRY(options.report_progress(++done / static_cast<double>(count + 1)));
         }
         for (const auto& item : file_.items) {
             if (item.kind == "claim") add_claim(item);
@@ -98,14 +98,12 @@ private:
     }
 
     Result<StudyValue> run_result(const StudyItem& item) {
-        auto netlist = netlist_of(item);
-        if (!netlist) return netlist.error();
-        StudyNetlist deck{std::move(*netlist), filled_list(item, "settings"), text(item, "directives")};
+        auto netlist = TRY(netlist_of(item));
+        StudyNetlist deck{std::move(netlist), filled_list(item, "settings"), text(item, "directives")};
         if (error_) return *error_;
         if (item.is_true("ideal_mirrors")) deck.model_parameters = corpuscle::ideal_mirrors;
-        auto results = run_study_variants(deck);
-        if (!results) return results.error();
-        return StudyValue(std::make_shared<const StudyRun>(std::move(*results)));
+        auto results = TRY(run_study_variants(deck));
+        return StudyValue(std::make_shared<const StudyRun>(std::move(results)));
     }
 
     /// The netlist of a run, or its name. With `replace`, a list of old and new texts, those in the netlist are replaced or, with
@@ -141,13 +139,11 @@ private:
         spec.settings = filled_list(item, "settings");
         spec.probes = item.list("probes");
         if (error_) return *error_;
-        auto force = trial_force(spec);
-        if (!force) return force.error();
-        StudyTrial out{std::move(*force), {}};
+        auto force = TRY(trial_force(spec));
+        StudyTrial out{std::move(force), {}};
         if (!spec.afferent.empty()) {
-            auto result = run_trial(spec);
-            if (!result) return result.error();
-            out.result = std::move(*result);
+            auto result = TRY(run_trial(spec));
+            out.result = std::move(result);
         }
         return StudyValue(std::make_shared<const StudyTrial>(std::move(out)));
     }
@@ -222,9 +218,8 @@ Study study_from_file(const std::string& name, ComputeStudyValues compute_values
     std::replace(loaded->name.begin(), loaded->name.end(), '_', '-');
     const auto compute = [loaded, compute_values](const StudyOptions& options) -> Result<StudyResult> {
         if (!loaded->file) return loaded->file.error();
-        auto values = compute_values ? compute_values(options) : Result<StudyValues>(StudyValues{});
-        if (!values) return values.error();
-        return run_study_file(*loaded->file, options, std::move(*values));
+        auto values = TRY(compute_values ? compute_values(options) : Result<StudyValues>(StudyValues{}));
+        return run_study_file(*loaded->file, options, std::move(values));
     };
     if (!loaded->file) return {loaded->name, "", "", compute};
     return {loaded->name, loaded->file->title.text, loaded->file->question.text, compute};

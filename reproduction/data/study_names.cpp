@@ -14,10 +14,9 @@ Result<StudyValue> StudyNames::value(const LocatedText& expression, std::size_t 
 }
 
 Result<double> StudyNames::number(const LocatedText& expression, std::size_t scope) {
-    const auto found = value(expression, scope);
-    if (!found) return found.error();
-    if (const auto* number = std::get_if<double>(&*found)) return *number;
-    return expression.error_here(fmt::format("'{}' is {}; expected a number", expression.text, kind_of(*found).name));
+    const auto found = TRY(value(expression, scope));
+    if (const auto* number = std::get_if<double>(&found)) return *number;
+    return expression.error_here(fmt::format("'{}' is {}; expected a number", expression.text, kind_of(found).name));
 }
 
 Result<std::string> StudyNames::text(const LocatedText& text, std::size_t scope) {
@@ -58,9 +57,8 @@ Result<StudyValue> StudyNames::defined_value(const std::string& name, const Stud
 Result<StudyValue> StudyNames::compute(const StudyDefinition& definition, std::size_t scope) {
     if (!definition.pairs.empty()) return curve_of(definition, scope);
     if (!definition.is_text) return value(definition.expression, scope);
-    auto filled = text(definition.expression, scope);
-    if (!filled) return filled.error();
-    return StudyValue(std::move(*filled));
+    auto filled = TRY(text(definition.expression, scope));
+    return StudyValue(std::move(filled));
 }
 
 /// The curve of a definition with `each`, without the pairs whose y is NaN.
@@ -68,7 +66,7 @@ Result<StudyValue> StudyNames::curve_of(const StudyDefinition& definition, std::
     StudyCurve out;
     for (const auto& [x_text, y_text] : definition.pairs) {
         const auto x = number(x_text, scope), y = number(y_text, scope);
-        if (auto ok = check_all(x, y); !ok) return ok.error();
+        TRY(check_all(x, y));
         if (!std::isnan(*y)) out.x.push_back(*x), out.y.push_back(*y);
     }
     return StudyValue(std::move(out));

@@ -77,29 +77,25 @@ std::string recordings_directory() {
 }
 
 Result<void> run(const StudyArguments& arguments, const CommonArguments& common) {
-    const auto selected = selected_studies(arguments.names.empty() ? std::vector<std::string>{"all"} : arguments.names);
-    if (!selected) return selected.error();
+    const auto selected = TRY(selected_studies(arguments.names.empty() ? std::vector<std::string>{"all"} : arguments.names));
     OutputCheck outputs(common.overwrite);
     const std::pair<const std::string&, OutputCheck::Signature> files[] = {{arguments.report_file, is_own_page},
                                                                            {arguments.markdown_file, is_own_markdown}};
     for (const auto& [path, is_own] : files)
-        if (!path.empty())
-            if (auto ok = outputs.check_file(path, is_own); !ok) return ok;
+        if (!path.empty()) TRY(outputs.check_file(path, is_own));
     const auto outcomes = [&] {
         Progress progress(common.quiet);
-        return run_studies(*selected, {[&](double fraction) { return progress.update(fraction), !interrupted(); }, recordings_directory()});
+        return run_studies(selected, {[&](double fraction) { return progress.update(fraction), !interrupted(); }, recordings_directory()});
     }();
     if (!outcomes) return outcomes.error();
-    if (!arguments.report_file.empty())
-        if (auto ok = write_file(arguments.report_file, study_page(*selected, *outcomes, common.command)); !ok) return ok;
-    if (!arguments.markdown_file.empty())
-        if (auto ok = write_file(arguments.markdown_file, markdown_of(*selected, *outcomes)); !ok) return ok;
+    if (!arguments.report_file.empty()) TRY(write_file(arguments.report_file, study_page(selected, *outcomes, common.command)));
+    if (!arguments.markdown_file.empty()) TRY(write_file(arguments.markdown_file, markdown_of(selected, *outcomes)));
     if (common.json) {
         auto document = nlohmann::ordered_json::array();
-        for (std::size_t k = 0; k < selected->size(); ++k) document.push_back(document_of(*(*selected)[k], (*outcomes)[k]));
+        for (std::size_t k = 0; k < selected.size(); ++k) document.push_back(document_of(*selected[k], (*outcomes)[k]));
         fmt::print("{}\n", document.dump(1));
     } else if (!common.quiet) {
-        for (std::size_t k = 0; k < selected->size(); ++k) print_text((k ? "\n" : "") + text_of(*(*selected)[k], (*outcomes)[k]));
+        for (std::size_t k = 0; k < selected.size(); ++k) print_text((k ? "\n" : "") + text_of(*selected[k], (*outcomes)[k]));
     }
     return {};
 }

@@ -64,19 +64,16 @@ struct CentroidSums {
 
 Result<std::vector<SheetSpike>> simulate_sheet(const AfferentSheet& sheet, const std::string& afferent, const SheetForce& force,
                                                double sigma) {
-    const auto plan = plan_afferent(afferent);
-    if (!plan) return plan.error();
-    const auto set = instruction_set();
-    if (!set) return set.error();
-    auto skin = Skin::make(sheet_innervation(sheet, afferent, *plan, force, sigma), {.dt = force.T}, *set);
-    if (!skin) return skin.error();
+    const auto plan = TRY(plan_afferent(afferent));
+    const auto set = TRY(instruction_set());
+    auto skin = TRY(Skin::make(sheet_innervation(sheet, afferent, plan, force, sigma), {.dt = force.T}, set));
     const std::size_t steps = force.force.front().size();
     std::vector<double> all;
     for (const auto& f : force.force) all.insert(all.end(), f.begin(), f.end());
     std::vector<Spike> spikes;
     ThreadPool pool(1);
-    if (auto ok = (*skin)->respond({all.data(), steps}, steps, spikes, pool); !ok) return ok.error();
-    (*skin)->finish(spikes);
+    TRY(skin->respond({all.data(), steps}, steps, spikes, pool));
+    skin->finish(spikes);
     std::vector<SheetSpike> out;
     for (const auto& s : spikes) out.push_back({(static_cast<double>(s.step) - 1 + s.offset) * force.T, s.afferent_index});
     return out;

@@ -20,10 +20,9 @@ Result<std::vector<FingertipTrain>> press_fingertip(const Innervation& tip, Skin
     ThreadPool pool(1);
     std::vector<Spike> spikes;
     for (;;) {
-        const auto block = force.next();
-        if (!block) return block.error();
-        if (block->total_force.empty()) break;
-        if (auto ok = skin.respond(block->force, block->total_force.size(), spikes, pool); !ok) return ok.error();
+        const auto block = TRY(force.next());
+        if (block.total_force.empty()) break;
+        TRY(skin.respond(block.force, block.total_force.size(), spikes, pool));
     }
     skin.finish(spikes);
     for (const auto& s : spikes) out[s.afferent_index].spikes.push_back(clock.time(s.step, s.offset));
@@ -33,25 +32,18 @@ Result<std::vector<FingertipTrain>> press_fingertip(const Innervation& tip, Skin
 }  // namespace
 
 Result<std::vector<FingertipTrain>> simulate_fingertip(const Punch& punch) {
-    auto plan = load_skin_plan("fingertip");
-    if (!plan) return plan.error();
-    plan->nerve.reset();  // no conduction delay
-    const auto tip = innervate(std::move(*plan));
-    if (!tip) return tip.error();
-    const auto overrides = parse_overrides(std::vector<std::string>{
+    auto plan = TRY(load_skin_plan("fingertip"));
+    plan.nerve.reset();  // no conduction delay
+    const auto tip = TRY(innervate(std::move(plan)));
+    const auto overrides = TRY(parse_overrides(std::vector<std::string>{
         "press.F_min=0", fmt::format("press.F_max={}", punch.force), fmt::format("contact.radius={}", punch.radius),
-        fmt::format("contact.x={}", fingertip_centre.x), fmt::format("contact.y={}", fingertip_centre.y)});
-    if (!overrides) return overrides.error();
-    auto source = make_stimulus("press", *overrides, fingertip_rate, 0);
-    if (!source) return source.error();
-    auto contact = make_contact("flat", *overrides, (*tip)->plan.sites, source->result->clock());
-    if (!contact) return contact.error();
-    const auto set = instruction_set();
-    if (!set) return set.error();
-    auto skin = Skin::make(*tip, {.dt = 1 / fingertip_rate}, *set);
-    if (!skin) return skin.error();
-    const auto force = make_pressed_force(*source->result, *contact->result);
-    return press_fingertip(**tip, **skin, *force, source->result->clock());
+        fmt::format("contact.x={}", fingertip_centre.x), fmt::format("contact.y={}", fingertip_centre.y)}));
+    auto source = TRY(make_stimulus("press", overrides, fingertip_rate, 0));
+    auto contact = TRY(make_contact("flat", overrides, tip->plan.sites, source.result->clock()));
+    const auto set = TRY(instruction_set());
+    auto skin = TRY(Skin::make(tip, {.dt = 1 / fingertip_rate}, set));
+    const auto force = make_pressed_force(*source.result, *contact.result);
+    return press_fingertip(*tip, *skin, *force, source.result->clock());
 }
 
 }  // namespace corpuscle

@@ -38,18 +38,16 @@ Result<void> add_variance(Group& group, const circuit::Circuit& c, const Netlist
                      current_sigma = model_parameter(c, k, "ais") / sqrt_area / current_change;
         for (const auto& [setting, sigma] : {std::pair{fmt::format("{}.delvto={}", device, threshold_shift), threshold_sigma},
                                              {fmt::format("{}.mulu0={}", device, 1 + current_change), current_sigma}}) {
-            const auto shifted = run_study_netlist({"bias", {setting}, ".op"});
-            if (!shifted) return shifted.error();
-            group.variance.V += std::pow((shifted->operating_point("v(q)") - nominal.operating_point("v(q)")) * sigma, 2);
-            group.variance.I += std::pow((shifted->operating_point("i(vis)") - nominal.operating_point("i(vis)")) * sigma, 2);
+            const auto shifted = TRY(run_study_netlist({"bias", {setting}, ".op"}));
+            group.variance.V += std::pow((shifted.operating_point("v(q)") - nominal.operating_point("v(q)")) * sigma, 2);
+            group.variance.I += std::pow((shifted.operating_point("i(vis)") - nominal.operating_point("i(vis)")) * sigma, 2);
         }
     }
     return {};
 }
 
 Result<void> claim_contributions(StudyResult& out, const circuit::Circuit& c) {
-    const auto nominal = run_study_netlist({"bias", {}, ".op"});
-    if (!nominal) return nominal.error();
+    const auto nominal = TRY(run_study_netlist({"bias", {}, ".op"}));
     Group groups[] = {{"divider M1A-M2B", {"m1a", "m2a", "m1b", "m2b"}},
                       {"current mirror M3A, M3B", {"m3a", "m3b"}},
                       {"M4A, which sets BN", {"m4a"}},
@@ -57,12 +55,12 @@ Result<void> claim_contributions(StudyResult& out, const circuit::Circuit& c) {
                       {"replica M4C, M5B", {"m4c", "m5b"}}};
     Variance total;
     for (auto& group : groups) {
-        if (auto ok = add_variance(group, c, *nominal); !ok) return ok;
+        TRY(add_variance(group, c, nominal));
         total.V += group.variance.V, total.I += group.variance.I;
     }
-    out.claim("biasing, mismatch to first order: standard deviation of V_Q", 100 * std::sqrt(total.V) / nominal->operating_point("v(q)"),
+    out.claim("biasing, mismatch to first order: standard deviation of V_Q", 100 * std::sqrt(total.V) / nominal.operating_point("v(q)"),
               "%");
-    out.claim("biasing, mismatch to first order: standard deviation of I_Q", 100 * std::sqrt(total.I) / nominal->operating_point("i(vis)"),
+    out.claim("biasing, mismatch to first order: standard deviation of I_Q", 100 * std::sqrt(total.I) / nominal.operating_point("i(vis)"),
               "%");
     for (const auto& group : groups) {
         out.claim(fmt::format("contribution to the variance of V_Q, {}", group.name), 100 * group.variance.V / total.V, "%");
@@ -96,9 +94,8 @@ Result<void> claim_bulk_connections(StudyResult& out, const Chips& as_built) {
     for (const auto& [connection, text] :
          {std::pair{"divider's bulks at the rails", &at_rails}, {"divider's bulks at BP and BN", &lifted}}) {
         if (!*text) return text->error();
-        const auto chips = simulate_chips(**text, mismatch_only);
-        if (!chips) return chips.error();
-        add_claim(connection, *chips);
+        const auto chips = TRY(simulate_chips(**text, mismatch_only));
+        add_claim(connection, chips);
     }
     return {};
 }
@@ -118,13 +115,12 @@ void claim_early_voltage(StudyResult& out, const Chips& chips) {
 
 Result<StudyResult> compute(const StudyOptions& options) {
     StudyResult out;
-    const auto circuit = elaborate_study_netlist({"bias"});
-    if (!circuit) return circuit.error();
+    const auto circuit = TRY(elaborate_study_netlist({"bias"}));
     const auto process = simulate_chips("bias", process_only), mismatch = simulate_chips("bias", mismatch_only);
-    if (auto ok = check_all(process, mismatch); !ok) return ok.error();
-    if (auto ok = claim_bulk_connections(out, *mismatch); !ok) return ok.error();
-    if (auto ok = options.report_progress(0.5); !ok) return ok.error();
-    if (auto ok = claim_contributions(out, **circuit); !ok) return ok.error();
+    TRY(check_all(process, mismatch));
+    TRY(claim_bulk_connections(out, *mismatch));
+    TRY(options.report_progress(0.5));
+    TRY(claim_contributions(out, *circuit));
     claim_early_voltage(out, *process);
     return out;
 }

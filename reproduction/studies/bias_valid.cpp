@@ -55,9 +55,8 @@ Result<void> claim_coverage(StudyResult& out, const std::string& prefix, const P
     for (const bool below : {true, false}) {
         const double end = below ? r.from : r.to, published_end = below ? range[0] : range[1];
         if (below ? end <= published_end : end >= published_end) continue;
-        const auto why = explain_range_end(below ? low : high, end, false);
-        if (!why) return why.error();
-        note += fmt::format("; at its {} end: {}", below ? "lower" : "upper", *why);
+        const auto why = TRY(explain_range_end(below ? low : high, end, false));
+        note += fmt::format("; at its {} end: {}", below ? "lower" : "upper", why);
     }
     c.explain(note);
     return {};
@@ -67,11 +66,10 @@ Result<void> claim_axis(StudyResult& out, const PublishedRange& p) {
     std::vector<BiasSweep> sweeps;
     std::vector<Range> working_ranges;
     for (const char* corner : {"tt", "ss", "ff"}) {
-        auto s = sweep(p, {fmt::format("corner={}", corner)});
-        if (!s) return s.error();
-        working_ranges.push_back(s->working_range()), sweeps.push_back(std::move(*s));
+        auto s = TRY(sweep(p, {fmt::format("corner={}", corner)}));
+        working_ranges.push_back(s.working_range()), sweeps.push_back(std::move(s));
     }
-    if (auto ok = claim_coverage(out, "typical", p, working_ranges[0], sweeps[0], sweeps[0], p.typical); !ok) return ok;
+    TRY(claim_coverage(out, "typical", p, working_ranges[0], sweeps[0], sweeps[0], p.typical));
     const auto all = range_intersection(range_intersection(working_ranges[0], working_ranges[1]), working_ranges[2]);
     // index in sweeps of the corner that limits the intersection at its lower or its upper end
     const auto limiting_corner = [&](bool low) {
@@ -88,12 +86,11 @@ Result<void> claim_axis(StudyResult& out, const PublishedRange& p) {
 
 /// The limiting mechanism at both ends of the typical current range, from the simulation.
 Result<void> claim_causes(StudyResult& out) {
-    const auto s = sweep(published_ranges[0], {});
-    if (!s) return s.error();
-    const auto r = s->working_range();
+    const auto s = TRY(sweep(published_ranges[0], {}));
+    const auto r = s.working_range();
     const auto low = simulate_bias_state({bias_setting(BiasAxis::current, r.from)}),
                high = simulate_bias_state({bias_setting(BiasAxis::current, r.to)}), state_at_2_uA = simulate_bias_state({"i_bias=2u"});
-    if (auto ok = check_all(low, high, state_at_2_uA); !ok) return ok.error();
+    TRY(check_all(low, high, state_at_2_uA));
     out.claim_true(
         "at the lower end of the range of I_BIAS M4A is in the linear region and the bulk current is below a thousandth of I_BIAS",
         low->V_M4A < low->V_sat_M4A && low->bulk_current < 1e-3 * low->I_BIAS,
@@ -111,9 +108,8 @@ Result<void> claim_causes(StudyResult& out) {
 
 /// Plots the bulk junction current, and the drain-source voltages of M4A and M3B, over I_BIAS.
 Result<void> add_plots(StudyResult& out) {
-    auto found = run_study_netlist({"bias", {}, ".dc ibias 50n 3u 10n\n.save i(m3b) i(m4a)"});
-    if (!found) return found.error();
-    const auto I_P = found->curve("dc", "i(m3b)"), I_N = found->curve("dc", "i(m4a)"), V_BN = found->curve("dc", "v(bn)");
+    auto found = TRY(run_study_netlist({"bias", {}, ".dc ibias 50n 3u 10n\n.save i(m3b) i(m4a)"}));
+    const auto I_P = found.curve("dc", "i(m3b)"), I_N = found.curve("dc", "i(m4a)"), V_BN = found.curve("dc", "v(bn)");
     StudyCurve bulks;
     for (std::size_t k = 0; k < I_P.x.size(); ++k)
         bulks.x.push_back(1e9 * I_P.x[k]), bulks.y.push_back(-100 * (I_P.y[k] + I_N.y[k]) / I_P.x[k]);
@@ -126,9 +122,8 @@ Result<void> add_plots(StudyResult& out) {
     for (double& v : V_M3B.y) v += 0.7;
     StudyCurve saturation;
     for (const double I : {50e-9, 100e-9, 300e-9, 1e-6, 3e-6}) {
-        const auto state = simulate_bias_state({bias_setting(BiasAxis::current, I)});
-        if (!state) return state.error();
-        saturation.x.push_back(1e9 * I), saturation.y.push_back(state->V_sat_M4A);
+        const auto state = TRY(simulate_bias_state({bias_setting(BiasAxis::current, I)}));
+        saturation.x.push_back(1e9 * I), saturation.y.push_back(state.V_sat_M4A);
     }
     drain_plot.add("M4A", V_BN.scaled(1e9, 1)).add("M3B", V_M3B).add("saturation voltage", saturation);
     return {};
@@ -139,9 +134,8 @@ Result<void> claim_lower_thresholds(StudyResult& out) {
     const std::vector<std::string> shift = {fmt::format("vtn_shift={}", -threshold_shift), fmt::format("vtp_shift={}", -threshold_shift)};
     const auto prefix = fmt::format("thresholds {:g} mV lower", 1e3 * threshold_shift);
     for (const auto& p : published_ranges) {
-        const auto s = sweep(p, shift);
-        if (!s) return s.error();
-        const auto r = s->working_range();
+        const auto s = TRY(sweep(p, shift));
+        const auto r = s.working_range();
         for (const bool low : {true, false}) {
             auto& c = out.claim(fmt::format("{}, typical: works {}, {}", prefix, low ? "from" : "to", p.name), low ? r.from : r.to, p.unit);
             if (low && r.reaches_sweep_start) {
@@ -149,14 +143,12 @@ Result<void> claim_lower_thresholds(StudyResult& out) {
                 continue;
             }
             c.published_as(p.typical[low ? 0 : 1], "thesis E.2");
-            auto why = explain_range_end(*s, low ? r.from : r.to, low ? r.reaches_sweep_start : r.reaches_sweep_end);
-            if (!why) return why.error();
-            if (c.needs_explanation()) c.explain(std::move(*why));
+            auto why = TRY(explain_range_end(s, low ? r.from : r.to, low ? r.reaches_sweep_start : r.reaches_sweep_end));
+            if (c.needs_explanation()) c.explain(std::move(why));
         }
     }
-    const auto unbiased = run_study_netlist({"quiescent", shift, ".op"});
-    if (!unbiased) return unbiased.error();
-    out.claim(prefix + ": I_Q without biasing", unbiased->operating_point("i(visa)"), "A")
+    const auto unbiased = TRY(run_study_netlist({"quiescent", shift, ".op"}));
+    out.claim(prefix + ": I_Q without biasing", unbiased.operating_point("i(visa)"), "A")
         .published_as(17.5e-9, "thesis table 18")
         .explain("this contradicts lower thresholds: with the process card's thresholds the current is the published one");
     return {};
@@ -166,12 +158,12 @@ Result<StudyResult> compute(const StudyOptions& options) {
     StudyResult out;
     double done = 0;
     for (const auto& p : published_ranges) {
-        if (auto ok = claim_axis(out, p); !ok) return ok.error();
-        if (auto ok = options.report_progress(done += 0.2); !ok) return ok.error();
+        TRY(claim_axis(out, p));
+        TRY(options.report_progress(done += 0.2));
     }
-    if (auto ok = claim_causes(out); !ok) return ok.error();
-    if (auto ok = claim_lower_thresholds(out); !ok) return ok.error();
-    if (auto ok = add_plots(out); !ok) return ok.error();
+    TRY(claim_causes(out));
+    TRY(claim_lower_thresholds(out));
+    TRY(add_plots(out));
     out.note(
         "Criterion: V_Q within 5 mV of half the supply and I_Q within a tenth of I_BIAS; fixed in advance, as the thesis gives none. The "
         "corners are three standard deviations of the process spread in tables 17 and 18 without biasing: thresholds 40 mV and specific "

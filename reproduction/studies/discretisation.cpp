@@ -61,13 +61,11 @@ void add_claims(StudyResult& out, StudyPlot& plot, const std::string& quantity, 
 
 /// Error of one recorded current at the three steps.
 Result<void> report_current(StudyResult& out, StudyPlot& plot, const char* afferent, const char* probe, const std::string& quantity) {
-    const auto exact = simulate_at_step(afferent, fine, true, threshold_pairs[1], {probe});
-    if (!exact) return exact.error();
+    const auto exact = TRY(simulate_at_step(afferent, fine, true, threshold_pairs[1], {probe}));
     double errors[3];
     for (int k = 0; k < 3; ++k) {
-        const auto rough = simulate_at_step(afferent, steps[k], false, threshold_pairs[1], {probe});
-        if (!rough) return rough.error();
-        errors[k] = 100 * relative_error(rough->probes.at(probe), exact->probes.at(probe));
+        const auto rough = TRY(simulate_at_step(afferent, steps[k], false, threshold_pairs[1], {probe}));
+        errors[k] = 100 * relative_error(rough.probes.at(probe), exact.probes.at(probe));
     }
     add_claims(out, plot, quantity, errors, "%");
     return {};
@@ -77,12 +75,10 @@ Result<void> report_current(StudyResult& out, StudyPlot& plot, const char* affer
 Result<void> report_spikes(StudyResult& out, StudyPlot& plot, const char* afferent) {
     double errors[3] = {};
     for (const auto& thresholds : threshold_pairs) {
-        const auto exact = simulate_at_step(afferent, fine, true, thresholds);
-        if (!exact) return exact.error();
+        const auto exact = TRY(simulate_at_step(afferent, fine, true, thresholds));
         for (int k = 0; k < 3; ++k) {
-            const auto rough = simulate_at_step(afferent, steps[k], false, thresholds);
-            if (!rough) return rough.error();
-            const double difference = largest_time_difference(rough->spikes, exact->spikes);
+            const auto rough = TRY(simulate_at_step(afferent, steps[k], false, thresholds));
+            const double difference = largest_time_difference(rough.spikes, exact.spikes);
             errors[k] = std::isnan(difference) || std::isnan(errors[k]) ? Claim::none : std::max(errors[k], difference);
         }
     }
@@ -94,14 +90,14 @@ Result<StudyResult> compute(const StudyOptions& options) {
     StudyResult out;
     StudyPlot currents{"Error of currents, over their largest value", "T (ms)", "error (%)", {}, true, true},
         spikes{"Largest spike time error", "T (ms)", "error (ms)", {}, true, true};
-    if (auto ok = report_current(out, currents, "sa1", "I_B", "high-pass of 20 Hz"); !ok) return ok.error();
-    if (auto ok = report_current(out, currents, "sa1", "I_C", "high-pass of 2 Hz"); !ok) return ok.error();
-    if (auto ok = options.report_progress(0.3); !ok) return ok.error();
-    if (auto ok = report_current(out, currents, "sa1", "I", "SA-I's current"); !ok) return ok.error();
-    if (auto ok = report_current(out, currents, "fa1", "I", "FA-I's current"); !ok) return ok.error();
-    if (auto ok = options.report_progress(0.6); !ok) return ok.error();
-    if (auto ok = report_spikes(out, spikes, "sa1"); !ok) return ok.error();
-    if (auto ok = report_spikes(out, spikes, "fa1"); !ok) return ok.error();
+    TRY(report_current(out, currents, "sa1", "I_B", "high-pass of 20 Hz"));
+    TRY(report_current(out, currents, "sa1", "I_C", "high-pass of 2 Hz"));
+    TRY(options.report_progress(0.3));
+    TRY(report_current(out, currents, "sa1", "I", "SA-I's current"));
+    TRY(report_current(out, currents, "fa1", "I", "FA-I's current"));
+    TRY(options.report_progress(0.6));
+    TRY(report_spikes(out, spikes, "sa1"));
+    TRY(report_spikes(out, spikes, "fa1"));
     out.plots = {std::move(currents), std::move(spikes)};
     out.note(
         "FA-I's largest error is at the last spike of a decay, where the current is little above the leak, so that a small error of charge "

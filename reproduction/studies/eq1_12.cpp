@@ -39,16 +39,14 @@ Result<void> equation_1(StudyResult& out) {
 
 /// (2) to (4) under the press stimulus, with a gain k (B2a).
 Result<void> equations_2_to_4(StudyResult& out) {
-    const auto response = run_trial({.afferent = "fa1a+lif-b", .probes = {"I_+", "I_-"}});
-    if (!response) return response.error();
-    const auto force = press::force_curve(1e-4);
-    if (!force) return force.error();
-    const auto slope = [&](std::size_t k) { return k == 0 ? 0 : 100e-9 * (force->y[k] - force->y[k - 1]) / 1e-4; };
+    const auto response = TRY(run_trial({.afferent = "fa1a+lif-b", .probes = {"I_+", "I_-"}}));
+    const auto force = TRY(press::force_curve(1e-4));
+    const auto slope = [&](std::size_t k) { return k == 0 ? 0 : 100e-9 * (force.y[k] - force.y[k - 1]) / 1e-4; };
     out.claim("(2): I+ against k max(F', 0), k = 100 nA s/N",
-              largest_difference(response->probes.at("I_+"), [&](std::size_t k) { return std::max(slope(k), 0.0); }), "%")
+              largest_difference(response.probes.at("I_+"), [&](std::size_t k) { return std::max(slope(k), 0.0); }), "%")
         .allow_max(1e-6, "thesis 3.1, eq. 2 and 4; a gain added (B2a)");
     out.claim("(3): I- against k max(-F', 0)",
-              largest_difference(response->probes.at("I_-"), [&](std::size_t k) { return std::max(-slope(k), 0.0); }), "%")
+              largest_difference(response.probes.at("I_-"), [&](std::size_t k) { return std::max(-slope(k), 0.0); }), "%")
         .allow_max(1e-6, "thesis 3.1, eq. 3 and 4; a gain added (B2a)");
     return {};
 }
@@ -57,14 +55,13 @@ Result<void> equations_2_to_4(StudyResult& out) {
 /// uA/N. The window ends before the end of the step, 10 s, at which the current falls.
 Result<double> frequency(const std::string& neuron, double current, double u_rest) {
     const std::string afferent = "sa1a+" + neuron;
-    const auto train = simulate_train(
+    const auto train = TRY(simulate_train(
         {afferent,
          "step",
          {afferent + ".k_d=0", afferent + ".C_m=1uF", afferent + ".V_th=1", afferent + ".V_reset=0.5",
           fmt::format("{}.E_L={}", afferent, u_rest), fmt::format("step.F_max={}", current / 1e-6), "step.t_rest=0", "step.t_hold=10"},
-         1e3});
-    if (!train) return train.error();
-    return measure<LastRate>(*train, {0, 9.9});
+         1e3}));
+    return measure<LastRate>(train, {0, 9.9});
 }
 
 /// (5) to (7): frequencies under constant currents, compared with the exact solutions.
@@ -73,7 +70,7 @@ Result<void> equations_5_to_7(StudyResult& out) {
     double error_A = 0, error_B = 0, error_raised = 0;  // largest relative errors; raised: u_rest is 0.2 V
     for (const double I : {1.05e-6, 1.2e-6, 1.5e-6, 2e-6, 3e-6, 5e-6, 10e-6, 30e-6}) {
         const auto a = frequency("lif-a", I, 0), raised = frequency("lif-a", I, 0.2), b = frequency("lif-b", I, 0);
-        if (auto ok = check_all(a, raised, b); !ok) return ok.error();
+        TRY(check_all(a, raised, b));
         const auto exact_frequency_A = [&](double u_rest) {
             return 1 / std::log((1e6 * I + u_rest - 0.5) / (1e6 * I + u_rest - 1));
         };  // RC is 1 s
@@ -101,21 +98,19 @@ Result<void> equations_5_to_7(StudyResult& out) {
 
 /// (8) and (9) under the press stimulus, and (10) and (11) as printed, I = alpha F' - beta I', with slopes from samples at 10 kHz.
 Result<void> equations_8_to_11(StudyResult& out) {
-    const auto response = run_trial({.afferent = "sa1", .probes = {"I", "I_A", "I_B", "I_C"}});
-    if (!response) return response.error();
-    const auto force = press::force_curve(1e-4);
-    if (!force) return force.error();
-    const auto &I_A = response->probes.at("I_A"), &I_B = response->probes.at("I_B"), &I_C = response->probes.at("I_C");
+    const auto response = TRY(run_trial({.afferent = "sa1", .probes = {"I", "I_A", "I_B", "I_C"}}));
+    const auto force = TRY(press::force_curve(1e-4));
+    const auto &I_A = response.probes.at("I_A"), &I_B = response.probes.at("I_B"), &I_C = response.probes.at("I_C");
     out.claim("(8): I against I_A + max(I_B, 0) + max(I_C, 0)",
-              largest_difference(response->probes.at("I"),
+              largest_difference(response.probes.at("I"),
                                  [&](std::size_t k) { return I_A.y[k] + std::max(I_B.y[k], 0.0) + std::max(I_C.y[k], 0.0); }),
               "%")
         .allow_max(1e-6, "thesis 3.3, eq. 8");
-    out.claim("(9): I_A against k_A F", largest_difference(I_A, [&](std::size_t k) { return 1e-6 * force->y[k]; }), "%")
+    out.claim("(9): I_A against k_A F", largest_difference(I_A, [&](std::size_t k) { return 1e-6 * force.y[k]; }), "%")
         .allow_max(1e-6, "thesis 3.3, eq. 9");
     for (const auto& [name, I, K, f] : {std::tuple{"(10): I_B", &I_B, K_B, f_B}, {"(11): I_C", &I_C, 2e-6, 2.0}}) {
         const double beta = 1 / (2 * M_PI * f), alpha = K * beta;
-        auto slope_F = force->slope(), slope_I = I->slope();
+        auto slope_F = force.slope(), slope_I = I->slope();
         StudyCurve combination = slope_F;
         for (std::size_t k = 0; k < combination.y.size(); ++k) combination.y[k] = alpha * slope_F.y[k] - beta * slope_I.y[k];
         out.claim(fmt::format("{} against alpha F' - beta I', alpha = K / 2 pi f, beta = 1 / 2 pi f", name),
@@ -129,19 +124,18 @@ Result<void> equations_8_to_11(StudyResult& out) {
 
 /// Response of I_B to a sine of force at `f` (Hz): the ratio of their complex amplitudes, A/N.
 Result<Complex> sine_response(double f) {
-    const auto response = run_trial({.afferent = "sa1",
-                                     .stimulus = "sine",
-                                     .settings = {fmt::format("sine.f={}", f), "sine.F_amp=1", "sine.F_mean=2", "sine.duration=2"},
-                                     .rate = 10e3,
-                                     .probes = {"I_B"}});
-    if (!response) return response.error();
-    const auto force = trial_force({{}, "sine", {fmt::format("sine.f={}", f), "sine.F_amp=1", "sine.F_mean=2", "sine.duration=2"}, 10e3});
-    if (!force) return force.error();
-    const auto& I = response->probes.at("I_B");
+    const auto response = TRY(run_trial({.afferent = "sa1",
+                                         .stimulus = "sine",
+                                         .settings = {fmt::format("sine.f={}", f), "sine.F_amp=1", "sine.F_mean=2", "sine.duration=2"},
+                                         .rate = 10e3,
+                                         .probes = {"I_B"}}));
+    const auto force =
+        TRY(trial_force({{}, "sine", {fmt::format("sine.f={}", f), "sine.F_amp=1", "sine.F_mean=2", "sine.duration=2"}, 10e3}));
+    const auto& I = response.probes.at("I_B");
     Complex of_I = 0, of_F = 0;
     for (std::size_t k = I.x.size() / 2; k < I.x.size(); ++k) {  // the last of two seconds holds an integer number of periods
         const auto rotation = std::polar(1.0, -2 * M_PI * f * I.x[k]);
-        of_I += I.y[k] * rotation, of_F += (force->force[k] - 2) * rotation;
+        of_I += I.y[k] * rotation, of_F += (force.force[k] - 2) * rotation;
     }
     return of_I / of_F;
 }
@@ -150,17 +144,16 @@ Result<void> equation_12(StudyResult& out, const StudyOptions& options) {
     StudyCurve computed, exact;
     double worst = 0;
     for (const double f : {1.0, 2.0, 5.0, 10.0, 20.0, 50.0, 100.0, 200.0, 500.0}) {
-        const auto H = sine_response(f);
-        if (!H) return H.error();
+        const auto H = TRY(sine_response(f));
         // both frequencies without the factor 2 pi, which cancels
         const Complex s{0, f}, expected = K_B * s / (s + f_B);
-        worst = std::max(worst, std::abs(*H - expected) / K_B);
-        computed.x.push_back(f), computed.y.push_back(1e6 * std::abs(*H));
+        worst = std::max(worst, std::abs(H - expected) / K_B);
+        computed.x.push_back(f), computed.y.push_back(1e6 * std::abs(H));
         exact.x.push_back(f), exact.y.push_back(1e6 * std::abs(expected));
         if (f == f_B)
-            out.claim("(12): phase of I_B at its corner frequency", std::arg(*H) * 180 / M_PI, "degrees")
+            out.claim("(12): phase of I_B at its corner frequency", std::arg(H) * 180 / M_PI, "degrees")
                 .derived_as(45, "thesis 3.3, eq. 12");
-        if (auto ok = options.report_progress(0.5 + f / 1100); !ok) return ok.error();
+        TRY(options.report_progress(0.5 + f / 1100));
     }
     out.claim("(12): I_B / F under sines of 1 to 500 Hz against K s / (s + 2 pi f), largest difference, relative to K", 100 * worst, "%")
         .allow_max(1, "thesis 3.3, eq. 12; the limit of 1 % is our choice, at 20 samples per period (500 Hz)");
@@ -180,12 +173,12 @@ Result<void> equation_12(StudyResult& out, const StudyOptions& options) {
 
 Result<StudyResult> compute(const StudyOptions& options) {
     StudyResult out;
-    if (auto ok = equation_1(out); !ok) return ok.error();
-    if (auto ok = equations_2_to_4(out); !ok) return ok.error();
-    if (auto ok = equations_5_to_7(out); !ok) return ok.error();
-    if (auto ok = equations_8_to_11(out); !ok) return ok.error();
-    if (auto ok = options.report_progress(0.5); !ok) return ok.error();
-    if (auto ok = equation_12(out, options); !ok) return ok.error();
+    TRY(equation_1(out));
+    TRY(equations_2_to_4(out));
+    TRY(equations_5_to_7(out));
+    TRY(equations_8_to_11(out));
+    TRY(options.report_progress(0.5));
+    TRY(equation_12(out, options));
     out.note("alpha_C1 in (11) is alpha_C (B9). The studies errata-models and errata-neurons simulate the printed forms that are wrong.");
     return out;
 }

@@ -26,15 +26,14 @@ struct BiasPoint {
 /// Solves the transistor at many bias points. The slopes are derivatives of the current at the drain; with channel_only they are those of
 /// the channel alone, without the junctions in parallel.
 Result<std::vector<BiasPoint>> solve_bias_points(std::string_view card, const std::string& model, bool channel_only = false) {
-    const auto found = run_study_variants(
+    const auto found = TRY(run_study_variants(
         {fmt::format(
              "a transistor\n{}vd d 0 {{vd}}\nvg g 0 {{vg}}\nvs s 0 {}\nvb b 0 0\nm1 d g s b {} w=1.5u l=0.5u\n.param vg=0.5 vd=0.5\n", card,
              V_S, model),
          {},
-         ".op\n.tf i(vd) vg\n.tf i(vd) vd\n.tf i(vd) vs\n.tf i(vd) vb\n.step param vg 0.1 1.3 0.1\n.step param vd list 0.12 0.2 0.6"});
-    if (!found) return found.error();
+         ".op\n.tf i(vd) vg\n.tf i(vd) vd\n.tf i(vd) vs\n.tf i(vd) vb\n.step param vg 0.1 1.3 0.1\n.step param vd list 0.12 0.2 0.6"}));
     std::vector<BiasPoint> out;
-    for (const auto& f : *found) {
+    for (const auto& f : found) {
         const auto slope = [&](const char* source, const char* reading) {
             return channel_only ? f.operating_info("m1", reading) : -f.derivative("i(vd)", source);
         };
@@ -105,17 +104,15 @@ StudyPlot inversion_plot() {
 Result<StudyResult> compute(const StudyOptions&) {
     const auto simple = solve_bias_points(simple_card, "plain"), complete = solve_bias_points(process_card, "nch"),
                channel = solve_bias_points(process_card, "nch", true);
-    if (auto ok = check_all(simple, complete, channel); !ok) return ok.error();
+    TRY(check_all(simple, complete, channel));
     StudyResult out;
     for (const auto& e : equations) out.claim(e.label, largest_error(*simple, e.error), "%").allow_max(solver_accuracy, e.source);
     add_errata(out, *simple);
-    const auto pinched_off = run_study_netlist(
-        {fmt::format("pinch-off\n{}vd d 0 1\nvg g 0 {}\nm1 d g 0 0 plain w=1u l=1u\n", simple_card, simple_V_T0), {}, ".op"});
-    if (!pinched_off) return pinched_off.error();
-    out.claim("(23): i_f where V_P = V_S", pinched_off->operating_info("m1", "i_f")).derived_as(3, "thesis eq. 23; errata U4");
-    const auto card = elaborate_study_netlist({fmt::format("card\n{}m1 0 0 0 0 nch w=1u l=1u\n", process_card), {}, ".op"});
-    if (!card) return card.error();
-    for (const auto& m : (*card)->models)
+    const auto pinched_off = TRY(run_study_netlist(
+        {fmt::format("pinch-off\n{}vd d 0 1\nvg g 0 {}\nm1 d g 0 0 plain w=1u l=1u\n", simple_card, simple_V_T0), {}, ".op"}));
+    out.claim("(23): i_f where V_P = V_S", pinched_off.operating_info("m1", "i_f")).derived_as(3, "thesis eq. 23; errata U4");
+    const auto card = TRY(elaborate_study_netlist({fmt::format("card\n{}m1 0 0 0 0 nch w=1u l=1u\n", process_card), {}, ".op"}));
+    for (const auto& m : card->models)
         if (m.name == "nch")
             out.claim("(22): mobility that follows from the card's I_SQ, C_ox and n",
                       2e4 * m.values.at("isq") / (m.values.at("cox") * m.values.at("n") * phi_t * phi_t), "cm^2/(V s)")

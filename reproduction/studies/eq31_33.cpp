@@ -39,14 +39,13 @@ constexpr double W = 0.42, L = 0.18;  // um: the unit transistor of tables 10 an
 /// V_G = V_D = 0.5 V if there are none.
 Result<std::vector<double>> ratios(std::string_view card, const std::string& model, const std::string& array, double S,
                                    const std::string& steps) {
-    const auto all = run_study_variants(
+    const auto all = TRY(run_study_variants(
         {fmt::format("array\n{}{}m1 e g 0 0 {} w={:.15g}u l={}u\nvg g 0 {{vg}}\nvd d 0 {{vd}}\nve e 0 {{vd}}\n.param vg=0.5 vd=0.5\n", card,
                      array, model, S * W, L),
          {},
-         ".op\n" + steps});
-    if (!all) return all.error();
+         ".op\n" + steps}));
     std::vector<double> out;
-    for (const auto& f : *all) out.push_back(f.operating_point("i(vd)") / f.operating_point("i(ve)"));
+    for (const auto& f : all) out.push_back(f.operating_point("i(vd)") / f.operating_point("i(ve)"));
     return out;
 }
 
@@ -74,13 +73,12 @@ std::vector<Array> arrays() {
 /// (33): a mirror of two widths.
 Result<void> add_mirror(StudyResult& out) {
     for (const double ratio : {0.25, 4.0}) {
-        const auto found = run_study_netlist(
+        const auto found = TRY(run_study_netlist(
             {fmt::format("mirror\n{}iin 0 a 100n\nma a a 0 0 plain w=1.5u l=0.5u\nmb b a 0 0 plain w={}u l=0.5u\nvo b 0 0.35\n",
                          simple_card, 1.5 * ratio),
              {},
-             ".op"});
-        if (!found) return found.error();
-        out.claim(fmt::format("mirror of S_B/S_A = {}: I_out/I_in", ratio), -found->operating_point("i(vo)") / 100e-9)
+             ".op"}));
+        out.claim(fmt::format("mirror of S_B/S_A = {}: I_out/I_in", ratio), -found.operating_point("i(vo)") / 100e-9)
             .derived_as(ratio, "thesis eq. 33");
     }
     return {};
@@ -90,22 +88,20 @@ Result<StudyResult> compute(const StudyOptions&) {
     StudyResult out;
     double worst = 0;
     for (const auto& a : arrays()) {
-        const auto simple = ratios(simple_card, "plain", a.text(a, fmt::format("0 plain w={}u l={}u", W, L)), a.S,
-                                   ".step param vg list 0.2 0.35 0.5 0.9 1.8\n.step param vd list 0.02 0.1 0.5");
-        if (!simple) return simple.error();
-        for (const double r : *simple) worst = std::max(worst, std::abs(r - 1));
-        const auto with_process_card = ratios(process_card, "nch018", a.text(a, fmt::format("0 nch018 w={}u l={}u", W, L)), a.S, "");
-        if (!with_process_card) return with_process_card.error();
+        const auto simple = TRY(ratios(simple_card, "plain", a.text(a, fmt::format("0 plain w={}u l={}u", W, L)), a.S,
+                                       ".step param vg list 0.2 0.35 0.5 0.9 1.8\n.step param vd list 0.02 0.1 0.5"));
+        for (const double r : simple) worst = std::max(worst, std::abs(r - 1));
+        const auto with_process_card = TRY(ratios(process_card, "nch018", a.text(a, fmt::format("0 nch018 w={}u l={}u", W, L)), a.S, ""));
         const double published_value = published_ratio(a.name, a.S);
         out.claim(fmt::format("{}: current over that of one transistor of the unit's length and S_eq = {:.4g}, process card, 0.5 V", a.name,
                               a.S),
-                  with_process_card->front())
+                  with_process_card.front())
             .derived_as(std::isnan(published_value) ? 1 : published_value,
                         fmt::format("thesis {}{}", a.equation, std::isnan(published_value) ? "" : "; value from tables 11 and 14"));
     }
     out.claim("equations only: largest error of all arrays, V_G 0.2 to 1.8 V, V_D 20 to 500 mV", 100 * worst, "%")
         .allow_max(1e-6, "thesis eq. 31 and 32, exact in eq. 21 to 25");
-    if (auto ok = add_mirror(out); !ok) return ok.error();
+    TRY(add_mirror(out));
     out.note(
         "With the process card, as in tables 11 and 14, arrays carry less current than the equations give. One transistor of the unit's "
         "length has all of V_DS and its full length modulation; in an array only the transistor nearest to the drain is affected.");

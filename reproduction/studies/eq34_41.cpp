@@ -61,7 +61,7 @@ Result<void> add_parallel_series(StudyResult& out) {
     for (const int n : sizes) {
         const auto simple = simulate_parallel_series(simple_card, "plain", n),
                    with_process_card = simulate_parallel_series(process_card, "nch", n);
-        if (auto ok = check_all(simple, with_process_card); !ok) return ok.error();
+        TRY(check_all(simple, with_process_card));
         const auto prefix = fmt::format("parallel-series, N = {}: I_in/I_out, ", n);
         out.claim(prefix + "equations only", I_in / -simple->operating_point("i(vout)")).derived_as(n * n, "thesis eq. 34; errata C1");
         auto& c = out.claim(prefix + "with the process card", I_in / -with_process_card->operating_point("i(vout)"))
@@ -84,7 +84,7 @@ Result<void> add_split(StudyResult& out) {
     StudyCurve by_40, exact, simple_line, process_line;  // over N^4
     for (const int n : sizes) {
         const auto simple = simulate_split(simple_card, "plain", n), with_process_card = simulate_split(process_card, "nch", n);
-        if (auto ok = check_all(simple, with_process_card); !ok) return ok.error();
+        TRY(check_all(simple, with_process_card));
         const double N2 = n * n, by_38_39 = N2 * (N2 + 2);
         const auto prefix = fmt::format("current splitting, N = {}: ", n);
         out.claim(prefix + "I_DC + I_DD over I_DB, equations only", (simple->I_C + simple->I_out) / simple->I_B)
@@ -126,14 +126,13 @@ Result<void> add_split(StudyResult& out) {
 
 /// (35) as corrected, for a 1 to 1 mirror (A_I = 1): at V_out = V_in the mirror is exact, so G_o multiplies V_out - V_in, not V_out.
 Result<void> add_output(StudyResult& out) {
-    const auto found = run_study_netlist(
+    const auto found = TRY(run_study_netlist(
         {fmt::format("mirror\n{}iin 0 in {:g}\nma in in 0 0 nch w=1.5u l=0.5u\nmb out in 0 0 nch w=1.5u l=0.5u\nvout out 0 0.35\n",
                      process_card, I_in),
          {},
-         ".op\n.dc vout 0.2 0.7 10m"});
-    if (!found) return found.error();
-    const auto I = found->curve("dc", "i(vout)").scaled(1, -1);
-    const double V_in = found->operating_point("v(in)"), G_o = I.slope_at(0.35), at = 0.65;
+         ".op\n.dc vout 0.2 0.7 10m"}));
+    const auto I = found.curve("dc", "i(vout)").scaled(1, -1);
+    const double V_in = found.operating_point("v(in)"), G_o = I.slope_at(0.35), at = 0.65;
     out.claim("1 to 1: I_out/I_in at V_out = V_in, with the process card", I.at(V_in) / I_in).derived_as(1, "errata C2");
     out.claim("1 to 1: I_out at 0.65 V from A_I I_in + G_o (V_out - V_in), over that of the simulated mirror",
               (I_in + G_o * (at - V_in)) / I.at(at))
@@ -147,8 +146,7 @@ Result<void> add_output(StudyResult& out) {
 
 Result<StudyResult> compute(const StudyOptions&) {
     StudyResult out;
-    for (const auto add : {add_parallel_series, add_output, add_split})
-        if (auto ok = add(out); !ok) return ok.error();
+    for (const auto add : {add_parallel_series, add_output, add_split}) TRY(add(out));
     out.note(
         "\"Greater current gain\" (C.2) means greater attenuation: A_I = 1/N^2 (errata C4). R_o and R_out are the same quantity (C3).");
     return out;

@@ -16,15 +16,14 @@ const double phi_t = circuit::thermal_voltage(300.15);
 
 /// (42) in saturation (V_D = 0.6 V). Its relative error is of the order of the inversion level i_f, so it holds in weak inversion only.
 Result<void> add_42(StudyResult& out) {
-    const auto found = run_study_variants(
+    const auto found = TRY(run_study_variants(
         {fmt::format("weak\n{}vd d 0 0.6\nvg g 0 {{vg}}\nvb b 0 {{vb}}\nm1 d g 0 b plain w=1.5u l=0.5u\n.param vg=0.2 vb=0\n", simple_card),
          {},
-         ".op\n.step param vb list 0 0.1 0.2\n.step param vg 0.05 0.5 0.025"});
-    if (!found) return found.error();
+         ".op\n.step param vb list 0 0.1 0.2\n.step param vg 0.05 0.5 0.025"}));
     StudyPlot plot{"Eq. 42 against the complete equations, V_BS = 0.2 V", "V_GS (V)", "I_D (nA)", {}, false, true};
     StudyCurve weak, complete;
     double worst = 0, worst_without_2 = 0;
-    for (const auto& f : *found) {
+    for (const auto& f : found) {
         const double V_G = f.operating_point("v(g)"), V_B = f.operating_point("v(b)"), I = -f.operating_point("i(vd)"),
                      i_f = f.operating_info("m1", "i_f");
         const double by_42 =
@@ -66,14 +65,13 @@ Result<void> add_43(StudyResult& out) {
 /// (44): the voltage V_X of a diode-connected transistor with a grounded bulk, and V_Y of one with its bulk at its gate. At equal currents
 /// in weak inversion V_X = n V_Y: exact in the simple model, because the exponents are equal.
 Result<void> add_44(StudyResult& out) {
-    const auto found = run_study_netlist(
+    const auto found = TRY(run_study_netlist(
         {fmt::format("diodes\n{}ix 0 x 1n\niy 0 y 1n\nmx x x 0 0 plain w=1.5u l=0.5u\nmy y y 0 y plain w=1.5u l=0.5u\n", simple_card),
          {},
-         ".op"});
-    if (!found) return found.error();
-    const double V_X = found->operating_point("v(x)"), V_Y = found->operating_point("v(y)");
+         ".op"}));
+    const double V_X = found.operating_point("v(x)"), V_Y = found.operating_point("v(y)");
     out.claim("(44): V_X/V_Y at 1 nA, equations only", V_X / V_Y).derived_as(simple_n, "thesis eq. 44");
-    out.claim("(44): i_fX/i_fY at 1 nA", found->operating_info("mx", "i_f") / found->operating_info("my", "i_f"))
+    out.claim("(44): i_fX/i_fY at 1 nA", found.operating_info("mx", "i_f") / found.operating_info("my", "i_f"))
         .derived_as(1, "thesis app. D: about the same");
     out.claim_true("the voltage of the body-biased diode is V_Y, the lower one", V_Y < V_X, "errata C8");
     return {};
@@ -81,8 +79,7 @@ Result<void> add_44(StudyResult& out) {
 
 Result<StudyResult> compute(const StudyOptions&) {
     StudyResult out;
-    for (const auto add : {add_42, add_43, add_44})
-        if (auto ok = add(out); !ok) return ok.error();
+    for (const auto add : {add_42, add_43, add_44}) TRY(add(out));
     return out;
 }
 

@@ -45,16 +45,15 @@ void add_mismatch_by_area(StudyResult& out) {
 Result<void> add_mismatch_by_inversion(StudyResult& out) {
     // standard deviation of I_D (%) of A at this gate voltage: A_VT / sqrt(W L) times g_mg/I_D
     const auto sigma = [&](double V_G) -> Result<double> {
-        const auto found = run_study_netlist(
-            {fmt::format("slope\n{}vd d 0 1\nvg g 0 {}\nm1 d g 0 0 nch018 w=0.42u l=0.18u\n", process_card, V_G), {}, ".op"});
-        if (!found) return found.error();
+        const auto found = TRY(run_study_netlist(
+            {fmt::format("slope\n{}vd d 0 1\nvg g 0 {}\nm1 d g 0 0 nch018 w=0.42u l=0.18u\n", process_card, V_G), {}, ".op"}));
         double A_VT = 0;
-        for (const auto& m : found->circuit->models)
+        for (const auto& m : found.circuit->models)
             if (m.name == "nch018") A_VT = m.values.at("avt");
-        return 100 * A_VT / std::sqrt(0.42e-6 * 0.18e-6) * found->operating_info("m1", "g_mg") / found->operating_info("m1", "i_d");
+        return 100 * A_VT / std::sqrt(0.42e-6 * 0.18e-6) * found.operating_info("m1", "g_mg") / found.operating_info("m1", "i_d");
     };
     const auto weak = sigma(0.25), strong = sigma(0.9);
-    if (auto ok = check_all(weak, strong); !ok) return ok.error();
+    TRY(check_all(weak, strong));
     out.claim("A: standard deviation of I_D caused by threshold mismatch, at V_G = 0.25 V", *weak, "%");
     out.claim("A: standard deviation of I_D caused by threshold mismatch, at V_G = 0.9 V", *strong, "%")
         .allow_max(*weak, "errata U14: it falls as the inversion level rises");
@@ -63,12 +62,11 @@ Result<void> add_mismatch_by_inversion(StudyResult& out) {
 
 /// (U13) V_T does not depend on the drain voltage.
 Result<void> add_threshold(StudyResult& out) {
-    const auto found = run_study_variants(
+    const auto found = TRY(run_study_variants(
         {fmt::format("drain\n{}vd d 0 {{vd}}\nvg g 0 0.3\nm1 d g 0 0 nch018 w=0.42u l=0.18u\n.param vd=0\n", process_card),
          {},
-         ".op\n.step param vd list 0 0.5"});
-    if (!found) return found.error();
-    const double at_0 = found->front().operating_info("m1", "v_t"), at_half = found->back().operating_info("m1", "v_t");
+         ".op\n.step param vd list 0 0.5"}));
+    const double at_0 = found.front().operating_info("m1", "v_t"), at_half = found.back().operating_info("m1", "v_t");
     out.claim("short unit transistor: V_T at V_D = 0.5 V minus V_T at V_D = 0", at_half - at_0, "V")
         .allow_range(-16e-3, 0, "errata U13: the largest drain-induced barrier lowering that g_md allows; the fit gives 0");
     const auto V_T = [](const PublishedArrays& all, const char* name) { return 1e-3 * find_published(all, name).V_T; };
@@ -81,15 +79,14 @@ Result<void> add_threshold(StudyResult& out) {
 
 /// (C7) Appendix D prints V_B = V_D for the plain diode of fig. 48a; that would be the body-biased diode of fig. 48b.
 Result<void> add_bulk(StudyResult& out) {
-    const auto found = run_study_netlist(
+    const auto found = TRY(run_study_netlist(
         {fmt::format("diodes\n{}va a 0 0.3\nvs s a 0\nvd e a 0\nm1 s s 0 0 nch w=1.5u l=0.5u\nm2 e e 0 e nch w=1.5u l=0.5u\n",
                      process_card),
          {},
-         ".op"});
-    if (!found) return found.error();
+         ".op"}));
     // m1: bulk at the source; m2: bulk at the drain
     out.claim("current of a diode with V_B = V_D, as appendix D prints for fig. 48a, over that with V_B = V_S, at 0.3 V",
-              found->operating_point("i(vd)") / found->operating_point("i(vs)"))
+              found.operating_point("i(vd)") / found.operating_point("i(vs)"))
         .allow_min(2, "errata C7: V_B = V_D would be fig. 48b already");
     return {};
 }
@@ -98,8 +95,7 @@ Result<StudyResult> compute(const StudyOptions&) {
     StudyResult out;
     add_tables(out);
     add_mismatch_by_area(out);
-    for (const auto add : {add_mismatch_by_inversion, add_threshold, add_bulk})
-        if (auto ok = add(out); !ok) return ok.error();
+    for (const auto add : {add_mismatch_by_inversion, add_threshold, add_bulk}) TRY(add(out));
     out.note(
         "The other errata are in these studies. U2, U4, U5: eq21-30. U7, U10, U13: table11. U5, U6, U12, U14: table12. U8: table14. U9, "
         "U17, U18: table15. U11, U16: table10. U19: eq31-33. C1 to C6: eq34-41. C8: eq42-44.");

@@ -38,10 +38,9 @@ Result<void> algorithm_1(StudyResult& out) {
     double as_printed[2], corrected[2];
     for (int k = 0; k < 2; ++k) {
         const double step = k == 0 ? 1e-3 : 1e-4;
-        const auto force = press::force_curve(step);
-        if (!force) return force.error();
-        as_printed[k] = apply(*force, [&](double F, double before) { return k_d / 1e-3 * std::abs(F - before); }).max();
-        corrected[k] = apply(*force, [&](double F, double before) { return k_d / step * std::abs(F - before); }).max();
+        const auto force = TRY(press::force_curve(step));
+        as_printed[k] = apply(force, [&](double F, double before) { return k_d / 1e-3 * std::abs(F - before); }).max();
+        corrected[k] = apply(force, [&](double F, double before) { return k_d / step * std::abs(F - before); }).max();
     }
     out.claim("Alg. 1: dynamic component at T = 1 ms over that at 0.1 ms, as printed", as_printed[0] / as_printed[1])
         .derived_as(1, "thesis 3.1: eq. 1 does not depend on T")
@@ -101,24 +100,23 @@ Result<void> algorithm_5(StudyResult& out, const StudyCurve& force, StudyPlot& r
     StudyCurve static_part = force;
     for (double& y : static_part.y) y *= 1e-6;
     const auto static_spikes = lif_b(static_part, fig16_membrane).spikes;
-    const auto catalogue_spikes = simulate_train(press::thesis_algorithm("sa1", {"sa1.V_th=1", "sa1.V_reset=0.5"}));
-    if (!catalogue_spikes) return catalogue_spikes.error();
+    const auto catalogue_spikes = TRY(simulate_train(press::thesis_algorithm("sa1", {"sa1.V_th=1", "sa1.V_reset=0.5"})));
     const auto largest_I_B =
         apply_filter(force, 8e-6, 20, FilterForm::difference).between(0, press::protraction.from + 50e-3).absolute().max();
     out.claim("Alg. 5: largest I_B in the first 50 ms of the ramp if I' is a difference, as printed", largest_I_B, "A")
         .allow_max(8e-6 * (press::max_force - press::min_force), "eq. 12: a high-pass of gain K_B cannot give more than K_B times the step")
         .explain("the filter is unstable (B8)");
     out.claim("Alg. 5: spikes if I' is I[n-1], as printed", static_cast<double>(value.size()), "spikes")
-        .allow_range(static_cast<double>(catalogue_spikes->size()), static_cast<double>(catalogue_spikes->size()),
+        .allow_range(static_cast<double>(catalogue_spikes.size()), static_cast<double>(catalogue_spikes.size()),
                      "sa1 of the catalogue with fig. 16's theta")
         .explain("with its pole at -k_2 the filter passes only frequencies near half the sample rate, so almost no current remains (B8)");
     out.claim("Alg. 5: spikes with I_A only", static_cast<double>(static_spikes.size()), "spikes");
     out.claim("Alg. 5: spikes, as corrected", static_cast<double>(corrected.size()), "spikes")
-        .allow_range(static_cast<double>(catalogue_spikes->size()), static_cast<double>(catalogue_spikes->size()),
+        .allow_range(static_cast<double>(catalogue_spikes.size()), static_cast<double>(catalogue_spikes.size()),
                      "sa1 of the catalogue with fig. 16's theta");
     raster.raster_row("Alg. 5 as printed, I' = I[n-1]", value)
         .raster_row("Alg. 5 as corrected", corrected)
-        .raster_row("sa1", *catalogue_spikes);
+        .raster_row("sa1", catalogue_spikes);
     return {};
 }
 
@@ -142,8 +140,7 @@ Result<void> algorithm_6(StudyResult& out, const StudyCurve& force, StudyPlot& r
         });
     };
     const auto as_printed = lif_b(current(1), fa1_membrane).spikes, corrected = lif_b(current(-1), fa1_membrane).spikes;
-    const auto catalogue_spikes = simulate_train(press::thesis_algorithm("fa1"));
-    if (!catalogue_spikes) return catalogue_spikes.error();
+    const auto catalogue_spikes = TRY(simulate_train(press::thesis_algorithm("fa1")));
     const TimeWindow later{press::retraction.from, 2};
     out.claim("Alg. 6: spikes from the start of retraction, as printed", press::spike_count(as_printed, later), "spikes")
         .allow_min(1, "thesis 1.2 and 3.4: discharges in retraction")
@@ -151,8 +148,8 @@ Result<void> algorithm_6(StudyResult& out, const StudyCurve& force, StudyPlot& r
             "k_B I_0 is negative while the force falls; -k_B I_0 is meant, which makes a full-wave rectifier with two gains, as in 4.3.2 "
             "(B12)");
     out.claim("Alg. 6: spikes from the start of retraction, as corrected", press::spike_count(corrected, later), "spikes")
-        .allow_range(press::spike_count(*catalogue_spikes, later), press::spike_count(*catalogue_spikes, later), "fa1 of the catalogue");
-    raster.raster_row("Alg. 6 as printed", as_printed).raster_row("Alg. 6 as corrected", corrected).raster_row("fa1", *catalogue_spikes);
+        .allow_range(press::spike_count(catalogue_spikes, later), press::spike_count(catalogue_spikes, later), "fa1 of the catalogue");
+    raster.raster_row("Alg. 6 as printed", as_printed).raster_row("Alg. 6 as corrected", corrected).raster_row("fa1", catalogue_spikes);
     return {};
 }
 
@@ -165,22 +162,21 @@ void check_first_sample(StudyResult& out, const StudyCurve& force) {
 
 Result<StudyResult> compute(const StudyOptions& options) {
     StudyResult out;
-    const auto force = press::force_curve(T);
-    if (!force) return force.error();
+    const auto force = TRY(press::force_curve(T));
     StudyPlot raster{"Spikes under the press stimulus, T = 1 ms", "time (s)", "", {}};
-    if (auto ok = algorithm_1(out); !ok) return ok.error();
-    if (auto ok = algorithm_2(out, *force); !ok) return ok.error();
-    if (auto ok = options.report_progress(0.4); !ok) return ok.error();
-    if (auto ok = algorithm_5(out, *force, raster); !ok) return ok.error();
-    check_gain_units(out, *force);
-    if (auto ok = algorithm_6(out, *force, raster); !ok) return ok.error();
-    check_first_sample(out, *force);
+    TRY(algorithm_1(out));
+    TRY(algorithm_2(out, force));
+    TRY(options.report_progress(0.4));
+    TRY(algorithm_5(out, force, raster));
+    check_gain_units(out, force);
+    TRY(algorithm_6(out, force, raster));
+    check_first_sample(out, force);
     out.plots.push_back(std::move(raster));
     out.plot("I_B by Alg. 5, T = 1 ms", "time (s)", "current (uA)")
-        .add("as corrected", apply_filter(*force, 8e-6, 20, FilterForm::corrected).scaled(1, 1e6))
-        .add("as printed, I' = I[n-1]", apply_filter(*force, 8e-6, 20, FilterForm::value).scaled(1, 1e6))
+        .add("as corrected", apply_filter(force, 8e-6, 20, FilterForm::corrected).scaled(1, 1e6))
+        .add("as printed, I' = I[n-1]", apply_filter(force, 8e-6, 20, FilterForm::value).scaled(1, 1e6))
         .add("as printed, I' a difference, up to 20 ms after the start of the ramp",
-             apply_filter(*force, 8e-6, 20, FilterForm::difference).between(0, press::protraction.from + 20e-3).scaled(1, 1e6));
+             apply_filter(force, 8e-6, 20, FilterForm::difference).between(0, press::protraction.from + 20e-3).scaled(1, 1e6));
     out.note(
         "The other errata are in these studies. B1: fig4. B11a: fig8. B10a, B13, B13a: fig18. B14: fig5. B15: fig17. B9a: eq1-12. The "
         "neurons' errata: errata-neurons. B2a, B8a, B9, B11, B12a to B12c and B17 to B19 concern names, units and wording.");

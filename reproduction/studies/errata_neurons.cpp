@@ -47,9 +47,9 @@ void algorithm_3(StudyResult& out) {
 
 /// Algorithm 4 as printed: the current is added to u_rest, not to u[n-1] (B6).
 Result<void> algorithm_4(StudyResult& out) {
-    const auto response = run_trial({.afferent = "sa1", .rate = 1 / T, .probes = {"I"}, .method = Method::backward_euler, .sampled = true});
-    if (!response) return response.error();
-    const auto& I = response->probes.at("I");
+    const auto response =
+        TRY(run_trial({.afferent = "sa1", .rate = 1 / T, .probes = {"I"}, .method = Method::backward_euler, .sampled = true}));
+    const auto& I = response.probes.at("I");
     const double theta = 0.5, C_m = 500e-9;
     StudyCurve u = I;
     for (double& y : u.y) y = T / C_m * (y - leak);
@@ -58,7 +58,7 @@ Result<void> algorithm_4(StudyResult& out) {
         .explain("as printed u[n] does not depend on u[n-1], so it contains the charge of one step only (B6)");
     const auto corrected = algorithms::lif_b(I, {});
     out.claim("Alg. 4: spikes, as corrected", static_cast<double>(corrected.spikes.size()), "spikes")
-        .allow_range(static_cast<double>(response->spikes.size()), static_cast<double>(response->spikes.size()), "sa1 of the catalogue");
+        .allow_range(static_cast<double>(response.spikes.size()), static_cast<double>(response.spikes.size()), "sa1 of the catalogue");
     out.plot("Membrane of SA-I under the press stimulus", "time (s)", "u (V)")
         .add("Alg. 4 as printed", u)
         .add("as corrected", corrected.u)
@@ -85,17 +85,16 @@ Result<void> one_spike_per_sample(StudyResult& out) {
     const double current = 400e-6;
     const auto as_printed = algorithms::lif_b(constant_current(current, 0.1), {});
     const std::string afferent = "sa1a+lif-b";
-    const auto catalogue_spikes = simulate_train(
+    const auto catalogue_spikes = TRY(simulate_train(
         {afferent,
          "step",
-         {fmt::format("step.F_max={}", current / 1e-6), "step.t_rest=0", "step.t_hold=100ms", "step.t_post=0", afferent + ".k_d=0"}});
-    if (!catalogue_spikes) return catalogue_spikes.error();
+         {fmt::format("step.F_max={}", current / 1e-6), "step.t_rest=0", "step.t_hold=100ms", "step.t_post=0", afferent + ".k_d=0"}}));
     const double expected = (current - leak) / 500e-9 / 0.25;  // C and theta - u_rst of both
     out.claim("Alg. 4: frequency at 400 uA, one spike per sample as printed", static_cast<double>(as_printed.spikes.size()) / 0.1, "Hz")
         .derived_as(expected, "thesis 3.2: (I - I_leak0) / [C (theta - u_rst)]")
         .explain("if u rises by more than theta - u_rst in a sample, the excess over theta remains and grows (B6c)");
     out.claim("LIF-B of the catalogue: frequency at 400 uA, with several spikes per sample",
-              static_cast<double>(catalogue_spikes->size()) / 0.1, "Hz")
+              static_cast<double>(catalogue_spikes.size()) / 0.1, "Hz")
         .derived_as(expected, "thesis 3.2: (I - I_leak0) / [C (theta - u_rst)]");
     return {};
 }
@@ -119,11 +118,11 @@ void check_rounding(StudyResult& out) {
 Result<StudyResult> compute(const StudyOptions& options) {
     StudyResult out;
     algorithm_3(out);
-    if (auto ok = algorithm_4(out); !ok) return ok.error();
+    TRY(algorithm_4(out));
     out.claim("(6) and (7) only: u after a second of -0.5 uA", integrate_equations(-0.5e-6, 1), "V")
         .allow_range(0, 0, "Alg. 4: not below u_rest")
         .explain("the equations have no lower bound; the algorithm's bound is meant (B6a)");
-    if (auto ok = options.report_progress(0.5); !ok) return ok.error();
+    TRY(options.report_progress(0.5));
     const double current = 2e-6, below = -0.25;  // A; V, u_rst relative to u_rest
     out.claim("(6) and (7): frequency with u_rst 0.25 V below u_rest", 1 / interval(current, below, 1), "Hz")
         .derived_as((current - leak) / C / (1 - below), "thesis 3.2: \"equal\" to [I - I_leak0] / [C (theta - u_rst)]");
@@ -131,7 +130,7 @@ Result<StudyResult> compute(const StudyOptions& options) {
         .derived_as((current - leak) / C / (1 + below), "thesis 3.2: [I - I_leak0] / [C (theta - u_rst)]");
     if (auto& c = out.claims[out.claims.size() - 2]; true)  // the claim with u_rst below u_rest
         c.explain("below u_rest there is no leak, so the interval has two parts; the formula is exact for u_rst at or above u_rest (B6b)");
-    if (auto ok = one_spike_per_sample(out); !ok) return ok.error();
+    TRY(one_spike_per_sample(out));
     check_rounding(out);
     out.note("The study fig16 covers B5a and B5b (rheobase and frequency of LIF-A). The catalogue's LIF-B rejects u_rst below u_rest.");
     return out;

@@ -39,13 +39,12 @@ Counts counts_of(const std::vector<SheetSpike>& spikes) {
 
 /// The sensors' force and positions. `layout` is the file of the positions.
 Result<SheetForce> read_force(const std::string& path, const std::string& layout) {
-    auto source = open_recording(path, {.rate = rate, .scale = scale, .layout = layout});
-    if (!source) return source.error();
-    SheetForce out{(*source)->clock().T(), {}, {}};
-    for (const auto& c : (*source)->channels()) out.positions.push_back({c.position->x * 1e-3, c.position->y * 1e-3});  // mm to m
+    auto source = TRY(open_recording(path, {.rate = rate, .scale = scale, .layout = layout}));
+    SheetForce out{source->clock().T(), {}, {}};
+    for (const auto& c : source->channels()) out.positions.push_back({c.position->x * 1e-3, c.position->y * 1e-3});  // mm to m
     out.force.resize(out.positions.size());
     for (Frames block(out.positions.size(), 1024);;) {
-        if (auto ok = (*source)->read(block); !ok) return ok.error();
+        TRY(source->read(block));
         if (block.count == 0) return out;
         for (std::size_t s = 0; s < out.positions.size(); ++s)  // negative readings are taken as 0
             for (std::size_t k = 0; k < block.count; ++k) out.force[s].push_back(std::max(0.0, block.force[s][k]));
@@ -56,7 +55,7 @@ Result<Published> read_published(const std::string& from_folder) {
     Published out;
     const auto network = read_spikes(from_folder + "/snn_spikes_S6_T16.csv"),
                motors = read_spikes(from_folder + "/motor_spikes_S6_T16.csv");
-    if (auto ok = check_all(network, motors); !ok) return ok.error();
+    TRY(check_all(network, motors));
     for (const auto& train : *network)
         for (const double t : train.times) out.network.push_back({t, std::stoul(train.afferent) - 1});
     std::sort(out.network.begin(), out.network.end(), [](const auto& a, const auto& b) { return a.time < b.time; });
@@ -252,18 +251,14 @@ Result<StudyResult> compute(const StudyOptions& options) {
     if (!std::filesystem::is_directory(path))
         return bad_input(fmt::format("no recording in '{}'; CORPUSCLE_DATA must name the folder that contains '{}'", path, folder));
     Comparison a;
-    auto force = read_force(path + "/fbg_press_S6_T16.csv", path + "/sensor_positions.csv");
-    if (!force) return force.error();
-    a.force = std::move(*force);
-    auto published = read_published(path);
-    if (!published) return published.error();
-    a.published = std::move(*published);
+    auto force = TRY(read_force(path + "/fbg_press_S6_T16.csv", path + "/sensor_positions.csv"));
+    a.force = std::move(force);
+    auto published = TRY(read_published(path));
+    a.published = std::move(published);
     a.sheet.corner = {-0.5 * static_cast<double>(a.sheet.rows) * a.sheet.pitch, 0};
     for (const auto& [name, spikes] : {std::pair{"sa1", &a.sa1}, {"fa1", &a.fa1}}) {
-        auto response = simulate_sheet(a.sheet, name, a.force, sigma);
-        if (!response) return response.error();
-        *spikes = std::move(*response);
-        if (auto ok = options.report_progress(name[0] == 's' ? 0.4 : 0.8); !ok) return ok.error();
+        *spikes = TRY(simulate_sheet(a.sheet, name, a.force, sigma));
+        TRY(options.report_progress(name[0] == 's' ? 0.4 : 0.8));
     }
     StudyResult out;
     report_numbers(out, a);

@@ -31,10 +31,9 @@ Result<StudyValues> compute_values(const StudyOptions& options) {
     StudyValues out;
     for (const auto& [name, neuron, u_rest] :
          {std::tuple{"rheobase_A", "lif-a", 0.0}, {"rheobase_B", "lif-b", 0.0}, {"rheobase_raised", "lif-a", 0.2}}) {
-        const auto current = rheobase(neuron, u_rest);
-        if (!current) return current.error();
-        out.emplace(name, *current);
-        if (auto ok = options.report_progress(0); !ok) return ok.error();
+        const auto current = TRY(rheobase(neuron, u_rest));
+        out.emplace(name, current);
+        TRY(options.report_progress(0));
     }
     return out;
 }

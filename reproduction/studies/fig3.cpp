@@ -17,7 +17,7 @@ Result<StudyValues> compute_values(const StudyOptions& options) {
             [](const std::vector<double>& spikes) { return !spikes.empty(); });
         if (!smallest) return smallest.error();
         out.emplace(fmt::format("smallest_{}", afferent), *smallest);
-        if (auto ok = options.report_progress(0); !ok) return ok.error();
+        TRY(options.report_progress(0));
     }
     return out;
 }

@@ -44,16 +44,15 @@ double cosine_error(const StudyCurve& force) {
 
 Result<StudyResult> compute(const StudyOptions&) {
     StudyResult out;
-    const auto force = press::force_curve(1e-4);
-    if (!force) return force.error();
+    const auto force = TRY(press::force_curve(1e-4));
     const double mid_plateau = (press::plateau.from + press::plateau.to) / 2, end = press::after.to;
-    const double up = ramp_duration(*force, {0, mid_plateau}), down = ramp_duration(*force, {mid_plateau, end});
-    out.claim("smallest force", force->min(), "N").published_as(0.2, source);
-    out.claim("largest force", force->max(), "N").published_as(4, source);
-    out.claim("duration of the rest before protraction", force->crossing(force->min() + 1e-9), "s").published_as(250e-3, source);
+    const double up = ramp_duration(force, {0, mid_plateau}), down = ramp_duration(force, {mid_plateau, end});
+    out.claim("smallest force", force.min(), "N").published_as(0.2, source);
+    out.claim("largest force", force.max(), "N").published_as(4, source);
+    out.claim("duration of the rest before protraction", force.crossing(force.min() + 1e-9), "s").published_as(250e-3, source);
     out.claim("duration of protraction", up, "s").published_as(125e-3, source);
     // from the first to the last change of the whole stimulus, without both ramps
-    out.claim("duration of the plateau", ramp_duration(*force, {0, end}) - up - down, "s").published_as(250e-3, source);
+    out.claim("duration of the plateau", ramp_duration(force, {0, end}) - up - down, "s").published_as(250e-3, source);
     out.claim("duration of retraction", down, "s")
         .published_as(250e-3, source)
         .explain(
@@ -61,24 +60,23 @@ Result<StudyResult> compute(const StudyOptions&) {
             "of the same group has forces that rise in 125 ms");
     out.claim("duration of retraction, if symmetrical", down, "s")
         .published_as(125e-3, "thesis 1.2: \"symmetrical to the protraction phase\"");
-    out.claim("retraction against time-reversed protraction, largest difference", asymmetry(*force), "N")
+    out.claim("retraction against time-reversed protraction, largest difference", asymmetry(force), "N")
         .allow_max(1e-3, "thesis 1.2: symmetrical; within 1 mN here");
-    out.claim("protraction against half a cosine, largest difference", cosine_error(*force), "N")
+    out.claim("protraction against half a cosine, largest difference", cosine_error(force), "N")
         .allow_max(1e-3, "thesis 1.2: a sinusoidal ramp; within 1 mN here");
-    out.claim("steepest slope", force->slope().max(), "N/s");
-    const auto slow_retraction = trial_force({{}, "press", {"press.t_down=250ms"}});
-    if (!slow_retraction) return slow_retraction.error();
+    out.claim("steepest slope", force.slope().max(), "N/s");
+    const auto slow_retraction = TRY(trial_force({{}, "press", {"press.t_down=250ms"}}));
     for (const char* name : {"sa1", "fa1"}) {
         const auto as_used = simulate_train({name}), as_printed = simulate_train({name, "press", {"press.t_down=250ms"}});
-        if (auto ok = check_all(as_used, as_printed); !ok) return ok.error();
+        TRY(check_all(as_used, as_printed));
         const TimeWindow later{press::retraction.from, 2};
         out.claim(std::string(name) + ": spikes from the start of a retraction of 125 ms", press::spike_count(*as_used, later), "spikes");
         out.claim(std::string(name) + ": spikes from the start of a retraction of 250 ms", press::spike_count(*as_printed, later),
                   "spikes");
     }
     out.plot("Force of the experiment", "time (s)", "force (N)")
-        .add("as used here: retraction of 125 ms", *force)
-        .add("as printed: retraction of 250 ms", slow_retraction->curve())
+        .add("as used here: retraction of 125 ms", force)
+        .add("as printed: retraction of 250 ms", slow_retraction.curve())
         .describe_published("rest, sinusoidal ramp, plateau and a symmetrical retraction, 0.2 to 4 N");
     out.note("The five directions and several places on the fingertip (fig. 4 A, B) are not modelled: the models have one force input.");
     out.note(

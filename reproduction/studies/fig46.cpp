@@ -20,9 +20,8 @@ constexpr int sizes[] = {1, 2, 4, 8};          // N: unit transistors in paralle
 /// Compares a mirror of a short and a long transistor, each with its own threshold (A and B1 of table 11), with a mirror of the same ratio
 /// whose long transistor is an array of short ones in series.
 Result<void> add_lengths(StudyResult& out) {
-    const auto b1 = elaborate_study_netlist({"rectangular_arrays"});
-    if (!b1) return b1.error();
-    const auto& values = (*b1)->elements[static_cast<std::size_t>((*b1)->find_element("xb1.mg1"))].values;
+    const auto b1 = TRY(elaborate_study_netlist({"rectangular_arrays"}));
+    const auto& values = b1->elements[static_cast<std::size_t>(b1->find_element("xb1.mg1"))].values;
     const double L = values.at("l"), shift = values.at("delvto"), ratio = L / 0.18e-6;
     const int n = static_cast<int>(std::lround(ratio));
     const std::string unit = "0 nch018 w=0.42u l=0.18u";
@@ -32,7 +31,7 @@ Result<void> add_lengths(StudyResult& out) {
     };
     const auto by_length = mirror(fmt::format("mb out in 0 0 nch018 w=0.42u l={} delvto={}\n", L, shift));
     const auto by_array = mirror(array_lines("b", "out", "in", "0", 1, n, unit));
-    if (auto ok = check_all(by_length, by_array); !ok) return ok.error();
+    TRY(check_all(by_length, by_array));
     const double long_transistor = I_in / -by_length->operating_point("i(vo)"), array = I_in / -by_array->operating_point("i(vo)");
     out.claim(fmt::format("0.18 um to {:g} um: I_in/I_out over the ratio of aspect ratios", 1e6 * L), long_transistor / ratio)
         .derived_as(1, "thesis eq. 33");
@@ -60,7 +59,7 @@ Result<void> add_spread(StudyResult& out) {
         return sample_statistics(*chips, "i(vo)").cv_percent();
     };
     const auto arrays = deviation(4, 4), parallel = deviation(16, 1);
-    if (auto ok = check_all(arrays, parallel); !ok) return ok.error();
+    TRY(check_all(arrays, parallel));
     out.claim("1/16 by 4 unit transistors in parallel to 4 in series: standard deviation of I_out over 1000 chips", std::abs(*arrays), "%")
         .allow_max(
             std::abs(*parallel),
@@ -69,20 +68,19 @@ Result<void> add_spread(StudyResult& out) {
 }
 
 Result<StudyResult> compute(const StudyOptions&) {
-    const auto found = run_study_netlist({"parallel_series_mirror", {}, ".dc vo 0 0.7 5m"});
-    if (!found) return found.error();
+    const auto found = TRY(run_study_netlist({"parallel_series_mirror", {}, ".dc vo 0 0.7 5m"}));
     StudyResult out;
     StudyPlot currents{"I_out of mirrors of N in parallel to N in series, 100 nA in", "V_out (V)", "I_out N^2 (nA)", {}};
     StudyPlot slopes{"Output conductance", "V_out (V)", "G_o N^2 (nS)", {}, false, true};
     for (const int n : sizes) {
         const double N2 = n * n;
-        const auto I = found->curve("dc", fmt::format("i(v{})", n)).scaled(1, -1), slope = I.slope();
+        const auto I = found.curve("dc", fmt::format("i(v{})", n)).scaled(1, -1), slope = I.slope();
         const auto name = n == 1 ? std::string("conventional (46a), 1 to 1") : fmt::format("parallel-series (46b), N = {}", n);
         out.claim(fmt::format("{}: I_in/I_out at 0.35 V", name), I_in / I.at(V_out))
             .derived_as(N2, n == 1 ? "thesis eq. 33, 1 to 1" : "thesis eq. 34");
         auto& c = out.claim(
             fmt::format("{}: I_out/G_o over I_out/G_o of the 1 to 1 mirror", name),
-            I.at(V_out) / slope.at(V_out) / (found->curve("dc", "i(v1)").at(V_out) / found->curve("dc", "i(v1)").slope().at(V_out)));
+            I.at(V_out) / slope.at(V_out) / (found.curve("dc", "i(v1)").at(V_out) / found.curve("dc", "i(v1)").slope().at(V_out)));
         c.derived_as(n, "thesis eq. 36: V_A = V_E L");
         if (c.needs_explanation())
             c.explain(
@@ -95,8 +93,7 @@ Result<StudyResult> compute(const StudyOptions&) {
                   array / plain)
             .allow_max(1, "thesis B.1, C.1: area-efficient");
     }
-    for (const auto add : {add_lengths, add_spread})
-        if (auto ok = add(out); !ok) return ok.error();
+    for (const auto add : {add_lengths, add_spread}) TRY(add(out));
     out.plots = {currents.describe_published("C.1: I_out is I_in over N^2"),
                  slopes.describe_published("C.1: G_o falls as the channel lengthens (eq. 36)")};
     return out;

@@ -12,16 +12,14 @@ constexpr BiasFigure figure{BiasAxis::current, "53", "I_BIAS (nA)", "A", 1e9, {1
 
 /// True if both transistors at node BN are saturated.
 Result<bool> is_saturated(double I_BIAS) {
-    const auto s = simulate_bias_state({bias_setting(BiasAxis::current, I_BIAS)});
-    if (!s) return s.error();
-    return s->V_M3B >= s->V_sat_M3B && s->V_M4A >= s->V_sat_M4A;
+    const auto s = TRY(simulate_bias_state({bias_setting(BiasAxis::current, I_BIAS)}));
+    return s.V_M3B >= s.V_sat_M3B && s.V_M4A >= s.V_sat_M4A;
 }
 
 Result<StudyResult> compute(const StudyOptions& options) {
     StudyResult out;
-    const auto corners = simulate_bias_figure(figure, out, options);
-    if (!corners) return corners.error();
-    const auto& typical = corners->front();
+    const auto corners = TRY(simulate_bias_figure(figure, out, options));
+    const auto& typical = corners.front();
     const auto V_BN = typical.sweep.curve("v(bn)");
     const std::string why =
         "V_BN follows from V_T, n and I_SQ of the process card. Its V_T is set so that the unbiased inverter carries the published 17.5 "
@@ -34,7 +32,7 @@ Result<StudyResult> compute(const StudyOptions& options) {
     out.claim_true("V_BN rises with I_BIAS", V_BN.slope().between(20e-9, 2e-6).min() > 0, figure.source());
     const auto inside = is_saturated(200e-9),  // inside, below and above the working range
         below = is_saturated(0.5 * typical.working_range.from), above = is_saturated(2 * typical.working_range.to);
-    if (auto ok = check_all(inside, below, above); !ok) return ok.error();
+    TRY(check_all(inside, below, above));
     const char* source = "E.2: saturated in the range, in the linear region below and above it";
     out.claim_true("M3B and M4A are saturated at 200 nA", *inside, source);
     out.claim_true("at least one of them is not saturated at half the lower end of the working range", !*below, source);

@@ -14,9 +14,8 @@ constexpr BiasFigure figure{BiasAxis::supply, "54", "V_DD (V)", "V", 1, {550e-3,
 
 Result<StudyResult> compute(const StudyOptions& options) {
     StudyResult out;
-    const auto corners = simulate_bias_figure(figure, out, options);
-    if (!corners) return corners.error();
-    const auto& typical = corners->front();
+    const auto corners = TRY(simulate_bias_figure(figure, out, options));
+    const auto& typical = corners.front();
     double largest_error = 0;  // of V_REF, as a fraction of the supply
     const auto V_REF = typical.sweep.curve("v(ref)");
     for (std::size_t k = 0; k < V_REF.x.size(); ++k) largest_error = std::max(largest_error, std::abs(V_REF.y[k] / V_REF.x[k] - 0.5));

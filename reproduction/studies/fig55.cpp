@@ -16,9 +16,8 @@ double largest_error(const BiasCorner& c) { return c.sweep.current_error().max()
 
 Result<StudyResult> compute(const StudyOptions& options) {
     StudyResult out;
-    const auto corners = simulate_bias_figure(figure, out, options);
-    if (!corners) return corners.error();
-    const auto& c = *corners;  // tt, ss, ff
+    const auto corners = TRY(simulate_bias_figure(figure, out, options));
+    const auto& c = corners;  // tt, ss, ff
     out.claim_true("V_BN falls as the temperature rises", c[0].sweep.curve("v(bn)").slope().max() < 0,
                    "E.2: V_T decreases, V_BP and V_BN compensate");
     out.claim_true("V_BP rises with the temperature, so the body bias decreases", c[0].sweep.curve("v(bp)").slope().min() > 0,

@@ -27,10 +27,9 @@ Result<StudyValues> compute_values(const StudyOptions& options) {
     for (const char* afferent : {"sa1", "fa1", "fa2"}) {
         StudyCurve tuning;
         for (const double f : {4.0, 8.0, 16.0, 32.0, 64.0, 128.0, 200.0, 250.0, 300.0, 400.0, 600.0}) {
-            const auto amplitude = detection_threshold(afferent, f);
-            if (!amplitude) return amplitude.error();
-            if (*amplitude < 4) tuning.x.push_back(f), tuning.y.push_back(1e3 * *amplitude);
-            if (auto ok = options.report_progress(0); !ok) return ok.error();
+            const auto amplitude = TRY(detection_threshold(afferent, f));
+            if (amplitude < 4) tuning.x.push_back(f), tuning.y.push_back(1e3 * amplitude);
+            TRY(options.report_progress(0));
         }
         out.emplace(fmt::format("tuning_{}", afferent), std::move(tuning));
     }

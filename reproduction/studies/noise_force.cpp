@@ -53,17 +53,16 @@ ro out 0 1g
 
 /// The noise in the band at node `output` of a netlist, expressed as a force (N rms) at its source vforce, at a mean force of `newtons`.
 Result<double> force_noise(const std::string& circuit, const std::string& output, double newtons, const std::string& extra_lines = "") {
-    const auto found = run_study_netlist(
-        {circuit, {fmt::format("vforce={}", newtons)}, extra_lines + fmt::format(".noise v({}) vforce dec 20 {} {}", output, from, to)});
-    if (!found) return found.error();
-    return found->number("inoise_total");
+    const auto found = TRY(run_study_netlist(
+        {circuit, {fmt::format("vforce={}", newtons)}, extra_lines + fmt::format(".noise v({}) vforce dec 20 {} {}", output, from, to)}));
+    return found.number("inoise_total");
 }
 
 /// dI/dF of the membrane current (A/N) at this force.
 Result<double> gain(double newtons) {
-    const auto found = run_study_netlist({chain, {}, fmt::format(".dc vforce {} {} {}", 0.99 * newtons, 1.01 * newtons, 0.005 * newtons)});
-    if (!found) return found.error();
-    return found->curve("dc", "i(vi)").slope_at(newtons);
+    const auto found =
+        TRY(run_study_netlist({chain, {}, fmt::format(".dc vforce {} {} {}", 0.99 * newtons, 1.01 * newtons, 0.005 * newtons)}));
+    return found.curve("dc", "i(vi)").slope_at(newtons);
 }
 
 /// Thermal noise of the sensor, taken as a resistor with 0.1 V across it, in the band, N rms.
@@ -80,31 +79,30 @@ struct NoiseParts {
 Result<NoiseParts> noise_parts(double newtons) {
     const auto dI_dF = gain(newtons);
     const auto cco = run_study_netlist({oscillator, {}, fmt::format(".noise v(out) ilk dec 20 {} {}", from, to)});
-    if (auto ok = check_all(dI_dF, cco); !ok) return ok.error();
+    TRY(check_all(dI_dF, cco));
     const std::string readout = "ha i_a 0 via 1\nra i_a 0 1g\n";
     const auto t = force_noise(chain, "i_f", newtons), all = force_noise(chain, "i_m", newtons),
                asp = force_noise("asp_sa1", "i_a", newtons, readout);
     const auto b = force_noise(chain, "hpb", newtons), c = force_noise(chain, "hpc", newtons);
-    if (auto ok = check_all(t, all, asp, b, c); !ok) return ok.error();
+    TRY(check_all(t, all, asp, b, c));
     return NoiseParts{sensor_noise(newtons), *t, *asp, cco->number("onoise_total") / *dI_dF, *all, *b, *c};
 }
 
 Result<void> add_claims(StudyResult& out, double newtons) {
-    const auto p = noise_parts(newtons);
-    if (!p) return p.error();
+    const auto p = TRY(noise_parts(newtons));
     const auto label = [&](const char* quantity) { return fmt::format("noise at {:g} N: {}", newtons, quantity); };
-    const double total = std::hypot(p->sensor, p->chain, p->oscillator);
-    out.claim(label("sensor, as a resistor (4 k T G)"), p->sensor, "N");
-    out.claim(label("transducer, at I_F"), p->transducer, "N");
-    out.claim(label("signal processing, at I_A"), p->processing, "N");
-    out.claim(label("transducer and signal processing, at the membrane"), p->chain, "N");
-    out.claim(label("oscillator's input, from dI/dF"), p->oscillator, "N");
+    const double total = std::hypot(p.sensor, p.chain, p.oscillator);
+    out.claim(label("sensor, as a resistor (4 k T G)"), p.sensor, "N");
+    out.claim(label("transducer, at I_F"), p.transducer, "N");
+    out.claim(label("signal processing, at I_A"), p.processing, "N");
+    out.claim(label("transducer and signal processing, at the membrane"), p.chain, "N");
+    out.claim(label("oscillator's input, from dI/dF"), p.oscillator, "N");
     out.claim(label("total of sensor, transducer, signal processing and oscillator"), total, "N")
         .allow_max(repeatability * newtons,
                    "thesis E.4: \"adequate for its application\"; taken here as below the sensor's own repeatability, 2 % of the force "
                    "(FSR 400 series data sheet, Interlink)");
-    out.claim(label("at filter B's output"), p->filter_B, "N").allow_max(repeatability * newtons, "the sensor's own repeatability");
-    out.claim(label("at filter C's output"), p->filter_C, "N").allow_max(repeatability * newtons, "the sensor's own repeatability");
+    out.claim(label("at filter B's output"), p.filter_B, "N").allow_max(repeatability * newtons, "the sensor's own repeatability");
+    out.claim(label("at filter C's output"), p.filter_C, "N").allow_max(repeatability * newtons, "the sensor's own repeatability");
     out.claim(label("total, over the 3.8 N range of the press stimulus"), 100 * total / 3.8, "%");
     return {};
 }
@@ -112,8 +110,8 @@ Result<void> add_claims(StudyResult& out, double newtons) {
 Result<StudyResult> compute(const StudyOptions& options) {
     StudyResult out;
     for (const double newtons : {0.2, 4.0}) {
-        if (auto ok = add_claims(out, newtons); !ok) return ok.error();
-        if (auto ok = options.report_progress(newtons / 10); !ok) return ok.error();
+        TRY(add_claims(out, newtons));
+        TRY(options.report_progress(newtons / 10));
     }
     StudyPlot& spectrum = out.plot("Noise of transducer and signal processing as a force", "frequency (Hz)", "mN / sqrt(Hz)");
     spectrum.log_x = spectrum.log_y = true;
@@ -127,7 +125,7 @@ Result<StudyResult> compute(const StudyOptions& options) {
     StudyCurve transducer, membrane, sensor;
     for (const double newtons : {0.05, 0.1, 0.2, 0.5, 1.0, 2.0, 3.0, 4.0, 5.0}) {
         const auto t = force_noise(chain, "i_f", newtons), m = force_noise(chain, "i_m", newtons);
-        if (auto ok = check_all(t, m); !ok) return ok.error();
+        TRY(check_all(t, m));
         for (auto [line, value] : {std::pair{&transducer, *t}, {&membrane, *m}, {&sensor, repeatability * newtons}})
             line->x.push_back(newtons), line->y.push_back(1e3 * value);
     }

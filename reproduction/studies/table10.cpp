@@ -18,14 +18,13 @@ void add_erratum(StudyResult& out, const SimulatedArrays& ours) {
 }
 
 Result<StudyResult> compute(const StudyOptions&) {
-    const auto ours = simulate_arrays(rectangles);
-    if (!ours) return ours.error();
+    const auto ours = TRY(simulate_arrays(rectangles));
     StudyResult out;
-    add_sizes(out, rectangles, *ours);
-    add_erratum(out, *ours);
+    add_sizes(out, rectangles, ours);
+    add_erratum(out, ours);
 
     const std::string source = "thesis B.1";
-    const auto& arrays = *ours;
+    const auto& arrays = ours;
     const auto compare_by = [](auto property) {
         return [property](const SimulatedArray& a, const SimulatedArray& b) { return property(a) < property(b); };
     };

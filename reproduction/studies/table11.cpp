@@ -10,9 +10,8 @@
 namespace corpuscle::studies::table11 {
 
 Result<StudyResult> compute(const StudyOptions&) {
-    const auto found = simulate_arrays(rectangles);
-    if (!found) return found.error();
-    const auto& ours = *found;
+    const auto found = TRY(simulate_arrays(rectangles));
+    const auto& ours = found;
     StudyResult out;
     add_small_signals(out, rectangles, ours);
 

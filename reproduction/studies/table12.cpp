@@ -74,16 +74,14 @@ void add_mismatch_text(StudyResult& out, const SimulatedArrays& ours, const std:
 }
 
 Result<StudyResult> compute(const StudyOptions&) {
-    const auto ours = simulate_arrays(rectangles);
-    if (!ours) return ours.error();
+    const auto ours = TRY(simulate_arrays(rectangles));
     StudyResult out;
-    add_ratios(out, rectangles, *ours);
-    const auto sigma = simulate_mismatch(rectangles);
-    if (!sigma) return sigma.error();
-    add_mismatch(out, rectangles, *ours, *sigma);
+    add_ratios(out, rectangles, ours);
+    const auto sigma = TRY(simulate_mismatch(rectangles));
+    add_mismatch(out, rectangles, ours, sigma);
     add_errata(out);
-    add_text(out, *ours);
-    add_mismatch_text(out, *ours, *sigma);
+    add_text(out, ours);
+    add_mismatch_text(out, ours, sigma);
     return out;
 }
 

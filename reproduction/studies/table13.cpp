@@ -13,7 +13,7 @@ namespace corpuscle::studies::table13 {
 Result<StudyResult> compute(const StudyOptions&) {
     const auto found = simulate_arrays(trapezoids);
     const auto rectangular = simulate_arrays(rectangles);
-    if (auto ok = check_all(found, rectangular); !ok) return ok.error();
+    TRY(check_all(found, rectangular));
     const auto& ours = *found;
     StudyResult out;
     add_sizes(out, trapezoids, ours);

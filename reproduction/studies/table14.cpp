@@ -13,11 +13,10 @@ namespace corpuscle::studies::table14 {
 Result<void> add_f(StudyResult& out) {
     const auto& f = find_published(trapezoids, "F");
     const ArrayMatch orientations[] = {{&f, "xf"}, {&f, "xf_printed"}};
-    const auto ours = simulate_arrays(trapezoids.circuit, orientations);
-    if (!ours) return ours.error();
+    const auto ours = TRY(simulate_arrays(trapezoids.circuit, orientations));
     const char* names[] = {"F, the short transistor at the drain as in the text", "F, the short transistor at the source as in table 13"};
     for (std::size_t k = 0; k < 2; ++k) {
-        const auto& a = (*ours)[k];
+        const auto& a = ours[k];
         out.claim(fmt::format("{}: I_D", names[k]), a.I_D, "A").published_as(1e-6 * f.I_D, "table 14");
         auto& c =
             out.claim(fmt::format("{}: g_md", names[k]), a.g_md, "S").published_as(1e-10 * f.g_md, "table 14, divided by ten: errata U8");
@@ -30,10 +29,10 @@ Result<void> add_f(StudyResult& out) {
 Result<StudyResult> compute(const StudyOptions&) {
     const auto found = simulate_arrays(trapezoids);
     const auto rectangular = simulate_arrays(rectangles);
-    if (auto ok = check_all(found, rectangular); !ok) return ok.error();
+    TRY(check_all(found, rectangular));
     StudyResult out;
     add_small_signals(out, trapezoids, *found);
-    if (auto ok = add_f(out); !ok) return ok.error();
+    TRY(add_f(out));
     out.claim("G3's drain current over A's", (*found)("G3").I_D / (*rectangular)("A").I_D)
         .derived_as(find_published(trapezoids, "G3").I_D / find_published(rectangles, "A").I_D, "thesis B.2: similar; tables 14 and 11");
     add_sum_rule(out, trapezoids, 1e-9, "errata U8: a tenth of the printed value, in nS");

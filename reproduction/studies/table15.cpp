@@ -82,9 +82,8 @@ void add_f(StudyResult& out, const SimulatedArrays& orientations, const std::vec
 
 /// "The solution is to increase M_D width": F's short transistor at the drain, eight times as wide.
 Result<void> add_wider(StudyResult& out, double gain_of_f, double gain_of_e) {
-    const auto found = run_study_netlist({trapezoids.circuit, {"xf.mg1.m=8", "xf.md1.m=8"}, ".op\n.tf i(xf.vg) vi\n.tf i(xf.vd) vi"});
-    if (!found) return found.error();
-    const double gain = 20 * std::log10(found->derivative("i(xf.vg)", "vi") / found->derivative("i(xf.vd)", "vi"));
+    const auto found = TRY(run_study_netlist({trapezoids.circuit, {"xf.mg1.m=8", "xf.md1.m=8"}, ".op\n.tf i(xf.vg) vi\n.tf i(xf.vd) vi"}));
+    const double gain = 20 * std::log10(found.derivative("i(xf.vg)", "vi") / found.derivative("i(xf.vd)", "vi"));
     out.claim("F, its transistor at the drain eight times as wide: increase of the gain", gain - gain_of_f, "dB")
         .allow_min(0, "thesis B.2: a wider M_D is the solution");
     out.claim("F, its transistor at the drain eight times as wide: gain minus E's", gain - gain_of_e, "dB").allow_min(0, "thesis B.2");
@@ -98,14 +97,14 @@ Result<StudyResult> compute(const StudyOptions&) {
     matches.push_back({&find_published(trapezoids, "F"), "xf_printed"});
     auto ours = simulate_arrays(trapezoids.circuit, matches);
     const auto rectangular = simulate_arrays(rectangles);
-    if (auto ok = check_all(ours, rectangular); !ok) return ok.error();
+    TRY(check_all(ours, rectangular));
     auto sigma = simulate_mismatch(trapezoids.circuit, matches);
     const ArrayMatch a{&find_published(rectangles, "A"), "xa"};
     const auto sigma_of_A = simulate_mismatch(rectangles.circuit, {&a, 1});
-    if (auto ok = check_all(sigma, sigma_of_A); !ok) return ok.error();
+    TRY(check_all(sigma, sigma_of_A));
     StudyResult orientations;
     add_f(orientations, *ours, *sigma);
-    if (auto ok = add_wider(orientations, (*ours)[1].gain(), (*ours)[0].gain()); !ok) return ok.error();
+    TRY(add_wider(orientations, (*ours)[1].gain(), (*ours)[0].gain()));
     ours->pop_back(), sigma->pop_back();
     StudyResult out;
     add_ratios(out, trapezoids, *ours);

@@ -12,10 +12,9 @@ namespace corpuscle::studies::table17_18 {
 /// published variance, and the rest divided by g_mg/I_D. This ratio and the area are computed from the published g_mg, so that misprints of
 /// the columns A and g_mg/I_D (errata U11, U12) have no effect.
 Result<StudyValues> compute_values(const StudyOptions&) {
-    const auto circuit = elaborate_study_netlist({"bias"});
-    if (!circuit) return circuit.error();
-    const auto m4a = static_cast<std::size_t>((*circuit)->find_element("m4a"));
-    const double A_IS = 1e6 * bias_chips::model_parameter(**circuit, m4a, "ais");
+    const auto circuit = TRY(elaborate_study_netlist({"bias"}));
+    const auto m4a = static_cast<std::size_t>(circuit->find_element("m4a"));
+    const double A_IS = 1e6 * bias_chips::model_parameter(*circuit, m4a, "ais");
     double mean = 0;
     for (const auto& a : published_rectangles) {
         const double variance = 1e-4 * a.sigma * a.sigma * a.g_mg / a.g_by_A;

@@ -92,9 +92,8 @@ Result<double> find_matching_force(const Contact& contact) {
     double low = 0.01, high = 100;
     for (int k = 0; k < 14; ++k) {
         const double middle = std::sqrt(low * high);
-        const auto trains = simulate_fingertip({contact.radius, middle});
-        if (!trains) return trains.error();
-        (median_of(rates_within_distance(*trains, "sa1"), contact.matched) < contact.sa1.*contact.matched ? low : high) = middle;
+        const auto trains = TRY(simulate_fingertip({contact.radius, middle}));
+        (median_of(rates_within_distance(trains, "sa1"), contact.matched) < contact.sa1.*contact.matched ? low : high) = middle;
     }
     return high;
 }
@@ -111,11 +110,10 @@ void report_row(StudyResult& out, const std::string& name, const RateRow& row, c
 Result<void> report_touch(StudyResult& out, const Contact& contact) {
     // N: force of a flat punch of this radius and depth on a half-space
     const double equivalent_force = 2 * E_star * contact.radius * contact.depth;
-    const auto matching_force = find_matching_force(contact);
-    if (!matching_force) return matching_force.error();
+    const auto matching_force = TRY(find_matching_force(contact));
     const auto equivalent = simulate_fingertip({contact.radius, equivalent_force}),
-               matched = simulate_fingertip({contact.radius, *matching_force});
-    if (auto ok = check_all(equivalent, matched); !ok) return ok.error();
+               matched = simulate_fingertip({contact.radius, matching_force});
+    TRY(check_all(equivalent, matched));
     out.claim(fmt::format("{}: equivalent force", contact.name), equivalent_force, "N");
     for (const auto& [afferent, theirs] : {std::pair{"sa1", &contact.sa1}, {"fa1", &contact.ra}})
         report_row(
@@ -125,7 +123,7 @@ Result<void> report_touch(StudyResult& out, const Contact& contact) {
             "nerve and TouchSim respond to millinewtons");
     out.claim(fmt::format("{}: force at which our SA-I match TouchSim's {}", contact.name,
                           contact.matched == &Rates::hold ? "mean of the hold" : "peak"),
-              *matching_force, "N")
+              matching_force, "N")
         .derived_as(equivalent_force, "the equivalent force")
         .explain_if_needed("the models are made for the range of the thesis's stimulus, 0.2 to 4 N");
     for (const auto& [afferent, theirs] : {std::pair{"sa1", &contact.sa1}, {"fa1", &contact.ra}})
@@ -137,8 +135,8 @@ Result<void> report_touch(StudyResult& out, const Contact& contact) {
 
 Result<void> report_touches(StudyResult& out, const StudyOptions& options) {
     for (const auto& contact : contacts) {
-        if (auto ok = report_touch(out, contact); !ok) return ok;
-        if (auto ok = options.report_progress(0.2 * static_cast<double>(&contact - contacts + 1)); !ok) return ok;
+        TRY(report_touch(out, contact));
+        TRY(options.report_progress(0.2 * static_cast<double>(&contact - contacts + 1)));
     }
     return {};
 }
@@ -153,9 +151,8 @@ Result<double> detection_threshold(const std::string& afferent, const std::vecto
         std::vector<std::string> all = {fmt::format("sine.f={}", f), fmt::format("sine.F_amp={}", middle), "sine.F_mean=0.2",
                                         "sine.duration=1"};
         all.insert(all.end(), settings.begin(), settings.end());
-        const auto train = simulate_train({afferent, "sine", all});
-        if (!train) return train.error();
-        (press::spike_count(*train, {0.5, 1.0}) >= std::max(1.0, spikes_per_period * 0.5 * f) ? high : low) = middle;
+        const auto train = TRY(simulate_train({afferent, "sine", all}));
+        (press::spike_count(train, {0.5, 1.0}) >= std::max(1.0, spikes_per_period * 0.5 * f) ? high : low) = middle;
     }
     return high;
 }
@@ -177,10 +174,9 @@ Result<void> report_tuning(StudyResult& out, const StudyOptions& options) {
     for (const auto& c : curves) {
         StudyCurve line;
         for (const double f : frequencies) {
-            const auto smallest = detection_threshold(c.afferent, c.settings, f, c.spikes_per_period);
-            if (!smallest) return smallest.error();
-            if (*smallest < 3.99) line.x.push_back(f), line.y.push_back(1e3 * *smallest);
-            if (auto ok = options.report_progress(0.4 + 0.6 * (done += 1.0 / 64)); !ok) return ok;
+            const auto smallest = TRY(detection_threshold(c.afferent, c.settings, f, c.spikes_per_period));
+            if (smallest < 3.99) line.x.push_back(f), line.y.push_back(1e3 * smallest);
+            TRY(options.report_progress(0.4 + 0.6 * (done += 1.0 / 64)));
         }
         // mN at one of the frequencies; NaN if the afferent has no threshold there
         const auto at = [&](double f) {
@@ -217,7 +213,7 @@ Result<void> report_tuning(StudyResult& out, const StudyOptions& options) {
 /// Claims under the press stimulus, 4 N, for which the thesis's models are made.
 Result<void> report_press(StudyResult& out) {
     const auto sa1 = simulate_train({"sa1"}), fa1 = simulate_train({"fa1"});
-    if (auto ok = check_all(sa1, fa1); !ok) return ok.error();
+    TRY(check_all(sa1, fa1));
     constexpr auto bound = "our bound after Birznieks et al. 2001, as described in thesis 1.2";
     const auto peak = [](const std::vector<double>& t, const TimeWindow& window) { return measure<PeakRate>(t, window); };
     out.claim("4 N: SA-I, peak of protraction over the end of the hold",
@@ -235,9 +231,9 @@ Result<void> report_press(StudyResult& out) {
 
 Result<StudyResult> compute(const StudyOptions& options) {
     StudyResult out;
-    if (auto ok = report_touches(out, options); !ok) return ok.error();
-    if (auto ok = report_tuning(out, options); !ok) return ok.error();
-    if (auto ok = report_press(out); !ok) return ok.error();
+    TRY(report_touches(out, options));
+    TRY(report_tuning(out, options));
+    TRY(report_press(out));
     out.notes = {fmt::format("TouchSim takes millimetres, our skin newtons. A flat punch on a half-space gives F = 2 E* a d. TouchSim's "
                              "1.19 N for 5 mm and 2 mm gives an E* of {:.3g} kPa, and so a force of {:.3g} mN for its small probe.",
                              E_star * 1e-3, 2e3 * E_star * 0.5e-3 * 1e-3),

@@ -48,12 +48,11 @@ StudyPlot layout_plot(const SimulatedArrays& arrays, std::string title) {
 }
 
 Result<StudyResult> report_layout(const PublishedArrays& tables, const std::string& figure, const std::string& remark) {
-    const auto ours = simulate_arrays(tables);
-    if (!ours) return ours.error();
+    const auto ours = TRY(simulate_arrays(tables));
     StudyResult out;
     double published_sum = 0, sum = 0;
     std::string names;
-    for (const auto& a : *ours) {
+    for (const auto& a : ours) {
         out.claim(fmt::format("{}: total area", a.published->name), 1e12 * a.A_T, "um^2")
             .published_as(a.published->A_T, fmt::format("{}, of the arrays in {}", tables.sizes_table, figure));
         out.claim(fmt::format("{}: active area from its channels", a.published->name),
@@ -63,7 +62,7 @@ Result<StudyResult> report_layout(const PublishedArrays& tables, const std::stri
         names += fmt::format("{}{}", names.empty() ? "" : ", ", a.published->name);
     }
     out.claim("sum of all total areas", sum, "um^2").derived_as(published_sum, tables.sizes_table);
-    out.plots.push_back(layout_plot(*ours, fmt::format("Channels and total areas of {}, from the left", names))
+    out.plots.push_back(layout_plot(ours, fmt::format("Channels and total areas of {}, from the left", names))
                             .describe_published("polysilicon and diffusion of each array in its rectangle; the original figure is lost"));
     out.note(
         "The numbers of rows and columns are those that reproduce the published total areas; one rule gives the margins and spacings of "

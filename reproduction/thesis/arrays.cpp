@@ -89,28 +89,26 @@ Result<SimulatedArrays> simulate_arrays(const PublishedArrays& all) { return sim
 Result<SimulatedArrays> simulate_arrays(const char* circuit, std::span<const ArrayMatch> matches) {
     std::string directives = ".op\n";
     for (const auto& match : matches) directives += slope_directives(match.subcircuit);
-    const auto found = run_study_netlist({circuit, {}, directives});
-    if (!found) return found.error();
+    const auto found = TRY(run_study_netlist({circuit, {}, directives}));
     SimulatedArrays out;
     for (const auto& [published, array] : matches) {
-        const auto g = [&](char terminal, const char* by) { return found->derivative(fmt::format("i({}.v{})", array, terminal), by); };
+        const auto g = [&](char terminal, const char* by) { return found.derivative(fmt::format("i({}.v{})", array, terminal), by); };
         SimulatedArray a{.published = published, .g_md = g('d', "vi"), .g_mg = g('g', "vi"), .g_mb = g('b', "vi")};
         a.g_ms = g('b', "vh") + a.g_mb;  // raising gate, drain and bulk together is the same as lowering the source
-        a.I_D = found->operating_point(fmt::format("i({}.vg)", array));
+        a.I_D = found.operating_point(fmt::format("i({}.vg)", array));
         // F's two transistors have different thresholds; mg2 is the one at the source. An array of one transistor has only mg1.
-        a.V_T = found->operating_info(array + ".mg2", "v_t");
-        if (std::isnan(a.V_T)) a.V_T = found->operating_info(array + ".mg1", "v_t");
-        measure_size(a, *found->circuit, array);
+        a.V_T = found.operating_info(array + ".mg2", "v_t");
+        if (std::isnan(a.V_T)) a.V_T = found.operating_info(array + ".mg1", "v_t");
+        measure_size(a, *found.circuit, array);
         out.push_back(a);
     }
     return out;
 }
 
 Result<std::vector<double>> simulate_mismatch(const char* circuit, std::span<const ArrayMatch> matches) {
-    const auto found = run_study_variants({circuit, {}, fmt::format(".op\n.mc {} process=0", chips)});
-    if (!found) return found.error();
+    const auto found = TRY(run_study_variants({circuit, {}, fmt::format(".op\n.mc {} process=0", chips)}));
     std::vector<double> out;
-    for (const auto& match : matches) out.push_back(sample_statistics(*found, fmt::format("i({}.vg)", match.subcircuit)).cv_percent());
+    for (const auto& match : matches) out.push_back(sample_statistics(found, fmt::format("i({}.vg)", match.subcircuit)).cv_percent());
     return out;
 }
 

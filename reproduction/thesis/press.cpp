@@ -5,9 +5,8 @@
 namespace corpuscle::press {
 
 Result<StudyCurve> force_curve(double T) {
-    auto stimulus = trial_force({.afferent = {}, .rate = 1 / T});
-    if (!stimulus) return stimulus.error();
-    return stimulus->curve();
+    auto stimulus = TRY(trial_force({.afferent = {}, .rate = 1 / T}));
+    return stimulus.curve();
 }
 
 std::string phase_counts(const std::vector<double>& train) {

@@ -8,9 +8,8 @@ Result<double> find_threshold(double low, double high, int halvings, SearchScale
                               const std::function<bool(const std::vector<double>& spikes)>& responds) {
     for (int k = 0; k < halvings; ++k) {
         const double middle = scale == SearchScale::linear ? (low + high) / 2 : std::sqrt(low * high);
-        const auto spikes = simulate_train(trial_at(middle));
-        if (!spikes) return spikes.error();
-        (responds(*spikes) ? high : low) = middle;
+        const auto spikes = TRY(simulate_train(trial_at(middle)));
+        (responds(spikes) ? high : low) = middle;
     }
     return high;
 }

@@ -42,17 +42,16 @@ Result<Expectation> expectation_of(const Directive& c) {
 Result<void> check_expectations(const Circuit& circuit, RunOutcome& out) {
     for (const auto& c : circuit.directives) {
         if (c.name != "expect") continue;
-        auto e = expectation_of(c);
-        if (!e) return e.error();
-        const auto found = out.find_number(e->name);
+        auto e = TRY(expectation_of(c));
+        const auto found = out.find_number(e.name);
         if (!found) {
             std::vector<std::string_view> known;
             for (const auto& [name, value] : out.numbers) known.push_back(name);
-            return bad_input(fmt::format(".expect: there is no measurement, number or curve '{}'{}", e->name, did_you_mean(e->name, known)),
+            return bad_input(fmt::format(".expect: there is no measurement, number or curve '{}'{}", e.name, did_you_mean(e.name, known)),
                              c.location);
         }
-        e->actual = *found, e->is_met = std::abs(*found - e->expected) <= e->tolerance;
-        out.expectations.push_back(std::move(*e));
+        e.actual = *found, e.is_met = std::abs(*found - e.expected) <= e.tolerance;
+        out.expectations.push_back(std::move(e));
     }
     return {};
 }
@@ -92,13 +91,10 @@ public:
         currents_.extend_head(head);
         run_.last_point = head;
         unknowns_sink_ = run_.directive->name == "tran" ? options_.unknowns_sink : nullptr;
-        if (unknowns_sink_)
-            if (auto ok = unknowns_sink_->begin(head); !ok) return ok;
-        if (auto ok = measures_.begin(run_.directive->name, head); !ok) return ok;
-        if (printer_)
-            if (auto ok = printer_->begin(head); !ok) return ok;
-        if (recorder_)
-            if (auto ok = recorder_->begin(head); !ok) return ok;
+        if (unknowns_sink_) TRY(unknowns_sink_->begin(head));
+        TRY(measures_.begin(run_.directive->name, head));
+        if (printer_) TRY(printer_->begin(head));
+        if (recorder_) TRY(recorder_->begin(head));
         has_begun_ = true;
         const auto selected_head = selector_.begin(head, out_.saved_curves);
         return options_.curve_sink ? options_.curve_sink->begin(selected_head) : Result<void>();
@@ -109,10 +105,8 @@ public:
         last_row_.assign(row.begin(), row.end());
         measures_.add_point(row[0], row);
         if (printer_) printer_->add_point(row);
-        if (unknowns_sink_)
-            if (auto ok = unknowns_sink_->add_point(row); !ok) return ok;
-        if (recorder_)
-            if (auto ok = recorder_->add_point(row); !ok) return ok;
+        if (unknowns_sink_) TRY(unknowns_sink_->add_point(row));
+        if (recorder_) TRY(recorder_->add_point(row));
         return options_.curve_sink ? options_.curve_sink->add_point(selector_.select(row)) : Result<void>();
     }
     Result<void> end() override {
@@ -145,10 +139,9 @@ Result<void> analyse(AnalysisContext& context, const Analysis& analysis, const D
         for (auto& plot : run.result.plots) (void)currents.extend_plot(plot);
         const auto& plot = run.result.plots[0];
         run.point_count = plot.point_count();
-        if (auto ok = measures.add_plot(c.name, plot); !ok) return ok;
+        TRY(measures.add_plot(c.name, plot));
         if (options.print_tables) run.printed_tables = print_tables(*context.circuit, c.name, plot);
-        if (options.curve_sink)
-            if (auto ok = options.curve_sink->add_plots(out.plots(run)); !ok) return ok;
+        if (options.curve_sink) TRY(options.curve_sink->add_plots(out.plots(run)));
     }
     out.analyses.push_back(std::move(run));
     return {};
@@ -157,9 +150,8 @@ Result<void> analyse(AnalysisContext& context, const Analysis& analysis, const D
 }  // namespace
 
 Result<RunOutcome> run_directives(std::shared_ptr<const Circuit> circuit, const RunOptions& options) {
-    auto context = AnalysisContext::make(std::move(circuit));
-    if (!context) return context.error();
-    return run_directives(**context, options);
+    auto context = TRY(AnalysisContext::make(std::move(circuit)));
+    return run_directives(*context, options);
 }
 
 Result<RunOutcome> run_directives(AnalysisContext& context, const RunOptions& options) {
@@ -170,13 +162,11 @@ Result<RunOutcome> run_directives(AnalysisContext& context, const RunOptions& op
         for (auto& warning : find_dangling_nodes(*circuit)) out.warnings.push_back(std::move(warning));
         for (auto& warning : netlist_warnings(*circuit)) out.warnings.push_back(std::move(warning));
     }
-    const auto saved = resolve_saved_quantities(context.system);
-    if (!saved) return saved.error();
-    for (const auto& curve : *saved) out.saved_curves.push_back(curve.name);
-    const DeviceCurrents currents(context.system, *saved);
+    const auto saved = TRY(resolve_saved_quantities(context.system));
+    for (const auto& curve : saved) out.saved_curves.push_back(curve.name);
+    const DeviceCurrents currents(context.system, saved);
     // Checked in the first run of the context only.
-    if (!std::exchange(context.output_directives_checked, true))
-        if (auto ok = check_output_directives(context.system, currents, out.warnings); !ok) return ok.error();
+    if (!std::exchange(context.output_directives_checked, true)) TRY(check_output_directives(context.system, currents, out.warnings));
     MeasurementSet measures(*circuit);
     for (const auto& c : circuit->directives) {
         const auto* analysis = find_analysis(c.name);
@@ -194,8 +184,8 @@ Result<RunOutcome> run_directives(AnalysisContext& context, const RunOptions& op
         for (const auto& a : analyses) known += fmt::format("\n  {}", a.usage);
         return bad_input("the netlist has no analysis directive; add one of these:" + known, SourceLocation{circuit->file});
     }
-    if (auto ok = measures.finish(out.numbers, out.warnings); !ok) return ok.error();
-    if (auto ok = check_expectations(*circuit, out); !ok) return ok.error();
+    TRY(measures.finish(out.numbers, out.warnings));
+    TRY(check_expectations(*circuit, out));
     return out;
 }
 

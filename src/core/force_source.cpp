@@ -5,7 +5,7 @@ namespace corpuscle {
 Result<std::vector<double>> read_channel(ForceSource& source) {
     std::vector<double> out;
     for (Frames block(source.channels().size(), 4096);;) {
-        if (auto ok = source.read(block); !ok) return ok.error();
+        TRY(source.read(block));
         if (block.count == 0) return out;
         out.insert(out.end(), block.force[0].begin(), block.force[0].begin() + static_cast<std::ptrdiff_t>(block.count));
     }

@@ -80,8 +80,7 @@ Result<void> check_order(std::string_view owner, std::string_view lower_name, do
 
 template <class P>
 Result<void> check_order(std::string_view owner, std::span<const OrderConstraint<P>> constraints, const P& p) {
-    for (const auto& c : constraints)
-        if (auto ok = check_order(owner, c.lower_name, p.*c.lower_member, c.upper_name, p.*c.upper_member, c.or_equal); !ok) return ok;
+    for (const auto& c : constraints) TRY(check_order(owner, c.lower_name, p.*c.lower_member, c.upper_name, p.*c.upper_member, c.or_equal));
     return {};
 }
 

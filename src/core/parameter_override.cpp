@@ -42,11 +42,7 @@ Result<ParameterOverride> parse_override(std::string_view text, std::string_view
 
 Result<std::vector<ParameterOverride>> parse_overrides(std::span<const std::string> texts, std::string_view option) {
     std::vector<ParameterOverride> overrides;
-    for (const auto& text : texts) {
-        auto parsed = parse_override(text, option);
-        if (!parsed) return parsed.error();
-        overrides.push_back(std::move(*parsed));
-    }
+    for (const auto& text : texts) overrides.push_back(TRY(parse_override(text, option)));
     return overrides;
 }
 
@@ -64,23 +60,18 @@ Applied<std::vector<ParameterOverride>> select_overrides(std::span<const Paramet
 }
 
 Result<Setting> setting_of(const ParameterOverride& given, std::span<const ParameterInfo> parameters) {
-    const auto parameter = find_parameter(given, parameters);
-    if (!parameter) return parameter.error();
-    const auto value = parse_quantity(given.value, (*parameter)->unit);
+    const auto parameter = TRY(find_parameter(given, parameters));
+    const auto value = parse_quantity(given.value, parameter->unit);
     if (!value) return bad_input(fmt::format("{}: {}", given.name(), value.error().message), given.location);
-    if (const auto ok = check_range(given.target, **parameter, *value); !ok) return bad_input(ok.error().message, given.location);
-    return Setting{(*parameter)->name, *value};
+    if (const auto ok = check_range(given.target, *parameter, *value); !ok) return bad_input(ok.error().message, given.location);
+    return Setting{parameter->name, *value};
 }
 
 Result<Applied<std::vector<Setting>>> settings_for(std::string_view name, std::span<const ParameterInfo> parameters,
                                                    std::span<const ParameterOverride> overrides) {
     auto [own, unused] = select_overrides(overrides, [&](std::string_view target) { return target == name; });
     std::vector<Setting> settings;
-    for (const auto& given : own) {
-        const auto setting = setting_of(given, parameters);
-        if (!setting) return setting.error();
-        settings.push_back(*setting);
-    }
+    for (const auto& given : own) settings.push_back(TRY(setting_of(given, parameters)));
     return Applied<std::vector<Setting>>{std::move(settings), std::move(unused)};
 }
 

@@ -119,7 +119,7 @@ Result<State> unpack(std::span<const std::byte> in) {
     const auto all = in;
     if (!get(in, head.data(), head.size()) || !std::equal(head.begin(), head.begin() + version_at, magic.begin()))
         return bad_input("not a saved afferent state: it does not begin with 'corpst'");
-    if (auto ok = check_checksum(all, head, in); !ok) return ok.error();
+    TRY(check_checksum(all, head, in));
     if (!get(in, sizes.data(), 2) || !get(in, &s.step, 1) || sizes[0] > max_length || sizes[1] > max_length ||
         in.size() != sizes[0] + sizes[1] * sizeof(double))
         return bad_input("the saved afferent state is incomplete or too long");

@@ -22,11 +22,10 @@ std::vector<std::string> names_in(std::string_view list) {
 
 /// A class with one afferent of this name at each site.
 Result<Applied<SkinClass>> class_at_each_site(const std::string& name, std::span<const ParameterOverride> overrides) {
-    auto planned = plan_afferent(name, overrides);
-    if (!planned) return planned.error();
-    SkinClass added{.name = planned->result.name, .afferent = planned->result};
+    auto planned = TRY(plan_afferent(name, overrides));
+    SkinClass added{.name = planned.result.name, .afferent = planned.result};
     added.per_site = 1;
-    return Applied<SkinClass>{std::move(added), std::move(planned->unused)};
+    return Applied<SkinClass>{std::move(added), std::move(planned.unused)};
 }
 
 }  // namespace
@@ -39,21 +38,19 @@ bool is_afferent_list(std::string_view list) {
 
 Result<Applied<SkinPlan>> make_channel_plan(std::string_view afferents, std::size_t channels,
                                             std::span<const ParameterOverride> overrides) {
-    auto sites = grid_sites(1, channels, 1e-3);  // a site for each channel; the distance of 1 mm is arbitrary
-    if (!sites) return sites.error();
+    auto sites = TRY(grid_sites(1, channels, 1e-3));  // a site for each channel; the distance of 1 mm is arbitrary
     SkinPlan plan;
     plan.name = afferents, plan.is_by_channel = true;
     plan.description = fmt::format("{} on {} channel{}", afferents, channels, channels == 1 ? "" : "s");
-    plan.sites = std::move(*sites);
+    plan.sites = std::move(sites);
     for (std::size_t c = 0; c < channels; ++c) plan.sites.names[c] = fmt::format("ch{}", c + 1);
     std::vector<ParameterOverride> unused(overrides.begin(), overrides.end());
     for (const auto& name : names_in(afferents)) {
-        auto added = class_at_each_site(name, overrides);
-        if (!added) return added.error();
+        auto added = TRY(class_at_each_site(name, overrides));
         for (const auto& other : plan.classes)
-            if (other.name == added->result.name) return bad_usage(fmt::format("'{}' is given twice", name));
-        plan.classes.push_back(std::move(added->result));
-        keep_unused(unused, added->unused);
+            if (other.name == added.result.name) return bad_usage(fmt::format("'{}' is given twice", name));
+        plan.classes.push_back(std::move(added.result));
+        keep_unused(unused, added.unused);
     }
     return Applied<SkinPlan>{std::move(plan), std::move(unused)};
 }
@@ -68,9 +65,8 @@ Result<Applied<SkinPlan>> make_channel_plan(std::string_view afferents, std::spa
 
 Result<Applied<SkinPlan>> make_live_plan(std::string_view population, std::size_t channels, std::span<const ParameterOverride> overrides) {
     if (is_afferent_list(population)) return make_channel_plan(population, channels, overrides);
-    auto plan = load_skin_plan(population);
-    if (!plan) return plan.error();
-    return apply_overrides(std::move(*plan), overrides);
+    auto plan = TRY(load_skin_plan(population));
+    return apply_overrides(std::move(plan), overrides);
 }
 
 EventAddressing make_event_addressing(const Innervation& skin, const Clock& clock) {

@@ -8,13 +8,11 @@ namespace corpuscle {
 
 Result<std::unique_ptr<SkinStream>> SkinStream::make(std::shared_ptr<const Innervation> innervation, const Clock& clock,
                                                      bool spikes_on_samples, std::size_t batch_frames) {
-    const auto set = instruction_set();
-    if (!set) return set.error();
-    auto skin = Skin::make(innervation, {.dt = clock.T(), .spikes_on_samples = spikes_on_samples}, *set);
-    if (!skin) return skin.error();
-    std::unique_ptr<SkinStream> stream(new SkinStream(std::move(innervation), clock, std::move(*skin)));
+    const auto set = TRY(instruction_set());
+    auto skin = TRY(Skin::make(innervation, {.dt = clock.T(), .spikes_on_samples = spikes_on_samples}, set));
+    std::unique_ptr<SkinStream> stream(new SkinStream(std::move(innervation), clock, std::move(skin)));
     stream->allocate(batch_frames);
-    if (auto ok = stream->warm_up(); !ok) return ok.error();
+    TRY(stream->warm_up());
     return stream;
 }
 
@@ -33,10 +31,9 @@ Result<void> SkinStream::warm_up() {
         std::fill(frame.begin(), frame.end(), random >> 31 == 0 ? 0.0 : press);
         if (k + 2 * batch_frames_ > frames) std::fill(frame.begin() + 1, frame.end(), 0.0);  // the last frames touch one site only
         if (batch_frames_ > 1 && !add_to_batch(frame)) continue;
-        if (auto done = batch_frames_ > 1 ? run_batch() : push(frame); !done) return done.error();
+        TRY(batch_frames_ > 1 ? run_batch() : push(frame));
     }
-    if (batch_frames_ > 1)
-        if (auto done = run_batch(); !done) return done.error();
+    if (batch_frames_ > 1) TRY(run_batch());
     return skin_->resume(start);
 }
 
@@ -57,7 +54,7 @@ std::span<const std::uint32_t> SkinStream::find_touched(std::span<const double> 
 Result<std::span<const Spike>> SkinStream::push(std::span<const double> frame) {
     if (frame.size() != sites()) return bad_input(fmt::format("a frame has {} forces, but there are {} sites", frame.size(), sites()));
     spikes_.clear();
-    if (auto ok = skin_->respond({frame.data(), 1, find_touched(frame), false}, 1, spikes_, pool_); !ok) return ok.error();
+    TRY(skin_->respond({frame.data(), 1, find_touched(frame), false}, 1, spikes_, pool_));
     return std::span<const Spike>(spikes_);
 }
 

@@ -52,13 +52,12 @@ Result<bool> StreamLoop::wait_and_run() {
     const int ready = ::ppoll(on, 2, &wait, nullptr);
     if (ready < 0) return true;  // a signal; stop() is checked next
     const bool due = on[0].revents != 0 || frames_.due_time() <= steady_now();
-    if (on[1].revents != 0 || (ready == 0 && !options_.busy_poll))
-        if (auto ok = sink_.flush(); !ok) return ok.error();
+    if (on[1].revents != 0 || (ready == 0 && !options_.busy_poll)) TRY(sink_.flush());
     if (!due) return true;
     const auto more = frames_.receive();
     if (!more && options_.stop()) return false;  // a signal has interrupted the read
     if (!more) return more.error();
-    if (auto ok = run_received(); !ok) return ok.error();
+    TRY(run_received());
     return *more;
 }
 
@@ -75,10 +74,9 @@ Result<void> StreamLoop::run_remaining() {
         grace -= steady_now() - before;
         if (ready == 0) break;
         if (ready < 0) continue;  // a signal
-        const auto received = frames_.receive();
-        if (!received) return received.error();
-        if (auto ok = run_received(); !ok) return ok;
-        more = *received;
+        const auto received = TRY(frames_.receive());
+        TRY(run_received());
+        more = received;
     }
     stats_.unread = frames_.unread_bytes();
     return {};
@@ -89,7 +87,7 @@ Result<void> StreamLoop::run_received() {
     const auto now = steady_now();
     const auto before = stats_.received;
     for (auto next = frames_.next(force_); next != FrameSource::Next::nothing; next = frames_.next(force_))
-        if (auto ok = run_frame(next == FrameSource::Next::frame, now); !ok) return ok;
+        TRY(run_frame(next == FrameSource::Next::frame, now));
     stats_.reads += stats_.received > before;
     if (error_reported_) return {};
     if (const auto error = frames_.first_error()) options_.on_frame_error(*error), error_reported_ = true;
@@ -114,9 +112,8 @@ Result<void> StreamLoop::run_batch() { return skin_.batch_frames() > 1 ? write_s
 /// Puts spikes into the sink and writes as much as possible. Records the latency of the frames that they belong to.
 Result<void> StreamLoop::write_spikes(const Result<std::span<const Spike>>& spikes) {
     if (!spikes) return spikes.error();
-    if (auto ok = put(*spikes); !ok) return ok;
-    if (!spikes->empty())
-        if (auto ok = sink_.flush(); !ok) return ok;
+    TRY(put(*spikes));
+    if (!spikes->empty()) TRY(sink_.flush());
     const auto now = steady_now();
     for (const auto at : arrival_times_) stats_.latency.add(now - at);
     arrival_times_.clear();
@@ -129,9 +126,8 @@ Result<void> StreamLoop::put(std::span<const Spike> spikes) {
     for (const auto& s : spikes) {
         const std::string_view event(event_.data(), format_.write(s, event_.data()));
         if (sink_.put(event)) continue;
-        const auto has_space = wait_for_space(event.size());
-        if (!has_space) return has_space.error();
-        if (!*has_space || !sink_.put(event)) ++stats_.dropped;
+        const auto has_space = TRY(wait_for_space(event.size()));
+        if (!has_space || !sink_.put(event)) ++stats_.dropped;
     }
     return {};
 }

@@ -79,12 +79,11 @@ Result<void> save_stream(const std::string& path, const StreamState& state) {
 }
 
 Result<StreamState> load_stream(const std::string& path) {
-    auto file = open_bytes(path);
-    if (!file) return file.error();
+    auto file = TRY(open_bytes(path));
     constexpr std::uint64_t max_size = std::uint64_t{1} << 34;  // bytes
-    if ((*file)->size() > max_size) return bad_input("this file is too large to be a saved state", {path});
-    std::vector<std::byte> bytes((*file)->size());
-    if (auto ok = (*file)->read(bytes); !ok) return ok.error();
+    if (file->size() > max_size) return bad_input("this file is too large to be a saved state", {path});
+    std::vector<std::byte> bytes(file->size());
+    TRY(file->read(bytes));
     return unpack_stream(bytes, path);
 }
 

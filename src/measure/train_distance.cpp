@@ -135,9 +135,8 @@ Result<Alignment> align(std::span<const double> a, std::span<const double> b, do
 }  // namespace
 
 Result<double> victor_purpura(std::span<const double> a, std::span<const double> b, double q) {
-    const auto aligned = align(a, b, q, false);
-    if (!aligned) return aligned.error();
-    return aligned->distance;
+    const auto aligned = TRY(align(a, b, q, false));
+    return aligned.distance;
 }
 
 Result<Alignment> align_trains(std::span<const double> a, std::span<const double> b, double q) { return align(a, b, q, true); }

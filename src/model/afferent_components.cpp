@@ -103,11 +103,9 @@ Result<void> read_afferent(std::string_view text, std::span<const std::string_vi
     if (words.size() > needed) return misplaced(text, words[0], parts);
     if (words.size() < needed) return unknown_afferent(words[0]);
     if (parts.named) return {};
-    const auto receptor = find_component(text, words[0], receptors, "receptor");
-    if (!receptor) return receptor.error();
-    const auto neuron = find_component(text, words[1], neurons, "neuron");
-    if (!neuron) return neuron.error();
-    parts.receptor = *receptor, parts.neuron = *neuron;
+    const auto receptor = TRY(find_component(text, words[0], receptors, "receptor"));
+    const auto neuron = TRY(find_component(text, words[1], neurons, "neuron"));
+    parts.receptor = receptor, parts.neuron = neuron;
     return {};
 }
 
@@ -133,7 +131,7 @@ Result<AfferentComponents> parse_components(std::string_view text) {
     AfferentComponents parts;
     const auto words = split(text);
     const auto taken = read_front_end(words, parts);
-    if (auto ok = read_afferent(text, std::span(words).subspan(taken), parts); !ok) return ok.error();
+    TRY(read_afferent(text, std::span(words).subspan(taken), parts));
     if (parts.named) {
         parts.receptor = parts.named->receptor, parts.neuron = parts.named->neuron;
         if (taken > 0 && !parts.named->front_end.empty())

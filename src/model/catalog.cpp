@@ -164,26 +164,20 @@ SourceLocation location_of_invalid(const AfferentPlan& plan, std::span<const Par
 }  // namespace
 
 Result<Applied<AfferentPlan>> plan_afferent(std::string_view text, std::span<const ParameterOverride> overrides) {
-    const auto parts = parse_components(text);
-    if (!parts) return parts.error();
-    const auto plan = plan_of_components(text, *parts);
+    const auto parts = TRY(parse_components(text));
+    const auto plan = plan_of_components(text, parts);
     auto [own, unused] = select_overrides(overrides, [&](std::string_view target) { return matches_name(plan, text, target); });
     const auto rows = parameter_infos(plan);
     std::vector<Setting> settings;
-    for (const auto& given : own) {
-        const auto setting = setting_of(given, rows);
-        if (!setting) return setting.error();
-        settings.push_back(*setting);
-    }
+    for (const auto& given : own) settings.push_back(TRY(setting_of(given, rows)));
     auto changed = with_user_settings(plan, settings);
     if (const auto ok = check_plan(changed); !ok) return bad_input(ok.error().message, location_of_invalid(plan, own, settings));
     return Applied<AfferentPlan>{std::move(changed), std::move(unused)};
 }
 
 Result<AfferentPlan> plan_afferent(std::string_view text) {
-    auto planned = plan_afferent(text, {});
-    if (!planned) return planned.error();
-    return std::move(planned->result);
+    auto planned = TRY(plan_afferent(text, {}));
+    return std::move(planned.result);
 }
 
 }  // namespace corpuscle

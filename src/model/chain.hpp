@@ -185,7 +185,7 @@ public:
     State start(ChannelSlot) const override { return {format_, 0, std::vector<double>(sizeof(Values) / sizeof(double))}; }
 
     Result<void> respond(std::span<const double> force, State& state, ResponseBlock& response) const override {
-        if (auto ok = check_block(name_, format_, sizeof(Values) / sizeof(double), state, force); !ok) return ok;
+        TRY(check_block(name_, format_, sizeof(Values) / sizeof(double), state, force));
         if (force.empty()) return {};
         Values s;
         std::memcpy(&s, state.values.data(), sizeof s);

@@ -159,16 +159,13 @@ Result<Applied<std::vector<ParameterDistribution>>> distributions_for(const Affe
     for (auto& o : own) {
         if (ignores_case) o.parameter = lower(o.parameter);
         const auto error = [&](ErrorCode code, std::string why) { return Error{code, fmt::format("{}: {}", o.typed, why), o.location}; };
-        const auto row = find_parameter(o, rows);
-        if (!row) return row.error();
-        if ((*row)->is_shared_by_copies)
+        const auto row = TRY(find_parameter(o, rows));
+        if (row->is_shared_by_copies)
             return error(ErrorCode::bad_input, fmt::format("{} has one value for all copies; --set {} changes it", o.parameter, o.name()));
         if (std::any_of(distributions.begin(), distributions.end(),
                         [&](const ParameterDistribution& s) { return s.parameter == o.parameter; }))
             return error(ErrorCode::bad_usage, fmt::format("{}.{} is given twice", plan.name, o.parameter));
-        auto distribution = parse_spread(plan, o, **row);
-        if (!distribution) return distribution.error();
-        distributions.push_back(std::move(*distribution));
+        distributions.push_back(TRY(parse_spread(plan, o, *row)));
     }
     return Applied<std::vector<ParameterDistribution>>{std::move(distributions), std::move(unused)};
 }
@@ -179,12 +176,10 @@ Result<std::vector<AfferentPlan>> make_copies(const AfferentPlan& plan, std::uin
     copies.reserve(n);
     CopySampler sampler(plan, distributions, seed);
     for (std::uint32_t number = 1; number <= n; ++number) {
-        auto copy = sampler.copy(number);
-        if (!copy) return copy.error();
-        auto rebuilt = plan.factory->rebuilt(*copy, plan);
-        if (!rebuilt) return rebuilt.error();
-        if (*rebuilt) copy->factory = std::move(*rebuilt);
-        copies.push_back(std::move(*copy));
+        auto copy = TRY(sampler.copy(number));
+        auto rebuilt = TRY(plan.factory->rebuilt(copy, plan));
+        if (rebuilt) copy.factory = std::move(rebuilt);
+        copies.push_back(std::move(copy));
     }
     return copies;
 }

@@ -116,7 +116,7 @@ Result<std::unique_ptr<LanePopulation>> make_lane_population(const PopulationPla
         return bad_input(fmt::format("a population of {} afferents with {} plans: give one plan, or one for each", p.size, p.plans.size()));
     if (!p.afferent_numbers.empty() && p.afferent_numbers.size() != p.size)
         return bad_input(fmt::format("{} afferent numbers for {} afferents", p.afferent_numbers.size(), p.size));
-    if (auto ok = check_same_models(p.plans); !ok) return ok.error();
+    TRY(check_same_models(p.plans));
     for (const auto* plan : p.plans)
         if (!can_use_lanes(*plan, run))
             return bad_input(fmt::format("{}: netlists, sensors, converters and noise cannot run on SIMD lanes", plan->name));

@@ -33,9 +33,8 @@ Result<PlannedAfferent> plan_any_afferent(std::string_view text, std::span<const
 }
 
 Result<AfferentPlan> plan_any_afferent(std::string_view text) {
-    auto planned = plan_any_afferent(text, {});
-    if (!planned) return planned.error();
-    return std::move(planned->result);
+    auto planned = TRY(plan_any_afferent(text, {}));
+    return std::move(planned.result);
 }
 
 }  // namespace corpuscle

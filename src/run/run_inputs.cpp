@@ -17,32 +17,30 @@ struct RunLoop {
     /// Calls a function with each sink, until one returns an error.
     template <class F>
     Result<void> for_each_sink(const F& f) const {
-        for (auto* sink : sinks)
-            if (auto ok = f(*sink); !ok) return ok;
+        for (auto* sink : sinks) TRY(f(*sink));
         return {};
     }
     Result<void> run_input(BlockSimulator& simulator, bool wants_probes);
 };
 
 Result<void> RunLoop::run_input(BlockSimulator& simulator, bool wants_probes) {
-    if (auto ok = simulator.start(options, wants_probes); !ok) return ok;
+    TRY(simulator.start(options, wants_probes));
     const Input& input = simulator.input();
     if (auto ok = for_each_sink([&](Sink& sink) { return sink.begin(input); }); !ok) return ok;
     std::int64_t samples = 0;
     for (;;) {
-        const auto block = simulator.next(pool, stats);
-        if (!block) return block.error();
-        if (block->steps == 0) break;
-        if (auto ok = for_each_sink([&](Sink& sink) { return sink.block(input, *block); }); !ok) return ok;
-        samples = block->end_sample();
+        const auto block = TRY(simulator.next(pool, stats));
+        if (block.steps == 0) break;
+        if (auto ok = for_each_sink([&](Sink& sink) { return sink.block(input, block); }); !ok) return ok;
+        samples = block.end_sample();
         const double inputs_done = static_cast<double>(input.index) + simulator.progress();
         const bool stops = !options.should_continue(inputs_done / static_cast<double>(input.input_count));
-        if (auto ok = simulator.save(stops); !ok) return ok;
+        TRY(simulator.save(stops));
         if (stops) return Error{ErrorCode::interrupted, "interrupted"};
     }
     if (samples == 0) return bad_input("no samples of force", {input.name});
     std::vector<Spike> last;
-    if (auto ok = simulator.finish(last, stats); !ok) return ok;
+    TRY(simulator.finish(last, stats));
     return for_each_sink([&](Sink& sink) { return sink.end(input, samples, last); });
 }
 
@@ -58,7 +56,7 @@ Result<RunStats> run(std::vector<std::unique_ptr<BlockSimulator>> inputs, std::s
     ThreadPool single_thread(1);
     RunLoop loop{sinks, options, options.pool ? *options.pool : single_thread};
     for (auto& simulator : inputs) {
-        if (auto ok = loop.run_input(*simulator, wants_probes); !ok) return ok.error();
+        TRY(loop.run_input(*simulator, wants_probes));
         simulator.reset();
     }
     return std::move(loop.stats);

@@ -22,7 +22,7 @@ Result<void> AfferentSimulation::respond(std::span<const double> force, Response
     if (delay_ > 0 && !std::exchange(has_started_, true)) {
         const auto probes = std::exchange(response.probes, {});
         const auto range_violations = std::exchange(response.range_violations, {});
-        if (auto ok = afferent_.respond(force.first(delay_), state_, response); !ok) return ok;
+        TRY(afferent_.respond(force.first(delay_), state_, response));
         response.probes = probes, response.range_violations = range_violations;
     }
     return afferent_.respond(force.subspan(delay_), state_, response);
@@ -40,7 +40,7 @@ Result<AfferentResponse> simulate(const Afferent& afferent, std::span<const doub
     for (std::size_t first = 0; first < force.size(); first += simulated_block) {
         if (options.stop && options.stop()) return Error{ErrorCode::interrupted, "interrupted"};
         const auto count = std::min(simulated_block, force.size() - first);
-        if (auto ok = simulation.respond(padded_block(force, first, count, delay), response); !ok) return ok.error();
+        TRY(simulation.respond(padded_block(force, first, count, delay), response));
         for (std::size_t p = 0; p < options.probes.size(); ++p)
             for (std::size_t k = (options.every - first % options.every) % options.every; k < count; k += options.every)
                 out.probes[p].push_back(values[options.probes[p]][k]);

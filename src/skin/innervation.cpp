@@ -57,8 +57,8 @@ std::string Innervation::afferent_name(std::size_t index) const {
 }
 
 Result<std::shared_ptr<const Innervation>> innervate(SkinPlan plan) {
-    if (auto ok = check_sites(plan); !ok) return ok.error();
-    if (auto ok = check_skin_memory(plan); !ok) return ok.error();
+    TRY(check_sites(plan));
+    TRY(check_skin_memory(plan));
     auto out = std::make_shared<Innervation>();
     out->plan = std::move(plan);
     const auto& p = out->plan;
@@ -66,12 +66,10 @@ Result<std::shared_ptr<const Innervation>> innervate(SkinPlan plan) {
     const auto touching = touching_regions(p.sites, grid);
     out->class_begin.push_back(0);
     for (std::uint32_t c = 0; c < p.classes.size(); ++c) {
-        const auto afferents = place_afferents(p, c);
-        if (!afferents) return afferents.error();
-        auto fields = receptive_fields_of(p, c, *afferents, grid, touching);
-        if (!fields) return fields.error();
-        out->afferents.insert(out->afferents.end(), afferents->begin(), afferents->end());
-        out->fields.push_back(std::move(*fields));
+        const auto afferents = TRY(place_afferents(p, c));
+        auto fields = TRY(receptive_fields_of(p, c, afferents, grid, touching));
+        out->afferents.insert(out->afferents.end(), afferents.begin(), afferents.end());
+        out->fields.push_back(std::move(fields));
         out->class_begin.push_back(out->afferents.size());
         if (out->afferents.size() > max_afferents) return bad_input(fmt::format("{}: more than {} afferents", p.name, max_afferents));
     }

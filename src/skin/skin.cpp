@@ -37,14 +37,12 @@ Result<std::optional<ClassSimulation>> make_class(const Innervation& skin, std::
     if (!can_use_lanes(c.afferent, run))
         return bad_input(fmt::format("{}: {} cannot be used in a skin, which needs model equations without sensor, converter and noise",
                                      c.name, c.afferent.name));
-    const auto plans = plans_of(c, first, count, all, skin.plan.seed);
-    if (!plans) return plans.error();
+    const auto plans = TRY(plans_of(c, first, count, all, skin.plan.seed));
     std::vector<const AfferentPlan*> each;
-    for (const auto& p : *plans) each.push_back(&p);
+    for (const auto& p : plans) each.push_back(&p);
     std::vector<std::uint32_t> numbers(count);
     for (std::size_t u = 0; u < count; ++u) numbers[u] = static_cast<std::uint32_t>(skin.class_begin[class_index] + first + u);
-    auto population = make_lane_population({each, count, numbers}, run, set);
-    if (!population) return population.error();
+    auto population = TRY(make_lane_population({each, count, numbers}, run, set));
     // `same`: the first class with the same receptive fields, perhaps this one; its FieldForce exists only if it is an earlier one.
     const auto same =
         static_cast<std::size_t>(std::find(skin.fields.begin(), skin.fields.end(), skin.fields[class_index]) - skin.fields.begin());
@@ -52,7 +50,7 @@ Result<std::optional<ClassSimulation>> make_class(const Innervation& skin, std::
     field_forces[class_index] = shares_force
                                     ? field_forces[same]
                                     : std::make_shared<FieldForce>(skin.fields[class_index], first, count, skin.plan.sites.size(), set);
-    return std::optional<ClassSimulation>(ClassSimulation{std::move(*population), field_forces[class_index], shares_force});
+    return std::optional<ClassSimulation>(ClassSimulation{std::move(population), field_forces[class_index], shares_force});
 }
 
 /// True if the force at all touched sites is finite in step 0 of `force`.
@@ -97,12 +95,12 @@ std::span<const std::uint32_t> Skin::Impl::find_touched(const SiteForce& force, 
 Result<void> Skin::Impl::run_steps(const SiteForce& force, std::size_t at, std::size_t steps, std::vector<Spike>& spikes,
                                    ThreadPool& pool) {
     const auto touched_sites = find_touched(force, at, steps);
-    if (auto ok = check_finite(*this, {force.data + at, force.stride}, touched_sites, steps); !ok) return ok.error();
+    TRY(check_finite(*this, {force.data + at, force.stride}, touched_sites, steps));
     fired.clear();
     for (auto& c : classes) {
         if (!c.shares_force) c.field_force->compute(force, touched_sites, at, steps, pool);
         PopulationResponse response{&fired};
-        if (auto ok = c.population->respond(c.field_force->tiles(), steps, response, pool); !ok) return ok;
+        TRY(c.population->respond(c.field_force->tiles(), steps, response, pool));
         const auto all = static_cast<std::int64_t>(steps * c.population->size());
         stats.afferent_steps += all - response.skipped_steps, stats.skipped_steps += response.skipped_steps,
             stats.truncated_steps += response.truncated_steps;
@@ -119,9 +117,8 @@ Result<std::unique_ptr<Skin>> Skin::make(const std::shared_ptr<const Innervation
     auto impl = std::make_unique<Impl>(skin, run, part);
     std::vector<std::shared_ptr<FieldForce>> field_forces(skin->plan.classes.size());
     for (std::size_t c = 0; c < skin->plan.classes.size(); ++c) {
-        auto simulation = make_class(*skin, c, run, set, part, field_forces);
-        if (!simulation) return simulation.error();
-        if (*simulation) impl->classes.push_back(std::move(**simulation));
+        auto simulation = TRY(make_class(*skin, c, run, set, part, field_forces));
+        if (simulation) impl->classes.push_back(std::move(*simulation));
     }
     impl->touched.reserve(skin->plan.sites.size());
     return std::unique_ptr<Skin>(new Skin(std::move(impl)));
@@ -136,8 +133,7 @@ std::int64_t Skin::step() const { return impl_->step; }
 const SkinStats& Skin::stats() const { return impl_->stats; }
 
 Result<void> Skin::respond(const SiteForce& force, std::size_t steps, std::vector<Spike>& spikes, ThreadPool& pool) {
-    for (std::size_t at = 0; at < steps; at += skin_steps)
-        if (auto ok = impl_->run_steps(force, at, std::min(skin_steps, steps - at), spikes, pool); !ok) return ok;
+    for (std::size_t at = 0; at < steps; at += skin_steps) TRY(impl_->run_steps(force, at, std::min(skin_steps, steps - at), spikes, pool));
     return {};
 }
 

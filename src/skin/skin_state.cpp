@@ -147,9 +147,8 @@ std::vector<std::byte> Skin::save() const {
 
 Result<void> Skin::resume(std::span<const std::byte> saved) {
     auto& h = *impl_;
-    auto body = checked_body(saved);
-    if (!body) return body.error();
-    BytesIn from(*body);
+    auto body = TRY(checked_body(saved));
+    BytesIn from(body);
     std::uint64_t saved_fingerprint = 0;
     std::int64_t step = 0;
     SkinStats stats;

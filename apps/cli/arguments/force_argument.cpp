@@ -25,9 +25,8 @@ Result<Applied<std::unique_ptr<ForceSource>>> open_force(const std::string& forc
         error.message += fmt::format(" (and no file '{}' exists)", force.substr(0, 64));
         return error;
     }
-    auto recording = open_recording(force == "-" ? "/dev/stdin" : force, options);
-    if (!recording) return recording.error();
-    return Applied<std::unique_ptr<ForceSource>>{std::move(*recording), {overrides.begin(), overrides.end()}};
+    auto recording = TRY(open_recording(force == "-" ? "/dev/stdin" : force, options));
+    return Applied<std::unique_ptr<ForceSource>>{std::move(recording), {overrides.begin(), overrides.end()}};
 }
 
 }  // namespace corpuscle

@@ -72,16 +72,14 @@ CLI::Validator validator_of(const OptionCheck& check) {
 
 OptionReader refuse_if(std::function<bool()> is_invalid, std::string_view message, OptionReader read) {
     return [=](const std::string& text) -> Result<void> {
-        if (auto ok = read(text); !ok) return ok;
+        TRY(read(text));
         return is_invalid() ? bad_usage(fmt::format("{}: {}", text, message)) : Result<void>();
     };
 }
 
 OptionReader override_reader(std::vector<ParameterOverride>& to, std::string option) {
     return [&to, option = std::move(option)](const std::string& text) -> Result<void> {
-        auto parsed = parse_override(text, option);
-        if (!parsed) return parsed.error();
-        to.push_back(std::move(*parsed));
+        to.push_back(TRY(parse_override(text, option)));
         return {};
     };
 }

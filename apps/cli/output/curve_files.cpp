@@ -25,37 +25,31 @@ Result<void> CurveFiles::begin_variant(const Variant& variant) {
     if (!files_.empty()) return {};
     auto check = check_;
     const auto count = is_csv_ ? analysis_count_ : 1;
-    for (std::size_t k = 0; k < count; ++k)
-        if (auto ok = check.check_growing_file(path_of(count, k), is_csv_ ? is_own_table : is_own_raw); !ok) return ok;
+    for (std::size_t k = 0; k < count; ++k) TRY(check.check_growing_file(path_of(count, k), is_csv_ ? is_own_table : is_own_raw));
     return {};
 }
 
 Result<void> CurveFiles::add_plots(std::span<const Plot> plots) {
     has_complete_plots_ = true;
     if (is_csv_) {
-        for (const auto& plot : plots)
-            if (auto ok = write_table(plot, plots.size()); !ok) return ok;
+        for (const auto& plot : plots) TRY(write_table(plot, plots.size()));
         return {};
     }
-    const auto file = open(1, 0, {});
-    if (!file) return file.error();
+    const auto file = TRY(open(1, 0, {}));
     std::vector<Plot> named(plots.begin(), plots.end());
     for (auto& plot : named)
         if (!label_.empty()) plot.name += fmt::format(" ({})", label_);
-    return (*file)->write(raw_text(title_, named, !options_.ascii));
+    return file->write(raw_text(title_, named, !options_.ascii));
 }
 
 Result<void> CurveFiles::write_table(const Plot& plot, std::size_t count) {
     // The number of files matters only if it is 1, because the path then has no number.
-    const auto file = open(analysis_count_ + count - 1, plot_count_++, (has_steps_ ? "step," : "") + csv_header(plot));
-    if (!file) return file.error();
-    return (*file)->write(csv_rows(plot, has_steps_ ? label_ + "," : ""));
+    const auto file = TRY(open(analysis_count_ + count - 1, plot_count_++, (has_steps_ ? "step," : "") + csv_header(plot)));
+    return file->write(csv_rows(plot, has_steps_ ? label_ + "," : ""));
 }
 
 Result<void> CurveFiles::begin(const Plot& head) {
-    const auto file = is_csv_ ? open(analysis_count_, plot_count_++, (has_steps_ ? "step," : "") + csv_header(head)) : open(1, 0, {});
-    if (!file) return file.error();
-    file_ = *file;
+    file_ = TRY(is_csv_ ? open(analysis_count_, plot_count_++, (has_steps_ ? "step," : "") + csv_header(head)) : open(1, 0, {}));
     rows_.clear(), point_count_ = 0, last_write_ = Clock::now();
     if (is_csv_) return {};
     Plot named = head;
@@ -76,7 +70,7 @@ Result<void> CurveFiles::add_point(std::span<const double> row) {
 /// Writes the points before their count, so that the count in the file never exceeds the points in it.
 Result<void> CurveFiles::write_pending() {
     last_write_ = Clock::now();
-    if (auto ok = file_->write(rows_); !ok) return ok;
+    TRY(file_->write(rows_));
     rows_.clear(), written_time_ = newest_time_;
     return is_csv_ ? Result<void>() : file_->overwrite(count_offset_, raw_count(point_count_));
 }
@@ -87,8 +81,7 @@ Result<void> CurveFiles::end() {
 }
 
 Result<void> CurveFiles::finish() {
-    for (auto& file : files_)
-        if (auto ok = file.commit(); !ok) return ok;
+    for (auto& file : files_) TRY(file.commit());
     const bool is_any_synced = std::any_of(files_.begin(), files_.end(), [](const auto& f) { return f.is_synced(); });
     files_.clear();
     return is_any_synced ? sync_directory_of(options_.path) : Result<void>();
@@ -101,7 +94,7 @@ Result<std::string> CurveFiles::finish_early(bool interrupted) {
     const bool in_transient = file_ != nullptr;
     const auto note = fmt::format("{} ends early{}{}", in_transient ? file_->path() : options_.path, label_.empty() ? "" : ", in " + label_,
                                   in_transient ? ", at " + format_quantity(written_time_, "s") : "");
-    if (auto ok = finish(); !ok) return ok.error();
+    TRY(finish());
     return note;
 }
 
@@ -115,11 +108,9 @@ std::string CurveFiles::path_of(std::size_t file_count, std::size_t index) const
 Result<OutputFile*> CurveFiles::open(std::size_t file_count, std::size_t index, const std::string& head) {
     if (index < files_.size()) return &files_[index];
     const auto path = path_of(file_count, index);
-    if (auto ok = check_.check_growing_file(path, is_csv_ ? is_own_table : is_own_raw); !ok) return ok.error();
-    auto file = OutputFile::create_growing(path);
-    if (!file) return file.error();
-    files_.push_back(std::move(*file));
-    if (auto ok = files_.back().write(head); !ok) return ok.error();
+    TRY(check_.check_growing_file(path, is_csv_ ? is_own_table : is_own_raw));
+    files_.push_back(TRY(OutputFile::create_growing(path)));
+    TRY(files_.back().write(head));
     return &files_.back();
 }
 

@@ -12,8 +12,8 @@
 namespace corpuscle {
 
 Result<void> write_and_commit(OutputFile& file, const std::string& text) {
-    if (auto ok = file.write(text); !ok) return ok;
-    if (auto ok = file.commit(); !ok) return ok;
+    TRY(file.write(text));
+    TRY(file.commit());
     return file.is_synced() ? sync_directory_of(file.path()) : Result<void>();
 }
 
@@ -39,13 +39,10 @@ Result<void> check_outputs(const std::string& directory, std::vector<std::string
                            const std::string& checkpoint, OutputCheck& outputs) {
     if (page) {
         const auto page_names = file_names_in(directory, {*page});
-        if (page_names.empty()) {
-            if (auto ok = outputs.check_file(*page, is_own_page); !ok) return ok;
-        }
+        if (page_names.empty()) TRY(outputs.check_file(*page, is_own_page));
         names.insert(names.end(), page_names.begin(), page_names.end());
     }
-    if (!checkpoint.empty())
-        if (auto ok = outputs.check_file(checkpoint, is_own_checkpoint); !ok) return ok;
+    if (!checkpoint.empty()) TRY(outputs.check_file(checkpoint, is_own_checkpoint));
     if (directory.empty()) return {};
     const auto earlier = earlier_outputs(directory);
     const auto is_listed = [&](const std::string& name) { return std::find(earlier.begin(), earlier.end(), name) != earlier.end(); };

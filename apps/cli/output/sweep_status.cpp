@@ -49,21 +49,18 @@ Result<SweepStatus> read_sweep_status(const SweepResults& results, const Shard& 
     SweepStatus out;
     out.results = results.path(), out.shard = shard, out.items = shard.count(0, results.item_count());
     auto* file = results.handle();
-    auto counts = sql::Statement::make(
-        file, results.path(), "SELECT count(*), total(ended = 'truncated'), total(ended = 'diverged'), total(iterations) FROM items");
-    if (!counts) return counts.error();
-    if (const auto row = counts->step(); !row) return row.error();
-    out.finished = counts->integer(0), out.truncated = counts->integer(1), out.diverged = counts->integer(2),
-    out.iterations = counts->integer(3);
+    auto counts = TRY(sql::Statement::make(
+        file, results.path(), "SELECT count(*), total(ended = 'truncated'), total(ended = 'diverged'), total(iterations) FROM items"));
+    TRY(counts.step());
+    out.finished = counts.integer(0), out.truncated = counts.integer(1), out.diverged = counts.integer(2),
+    out.iterations = counts.integer(3);
     if (out.truncated + out.diverged == 0) return out;
-    auto reasons = sql::Statement::make(file, results.path(),
-                                        "SELECT why, count(*) FROM items WHERE ended <> 'done' GROUP BY why ORDER BY 2 DESC, 1 LIMIT 3");
-    if (!reasons) return reasons.error();
+    auto reasons = TRY(sql::Statement::make(
+        file, results.path(), "SELECT why, count(*) FROM items WHERE ended <> 'done' GROUP BY why ORDER BY 2 DESC, 1 LIMIT 3"));
     for (;;) {
-        const auto more = reasons->step();
-        if (!more) return more.error();
-        if (!*more) return out;
-        out.reasons.emplace_back(reasons->text(0), reasons->integer(1));
+        const auto more = TRY(reasons.step());
+        if (!more) return out;
+        out.reasons.emplace_back(reasons.text(0), reasons.integer(1));
     }
 }
 

@@ -25,13 +25,11 @@ Result<void> populate(ChannelJob& job, const RespondArguments& args) {
     job.copy_spec.count = args.copies;
     if (args.copies == 0) job.copies = job.afferents;
     for (std::size_t a = 0; args.copies > 0 && a < job.afferents.size(); ++a) {
-        auto spreads = distributions_for(job.afferents[a], args.afferents[a], args.spreads);
-        if (!spreads) return spreads.error();
-        keep_unused(unused, spreads->unused);
-        auto copies = make_copies(job.afferents[a], args.copies, spreads->result, args.simulation.seed);
-        if (!copies) return copies.error();
-        std::move(copies->begin(), copies->end(), std::back_inserter(job.copies));
-        std::move(spreads->result.begin(), spreads->result.end(), std::back_inserter(job.copy_spec.distributions));
+        auto spreads = TRY(distributions_for(job.afferents[a], args.afferents[a], args.spreads));
+        keep_unused(unused, spreads.unused);
+        auto copies = TRY(make_copies(job.afferents[a], args.copies, spreads.result, args.simulation.seed));
+        std::move(copies.begin(), copies.end(), std::back_inserter(job.copies));
+        std::move(spreads.result.begin(), spreads.result.end(), std::back_inserter(job.copy_spec.distributions));
     }
     std::vector<std::string_view> names;
     for (const auto& a : job.afferents) names.push_back(a.name);
@@ -71,13 +69,12 @@ Result<void> plan_afferents(ChannelJob& job, const RespondArguments& args) {
     const auto& probes = args.netlists.probes;
     std::vector<std::vector<RequestedProbe>> found;
     for (const auto& name : args.afferents) {
-        auto planned = plan_any_afferent(name, job.overrides, probes);
-        if (!planned) return planned.error();
-        if (std::any_of(job.afferents.begin(), job.afferents.end(), [&](const auto& a) { return a.name == planned->result.name; }))
+        auto planned = TRY(plan_any_afferent(name, job.overrides, probes));
+        if (std::any_of(job.afferents.begin(), job.afferents.end(), [&](const auto& a) { return a.name == planned.result.name; }))
             return bad_usage(fmt::format("--afferent {}: given twice", name));
-        keep_unused(job.unused, planned->unused);
-        job.afferents.push_back(std::move(planned->result));
-        if (!planned->probes.empty()) found.push_back(std::move(planned->probes));
+        keep_unused(job.unused, planned.unused);
+        job.afferents.push_back(std::move(planned.result));
+        if (!planned.probes.empty()) found.push_back(std::move(planned.probes));
     }
     return check_probes(probes, found);
 }
@@ -85,10 +82,9 @@ Result<void> plan_afferents(ChannelJob& job, const RespondArguments& args) {
 /// Opens every FORCE, and keeps the overrides that they have not used.
 Result<void> open_sources(ChannelJob& job, const RespondArguments& args, bool quiet) {
     for (const auto& force : args.forces) {
-        auto source = open_source(force, args, job.overrides, default_rate, quiet);
-        if (!source) return source.error();
-        keep_unused(job.unused, source->unused);
-        job.sources.push_back(std::move(source->result));
+        auto source = TRY(open_source(force, args, job.overrides, default_rate, quiet));
+        keep_unused(job.unused, source.unused);
+        job.sources.push_back(std::move(source.result));
     }
     return {};
 }
@@ -102,11 +98,11 @@ Result<ChannelJob> plan_channel_job(const RespondArguments& args, bool quiet) {
     job.overrides = args.netlists.overrides;  // first, so that a setting for one netlist takes precedence
     job.overrides.insert(job.overrides.end(), args.settings.begin(), args.settings.end());
     job.unused = job.overrides;
-    if (auto ok = plan_afferents(job, args); !ok) return ok.error();
-    if (auto ok = populate(job, args); !ok) return ok.error();
-    if (auto ok = open_sources(job, args, quiet); !ok) return ok.error();
-    if (auto ok = check_overrides(job); !ok) return ok.error();
-    if (auto ok = check_afferent_count(job); !ok) return ok.error();
+    TRY(plan_afferents(job, args));
+    TRY(populate(job, args));
+    TRY(open_sources(job, args, quiet));
+    TRY(check_overrides(job));
+    TRY(check_afferent_count(job));
     job.warnings = rate_warnings(job.sources, job.afferents);
     for (auto& warning : noise_warnings(job.afferents, job.options.noise)) job.warnings.push_back(std::move(warning));
     return job;

@@ -4,7 +4,6 @@
 #include <algorithm>
 
 #include "cli/arguments/recording_arguments.hpp"
-#include "cli/assign.hpp"
 #include "cli/respond/skin_run.hpp"
 #include "core/text/ascii_text.hpp"
 #include "skin/plan/class_overrides.hpp"
@@ -42,31 +41,28 @@ Result<void> open_contact(SkinJob& job, const RespondArguments& args, const Name
             return bad_usage(channels > 1 ? fmt::format("--contact {}: {} has {} channels; an indenter needs a force of one channel",
                                                         args.contact, job.source->name(), channels)
                                           : fmt::format("--contact {}: the skin has one site; an indenter needs several", args.contact));
-        auto at = match_sites(job.skin->plan, *job.source);
-        if (!at) return at.error();
-        job.force = make_site_force(*job.source, std::move(*at), sites.size());
+        auto at = TRY(match_sites(job.skin->plan, *job.source));
+        job.force = make_site_force(*job.source, std::move(at), sites.size());
         return {};
     }
     const std::string indenter = !args.contact.empty() ? args.contact : touch ? std::string(touch->indenter) : default_indenter;
-    auto contact = make_contact(indenter, job.overrides, sites, job.source->clock());
-    if (!contact) return contact.error();
-    keep_unused(job.unused, contact->unused);
-    job.contact = std::move(contact->result);
+    auto contact = TRY(make_contact(indenter, job.overrides, sites, job.source->clock()));
+    keep_unused(job.unused, contact.unused);
+    job.contact = std::move(contact.result);
     job.force = make_pressed_force(*job.source, *job.contact);
     return {};
 }
 
 /// Loads the population, applies the overrides to its classes, and places its afferents.
 Result<void> place_afferents(SkinJob& job, const RespondArguments& args) {
-    auto plan = load_skin_plan(args.population, job.source->channels());
-    if (!plan) return plan.error();
-    auto applied = apply_overrides(std::move(*plan), job.overrides);
-    if (!applied) return applied.error();
-    keep_unused(job.unused, applied->unused);
-    auto& skin_plan = applied->result;
+    auto plan = TRY(load_skin_plan(args.population, job.source->channels()));
+    auto applied = TRY(apply_overrides(std::move(plan), job.overrides));
+    keep_unused(job.unused, applied.unused);
+    auto& skin_plan = applied.result;
     if (args.simulation.seed != 0) skin_plan.seed = args.simulation.seed;  // 0, the default, keeps the seed of the population file
     if (job.source->channels().size() == 1) job.skin_note = treat_as_skin(skin_plan);
-    return assign(job.skin, innervate(std::move(skin_plan)));
+    job.skin = TRY(innervate(std::move(skin_plan)));
+    return {};
 }
 
 }  // namespace
@@ -85,14 +81,13 @@ Result<SkinJob> plan_skin_job(const RespondArguments& args, bool quiet) {
     const auto* touch = find_touch(args.forces[0]);
     if (touch) add_touch_overrides(job.overrides, *touch);
     const auto force = touch ? std::string(touch->force) : args.forces[0];
-    auto source = open_source(force, args, job.overrides, skin_rate, quiet);
-    if (!source) return source.error();
-    keep_unused(job.unused, source->unused);
-    job.source = std::move(source->result);
+    auto source = TRY(open_source(force, args, job.overrides, skin_rate, quiet));
+    keep_unused(job.unused, source.unused);
+    job.source = std::move(source.result);
     job.name = touch ? std::string(touch->name) : job.source->name();
-    if (auto ok = place_afferents(job, args); !ok) return ok.error();
-    if (auto ok = open_contact(job, args, touch); !ok) return ok.error();
-    if (auto ok = check_skin_overrides(job); !ok) return ok.error();
+    TRY(place_afferents(job, args));
+    TRY(open_contact(job, args, touch));
+    TRY(check_skin_overrides(job));
     return job;
 }
 

@@ -26,25 +26,22 @@ Result<void> check_population_options(const RespondArguments& args, const Common
 
 Result<std::unique_ptr<PlannedRun>> plan_run(const RespondArguments& args, const CommonArguments& common, Ranks* ranks) {
     if (!args.population.empty()) {
-        auto job = plan_skin_job(args, common.quiet);
-        if (!job) return job.error();
-        return std::unique_ptr<PlannedRun>(std::make_unique<SkinRun>(std::move(*job), args, common, ranks));
+        auto job = TRY(plan_skin_job(args, common.quiet));
+        return std::unique_ptr<PlannedRun>(std::make_unique<SkinRun>(std::move(job), args, common, ranks));
     }
-    auto job = plan_channel_job(args, common.quiet);
-    if (!job) return job.error();
-    return std::unique_ptr<PlannedRun>(std::make_unique<ChannelRun>(std::move(*job), common));
+    auto job = TRY(plan_channel_job(args, common.quiet));
+    return std::unique_ptr<PlannedRun>(std::make_unique<ChannelRun>(std::move(job), common));
 }
 
 /// Simulates the run with a progress bar.
 Result<RunStats> simulate_run(PlannedRun& run, std::span<Sink* const> sinks, std::uint32_t threads, bool quiet) {
     ThreadPool pool(threads);
-    auto simulators = run.simulators();
-    if (!simulators) return simulators.error();
+    auto simulators = TRY(run.simulators());
     auto options = run.options();
     options.pool = &pool;
     Progress progress(quiet);
     options.should_continue = [&](double fraction) { return progress.update(fraction), !interrupted(); };
-    auto stats = corpuscle::run(std::move(*simulators), sinks, options);
+    auto stats = corpuscle::run(std::move(simulators), sinks, options);
     return stats || stats.error().code != ErrorCode::interrupted ? std::move(stats) : run.interruption(stats.error());
 }
 
@@ -62,23 +59,21 @@ void print_result(const PlannedRun& run, const RunOutputs& outputs, nlohmann::or
 }
 
 Result<void> respond_with(const RespondArguments& args, const CommonArguments& common, Ranks* ranks) {
-    const auto planned = plan_run(args, common, ranks);
-    if (!planned) return planned.error();
-    PlannedRun& run = **planned;
+    const auto planned = TRY(plan_run(args, common, ranks));
+    PlannedRun& run = *planned;
     RunOutputs outputs;
-    if (auto ok = outputs.open(args, run, common.overwrite); !ok) return ok;
+    TRY(outputs.open(args, run, common.overwrite));
     SpikeTimes times;
     auto sinks = run.summaries();
     outputs.add_sinks(sinks);
     if (common.json) sinks.push_back(&times);
-    const auto stats = simulate_run(run, sinks, ranks ? std::max(1U, args.threads) : args.threads, common.quiet);
-    if (!stats) return stats.error();
-    auto document = run.summarize(*stats);
+    const auto stats = TRY(simulate_run(run, sinks, ranks ? std::max(1U, args.threads) : args.threads, common.quiet));
+    auto document = run.summarize(stats);
     document["files"] = outputs.file_names();
-    if (auto ok = outputs.commit(run, document); !ok) return ok;
+    TRY(outputs.commit(run, document));
     run.remove_checkpoint();
     print_result(run, outputs, std::move(document), times, common);
-    return run.verdict(*stats);
+    return run.verdict(stats);
 }
 
 /// With --probe, the probes are recorded in probes.csv or on the report page.

@@ -58,7 +58,7 @@ OptionReader method_reader(RespondOptions& options) {
 
 OptionReader noise_reader(RespondOptions& options) {
     return [&options](const std::string& text) -> Result<void> {
-        if (auto ok = quantity_reader(options.noise, "A")(text); !ok) return ok;
+        TRY(quantity_reader(options.noise, "A")(text));
         if (options.noise >= 0) return {};
         return bad_usage(fmt::format("'{}' is negative; write a standard deviation, such as '50 nA'", text));
     };

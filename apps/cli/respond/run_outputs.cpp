@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
-#include "cli/assign.hpp"
 #include "cli/output/output_files.hpp"
 #include "cli/output/printable.hpp"
 #include "run/earlier_outputs.hpp"
@@ -19,8 +18,7 @@ Result<std::vector<const OutputFormat*>> wanted_formats(const OutputRequest& req
         if (!format->option.empty() && request.directory.empty()) return bad_usage(fmt::format("{} needs --out DIR", format->option));
         wanted.push_back(format);
     }
-    for (const auto* format : wanted)
-        if (auto ok = format->check(request); !ok) return ok.error();
+    for (const auto* format : wanted) TRY(format->check(request));
     if (request.directory.empty()) wanted.clear();
     return wanted;
 }
@@ -37,25 +35,20 @@ RunOutputs::~RunOutputs() {
 Result<void> RunOutputs::open(const RespondArguments& args, PlannedRun& run, bool overwrite) {
     auto request = run.output_request();
     request.directory = directory_ = args.out, request.options = args.outputs;
-    const auto formats = wanted_formats(request);
-    if (!formats) return formats.error();
+    const auto formats = TRY(wanted_formats(request));
     std::vector<std::string> names;
-    for (const auto* format : *formats)
+    for (const auto* format : formats)
         for (auto& name : file_names_of(*format, request)) names.push_back(std::move(name));
     if (!directory_.empty()) names.emplace_back("summary.json");
     const auto page_path = report_page_path(args);
     OutputCheck check(overwrite);
-    if (auto ok = check_outputs(args.out, std::move(names), page_path, args.checkpoint, check); !ok) return ok;
-    for (const auto* format : *formats) {
-        auto file = format->make(request);
-        if (!file) return file.error();
-        files_.push_back(std::move(*file));
-    }
-    if (!directory_.empty())
-        if (auto ok = assign(summary_file_, OutputFile::create(directory_ + "/summary.json")); !ok) return ok;
+    TRY(check_outputs(args.out, std::move(names), page_path, args.checkpoint, check));
+    for (const auto* format : formats) files_.push_back(TRY(format->make(request)));
+    if (!directory_.empty()) summary_file_ = TRY(OutputFile::create(directory_ + "/summary.json"));
     if (!page_path) return {};
     report_ = &run.start_report();
-    return assign(report_file_, OutputFile::create(*page_path));
+    report_file_ = TRY(OutputFile::create(*page_path));
+    return {};
 }
 
 void RunOutputs::add_sinks(std::vector<Sink*>& sinks) const {
@@ -75,10 +68,8 @@ std::vector<std::string> RunOutputs::paths() const {
 std::vector<std::string> RunOutputs::file_names() const { return file_names_in(directory_, paths()); }
 
 Result<void> RunOutputs::commit(const PlannedRun& run, const nlohmann::ordered_json& document) {
-    if (report_)
-        if (auto ok = write_and_commit(*report_file_, run.page(document)); !ok) return ok;
-    for (auto& file : files_)
-        if (auto ok = file->commit(); !ok) return ok;
+    if (report_) TRY(write_and_commit(*report_file_, run.page(document)));
+    for (auto& file : files_) TRY(file->commit());
     if (!summary_file_) return {};
     removed_ = remove_stale_outputs(directory_, file_names());
     return write_and_commit(*summary_file_, json_text(document) + "\n");

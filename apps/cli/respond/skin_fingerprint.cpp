@@ -24,9 +24,8 @@ bool is_output_option(std::string_view name) {
 Result<void> add_contents(RunFingerprint& all, const std::string& kind, const std::string& path) {
     std::error_code status;
     if (!std::filesystem::is_regular_file(path, status)) return {};
-    auto contents = checksum_of_file(path);
-    if (!contents) return contents.error();
-    all.emplace_back(fmt::format("contents of the {}", kind), std::move(*contents));
+    auto contents = TRY(checksum_of_file(path));
+    all.emplace_back(fmt::format("contents of the {}", kind), std::move(contents));
     return {};
 }
 
@@ -47,10 +46,9 @@ Result<RunFingerprint> fingerprint_of(const SkinJob& job, const RespondArguments
     RunFingerprint all = {{"the program", fmt::format("version {}", version)}, {"FORCE", args.forces[0]}};
     for (const auto& [name, values] : common.typed)
         if (name != "FORCE" && !is_output_option(name)) all.emplace_back(name, fmt::format("{}", fmt::join(values, " ")));
-    if (!is_stimulus(args.forces[0]) && !find_touch(args.forces[0]))
-        if (auto ok = add_contents(all, "recording", args.forces[0]); !ok) return ok.error();
-    if (auto ok = add_contents(all, "population file", args.population); !ok) return ok.error();
-    if (auto ok = add_contents(all, "layout file", args.recording.layout); !ok) return ok.error();
+    if (!is_stimulus(args.forces[0]) && !find_touch(args.forces[0])) TRY(add_contents(all, "recording", args.forces[0]));
+    TRY(add_contents(all, "population file", args.population));
+    TRY(add_contents(all, "layout file", args.recording.layout));
     all.emplace_back("contents of the table of sites", sites_checksum(job.skin->plan.sites));
     return all;
 }

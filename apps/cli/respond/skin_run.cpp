@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <nlohmann/json.hpp>
 
-#include "cli/assign.hpp"
 #include "cli/output/terminal.hpp"
 
 namespace corpuscle {
@@ -12,10 +11,9 @@ namespace {
 
 /// The afferents of a skin that this process simulates.
 Result<std::unique_ptr<Skin>> make_skin(const SkinJob& job, const Ranks* ranks) {
-    const auto set = instruction_set();
-    if (!set) return set.error();
+    const auto set = TRY(instruction_set());
     const auto part = ranks ? SkinPart{static_cast<std::uint32_t>(ranks->rank()), static_cast<std::uint32_t>(ranks->size())} : SkinPart{};
-    return Skin::make(job.skin, job.options.for_clock(job.source->clock()), *set, part);
+    return Skin::make(job.skin, job.options.for_clock(job.source->clock()), set, part);
 }
 
 }  // namespace
@@ -32,9 +30,8 @@ void work_for_skin_run(const RespondArguments& args, Ranks& ranks) {
 Result<void> SkinRun::open_checkpoint() {
     if (args_.checkpoint.empty()) return {};
     if (ranks_) return bad_usage("--checkpoint works with one process only, not under mpirun");
-    auto fingerprint = fingerprint_of(job_, args_, common_);
-    if (!fingerprint) return fingerprint.error();
-    if (auto ok = assign(checkpoint_, SkinCheckpoint::open(args_.checkpoint, *skin_, std::move(*fingerprint))); !ok) return ok;
+    auto fingerprint = TRY(fingerprint_of(job_, args_, common_));
+    checkpoint_ = TRY(SkinCheckpoint::open(args_.checkpoint, *skin_, std::move(fingerprint)));
     if (checkpoint_->resumed_samples() > 0 && !common_.quiet)
         print_message(fmt::format("resuming after {:.3f} s, from {}",
                                   job_.source->clock().T() * static_cast<double>(checkpoint_->resumed_samples()), args_.checkpoint));
@@ -42,8 +39,8 @@ Result<void> SkinRun::open_checkpoint() {
 }
 
 Result<std::vector<std::unique_ptr<BlockSimulator>>> SkinRun::simulators() {
-    if (auto ok = assign(skin_, make_skin(job_, ranks_)); !ok) return ok.error();
-    if (auto ok = open_checkpoint(); !ok) return ok.error();
+    skin_ = TRY(make_skin(job_, ranks_));
+    TRY(open_checkpoint());
     if (ranks_) workers_.emplace(*ranks_);
     const SkinRunParts parts{workers_ ? &*workers_ : nullptr, checkpoint_.get()};
     std::vector<std::unique_ptr<BlockSimulator>> inputs;

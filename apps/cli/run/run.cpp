@@ -8,7 +8,6 @@
 #include "circuit/output/resolve_probe.hpp"
 #include "circuit/variant/netlist_overrides.hpp"
 #include "cli/arguments/netlist_arguments.hpp"
-#include "cli/assign.hpp"
 #include "cli/output/curve_files.hpp"
 #include "cli/output/terminal.hpp"
 #include "cli/run/variant_printer.hpp"
@@ -83,8 +82,7 @@ public:
 /// Creates the analysis context of a variant, or reuses `context` if the circuit is the same, as for the chips of .mc. `brief`: analyses
 /// make no tables and no warnings.
 Result<void> prepare(std::unique_ptr<AnalysisContext>& context, const Variant& variant, bool brief) {
-    if (!context || context->circuit != variant.circuit)
-        if (auto ok = assign(context, AnalysisContext::make(variant.circuit)); !ok) return ok;
+    if (!context || context->circuit != variant.circuit) context = TRY(AnalysisContext::make(variant.circuit));
     context->is_brief = brief;
     if (variant.sample) context->apply_variation(*variant.sample);
     return {};
@@ -101,12 +99,10 @@ Result<VariantResult> run_variant(AnalysisContext& context, Variant variant, con
     options.should_stop = [&](std::string_view analysis, double fraction) {
         return report_progress(progress.of(analysis, fraction)), interrupted();
     };
-    if (args.budget)
-        if (auto ok = cost_meter.attach(options); !ok) return ok.error();
-    auto outcome = circuit::run_directives(context, options);
-    if (!outcome) return outcome.error();
-    auto plots = args.out.empty() ? std::move(collected.plots) : outcome->plots();
-    return VariantResult{std::move(variant), std::move(*outcome), std::move(plots)};
+    if (args.budget) TRY(cost_meter.attach(options));
+    auto outcome = TRY(circuit::run_directives(context, options));
+    auto plots = args.out.empty() ? std::move(collected.plots) : outcome.plots();
+    return VariantResult{std::move(variant), std::move(outcome), std::move(plots)};
 }
 
 /// Runs all variants. A variant that does not converge is passed to the printer, unless it is the only one; any other error ends the run.
@@ -117,24 +113,21 @@ Result<void> run_all(NetlistVariants& variants, const RunArguments& args, const 
     std::unique_ptr<AnalysisContext> context;
     for (std::size_t k = 0; k < count; ++k) {
         const auto report = [&](double fraction) { progress.update((static_cast<double>(k) + fraction) / static_cast<double>(count)); };
-        const auto variant = variants.at(k);
-        if (!variant) return variant.error();
-        if (auto ok = prepare(context, *variant, /* brief = */ k > 0 || variants.has_chips()); !ok) return ok;
-        if (!args.out.empty())
-            if (auto ok = files.begin_variant(*variant); !ok) return ok;
+        const auto variant = TRY(variants.at(k));
+        TRY(prepare(context, variant, /* brief = */ k > 0 || variants.has_chips()));
+        if (!args.out.empty()) TRY(files.begin_variant(variant));
         CostMeter cost_meter(*context);
-        auto result = run_variant(*context, *variant, args, common, files, cost_meter, report);
+        auto result = run_variant(*context, variant, args, common, files, cost_meter, report);
         if (interrupted()) return Error{ErrorCode::interrupted, "interrupted"};
         report(1);
         if (result) {
-            if (args.budget)
-                if (auto ok = assign(result->cost, cost_meter.cost()); !ok) return ok;
+            if (args.budget) result->cost = TRY(cost_meter.cost());
             printer.add(*result);
         } else if (result.error().code == ErrorCode::not_converged && count > 1) {
-            printer.fail(variant->label, result.error());
+            printer.fail(variant.label, result.error());
         } else {
             auto error = result.error();
-            if (!variant->label.empty()) error.message = fmt::format("{}: {}", variant->label, error.message);
+            if (!variant.label.empty()) error.message = fmt::format("{}: {}", variant.label, error.message);
             return error;
         }
     }
@@ -153,44 +146,35 @@ void keep_partial_files(CurveFiles& files) {
 /// The netlist with its overrides and with the probes of --probe in addition to its own.
 Result<Netlist> netlist_of(const RunArguments& args) {
     auto overrides = args.netlists.overrides;
-    for (const auto& text : args.settings) {
-        auto parsed = parse_netlist_override(args.netlist, text, "--set");
-        if (!parsed) return parsed.error();
-        overrides.push_back(std::move(*parsed));
-    }
-    const auto applied = apply_overrides(args.netlist, overrides);  // all overrides are for this netlist, so none is unused
-    if (!applied) return applied.error();
-    const auto& netlist = applied->result;
+    for (const auto& text : args.settings) overrides.push_back(TRY(parse_netlist_override(args.netlist, text, "--set")));
+    const auto applied = TRY(apply_overrides(args.netlist, overrides));  // all overrides are for this netlist, so none is unused
+    const auto& netlist = applied.result;
     if (args.netlists.probes.empty()) return netlist;
-    const auto circuit = netlist.elaborate();
-    if (!circuit) return circuit.error();
+    const auto circuit = TRY(netlist.elaborate());
     auto changes = netlist.overrides();
     for (const auto& probe : args.netlists.probes) {
-        const auto found = resolve_probe(*circuit, probe);
-        if (!found) return found.error();
-        if (!*found)
+        const auto found = TRY(resolve_probe(circuit, probe));
+        if (!found)
             return bad_input(
-                fmt::format("--probe {}: {} has no such node or device{}", probe, args.netlist, suggest_probe(*circuit, probe)));
-        changes.saved.push_back(**found);
+                fmt::format("--probe {}: {} has no such node or device{}", probe, args.netlist, suggest_probe(circuit, probe)));
+        changes.saved.push_back(*found);
     }
     return netlist.with_overrides(std::move(changes));
 }
 
 Result<void> run_netlist(const RunArguments& args, const CommonArguments& common) {
-    const auto netlist = netlist_of(args);
-    if (!netlist) return netlist.error();
-    auto variants = NetlistVariants::create(*netlist);
-    if (!variants) return variants.error();
-    const bool has_steps = variants->count() > 1;
-    VariantPrinter printer(common, has_steps, variants->has_chips());
+    const auto netlist = TRY(netlist_of(args));
+    auto variants = TRY(NetlistVariants::create(netlist));
+    const bool has_steps = variants.count() > 1;
+    VariantPrinter printer(common, has_steps, variants.has_chips());
     CurveFiles files({args.out, args.ascii}, has_steps, common.overwrite);
-    const auto done = run_all(*variants, args, common, printer, files);
+    const auto done = run_all(variants, args, common, printer, files);
     printer.finish();
     if (!done) return keep_partial_files(files), done;
-    if (auto ok = files.finish(); !ok) return ok;
+    TRY(files.finish());
     if (!printer.failures.empty()) {
         auto error = printer.failures[0];
-        error.message = fmt::format("{} of {} did not converge; the first: {}", printer.failures.size(), variants->count(), error.message);
+        error.message = fmt::format("{} of {} did not converge; the first: {}", printer.failures.size(), variants.count(), error.message);
         return error;
     }
     if (printer.failed_expectation) return *printer.failed_expectation;

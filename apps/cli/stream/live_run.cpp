@@ -9,7 +9,6 @@
 
 #include "circuit/variant/embedded_netlists.hpp"
 #include "cli/arguments/own_files.hpp"
-#include "cli/assign.hpp"
 #include "cli/output/printable.hpp"
 #include "cli/output/stream_report.hpp"
 #include "cli/output/terminal.hpp"
@@ -30,9 +29,8 @@ namespace {
 Result<Applied<SkinPlan>> plan_of(const StreamArguments& args, std::span<const Channel> channels) {
     if (channels.empty()) return make_live_plan(args.population, args.channel_count, args.settings);
     if (is_afferent_list(args.population)) return make_channel_plan(args.population, channels, args.settings);
-    auto plan = load_skin_plan(args.population, channels);
-    if (!plan) return plan.error();
-    return apply_overrides(std::move(*plan), args.settings);
+    auto plan = TRY(load_skin_plan(args.population, channels));
+    return apply_overrides(std::move(plan), args.settings);
 }
 
 /// Returns an error if --population or --set names a netlist.
@@ -44,11 +42,10 @@ Result<void> check_no_netlist(const StreamArguments& args) {
     };
     for (std::string_view rest = args.population; !rest.empty();) {
         const auto comma = std::min(rest.find(','), rest.size());
-        if (auto ok = check(rest.substr(0, comma), "--population " + args.population); !ok) return ok;
+        TRY(check(rest.substr(0, comma), "--population " + args.population));
         rest.remove_prefix(std::min(comma + 1, rest.size()));
     }
-    for (const auto& o : args.settings)
-        if (auto ok = check(o.target, "--set " + o.text()); !ok) return ok;
+    for (const auto& o : args.settings) TRY(check(o.target, "--set " + o.text()));
     return {};
 }
 
@@ -70,15 +67,13 @@ class LiveRun {
 
     /// Opens a recording or a stimulus, and the skin that it drives.
     Result<void> open_recorded() {
-        auto opened = open_stream_source(args_, common_);
-        if (!opened) return opened.error();
-        auto& source = opened->result;
-        keep_unused(unused_, opened->unused);
-        if (auto ok = open_skin(source->channels(), source->clock()); !ok) return ok;
-        auto sites = match_sites(skin_->innervation().plan, *source);
-        if (!sites) return sites.error();
+        auto opened = TRY(open_stream_source(args_, common_));
+        auto& source = opened.result;
+        keep_unused(unused_, opened.unused);
+        TRY(open_skin(source->channels(), source->clock()));
+        auto sites = TRY(match_sites(skin_->innervation().plan, *source));
         source_ = source.get();
-        frames_ = assign_sites(make_frame_source(std::move(source), args_.pace == "real"), std::move(*sites), skin_->sites());
+        frames_ = assign_sites(make_frame_source(std::move(source), args_.pace == "real"), std::move(sites), skin_->sites());
         return {};
     }
 
@@ -106,20 +101,17 @@ class LiveRun {
 
     /// Opens a live input, and the skin that it drives.
     Result<void> open_live() {
-        if (auto ok = check_live_options(args_, common_); !ok) return ok;
-        const auto clock = live_clock(args_);
-        if (!clock) return clock.error();
-        if (auto ok = open_skin({}, *clock); !ok) return ok;
+        TRY(check_live_options(args_, common_));
+        const auto clock = TRY(live_clock(args_));
+        TRY(open_skin({}, clock));
         std::vector<std::uint32_t> sites;  // the site of each force of a frame; empty: all sites in order
-        if (const auto& path = args_.recording.layout; !path.empty())
-            if (auto ok = assign(sites, read_site_map(path, skin_->innervation().plan.sites)); !ok) return ok;
-        if (auto ok = assign(layout_, live_layout(args_, sites.empty() ? skin_->sites() : sites.size(), *clock)); !ok) return ok;
-        auto bytes = open_live_input(args_, layout_);
-        if (!bytes) return bytes.error();
-        const auto in_frames = [&](double seconds) { return static_cast<std::int64_t>(std::min(seconds * clock->rate(), 2e9)); };
-        frames_ = make_frame_source(std::move(*bytes), layout_, in_frames(args_.hold), in_frames(args_.max_gap), args_.batch_frames,
+        if (const auto& path = args_.recording.layout; !path.empty()) sites = TRY(read_site_map(path, skin_->innervation().plan.sites));
+        layout_ = TRY(live_layout(args_, sites.empty() ? skin_->sites() : sites.size(), clock));
+        auto bytes = TRY(open_live_input(args_, layout_));
+        const auto in_frames = [&](double seconds) { return static_cast<std::int64_t>(std::min(seconds * clock.rate(), 2e9)); };
+        frames_ = make_frame_source(std::move(bytes), layout_, in_frames(args_.hold), in_frames(args_.max_gap), args_.batch_frames,
                                     header_reader(sites));
-        if (auto ok = assign(frames_, filter_live_frames(std::move(frames_), args_.recording, layout_.sites, *clock)); !ok) return ok;
+        frames_ = TRY(filter_live_frames(std::move(frames_), args_.recording, layout_.sites, clock));
         if (!sites.empty()) frames_ = assign_sites(std::move(frames_), std::move(sites), skin_->sites());
         return {};
     }
@@ -127,34 +119,33 @@ class LiveRun {
     /// `channels`: as for plan_of(). `clock`: of the frames.
     Result<void> open_skin(std::span<const Channel> channels, Clock clock) {
         clock.t0 = 0;  // time 0 is the first frame
-        const auto plan = plan_of(args_, channels);
-        if (!plan) return plan.error();
-        keep_unused(unused_, plan->unused);
-        auto innervation = innervate(plan->result);
-        if (!innervation) return innervation.error();
-        return assign(skin_, SkinStream::make(*innervation, clock, args_.sampled, args_.batch_frames));
+        const auto plan = TRY(plan_of(args_, channels));
+        keep_unused(unused_, plan.unused);
+        auto innervation = TRY(innervate(plan.result));
+        skin_ = TRY(SkinStream::make(innervation, clock, args_.sampled, args_.batch_frames));
+        return {};
     }
 
     Result<void> open_sink() {
         const auto addressing = make_event_addressing(skin_->innervation(), skin_->clock());
-        if (auto ok = assign(format_, make_event_format(args_.format, addressing)); !ok) return ok;
+        format_ = TRY(make_event_format(args_.format, addressing));
         const auto buffer_size = static_cast<std::size_t>(args_.buffer);
-        return assign(sink_, !args_.to.empty()  ? connect_event_client(args_.to, *format_, buffer_size)
-                             : args_.out == "-" ? open_standard_output(*format_, buffer_size)
-                                                : create_event_file(args_.out, *format_, buffer_size));
+        sink_ = TRY(!args_.to.empty()  ? connect_event_client(args_.to, *format_, buffer_size)
+                    : args_.out == "-" ? open_standard_output(*format_, buffer_size)
+                                       : create_event_file(args_.out, *format_, buffer_size));
+        return {};
     }
 
     /// Loads the state of --resume: the skin, the last force of each site, and the number of the last frame if frames are numbered.
     Result<void> load_state() {
         if (args_.resume.empty()) return {};
-        const auto state = load_stream(args_.resume);
-        if (!state) return state.error();
-        if (state->force.size() != skin_->sites())
-            return bad_input(fmt::format("the saved state has {} sites, but the population has {}", state->force.size(), skin_->sites()),
+        const auto state = TRY(load_stream(args_.resume));
+        if (state.force.size() != skin_->sites())
+            return bad_input(fmt::format("the saved state has {} sites, but the population has {}", state.force.size(), skin_->sites()),
                              {args_.resume});
-        if (auto ok = skin_->resume(state->skin); !ok) return Error{ok.error().code, ok.error().message, {args_.resume}};
-        std::copy(state->force.begin(), state->force.end(), loop_->force().begin());
-        if (auto* sequence = frames_->sequence(); sequence && state->number) sequence->resume_after(*state->number);
+        if (auto ok = skin_->resume(state.skin); !ok) return Error{ok.error().code, ok.error().message, {args_.resume}};
+        std::copy(state.force.begin(), state.force.end(), loop_->force().begin());
+        if (auto* sequence = frames_->sequence(); sequence && state.number) sequence->resume_after(*state.number);
         return {};
     }
 
@@ -246,11 +237,11 @@ class LiveRun {
 
     /// Opens input, skin and output.
     Result<void> open() {
-        if (auto ok = is_live_input(args_.in) ? open_live() : open_recorded(); !ok) return ok;
+        TRY(is_live_input(args_.in) ? open_live() : open_recorded());
         std::vector<std::string_view> others;
         if (source_) others.push_back(source_->name());
-        if (auto ok = check_all_used(unused_, override_targets(skin_->innervation().plan, others)); !ok) return ok;
-        if (auto ok = check_outputs(); !ok) return ok;
+        TRY(check_all_used(unused_, override_targets(skin_->innervation().plan, others)));
+        TRY(check_outputs());
         return open_sink();
     }
 
@@ -258,8 +249,7 @@ class LiveRun {
     Result<void> check_outputs() const {
         OutputCheck outputs(common_.overwrite);
         remember_input("-");  // standard input may be a file, which must not be replaced
-        if (!args_.save_state.empty())
-            if (auto ok = outputs.check_file(args_.save_state, is_own_state); !ok) return ok;
+        if (!args_.save_state.empty()) TRY(outputs.check_file(args_.save_state, is_own_state));
         if (!args_.resume.empty()) remember_input(args_.resume);
         return args_.out == "-" ? Result<void>() : outputs.check_growing_file(args_.out, is_own_events);
     }
@@ -270,7 +260,7 @@ public:
     LiveRun(const StreamArguments& args, const CommonArguments& common) : args_(args), common_(common), unused_(args.settings) {}
 
     Result<void> run() {
-        if (auto ok = check_no_netlist(args_); !ok) return ok;
+        TRY(check_no_netlist(args_));
         if (auto ok = open(); !ok) return interrupted() ? stopped : ok;
         print_notes();
         StreamLoop::StreamOptions options{.stop = interrupted, .busy_poll = args_.busy_poll, .keeps_state = !args_.save_state.empty()};
@@ -278,7 +268,7 @@ public:
         if (!common_.quiet && !common_.json && ::isatty(STDERR_FILENO) && !::isatty(STDOUT_FILENO))
             options.on_second = [this] { show_status(); };
         loop_ = std::make_unique<StreamLoop>(*skin_, *format_, *frames_, *sink_, std::move(options));
-        if (auto ok = load_state(); !ok) return ok;
+        TRY(load_state());
         if (is_live_input(args_.in) && args_.in != "-") print(frames_->description());
         auto ended = loop_->run();
         print_quality();

@@ -35,7 +35,7 @@ bool is_live_input(const std::string& in) {
 std::string input_name(const std::string& in) { return in == "-" ? "standard input" : in; }
 
 Result<Applied<std::unique_ptr<ForceSource>>> open_stream_source(const StreamArguments& args, const CommonArguments& common) {
-    if (auto ok = check_recording_arguments(common, {&args.in, 1}); !ok) return ok.error();
+    TRY(check_recording_arguments(common, {&args.in, 1}));
     auto options = args.recording;
     options.should_continue = [](double) { return !interrupted(); };
     return open_force(args.in, options, args.settings, stimulus_rate, 0);
@@ -62,8 +62,7 @@ Result<Clock> live_clock(const StreamArguments& args) {
 Result<FrameLayout> live_layout(const StreamArguments& args, std::size_t sites, const Clock& clock) {
     Column column;  // only for the name of the frame in error messages
     column.name = "a frame";
-    const auto scale = newtons_per_unit(column, args.recording, input_name(args.in));
-    if (!scale) return scale.error();
+    const auto scale = TRY(newtons_per_unit(column, args.recording, input_name(args.in)));
     FrameLayout layout;
     layout.kind = args.frames == "csv"   ? FrameKind::csv
                   : args.frames == "f32" ? FrameKind::f32
@@ -72,7 +71,7 @@ Result<FrameLayout> live_layout(const StreamArguments& args, std::size_t sites, 
     layout.stamp = args.stamp == "none" ? FrameStamp::none : args.stamp == "sequence" ? FrameStamp::sequence : FrameStamp::time;
     layout.sites = sites, layout.rate = clock.rate();
     layout.absolute = args.recording.absolute, layout.range = args.recording.range;
-    layout.scale = *scale, layout.offset = args.recording.offset, layout.limit = args.max_force;
+    layout.scale = scale, layout.offset = args.recording.offset, layout.limit = args.max_force;
     return layout;
 }
 
@@ -80,24 +79,21 @@ Result<std::unique_ptr<FrameSource>> filter_live_frames(std::unique_ptr<FrameSou
                                                         std::size_t sites, const Clock& clock) {
     std::vector<Biquad> filters;
     const auto add = [&](const Result<Biquad>& filter) { return filter ? (filters.push_back(*filter), Result<void>()) : filter.error(); };
-    for (const double f : options.notch)
-        if (auto ok = add(Biquad::notch(f, clock)); !ok) return ok.error();
-    if (options.lowpass)
-        if (auto ok = add(Biquad::lowpass(*options.lowpass, clock)); !ok) return ok.error();
+    for (const double f : options.notch) TRY(add(Biquad::notch(f, clock)));
+    if (options.lowpass) TRY(add(Biquad::lowpass(*options.lowpass, clock)));
     return filter_frames(std::move(frames), sites, filters);
 }
 
 Result<std::unique_ptr<ByteSource>> open_live_input(const StreamArguments& args, const FrameLayout& layout) {
     if (args.in == "-") return open_standard_input();
     if (args.in.starts_with("serial:")) return open_serial(args.in.substr(std::string_view("serial:").size()), args.baud);
-    const auto port = port_of(args);
-    if (!port) return port.error();
+    const auto port = TRY(port_of(args));
     const SenderLimits limits{args.clients, static_cast<std::int64_t>(std::min(args.idle_timeout, 1e9) * 1e9)};
-    if (args.in.starts_with("tcp:")) return listen_on(args.listen, *port, limits);
+    if (args.in.starts_with("tcp:")) return listen_on(args.listen, port, limits);
     if (layout.kind != FrameKind::csv && layout.bytes() > max_datagram)
         return bad_usage(fmt::format("--in {}: a frame of {} bytes exceeds the maximum datagram of {} bytes; use tcp:{}{}", args.in,
-                                     layout.bytes(), max_datagram, *port, args.frames == "f64" ? ", or --frames f32" : ""));
-    return receive_datagrams(args.listen, *port, limits);
+                                     layout.bytes(), max_datagram, port, args.frames == "f64" ? ", or --frames f32" : ""));
+    return receive_datagrams(args.listen, port, limits);
 }
 
 }  // namespace corpuscle

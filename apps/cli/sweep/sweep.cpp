@@ -122,9 +122,8 @@ Result<void> coordinate_run(const SweepProcess& self, const Sweep& sweep, const 
         print_warning(fmt::format("the results are complete only if {} is kept together with {}-wal: {}", results->path(), results->path(),
                                   checkpointed.error().message));
     if (!done) return with_advice(done.error(), *results);
-    const auto state = read_sweep_status(*results, shard);
-    if (!state) return state.error();
-    auto final_state = *state;
+    const auto state = TRY(read_sweep_status(*results, shard));
+    auto final_state = state;
     final_state.finished_now = results->finished_count() - finished_before, final_state.sweep = args.file;
     print_sweep_status(common, final_state);
     if (results->finished_count() > 0 && final_state.diverged == results->finished_count())
@@ -134,12 +133,10 @@ Result<void> coordinate_run(const SweepProcess& self, const Sweep& sweep, const 
 }
 
 Result<void> run_as(const SweepArguments& args, const CommonArguments& common, SweepProcess& self) {
-    const auto shard = shard_of(args.shard);
-    if (!shard) return shard.error();
+    const auto shard = TRY(shard_of(args.shard));
     if (Ranks::are_started()) {
-        auto ranks = Ranks::join();
-        if (!ranks) return ranks.error();
-        if ((*ranks)->size() > 1) self.ranks = std::move(*ranks);
+        auto ranks = TRY(Ranks::join());
+        if (ranks->size() > 1) self.ranks = std::move(ranks);
     }
     auto sweep = read_sweep(args.file, {args.seed, args.samples});
     if (sweep) (*sweep)->set_lanes(args.lanes);
@@ -148,22 +145,19 @@ Result<void> run_as(const SweepArguments& args, const CommonArguments& common, S
         if (self.ranks) shut_down_workers(*self.ranks);
         return sweep.error();
     }
-    return coordinate_run(self, **sweep, args, common, *shard);
+    return coordinate_run(self, **sweep, args, common, shard);
 }
 
 Result<void> show_sweep_status(const SweepArguments& args, const CommonArguments& common) {
-    const auto shard = shard_of(args.shard);
-    if (!shard) return shard.error();
-    const auto results = SweepResults::open_read_only(results_path(args, *shard));
-    if (!results) return results.error();
-    auto state = read_sweep_status(*results, *shard);
-    if (!state) return state.error();
-    state->sweep = args.file;
-    if (const auto writer = WriterLock::holder(results->path())) {
+    const auto shard = TRY(shard_of(args.shard));
+    const auto results = TRY(SweepResults::open_read_only(results_path(args, shard)));
+    auto state = TRY(read_sweep_status(results, shard));
+    state.sweep = args.file;
+    if (const auto writer = WriterLock::holder(results.path())) {
         const auto now = std::chrono::duration<double>(std::chrono::system_clock::now().time_since_epoch()).count();
-        state->writer = *writer, state->running_for = now - writer->since;
+        state.writer = *writer, state.running_for = now - writer->since;
     }
-    print_sweep_status(common, *state);
+    print_sweep_status(common, state);
     return {};
 }
 

@@ -67,25 +67,21 @@ constexpr double max_first_spike_error = 10e-3;  // s, between the first spikes 
 
 /// Sets the stimulus, and derives the pass limits from the response of the model in each phase and between the phases.
 Result<void> set_target(ChipCalibration& calibration, const std::string& model, const SweepCalibrateArguments& args) {
-    const auto stimulus = make_stimulus(args.force, 10e3, 0);
-    if (!stimulus) return stimulus.error();
-    auto force = read_channel(**stimulus);
-    if (!force) return force.error();
-    const auto& clock = (*stimulus)->clock();
-    const auto plan = plan_any_afferent(model);
-    if (!plan) return plan.error();
-    const auto response = simulate(*make_afferent(*plan, {clock.T()}), *force);
-    if (!response) return response.error();
-    calibration.force = std::move(*force), calibration.T = clock.T();
+    const auto stimulus = TRY(make_stimulus(args.force, 10e3, 0));
+    auto force = TRY(read_channel(*stimulus));
+    const auto& clock = stimulus->clock();
+    const auto plan = TRY(plan_any_afferent(model));
+    const auto response = TRY(simulate(*make_afferent(plan, {clock.T()}), force));
+    calibration.force = std::move(force), calibration.T = clock.T();
     std::vector<TimeWindow> phases;
     double from = 0;
-    for (const auto& p : (*stimulus)->phases()) {
+    for (const auto& p : stimulus->phases()) {
         if (p.from > from) phases.push_back({from, p.from});
         phases.push_back({p.from, p.to}), from = p.to;
     }
     const double end = static_cast<double>(calibration.force.size()) * calibration.T;
     if (end > from) phases.push_back({from, end});
-    calibration.limits = FiringLimits::around(spike_times(response->spikes, clock), phases, max_first_spike_error);
+    calibration.limits = FiringLimits::around(spike_times(response.spikes, clock), phases, max_first_spike_error);
     return {};
 }
 
@@ -101,9 +97,8 @@ Result<std::vector<CalibrationResult>> run_calibrations(ChipCalibration& calibra
     std::vector<CalibrationResult> out;
     for (const auto& set : sets) {
         calibration.trims = set;
-        auto done = calibrate(calibration, chips);
-        if (!done) return done.error();
-        out.push_back({set, std::move(*done)});
+        auto done = TRY(calibrate(calibration, chips));
+        out.push_back({set, std::move(done)});
     }
     return out;
 }
@@ -121,13 +116,11 @@ Result<void> calibrate_netlist(const SweepCalibrateArguments& args, const Common
     calibration.overrides = {{"", "corner", args.corner, "--corner " + args.corner}};
     calibration.batch.max_iterations = 60'000;
     calibration.batch.should_stop = interrupted;
-    if (auto ok = set_target(calibration, args.like.empty() ? defaults->model : args.like, args); !ok) return ok;
+    TRY(set_target(calibration, args.like.empty() ? defaults->model : args.like, args));
     std::vector<Trim> trims;
     for (const auto& text :
          args.trims.empty() ? std::vector<std::string>(std::begin(defaults->trims), std::end(defaults->trims)) : args.trims) {
-        auto trim = parse_trim(text, calibration);
-        if (!trim) return trim.error();
-        trims.push_back(std::move(*trim));
+        trims.push_back(TRY(parse_trim(text, calibration)));
     }
     auto done = [&] {
         Progress progress(common.quiet);

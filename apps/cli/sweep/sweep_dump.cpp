@@ -10,10 +10,9 @@ namespace corpuscle {
 namespace {
 
 Result<void> dump(const std::string& path) {
-    const auto results = SweepResults::open_read_only(path);
-    if (!results) return results.error();
+    const auto results = TRY(SweepResults::open_read_only(path));
     bool written = true;
-    auto ok = dump_results(*results, [&](const std::string& text) {
+    auto ok = dump_results(results, [&](const std::string& text) {
         written = std::fwrite(text.data(), 1, text.size(), stdout) == text.size();
         return written && !interrupted();
     });

@@ -17,10 +17,9 @@ struct SweepMergeArguments {
 Result<void> merge_all(SweepResults& out, const std::vector<SweepResults>& in, const CommonArguments& common) {
     for (const auto& from : in) {
         if (interrupted()) return Error{ErrorCode::interrupted, "interrupted; the same command resumes"};
-        const auto added = out.merge(from);
-        if (!added) return added.error();
+        const auto added = TRY(out.merge(from));
         if (!common.json && !common.quiet)
-            print_text(fmt::format("{}: {} items, {} of them new\n", from.path(), from.finished_count(), *added));
+            print_text(fmt::format("{}: {} items, {} of them new\n", from.path(), from.finished_count(), added));
     }
     return {};
 }
@@ -28,20 +27,16 @@ Result<void> merge_all(SweepResults& out, const std::vector<SweepResults>& in, c
 Result<void> merge(const SweepMergeArguments& args, const CommonArguments& common) {
     std::vector<SweepResults> in;
     for (const auto& path : args.in) {
-        auto results = SweepResults::open_read_only(path);
-        if (!results) return results.error();
-        in.push_back(std::move(*results));
-        if (auto ok = in.back().check_same_sweep(in.front()); !ok) return ok;
+        in.push_back(TRY(SweepResults::open_read_only(path)));
+        TRY(in.back().check_same_sweep(in.front()));
     }
-    auto out = SweepResults::open(args.out, in.front());
-    if (!out) return out.error();
-    auto ok = merge_all(*out, in, common);
+    auto out = TRY(SweepResults::open(args.out, in.front()));
+    auto ok = merge_all(out, in, common);
     // A checkpoint also after an error, so that the items merged so far are in the file; the first error is returned.
-    if (auto checkpointed = out->checkpoint(); ok) ok = checkpointed;
+    if (auto checkpointed = out.checkpoint(); ok) ok = checkpointed;
     if (!ok) return ok;
-    const auto state = read_sweep_status(*out, {});
-    if (!state) return state.error();
-    print_sweep_status(common, *state);
+    const auto state = TRY(read_sweep_status(out, {}));
+    print_sweep_status(common, state);
     return {};
 }
 

@@ -52,35 +52,29 @@ Result<SweepSummaryOptions> summary_options(const SweepShowArguments& args) {
 }
 
 Result<void> show(const SweepShowArguments& args, const CommonArguments& common) {
-    const auto options = summary_options(args);
-    if (!options) return options.error();
-    const auto results = SweepResults::open_read_only(args.results);
-    if (!results) return results.error();
+    const auto options = TRY(summary_options(args));
+    const auto results = TRY(SweepResults::open_read_only(args.results));
     remember_input(args.results);
     OutputCheck outputs(common.overwrite);
-    if (!args.report_file.empty())
-        if (auto ok = outputs.check_file(args.report_file, is_own_page); !ok) return ok;
-    const auto table = read_table(*results, args.measures);
-    if (!table) return table.error();
+    if (!args.report_file.empty()) TRY(outputs.check_file(args.report_file, is_own_page));
+    const auto table = TRY(read_table(results, args.measures));
     std::optional<MismatchSamples> samples;
-    if (const auto text = results->about(mismatch_metadata_name); !text.empty()) {
+    if (const auto text = results.about(mismatch_metadata_name); !text.empty()) {
         auto read = parse_mismatch_samples(text);
         if (!read) return bad_input(read.error().message, {args.results});
         samples = std::move(*read);
     }
-    const auto summary = summary_of(*table, samples, *options);
-    if (!summary) return summary.error();
-    const auto given_title = results->about("title");
+    const auto summary = TRY(summary_of(table, samples, options));
+    const auto given_title = results.about("title");
     const auto title = given_title.empty() ? std::filesystem::path(args.results).stem().string() : given_title;
     if (!args.report_file.empty()) {
-        const auto page = sweep_page(*results, *table, *summary, title, common.command);
-        if (!page) return page.error();
-        if (auto ok = write_file(args.report_file, *page); !ok) return ok;
+        const auto page = TRY(sweep_page(results, table, summary, title, common.command));
+        TRY(write_file(args.report_file, page));
     }
     if (common.json)
-        fmt::print("{}\n", json_text(document_of(*table, *summary, title)));
+        fmt::print("{}\n", json_text(document_of(table, summary, title)));
     else if (!common.quiet)
-        print_text(sweep_tables(*table, *summary, title, !args.quantiles.empty()));
+        print_text(sweep_tables(table, summary, title, !args.quantiles.empty()));
     return {};
 }
 

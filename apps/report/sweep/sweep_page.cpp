@@ -203,19 +203,16 @@ Result<std::string> sweep_page(const SweepResults& results, const SweepTable& ta
     const auto traced = thinned_rows(table.rows(), max_traces), failed = failed_rows(table);
     page["rasters"] = Json::array(), page["traces"] = Json::array();
     for (std::size_t t = 0; t < std::min<std::size_t>(results.train_names().size(), 4); ++t) {
-        auto raster = rasters(results, t, table, chips);
-        if (!raster) return raster.error();
-        page["rasters"].push_back(std::move(*raster));
+        auto raster = TRY(rasters(results, t, table, chips));
+        page["rasters"].push_back(std::move(raster));
     }
     for (std::size_t t = 0; t < std::min<std::size_t>(results.probe_names().size(), 8); ++t) {
-        auto one = envelopes(results, t, table, traced, groupings);
-        if (!one) return one.error();
-        page["traces"].push_back(std::move(*one));
+        auto one = TRY(envelopes(results, t, table, traced, groupings));
+        page["traces"].push_back(std::move(one));
     }
-    const auto diverged = failed_items(results, max_failed);
-    if (!diverged) return diverged.error();
+    const auto diverged = TRY(failed_items(results, max_failed));
     page["reasons"] = Json::object();
-    for (const auto& failure : *diverged) page["reasons"][fmt::format("{}", failure.item)] = failure.reason;
+    for (const auto& failure : diverged) page["reasons"][fmt::format("{}", failure.item)] = failure.reason;
     for (const auto* rows : {&points, &chips, &failed}) shown.add(*rows);
     page["points"] = points, page["failed"] = failed;
     page["factors"] = factors_document(table, summary, points);

@@ -148,10 +148,9 @@ Result<PlotJson> envelopes(const SweepResults& results, std::size_t probe, const
     const auto shown = thinned_rows(results.probe_times().size(), max_times);
     std::vector<std::vector<float>> all;  // [row][time]
     for (const auto r : rows) {
-        const auto samples = results.probe_samples(table.items[r], probe);
-        if (!samples) return samples.error();
+        const auto samples = TRY(results.probe_samples(table.items[r], probe));
         all.emplace_back();
-        for (const auto k : shown) all.back().push_back(k < samples->size() ? (*samples)[k] : std::nanf(""));
+        for (const auto k : shown) all.back().push_back(k < samples.size() ? samples[k] : std::nanf(""));
     }
     const auto stats_over = [&](auto&& is_included) {
         EnvelopeStats stats;
@@ -189,11 +188,10 @@ Result<PlotJson> rasters(const SweepResults& results, std::size_t train, const S
     PlotJson shown = PlotJson::array(), counts = PlotJson::array();
     std::vector<float> times;
     for (const auto r : rows) {
-        const auto spikes = results.spikes(table.items[r], train);
-        if (!spikes) return spikes.error();
-        if (times.size() + spikes->size() > max_spikes) break;  // the raster then shows the rows before this one
-        shown.push_back(r), counts.push_back(spikes->size());
-        for (const double t : *spikes) times.push_back(static_cast<float>(t));
+        const auto spikes = TRY(results.spikes(table.items[r], train));
+        if (times.size() + spikes.size() > max_spikes) break;  // the raster then shows the rows before this one
+        shown.push_back(r), counts.push_back(spikes.size());
+        for (const double t : spikes) times.push_back(static_cast<float>(t));
     }
     return PlotJson{{"name", results.train_names()[train]},
                     {"rows", shown},

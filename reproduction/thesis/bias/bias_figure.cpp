@@ -11,9 +11,8 @@ namespace {
 Result<void> claim_end(StudyResult& out, const std::string& claim_label, const BiasSweep& sweep, double end, bool reaches_sweep_end,
                        double published, const BiasFigure& figure) {
     auto& claim = out.claim(claim_label, end, figure.unit).published_as(published, figure.source());
-    auto why = explain_range_end(sweep, end, reaches_sweep_end);
-    if (!why) return why.error();
-    claim.explain(std::move(*why));
+    auto why = TRY(explain_range_end(sweep, end, reaches_sweep_end));
+    claim.explain(std::move(why));
     return {};
 }
 
@@ -68,23 +67,21 @@ void add_plots(const BiasFigure& figure, std::span<const BiasCorner> corners, St
 Result<std::string> explain_range_end(const BiasSweep& sweep, double end, bool reaches_sweep_end) {
     auto settings = sweep.settings;
     settings.push_back(bias_setting(sweep.axis, end));
-    const auto state = simulate_bias_state(settings);
-    if (!state) return state.error();
-    if (reaches_sweep_end) return "works where the sweep begins or ends; " + state->description();
+    const auto state = TRY(simulate_bias_state(settings));
+    if (reaches_sweep_end) return "works where the sweep begins or ends; " + state.description();
     const bool current_is_worse = sweep.current_error().at(end) > sweep.voltage_error().at(end);
-    return fmt::format("{} leaves its margin; {}", current_is_worse ? "I_Q" : "V_Q", state->description());
+    return fmt::format("{} leaves its margin; {}", current_is_worse ? "I_Q" : "V_Q", state.description());
 }
 
 Result<std::vector<BiasCorner>> simulate_bias_figure(const BiasFigure& figure, StudyResult& out, const StudyOptions& options) {
     std::vector<BiasCorner> corners;
     for (const char* name : {"tt", "ss", "ff"}) {
-        auto sweep = BiasSweep::run(figure.axis, {fmt::format("corner={}", name)});
-        if (!sweep) return sweep.error();
-        const auto range = sweep->working_range();
-        corners.push_back({name, std::move(*sweep), range});
-        if (auto ok = options.report_progress(static_cast<double>(corners.size()) / 4); !ok) return ok.error();
+        auto sweep = TRY(BiasSweep::run(figure.axis, {fmt::format("corner={}", name)}));
+        const auto range = sweep.working_range();
+        corners.push_back({name, std::move(sweep), range});
+        TRY(options.report_progress(static_cast<double>(corners.size()) / 4));
     }
-    if (auto ok = claim_ranges(figure, corners, out); !ok) return ok.error();
+    TRY(claim_ranges(figure, corners, out));
     add_plots(figure, corners, out);
     return corners;
 }

@@ -39,9 +39,8 @@ Result<BiasSweep> BiasSweep::run(BiasAxis axis, std::vector<std::string> setting
 }
 
 Result<BiasSweep> BiasSweep::run(BiasAxis axis, const std::string& range, std::vector<std::string> settings) {
-    auto found = run_study_netlist({"bias", settings, dc_directive(axis, range)});
-    if (!found) return found.error();
-    return BiasSweep{axis, std::move(settings), std::move(*found)};
+    auto found = TRY(run_study_netlist({"bias", settings, dc_directive(axis, range)}));
+    return BiasSweep{axis, std::move(settings), std::move(found)};
 }
 
 StudyCurve BiasSweep::curve(const std::string& name) const { return netlist_result.curve("dc", name); }
@@ -95,9 +94,8 @@ BiasSweep::Range range_intersection(const BiasSweep::Range& a, const BiasSweep::
 }
 
 Result<BiasState> simulate_bias_state(const std::vector<std::string>& settings) {
-    const auto found = run_study_netlist({"bias", settings, ".op\n.save i(m3b) i(m4a)"});
-    if (!found) return found.error();
-    const auto at = [&](const char* name) { return found->operating_point(name); };
+    const auto found = TRY(run_study_netlist({"bias", settings, ".op\n.save i(m3b) i(m4a)"}));
+    const auto at = [&](const char* name) { return found.operating_point(name); };
     BiasState out{at("v(q)"),
                   at("i(vis)"),
                   at("v(bn)"),
@@ -108,9 +106,9 @@ Result<BiasState> simulate_bias_state(const std::vector<std::string>& settings) 
                   0,
                   0,
                   0,
-                  parameter(*found, "i_bias")};
-    out.V_sat_M3B = saturation_voltage(*found->circuit, "m3b", out.I_BIAS);
-    out.V_sat_M4A = saturation_voltage(*found->circuit, "m4a", out.I_BIAS);
+                  parameter(found, "i_bias")};
+    out.V_sat_M3B = saturation_voltage(*found.circuit, "m3b", out.I_BIAS);
+    out.V_sat_M4A = saturation_voltage(*found.circuit, "m4a", out.I_BIAS);
     out.bulk_current = -at("i(m3b)") - at("i(m4a)");
     return out;
 }

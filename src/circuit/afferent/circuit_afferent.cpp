@@ -112,13 +112,12 @@ public:
     std::int64_t delay() const override { return delay_; }
 
     Result<void> respond(std::span<const double> force, State& state, ResponseBlock& response) const override {
-        if (auto ok = check_block(factory_->circuit->file, format_, state.values.size(), state, force); !ok) return ok;
+        TRY(check_block(factory_->circuit->file, format_, state.values.size(), state, force));
         for (double* values : response.probes) std::fill_n(values, force.size(), std::numeric_limits<double>::quiet_NaN());
         if (force.empty()) return {};
-        auto transient = borrow();
-        if (!transient) return transient.error();
-        auto done = respond_with(**transient, force, state, response);
-        give_back(std::move(*transient));
+        auto transient = TRY(borrow());
+        auto done = respond_with(*transient, force, state, response);
+        give_back(std::move(transient));
         return done;
     }
 };
@@ -126,7 +125,7 @@ public:
 Result<void> CircuitAfferent::respond_with(StreamingTransient& transient, std::span<const double> force, State& state,
                                            ResponseBlock& response) const {
     if (state.step == 0) {
-        if (auto ok = transient.begin(force); !ok) return ok;
+        TRY(transient.begin(force));
     } else {
         if (!transient.restore(state.values, state.step))
             return bad_input(
@@ -168,7 +167,7 @@ Result<void> CircuitAfferent::simulate_samples(StreamingTransient& transient, st
                     o = {o.samples + 1, o.first_sample < 0 ? sample : o.first_sample};
         }
         if (sample == to) return {};
-        if (auto ok = transient.step(); !ok) return ok;
+        TRY(transient.step());
         report_spike();
     }
 }
@@ -176,46 +175,38 @@ Result<void> CircuitAfferent::simulate_samples(StreamingTransient& transient, st
 }  // namespace
 
 Result<std::shared_ptr<const CircuitAfferentFactory>> CircuitAfferentFactory::create(const Netlist& netlist) {
-    auto circuit = netlist.elaborate();
-    if (!circuit) return circuit.error();
-    auto factory = create(std::make_shared<const Circuit>(std::move(*circuit)));
+    auto circuit = TRY(netlist.elaborate());
+    auto factory = create(std::make_shared<const Circuit>(std::move(circuit)));
     if (!factory) return factory;
     std::const_pointer_cast<CircuitAfferentFactory>(*factory)->netlist = netlist;
     return factory;
 }
 
 Result<std::shared_ptr<const CircuitAfferentFactory>> CircuitAfferentFactory::create(std::shared_ptr<const Circuit> circuit) {
-    const auto context = AnalysisContext::make(circuit);
-    if (!context) return context.error();
+    const auto context = TRY(AnalysisContext::make(circuit));
     const SourceLocation location{circuit->file};
-    const auto plan = read_transient_plan(*circuit);
-    if (!plan) return plan.error();
-    const auto output = read_spike_output((*context)->system);
-    if (!output) return output.error();
-    auto probes = resolve_saved_quantities((*context)->system);
-    if (!probes) return probes.error();
-    auto ranges = read_operating_ranges((*context)->system);
-    if (!ranges) return ranges.error();
-    if (!(*context)->system.set_force_input(nullptr))
+    const auto plan = TRY(read_transient_plan(*circuit));
+    const auto output = TRY(read_spike_output(context->system));
+    auto probes = TRY(resolve_saved_quantities(context->system));
+    auto ranges = TRY(read_operating_ranges(context->system));
+    if (!context->system.set_force_input(nullptr))
         return bad_input("no source carries a force; add one, such as 'iin 0 fin force 60n' (60 nA per newton)", location);
-    if (!*output) return bad_input("no .spike directive defines the spike output; add '.spike v(NODE) LEVEL [rise|fall]'", location);
+    if (!output) return bad_input("no .spike directive defines the spike output; add '.spike v(NODE) LEVEL [rise|fall]'", location);
     auto factory = std::make_shared<CircuitAfferentFactory>();
     for (const auto& c : circuit->directives) {
         if (c.name == "mc") {
-            const auto chips = parse_chip_spec(c);
-            if (!chips) return chips.error();
-            factory->chips = *chips;
+            const auto chips = TRY(parse_chip_spec(c));
+            factory->chips = chips;
         }
         if (c.name != "tran") continue;
-        const auto times = read_transient_times(c);
-        if (!times) return times.error();
-        factory->times = *times;
+        const auto times = TRY(read_transient_times(c));
+        factory->times = times;
     }
     // The mismatch override replaces .mc.
     if (circuit->mismatch_seed) factory->chips = ChipSpec{1, *circuit->mismatch_seed, true, true, circuit->chip};
-    if (probes->empty()) probes->push_back({output->value().text, output->value().unknowns});
-    factory->circuit = std::move(circuit), factory->plan = *plan, factory->spike_output = **output, factory->probes = std::move(*probes),
-    factory->operating_ranges = std::move(*ranges);
+    if (probes.empty()) probes.push_back({output.value().text, output.value().unknowns});
+    factory->circuit = std::move(circuit), factory->plan = plan, factory->spike_output = *output, factory->probes = std::move(probes),
+    factory->operating_ranges = std::move(ranges);
     factory->plan.reported = interpolated_unknowns(*factory);
     factory->plan.max_step = factory->times.max_step.value_or(default_max_step);
     factory->fingerprint = fingerprint_of(*factory->circuit);

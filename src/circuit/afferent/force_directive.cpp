@@ -50,7 +50,7 @@ Result<ForceWaveform> read_waveform_of(ForceSource& source, const Directive& c) 
     ForceWaveform waveform(source.clock().T());
     double count = 0, last = 0;
     for (Frames block(source.channels().size(), 4096);;) {  // a stimulus has one channel
-        if (auto ok = source.read(block); !ok) return ok.error();
+        TRY(source.read(block));
         if (block.count == 0) {
             waveform.append(std::vector<double>(ForceWaveform::lookahead + 1, last));  // decides on breakpoints among the last samples
             return waveform;
@@ -64,9 +64,8 @@ Result<ForceWaveform> read_waveform_of(ForceSource& source, const Directive& c) 
 
 Result<std::unique_ptr<ForceSource>> source_of(const Directive& c) {
     if (c.words.empty()) return error_in(c, 0, "a stimulus is missing, such as '.force press f_max=2'");
-    const auto spec = parse_force_spec(c);
-    if (!spec) return spec.error();
-    auto source = make_stimulus(c.words[0], spec->overrides, spec->rate, 0);  // seed 0
+    const auto spec = TRY(parse_force_spec(c));
+    auto source = make_stimulus(c.words[0], spec.overrides, spec.rate, 0);  // seed 0
     if (!source) return error_in(c, 0, source.error().message);
     if (auto ok = check_all_used(source->unused, stimulus_members(c.words[0])); !ok) return error_in(c, 0, ok.error().message);
     return std::move(source->result);
@@ -86,23 +85,18 @@ Result<const Directive*> find_force_line(const Circuit& circuit) {
 }  // namespace
 
 Result<std::vector<Phase>> force_phases(const Circuit& circuit) {
-    const auto line = find_force_line(circuit);
-    if (!line) return line.error();
-    if (!*line) return std::vector<Phase>();
-    const auto source = source_of(**line);
-    if (!source) return source.error();
-    return (*source)->phases();
+    const auto line = TRY(find_force_line(circuit));
+    if (!line) return std::vector<Phase>();
+    const auto source = TRY(source_of(*line));
+    return source->phases();
 }
 
 Result<std::optional<ForceWaveform>> force_directive(const Circuit& circuit) {
-    const auto line = find_force_line(circuit);
-    if (!line) return line.error();
-    if (!*line) return std::optional<ForceWaveform>();
-    auto source = source_of(**line);
-    if (!source) return source.error();
-    auto waveform = read_waveform_of(**source, **line);
-    if (!waveform) return waveform.error();
-    return std::optional<ForceWaveform>(std::move(*waveform));
+    const auto line = TRY(find_force_line(circuit));
+    if (!line) return std::optional<ForceWaveform>();
+    auto source = TRY(source_of(*line));
+    auto waveform = TRY(read_waveform_of(*source, *line));
+    return std::optional<ForceWaveform>(std::move(waveform));
 }
 
 }  // namespace corpuscle::circuit

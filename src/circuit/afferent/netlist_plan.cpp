@@ -48,17 +48,16 @@ double number_of(const Circuit& c, std::string_view element, std::string_view na
 Result<void> describe_parameters(AfferentPlan& plan, const CircuitAfferentFactory& design) {
     auto described = std::make_shared<NetlistParameters>();
     const auto& changes = design.netlist->overrides();
-    const auto original = design.netlist->with_overrides({}).elaborate();
-    if (!original) return original.error();
+    const auto original = TRY(design.netlist->with_overrides({}).elaborate());
     for (const auto& [name, written] : design.netlist->parameters())
         if (written.is_defined_in_netlist || changes.parameters.contains(name))
-            described->add(name, fmt::format(".param {}={}", name, written.text), original->parameters.at(name),
+            described->add(name, fmt::format(".param {}={}", name, written.text), original.parameters.at(name),
                            design.circuit->parameters.at(name), changes.parameters.contains(name), false);
     for (const auto& [element, numbers] : changes.numbers)
         for (const auto& [name, value] : numbers)
-            described->add(name.empty() ? element : element + "." + name, "parameter of one device", number_of(*original, element, name),
+            described->add(name.empty() ? element : element + "." + name, "parameter of one device", number_of(original, element, name),
                            value, true);
-    if (changes.temperature) described->add("temp", "temperature, degrees Celsius", original->temperature, *changes.temperature, true);
+    if (changes.temperature) described->add("temp", "temperature, degrees Celsius", original.temperature, *changes.temperature, true);
     if (changes.mismatch_seed)
         described->add("mismatch", "seed of the chip's device mismatch", static_cast<double>(*changes.mismatch_seed),
                        static_cast<double>(*changes.mismatch_seed), true);
@@ -72,15 +71,13 @@ Result<void> describe_parameters(AfferentPlan& plan, const CircuitAfferentFactor
 Result<std::vector<RequestedProbe>> request_probes(Netlist& netlist, std::span<const std::string> probes) {
     std::vector<RequestedProbe> out;
     if (probes.empty()) return out;
-    const auto circuit = netlist.elaborate();
-    if (!circuit) return circuit.error();
+    const auto circuit = TRY(netlist.elaborate());
     auto changes = netlist.overrides();
     changes.saved.clear();
     for (const auto& probe : probes) {
-        auto found = resolve_probe(*circuit, probe);
-        if (!found) return found.error();
-        if (*found) changes.saved.push_back(**found);
-        out.push_back({*found, *found ? "" : suggest_probe(*circuit, probe)});
+        auto found = TRY(resolve_probe(circuit, probe));
+        if (found) changes.saved.push_back(*found);
+        out.push_back({found, found ? "" : suggest_probe(circuit, probe)});
     }
     changes.replaces_saved = !changes.saved.empty();
     netlist = netlist.with_overrides(std::move(changes));
@@ -93,18 +90,15 @@ Result<PlannedAfferent> plan_netlist(std::string_view name_or_path, std::span<co
                                      std::span<const std::string> probes) {
     const auto* embedded = find_embedded_netlist(name_or_path);
     const std::string name(embedded ? embedded->name : name_or_path);
-    auto applied = apply_overrides(name, overrides);
-    if (!applied) return applied.error();
-    auto requested = request_probes(applied->result, probes);
-    if (!requested) return requested.error();
-    const auto design = CircuitAfferentFactory::create(applied->result);
-    if (!design) return design.error();
+    auto applied = TRY(apply_overrides(name, overrides));
+    auto requested = TRY(request_probes(applied.result, probes));
+    const auto design = TRY(CircuitAfferentFactory::create(applied.result));
     AfferentPlan plan;
     plan.name = name;
-    plan.description = (*design)->circuit->title;
-    plan.factory = *design;
-    if (auto ok = describe_parameters(plan, **design); !ok) return ok.error();
-    return PlannedAfferent{{std::move(plan), std::move(applied->unused)}, std::move(*requested)};
+    plan.description = design->circuit->title;
+    plan.factory = design;
+    TRY(describe_parameters(plan, *design));
+    return PlannedAfferent{{std::move(plan), std::move(applied.unused)}, std::move(requested)};
 }
 
 }  // namespace corpuscle::circuit

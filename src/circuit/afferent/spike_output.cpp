@@ -6,13 +6,11 @@ namespace corpuscle::circuit {
 namespace {
 
 Result<SpikeOutput> parse_spike(const System& system, const Directive& c) {
-    const auto unknowns = read_output_variable(system, c, 0);
-    if (!unknowns) return unknowns.error();
+    const auto unknowns = TRY(read_output_variable(system, c, 0));
     if (c.words.size() < 2)
         return error_at(c, 1, fmt::format(".spike: {} needs a level to cross: .spike v(NODE) LEVEL [rise|fall]", c.words[0]));
-    const auto level = read_number(c, 1, "the level to cross");
-    if (!level) return level.error();
-    SpikeOutput out{c.words[0], *unknowns, *level, true, c.location};
+    const auto level = TRY(read_number(c, 1, "the level to cross"));
+    SpikeOutput out{c.words[0], unknowns, level, true, c.location};
     if (c.words.size() > 2) {
         if (c.words[2] != "rise" && c.words[2] != "fall")
             return error_at(c, 2, fmt::format(".spike: '{}' must be rise or fall", c.words[2]));
@@ -30,9 +28,7 @@ Result<std::optional<SpikeOutput>> read_spike_output(const System& system) {
     for (const auto& c : system.circuit().directives) {
         if (c.name != "spike") continue;
         if (out) return bad_input(fmt::format(".spike: only one is allowed; the first is in line {}", out->location.line), c.location);
-        auto parsed = parse_spike(system, c);
-        if (!parsed) return parsed.error();
-        out = std::move(*parsed);
+        out = TRY(parse_spike(system, c));
     }
     return out;
 }

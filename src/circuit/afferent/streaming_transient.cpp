@@ -18,10 +18,9 @@ void append_values(std::vector<double>& out, std::span<const double> x) { out.in
 
 Result<std::unique_ptr<StreamingTransient>> StreamingTransient::make(const CircuitAfferentFactory& factory, double T,
                                                                      const std::optional<ChipSample>& chip) {
-    auto context = AnalysisContext::make(factory.circuit);
-    if (!context) return context.error();
+    auto context = TRY(AnalysisContext::make(factory.circuit));
     std::unique_ptr<StreamingTransient> out(new StreamingTransient(factory, T));
-    out->context_ = std::move(*context);
+    out->context_ = std::move(context);
     if (chip) out->context_->apply_variation(*chip);
     auto& system = out->context_->system;
     system.start_transient(factory.times.step > 0 ? factory.times.step : T, factory.times.stop > 0 ? factory.times.stop : 1);
@@ -91,9 +90,8 @@ Result<void> StreamingTransient::step() {
                          {factory_.circuit->file});
     const double from = transient_->time();
     if (!power_now_) power_now_ = meter_->delivered_at(transient_->x(), from);
-    const auto stepped = transient_->step(force_.known_until());
-    if (!stepped) return stepped.error();
-    if (!*stepped)
+    const auto stepped = TRY(transient_->step(force_.known_until()));
+    if (!stepped)
         return bad_input("a time step needs force samples that were not given yet",
                          {factory_.circuit->file});  // cannot happen: delay() is long enough
     add_energy(from);

@@ -7,12 +7,10 @@
 namespace corpuscle::circuit {
 
 Result<AnalysisResult> analyse_ac(AnalysisContext& context, const Directive& c) {
-    const auto frequencies = read_frequencies(c, 0);
-    if (!frequencies) return frequencies.error();
-    const auto operating_point = context.operating_point();
-    if (!operating_point) return operating_point.error();
+    const auto frequencies = TRY(read_frequencies(c, 0));
+    const auto operating_point = TRY(context.operating_point());
     const auto& system = context.system;
-    const auto evaluation = evaluate_operating_point(context, operating_point->x);
+    const auto evaluation = evaluate_operating_point(context, operating_point.x);
     std::vector<std::complex<double>> stimulus(static_cast<std::size_t>(system.size()));
     for (const auto& d : system.devices()) {
         std::vector<std::complex<double>> contribution(d->unknowns.size());
@@ -24,8 +22,8 @@ Result<AnalysisResult> analyse_ac(AnalysisContext& context, const Directive& c) 
     Plot plot = make_plot(system, "AC Analysis", "frequency", "frequency");
     plot.is_complex = true;
     LinearSolver<std::complex<double>> solver(system.pattern());
-    for (const double f : *frequencies) {
-        if (context.is_stopped(static_cast<double>(plot.point_count()) / static_cast<double>(frequencies->size())))
+    for (const double f : frequencies) {
+        if (context.is_stopped(static_cast<double>(plot.point_count()) / static_cast<double>(frequencies.size())))
             return interrupted_error();
         const auto values = admittances(evaluation, system.pattern().entries(), 6.283185307179586 * f);
         if (!solver.factor(values)) {

@@ -12,11 +12,9 @@ AnalysisContext::AnalysisContext(std::shared_ptr<const Circuit> c, System s, con
     : circuit(std::move(c)), system(std::move(s)), tolerances(t), newton(system, t) {}
 
 Result<std::unique_ptr<AnalysisContext>> AnalysisContext::make(std::shared_ptr<const Circuit> circuit) {
-    auto tolerances = Tolerances::from_options(*circuit);
-    if (!tolerances) return tolerances.error();
-    auto system = System::make(circuit);
-    if (!system) return system.error();
-    return std::unique_ptr<AnalysisContext>(new AnalysisContext(std::move(circuit), std::move(*system), *tolerances));
+    auto tolerances = TRY(Tolerances::from_options(*circuit));
+    auto system = TRY(System::make(circuit));
+    return std::unique_ptr<AnalysisContext>(new AnalysisContext(std::move(circuit), std::move(system), tolerances));
 }
 
 NodeClamps AnalysisContext::initial_clamps() const {
@@ -79,28 +77,25 @@ Result<std::vector<double>> read_frequencies(const Directive& c, std::size_t wor
     const std::string kind = word < c.words.size() ? c.words[word] : "";
     if (kind != "dec" && kind != "oct" && kind != "lin")
         return bad_input(fmt::format(".{}: '{}' must be dec, oct or lin", c.name, kind), c.location);
-    const auto points = read_number(c, word + 1, "the number of points"), from = read_number(c, word + 2, "the first frequency"),
-               to = read_number(c, word + 3, "the last frequency");
-    if (!points) return points.error();
-    if (!from) return from.error();
-    if (!to) return to.error();
-    if (!(*points >= 1 && *points <= 1e7))
-        return bad_input(fmt::format(".{}: {:g} points is outside [1, 10000000]", c.name, *points), c.location);
-    if (!(*to >= *from && (*from > 0 || (kind == "lin" && *from >= 0))))
-        return bad_input(fmt::format(".{}: from {:g} to {:g} Hz: the first must be above 0 and at most the second", c.name, *from, *to),
+    const double points = TRY(read_number(c, word + 1, "the number of points"));
+    const double from = TRY(read_number(c, word + 2, "the first frequency")), to = TRY(read_number(c, word + 3, "the last frequency"));
+    if (!(points >= 1 && points <= 1e7))
+        return bad_input(fmt::format(".{}: {:g} points is outside [1, 10000000]", c.name, points), c.location);
+    if (!(to >= from && (from > 0 || (kind == "lin" && from >= 0))))
+        return bad_input(fmt::format(".{}: from {:g} to {:g} Hz: the first must be above 0 and at most the second", c.name, from, to),
                          c.location);
-    const auto count = static_cast<long>(*points);
+    const auto count = static_cast<long>(points);
     std::vector<double> out;
     if (kind == "lin") {
         for (long k = 0; k < count; ++k)
-            out.push_back(count == 1 ? *from : *from + (*to - *from) * static_cast<double>(k) / static_cast<double>(count - 1));
+            out.push_back(count == 1 ? from : from + (to - from) * static_cast<double>(k) / static_cast<double>(count - 1));
         return out;
     }
     // As in ngspice: points are spaced evenly on a logarithmic scale, `count` per decade or octave. The last is at or below the last
     // frequency.
-    const double base = kind == "dec" ? 10 : 2, steps = std::log(*to / *from) / std::log(base) * static_cast<double>(count);
+    const double base = kind == "dec" ? 10 : 2, steps = std::log(to / from) / std::log(base) * static_cast<double>(count);
     if (steps > 1e7) return bad_input(fmt::format(".{}: {:g} frequencies; the maximum is 10000000", c.name, steps), c.location);
-    for (double k = 0; k <= std::floor(steps + 1e-9); ++k) out.push_back(*from * std::pow(base, k / static_cast<double>(count)));
+    for (double k = 0; k <= std::floor(steps + 1e-9); ++k) out.push_back(from * std::pow(base, k / static_cast<double>(count)));
     return out;
 }
 
@@ -137,12 +132,10 @@ Result<OutputVariable> read_output_variable(const UnknownNames& names, const Dir
         return bad_input(fmt::format(".{}: unknown output {}{}", c.name, full, did_you_mean(full, known)), location);
     };
     const auto comma = inside.find(',');
-    const auto plus = unknown(inside.substr(0, comma));
-    if (!plus) return plus.error();
-    if (comma == std::string::npos) return OutputVariable{*plus, -1};
-    const auto minus = unknown(inside.substr(comma + 1));
-    if (!minus) return minus.error();
-    return OutputVariable{*plus, *minus};
+    const auto plus = TRY(unknown(inside.substr(0, comma)));
+    if (comma == std::string::npos) return OutputVariable{plus, -1};
+    const auto minus = TRY(unknown(inside.substr(comma + 1)));
+    return OutputVariable{plus, minus};
 }
 
 std::complex<double> OutputVariable::value(std::span<const std::complex<double>> x) const {

@@ -27,14 +27,12 @@ struct Sweep {
 Result<Sweep> read_sweep(const AnalysisContext& context, const Directive& c, std::size_t word) {
     if (word >= c.words.size()) return bad_input(".dc: the sweep variable is missing", c.location);
     Sweep s{c.words[word], 0, 0, 0};
-    const auto from = read_number(c, word + 1, "the first value"), to = read_number(c, word + 2, "the last value"),
-               step = read_number(c, word + 3, "the step");
-    for (const auto* number : {&from, &to, &step})
-        if (!*number) return number->error();
-    s.from = *from, s.to = *to, s.step = *step;
+    s.from = TRY(read_number(c, word + 1, "the first value"));
+    s.to = TRY(read_number(c, word + 2, "the last value"));
+    const double step = s.step = TRY(read_number(c, word + 3, "the step"));
     if (s.step == 0 && s.to == s.from) s.step = 1;  // one point, with any step
     if (s.step == 0 || (s.to - s.from) / s.step < 0)
-        return bad_input(fmt::format(".dc {}: step {:g} does not lead from {:g} to {:g}", s.variable, *step, s.from, s.to), c.location);
+        return bad_input(fmt::format(".dc {}: step {:g} does not lead from {:g} to {:g}", s.variable, step, s.from, s.to), c.location);
     if ((s.to - s.from) / s.step > 1e7)
         return bad_input(fmt::format(".dc {}: {:g} points; the maximum is 10000000", s.variable, (s.to - s.from) / s.step), c.location);
     if (s.variable == "temp") return s;
@@ -83,9 +81,7 @@ private:
     Result<void> set_temperature(double value) {
         auto copy = std::make_shared<Circuit>(*original_.circuit);
         copy->temperature = value;
-        auto context = AnalysisContext::make(std::move(copy));
-        if (!context) return context.error();
-        copy_ = std::move(*context);
+        copy_ = TRY(AnalysisContext::make(std::move(copy)));
         if (original_.chip_sample()) copy_->apply_variation(*original_.chip_sample());
         for (const auto& s : elements_) copy_->system.device(s.name)->set_principal_value(s.present);
         return {};
@@ -110,36 +106,30 @@ Result<AnalysisResult> analyse_dc(AnalysisContext& original, const Directive& c)
     if (directive.words.size() != 4 && directive.words.size() != 8)
         return bad_input(fmt::format(".dc: {} words; expected .dc SOURCE FROM TO STEP [SOURCE2 FROM TO STEP]", directive.words.size()),
                          c.location);
-    const auto inner = read_sweep(original, directive, 0);
-    if (!inner) return inner.error();
+    const auto inner = TRY(read_sweep(original, directive, 0));
     std::optional<Sweep> outer;
-    if (directive.words.size() == 8) {
-        auto second = read_sweep(original, directive, 4);
-        if (!second) return second.error();
-        outer = *second;
-    }
-    auto values = inner->values();
+    if (directive.words.size() == 8) outer = TRY(read_sweep(original, directive, 4));
+    auto values = inner.values();
     if (up_down)
         for (std::size_t k = values.size() - 1; k-- > 0;) values.push_back(values[k]);
     const auto outer_values = outer ? outer->values() : std::vector<double>{0};
     if (static_cast<double>(values.size()) * static_cast<double>(outer_values.size()) > 1e7)
         return bad_input(fmt::format(".dc: {} times {} points; the maximum is 10000000", values.size(), outer_values.size()), c.location);
 
-    Plot plot = make_plot(original.system, "DC transfer characteristic", name_of(inner->variable), type_of(inner->variable));
+    Plot plot = make_plot(original.system, "DC transfer characteristic", name_of(inner.variable), type_of(inner.variable));
     SweptCircuit swept(original);
     for (std::size_t k = 0; k < outer_values.size(); ++k) {
-        if (outer)
-            if (auto ok = swept.set(outer->variable, outer_values[k]); !ok) return ok.error();
+        if (outer) TRY(swept.set(outer->variable, outer_values[k]));
         std::vector<double> x;
         for (std::size_t j = 0; j < values.size(); ++j) {
             if (original.is_stopped(static_cast<double>(k * values.size() + j) / static_cast<double>(outer_values.size() * values.size())))
                 return interrupted_error();
-            if (auto ok = swept.set(inner->variable, values[j]); !ok) return ok.error();
+            TRY(swept.set(inner.variable, values[j]));
             auto& context = swept.context();
             const auto found = find_operating_point(context.newton, x);
             if (!found) {
                 auto error = found.error();
-                error.message = fmt::format(".dc at {} = {:g}{}: {}", inner->variable, values[j],
+                error.message = fmt::format(".dc at {} = {:g}{}: {}", inner.variable, values[j],
                                             outer ? fmt::format(", {} = {:g}", outer->variable, outer_values[k]) : "", error.message);
                 return error;
             }

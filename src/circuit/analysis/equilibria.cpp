@@ -84,16 +84,15 @@ std::pair<double, double> supply_range(const AnalysisContext& context) {
 }  // namespace
 
 Result<std::vector<Equilibrium>> find_equilibria(AnalysisContext& context, double rise) {
-    const auto operating_point = context.operating_point();
-    if (!operating_point) return operating_point.error();
+    const auto operating_point = TRY(context.operating_point());
     EquilibriumSet states(context);
-    states.add(operating_point->x).is_default = true;
+    states.add(operating_point.x).is_default = true;
     if (context.system.is_linear()) return states.take_sorted();
     const auto [low, high] = supply_range(context);
     for (std::size_t n = 0; n < static_cast<std::size_t>(context.system.nodes()); ++n) {
         if (context.is_stopped(static_cast<double>(n) / context.system.nodes())) return interrupted_error();
         for (const double end : {low, high})
-            if (std::abs(operating_point->x[n] - end) > min_difference) states.add_from_clamped(operating_point->x, n, end);
+            if (std::abs(operating_point.x[n] - end) > min_difference) states.add_from_clamped(operating_point.x, n, end);
     }
     const auto power_on = power_on_state(context, rise);
     if (power_on && *power_on)

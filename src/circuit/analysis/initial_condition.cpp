@@ -73,10 +73,9 @@ Result<InitialCondition> find_initial_condition(AnalysisContext& context, bool u
         out.charge = charge_of_ics(context, out.x);
         return out;
     }
-    auto rest = guess.empty() ? context.initial_operating_point()
-                              : find_operating_point(context.newton, std::move(guess), has_ic ? clamps : NodeClamps{});
-    if (!rest) return rest.error();
-    InitialCondition out{std::move(rest->x)};
+    auto rest = TRY(guess.empty() ? context.initial_operating_point()
+                                  : find_operating_point(context.newton, std::move(guess), has_ic ? clamps : NodeClamps{}));
+    InitialCondition out{std::move(rest.x)};
     if (has_ic || context.system.is_linear()) return out;
     const auto mode = find_unstable_mode(context.newton, out.x);
     if (!mode) return out;

@@ -31,17 +31,14 @@ double integrated_density(double f0, double s0, double f1, double s1) {
 
 Result<AnalysisResult> analyse_noise(AnalysisContext& context, const Directive& c) {
     const auto& system = context.system;
-    const auto out = read_output_variable(system, c, 0);
-    if (!out) return out.error();
+    const auto out = TRY(read_output_variable(system, c, 0));
     if (c.words.size() < 6) return bad_input(".noise: expected .noise v(OUT) SOURCE dec|oct|lin POINTS FROM TO", c.location);
     const auto* source = system.device(c.words[1]);
     if (source == nullptr || !(source->name[0] == 'v' || source->name[0] == 'i'))
         return bad_input(fmt::format(".noise: '{}' is not an independent source", c.words[1]), c.location);
-    const auto frequencies = read_frequencies(c, 2);
-    if (!frequencies) return frequencies.error();
-    const auto operating_point = context.operating_point();
-    if (!operating_point) return operating_point.error();
-    const auto evaluation = evaluate_operating_point(context, operating_point->x);
+    const auto frequencies = TRY(read_frequencies(c, 2));
+    const auto operating_point = TRY(context.operating_point());
+    const auto evaluation = evaluate_operating_point(context, operating_point.x);
 
     struct Source {
         const Device* device;
@@ -51,7 +48,7 @@ Result<AnalysisResult> analyse_noise(AnalysisContext& context, const Directive& 
     std::vector<Source> sources;
     std::vector<NoiseContribution> contributions;
     for (const auto& d : system.devices())
-        for (const auto& n : d->noise(system.terminal_values(*d, operating_point->x))) {
+        for (const auto& n : d->noise(system.terminal_values(*d, operating_point.x))) {
             sources.push_back({d.get(), n, contributions.size()});
             contributions.push_back({fmt::format("{} {}", d->name, n.mechanism)});
         }
@@ -62,14 +59,14 @@ Result<AnalysisResult> analyse_noise(AnalysisContext& context, const Directive& 
               {{"frequency", "frequency", {}}, {"onoise_spectrum", "notype", {}}, {"inoise_spectrum", "notype", {}}}};
     LinearSolver<std::complex<double>> solver(system.pattern());
     double f_last = 0;
-    for (const double f : *frequencies) {
-        if (context.is_stopped(static_cast<double>(plot.point_count()) / static_cast<double>(frequencies->size())))
+    for (const double f : frequencies) {
+        if (context.is_stopped(static_cast<double>(plot.point_count()) / static_cast<double>(frequencies.size())))
             return interrupted_error();
         if (!solver.factor(admittances(evaluation, system.pattern().entries(), 6.283185307179586 * f)))
             return bad_input(fmt::format(".noise at {:g} Hz: the matrix is singular", f), c.location);
-        std::vector<std::complex<double>> lambda(operating_point->x.size());
-        if (out->plus >= 0) lambda[static_cast<std::size_t>(out->plus)] += 1;
-        if (out->minus >= 0) lambda[static_cast<std::size_t>(out->minus)] -= 1;
+        std::vector<std::complex<double>> lambda(operating_point.x.size());
+        if (out.plus >= 0) lambda[static_cast<std::size_t>(out.plus)] += 1;
+        if (out.minus >= 0) lambda[static_cast<std::size_t>(out.minus)] -= 1;
         solver.solve_transposed(lambda);
         // lambda[n] is the output for a unit current into the equation of unknown n.
         const auto at = [&](const Device& d, std::size_t k) {

@@ -116,43 +116,38 @@ Result<OpOptions> read_op_options(const Directive& c) {
     if (c.words.size() > 2) return error_at(c, 2, fmt::format(".op: unexpected '{}'; expected .op states [RISE]", c.words[2]));
     out.states = true;
     if (c.words.size() == 1) return out;
-    const auto rise = read_number(c, 1, "the rise time of the sources");
-    if (!rise) return rise.error();
-    if (!(*rise > 0 && *rise <= 1e3))
-        return error_at(c, 1, fmt::format(".op: the rise time {:g} s must be above 0 and at most 1000 s", *rise));
-    return out.rise = *rise, out;
+    const auto rise = TRY(read_number(c, 1, "the rise time of the sources"));
+    if (!(rise > 0 && rise <= 1e3))
+        return error_at(c, 1, fmt::format(".op: the rise time {:g} s must be above 0 and at most 1000 s", rise));
+    return out.rise = rise, out;
 }
 
 /// Adds the counts of states, which .mc evaluates over its chips, and a table of the states.
 Result<void> report_states(AnalysisContext& context, const OpOptions& options, AnalysisResult& out) {
-    const auto states = find_equilibria(context, options.rise);
-    if (!states) return states.error();
+    const auto states = TRY(find_equilibria(context, options.rise));
     double stable = 0, elsewhere = 1;  // elsewhere: 1 if the circuit does not reach the state of .op at power-on, otherwise 0
-    for (const auto& s : *states) stable += s.is_stable, elsewhere -= s.is_default && s.is_power_on;
+    for (const auto& s : states) stable += s.is_stable, elsewhere -= s.is_default && s.is_power_on;
     out.numbers = {
-        {"stable_states", stable}, {"unstable_states", static_cast<double>(states->size()) - stable}, {"power_on_elsewhere", elsewhere}};
-    out.table = describe(context, *states);
+        {"stable_states", stable}, {"unstable_states", static_cast<double>(states.size()) - stable}, {"power_on_elsewhere", elsewhere}};
+    out.table = describe(context, states);
     return {};
 }
 
 }  // namespace
 
 Result<AnalysisResult> analyse_op(AnalysisContext& context, const Directive& c) {
-    const auto options = read_op_options(c);
-    if (!options) return options.error();
-    const auto found = context.operating_point();
-    if (!found) return found.error();
+    const auto options = TRY(read_op_options(c));
+    const auto found = TRY(context.operating_point());
     AnalysisResult out;
     Plot plot = make_plot(context.system, "Operating Point", "", "");
-    for (std::size_t n = 0; n < found->x.size(); ++n) plot.curves[n].values.emplace_back(found->x[n]);
+    for (std::size_t n = 0; n < found.x.size(); ++n) plot.curves[n].values.emplace_back(found.x[n]);
     out.plots.push_back(std::move(plot));
-    if (options->states)
-        if (auto done = report_states(context, *options, out); !done) return done.error();
+    if (options.states) TRY(report_states(context, options, out));
     if (context.is_brief) return out;
-    out.table = fmt::format("found by {} ({} iterations, gmin {:g} S)\n{}{}", found->method, found->iterations, context.tolerances.gmin,
-                            out.table, operating_point_table(context.system, found->x));
-    if (options->states) return out;
-    if (auto other = check_second_state(context, *found)) out.warnings.push_back(std::move(*other));
+    out.table = fmt::format("found by {} ({} iterations, gmin {:g} S)\n{}{}", found.method, found.iterations, context.tolerances.gmin,
+                            out.table, operating_point_table(context.system, found.x));
+    if (options.states) return out;
+    if (auto other = check_second_state(context, found)) out.warnings.push_back(std::move(*other));
     return out;
 }
 

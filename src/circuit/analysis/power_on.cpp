@@ -28,17 +28,15 @@ std::shared_ptr<const Circuit> with_rising_sources(const AnalysisContext& contex
 }  // namespace
 
 Result<std::optional<std::vector<double>>> power_on_state(const AnalysisContext& original, double rise) {
-    auto copy = AnalysisContext::make(with_rising_sources(original, rise));
-    if (!copy) return copy.error();
-    auto& context = **copy;
+    auto copy = TRY(AnalysisContext::make(with_rising_sources(original, rise)));
+    auto& context = *copy;
     if (original.chip_sample()) context.system.apply_variation(&*original.chip_sample());
-    auto plan = read_transient_plan(*context.circuit);
-    if (!plan) return plan.error();
-    plan->stop = settling_time, plan->max_step = settling_time / 50;
+    auto plan = TRY(read_transient_plan(*context.circuit));
+    plan.stop = settling_time, plan.max_step = settling_time / 50;
     context.system.start_transient(rise, settling_time);
     context.newton.context.time = 0, context.newton.context.with_charges = false;
-    Transient transient(context.system, context.newton, *plan);
-    if (auto ok = transient.begin(std::vector<double>(static_cast<std::size_t>(context.system.size())), false); !ok) return ok.error();
+    Transient transient(context.system, context.newton, plan);
+    TRY(transient.begin(std::vector<double>(static_cast<std::size_t>(context.system.size())), false));
     constexpr long max_steps = 200'000;  // exceeded only by an oscillating circuit
     while (transient.time() < settling_time) {
         if (transient.stats().steps > max_steps) return std::optional<std::vector<double>>();

@@ -113,10 +113,9 @@ Result<void> report_spikes(AnalysisContext& context, const TranSetup& setup, std
         if (spikes.size() > 1)
             out.numbers.emplace_back("mean_interval", (spikes.back() - spikes.front()) / static_cast<double>(spikes.size() - 1));
         if (!context.is_brief && value_or(context.circuit->options, "spikecheck", 1) != 0) {
-            const auto error = spike_error(context, setup, spikes);
-            if (!error) return error.error();
-            out.numbers.emplace_back("spike_error", *error);
-            if (std::isnan(*error))
+            const auto error = TRY(spike_error(context, setup, spikes));
+            out.numbers.emplace_back("spike_error", error);
+            if (std::isnan(error))
                 out.warnings.push_back(
                     bad_input(fmt::format("{} spikes, but a different number with a tenth of the tolerances; use .options accuracy=fine",
                                           spikes.size()),
@@ -130,39 +129,34 @@ Result<void> report_spikes(AnalysisContext& context, const TranSetup& setup, std
 }  // namespace
 
 Result<AnalysisResult> analyse_tran(AnalysisContext& context, const Directive& c) {
-    const auto times = read_transient_times(c);
-    if (!times) return times.error();
-    const auto plan = read_transient_plan(*context.circuit);
-    if (!plan) return plan.error();
-    const auto spike_output = read_spike_output(context.system);
-    if (!spike_output) return spike_output.error();
-    auto ranges = read_operating_ranges(context.system);
-    if (!ranges) return ranges.error();
-    RangeMonitor range_monitor(std::move(*ranges));
+    const auto times = TRY(read_transient_times(c));
+    const auto plan = TRY(read_transient_plan(*context.circuit));
+    const auto spike_output = TRY(read_spike_output(context.system));
+    auto ranges = TRY(read_operating_ranges(context.system));
+    RangeMonitor range_monitor(std::move(ranges));
     context.hit_iteration_limit = false;
-    const auto force = force_directive(*context.circuit);
-    if (!force) return force.error();
-    if (*force && !context.system.set_force_input(&**force))
+    const auto force = TRY(force_directive(*context.circuit));
+    if (force && !context.system.set_force_input(&*force))
         return bad_input(fmt::format(".force: no source has a force input; add one such as '{}' (60 nA/N)", "iin 0 fin force 60n"),
                          SourceLocation{context.circuit->file});
-    TranSetup setup{*times, *plan, *spike_output, {}};
+    TranSetup setup{times, plan, spike_output, {}};
     setup.plan.all_reported = true;
-    setup.plan.stop = times->stop, setup.plan.max_step = max_step_of(*times);
+    setup.plan.stop = times.stop, setup.plan.max_step = max_step_of(times);
     PlotRecorder recorder;
     PointSink& points = context.points ? *context.points : recorder;
-    if (auto ok = points.begin(make_plot(context.system, "Transient Analysis", "time", "time")); !ok) return ok.error();
+    TRY(points.begin(make_plot(context.system, "Transient Analysis", "time", "time")));
 
-    context.system.start_transient(times->step, times->stop);
+    context.system.start_transient(times.step, times.stop);
     AnalysisResult out;
     Transient transient(context.system, context.newton, setup.plan);
     Result<void> written;
     std::vector<double> row(1);
-    auto initial = find_initial_condition(context, times->uic);
+    auto initial = find_initial_condition(context, times.uic);
     if (initial) setup.initial = std::move(*initial);
     if (setup.initial.warning && !context.is_brief) out.warnings.push_back(*setup.initial.warning);
     auto spikes = !initial ? initial.error() : run_transient(context, setup, transient, [&](double t, std::span<const double> x) {
         range_monitor.add_point(t, x);
-        if (t < times->start) return true;
+        if (t < times.start) return true;
         row.assign(1, t), row.insert(row.end(), x.begin(), x.end());
         written = points.add_point(row);
         return static_cast<bool>(written);

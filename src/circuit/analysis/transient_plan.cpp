@@ -49,21 +49,14 @@ Result<TransientTimes> read_transient_times(const Directive& directive) {
     out.uic = !c.words.empty() && c.words.back() == "uic";
     if (out.uic) c.words.pop_back();
     if (c.words.size() < 2 || c.words.size() > 4) return bad_input(".tran: expected .tran STEP STOP [START [LONGEST]] [uic]", c.location);
-    const auto step = read_number(c, 0, "the step"), stop = read_number(c, 1, "the stop time");
-    const auto start = c.words.size() > 2 ? read_number(c, 2, "the start time") : Result<double>(0.0);
-    if (!step) return step.error();
-    if (!stop) return stop.error();
-    if (!start) return start.error();
-    out.step = *step, out.stop = *stop, out.start = *start;
-    if (c.words.size() > 3) {
-        const auto max_step = read_number(c, 3, "the maximum step");
-        if (!max_step) return max_step.error();
-        out.max_step = *max_step;
-    }
-    if (!(*step > 0 && *stop > 0 && *start >= 0 && *start < *stop && out.max_step.value_or(1) > 0))
+    out.step = TRY(read_number(c, 0, "the step"));
+    out.stop = TRY(read_number(c, 1, "the stop time"));
+    if (c.words.size() > 2) out.start = TRY(read_number(c, 2, "the start time"));
+    if (c.words.size() > 3) out.max_step = TRY(read_number(c, 3, "the maximum step"));
+    if (!(out.step > 0 && out.stop > 0 && out.start >= 0 && out.start < out.stop && out.max_step.value_or(1) > 0))
         return bad_input(fmt::format(".tran: step {:g}, stop {:g}, start {:g}{} s: step, stop and maximum step must be above 0, the start "
                                      "at least 0 and below the stop",
-                                     *step, *stop, *start, out.max_step ? fmt::format(", maximum step {:g}", *out.max_step) : ""),
+                                     out.step, out.stop, out.start, out.max_step ? fmt::format(", maximum step {:g}", *out.max_step) : ""),
                          c.location);
     return out;
 }

@@ -228,17 +228,15 @@ Result<void> run_all_scalar(const std::function<std::optional<Chip>()>& next,
 
 Result<void> run_chips(const std::shared_ptr<const CircuitAfferentFactory>& nominal, const std::function<std::optional<Chip>()>& next,
                        const std::function<void(const Chip&, ChipResponse&&)>& on_done, const BatchOptions& options) {
-    const auto kernels = chip_kernels();
-    if (!kernels) return kernels.error();
-    auto simulation = StreamingTransient::make(*nominal, 1e-4, {});  // its sample time does not matter here
-    if (!simulation) return simulation.error();
-    const auto& system = (*simulation)->context().system;
-    const auto* list = (*simulation)->transient().elimination();
+    const auto kernels = TRY(chip_kernels());
+    auto simulation = TRY(StreamingTransient::make(*nominal, 1e-4, {}));  // its sample time does not matter here
+    const auto& system = simulation->context().system;
+    const auto* list = simulation->transient().elimination();
     if (list == nullptr || system.groups().empty() || nominal->plan.method != Integration::bdf)
         return run_all_scalar(next, on_done, options);
-    return Batch(**kernels, system, *list, linearization_radius(nominal->plan),
+    return Batch(*kernels, system, *list, linearization_radius(nominal->plan),
                  static_cast<std::size_t>(std::max(nominal->plan.max_order + 1, StepControl::max_curve_points)),
-                 (*simulation)->context().tolerances.gmin, next, on_done, options)
+                 simulation->context().tolerances.gmin, next, on_done, options)
         .run();
 }
 

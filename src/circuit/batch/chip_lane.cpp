@@ -20,15 +20,14 @@ Result<bool> ChipLane::start(const Chip& chip, const BatchOptions& options) {
     if (simulation_ && design_ == chip.design && T_ == chip.T && chip.sample) {
         simulation_->set_chip(*chip.sample);
     } else {
-        auto simulation = StreamingTransient::make(*chip.design, chip.T, chip.sample);
-        if (!simulation) return simulation.error();
-        simulation_ = std::move(*simulation), design_ = chip.design, T_ = chip.T;
+        auto simulation = TRY(StreamingTransient::make(*chip.design, chip.T, chip.sample));
+        simulation_ = std::move(simulation), design_ = chip.design, T_ = chip.T;
     }
     if (!is_compatible()) return false;
     std::vector<double> force(chip.force.begin(), chip.force.end());
     // The force stays constant after its last sample, so that all breakpoints before it are known.
     force.insert(force.end(), static_cast<std::size_t>(2 * ForceWaveform::lookahead + 2), force.back());
-    if (auto ok = simulation_->begin(force); !ok) return ok.error();
+    TRY(simulation_->begin(force));
     chip_ = chip;
 
     auto& context = simulation_->context();

@@ -65,15 +65,14 @@ const PowerBreakdown* Cost::powers(std::string_view key) const {
 }
 
 Result<Cost> cost_of(AnalysisContext& context, const PowerOverTime* over) {
-    const auto operating_point = context.operating_point();
-    if (!operating_point) return operating_point.error();
-    const PowerMeter meter(context.system, operating_point->x, context.tolerances.gmin);
+    const auto operating_point = TRY(context.operating_point());
+    const PowerMeter meter(context.system, operating_point.x, context.tolerances.gmin);
     Cost out;
     out.supply = meter.supply(), out.sources = meter.sources(), out.has_sensor = meter.has_sensor();
     out.is_afferent = is_afferent(*context.circuit);
     add_areas(*context.circuit, meter.blocks(), out);
-    add_leakage(context, operating_point->x, meter.blocks(), out);
-    out.power.emplace_back("op", meter.power_at(operating_point->x));
+    add_leakage(context, operating_point.x, meter.blocks(), out);
+    out.power.emplace_back("op", meter.power_at(operating_point.x));
     if (over)
         for (auto& named_power : over->averages()) out.power.push_back(std::move(named_power));
     return out;

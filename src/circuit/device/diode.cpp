@@ -163,15 +163,14 @@ bool limit_junction(double& v, double v_before, double n_vt, double v_crit) {
 
 Result<std::unique_ptr<Device>> make_diode(const Element& e, DeviceSetup& setup) {
     static constexpr std::string_view known[] = {"area", "m", "pj", "temp", "dtemp", "ic", "off", "level"};
-    if (auto ok = check_value_names(e.name, e.values, known, e.location); !ok) return ok.error();
+    TRY(check_value_names(e.name, e.values, known, e.location));
     const auto& model = setup.circuit().models[static_cast<std::size_t>(e.model)];
     if (value_or(e.values, "pj", 0) != 0)
         return bad_input(fmt::format("{}: pj is not supported (this level 1 diode has no sidewalls); remove it", e.name), e.location);
     if (const double level = value_or(model.values, "level", 1); level != 1)
         return bad_input(fmt::format("{}: diode level {:g} is not supported; use level=1", model.name, level), model.location);
-    const auto card = read_model_card<DiodeCard>(fields, model, {"level", "cj0", "jsw", "ikf", "trs", "rsw"});
-    if (!card) return card.error();
-    DiodeCard c = *card;
+    const auto card = TRY(read_model_card<DiodeCard>(fields, model, {"level", "cj0", "jsw", "ikf", "trs", "rsw"}));
+    DiodeCard c = card;
     if (const auto alias = model.values.find("cj0"); alias != model.values.end()) c.cjo = alias->second;
     for (const std::string_view name : {"jsw", "ikf", "trs", "rsw"})
         if (value_or(model.values, name, 0) != 0)

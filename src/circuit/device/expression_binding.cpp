@@ -38,10 +38,8 @@ Result<ExpressionBinding> ExpressionBinding::make(const Expression& expression, 
         };
         switch (in.kind) {
             case ExpressionInput::Kind::voltage: {
-                const auto plus = node(in.name), minus = in.minus.empty() ? Result<int>(-1) : node(in.minus);
-                if (!plus) return plus.error();
-                if (!minus) return minus.error();
-                input.plus = out.local_index(*plus), input.minus = out.local_index(*minus);
+                const int plus = TRY(node(in.name)), minus = in.minus.empty() ? -1 : TRY(node(in.minus));
+                input.plus = out.local_index(plus), input.minus = out.local_index(minus);
                 break;
             }
             case ExpressionInput::Kind::current: {

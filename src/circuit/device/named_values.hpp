@@ -33,7 +33,7 @@ Result<P> read_model_card(const ParameterDef<P> (&fields)[N], const Model& model
     std::vector<std::string> names;
     for (const auto& f : fields) names.push_back(lower(f.name));
     known.insert(known.end(), names.begin(), names.end());
-    if (auto ok = check_value_names(model.name, model.values, known, model.location); !ok) return ok.error();
+    TRY(check_value_names(model.name, model.values, known, model.location));
     for (std::size_t k = 0; k < N; ++k) {
         const auto given = model.values.find(names[k]);
         if (given == model.values.end()) continue;

@@ -25,7 +25,7 @@ constexpr std::string_view model_values[] = {"tc1", "tc2", "tnom"};
 
 /// Rejects parameters that a resistor, capacitor or inductor, or its model, does not have.
 Result<void> check_parameters(const Element& e, const DeviceSetup& setup) {
-    if (auto ok = check_value_names(e.name, e.values, passive_values, e.location); !ok) return ok;
+    TRY(check_value_names(e.name, e.values, passive_values, e.location));
     if (value_or(e.values, "scale", 1) == 0) return bad_input(fmt::format("{}: scale must not be 0", e.name), e.location);
     if (e.model < 0) return {};
     const Model& model = setup.circuit().models[static_cast<std::size_t>(e.model)];
@@ -105,7 +105,7 @@ public:
 }  // namespace
 
 Result<std::unique_ptr<Device>> make_resistor(const Element& e, DeviceSetup& setup) {
-    if (auto ok = check_parameters(e, setup); !ok) return ok.error();
+    TRY(check_parameters(e, setup));
     const double r = at_temperature(e.value, e, setup), m = value_or(e.values, "m", 1);
     if (r == 0) return bad_input(fmt::format("{}: 0 ohm is not allowed; use a voltage source of 0 V as a wire", e.name), e.location);
     auto device = std::make_unique<Resistor>(r, m, setup.temperature(e));
@@ -114,17 +114,16 @@ Result<std::unique_ptr<Device>> make_resistor(const Element& e, DeviceSetup& set
 }
 
 Result<std::unique_ptr<Device>> make_capacitor(const Element& e, DeviceSetup& setup) {
-    if (auto ok = check_parameters(e, setup); !ok) return ok.error();
+    TRY(check_parameters(e, setup));
     const double m = value_or(e.values, "m", 1);
     for (const std::string_view name : {"scale", "tc1", "tc2"})
         if (e.expression && e.values.contains(name))
             return bad_input(fmt::format("{}: {} has no effect on a charge expression; put it into q=", e.name, name), e.location);
     const std::vector<int> ends = {setup.node_unknown(e.nodes[0]), setup.node_unknown(e.nodes[1])};
     if (e.expression) {
-        auto binding = ExpressionBinding::make(*e.expression, e, setup, ends);
-        if (!binding) return binding.error();
-        const auto unknowns = binding->unknowns();
-        auto device = std::make_unique<ChargeExpression>(*e.expression, std::move(*binding), m);
+        auto binding = TRY(ExpressionBinding::make(*e.expression, e, setup, ends));
+        const auto unknowns = binding.unknowns();
+        auto device = std::make_unique<ChargeExpression>(*e.expression, std::move(binding), m);
         device->unknowns = unknowns;
         return std::unique_ptr<Device>(std::move(device));
     }
@@ -134,7 +133,7 @@ Result<std::unique_ptr<Device>> make_capacitor(const Element& e, DeviceSetup& se
 }
 
 Result<std::unique_ptr<Device>> make_inductor(const Element& e, DeviceSetup& setup) {
-    if (auto ok = check_parameters(e, setup); !ok) return ok.error();
+    TRY(check_parameters(e, setup));
     auto device = std::make_unique<Inductor>(at_temperature(e.value, e, setup) / value_or(e.values, "m", 1));
     device->unknowns = {setup.node_unknown(e.nodes[0]), setup.node_unknown(e.nodes[1]),
                         setup.branch_unknown(setup.circuit().find_element(e.name))};

@@ -193,20 +193,20 @@ std::unique_ptr<Device> with_unknowns(std::unique_ptr<D> device, std::vector<int
 }  // namespace
 
 Result<std::unique_ptr<Device>> make_voltage_source(const Element& e, DeviceSetup& setup) {
-    if (auto ok = check_value_names(e.name, e.values, source_values, e.location); !ok) return ok.error();
+    TRY(check_value_names(e.name, e.values, source_values, e.location));
     return with_unknowns(std::make_unique<VoltageSource>(e.waveform), {setup.node_unknown(e.nodes[0]), setup.node_unknown(e.nodes[1]),
                                                                        setup.branch_unknown(setup.circuit().find_element(e.name))});
 }
 
 Result<std::unique_ptr<Device>> make_current_source(const Element& e, DeviceSetup& setup) {
-    if (auto ok = check_value_names(e.name, e.values, source_values, e.location); !ok) return ok.error();
+    TRY(check_value_names(e.name, e.values, source_values, e.location));
     return with_unknowns(std::make_unique<CurrentSource>(e.waveform, value_or(e.values, "m", 1)),
                          {setup.node_unknown(e.nodes[0]), setup.node_unknown(e.nodes[1])});
 }
 
 Result<std::unique_ptr<Device>> make_controlled_source(const Element& e, DeviceSetup& setup) {
     if (e.expression) return make_formula_source(e, setup);
-    if (auto ok = check_value_names(e.name, e.values, source_values, e.location); !ok) return ok.error();
+    TRY(check_value_names(e.name, e.values, source_values, e.location));
     const bool voltage = e.letter == 'e' || e.letter == 'h', by_current = e.letter == 'f' || e.letter == 'h';
     std::vector<int> unknowns = {setup.node_unknown(e.nodes[0]), setup.node_unknown(e.nodes[1])};
     if (voltage) unknowns.push_back(setup.branch_unknown(setup.circuit().find_element(e.name)));
@@ -224,15 +224,14 @@ Result<std::unique_ptr<Device>> make_controlled_source(const Element& e, DeviceS
 }
 
 Result<std::unique_ptr<Device>> make_formula_source(const Element& e, DeviceSetup& setup) {
-    if (auto ok = check_value_names(e.name, e.values, source_values, e.location); !ok) return ok.error();
+    TRY(check_value_names(e.name, e.values, source_values, e.location));
     std::vector<int> own = {setup.node_unknown(e.nodes[0]), setup.node_unknown(e.nodes[1])};
     if (e.expression_is_voltage) own.push_back(setup.branch_unknown(setup.circuit().find_element(e.name)));
-    auto binding = ExpressionBinding::make(*e.expression, e, setup, std::move(own));
-    if (!binding) return binding.error();
-    auto unknowns = binding->unknowns();
+    auto binding = TRY(ExpressionBinding::make(*e.expression, e, setup, std::move(own)));
+    auto unknowns = binding.unknowns();
     if (e.expression_is_voltage)
-        return with_unknowns(std::make_unique<ExpressionVoltageSource>(*e.expression, std::move(*binding)), std::move(unknowns));
-    return with_unknowns(std::make_unique<ExpressionCurrentSource>(*e.expression, std::move(*binding), value_or(e.values, "m", 1)),
+        return with_unknowns(std::make_unique<ExpressionVoltageSource>(*e.expression, std::move(binding)), std::move(unknowns));
+    return with_unknowns(std::make_unique<ExpressionCurrentSource>(*e.expression, std::move(binding), value_or(e.values, "m", 1)),
                          std::move(unknowns));
 }
 

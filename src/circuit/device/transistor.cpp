@@ -129,7 +129,7 @@ Result<UicmInstance> read_instance(const Element& e) {
     UicmInstance instance;
     std::vector<std::string_view> known = {"temp", "dtemp", "ic", "off"};
     for (const auto& f : UicmInstance::fields) known.push_back(f.name);
-    if (auto ok = check_value_names(e.name, e.values, known, e.location); !ok) return ok.error();
+    TRY(check_value_names(e.name, e.values, known, e.location));
     for (const auto& f : UicmInstance::fields) {
         const auto given = e.values.find(f.name);
         if (given == e.values.end()) continue;
@@ -148,11 +148,9 @@ Result<std::unique_ptr<Device>> make_transistor(const Element& e, DeviceSetup& s
         return bad_input(fmt::format("{}: MOS model level {:g} is not supported; use level={:g}, UICM, as in process/tsmc180.lib",
                                      model.name, value_or(model.values, "level", 1), UicmCard::level),
                          model.location);
-    const auto card = read_model_card<UicmCard>(UicmCard::fields, model, {"level"});
-    if (!card) return card.error();
-    const auto instance = read_instance(e);
-    if (!instance) return instance.error();
-    auto device = std::make_unique<Transistor>(*card, *instance, setup.temperature(e) - zero_celsius, model.type == "pmos");
+    const auto card = TRY(read_model_card<UicmCard>(UicmCard::fields, model, {"level"}));
+    const auto instance = TRY(read_instance(e));
+    auto device = std::make_unique<Transistor>(card, instance, setup.temperature(e) - zero_celsius, model.type == "pmos");
     for (const int node : e.nodes) device->unknowns.push_back(setup.node_unknown(node));
     return std::unique_ptr<Device>(std::move(device));
 }
@@ -165,9 +163,8 @@ namespace {
 template <class Table>
 Result<const Table*> select_table(const Table& scalar, [[maybe_unused]] const Table& avx2, [[maybe_unused]] const Table& avx512,
                                   const Table& baseline) {
-    const auto set = instruction_set();
-    if (!set) return set.error();
-    switch (*set) {
+    const auto set = TRY(instruction_set());
+    switch (set) {
         case InstructionSet::scalar:
             return &scalar;
         case InstructionSet::avx2:
@@ -188,9 +185,8 @@ Result<const Table*> select_table(const Table& scalar, [[maybe_unused]] const Ta
 #endif
 
 Result<std::unique_ptr<DeviceBatch>> make_transistor_batch() {
-    const auto kernels = CORPUSCLE_SELECT_TABLE(lanes::scalar_transistor_kernels, transistor_kernel_table);
-    if (!kernels) return kernels.error();
-    return std::unique_ptr<DeviceBatch>(std::make_unique<TransistorBatch>(**kernels));
+    const auto kernels = TRY(CORPUSCLE_SELECT_TABLE(lanes::scalar_transistor_kernels, transistor_kernel_table));
+    return std::unique_ptr<DeviceBatch>(std::make_unique<TransistorBatch>(*kernels));
 }
 
 Result<const lanes::ChipKernels*> chip_kernels() { return CORPUSCLE_SELECT_TABLE(lanes::scalar_chip_kernels, chip_kernel_table); }

@@ -96,10 +96,9 @@ private:
         if (has_shape) out += fmt::format(" {}({:})", shape_name(w.shape), fmt::join(w.numbers, " "));
         if (e_.letter == 'i' && value("m", 1) != 1) out += fmt::format(" m={}", value("m", 1));
         if (!force) return out + '\n';
-        const auto points = pwl_force(circuit_, w.numbers.empty() ? 1 : w.numbers[0]);
-        if (!points) return points.error();
-        if (points->empty()) return fmt::format("* {} is a FORCE source in Corpuscle; here it is constant\n{}\n", e_.name, out);
-        return fmt::format("* {}: the force of .force, piecewise linear\n{} {}\n", e_.name, out, *points);
+        const auto points = TRY(pwl_force(circuit_, w.numbers.empty() ? 1 : w.numbers[0]));
+        if (points.empty()) return fmt::format("* {} is a FORCE source in Corpuscle; here it is constant\n{}\n", e_.name, out);
+        return fmt::format("* {}: the force of .force, piecewise linear\n{} {}\n", e_.name, out, points);
     }
     static std::string_view shape_name(Waveform::Shape shape) {
         switch (shape) {
@@ -149,12 +148,11 @@ private:
     }
 
     Result<std::string> transistor() const {
-        const auto card = read_model_card<UicmCard>(UicmCard::fields, *model(), {"level"});
-        if (!card) return card.error();
+        const auto card = TRY(read_model_card<UicmCard>(UicmCard::fields, *model(), {"level"}));
         UicmInstance size;
         for (const auto& f : UicmInstance::fields) size.*f.member = value(f.name, size.*f.member);
         const bool pmos = model()->type == "pmos";
-        return fmt::format("{} {} {}", head_, pmos ? "uicm_p" : "uicm_n", uicm_parameters(*card, size, celsius(), pmos));
+        return fmt::format("{} {} {}", head_, pmos ? "uicm_p" : "uicm_n", uicm_parameters(card, size, celsius(), pmos));
     }
 };
 

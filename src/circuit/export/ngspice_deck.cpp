@@ -62,16 +62,14 @@ std::string node_voltages(std::string_view directive, const std::vector<std::pai
 }  // namespace
 
 Result<NgspiceDeck> ngspice_deck(std::shared_ptr<const Circuit> circuit) {
-    const auto context = AnalysisContext::make(circuit);
-    if (!context) return context.error();
+    const auto context = TRY(AnalysisContext::make(circuit));
     const Circuit& c = *circuit;
     const ExportNames names(c);
     const bool n = has_transistors(c, "nmos"), p = has_transistors(c, "pmos");
-    NgspiceDeck deck{header(c, n || p) + options_text((*context)->tolerances, c), {}};
+    NgspiceDeck deck{header(c, n || p) + options_text(context->tolerances, c), {}};
     for (std::size_t k = 0; k < c.elements.size(); ++k) {
-        auto text = element_text(c, k, names);
-        if (!text) return text.error();
-        deck.text += *text;
+        auto text = TRY(element_text(c, k, names));
+        deck.text += text;
     }
     for (std::size_t k = 0; k < c.models.size(); ++k) deck.text += model_text(c, k, names);
     if (n || p) deck.text += uicm_functions();

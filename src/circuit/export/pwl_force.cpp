@@ -38,10 +38,9 @@ std::vector<std::int64_t> select_breakpoints(const ForceWaveform& waveform, std:
 }  // namespace
 
 Result<std::string> pwl_force(const Circuit& circuit, double scale) {
-    const auto force = force_directive(circuit);
-    if (!force) return force.error();
-    if (!*force) return std::string();
-    const ForceWaveform& waveform = **force;
+    const auto force = TRY(force_directive(circuit));
+    if (!force) return std::string();
+    const ForceWaveform& waveform = *force;
     // force_directive() appends lookahead + 1 samples with a constant force.
     const std::int64_t last = waveform.end_sample() - 1 - (ForceWaveform::lookahead + 1);
     double largest = 0;

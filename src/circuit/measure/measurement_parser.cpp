@@ -66,10 +66,9 @@ private:
         if (kind == "trig") return ++at_, distance();
         if (kind == "when" || kind == "count") {
             ++at_;
-            auto crossings = edge(kind == "count");
-            if (!crossings) return crossings.error();
-            if (kind == "count") return ParseResult(std::make_unique<CountMeasurement>(std::move(*crossings)));
-            return ParseResult(std::make_unique<PositionMeasurement>(EventPoint{not_found, std::move(*crossings)}));
+            auto crossings = TRY(edge(kind == "count"));
+            if (kind == "count") return ParseResult(std::make_unique<CountMeasurement>(std::move(crossings)));
+            return ParseResult(std::make_unique<PositionMeasurement>(EventPoint{not_found, std::move(crossings)}));
         }
         return error_here(
             fmt::format("unknown measurement '{}'; expected one of find, when, deriv, min, max, pp, avg, rms, integ, min_at, max_at, trig, "
@@ -118,13 +117,11 @@ private:
 
     /// Reads from= and to=, if they are next. Returns true if there was at least one of them.
     Result<bool> bounds(Interval& interval) {
-        const auto from = option("from");
-        if (!from) return from.error();
-        if (*from) interval.from = **from;
-        const auto to = option("to");
-        if (!to) return to.error();
-        if (*to) interval.to = **to;
-        return *from || *to;
+        const auto from = TRY(option("from"));
+        if (from) interval.from = *from;
+        const auto to = TRY(option("to"));
+        if (to) interval.to = *to;
+        return from || to;
     }
 
     /// Reads rise=, fall= or cross=, if it is next. Returns true if there was one of them.
@@ -132,12 +129,11 @@ private:
         for (const auto& e : edge_words) {
             const bool last = peek() == fmt::format("{}=last", e.word);
             if (last) ++at_;
-            const auto number = last ? Result<std::optional<double>>(0.0) : option(e.word);
-            if (!number) return number.error();
-            if (!*number) continue;
-            if (!last && !(**number >= 1 && **number == std::floor(**number)))
+            const auto number = TRY(last ? Result<std::optional<double>>(0.0) : option(e.word));
+            if (!number) continue;
+            if (!last && !(*number >= 1 && *number == std::floor(*number)))
                 return --at_, error_here(fmt::format("'{}' must be 1, 2 ... or last", peek()));
-            edges.kind = e.kind, edges.number = **number;
+            edges.kind = e.kind, edges.number = *number;
             return true;
         }
         return false;
@@ -151,17 +147,13 @@ private:
             more = false;
             for (const auto& e : edge_words)
                 if (is_count && peek() == e.word) out.kind = e.kind, more = true, ++at_;
-            const auto chosen = is_count ? Result<bool>(false) : numbered_edge(out);
-            if (!chosen) return chosen.error();
-            const auto bounded = bounds(out.interval);
-            if (!bounded) return bounded.error();
-            const auto delay = option("td");
-            if (!delay) return delay.error();
-            if (*delay) out.interval.from = **delay;
-            const auto value = level ? option("val") : Result<std::optional<double>>(std::nullopt);
-            if (!value) return value.error();
-            if (*value) *level = *value;
-            more = more || *chosen || *bounded || *delay || *value;
+            const auto chosen = TRY(is_count ? Result<bool>(false) : numbered_edge(out));
+            const auto bounded = TRY(bounds(out.interval));
+            const auto delay = TRY(option("td"));
+            if (delay) out.interval.from = *delay;
+            const auto value = TRY(level ? option("val") : Result<std::optional<double>>(std::nullopt));
+            if (value) *level = value;
+            more = more || chosen || bounded || delay || value;
         }
         return out;
     }
@@ -175,68 +167,51 @@ private:
         if (!left) return left.error();
         const auto right = std::string_view(word).substr(equals + 1);
         const auto level = parse_number(right);
-        const auto other = level ? left : curve(right);
-        if (!other) return other.error();
+        const auto other = TRY(level ? left : curve(right));
         ++at_;
-        const auto selection = edges(is_count);
-        if (!selection) return selection.error();
-        return CrossingCounter(level ? CurveFollower(*left, level->value) : CurveFollower(*left, *other), *selection);
+        const auto selection = TRY(edges(is_count));
+        return CrossingCounter(level ? CurveFollower(*left, level->value) : CurveFollower(*left, other), selection);
     }
 
     ParseResult summary(SummaryMeasurement::Statistic statistic) {
-        const auto view = curve();
-        if (!view) return view.error();
+        const auto view = TRY(curve());
         Interval interval;
-        for (bool more = true; more;) {
-            const auto bounded = bounds(interval);
-            if (!bounded) return bounded.error();
-            more = *bounded;
-        }
-        return ParseResult(std::make_unique<SummaryMeasurement>(statistic, CurveFollower(*view), interval));
+        for (bool more = true; more;) more = TRY(bounds(interval));
+        return ParseResult(std::make_unique<SummaryMeasurement>(statistic, CurveFollower(view), interval));
     }
 
     ParseResult find_or_deriv(bool is_slope) {
-        const auto view = curve();
-        if (!view) return view.error();
-        const auto at = option("at");
-        if (!at) return at.error();
-        if (*at) return ParseResult(std::make_unique<ValueMeasurement>(CurveFollower(*view), is_slope, EventPoint{**at, {}}));
+        const auto view = TRY(curve());
+        const auto at = TRY(option("at"));
+        if (at) return ParseResult(std::make_unique<ValueMeasurement>(CurveFollower(view), is_slope, EventPoint{*at, {}}));
         if (peek() != "when") return error_here(fmt::format("'{}': expected at=VALUE or when CURVE=VALUE", peek()));
         ++at_;
-        auto crossings = edge();
-        if (!crossings) return crossings.error();
-        return ParseResult(
-            std::make_unique<ValueMeasurement>(CurveFollower(*view), is_slope, EventPoint{not_found, std::move(*crossings)}));
+        auto crossings = TRY(edge());
+        return ParseResult(std::make_unique<ValueMeasurement>(CurveFollower(view), is_slope, EventPoint{not_found, std::move(crossings)}));
     }
 
     ParseResult distance() {
-        auto trigger = position();
-        if (!trigger) return trigger.error();
+        auto trigger = TRY(position());
         if (peek() != "targ") return error_here("expected targ after trig");
         ++at_;
-        auto target = position();
-        if (!target) return target.error();
-        return ParseResult(std::make_unique<DistanceMeasurement>(std::move(*trigger), std::move(*target)));
+        auto target = TRY(position());
+        return ParseResult(std::make_unique<DistanceMeasurement>(std::move(trigger), std::move(target)));
     }
 
     /// Reads the position after trig or targ: at=X, CURVE val=LEVEL with a selection of edges, or CURVE=VALUE as after when.
     Result<EventPoint> position() {
-        const auto at = option("at");
-        if (!at) return at.error();
-        if (*at) return EventPoint{**at, {}};
+        const auto at = TRY(option("at"));
+        if (at) return EventPoint{*at, {}};
         const auto name = peek();
         if (equals_in(name) != std::string::npos) {
-            auto crossings = edge();
-            if (!crossings) return crossings.error();
-            return EventPoint{not_found, std::move(*crossings)};
+            auto crossings = TRY(edge());
+            return EventPoint{not_found, std::move(crossings)};
         }
-        const auto view = curve();
-        if (!view) return view.error();
+        const auto view = TRY(curve());
         std::optional<double> level;
-        const auto selection = edges(false, &level);
-        if (!selection) return selection.error();
+        const auto selection = TRY(edges(false, &level));
         if (!level) return error_here(fmt::format("expected val= after '{}'", name));
-        return EventPoint{not_found, CrossingCounter(CurveFollower(*view, *level), *selection)};
+        return EventPoint{not_found, CrossingCounter(CurveFollower(view, *level), selection)};
     }
 };
 

@@ -79,9 +79,8 @@ Result<int> CircuitBuilder::find_or_add_model(Scope& scope, const WordRef& name,
             model.texts.emplace(s.text(pair.name), s.text(pair.value));
             continue;
         }
-        const auto value = f->evaluate({&s, pair.value});
-        if (!value) return value.error();
-        model.values.emplace(s.text(pair.name), *value);
+        const auto value = TRY(f->evaluate({&s, pair.value}));
+        model.values.emplace(s.text(pair.name), value);
     }
     if (const auto tnom = circuit.options.find("tnom"); tnom != circuit.options.end()) model.values.try_emplace("tnom", tnom->second);
     const int k = static_cast<int>(circuit.models.size());

@@ -38,12 +38,12 @@ public:
         Circuit& c = builder_.circuit;
         c.title = parsed_.title, c.file = parsed_.file, c.warnings = parsed_.warnings;
         c.node_numbers.emplace("0", 0);
-        if (auto ok = define_top(given); !ok) return ok.error();
+        TRY(define_top(given));
         c.parameters = top_.parameters;
-        if (auto ok = read_settings(); !ok) return ok.error();
-        if (auto ok = elaborate_contents(top_); !ok) return ok.error();
-        if (auto ok = check_references(); !ok) return ok.error();
-        if (auto ok = resolve_node_voltages(); !ok) return ok.error();
+        TRY(read_settings());
+        TRY(elaborate_contents(top_));
+        TRY(check_references());
+        TRY(resolve_node_voltages());
         for (const auto* s : parsed_.directives) add_directive(*s);
         apply_overrides_to_directives(c);
         return std::move(c);
@@ -66,13 +66,13 @@ private:
     /// Adds the elements of a scope, and of all subcircuits that it contains, to the circuit.
     Result<void> elaborate_contents(Scope& scope) {
         for (const auto* s : scope.definition->elements) {
-            if (const auto ok = builder_.count_statement(scope, *s); !ok) return ok;
+            TRY(builder_.count_statement(scope, *s));
             const auto ok = s->line.text[0] == 'x' ? elaborate_instance(scope, *s) : read_element(builder_, scope, *s);
             if (!ok) return ok;
         }
         for (const auto* s : scope.definition->ics) {
-            if (const auto ok = builder_.count_statement(scope, *s); !ok) return ok;
-            if (const auto ok = read_node_voltages(scope, *s); !ok) return ok;
+            TRY(builder_.count_statement(scope, *s));
+            TRY(read_node_voltages(scope, *s));
         }
         return {};
     }
@@ -86,16 +86,16 @@ private:
         const Word subcircuit_name = words.back();
         words.pop_back();
         Scope inner;
-        if (const auto ok = find_body(scope, s, subcircuit_name, inner); !ok) return ok;
-        if (const auto ok = connect(scope, s, words, inner); !ok) return ok;
+        TRY(find_body(scope, s, subcircuit_name, inner));
+        TRY(connect(scope, s, words, inner));
         inner.caller = &scope, inner.depth = scope.depth + 1, inner.path = fmt::format("{}{}.", scope.path, name);
         if (inner.depth > max_subcircuit_depth)
             return bad_input(fmt::format("{}: subcircuits are nested deeper than the limit of {}", name, max_subcircuit_depth),
                              s.line.location());
-        if (const auto ok = check_recursion(inner, s); !ok) return ok;
+        TRY(check_recursion(inner, s));
         Values given;
-        if (const auto ok = read_instance_parameters(scope, s, inner, given); !ok) return ok;
-        if (const auto ok = inner.define(given); !ok) return ok;
+        TRY(read_instance_parameters(scope, s, inner, given));
+        TRY(inner.define(given));
         return elaborate_contents(inner);
     }
 
@@ -153,16 +153,15 @@ private:
         for (const auto& pair : s.pairs) {
             auto name = s.text(pair.name);
             if (name.starts_with("params:")) name.remove_prefix(7);
-            const auto value = scope.evaluate({&s, pair.value});
-            if (!value) return value.error();
+            const auto value = TRY(scope.evaluate({&s, pair.value}));
             if (inner.definition->defaults.contains(name))
-                given.insert_or_assign(std::string(name), *value);
+                given.insert_or_assign(std::string(name), value);
             else if (name != "m")
                 return unknown_parameter(s, pair, name, *inner.definition);
-            else if (!(*value > 0))
-                return bad_input(fmt::format("{}: m = {:g} must be positive", s.text(std::size_t{0}), *value), s.location(pair.value));
+            else if (!(value > 0))
+                return bad_input(fmt::format("{}: m = {:g} must be positive", s.text(std::size_t{0}), value), s.location(pair.value));
             else
-                inner.m *= *value;
+                inner.m *= value;
         }
         return {};
     }
@@ -208,15 +207,12 @@ private:
     /// Reads .options and .temp, then the overrides of temperature and mismatch.
     Result<void> read_settings() {
         Circuit& c = builder_.circuit;
-        for (const auto* s : parsed_.options)
-            if (const auto ok = read_options(*s); !ok) return ok;
+        for (const auto* s : parsed_.options) TRY(read_options(*s));
         if (const auto at = c.options.find("temp"); at != c.options.end()) c.temperature = at->second;
         for (const auto* s : parsed_.temperatures) {
             if (s->words.size() != 2)
                 return bad_input(".temp: expected one temperature, in Celsius", s->location(std::min<std::size_t>(2, s->words.size())));
-            const auto value = top_.evaluate(without_braces(*s, s->words[1], 0));
-            if (!value) return value.error();
-            c.temperature = *value;
+            c.temperature = TRY(top_.evaluate(without_braces(*s, s->words[1], 0)));
         }
         c.temperature = builder_.overrides.temperature.value_or(c.temperature);
         c.mismatch_seed = builder_.overrides.mismatch_seed, c.chip = builder_.overrides.chip;
@@ -226,7 +222,7 @@ private:
     Result<void> read_options(const Statement& s) {
         Circuit& c = builder_.circuit;
         for (std::size_t k = 1; k < s.words.size(); ++k) {
-            if (auto ok = check_option(s.text(k), {}, {}, s.location(k)); !ok) return ok.error();
+            TRY(check_option(s.text(k), {}, {}, s.location(k)));
             c.options.insert_or_assign(std::string(s.text(k)), 1.0);
         }
         for (const auto& pair : s.pairs) {
@@ -235,14 +231,13 @@ private:
             const bool is_word = pair.value.kind == Word::Kind::quoted ||
                                  (pair.value.kind == Word::Kind::plain && text[0] >= 'a' && text[0] <= 'z' && !top_.parameter(text));
             if (is_word) {
-                if (auto ok = check_option(name, {}, text, s.location(pair.name)); !ok) return ok.error();
+                TRY(check_option(name, {}, text, s.location(pair.name)));
                 c.option_words.insert_or_assign(name, std::string(text));
                 continue;
             }
-            const auto value = top_.evaluate({&s, pair.value});
-            if (!value) return value.error();
-            if (auto ok = check_option(name, *value, {}, s.location(pair.name)); !ok) return ok.error();
-            c.options.insert_or_assign(name, *value);
+            const auto value = TRY(top_.evaluate({&s, pair.value}));
+            TRY(check_option(name, value, {}, s.location(pair.name)));
+            c.options.insert_or_assign(name, value);
         }
         return {};
     }
@@ -264,11 +259,10 @@ private:
             if (!text.starts_with("v(") || close == std::string_view::npos || equals == std::string_view::npos || text[equals] != '=')
                 return bad_input(fmt::format("expected v(node)=value, not '{}'", text), s.location(k));
             auto from = text.find_first_not_of(" \t", equals + 1);
-            const auto value = scope.evaluate(without_braces(s, s.words[k], static_cast<std::uint32_t>(std::min(from, text.size()))));
-            if (!value) return value.error();
+            const auto value = TRY(scope.evaluate(without_braces(s, s.words[k], static_cast<std::uint32_t>(std::min(from, text.size())))));
             const auto node = trimmed(text.substr(2, close - 2));
             if (is_ground(node)) return bad_input("ground is always at 0 V", s.location(k));
-            node_voltages_.push_back({builder_.node_name(scope, node), *value, s.location(k), s.text(std::size_t{0}) == ".ic"});
+            node_voltages_.push_back({builder_.node_name(scope, node), value, s.location(k), s.text(std::size_t{0}) == ".ic"});
         }
         return {};
     }

@@ -56,10 +56,10 @@ public:
 
     Result<void> read() {
         if (name_.size() < 2) return error_at("the name of an element must be longer than its letter, such as r1", 0);
-        if (const auto ok = read_by_letter(); !ok) return ok;
-        if (const auto ok = named_parameters(); !ok) return ok;
+        TRY(read_by_letter());
+        TRY(named_parameters());
         override_values();
-        if (const auto ok = apply_multiplicity(); !ok) return ok;
+        TRY(apply_multiplicity());
         return builder_.add_element(std::move(out_));
     }
 
@@ -107,19 +107,19 @@ private:
     // ---- R C L ----
 
     Result<void> passive() {
-        if (const auto ok = nodes(2, "plus, minus, then a value or a model"); !ok) return ok;
+        TRY(nodes(2, "plus, minus, then a value or a model"));
         bool has_value = false;
         for (std::size_t k = 3; k < s_.words.size(); ++k) {
             const bool is_name = is_model(k, has_value);
             if (is_name ? out_.model >= 0 : has_value) return too_many(k);
-            if (const auto ok = is_name ? passive_model(k) : read_value(text(k)); !ok) return ok;
+            TRY(is_name ? passive_model(k) : read_value(text(k)));
             has_value = has_value || !is_name;
         }
         const std::string_view letter(&out_.letter, 1);
         if (const auto* pair = out_.letter == 'l' || out_.model < 0 || !has_value ? s_.find(letter) : nullptr) {
             if (has_value) return bad_input(fmt::format("{}: its value is given twice", name_), s_.location(pair->name));
             read_names_.push_back(letter);
-            if (const auto ok = read_value({&s_, pair->value}); !ok) return ok;
+            TRY(read_value({&s_, pair->value}));
             has_value = true;
         }
         if (const auto* q = out_.letter == 'c' ? s_.find("q") : nullptr) {
@@ -145,25 +145,21 @@ private:
         return model(k, type);
     }
     Result<void> model(std::size_t k, std::span<const std::string_view> types) {
-        const auto found = builder_.find_or_add_model(scope_, text(k), name_, types);
-        if (!found) return found.error();
-        out_.model = *found;
+        out_.model = TRY(builder_.find_or_add_model(scope_, text(k), name_, types));
         return {};
     }
     Result<void> read_value(const WordRef& t) {
-        const auto value = scope_.evaluate(t);
-        if (!value) return value.error();
-        out_.value = *value;
+        const auto value = TRY(scope_.evaluate(t));
+        out_.value = value;
         return {};
     }
 
     // ---- V I ----
 
     Result<void> source() {
-        if (const auto ok = nodes(2, "plus and minus"); !ok) return ok;
-        auto waveform = read_waveform(scope_, s_);
-        if (!waveform) return waveform.error();
-        out_.waveform = std::move(*waveform);
+        TRY(nodes(2, "plus and minus"));
+        auto waveform = TRY(read_waveform(scope_, s_));
+        out_.waveform = std::move(waveform);
         for (const auto name : {"dc", "ac", "td", "r"}) read_names_.push_back(name);
         return {};
     }
@@ -171,7 +167,7 @@ private:
     // ---- E G F H B ----
 
     Result<void> voltage_controlled_source() {
-        if (const auto ok = nodes(2, "plus, minus, the two controlling nodes, then the gain"); !ok) return ok;
+        TRY(nodes(2, "plus, minus, the two controlling nodes, then the gain"));
         out_.expression_is_voltage = out_.letter == 'e';
         for (const auto name : {"value", "vol", "cur"})  // vol= and cur= are other names of value=
             if (const auto* pair = s_.find(name)) {
@@ -183,7 +179,7 @@ private:
             return error_at(fmt::format("{} is not supported; write value={{...}}", kind), 3);
         out_.expression_is_voltage = false;
         out_.nodes.clear();
-        if (const auto ok = nodes(4, "plus, minus, the two controlling nodes, then the gain"); !ok) return ok;
+        TRY(nodes(4, "plus, minus, the two controlling nodes, then the gain"));
         return gain(5);
     }
     /// Reads word k, which must be the last, as the gain.
@@ -194,7 +190,7 @@ private:
     }
 
     Result<void> current_controlled_source() {
-        if (const auto ok = nodes(2, "plus, minus, then the controlling voltage source and the gain"); !ok) return ok;
+        TRY(nodes(2, "plus, minus, then the controlling voltage source and the gain"));
         if (s_.text(3) == "poly") return error_at("poly is not supported; use a B source instead", 3);
         if (s_.words.size() < 4) return error_at("the controlling voltage source is missing", 3);
         out_.control_source = scope_.path + std::string(s_.text(3));
@@ -203,7 +199,7 @@ private:
     }
 
     Result<void> behavioural_source() {
-        if (const auto ok = nodes(2, "plus and minus, then v=... or i=..."); !ok) return ok;
+        TRY(nodes(2, "plus and minus, then v=... or i=..."));
         if (s_.words.size() > 3) return too_many(3);
         const auto *v = s_.find("v"), *i = s_.find("i");
         if (v && i) return bad_input(fmt::format("{}: has both v=... and i=...", name_), s_.location(i->name));
@@ -220,10 +216,9 @@ private:
         scope.allows_inputs = true;
         scope.node = [this](std::string_view name) { return builder_.node_name(scope_, name); };
         scope.element = [this](std::string_view name) { return scope_.path + std::string(name); };
-        auto expression = scope_.parse_expression(t, std::move(scope));
-        if (!expression) return expression.error();
-        for (const auto& input : expression->inputs()) add_forward_reference(input, t.location());
-        out_.expression = std::move(*expression);
+        auto expression = TRY(scope_.parse_expression(t, std::move(scope)));
+        for (const auto& input : expression.inputs()) add_forward_reference(input, t.location());
+        out_.expression = std::move(expression);
         return {};
     }
     void add_forward_reference(const ExpressionInput& input, const SourceLocation& location) {
@@ -238,19 +233,18 @@ private:
     // ---- D M ----
 
     Result<void> diode() {
-        if (const auto ok = nodes(2, "anode, cathode, then the model"); !ok) return ok;
+        TRY(nodes(2, "anode, cathode, then the model"));
         if (s_.words.size() < 4) return error_at("its model is missing", 3);
         constexpr std::string_view types[] = {"d"};
-        if (const auto ok = model(3, types); !ok) return ok;
+        TRY(model(3, types));
         for (std::size_t k = 4; k < s_.words.size(); ++k) {
             if (s_.text(k) == "off") {
                 out_.values["off"] = 1;
                 continue;
             }
             if (k > 4 || s_.find("area")) return too_many(k);
-            const auto area = scope_.evaluate(text(k));
-            if (!area) return area.error();
-            out_.values["area"] = *area;
+            const auto area = TRY(scope_.evaluate(text(k)));
+            out_.values["area"] = area;
         }
         return {};
     }
@@ -260,11 +254,11 @@ private:
         constexpr std::string_view types[] = {"nmos", "pmos"};
         if (s_.words.size() == 5 && builder_.has_model(scope_, s_.text(4)))
             return error_at(fmt::format("3 nodes, but expected 4: {}", expected), 4);
-        if (const auto ok = nodes(4, expected); !ok) return ok;
+        TRY(nodes(4, expected));
         if (s_.words.size() < 6) return error_at("its model is missing", 5);
         if (s_.words.size() > 6 && !builder_.has_model(scope_, s_.text(5)) && builder_.has_model(scope_, s_.text(6)))
             return error_at(fmt::format("5 nodes, but expected 4: {}", expected), 5);
-        if (const auto ok = model(5, types); !ok) return ok;
+        TRY(model(5, types));
         for (std::size_t k = 6; k < s_.words.size(); ++k) {
             if (s_.text(k) != "off") return too_many(k);
             out_.values["off"] = 1;
@@ -282,9 +276,8 @@ private:
                 return bad_input(fmt::format("{}: unknown parameter '{}'{}", name_, name, did_you_mean(name, known)),
                                  s_.location(pair.name));
             if (std::find(read_names_.begin(), read_names_.end(), name) != read_names_.end()) continue;
-            const auto value = scope_.evaluate({&s_, pair.value});
-            if (!value) return value.error();
-            out_.values.insert_or_assign(std::string(name), *value);
+            const auto value = TRY(scope_.evaluate({&s_, pair.value}));
+            out_.values.insert_or_assign(std::string(name), value);
         }
         if (const auto* m = s_.find("m"); m && !(out_.values["m"] > 0))
             return bad_input(fmt::format("{}: m = {:g} must be positive", name_, out_.values["m"]), s_.location(m->value));

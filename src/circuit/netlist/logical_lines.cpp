@@ -120,7 +120,7 @@ Result<bool> LogicalLineReader::next(LogicalLine& out) {
             if (auto complete = finish_line(out); !complete || *complete) return complete;
             continue;
         }
-        if (const auto ok = append(line, is_continuation ? first + 1 : first); !ok) return ok.error();
+        TRY(append(line, is_continuation ? first + 1 : first));
     }
     return has_next_ ? finish_line(out) : Result<bool>(false);
 }

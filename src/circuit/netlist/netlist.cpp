@@ -34,16 +34,15 @@ int Circuit::find_element(std::string_view name) const {
 
 Result<Netlist> Netlist::parse(std::string text, std::string file, const FileOpener& open, const std::string& corner) {
     auto parsed = std::make_shared<Impl>();
-    if (auto ok = read_netlist(text, file, open, corner, *parsed); !ok) return ok.error();
+    TRY(read_netlist(text, file, open, corner, *parsed));
     Netlist out;
     out.impl_ = std::move(parsed);
     return out;
 }
 
 Result<Netlist> Netlist::read(const std::string& path, const std::string& corner) {
-    auto text = read_file_text(path);
-    if (!text) return text.error();
-    return parse(std::move(*text), path, read_file_text, corner);
+    auto text = TRY(read_file_text(path));
+    return parse(std::move(text), path, read_file_text, corner);
 }
 
 Netlist Netlist::with_overrides(ResolvedOverrides changes) const {

@@ -62,7 +62,7 @@ public:
 
     /// Reads the netlist, then checks that a library had the requested corner.
     Result<void> read_all(std::string_view text, const std::string& path) {
-        if (auto ok = read(text, path, ""); !ok) return ok;
+        TRY(read(text, path, ""));
         return corner_.check_found(path);
     }
 
@@ -72,8 +72,7 @@ public:
         if (bytes_read_ > max_text_bytes)
             return bad_input(fmt::format("the netlist and its included files exceed the limit of {} MB", max_text_bytes >> 20), {path});
         LogicalLineReader lines(text, std::make_shared<const std::string>(path));
-        if (open_files_.empty())
-            if (const auto ok = take_title(lines); !ok) return ok;
+        if (open_files_.empty()) TRY(take_title(lines));
         open_files_.push_back({path, section});
         if (!section.empty()) out_.libraries.insert(path);
         SubcktDef* const outer_body = std::exchange(file_body_, body_);
@@ -88,9 +87,8 @@ public:
 
 private:
     Result<void> take_title(LogicalLineReader& lines) {
-        auto title = lines.title();
-        if (!title) return title.error();
-        out_.title = std::string(trimmed(*title));
+        auto title = TRY(lines.title());
+        out_.title = std::string(trimmed(title));
         if (looks_like_statement(out_.title))
             out_.warnings.push_back(bad_input(
                 fmt::format("the first line is the title, so '{}' is not read as a statement", std::string_view(out_.title).substr(0, 40)),
@@ -116,10 +114,9 @@ private:
     Result<void> statements(LogicalLineReader& lines) {
         LogicalLine line;
         while (!ended_) {
-            const auto more = lines.next(line);
-            if (!more) return more.error();
-            if (!*more) return {};
-            if (const auto ok = statement(lines, std::move(line)); !ok) return ok;
+            const auto more = TRY(lines.next(line));
+            if (!more) return {};
+            TRY(statement(lines, std::move(line)));
         }
         return {};
     }
@@ -157,9 +154,8 @@ private:
         if (word == ".global") return global(std::move(line));
         if (word == ".temp") return store_directive(std::move(line), out_.temperatures);
         if (word.starts_with(".opt")) {
-            auto read = split_element(std::move(line), nullptr);
-            if (!read) return read.error();
-            out_.options.push_back(&store(std::move(*read)));
+            auto read = TRY(split_element(std::move(line), nullptr));
+            out_.options.push_back(&store(std::move(read)));
             return {};
         }
         return store_directive(std::move(line), out_.directives);
@@ -178,9 +174,8 @@ private:
     Statement& store(Statement s) { return out_.statements.emplace_back(std::move(s)); }
 
     Result<void> store_directive(LogicalLine line, std::vector<const Statement*>& list) {
-        auto read = split_directive(std::move(line));
-        if (!read) return read.error();
-        list.push_back(&store(std::move(*read)));
+        auto read = TRY(split_directive(std::move(line)));
+        list.push_back(&store(std::move(read)));
         return {};
     }
 
@@ -190,10 +185,9 @@ private:
                 fmt::format("'{}': unknown element letter {}; known are R C L V I E F G H B D M X",
                             std::string_view(line.text).substr(0, std::min<std::size_t>(line.text.find_first_of(" \t"), 20)), line.text[0]),
                 line.location());
-        auto read = split_element(std::move(line), is_long_value);
-        if (!read) return read.error();
-        if (const auto ok = check_duplicates(*read); !ok) return ok;
-        body_->elements.push_back(&store(std::move(*read)));
+        auto read = TRY(split_element(std::move(line), is_long_value));
+        TRY(check_duplicates(read));
+        body_->elements.push_back(&store(std::move(read)));
         warn_about_units(*body_->elements.back(), out_.warnings);
         return {};
     }
@@ -214,14 +208,13 @@ private:
     // ---- .param, .func, .model, .global ----
 
     Result<void> parameters(LogicalLine line) {
-        auto read = split_assignments(std::move(line));
-        if (!read) return read.error();
-        const Statement& s = store(std::move(*read));
+        auto read = TRY(split_assignments(std::move(line)));
+        const Statement& s = store(std::move(read));
         if (s.pairs.empty()) return bad_input(".param: expected name=value", s.line.location());
         for (const auto& pair : s.pairs) {
             const std::string name(s.text(pair.name));
             if (const auto open = name.find('('); open != std::string::npos) {
-                if (const auto ok = define(name, std::string(s.text(pair.value)), s.location(pair.name)); !ok) return ok;
+                TRY(define(name, std::string(s.text(pair.value)), s.location(pair.name)));
                 continue;
             }
             const auto [at, is_new] = body_->parameters.insert_or_assign(name, WordRef{&s, pair.value});
@@ -264,18 +257,17 @@ private:
     }
 
     Result<void> model(LogicalLine line) {
-        auto read = split_element(std::move(line), nullptr);
-        if (!read) return read.error();
-        if (read->words.size() < 3)
-            return bad_input(".model: expected a name and a type, such as .model nm nmos (vto=0.5)", read->location(read->words.size()));
-        if (read->words.size() > 3)
-            return bad_input(fmt::format("expected name=value, not '{}'", read->text(3)), read->location(std::size_t{3}));
-        if (const auto ok = check_duplicates(*read); !ok) return ok;
-        const std::string name(read->text(1));
+        auto read = TRY(split_element(std::move(line), nullptr));
+        if (read.words.size() < 3)
+            return bad_input(".model: expected a name and a type, such as .model nm nmos (vto=0.5)", read.location(read.words.size()));
+        if (read.words.size() > 3)
+            return bad_input(fmt::format("expected name=value, not '{}'", read.text(3)), read.location(std::size_t{3}));
+        TRY(check_duplicates(read));
+        const std::string name(read.text(1));
         if (const auto known = body_->models.find(name); known != body_->models.end())
             return bad_input(fmt::format("model '{}' is already defined at {}", name, location_text(*known->second)),
-                             read->location(std::size_t{1}));
-        body_->models.emplace(name, &store(std::move(*read)));
+                             read.location(std::size_t{1}));
+        body_->models.emplace(name, &store(std::move(read)));
         return {};
     }
     static std::string location_text(const Statement& s) {
@@ -284,9 +276,8 @@ private:
     }
 
     Result<void> global(LogicalLine line) {
-        auto read = split_directive(std::move(line));
-        if (!read) return read.error();
-        for (std::size_t k = 1; k < read->words.size(); ++k) out_.globals.emplace(read->text(k));
+        auto read = TRY(split_directive(std::move(line)));
+        for (std::size_t k = 1; k < read.words.size(); ++k) out_.globals.emplace(read.text(k));
         return {};
     }
 
@@ -294,20 +285,19 @@ private:
 
     /// Reads a .subckt line. The following lines belong to its body until .ends.
     Result<void> subcircuit(LogicalLine line) {
-        auto read = split_element(std::move(line), nullptr);
-        if (!read) return read.error();
-        if (read->words.size() < 2) return bad_input(".subckt: expected a name and nodes", read->location(std::size_t{1}));
-        if (const auto ok = check_duplicates(*read); !ok) return ok;
+        auto read = TRY(split_element(std::move(line), nullptr));
+        if (read.words.size() < 2) return bad_input(".subckt: expected a name and nodes", read.location(std::size_t{1}));
+        TRY(check_duplicates(read));
         if (++subcircuit_depth_ > max_definition_depth)
             return bad_input(fmt::format("definitions of subcircuits are nested deeper than the limit of {}", max_definition_depth),
-                             read->line.location());
-        const std::string name(read->text(1));
+                             read.line.location());
+        const std::string name(read.text(1));
         auto& body = body_->subcircuits[name];
         if (body)
             return bad_input(fmt::format("subcircuit '{}' is already defined at {}", name, location_text(*body->head)),
-                             read->location(std::size_t{1}));
+                             read.location(std::size_t{1}));
         body = std::make_unique<SubcktDef>();
-        body->name = name, body->outer = body_, body->head = &store(std::move(*read));
+        body->name = name, body->outer = body_, body->head = &store(std::move(read));
         body_ = body.get();
         return read_head(*body);
     }
@@ -333,11 +323,10 @@ private:
     }
 
     Result<void> end_of_subcircuit(LogicalLine line) {
-        auto read = split_directive(std::move(line));
-        if (!read) return read.error();
-        if (body_ == file_body_) return bad_input(".ends without .subckt", read->line.location());
-        if (read->words.size() > 1 && read->text(1) != body_->name)
-            return bad_input(fmt::format(".ends {} does not match .subckt {}", read->text(1), body_->name), read->location(std::size_t{1}));
+        auto read = TRY(split_directive(std::move(line)));
+        if (body_ == file_body_) return bad_input(".ends without .subckt", read.line.location());
+        if (read.words.size() > 1 && read.text(1) != body_->name)
+            return bad_input(fmt::format(".ends {} does not match .subckt {}", read.text(1), body_->name), read.location(std::size_t{1}));
         body_ = body_->outer;
         --subcircuit_depth_;
         return {};
@@ -352,32 +341,28 @@ private:
     }
 
     Result<void> include(LogicalLine line) {
-        auto read = split_directive(std::move(line));
-        if (!read) return read.error();
-        if (read->words.size() != 2)
-            return bad_input(".include: expected one file; put a name with blanks in quotes",
-                             read->location(read->words.size() < 2 ? 1 : 2));
-        return open(unquoted(read->text(1)), "", read->location(std::size_t{1}));
+        auto read = TRY(split_directive(std::move(line)));
+        if (read.words.size() != 2)
+            return bad_input(".include: expected one file; put a name with blanks in quotes", read.location(read.words.size() < 2 ? 1 : 2));
+        return open(unquoted(read.text(1)), "", read.location(std::size_t{1}));
     }
 
     /// Reads ".lib file section", or skips the section that ".lib section" begins.
     Result<void> library(LogicalLineReader& lines, LogicalLine line) {
-        auto read = split_directive(std::move(line));
-        if (!read) return read.error();
-        if (read->words.size() == 3) return open(unquoted(read->text(1)), lower(unquoted(read->text(2))), read->location(std::size_t{1}));
-        const bool is_file = read->words.size() == 2 && unquoted(read->text(1)) != read->text(1);
-        if (read->words.size() != 2 || is_file)
-            return bad_input(".lib: expected a file and a section; to read a complete file, use .include", read->location(std::size_t{1}));
-        return skip_section(lines, read->line.location());
+        auto read = TRY(split_directive(std::move(line)));
+        if (read.words.size() == 3) return open(unquoted(read.text(1)), lower(unquoted(read.text(2))), read.location(std::size_t{1}));
+        const bool is_file = read.words.size() == 2 && unquoted(read.text(1)) != read.text(1);
+        if (read.words.size() != 2 || is_file)
+            return bad_input(".lib: expected a file and a section; to read a complete file, use .include", read.location(std::size_t{1}));
+        return skip_section(lines, read.line.location());
     }
 
     /// Skips the lines of a section up to .endl; only ".lib file section" reads them. `from` is the location of the section's first line.
     Result<void> skip_section(LogicalLineReader& lines, SourceLocation from) {
         LogicalLine line;
         while (true) {
-            const auto more = lines.next(line);
-            if (!more) return more.error();
-            if (!*more) return bad_input(".lib with one word begins a section, but .endl is missing; to read a file, use .include", from);
+            const auto more = TRY(lines.next(line));
+            if (!more) return bad_input(".lib with one word begins a section, but .endl is missing; to read a file, use .include", from);
             if (lower(std::string_view(line.text).substr(0, 5)) == ".endl") return {};
         }
     }
@@ -413,19 +398,17 @@ private:
         std::vector<std::string> known;
         LogicalLine line;
         while (true) {
-            const auto more = lines.next(line);
-            if (!more) return more.error();
-            if (!*more) {
+            const auto more = TRY(lines.next(line));
+            if (!more) {
                 const std::vector<std::string_view> names(known.begin(), known.end());
                 return bad_input(
                     fmt::format("library '{}' has no section '{}'{}", open_files_.back().path, section, did_you_mean(section, names)));
             }
             if (lower(std::string_view(line.text).substr(0, 4)) != ".lib") continue;
-            const auto head = split_directive(std::move(line));
-            if (!head) return head.error();
-            if (head->words.size() != 2) continue;
-            known.emplace_back(lower(unquoted(head->text(1))));
-            if (known.back() == section) return until_endl(lines, head->line.location());
+            const auto head = TRY(split_directive(std::move(line)));
+            if (head.words.size() != 2) continue;
+            known.emplace_back(lower(unquoted(head.text(1))));
+            if (known.back() == section) return until_endl(lines, head.line.location());
         }
     }
 
@@ -433,11 +416,10 @@ private:
     Result<void> until_endl(LogicalLineReader& lines, const SourceLocation& from) {
         LogicalLine line;
         while (!ended_) {
-            const auto more = lines.next(line);
-            if (!more) return more.error();
-            if (!*more) break;
+            const auto more = TRY(lines.next(line));
+            if (!more) break;
             if (line.text.starts_with(".endl")) return {};
-            if (const auto ok = statement(lines, std::move(line)); !ok) return ok;
+            TRY(statement(lines, std::move(line)));
         }
         return bad_input(".lib is not closed by .endl", from);
     }

@@ -93,9 +93,8 @@ Result<double> Scope::evaluate(const WordRef& text) const {
         if (auto why = ambiguity(*plain, text.view())) return bad_input(std::move(*why), text.location());
         value = plain->value;
     } else {
-        const auto expression = parse_expression(text, expression_scope());
-        if (!expression) return expression.error();
-        value = expression->value();
+        const auto expression = TRY(parse_expression(text, expression_scope()));
+        value = expression.value();
     }
     if (std::isnan(value)) return bad_input(fmt::format("'{}' is not a number", text.view().substr(0, 60)), text.location());
     if (!std::isfinite(value))
@@ -109,8 +108,7 @@ Result<void> Scope::define(const Values& given) {
     for (const auto* definitions : {&definition->parameters, &definition->defaults})
         for (const auto& [name, text] : *definitions)
             if (!parameters.contains(name)) pending.emplace(name, text);
-    while (!pending.empty())
-        if (const auto ok = define(std::string(pending.begin()->first), pending); !ok) return ok;
+    while (!pending.empty()) TRY(define(std::string(pending.begin()->first), pending));
     return {};
 }
 
@@ -142,9 +140,8 @@ Result<void> Scope::define(const std::string& first, ByName<WordRef>& pending) {
             if (pending.contains(name)) push(std::string(name));
             continue;
         }
-        const auto value = evaluate(pending.find(top.name)->second);
-        if (!value) return value.error();
-        parameters.emplace(top.name, *value);
+        const auto value = TRY(evaluate(pending.find(top.name)->second));
+        parameters.emplace(top.name, value);
         pending.erase(top.name);
         on_stack.erase(top.name);
         stack.pop_back();

@@ -42,12 +42,9 @@ public:
     SourceReader(const Scope& scope, const Statement& s) : scope_(scope), s_(s) {}
 
     Result<Waveform> read() {
-        if (is_number_next())
-            if (const auto ok = dc(); !ok) return ok.error();
-        while (k_ < s_.words.size())
-            if (const auto ok = next_item(); !ok) return ok.error();
-        for (const auto& pair : s_.pairs)
-            if (const auto ok = named(pair); !ok) return ok.error();
+        if (is_number_next()) TRY(dc());
+        while (k_ < s_.words.size()) TRY(next_item());
+        for (const auto& pair : s_.pairs) TRY(named(pair));
         return std::move(out_);
     }
 
@@ -71,9 +68,8 @@ private:
     Result<void> dc() {
         if (k_ >= s_.words.size() || is_keyword(k_)) return error_at("dc must be followed by a number", k_);
         if (out_.has_dc) return error_at("dc is given twice", k_);
-        const auto value = number();
-        if (!value) return value.error();
-        out_.dc = *value, out_.has_dc = true;
+        const auto value = TRY(number());
+        out_.dc = value, out_.has_dc = true;
         return {};
     }
 
@@ -81,9 +77,7 @@ private:
         out_.ac_magnitude = 1;
         for (double* to : {&out_.ac_magnitude, &out_.ac_phase}) {
             if (k_ >= s_.words.size() || is_keyword(k_)) return {};
-            const auto value = number();
-            if (!value) return value.error();
-            *to = *value;
+            *to = TRY(number());
         }
         return {};
     }
@@ -112,9 +106,7 @@ private:
         const auto keyword = k_ - 1;
         while (k_ < s_.words.size() && !is_keyword(k_)) {
             number_words_.push_back(k_);
-            const auto value = number();
-            if (!value) return value.error();
-            out_.numbers.push_back(*value);
+            out_.numbers.push_back(TRY(number()));
         }
         const auto n = out_.numbers.size();
         if (n < row.min_numbers || n > row.max_numbers)
@@ -141,14 +133,13 @@ private:
         const auto error_at_name = [&](std::string_view why) {
             return bad_input(fmt::format("{}: {}", s_.text(std::size_t{0}), why), s_.location(pair.name));
         };
-        const auto value = scope_.evaluate({&s_, pair.value});
-        if (!value) return value.error();
+        const auto value = TRY(scope_.evaluate({&s_, pair.value}));
         if (name == "dc" && !out_.has_dc)
-            out_.dc = *value, out_.has_dc = true;
+            out_.dc = value, out_.has_dc = true;
         else if (name == "ac" && out_.ac_magnitude == 0)
-            out_.ac_magnitude = *value;
+            out_.ac_magnitude = value;
         else if (name == "td" && out_.shape == Shape::piecewise_linear)
-            for (std::size_t k = 0; k < out_.numbers.size(); k += 2) out_.numbers[k] += *value;
+            for (std::size_t k = 0; k < out_.numbers.size(); k += 2) out_.numbers[k] += value;
         else if (name == "r" && out_.shape == Shape::piecewise_linear)
             return error_at_name("a repeated pwl (r=) is not supported");
         else if (name == "td" || name == "r")

@@ -115,9 +115,7 @@ Word value_word(std::string_view s, std::size_t from, std::size_t to) {
 Result<Word> read_value(Cursor& c, bool is_long) {
     c.skip(" \t");
     const auto from = c.at;
-    const auto end = is_long ? c.past_long_value() : c.past_value();
-    if (!end) return end.error();
-    c.at = *end;
+    c.at = TRY(is_long ? c.past_long_value() : c.past_value());
     const Word value = value_word(c.text(), from, c.at);
     if (value.size == 0) return c.error_at("'=' without a value after it", from > 0 ? from - 1 : 0);
     return value;
@@ -138,9 +136,7 @@ Result<void> skip_separators(Cursor& c, std::vector<std::size_t>& open) {
 Result<Word> plain_or_group(Cursor& c) {
     const auto from = c.at;
     if (c.opens_group()) {
-        const auto end = c.past_group();
-        if (!end) return end.error();
-        c.at = *end;
+        c.at = TRY(c.past_group());
         return value_word(c.text(), from, c.at);
     }
     while (!c.done() && !is_blank_char(c.here()) && c.here() != ',' && c.here() != ')' && !c.opens_group() && !c.is_assignment(c.at))
@@ -161,22 +157,20 @@ Result<Statement> split_element(LogicalLine line, bool (*is_long_value)(char, st
     Cursor c(s.line);
     std::vector<std::size_t> open;
     while (true) {
-        if (const auto ok = skip_separators(c, open); !ok) return ok.error();
+        TRY(skip_separators(c, open));
         if (c.done()) break;
         if (c.is_assignment(c.at)) return c.error_at("'=' without a name before it", c.at);
-        const auto first = plain_or_group(c);
-        if (!first) return first.error();
+        const auto first = TRY(plain_or_group(c));
         const auto after = c.at;
         c.skip(" \t");
         if (!c.is_assignment(c.at)) {
             c.at = after;
-            s.words.push_back(*first);
+            s.words.push_back(first);
             continue;
         }
         ++c.at;
-        const auto value = read_value(c, is_long_value && is_long_value(s.line.text[0], s.text(*first)));
-        if (!value) return value.error();
-        s.pairs.push_back({*first, *value});
+        const auto value = TRY(read_value(c, is_long_value && is_long_value(s.line.text[0], s.text(first))));
+        s.pairs.push_back({first, value});
     }
     if (!open.empty()) return c.error_at("this '(' is not closed", open.back());
     return s;
@@ -193,16 +187,14 @@ Result<Statement> split_assignments(LogicalLine line) {
         auto to = c.at;
         c.skip(" \t");
         if (c.here() == '(') {
-            const auto end = c.past_group();
-            if (!end) return end.error();
-            to = c.at = *end;
+            const auto end = TRY(c.past_group());
+            to = c.at = end;
             c.skip(" \t");
         }
         if (!c.is_assignment(c.at) || to == from) return c.error_at("expected name=value here", from);
         ++c.at;
-        const auto value = read_value(c, true);
-        if (!value) return value.error();
-        s.pairs.push_back({word(from, to), *value});
+        const auto value = TRY(read_value(c, true));
+        s.pairs.push_back({word(from, to), value});
     }
     return s;
 }
@@ -214,9 +206,7 @@ Result<Statement> split_directive(LogicalLine line) {
         const auto from = c.at;
         while (!c.done()) {
             if (c.opens_group()) {
-                const auto end = c.past_group();
-                if (!end) return end.error();
-                c.at = *end;
+                c.at = TRY(c.past_group());
             } else if (c.is_assignment(c.at) && c.at > from) {
                 ++c.at;
                 c.skip(" \t");

@@ -48,9 +48,7 @@ Result<void> MeasurementSet::begin(std::string_view analysis, const Plot& head) 
         // A line that has a measurement already measured an earlier analysis of this kind.
         const auto& c = *entry.directive;
         if (c.words.size() < 3 || c.words[0] != analysis || is_expression(c) || entry.measurement) continue;
-        auto parsed = parse_measurement(c, head);
-        if (!parsed) return parsed.error();
-        entry.measurement = std::move(*parsed);
+        entry.measurement = TRY(parse_measurement(c, head));
         active_.push_back(entry.measurement.get());
     }
     return {};
@@ -73,7 +71,7 @@ Result<void> MeasurementSet::check(const std::vector<std::string>& number_names)
         const auto& c = *directive;
         if (c.words.size() < 3) return incomplete_measure(c);
         if (is_expression(c)) {
-            if (const auto expression = parse_expression(c, known); !expression) return expression.error();
+            TRY(parse_expression(c, known));
         } else if (!measurement) {
             return without_analysis(c);
         }
@@ -87,9 +85,8 @@ Result<void> MeasurementSet::finish(std::vector<std::pair<std::string, double>>&
         const auto& c = *directive;
         if (c.words.size() < 3) return incomplete_measure(c);
         if (is_expression(c)) {
-            const auto expression = parse_expression(c, numbers);
-            if (!expression) return expression.error();
-            numbers.emplace_back(c.words[1], expression->value());
+            const auto expression = TRY(parse_expression(c, numbers));
+            numbers.emplace_back(c.words[1], expression.value());
             continue;
         }
         if (!measurement) return without_analysis(c);

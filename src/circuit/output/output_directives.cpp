@@ -81,20 +81,18 @@ public:
         if (heads_.empty()) return {};  // the run reports that there is no analysis
         for (const auto& c : circuit_.directives)
             if (c.name == "print" || c.name == "plot") {
-                if (auto ok = check_columns(c); !ok) return ok;
+                TRY(check_columns(c));
             } else if (c.name == "probe") {
                 for (std::size_t k = 0; k < c.words.size(); ++k)
                     if (is_unsupported_probe(circuit_, c, c.words[k]))
                         warnings_.push_back(error_at(c, k, fmt::format(".probe: '{}' is not supported and is ignored", c.words[k])));
             }
         MeasurementSet measures(circuit_);
-        for (const auto& head : heads_)
-            if (auto ok = measures.begin(head.directive->name, head.plot); !ok) return ok;
+        for (const auto& head : heads_) TRY(measures.begin(head.directive->name, head.plot));
         const auto known = number_names();
-        if (auto ok = measures.check(known); !ok) return ok;
+        TRY(measures.check(known));
         for (const auto& c : circuit_.directives)
-            if (c.name == "expect")
-                if (auto ok = check_expectation(c, known); !ok) return ok.error();
+            if (c.name == "expect") TRY(check_expectation(c, known));
         return {};
     }
 

@@ -85,13 +85,12 @@ std::vector<std::string> split_probes(std::string_view text) {
 }
 
 Result<std::optional<std::string>> resolve_probe(const Circuit& c, std::string_view probe_text) {
-    const auto probe = parse_probe(probe_text);
-    if (!probe) return probe.error();
-    if (probe->is_current) return resolve_current(c, probe_text, probe->first);
-    const auto first = resolve_node(c, probe_text, probe->first);
-    if (!first || !*first || probe->second.empty())
+    const auto probe = TRY(parse_probe(probe_text));
+    if (probe.is_current) return resolve_current(c, probe_text, probe.first);
+    const auto first = resolve_node(c, probe_text, probe.first);
+    if (!first || !*first || probe.second.empty())
         return !first || !*first ? first : Result<std::optional<std::string>>(fmt::format("v({})", **first));
-    const auto second = resolve_node(c, probe_text, probe->second);
+    const auto second = resolve_node(c, probe_text, probe.second);
     if (!second || !*second) return second;
     return std::optional(fmt::format("v({},{})", **first, **second));
 }

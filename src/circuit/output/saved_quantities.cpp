@@ -70,9 +70,8 @@ Result<std::vector<SavedQuantity>> resolve_saved_quantities(const System& system
             }
             Directive single_word{c.name, {name}, {}, c.location};  // the parser takes a directive
             if (k < c.columns.size()) single_word.columns = {c.columns[k]};
-            const auto unknowns = read_output_variable(names, single_word, 0);
-            if (!unknowns) return unknowns.error();
-            out.push_back({name, *unknowns});
+            const auto unknowns = TRY(read_output_variable(names, single_word, 0));
+            out.push_back({name, unknowns});
         }
     }
     return all ? std::vector<SavedQuantity>{} : out;

@@ -39,19 +39,18 @@ public:
 };
 
 Result<System> System::make(std::shared_ptr<const Circuit> circuit) {
-    if (auto ok = check_solvable(*circuit); !ok) return ok.error();
+    TRY(check_solvable(*circuit));
     System system;
     system.circuit_ = std::move(circuit);
     Builder builder(system);
     for (const auto& e : system.circuit_->elements) {
         const auto* kind = find_device_kind(e.letter);
         if (kind == nullptr) return bad_input(fmt::format("{}: no device has the letter '{}'", e.name, e.letter), e.location);
-        auto device = kind->make(e, builder);
-        if (!device) return device.error();
-        (*device)->name = e.name, (*device)->location = e.location;
+        auto device = TRY(kind->make(e, builder));
+        device->name = e.name, device->location = e.location;
         system.limiting_state_offset_.push_back(system.limiting_state_size_);
-        system.limiting_state_size_ += (*device)->limiting_state_size();
-        system.devices_.push_back(std::move(*device));
+        system.limiting_state_size_ += device->limiting_state_size();
+        system.devices_.push_back(std::move(device));
     }
     std::vector<std::pair<int, int>> entries;
     for (int k = 0; k < system.size(); ++k) entries.emplace_back(k, k);
@@ -66,7 +65,7 @@ Result<System> System::make(std::shared_ptr<const Circuit> circuit) {
             for (const int column : d->unknowns)
                 device_entries.push_back(row >= 0 && column >= 0 ? system.pattern_->entry_index(row, column) : system.pattern_->entries());
     }
-    if (auto ok = system.make_groups(); !ok) return ok.error();
+    TRY(system.make_groups());
     system.is_linear_ = std::all_of(system.devices_.begin(), system.devices_.end(), [](const auto& d) { return d->is_linear(); });
     return system;
 }
@@ -81,10 +80,9 @@ Result<void> System::make_groups() {
             scalar_devices_.insert(scalar_devices_.end(), members.begin(), members.end());
             continue;
         }
-        auto batch = kind.make_batch();
-        if (!batch) return batch.error();
+        auto batch = TRY(kind.make_batch());
         // All devices of a kind with batches have the same number of unknowns.
-        DeviceGroup group{std::move(*batch), {}, devices_[members[0]]->unknowns.size(), (members.size() + 7) / 8 * 8, {}, {}};
+        DeviceGroup group{std::move(batch), {}, devices_[members[0]]->unknowns.size(), (members.size() + 7) / 8 * 8, {}, {}};
         for (const auto k : members) {
             group.members.push_back(devices_[k].get());
             group.unknowns.insert(group.unknowns.end(), devices_[k]->unknowns.begin(), devices_[k]->unknowns.end());

@@ -123,7 +123,7 @@ Result<void> check_solvable(const Circuit& c) {
     if (std::none_of(c.elements.begin(), c.elements.end(),
                      [](const Element& e) { return std::find(e.nodes.begin(), e.nodes.end(), 0) != e.nodes.end(); }))
         return bad_input("no element is connected to ground (node 0)", c.elements[0].location);
-    if (auto ok = check_voltage_loops(c); !ok) return ok;
+    TRY(check_voltage_loops(c));
     return check_floating_nodes(c);
 }
 

@@ -351,7 +351,7 @@ Result<bool> Transient::step(double until) {
         not_reduced = solved && is_first_step && worst > min_reduction * rejected && rejected > 0 ? not_reduced + 1 : 0;
         rejected = solved ? worst : 0;
         if (!solved || (!(worst <= 1) && not_reduced < max_not_reduced)) {
-            if (auto ok = reject_step(t - t0, solved ? worst : 0); !ok) return ok.error();
+            TRY(reject_step(t - t0, solved ? worst : 0));
             continue;
         }
         const bool jumped = may_jump_ && (uncharged_error_ > 1 || curve_error > 1);

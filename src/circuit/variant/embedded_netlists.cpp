@@ -13,9 +13,8 @@ const EmbeddedNetlist* find_embedded_netlist(std::string_view name) {
 Result<Netlist> open_netlist(const std::string& name_or_path, const std::string& corner) {
     const auto* embedded = find_embedded_netlist(name_or_path);
     if (embedded == nullptr) return Netlist::read(name_or_path, corner);
-    auto text = embedded_text(std::string(embedded->file));
-    if (!text) return text.error();
-    return parse_embedded(std::move(*text), std::string(embedded->file), corner);
+    auto text = TRY(embedded_text(std::string(embedded->file)));
+    return parse_embedded(std::move(text), std::string(embedded->file), corner);
 }
 
 Result<Netlist> parse_embedded(std::string text, std::string file, const std::string& corner) {

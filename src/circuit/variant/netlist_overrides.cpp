@@ -170,7 +170,7 @@ private:
             if (n.name == "stack" && !(size->second >= 1))
                 return error_of(setting, fmt::format("{} units in series; at least 1 is required", size->second));
             if (n.name != "m" && n.name != "stack") continue;
-            if (auto ok = add_change(setting, e, n, n.name == "m" ? size->first : size->second); !ok) return ok;
+            TRY(add_change(setting, e, n, n.name == "m" ? size->first : size->second));
         }
         return {};
     }
@@ -297,15 +297,12 @@ Result<Applied<Netlist>> apply_overrides(const NetlistOpener& open, const std::s
         const auto lower_name = lower(setting.parameter);
         if (lower_name == "corner") continue;
         if (lower_name == "temp") {
-            const auto value = temperature_of(setting);
-            if (!value) return value.error();
-            changes.temperature = *value;
+            changes.temperature = TRY(temperature_of(setting));
         } else if (lower_name == "mismatch") {
-            const auto chip = chip_of(setting);
-            if (!chip) return chip.error();
-            changes.mismatch_seed = chip->first, changes.chip = chip->second;
+            const auto chip = TRY(chip_of(setting));
+            changes.mismatch_seed = chip.first, changes.chip = chip.second;
         } else if (std::find(parameters.begin(), parameters.end(), lower_name) != parameters.end()) {
-            if (auto ok = set_parameter(setting, lower_name, changes); !ok) return ok.error();
+            TRY(set_parameter(setting, lower_name, changes));
         } else if (setting.target.empty()) {
             const std::vector<std::string_view> known(parameters.begin(), parameters.end());
             return error_of(setting, fmt::format("{} has no .param {}{}", name, lower_name, did_you_mean(lower_name, known)));
@@ -315,11 +312,9 @@ Result<Applied<Netlist>> apply_overrides(const NetlistOpener& open, const std::s
     }
     if (device_overrides.empty()) return Applied<Netlist>{netlist->with_overrides(std::move(changes)), unused};
     // The elements have names and values only in a flat circuit, which depends on the overrides so far.
-    const auto circuit = netlist->with_overrides(changes).elaborate();
-    if (!circuit) return circuit.error();
-    OverrideResolver resolver(*circuit, parameters, changes);
-    for (const auto* setting : device_overrides)
-        if (auto ok = resolver.apply(*setting); !ok) return ok.error();
+    const auto circuit = TRY(netlist->with_overrides(changes).elaborate());
+    OverrideResolver resolver(circuit, parameters, changes);
+    for (const auto* setting : device_overrides) TRY(resolver.apply(*setting));
     return Applied<Netlist>{netlist->with_overrides(std::move(changes)), unused};
 }
 

@@ -18,33 +18,28 @@ Error too_many(const Directive& c, double count) {
 }
 
 Result<std::vector<double>> linear_values(const Directive& c, std::size_t word) {
-    const auto from = read_number(c, word, "the first value"), to = read_number(c, word + 1, "the last value"),
-               step = read_number(c, word + 2, "a step");
-    for (const auto* number : {&from, &to, &step})
-        if (!*number) return number->error();
-    const double steps = std::floor((*to - *from) / *step + 1e-9);
-    if (!(steps >= 0))
-        return bad_input(fmt::format(".step: a step of {:g} does not lead from {:g} to {:g}", *step, *from, *to), c.location);
+    const double from = TRY(read_number(c, word, "the first value")), to = TRY(read_number(c, word + 1, "the last value"));
+    const double step = TRY(read_number(c, word + 2, "a step"));
+    const double steps = std::floor((to - from) / step + 1e-9);
+    if (!(steps >= 0)) return bad_input(fmt::format(".step: a step of {:g} does not lead from {:g} to {:g}", step, from, to), c.location);
     if (!(steps < max_variants)) return too_many(c, steps + 1);
     std::vector<double> out;
-    for (double k = 0; k <= steps; ++k) out.push_back(*from + k * *step);
+    for (double k = 0; k <= steps; ++k) out.push_back(from + k * step);
     return out;
 }
 
 /// The values of .step dec (base 10) or oct (base 2).
 Result<std::vector<double>> log_values(const Directive& c, std::size_t word, double base) {
-    const auto from = read_number(c, word, "the first value"), to = read_number(c, word + 1, "the last value"),
-               points = read_number(c, word + 2, "the number of points");
-    for (const auto* number : {&from, &to, &points})
-        if (!*number) return number->error();
-    if (!(*from > 0 && *to >= *from && *points >= 1))
+    const double from = TRY(read_number(c, word, "the first value")), to = TRY(read_number(c, word + 1, "the last value"));
+    const double points = TRY(read_number(c, word + 2, "the number of points"));
+    if (!(from > 0 && to >= from && points >= 1))
         return bad_input(fmt::format(".step: {:g} points from {:g} to {:g}; POINTS must be at least 1, FROM above 0, and TO not below FROM",
-                                     *points, *from, *to),
+                                     points, from, to),
                          c.location);
-    const double steps = std::floor(std::log(*to / *from) / std::log(base) * *points + 1e-9);
+    const double steps = std::floor(std::log(to / from) / std::log(base) * points + 1e-9);
     if (!(steps < max_variants)) return too_many(c, steps + 1);
     std::vector<double> out;
-    for (double k = 0; k <= steps; ++k) out.push_back(*from * std::pow(base, k / *points));
+    for (double k = 0; k <= steps; ++k) out.push_back(from * std::pow(base, k / points));
     return out;
 }
 
@@ -52,9 +47,8 @@ Result<std::vector<double>> log_values(const Directive& c, std::size_t word, dou
 
 Result<ChipSpec> parse_chip_spec(const Directive& c) {
     ChipSpec out;
-    const auto count = read_number(c, 0, "the number of chips");
-    if (!count) return count.error();
-    out.count = *count;
+    const auto count = TRY(read_number(c, 0, "the number of chips"));
+    out.count = count;
     for (std::size_t k = 1; k < c.words.size(); ++k) {
         const auto equals = c.words[k].find('=');
         const auto name = c.words[k].substr(0, equals);
@@ -86,9 +80,8 @@ std::optional<ChipSample> chip_sample_of(const Circuit& c) {
 Result<NetlistVariants> NetlistVariants::create(const Netlist& netlist) {
     NetlistVariants out{};
     out.netlist_ = netlist;
-    auto nominal = netlist.elaborate();
-    if (!nominal) return nominal.error();
-    out.nominal_ = std::make_shared<const Circuit>(std::move(*nominal));
+    auto nominal = TRY(netlist.elaborate());
+    out.nominal_ = std::make_shared<const Circuit>(std::move(nominal));
     double count = 1;  // of the variants so far
     for (const auto& c : out.nominal_->directives) {
         if (c.name == "step") {
@@ -103,29 +96,23 @@ Result<NetlistVariants> NetlistVariants::create(const Netlist& netlist) {
             if (axis.name.empty()) return bad_input(".step: the name of the parameter is missing", c.location);
             ++at;
             if (word() == "list") {
-                for (++at; at < c.words.size(); ++at) {
-                    const auto value = read_number(c, at, "a value");
-                    if (!value) return value.error();
-                    axis.values.push_back(*value);
-                }
+                for (++at; at < c.words.size(); ++at) axis.values.push_back(TRY(read_number(c, at, "a value")));
                 if (axis.values.empty()) return bad_input(".step: the list is empty", c.location);
             } else {
-                auto values = is_log ? log_values(c, at, base) : linear_values(c, at);
-                if (!values) return values.error();
-                axis.values = std::move(*values);
+                auto values = TRY(is_log ? log_values(c, at, base) : linear_values(c, at));
+                axis.values = std::move(values);
             }
             count *= static_cast<double>(axis.values.size());
             if (count > max_variants) return too_many(c, count);
             out.axes_.push_back(std::move(axis));
         }
         if (c.name == "mc") {
-            const auto chips = parse_chip_spec(c);
-            if (!chips) return chips.error();
-            count *= chips->count;
-            if (!(chips->count >= 1)) return bad_input(".mc: the number of chips must be at least 1", c.location);
+            const auto chips = TRY(parse_chip_spec(c));
+            count *= chips.count;
+            if (!(chips.count >= 1)) return bad_input(".mc: the number of chips must be at least 1", c.location);
             if (!(count <= max_variants)) return too_many(c, count);
-            out.chips_ = *chips;
-            out.chips_.count = std::floor(chips->count);
+            out.chips_ = chips;
+            out.chips_.count = std::floor(chips.count);
         }
     }
     return out;
@@ -153,16 +140,15 @@ Result<void> NetlistVariants::elaborate_step(std::size_t number) {
         axis->name == "temp" ? void(temperature = value) : void(parameters[axis->name] = value);
         label = fmt::format("{}={:g}{}{}", axis->name, value, label.empty() ? "" : " ", label);
     }
-    auto circuit = netlist_.elaborate(parameters);
-    if (!circuit) return circuit.error();
-    if (temperature) circuit->temperature = *temperature;
-    last_ = {number, std::move(label), std::make_shared<const Circuit>(std::move(*circuit))};
+    auto circuit = TRY(netlist_.elaborate(parameters));
+    if (temperature) circuit.temperature = *temperature;
+    last_ = {number, std::move(label), std::make_shared<const Circuit>(std::move(circuit))};
     return {};
 }
 
 Result<Variant> NetlistVariants::at(std::size_t number) {
     const std::size_t chip_count = std::max<std::size_t>(static_cast<std::size_t>(chips_.count), 1), chip = number % chip_count;
-    if (auto ok = elaborate_step(number / chip_count); !ok) return ok.error();
+    TRY(elaborate_step(number / chip_count));
     Variant out{last_->label, last_->circuit, {}};
     out.sample = chip_sample_of(*out.circuit);
     if (!this->has_chips()) return out;

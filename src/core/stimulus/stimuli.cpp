@@ -123,8 +123,7 @@ bool is_stimulus(std::string_view text) {
 
 Result<Applied<std::unique_ptr<ForceSource>>> make_stimulus(std::string_view text, std::span<const ParameterOverride> overrides,
                                                             double rate, std::uint64_t seed) {
-    const auto clock = make_clock(rate);
-    if (!clock) return clock.error();
+    const auto clock = TRY(make_clock(rate));
     std::vector<ErasedStimulus> members;
     std::vector<MetadataEntry> metadata;
     std::vector<ParameterOverride> unused(overrides.begin(), overrides.end());
@@ -136,10 +135,9 @@ Result<Applied<std::unique_ptr<ForceSource>>> make_stimulus(std::string_view tex
             for (const auto& c : stimulus_catalog()) names.push_back(c.name);
             return bad_input(fmt::format("unknown stimulus '{}'{}", name, did_you_mean(name, names)));
         }
-        const auto applied = settings_for(name, entry->parameters, overrides);
-        if (!applied) return applied.error();
-        keep_unused(unused, applied->unused);
-        const auto& settings = applied->result;
+        const auto applied = TRY(settings_for(name, entry->parameters, overrides));
+        keep_unused(unused, applied.unused);
+        const auto& settings = applied.result;
         for (const auto& row : entry->parameters) {
             // The last override of a parameter counts.
             const auto setting = std::find_if(settings.rbegin(), settings.rend(), [&](const Setting& s) { return s.name == row.name; });
@@ -149,18 +147,17 @@ Result<Applied<std::unique_ptr<ForceSource>>> make_stimulus(std::string_view tex
         members.push_back(*make_member(Stimuli{}, name, settings, seed));  // exists: its catalogue entry was found above
         duration = std::max(duration, members.back().duration);
     }
-    const double samples = std::round(duration * clock->rate());
+    const double samples = std::round(duration * clock.rate());
     if (!(samples >= 1)) return bad_input(fmt::format("{}: {:g} s at {:g} Hz is less than one sample", text, duration, rate));
     if (samples > 1e15) return bad_input(fmt::format("{}: {:g} s at {:g} Hz is more than 1e15 samples", text, duration, rate));
-    return Applied<std::unique_ptr<ForceSource>>{std::make_unique<StimulusSum>(std::string(text), *clock, std::move(members),
+    return Applied<std::unique_ptr<ForceSource>>{std::make_unique<StimulusSum>(std::string(text), clock, std::move(members),
                                                                                std::move(metadata), static_cast<std::int64_t>(samples)),
                                                  std::move(unused)};
 }
 
 Result<std::unique_ptr<ForceSource>> make_stimulus(std::string_view text, double rate, std::uint64_t seed) {
-    auto made = make_stimulus(text, {}, rate, seed);
-    if (!made) return made.error();
-    return std::move(made->result);
+    auto made = TRY(make_stimulus(text, {}, rate, seed));
+    return std::move(made.result);
 }
 
 }  // namespace corpuscle

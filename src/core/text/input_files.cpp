@@ -115,11 +115,10 @@ Result<std::string> read_entire_input(const std::string& path, std::size_t max_b
         return bad_input(fmt::format("cannot be read: {}", errno == ENOENT ? "there is no such file" : std::strerror(errno)), {path});
     std::string text;
     for (std::vector<char> block(std::size_t{1} << 16);;) {
-        const auto got = read_input(file.get(), block, path);
-        if (!got) return got.error();
-        text.append(block.data(), *got);
+        const auto got = TRY(read_input(file.get(), block, path));
+        text.append(block.data(), got);
         if (text.size() > max_bytes) return bad_input(fmt::format("not a {}: it is larger than {} MB", kind, max_bytes >> 20), {path});
-        if (*got < block.size()) return text;
+        if (got < block.size()) return text;
     }
 }
 

@@ -59,7 +59,7 @@ inline Result<void> check_nesting(std::string_view text, const std::string& file
 
 /// Parses the text of a TOML file, such as a sweep or a population. `file` is the file's name for messages.
 inline Result<toml::table> parse_toml(std::string_view text, const std::string& file) {
-    if (auto ok = check_nesting(text, file); !ok) return ok.error();
+    TRY(check_nesting(text, file));
     try {
         return toml::parse(text);
     } catch (const toml::parse_error& error) {

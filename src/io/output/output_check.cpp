@@ -104,17 +104,16 @@ Result<void> OutputCheck::add_output(const std::string& path) {
 }
 
 Result<void> OutputCheck::check_file(const std::string& path, Signature is_ours) {
-    if (auto ok = add_output(path); !ok) return ok;
-    const auto kind = check_not_input(path);
-    if (!kind) return kind.error();
-    if (may_be_foreign(*kind) && !overwrite_ && !is_ours(read_beginning(path)))
+    TRY(add_output(path));
+    const auto kind = TRY(check_not_input(path));
+    if (may_be_foreign(kind) && !overwrite_ && !is_ours(read_beginning(path)))
         return bad_input("this file was not written by corpuscle; name another, or add --overwrite to replace it", {path});
-    if (*kind != FileKind::device) remove_stale_parts(path);
+    if (kind != FileKind::device) remove_stale_parts(path);
     return {};
 }
 
 Result<void> OutputCheck::check_growing_file(const std::string& path, Signature is_ours) {
-    if (auto ok = check_file(path, is_ours); !ok) return ok;
+    TRY(check_file(path, is_ours));
     return kind_of_file(path) == FileKind::device ? Result<void>() : check_file(path + ".part", is_ours);
 }
 
@@ -122,8 +121,8 @@ Result<void> OutputCheck::check_directory(const std::string& path, std::span<con
                                           const std::function<bool(const std::string&)>& is_listed, bool (*is_output)(std::string_view),
                                           Signature page) {
     for (const auto& name : names) {
-        if (auto ok = add_output(path + "/" + name); !ok) return ok;
-        if (const auto kind = check_not_input(path + "/" + name); !kind) return kind.error();
+        TRY(add_output(path + "/" + name));
+        TRY(check_not_input(path + "/" + name));
     }
     for (const auto& name : names) {
         const auto output = path + "/" + name;

@@ -188,10 +188,9 @@ Result<void> OutputFile::commit(SyncPolicy sync) {
 }
 
 Result<void> replace_file(const std::string& path, std::string_view bytes) {
-    auto file = OutputFile::create(path);
-    if (!file) return file.error();
-    if (auto ok = file->write(bytes); !ok) return ok;
-    if (auto ok = file->commit(SyncPolicy::always); !ok) return ok;
+    auto file = TRY(OutputFile::create(path));
+    TRY(file.write(bytes));
+    TRY(file.commit(SyncPolicy::always));
     return sync_directory_of(path);
 }
 

@@ -22,14 +22,14 @@ Result<void> check_frequency(double f, const Clock& clock, const char* option) {
 // c = cos(w) for the low-pass filter.
 
 Result<Biquad> Biquad::notch(double f, const Clock& clock) {
-    if (auto ok = check_frequency(f, clock, "--notch"); !ok) return ok.error();
+    TRY(check_frequency(f, clock, "--notch"));
     const double turns = f / clock.rate(), Q = f / std::min(4.0, f / 2);  // Q: f over the -3 dB bandwidth
     const double alpha = num::sin_turns(turns) / (2 * Q), c = -2 * num::cos_turns(turns);
     return Biquad(1, c, 1, 1 + alpha, c, 1 - alpha);
 }
 
 Result<Biquad> Biquad::lowpass(double f, const Clock& clock) {
-    if (auto ok = check_frequency(f, clock, "--lowpass"); !ok) return ok.error();
+    TRY(check_frequency(f, clock, "--lowpass"));
     const double turns = f / clock.rate(), c = num::cos_turns(turns), alpha = num::sin_turns(turns) * 0.70710678118654752;  // Q = sqrt(1/2)
     return Biquad((1 - c) / 2, 1 - c, (1 - c) / 2, 1 + alpha, -2 * c, 1 - alpha);
 }

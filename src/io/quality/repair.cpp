@@ -62,8 +62,7 @@ Result<void> GapFiller::push(std::span<const double> x, std::vector<double>& out
         while (missing_ == 0 && good < x.size() && !std::isnan(x[good])) ++good;
         out.insert(out.end(), x.begin() + static_cast<std::ptrdiff_t>(k), x.begin() + static_cast<std::ptrdiff_t>(good));
         if (good > k) last_good_ = x[good - 1];
-        if ((k = good) < x.size())
-            if (auto ok = push(x[k++], out); !ok) return ok;
+        if ((k = good) < x.size()) TRY(push(x[k++], out));
     }
     return {};
 }

@@ -25,16 +25,8 @@ ChannelPipeline::ChannelPipeline(const RecordingOptions& options, double gain, b
 Result<ChannelPipeline> ChannelPipeline::make(const RecordingOptions& options, double gain, const Clock& filter_clock, bool filters_rows,
                                               const HumTable& table) {
     ChannelPipeline pipeline(options, gain, filters_rows, table);
-    for (const double f : options.notch) {
-        const auto filter = Biquad::notch(f, filter_clock);
-        if (!filter) return filter.error();
-        pipeline.filters_.push_back(*filter);
-    }
-    if (options.lowpass) {
-        const auto filter = Biquad::lowpass(*options.lowpass, filter_clock);
-        if (!filter) return filter.error();
-        pipeline.filters_.push_back(*filter);
-    }
+    for (const double f : options.notch) pipeline.filters_.push_back(TRY(Biquad::notch(f, filter_clock)));
+    if (options.lowpass) pipeline.filters_.push_back(TRY(Biquad::lowpass(*options.lowpass, filter_clock)));
     return pipeline;
 }
 
@@ -61,7 +53,7 @@ void ChannelPipeline::append(std::vector<double>& out) {
 }
 
 Result<void> ChannelPipeline::push(std::span<const double> values, std::vector<double>& out) {
-    if (auto ok = repair(values); !ok) return ok;
+    TRY(repair(values));
     append(out);
     return {};
 }
@@ -69,8 +61,8 @@ Result<void> ChannelPipeline::push(std::span<const double> values, std::vector<d
 Result<void> ChannelPipeline::finish(std::vector<double>& out) {
     despiked_.clear();
     if (outlier_filter_) outlier_filter_->finish(despiked_);
-    if (auto ok = gaps_.push(despiked_, repaired_); !ok) return ok;
-    if (auto ok = gaps_.finish(repaired_); !ok) return ok;
+    TRY(gaps_.push(despiked_, repaired_));
+    TRY(gaps_.finish(repaired_));
     append(out);
     return {};
 }

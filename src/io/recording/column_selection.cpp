@@ -173,7 +173,7 @@ struct ChannelSelector {
             }
             for (std::size_t at = 0; at <= list.size();) {
                 const auto end = std::min(list.find(',', at), list.size());
-                if (auto ok = add(std::string_view(list).substr(at, end - at), chosen, notes); !ok) return ok.error();
+                TRY(add(std::string_view(list).substr(at, end - at), chosen, notes));
                 at = end + 1;
             }
         }

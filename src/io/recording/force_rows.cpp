@@ -27,15 +27,14 @@ Error ForceRows::channel_error(std::size_t c, Error error) const {
 Result<void> ForceRows::read_block() {
     for (auto& r : ready_) r.erase(r.begin(), r.begin() + static_cast<std::ptrdiff_t>(consumed_));
     consumed_ = 0;
-    const auto rows = rows_.next(block_);
-    if (!rows) return rows.error();
-    ended_ = *rows == 0;
+    const auto rows = TRY(rows_.next(block_));
+    ended_ = rows == 0;
     sums_.add(block_, pipelines_.size());
     for (std::size_t c = 0; c < pipelines_.size(); ++c)
         if (auto ok = ended_ ? pipelines_[c].finish(ready_[c]) : pipelines_[c].push(block_[c], ready_[c]); !ok)
             return channel_error(c, ok.error());
     if (!times_) return {};
-    if (auto ok = times_->push({block_.back().data(), *rows}, ready_.back()); !ok) return channel_error(pipelines_.size(), ok.error());
+    if (auto ok = times_->push({block_.back().data(), rows}, ready_.back()); !ok) return channel_error(pipelines_.size(), ok.error());
     if (ended_)
         if (auto ok = times_->finish(ready_.back()); !ok) return channel_error(pipelines_.size(), ok.error());
     return {};
@@ -44,7 +43,7 @@ Result<void> ForceRows::read_block() {
 Result<bool> ForceRows::fetch_row() {
     while (ready_rows() == 0) {
         if (ended_) return false;
-        if (auto ok = read_block(); !ok) return ok.error();
+        TRY(read_block());
     }
     return true;
 }

@@ -50,17 +50,15 @@ class Recording final : public ForceSource {
     Result<std::vector<SensorPlacement>> choose_sensors(std::optional<std::size_t> time) {
         std::vector<SensorPlacement> chosen;
         if (!options_.layout.empty()) {
-            auto layout = read_sensor_layout(options_.layout, *table_, time);
-            if (!layout) return layout.error();
-            if (!layout->has_length_unit)
+            auto layout = TRY(read_sensor_layout(options_.layout, *table_, time));
+            if (!layout.has_length_unit)
                 notes_.push_back("the layout has no unit of length, so only the relative positions of the sensors are used");
-            if (options_.channels.empty()) return std::move(layout->sensors);
-            chosen = std::move(layout->sensors);  // --channel selects some of them below
+            if (options_.channels.empty()) return std::move(layout.sensors);
+            chosen = std::move(layout.sensors);  // --channel selects some of them below
         }
-        const auto columns = select_columns(*table_, time, options_.channels, path_, &selection_notes_);
-        if (!columns) return columns.error();
+        const auto columns = TRY(select_columns(*table_, time, options_.channels, path_, &selection_notes_));
         std::vector<SensorPlacement> out;
-        for (const auto c : *columns) {
+        for (const auto c : columns) {
             const auto placed = std::find_if(chosen.begin(), chosen.end(), [&](const SensorPlacement& p) { return p.column == c; });
             out.push_back(placed == chosen.end() ? SensorPlacement{c, "", {}} : *placed);
         }
@@ -69,15 +67,11 @@ class Recording final : public ForceSource {
 
     /// Determines the clocks of the rows and of the samples.
     Result<void> set_clock(std::optional<std::size_t> time, const std::vector<std::size_t>& columns) {
-        auto rows = find_row_clock(*table_, options_, path_, time, columns);
-        if (!rows) return rows.error();
-        row_clock_ = std::move(*rows);
+        row_clock_ = TRY(find_row_clock(*table_, options_, path_, time, columns));
         clock_ = row_clock_.clock;
         notes_.insert(notes_.end(), row_clock_.notes.begin(), row_clock_.notes.end());
         if (!options_.resample) return {};
-        const auto resampled = make_clock(*options_.resample, clock_.t0);
-        if (!resampled) return resampled.error();
-        clock_ = *resampled;
+        clock_ = TRY(make_clock(*options_.resample, clock_.t0));
         return {};
     }
 
@@ -98,11 +92,7 @@ class Recording final : public ForceSource {
     /// reported at once.
     Result<std::vector<double>> gains_of(const std::vector<SensorPlacement>& chosen) const {
         std::vector<double> gains;
-        for (const auto& placed : chosen) {
-            const auto gain = newtons_per_unit(table_->columns()[placed.column], options_, path_);
-            if (!gain) return gain.error();
-            gains.push_back(*gain);
-        }
+        for (const auto& placed : chosen) gains.push_back(TRY(newtons_per_unit(table_->columns()[placed.column], options_, path_)));
         return gains;
     }
 
@@ -146,9 +136,9 @@ class Recording final : public ForceSource {
         const bool rows_are_even = !row_clock_.uses_row_times;
         std::vector<ChannelPipeline> pipelines;
         for (const double gain : gains) {
-            auto pipeline = ChannelPipeline::make(options_, gain, rows_are_even ? row_clock_.clock : clock_, rows_are_even, *hum_table_);
-            if (!pipeline) return pipeline.error();
-            pipelines.push_back(std::move(*pipeline));
+            auto pipeline =
+                TRY(ChannelPipeline::make(options_, gain, rows_are_even ? row_clock_.clock : clock_, rows_are_even, *hum_table_));
+            pipelines.push_back(std::move(pipeline));
         }
         return pipelines;
     }
@@ -174,9 +164,8 @@ class Recording final : public ForceSource {
         for (; block.count < block.capacity; ++block.count, ++next_) {
             const double t = clock_.time(next_);
             while (t_at_ < t - 1e-9 * clock_.T()) {  // a row at the time of the sample, apart from rounding, is not before it
-                const auto next = advance_to_next_row();
-                if (!next) return next.error();
-                if (!*next) return {};
+                const auto next = TRY(advance_to_next_row());
+                if (!next) return {};
             }
             // The position between the last two rows, 0 to 1. If there is only one row so far, its force is used.
             const double x = row_number_ == 1 ? 1 : std::clamp((t - t_before_) / (t_at_ - t_before_), 0.0, 1.0);
@@ -189,9 +178,8 @@ class Recording final : public ForceSource {
     /// Fills the block with the rows as they are.
     Result<void> read_rows(Frames& block) {
         while (block.count < block.capacity) {
-            const auto has_row = rows_->fetch_row();
-            if (!has_row) return has_row.error();
-            if (!*has_row) return {};
+            const auto has_row = TRY(rows_->fetch_row());
+            if (!has_row) return {};
             const auto n = std::min(rows_->ready_rows(), block.capacity - block.count);
             for (std::size_t c = 0; c < channels_.size(); ++c)
                 std::copy_n(rows_->ready_data(c), n, block.force[c].begin() + static_cast<std::ptrdiff_t>(block.count));
@@ -207,32 +195,28 @@ public:
 
     /// Selects the columns, determines the clock and prepares reading.
     Result<void> open() {
-        const auto time = select_time_column(*table_, options_.time, path_);
-        if (!time) return time.error();
+        const auto time = TRY(select_time_column(*table_, options_.time, path_));
         notes_ = table_->notes();
-        if (*time && *time == table_->time_column())
+        if (time && time == table_->time_column())
             for (auto& note : table_->time_notes()) notes_.push_back(std::move(note));
-        if (holds_spikes(*time)) return bad_input("this file holds spikes, not force; 'corpuscle compare' reads it", {path_});
-        const auto chosen = choose_sensors(*time);
-        if (!chosen) return chosen.error();
-        if (chosen->size() > max_channels)
-            return bad_input(fmt::format("{} channels are more than the limit of {}; select some, such as --channel 1-1000", chosen->size(),
+        if (holds_spikes(time)) return bad_input("this file holds spikes, not force; 'corpuscle compare' reads it", {path_});
+        const auto chosen = TRY(choose_sensors(time));
+        if (chosen.size() > max_channels)
+            return bad_input(fmt::format("{} channels are more than the limit of {}; select some, such as --channel 1-1000", chosen.size(),
                                          max_channels),
                              {path_});
-        const auto gains = gains_of(*chosen);
-        if (!gains) return gains.error();
+        const auto gains = TRY(gains_of(chosen));
         std::vector<std::size_t> columns;
-        for (const auto& p : *chosen) columns.push_back(p.column);
-        if (auto ok = set_clock(*time, columns); !ok) return ok;
+        for (const auto& p : chosen) columns.push_back(p.column);
+        TRY(set_clock(time, columns));
         notes_.insert(notes_.end(), selection_notes_.begin(), selection_notes_.end());
-        add_channels(*chosen);
-        auto pipelines = make_pipelines(*gains);
-        if (!pipelines) return pipelines.error();
+        add_channels(chosen);
+        auto pipelines = TRY(make_pipelines(gains));
         std::vector<std::string> names;
         for (const auto& c : channels_) names.push_back(c.name);
         // The times are read with the rows if each row has its own time, or if rows without a time are dropped.
         const bool with_times = row_clock_.uses_row_times || row_clock_.drops_untimed;
-        rows_.emplace(RowReader(*table_, options_, columns, with_times ? *time : std::nullopt), std::move(*pipelines), path_,
+        rows_.emplace(RowReader(*table_, options_, columns, with_times ? time : std::nullopt), std::move(pipelines), path_,
                       std::move(names), row_clock_.uses_row_times);
         return {};
     }
@@ -269,7 +253,7 @@ public:
 
     Result<void> read(Frames& block) override {
         block.count = 0;
-        if (auto ok = options_.resample ? read_resampled(block) : read_rows(block); !ok) return ok;
+        TRY(options_.resample ? read_resampled(block) : read_rows(block));
         for (std::size_t c = 0; c < channels_.size(); ++c) {
             const std::span<double> force(block.force[c].data(), block.count);
             rows_->pipelines()[c].finish_force(force);
@@ -315,7 +299,7 @@ Result<std::unique_ptr<ForceSource>> open_recording(const std::string& path, con
     if (!table) return table.error();
     remember_input(path);
     auto recording = std::make_unique<Recording>(path, std::move(*table), options);
-    if (auto ok = recording->open(); !ok) return ok.error();
+    TRY(recording->open());
     return std::unique_ptr<ForceSource>(std::move(recording));
 }
 

@@ -30,10 +30,9 @@ Result<TimeCheck> check_times(Table& table, RowReader rows, const RowClock& cloc
     TimeCheck check;
     std::vector<std::vector<double>> block;
     for (double last = 0;;) {
-        const auto count = rows.next(block);
-        if (!count) return count.error();
-        if (*count == 0) break;
-        for (std::size_t k = 0; k < *count; ++k) {
+        const auto count = TRY(rows.next(block));
+        if (count == 0) break;
+        for (std::size_t k = 0; k < count; ++k) {
             const double t = clock.seconds(block.back()[k]);
             if (std::isnan(t)) {
                 check.skip();
@@ -52,7 +51,7 @@ Result<TimeCheck> check_times(Table& table, RowReader rows, const RowClock& cloc
         }
         if (!options.should_continue(table.progress())) return Error{ErrorCode::interrupted, "interrupted"};
     }
-    if (auto ok = table.rewind(); !ok) return ok.error();
+    TRY(table.rewind());
     return check;
 }
 
@@ -101,13 +100,12 @@ Result<Clock> clock_by_times(const std::string& name, const TimeCheck& times, co
 /// The clock of a table whose times cannot be read because of `problem`, if --rate is given: the rows start at 0 s. Adds a note with the
 /// problem, but without the remedy at the end of its message.
 Result<RowClock> without_times(Table& table, double rate, const Error& problem, RowClock& out) {
-    if (auto ok = table.rewind(); !ok) return ok.error();
+    TRY(table.rewind());
     out.notes.push_back(fmt::format("the times were ignored ({}); the recording starts at 0 s",
                                     problem.message.substr(0, std::min({problem.message.find("; --"), problem.message.find("; use "),
                                                                         problem.message.find("; give ")}))));
-    const auto clock = make_clock(rate);
-    if (!clock) return clock.error();
-    out.clock = *clock;
+    const auto clock = TRY(make_clock(rate));
+    out.clock = clock;
     return out;
 }
 
@@ -145,7 +143,7 @@ bool find_serial_days(const std::vector<double>& times, double step, const std::
 Result<void> find_epoch(Table& table, std::size_t column, double unit, bool unit_is_known, RowClock& out) {
     std::vector<std::vector<double>> first(1);
     const auto rows = table.read({column}, 64, first);
-    if (auto ok = table.rewind(); !ok) return ok;
+    TRY(table.rewind());
     if (!rows) return {};  // check_times() will report the error
     std::vector<double> times;
     for (std::size_t k = 0; k < *rows; ++k)
@@ -179,9 +177,8 @@ Result<RowClock> find_row_clock(Table& table, const RecordingOptions& options, c
                                          fmt::join(names, ", ")),
                              {path});
         }
-        const auto clock = make_clock(*rate);
-        if (!clock) return clock.error();
-        out.clock = *clock;
+        const auto clock = TRY(make_clock(*rate));
+        out.clock = clock;
         return out;
     }
     out.time_column = column;
@@ -196,8 +193,7 @@ Result<RowClock> find_row_clock(Table& table, const RecordingOptions& options, c
             out.notes.push_back(
                 fmt::format("--time-unit {} overrides the unit of '{}' in the header, {}", *options.time_unit, heading.name, heading.unit));
         RowReader rows(table, options, {}, column);  // sets whether the table allows gaps
-        if (!heading.holds_time_stamps)
-            if (auto ok = find_epoch(table, *column, *unit, options.time_unit || !heading.unit.empty(), out); !ok) return ok.error();
+        if (!heading.holds_time_stamps) TRY(find_epoch(table, *column, *unit, options.time_unit || !heading.unit.empty(), out));
     }
     const auto times =
         unit ? check_times(table, RowReader(table, options, drops_rows ? channels : std::vector<std::size_t>(), column), out, options)

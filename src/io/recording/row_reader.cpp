@@ -52,16 +52,15 @@ std::size_t RowReader::drop_incomplete(std::size_t rows, std::vector<std::vector
 Result<std::size_t> RowReader::next(std::vector<std::vector<double>>& block) {
     block.resize(columns_.size());
     for (;;) {
-        const auto read = table_.read(columns_, rows_for(columns_.size()), block);
-        if (!read) return read.error();
+        const auto read = TRY(table_.read(columns_, rows_for(columns_.size()), block));
         if (options_.absolute)
             for (std::size_t c = 0; c < channels_; ++c)
-                std::transform(block[c].begin(), block[c].begin() + static_cast<std::ptrdiff_t>(*read), block[c].begin(),
+                std::transform(block[c].begin(), block[c].begin() + static_cast<std::ptrdiff_t>(read), block[c].begin(),
                                [](double x) { return std::abs(x); });
-        if (auto ok = apply_range(*read, block); !ok) return ok.error();
-        const std::size_t kept = drops_rows() ? drop_incomplete(*read, block) : *read;
+        TRY(apply_range(read, block));
+        const std::size_t kept = drops_rows() ? drop_incomplete(read, block) : read;
         for (auto& column : block) column.resize(kept);
-        if (kept > 0 || *read == 0) return kept;
+        if (kept > 0 || read == 0) return kept;
     }
 }
 

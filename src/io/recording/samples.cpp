@@ -57,7 +57,7 @@ public:
         std::vector<std::size_t> all(columns_.size());
         std::iota(all.begin(), all.end(), std::size_t{0});
         std::vector<std::vector<double>> numbers(columns_.size(), std::vector<double>(rows));
-        if (auto ok = samples_->fetch(0, rows, all, numbers); !ok) return ok;
+        TRY(samples_->fetch(0, rows, all, numbers));
         std::vector<FirstFields> first(columns_.size());
         for (std::size_t c = 0; c < first.size(); ++c)
             for (const double x : numbers[c]) first[c].add_number(x);
@@ -81,9 +81,8 @@ public:
         const auto count = static_cast<std::size_t>(std::min(static_cast<std::int64_t>(rows), info().rows - next_));
         for (auto& column : out) column.resize(count);
         if (count == 0 || wanted.empty()) return count;
-        if (auto ok = samples_->fetch(next_, count, wanted, out); !ok) return ok.error();
-        for (std::size_t i = 0; i < wanted.size(); ++i)
-            if (auto ok = check_values(out[i], wanted[i]); !ok) return ok.error();
+        TRY(samples_->fetch(next_, count, wanted, out));
+        for (std::size_t i = 0; i < wanted.size(); ++i) TRY(check_values(out[i], wanted[i]));
         block_ = next_;
         next_ += static_cast<std::int64_t>(count);
         return count;
@@ -242,7 +241,7 @@ Result<std::unique_ptr<Table>> make_table(SamplesResult samples, const std::stri
     if (!samples) return samples.error();
     if ((*samples)->info().rows < 1 || (*samples)->info().columns.empty()) return bad_input("no data in this file", {path});
     auto table = std::make_unique<SamplesTable>(path, *std::move(samples));
-    if (auto ok = table->find_roles(); !ok) return ok.error();
+    TRY(table->find_roles());
     return std::unique_ptr<Table>(std::move(table));
 }
 
@@ -272,7 +271,7 @@ Result<ArrayExtent> extent_of(const ArrayInfo& a, const std::string& path, const
         return bad_input(fmt::format("{}: a recording must have one dimension, or two (rows and channels)", describe(a)), {path});
     ArrayExtent e{a.shape[0], a.shape.size() == 2 ? a.shape[1] : 1};
     if (e.rows == 0 || e.columns == 0) return bad_input(fmt::format("{}: it has no samples", describe(a)), {path});
-    if (auto ok = a.shape.size() == 2 ? orient(e, a, path, hints) : Result<void>(); !ok) return ok.error();
+    TRY(a.shape.size() == 2 ? orient(e, a, path, hints) : Result<void>());
     if (e.columns > max_columns) return bad_input(fmt::format("{}: more than {} channels", describe(a), max_columns), {path});
     return e;
 }

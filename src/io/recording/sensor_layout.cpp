@@ -58,9 +58,8 @@ class LayoutReader {
     }
 
     Result<void> read_headings() {
-        const auto more = next_line();
-        if (!more) return more.error();
-        if (!*more) return bad_input("no layout in this file", {lines_.path()});
+        const auto more = TRY(next_line());
+        if (!more) return bad_input("no layout in this file", {lines_.path()});
         dialect_ = Dialect::detect(line_);
         dialect_.split(line_, fields_);
         headings_.count = fields_.size();
@@ -70,8 +69,7 @@ class LayoutReader {
             if (word == "channel" || word == "sensor") headings_.channel = f;
             if (word == "name") headings_.name = f;
             for (std::size_t axis = 0; axis < 3; ++axis)
-                if (word == std::string(1, "xyz"[axis]))
-                    if (auto ok = read_axis(axis, f, heading); !ok) return ok;
+                if (word == std::string(1, "xyz"[axis])) TRY(read_axis(axis, f, heading));
         }
         if (!headings_.channel)
             return error_at(fmt::format("a layout needs a column 'channel' (and may have name, x, y, z); this header has: {}",
@@ -107,9 +105,8 @@ class LayoutReader {
         const auto same = [&](const SensorPlacement& p) { return p.column == columns->front(); };
         if (std::any_of(layout_so_far.sensors.begin(), layout_so_far.sensors.end(), same))
             return error_at(fmt::format("channel '{}' occurs twice", fields_[field]), field);
-        auto placed_at = position();
-        if (!placed_at) return placed_at.error();
-        return SensorPlacement{columns->front(), headings_.name ? std::string(fields_[*headings_.name]) : "", *placed_at};
+        auto placed_at = TRY(position());
+        return SensorPlacement{columns->front(), headings_.name ? std::string(fields_[*headings_.name]) : "", placed_at};
     }
 
 public:
@@ -117,17 +114,14 @@ public:
         : lines_(std::move(lines)), table_(table), time_(time) {}
 
     Result<SensorLayout> read() {
-        if (auto ok = read_headings(); !ok) return ok.error();
+        TRY(read_headings());
         SensorLayout layout;
         layout.has_length_unit = !headings_.unitless;
         for (;;) {
-            const auto more = next_line();
-            if (!more) return more.error();
-            if (!*more) break;
+            const auto more = TRY(next_line());
+            if (!more) break;
             dialect_.split(line_, fields_);
-            auto placed = sensor(layout);
-            if (!placed) return placed.error();
-            layout.sensors.push_back(std::move(*placed));
+            layout.sensors.push_back(TRY(sensor(layout)));
         }
         if (layout.sensors.empty()) return bad_input("the layout lists no sensors", {lines_.path()});
         return layout;
@@ -137,9 +131,8 @@ public:
 }  // namespace
 
 Result<SensorLayout> read_sensor_layout(const std::string& path, const Table& table, std::optional<std::size_t> time) {
-    auto lines = LineReader::open(path);
-    if (!lines) return lines.error();
-    return LayoutReader(std::move(*lines), table, time).read();
+    auto lines = TRY(LineReader::open(path));
+    return LayoutReader(std::move(lines), table, time).read();
 }
 
 }  // namespace corpuscle

@@ -25,9 +25,8 @@ class RemoteSamples final : public Samples {
     /// Requests rows from the helper and stores them in the columns of `out` from position `done` on.
     Result<void> fetch_part(const FetchRequest& request, std::size_t done, std::vector<std::vector<double>>& out) {
         helper_.send(encode(request));
-        auto response = helper_.receive(path_, library_);
-        if (!response) return response.error();
-        return decode_rows(*response, done, request.rows, out, path_);
+        auto response = TRY(helper_.receive(path_, library_));
+        return decode_rows(response, done, request.rows, out, path_);
     }
 
 public:
@@ -36,11 +35,8 @@ public:
 
     Result<void> open(const TableOptions& options) {
         helper_.send(encode(OpenRequest{path_, options}));
-        auto response = helper_.receive(path_, library_);
-        if (!response) return response.error();
-        auto info = decode_info(*response, path_);
-        if (!info) return info.error();
-        info_ = *std::move(info);
+        auto response = TRY(helper_.receive(path_, library_));
+        info_ = TRY(decode_info(response, path_));
         return {};
     }
 
@@ -53,7 +49,7 @@ public:
         for (std::size_t done = 0; done < rows; done += request.rows) {
             request.first = static_cast<std::uint64_t>(first) + done;
             request.rows = std::min(max_rows, rows - done);
-            if (auto ok = fetch_part(request, done, out); !ok) return ok;
+            TRY(fetch_part(request, done, out));
         }
         return {};
     }
@@ -82,12 +78,12 @@ SamplesResult open_remote_samples_with(const std::string& program, const std::st
     auto helper = HelperProcess::start(program, file.number());
     if (!helper) return bad_input(helper.error().message, {path});
     auto samples = std::make_unique<RemoteSamples>(path, reader.library, *std::move(helper));
-    if (auto ok = samples->open(options); !ok) return ok.error();
+    TRY(samples->open(options));
     return std::unique_ptr<Samples>(std::move(samples));
 }
 
 SamplesResult open_remote_samples(const std::string& path, const HelperProgram& reader, const TableOptions& options) {
-    if (auto file = open_bytes(path); !file) return file.error();  // for its clear messages, and to register the file as an input
+    TRY(open_bytes(path));  // for its clear messages, and to register the file as an input
     const auto program = find_helper_program(reader.program);
     if (!program) return bad_input(program.error().message, {path});
     return open_remote_samples_with(*program, path, reader, options);

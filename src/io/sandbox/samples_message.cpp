@@ -109,7 +109,7 @@ Message encode(const std::vector<std::vector<double>>& columns) {
 
 Result<SamplesInfo> decode_info(Message& m, const std::string& path) {
     SamplesInfo info;
-    if (auto ok = read_status(m, path); !ok) return ok.error();
+    TRY(read_status(m, path));
     std::uint64_t rows = 0, columns = 0;
     double rate = 0;
     bool is_complete = m.get(rows) && m.get(&rate, sizeof rate) && get_optional(m, info.time_column) && m.get(columns);
@@ -126,7 +126,7 @@ Result<SamplesInfo> decode_info(Message& m, const std::string& path) {
 }
 
 Result<void> decode_rows(Message& m, std::size_t at, std::size_t rows, std::vector<std::vector<double>>& out, const std::string& path) {
-    if (auto ok = read_status(m, path); !ok) return ok.error();
+    TRY(read_status(m, path));
     for (auto& column : out)
         if (!m.get(column.data() + at, rows * sizeof(double))) return broken_response(path);
     return {};

@@ -46,9 +46,8 @@ Result<void> each_event(SeekableBytes& file, std::uint64_t at, std::size_t size,
     std::vector<std::byte> block(events_at_once * size);
     for (auto left = (file.size() - at) / size; left > 0;) {
         const auto count = std::min<std::uint64_t>(left, events_at_once);
-        if (auto ok = file.read(std::span(block).first(count * size)); !ok) return ok;
-        for (std::size_t k = 0; k < count; ++k)
-            if (auto ok = handle_event(block.data() + k * size); !ok) return ok;
+        TRY(file.read(std::span(block).first(count * size)));
+        for (std::size_t k = 0; k < count; ++k) TRY(handle_event(block.data() + k * size));
         left -= count;
     }
     return {};
@@ -75,7 +74,7 @@ class AerFile {
     Result<void> read_header_start(std::uint32_t& runs, std::uint32_t& bytes) {
         std::byte header[aer::header_bytes];
         if (file_->size() < sizeof header) return format_error("the header of the address events is incomplete");
-        if (auto ok = file_->read(header); !ok) return ok;
+        TRY(file_->read(header));
         clock_ = {number_at<std::int64_t>(header, 8), number_at<std::int64_t>(header, 16)};
         runs = number_at<std::uint32_t>(header, 24), bytes = number_at<std::uint32_t>(header, 28);
         if (clock_.rate_numerator < 1 || clock_.rate_denominator < 1)
@@ -89,11 +88,11 @@ class AerFile {
     /// Reads the complete header.
     Result<void> read_complete_header() {
         std::uint32_t runs = 0, bytes = 0;
-        if (auto ok = read_header_start(runs, bytes); !ok) return ok;
+        TRY(read_header_start(runs, bytes));
         std::vector<std::byte> names(bytes);  // the runs, as in the file
-        if (auto ok = file_->read(names); !ok) return ok;
+        TRY(file_->read(names));
         std::size_t at = 0;
-        if (auto ok = read_runs(names, at, runs, "afferents", runs_); !ok) return ok;
+        TRY(read_runs(names, at, runs, "afferents", runs_));
         if (names.size() - at < sizeof(std::uint32_t)) return {};
         runs = number_at<std::uint32_t>(names, at), at += sizeof runs;
         return read_runs(names, at, runs, "channels", channels_);
@@ -141,7 +140,7 @@ public:
     explicit AerFile(std::unique_ptr<SeekableBytes> file) : file_(std::move(file)) {}
 
     Result<std::vector<NamedTrain>> read() {
-        if (auto ok = read_complete_header(); !ok) return ok.error();
+        TRY(read_complete_header());
         AddressTrains trains;
         std::int64_t count = 0;  // spikes read so far
         const auto ok = each_event(*file_, begin_, aer::spike_bytes, [&](const std::byte* at) -> Result<void> {
@@ -169,34 +168,31 @@ std::uint32_t big_endian_at(const std::byte* at) {
 /// Moves the file to the first event, after the comment lines (which begin with #). Returns its position.
 Result<std::uint64_t> skip_comments(SeekableBytes& file) {
     std::vector<std::byte> head(std::min<std::uint64_t>(file.size(), 65536));
-    if (auto ok = file.read(head); !ok) return ok.error();
+    TRY(file.read(head));
     std::size_t at = 0;
     while (at < head.size() && head[at] == std::byte{'#'}) {
         const auto end = std::find(head.begin() + static_cast<std::ptrdiff_t>(at), head.end(), std::byte{'\n'});
         if (end == head.end()) return bad_input("a comment in the header has no end", {file.name()});
         at = static_cast<std::size_t>(end - head.begin()) + 1;
     }
-    if (auto ok = file.seek(at); !ok) return ok.error();
+    TRY(file.seek(at));
     return at;
 }
 
 }  // namespace
 
 Result<std::vector<NamedTrain>> read_aer_spikes(const std::string& path) {
-    auto file = open_bytes(path);
-    if (!file) return file.error();
-    return AerFile(std::move(*file)).read();
+    auto file = TRY(open_bytes(path));
+    return AerFile(std::move(file)).read();
 }
 
 Result<std::vector<NamedTrain>> read_aedat2_spikes(const std::string& path) {
-    auto file = open_bytes(path);
-    if (!file) return file.error();
-    const auto begin = skip_comments(**file);
-    if (!begin) return begin.error();
+    auto file = TRY(open_bytes(path));
+    const auto begin = TRY(skip_comments(*file));
     AddressTrains trains;
     std::int64_t now = 0;  // time of the previous event, us
     bool first = true;
-    const auto ok = each_event(**file, *begin, 8, [&](const std::byte* at) -> Result<void> {
+    const auto ok = each_event(*file, begin, 8, [&](const std::byte* at) -> Result<void> {
         const auto stamp = big_endian_at(at + 4);
         // A time stamp has the lowest 32 bits of the time. Of all times with these bits, the one closest to the previous time is meant.
         now = std::exchange(first, false) ? stamp : now + static_cast<std::int32_t>(stamp - static_cast<std::uint32_t>(now));

@@ -23,10 +23,9 @@ bool are_sample_numbers(const std::vector<double>& times) {
 }  // namespace
 
 Result<std::vector<NamedTrain>> read_npy_spikes(const std::string& path, const SpikeColumns& wanted) {
-    auto table = open_npy_table(path);
-    if (!table) return table.error();
+    auto table = TRY(open_npy_table(path));
     std::vector<std::string> headings;
-    for (const auto& c : (*table)->columns()) headings.push_back(c.unit.empty() ? c.name : c.name + "_" + c.unit);
+    for (const auto& c : table->columns()) headings.push_back(c.unit.empty() ? c.name : c.name + "_" + c.unit);
     if (headings.size() == 1) headings[0].clear();  // a single column holds the times; its name does not matter
     // ch1, ch2 ... are the default names of columns without names.
     const bool is_unnamed = headings.size() > 1 && headings[0] == "ch1";
@@ -43,10 +42,9 @@ Result<std::vector<NamedTrain>> read_npy_spikes(const std::string& path, const S
     TrainCollector trains;
     std::vector<double> stored_times;
     for (std::vector<std::vector<double>> block(columns.size());;) {
-        const auto rows = (*table)->read(columns, rows_per_block, block);
-        if (!rows) return rows.error();
-        if (*rows == 0) break;
-        for (std::size_t k = 0; k < *rows; ++k) {
+        const auto rows = TRY(table->read(columns, rows_per_block, block));
+        if (rows == 0) break;
+        for (std::size_t k = 0; k < rows; ++k) {
             const auto afferent = found->afferent ? name_of_number(block[1][k]) : std::string();
             const auto channel = found->channel ? name_of_number(block.back()[k]) : std::string();
             trains.train(afferent, channel).push_back(block[0][k] * found->seconds_per_unit);

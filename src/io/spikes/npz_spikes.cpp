@@ -22,9 +22,7 @@ class NpzSpikes {
 
     /// Reads the ids of the units and, in files of Corpuscle, their names. A named unit has a train even if it does not fire.
     Result<void> read_units() {
-        auto ids = npz_.integers("unit_ids");
-        if (!ids) return ids.error();
-        ids_ = std::move(*ids);
+        ids_ = TRY(npz_.integers("unit_ids"));
         has_exact_times_ = npz_.has("unit_afferent");
         if (!has_exact_times_) return {};
         auto afferents = npz_.strings("unit_afferent"), channels = npz_.strings("unit_channel");
@@ -40,10 +38,9 @@ class NpzSpikes {
     /// The times of all spikes of a segment, in s.
     Result<std::vector<double>> times(std::int64_t segment) const {
         if (has_exact_times_) return npz_.numbers(fmt::format("spike_times_seg{}", segment));
-        const auto indexes = npz_.integers(fmt::format("spike_indexes_seg{}", segment));
-        if (!indexes) return indexes.error();
+        const auto indexes = TRY(npz_.integers(fmt::format("spike_indexes_seg{}", segment)));
         std::vector<double> out;
-        for (const auto k : *indexes) out.push_back(static_cast<double>(k) / rate_);
+        for (const auto k : indexes) out.push_back(static_cast<double>(k) / rate_);
         return out;
     }
 
@@ -55,21 +52,19 @@ class NpzSpikes {
 
     /// Reads the spikes of a segment, counted from 0.
     Result<void> read_segment(std::int64_t segment) {
-        const auto labels = npz_.integers(fmt::format("spike_labels_seg{}", segment));
-        if (!labels) return labels.error();
-        const auto spike_times = times(segment);
-        if (!spike_times) return spike_times.error();
-        if (spike_times->size() != labels->size())
-            return format_error(fmt::format("segment {} has {} spikes and {} labels", segment, spike_times->size(), labels->size()));
+        const auto labels = TRY(npz_.integers(fmt::format("spike_labels_seg{}", segment)));
+        const auto spike_times = TRY(times(segment));
+        if (spike_times.size() != labels.size())
+            return format_error(fmt::format("segment {} has {} spikes and {} labels", segment, spike_times.size(), labels.size()));
         std::map<std::int64_t, std::vector<double>*> train_of_id;
         for (std::size_t u = 0; u < ids_.size(); ++u) train_of_id[ids_[u]] = &train(u, segment);
-        for (std::size_t k = 0; k < labels->size(); ++k) {
-            const auto found = train_of_id.find((*labels)[k]);
+        for (std::size_t k = 0; k < labels.size(); ++k) {
+            const auto found = train_of_id.find(labels[k]);
             if (found == train_of_id.end())
-                return format_error(fmt::format("spike {} of segment {} has label {}, which is not in unit_ids", k, segment, (*labels)[k]));
-            if (!std::isfinite((*spike_times)[k]))
+                return format_error(fmt::format("spike {} of segment {} has label {}, which is not in unit_ids", k, segment, labels[k]));
+            if (!std::isfinite(spike_times[k]))
                 return format_error(fmt::format("spike {} of segment {} has a time that is not finite", k, segment));
-            found->second->push_back((*spike_times)[k]);
+            found->second->push_back(spike_times[k]);
         }
         return {};
     }
@@ -78,15 +73,14 @@ public:
     explicit NpzSpikes(NpzReader npz) : npz_(std::move(npz)) {}
 
     Result<std::vector<NamedTrain>> read() {
-        if (auto ok = read_units(); !ok) return ok.error();
+        TRY(read_units());
         const auto segments = npz_.integers("num_segment");
         const auto rate = npz_.numbers("sampling_frequency");
         if (!segments || !rate) return segments ? rate.error() : segments.error();
         if (segments->size() != 1 || rate->size() != 1 || !((*rate)[0] > 0) || !std::isfinite((*rate)[0]))
             return format_error("num_segment and sampling_frequency must be one number each, and the frequency must be positive");
         rate_ = (*rate)[0];
-        for (std::int64_t s = 0; s < (*segments)[0]; ++s)
-            if (auto ok = read_segment(s); !ok) return ok.error();
+        for (std::int64_t s = 0; s < (*segments)[0]; ++s) TRY(read_segment(s));
         return std::move(trains_).sorted();
     }
 };
@@ -94,9 +88,8 @@ public:
 }  // namespace
 
 Result<std::vector<NamedTrain>> read_npz_spikes(const std::string& path) {
-    auto npz = NpzReader::open(path);
-    if (!npz) return npz.error();
-    return NpzSpikes(std::move(*npz)).read();
+    auto npz = TRY(NpzReader::open(path));
+    return NpzSpikes(std::move(npz)).read();
 }
 
 }  // namespace corpuscle

@@ -146,18 +146,14 @@ public:
     TextSpikes(LineReader lines, SpikeColumns wanted) : lines_(std::move(lines)), wanted_(std::move(wanted)) {}
 
     Result<std::vector<NamedTrain>> read() {
-        const auto header = next();
-        if (!header) return header.error();
-        if (!*header) return bad_input("the file has no header and no spikes", {lines_.path()});
-        const auto row = read_header();
-        if (!row) return row.error();
-        if (*row)
-            if (auto ok = add_row(); !ok) return ok.error();
+        const auto header = TRY(next());
+        if (!header) return bad_input("the file has no header and no spikes", {lines_.path()});
+        const auto row = TRY(read_header());
+        if (row) TRY(add_row());
         for (;;) {
-            const auto more = next();
-            if (!more) return more.error();
-            if (!*more) return std::move(trains_).sorted();
-            if (auto ok = add_row(); !ok) return ok.error();
+            const auto more = TRY(next());
+            if (!more) return std::move(trains_).sorted();
+            TRY(add_row());
         }
     }
 };
@@ -205,12 +201,10 @@ public:
 }  // namespace
 
 Result<std::vector<NamedTrain>> read_text_spikes(const std::string& path, const SpikeColumns& wanted) {
-    auto lines = LineReader::open(path);
-    if (!lines) return lines.error();
-    const auto json = looks_like_json(*lines);
-    if (!json) return json.error();
-    if (*json) return JsonSpikes(*lines, wanted).read();
-    return TextSpikes(std::move(*lines), wanted).read();
+    auto lines = TRY(LineReader::open(path));
+    const auto json = TRY(looks_like_json(lines));
+    if (json) return JsonSpikes(lines, wanted).read();
+    return TextSpikes(std::move(lines), wanted).read();
 }
 
 }  // namespace corpuscle

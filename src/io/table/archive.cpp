@@ -31,7 +31,7 @@ class MemberBytes final : public SeekableBytes {
     Result<void> skip(std::uint64_t count) {
         for (std::array<std::byte, 1 << 16> skipped; count > 0;) {
             const auto count_now = std::min<std::uint64_t>(count, skipped.size());
-            if (auto ok = read(std::span(skipped).first(static_cast<std::size_t>(count_now))); !ok) return ok;
+            TRY(read(std::span(skipped).first(static_cast<std::size_t>(count_now))));
             count -= count_now;
         }
         return {};
@@ -74,8 +74,7 @@ public:
         if (at == at_) return {};
         if (zip_fseek(file_.get(), static_cast<zip_int64_t>(at), SEEK_SET) == 0) return at_ = at, Result<void>{};
         // libzip cannot seek in a compressed member: read on to the position, if it is behind from the beginning.
-        if (at < at_)
-            if (auto ok = open(); !ok) return ok;
+        if (at < at_) TRY(open());
         return skip(at - at_);
     }
 };
@@ -83,7 +82,7 @@ public:
 }  // namespace
 
 Result<Archive> Archive::open(const std::string& path) {
-    if (auto file = open_bytes(path); !file) return file.error();  // its messages are clearer than those of libzip
+    TRY(open_bytes(path));  // its messages are clearer than those of libzip
     int code = 0;
     Archive archive;
     archive.path_ = path;
@@ -107,7 +106,7 @@ Result<Archive> Archive::open(const std::string& path) {
 
 Result<std::unique_ptr<SeekableBytes>> Archive::bytes(std::size_t member, std::string name) const {
     auto bytes = std::make_unique<MemberBytes>(zip_, member, members_[member].size, std::move(name));
-    if (auto ok = bytes->open(); !ok) return ok.error();
+    TRY(bytes->open());
     return std::unique_ptr<SeekableBytes>(std::move(bytes));
 }
 

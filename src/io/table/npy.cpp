@@ -145,7 +145,7 @@ Result<NpyHeader> parse_header(std::string_view text, const std::string& name) {
 /// Reads the length of the dictionary in bytes.
 Result<std::size_t> header_length(SeekableBytes& bytes, int version) {
     std::array<std::byte, 4> length{};
-    if (auto ok = bytes.read(std::span(length).first(version == 1 ? 2 : 4)); !ok) return ok.error();
+    TRY(bytes.read(std::span(length).first(version == 1 ? 2 : 4)));
     return static_cast<std::size_t>(stored<std::uint32_t, false>(length.data()));
 }
 
@@ -167,26 +167,24 @@ std::uint64_t NpyHeader::element_count() const {
 Result<NpyHeader> read_npy_header(SeekableBytes& bytes) {
     std::array<std::byte, 8> start{};
     const bool is_complete = bytes.size() >= start.size();
-    if (auto ok = is_complete ? bytes.read(start) : Result<void>(); !ok) return ok.error();
+    TRY(is_complete ? bytes.read(start) : Result<void>());
     if (!is_complete || std::memcmp(start.data(), magic.data(), magic.size()) != 0) return bad_input("not an NPY file", {bytes.name()});
     const int version = static_cast<int>(start[6]);
     if (version < 1 || version > 3)
         return bad_input(fmt::format("NPY version {} is not supported (only 1, 2, 3)", version), {bytes.name()});
-    const auto length = header_length(bytes, version);
-    if (!length) return length.error();
-    if (*length > max_header) return bad_input(fmt::format("the header is too long: {} bytes", *length), {bytes.name()});
-    std::string text(*length, ' ');
-    if (auto ok = bytes.read(std::as_writable_bytes(std::span(text))); !ok) return ok.error();
-    auto header = parse_header(text, bytes.name());
-    if (!header) return header.error();
-    header->data_offset = start.size() + (version == 1 ? 2 : 4) + *length;
-    std::uint64_t needed = header->element_size;
+    const auto length = TRY(header_length(bytes, version));
+    if (length > max_header) return bad_input(fmt::format("the header is too long: {} bytes", length), {bytes.name()});
+    std::string text(length, ' ');
+    TRY(bytes.read(std::as_writable_bytes(std::span(text))));
+    auto header = TRY(parse_header(text, bytes.name()));
+    header.data_offset = start.size() + (version == 1 ? 2 : 4) + length;
+    std::uint64_t needed = header.element_size;
     bool is_too_large = false;
-    for (const auto n : header->shape) is_too_large = __builtin_mul_overflow(needed, n, &needed) || is_too_large;
-    const bool pickled = std::any_of(header->fields.begin(), header->fields.end(), [](const auto& f) { return f.kind == 'O'; });
-    if (!pickled && (is_too_large || needed > bytes.size() - header->data_offset))
+    for (const auto n : header.shape) is_too_large = __builtin_mul_overflow(needed, n, &needed) || is_too_large;
+    const bool pickled = std::any_of(header.fields.begin(), header.fields.end(), [](const auto& f) { return f.kind == 'O'; });
+    if (!pickled && (is_too_large || needed > bytes.size() - header.data_offset))
         return bad_input(fmt::format("the array needs {} bytes, but the file has {}; it may be incomplete",
-                                     is_too_large ? "more than 2^64" : fmt::format("{}", needed), bytes.size() - header->data_offset),
+                                     is_too_large ? "more than 2^64" : fmt::format("{}", needed), bytes.size() - header.data_offset),
                          {bytes.name()});
     return header;
 }

@@ -33,7 +33,7 @@ class NpySamples final : public Samples {
     /// Reads elements `first` to `first` + `count` - 1, in the order of the file, into the buffer.
     Result<void> read_elements(std::uint64_t first, std::size_t count) {
         buffer_.resize(count * header_.element_size);
-        if (auto ok = bytes_->seek(element_offset(first)); !ok) return ok;
+        TRY(bytes_->seek(element_offset(first)));
         return bytes_->read(buffer_);
     }
 
@@ -48,7 +48,7 @@ class NpySamples final : public Samples {
     Result<void> fetch_columns(std::uint64_t first, std::size_t rows, std::span<const std::size_t> wanted,
                                std::vector<std::vector<double>>& out) {
         for (std::size_t i = 0; i < wanted.size(); ++i) {
-            if (auto ok = read_elements(wanted[i] * extent_.rows + first, rows); !ok) return ok;
+            TRY(read_elements(wanted[i] * extent_.rows + first, rows));
             decode(fields_[0], 0, 1, out[i]);
         }
         return {};
@@ -83,7 +83,7 @@ public:
         const std::size_t max_rows = std::max<std::size_t>(1, (std::size_t{1} << 20) / (width * header_.element_size));
         for (std::size_t done = 0; done < rows; done += max_rows) {
             const auto count = std::min(max_rows, rows - done);
-            if (auto ok = read_elements((first + done) * width, count * width); !ok) return ok;
+            TRY(read_elements((first + done) * width, count * width));
             for (std::size_t i = 0; i < wanted.size(); ++i)
                 decode(fields_[field_of(wanted[i])], is_structured() ? 0 : wanted[i], width, std::span(out[i]).subspan(done, count));
         }
@@ -114,17 +114,14 @@ Result<std::unique_ptr<NpySamples>> samples_of(std::unique_ptr<SeekableBytes> by
     const auto name = bytes->name();
     if (!has_numbers(header) || std::any_of(header.fields.begin(), header.fields.end(), [](const auto& f) { return f.kind == 'O'; }))
         return no_numbers(header, name);
-    const auto extent = extent_of(array, name, hints);
-    if (!extent) return extent.error();
-    if (in_archive && has_contiguous_channels(header, *extent)) {  // seeking in an archive is slow, and each channel needs it
-        auto copy = copy_to_temporary_file(*bytes);
-        if (!copy) return copy.error();
-        bytes = *std::move(copy);
+    const auto extent = TRY(extent_of(array, name, hints));
+    if (in_archive && has_contiguous_channels(header, extent)) {  // seeking in an archive is slow, and each channel needs it
+        bytes = TRY(copy_to_temporary_file(*bytes));
     }
-    if (!header.fields[0].name.empty() && extent->columns > 1)
+    if (!header.fields[0].name.empty() && extent.columns > 1)
         return bad_input(fmt::format("{}: a structured array must have one dimension, because its fields are the columns", describe(array)),
                          {name});
-    auto samples = std::make_unique<NpySamples>(std::move(bytes), std::move(header), *extent);
+    auto samples = std::make_unique<NpySamples>(std::move(bytes), std::move(header), extent);
     samples->name_columns(array.name);
     return samples;
 }
@@ -147,11 +144,9 @@ struct Npz {
 
     /// Array k as samples.
     Result<std::unique_ptr<NpySamples>> samples(std::size_t k, const ExtentHints& hints) const {
-        auto bytes = file.bytes(arrays[k].name);
-        if (!bytes) return bytes.error();
-        auto header = read_member_header(**bytes);  // unlike read_headers(), checks the size of the array
-        if (!header) return header.error();
-        return samples_of(*std::move(bytes), *std::move(header), arrays[k], hints, true);
+        auto bytes = TRY(file.bytes(arrays[k].name));
+        auto header = TRY(read_member_header(*bytes));  // unlike read_headers(), checks the size of the array
+        return samples_of(std::move(bytes), std::move(header), arrays[k], hints, true);
     }
 
     /// Hints about the orientation of array `chosen`, from the lists of times among the other arrays.
@@ -180,31 +175,24 @@ struct Npz {
 };
 
 SamplesResult open_npy(const std::string& path, const TableOptions& options) {
-    auto bytes = open_bytes(path);
-    if (!bytes) return bytes.error();
-    auto header = read_npy_header(**bytes);
-    if (!header) return header.error();
-    const ArrayInfo array{"", header->shape, has_numbers(*header)};
-    auto samples = samples_of(*std::move(bytes), *std::move(header), array, {options.transpose});
-    if (!samples) return samples.error();
-    return std::unique_ptr<Samples>(*std::move(samples));
+    auto bytes = TRY(open_bytes(path));
+    auto header = TRY(read_npy_header(*bytes));
+    const ArrayInfo array{"", header.shape, has_numbers(header)};
+    auto samples = TRY(samples_of(std::move(bytes), std::move(header), array, {options.transpose}));
+    return std::unique_ptr<Samples>(std::move(samples));
 }
 
 SamplesResult open_npz(const std::string& path, const TableOptions& options) {
-    auto file = NpzReader::open(path);
-    if (!file) return file.error();
-    Npz npz{*std::move(file)};
+    auto file = TRY(NpzReader::open(path));
+    Npz npz{std::move(file)};
     npz.read_headers();
-    const auto chosen = choose_array(npz.arrays, options.dataset, path);
-    if (!chosen) return chosen.error();
-    auto samples = npz.samples(*chosen, npz.hints(*chosen, options.transpose));
-    if (!samples) return samples.error();
-    (*samples)->set_rate(npz.rate());
-    const auto times = npz.times(*chosen, (*samples)->info().rows);
-    if (!times) return std::unique_ptr<Samples>(*std::move(samples));
-    auto time_samples = npz.samples(*times, {});
-    if (!time_samples) return time_samples.error();
-    return add_time_column(*std::move(time_samples), *std::move(samples));
+    const auto chosen = TRY(choose_array(npz.arrays, options.dataset, path));
+    auto samples = TRY(npz.samples(chosen, npz.hints(chosen, options.transpose)));
+    samples->set_rate(npz.rate());
+    const auto times = npz.times(chosen, samples->info().rows);
+    if (!times) return std::unique_ptr<Samples>(std::move(samples));
+    auto time_samples = TRY(npz.samples(*times, {}));
+    return add_time_column(std::move(time_samples), std::move(samples));
 }
 
 }  // namespace

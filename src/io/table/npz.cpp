@@ -60,20 +60,18 @@ struct NpyArray {
 /// Reads an array whose elements are of one of `kinds` (letters as in NpyField::kind). `expected` names these kinds in messages. Reads in
 /// chunks, so that a wrong length in the archive causes no large allocation.
 Result<NpyArray> read_array(const NpzReader& npz, const std::string& name, std::string_view kinds, std::string_view expected) {
-    const auto bytes = npz.bytes(name);
-    if (!bytes) return bytes.error();
-    auto header = read_member_header(**bytes);
-    if (!header) return header.error();
-    const auto& field = header->fields[0];
+    const auto bytes = TRY(npz.bytes(name));
+    auto header = TRY(read_member_header(*bytes));
+    const auto& field = header.fields[0];
     const bool fits = field.kind == 'U' || field.kind == 'S' || field.is_numeric();
     if (!field.name.empty() || !fits || kinds.find(field.kind) == std::string_view::npos)
-        return bad_input(fmt::format("the type is {}, expected {}", header->type, expected), {(*bytes)->name()});
-    NpyArray out{*std::move(header), {}};
+        return bad_input(fmt::format("the type is {}, expected {}", header.type, expected), {bytes->name()});
+    NpyArray out{std::move(header), {}};
     const std::uint64_t all = out.header.element_count() * out.header.element_size;
     while (out.elements.size() < all) {
         const auto old_size = out.elements.size();
         out.elements.resize(old_size + static_cast<std::size_t>(std::min<std::uint64_t>(all - old_size, 1 << 24)));
-        if (auto ok = (*bytes)->read(std::span(out.elements).subspan(old_size)); !ok) return ok.error();
+        TRY(bytes->read(std::span(out.elements).subspan(old_size)));
     }
     return out;
 }
@@ -133,9 +131,8 @@ Result<NpyHeader> read_member_header(SeekableBytes& bytes) {
 }
 
 Result<NpzReader> NpzReader::open(const std::string& path) {
-    auto archive = Archive::open(path);
-    if (!archive) return archive.error();
-    return NpzReader(*std::move(archive));
+    auto archive = TRY(Archive::open(path));
+    return NpzReader(std::move(archive));
 }
 
 std::vector<std::string> NpzReader::names() const {
@@ -161,27 +158,24 @@ Result<std::unique_ptr<SeekableBytes>> NpzReader::bytes(const std::string& name)
 }
 
 Result<std::vector<std::int64_t>> NpzReader::integers(const std::string& name) const {
-    const auto array = read_array(*this, name, "biu", "integers");
-    if (!array) return array.error();
-    std::vector<std::int64_t> out(array->header.element_count());
-    for (std::size_t k = 0; k < out.size(); ++k) out[k] = integer_at(array->header.fields[0], array->at(k));
+    const auto array = TRY(read_array(*this, name, "biu", "integers"));
+    std::vector<std::int64_t> out(array.header.element_count());
+    for (std::size_t k = 0; k < out.size(); ++k) out[k] = integer_at(array.header.fields[0], array.at(k));
     return out;
 }
 
 Result<std::vector<double>> NpzReader::numbers(const std::string& name) const {
-    const auto array = read_array(*this, name, "biuf", "numbers");
-    if (!array) return array.error();
-    const auto decode = array->header.fields[0].decoder();
-    std::vector<double> out(array->header.element_count());
-    for (std::size_t k = 0; k < out.size(); ++k) out[k] = decode(array->at(k));
+    const auto array = TRY(read_array(*this, name, "biuf", "numbers"));
+    const auto decode = array.header.fields[0].decoder();
+    std::vector<double> out(array.header.element_count());
+    for (std::size_t k = 0; k < out.size(); ++k) out[k] = decode(array.at(k));
     return out;
 }
 
 Result<std::vector<std::string>> NpzReader::strings(const std::string& name) const {
-    const auto array = read_array(*this, name, "US", "strings");
-    if (!array) return array.error();
-    std::vector<std::string> out(array->header.element_count());
-    for (std::size_t k = 0; k < out.size(); ++k) out[k] = string_at(array->header.fields[0], array->at(k));
+    const auto array = TRY(read_array(*this, name, "US", "strings"));
+    std::vector<std::string> out(array.header.element_count());
+    for (std::size_t k = 0; k < out.size(); ++k) out[k] = string_at(array.header.fields[0], array.at(k));
     return out;
 }
 

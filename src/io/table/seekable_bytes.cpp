@@ -54,11 +54,11 @@ Result<std::unique_ptr<SeekableBytes>> open_bytes(const std::string& path) {
 Result<std::unique_ptr<SeekableBytes>> copy_to_temporary_file(SeekableBytes& from) {
     File file(std::tmpfile());
     if (!file) return bad_input(fmt::format("a temporary file cannot be created: {}", std::strerror(errno)), {from.name()});
-    if (auto ok = from.seek(0); !ok) return ok.error();
+    TRY(from.seek(0));
     std::vector<std::byte> buffer(std::size_t{1} << 20);
     for (std::uint64_t left = from.size(); left > 0;) {
         const auto chunk = std::span(buffer).first(static_cast<std::size_t>(std::min<std::uint64_t>(left, buffer.size())));
-        if (auto ok = from.read(chunk); !ok) return ok.error();
+        TRY(from.read(chunk));
         if (std::fwrite(chunk.data(), 1, chunk.size(), file.get()) != chunk.size())
             return bad_input(fmt::format("cannot be copied to a temporary file: {}", std::strerror(errno)), {from.name()});
         left -= chunk.size();

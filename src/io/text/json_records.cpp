@@ -152,8 +152,7 @@ class JsonReader {
     }
 
     Result<void> emit_records(const OrderedJson& list) {
-        for (const auto& record : list)
-            if (auto ok = emit_record(record, 0); !ok) return ok;
+        for (const auto& record : list) TRY(emit_record(record, 0));
         return {};
     }
 
@@ -165,7 +164,7 @@ class JsonReader {
             fields_.clear();
             for (std::size_t c = 0; c < names.size(); ++c)
                 flatten(names[c].is_string() ? names[c].get<std::string>() : names[c].dump(), row[c]);
-            if (auto ok = on_record_(fields_, 0); !ok) return ok;
+            TRY(on_record_(fields_, 0));
         }
         return {};
     }
@@ -239,7 +238,7 @@ class JsonReader {
         for (std::size_t r = 0; r < rows; ++r) {
             fields_.clear();
             for (const auto& c : columns) fields_.push_back({c.name, c.values[r]});
-            if (auto ok = on_record_(fields_, 0); !ok) return ok;
+            TRY(on_record_(fields_, 0));
         }
         return {};
     }
@@ -267,9 +266,8 @@ class JsonReader {
         std::size_t lines = 0;
         bool same_bracket = true;
         for (;;) {
-            const auto more = lines_.next(line);
-            if (!more) return more.error();
-            if (!*more) break;
+            const auto more = TRY(lines_.next(line));
+            if (!more) break;
             const auto text = trimmed(line);
             if (text.empty()) continue;
             if (++lines == 1)
@@ -277,7 +275,7 @@ class JsonReader {
             else if (same_bracket = text.front() == first.front(); true)
                 break;
         }
-        if (auto ok = lines_.rewind(); !ok) return ok.error();
+        TRY(lines_.rewind());
         if (lines == 0 || !same_bracket || first.size() > max_document) return false;
         const auto record = parse(first, 1);
         if (!record && record.error().code == ErrorCode::interrupted) return record.error();
@@ -289,15 +287,13 @@ class JsonReader {
     /// Reads one record from each line.
     Result<void> read_lines() {
         for (std::string_view line;;) {
-            const auto more = lines_.next(line);
-            if (!more) return more.error();
-            if (!*more) return {};
+            const auto more = TRY(lines_.next(line));
+            if (!more) return {};
             if (trimmed(line).empty()) continue;
-            const auto record = parse(line, lines_.line_number());
-            if (!record) return record.error();
-            if (!record->is_structured())
+            const auto record = TRY(parse(line, lines_.line_number()));
+            if (!record.is_structured())
                 return error_at("expected a record here, such as {\"time_s\": 0, \"fz_N\": 1}", lines_.line_number());
-            if (auto ok = emit_record(*record, lines_.line_number()); !ok) return ok;
+            TRY(emit_record(record, lines_.line_number()));
         }
     }
 
@@ -305,9 +301,8 @@ class JsonReader {
     Result<void> read_document() {
         std::string text;
         for (std::string_view line;;) {
-            const auto more = lines_.next(line);
-            if (!more) return more.error();
-            if (!*more) break;
+            const auto more = TRY(lines_.next(line));
+            if (!more) break;
             text.append(line) += '\n';
             if (text.size() > max_document)
                 return error_at(fmt::format(
@@ -325,9 +320,8 @@ public:
         : lines_(lines), on_record_(on_record), should_continue_(should_continue), metadata_(metadata) {}
 
     Result<void> read() {
-        const auto by_line = are_json_lines();
-        if (!by_line) return by_line.error();
-        return *by_line ? read_lines() : read_document();
+        const auto by_line = TRY(are_json_lines());
+        return by_line ? read_lines() : read_document();
     }
 };
 
@@ -342,9 +336,8 @@ Result<bool> looks_like_json(LineReader& lines) {
     std::string_view line;
     bool json = false;
     for (;;) {
-        const auto more = lines.next(line);
-        if (!more) return more.error();
-        if (!*more) break;
+        const auto more = TRY(lines.next(line));
+        if (!more) break;
         const auto text = trimmed(line);
         if (text.empty()) continue;
         const auto rest = trimmed(text.substr(1));
@@ -353,7 +346,7 @@ Result<bool> looks_like_json(LineReader& lines) {
                    : text.front() == '[' && (rest.empty() || std::string_view("{[-0123456789\"").find(rest.front()) != rest.npos);
         break;
     }
-    if (auto ok = lines.rewind(); !ok) return ok.error();
+    TRY(lines.rewind());
     return json;
 }
 

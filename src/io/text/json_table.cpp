@@ -95,7 +95,7 @@ public:
             if (rows_ % rows_per_block == 0 && !should_continue()) return Result<void>(Error{ErrorCode::interrupted, "interrupted"});
             return add(fields, line);
         };
-        if (auto ok = read_json_records(lines, on_record, should_continue, &metadata_); !ok) return ok;
+        TRY(read_json_records(lines, on_record, should_continue, &metadata_));
         if (rows_ == 0 || columns_.empty()) return bad_input("no data in this file", {path_});
         if (rows_ > max_json_numbers / columns_.size())
             return bad_input("the table is too large for memory; save it as CSV, which is read in blocks", {path_});
@@ -159,7 +159,7 @@ public:
 
 Result<std::unique_ptr<Table>> open_json_table(LineReader lines, const std::function<bool()>& should_continue) {
     auto table = std::make_unique<JsonTable>(lines.path());
-    if (auto ok = table->open(lines, should_continue); !ok) return ok.error();
+    TRY(table->open(lines, should_continue));
     return std::unique_ptr<Table>(std::move(table));
 }
 

@@ -12,11 +12,10 @@
 namespace corpuscle {
 
 Result<LineReader> LineReader::open(const std::string& path) {
-    auto input = open_text_input(path);
-    if (!input) return input.error();
+    auto input = TRY(open_text_input(path));
     LineReader lines;
     lines.path_ = path;
-    lines.input_ = std::move(*input);
+    lines.input_ = std::move(input);
     return lines;
 }
 
@@ -47,9 +46,8 @@ Result<bool> LineReader::next(std::string_view& line) {
     };
     while (!found()) {
         const std::size_t pending = filled_ - position_;
-        const auto more = fill();
-        if (!more) return more.error();
-        if (*more) {
+        const auto more = TRY(fill());
+        if (more) {
             searched = position_ + pending;
             continue;
         }
@@ -67,7 +65,7 @@ Result<bool> LineReader::next(std::string_view& line) {
 Result<void> LineReader::rewind() {
     if (!is_start_discarded_)
         return position_ = 0, line_number_ = 0, Result<void>{};  // the buffer still holds the beginning, so this works for a pipe too
-    if (auto ok = input_->rewind(); !ok) return ok;
+    TRY(input_->rewind());
     filled_ = 0, position_ = 0, line_number_ = 0, bytes_read_ = 0, ended_ = false, is_start_discarded_ = false;
     return {};
 }

@@ -58,10 +58,9 @@ class GzipText final : public TextInput {
     bool packed_ended_ = false;  // true after the last compressed byte was read
 
     Result<void> refill() {
-        const auto got = packed_->read(reinterpret_cast<char*>(block_.data()), block_.size());
-        if (!got) return got.error();
-        packed_ended_ = *got < block_.size();
-        stream_.next_in = block_.data(), stream_.avail_in = static_cast<uInt>(*got);
+        const auto got = TRY(packed_->read(reinterpret_cast<char*>(block_.data()), block_.size()));
+        packed_ended_ = got < block_.size();
+        stream_.next_in = block_.data(), stream_.avail_in = static_cast<uInt>(got);
         return {};
     }
 
@@ -73,8 +72,7 @@ class GzipText final : public TextInput {
     Result<std::size_t> fetch(char* to, std::size_t max_bytes) override {
         stream_.next_out = reinterpret_cast<Bytef*>(to), stream_.avail_out = static_cast<uInt>(max_bytes);
         while (stream_.avail_out > 0) {
-            if (stream_.avail_in == 0 && !packed_ended_)
-                if (auto ok = refill(); !ok) return ok.error();
+            if (stream_.avail_in == 0 && !packed_ended_) TRY(refill());
             if (!within_) skip_zeros();
             if (stream_.avail_in == 0 && packed_ended_) {
                 if (within_) return bad_input("this gzip file is incomplete", {path_});
@@ -144,12 +142,11 @@ class Utf16Text final : public TextInput {
 
     Result<void> refill() {
         char block[1 << 14];
-        const auto got = units_->read(block, sizeof block);
-        if (!got) return got.error();
+        const auto got = TRY(units_->read(block, sizeof block));
         out_.clear(), returned_ = 0;
-        ended_ = *got < sizeof block;
-        if (*got % 2 != 0) return bad_input("this UTF-16 text is incomplete: it ends within a character", {path_});
-        for (std::size_t k = 0; k < *got; k += 2) {
+        ended_ = got < sizeof block;
+        if (got % 2 != 0) return bad_input("this UTF-16 text is incomplete: it ends within a character", {path_});
+        for (std::size_t k = 0; k < got; k += 2) {
             const auto a = static_cast<unsigned char>(block[k]), b = static_cast<unsigned char>(block[k + 1]);
             append_unit(big_endian_ ? a * 256UL + b : b * 256UL + a);
         }
@@ -162,7 +159,7 @@ class Utf16Text final : public TextInput {
         while (count < max_bytes) {
             if (returned_ == out_.size()) {
                 if (ended_) break;
-                if (auto ok = refill(); !ok) return ok.error();
+                TRY(refill());
                 continue;
             }
             const std::size_t n = std::min(max_bytes - count, out_.size() - returned_);
@@ -207,9 +204,8 @@ Result<std::size_t> TextInput::read(char* to, std::size_t max_bytes) {
     std::memcpy(to, lookahead_.data(), n);
     lookahead_.erase(0, n);
     if (n == max_bytes) return n;
-    const auto more = fetch(to + n, max_bytes - n);
-    if (!more) return more.error();
-    return n + *more;
+    const auto more = TRY(fetch(to + n, max_bytes - n));
+    return n + more;
 }
 
 Result<std::string_view> TextInput::peek(std::size_t count) {

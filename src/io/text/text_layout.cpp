@@ -29,9 +29,8 @@ Result<std::vector<HeadLine>> read_head(LineReader& lines, std::size_t skip) {
     std::string comment;
     bool gap = false;
     for (std::size_t bytes = 0; head.size() < max_preamble + inspected_rows && bytes < max_head;) {
-        const auto more = lines.next(line);
-        if (!more) return more.error();
-        if (!*more) break;
+        const auto more = TRY(lines.next(line));
+        if (!more) break;
         if (lines.line_number() <= static_cast<long>(skip)) continue;
         if (line.find('\0') != line.npos)
             return bad_input("not a text file: it contains NUL bytes, as binary files do", {lines.path(), lines.line_number()});
@@ -49,7 +48,7 @@ Result<std::vector<HeadLine>> read_head(LineReader& lines, std::size_t skip) {
         bytes += line.size();
         head.push_back({lines.line_number(), std::string(line), std::exchange(comment, ""), std::exchange(gap, false)});
     }
-    if (auto ok = lines.rewind(); !ok) return ok.error();
+    TRY(lines.rewind());
     return head;
 }
 
@@ -367,11 +366,10 @@ public:
         if (is_labview(head_[0].text)) {
             std::vector<std::string> lines;
             for (const auto& h : head_) lines.push_back(h.text);
-            auto labview = read_labview_header(lines, path);
-            if (!labview) return labview.error();
-            layout_.dialect = labview->dialect, layout_.columns = std::move(labview->columns), layout_.rate = labview->rate;
+            auto labview = TRY(read_labview_header(lines, path));
+            layout_.dialect = labview.dialect, layout_.columns = std::move(labview.columns), layout_.rate = labview.rate;
             layout_.has_header = layout_.is_last_field_optional = true;
-            row_ = labview->first_row;
+            row_ = labview.first_row;
         } else if (rows_are_channels && use_named_rows()) {
             row_ = 0;
         } else if (!rows_are_channels && are_rows_channels()) {
@@ -405,9 +403,8 @@ void split_row(const Dialect& dialect, std::string_view line, std::size_t column
 }
 
 Result<TextLayout> detect_text_layout(LineReader& lines, std::size_t skip, bool rows_are_channels) {
-    auto head = read_head(lines, skip);
-    if (!head) return head.error();
-    return LayoutDetector(std::move(*head)).find(lines.path(), rows_are_channels);
+    auto head = TRY(read_head(lines, skip));
+    return LayoutDetector(std::move(head)).find(lines.path(), rows_are_channels);
 }
 
 }  // namespace corpuscle

@@ -125,13 +125,12 @@ class TextTable final : public Table {
     Result<void> find_unnamed_time() {
         if (!columns_[0].exclusion_reason.empty()) return {};
         std::vector<std::vector<double>> first(1);
-        const auto rows = read({0}, 64, first);
-        if (!rows) return rows.error();
+        const auto rows = TRY(read({0}, 64, first));
         const auto& t = first[0];
-        if (*rows >= 3 && columns_.size() > 1) {
-            const double mean = (t[*rows - 1] - t[0]) / static_cast<double>(*rows - 1);
+        if (rows >= 3 && columns_.size() > 1) {
+            const double mean = (t[rows - 1] - t[0]) / static_cast<double>(rows - 1);
             bool even = mean > 0;
-            for (std::size_t k = 1; k < *rows; ++k) even = even && t[k] > t[k - 1] && std::abs(t[k] - t[k - 1] - mean) < 0.5 * mean;
+            for (std::size_t k = 1; k < rows; ++k) even = even && t[k] > t[k - 1] && std::abs(t[k] - t[k - 1] - mean) < 0.5 * mean;
             if (even) time_ = 0;
         }
         return rewind();
@@ -191,11 +190,7 @@ class TextTable final : public Table {
             for (auto& column : out) column[row] = std::numeric_limits<double>::quiet_NaN();  // fields cannot be assigned to columns
             return {};
         }
-        for (std::size_t i = 0; i < wanted.size(); ++i) {
-            const auto value = number_in(line, wanted[i]);
-            if (!value) return value.error();
-            out[i][row] = *value;
-        }
+        for (std::size_t i = 0; i < wanted.size(); ++i) out[i][row] = TRY(number_in(line, wanted[i]));
         return {};
     }
 
@@ -211,15 +206,14 @@ class TextTable final : public Table {
     Result<std::vector<TrialColumn>> find_trials(long trial_line) {
         std::vector<TrialColumn> found;
         if (layout_.trial_columns.empty()) return found;
-        if (auto ok = lines_.rewind(); !ok) return ok.error();
+        TRY(lines_.rewind());
         // The fields of the trial columns in the first row, in the current row, and in the row before it.
         std::vector<std::string> first, current, last;
         std::vector<bool> constant(layout_.trial_columns.size(), true);  // of each trial column, before `trial_line`
         quoted_rows_ = quoted_separators_ = false;
         for (std::string_view line; lines_.line_number() < trial_line;) {
-            const auto more = next_row(line);
-            if (!more) return more.error();
-            if (!*more) return found;
+            const auto more = TRY(next_row(line));
+            if (!more) return found;
             split(line);
             if (line.find('"') != line.npos) {
                 quoted_rows_ = true;
@@ -289,12 +283,9 @@ public:
         : lines_(std::move(lines)), skip_(skip), rows_are_channels_(rows_are_channels) {}
 
     Result<void> open() {
-        auto layout = detect_text_layout(lines_, skip_, rows_are_channels_);
-        if (!layout) return layout.error();
-        layout_ = std::move(*layout);
+        layout_ = TRY(detect_text_layout(lines_, skip_, rows_are_channels_));
         dialect_ = layout_.dialect, columns_ = layout_.columns, time_ = layout_.roles.time_column;
-        if (!layout_.has_header && !time_ && !layout_.has_row_names)
-            if (auto ok = find_unnamed_time(); !ok) return ok;
+        if (!layout_.has_header && !time_ && !layout_.has_row_names) TRY(find_unnamed_time());
         name_columns();
         store_evidence();
         return {};
@@ -330,9 +321,8 @@ public:
         std::vector<std::string> names;
         if (!layout_.has_row_names) return names;
         for (std::string_view line;;) {
-            const auto more = next_row(line);
-            if (!more) return more.error();
-            if (!*more) return names;
+            const auto more = TRY(next_row(line));
+            if (!more) return names;
             split(line);
             names.emplace_back(fields_.empty() ? std::string_view() : fields_[0]);
         }
@@ -347,10 +337,9 @@ public:
         set_columns(wanted, out);
         std::size_t row = 0;
         for (std::string_view line; row < rows; ++row) {
-            const auto more = next_row(line);
-            if (!more) return more.error();
-            if (!*more) break;
-            if (auto ok = read_row(line, row, wanted, out); !ok) return ok.error();
+            const auto more = TRY(next_row(line));
+            if (!more) break;
+            TRY(read_row(line, row, wanted, out));
             line_numbers_.push_back(lines_.line_number());
         }
         return row;
@@ -366,13 +355,11 @@ public:
 
 Result<std::unique_ptr<Table>> open_text_table(const std::string& path, const TableOptions& options) {
     if (options.dataset) return bad_usage(fmt::format("--dataset {}: a text file has only one table", *options.dataset));
-    auto lines = LineReader::open(path);
-    if (!lines) return lines.error();
-    const auto json = looks_like_json(*lines);
-    if (!json) return json.error();
-    if (*json) return open_json_table(std::move(*lines), options.should_continue);
-    auto table = std::make_unique<TextTable>(std::move(*lines), options.skip_lines, options.transpose == true);
-    if (auto ok = table->open(); !ok) return ok.error();
+    auto lines = TRY(LineReader::open(path));
+    const auto json = TRY(looks_like_json(lines));
+    if (json) return open_json_table(std::move(lines), options.should_continue);
+    auto table = std::make_unique<TextTable>(std::move(lines), options.skip_lines, options.transpose == true);
+    TRY(table->open());
     return std::unique_ptr<Table>(std::move(table));
 }
 

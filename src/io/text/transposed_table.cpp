@@ -40,20 +40,18 @@ public:
 }  // namespace
 
 Result<std::unique_ptr<Table>> transpose_table(std::unique_ptr<Table> table, const std::string& path) {
-    const auto row_names = table->row_names();
-    if (!row_names) return row_names.error();
-    if (auto ok = table->rewind(); !ok) return ok.error();
-    const std::size_t names = row_names->empty() ? 0 : 1;
+    const auto row_names = TRY(table->row_names());
+    TRY(table->rewind());
+    const std::size_t names = row_names.empty() ? 0 : 1;
     std::vector<std::size_t> all(table->columns().size() - names);
     std::iota(all.begin(), all.end(), names);
     std::vector<std::vector<double>> block(all.size()), channels;
     std::vector<SourceLocation> locations;
     table->allow_gaps(true);  // the new table treats gaps when the channels are read
     for (;;) {
-        const auto rows = table->read(all, 64, block);
-        if (!rows) return rows.error();
-        if (*rows == 0) break;
-        for (std::size_t k = 0; k < *rows; ++k) {
+        const auto rows = TRY(table->read(all, 64, block));
+        if (rows == 0) break;
+        for (std::size_t k = 0; k < rows; ++k) {
             channels.emplace_back(all.size());
             locations.push_back(table->location(k));
             for (std::size_t c = 0; c < all.size(); ++c) channels.back()[c] = block[c][k];
@@ -66,7 +64,7 @@ Result<std::unique_ptr<Table>> transpose_table(std::unique_ptr<Table> table, con
     SamplesInfo info;
     info.rows = static_cast<std::int64_t>(all.size());
     info.columns = columns_named_after("", channels.size());
-    for (std::size_t c = 0; c < std::min(channels.size(), row_names->size()); ++c) info.columns[c] = parse_heading((*row_names)[c]);
+    for (std::size_t c = 0; c < std::min(channels.size(), row_names.size()); ++c) info.columns[c] = parse_heading(row_names[c]);
     return make_table(
         std::unique_ptr<Samples>(std::make_unique<MemorySamples>(std::move(info), std::move(channels), std::move(locations), names)), path);
 }

@@ -74,14 +74,13 @@ public:
         if (has_header_error()) return *decoder_.header_error();
         auto space = decoder_.buffer();
         if (source_->has_datagrams()) space = space.first(space.size() - 1);  // keeps space for a line end
-        const auto received = source_->read(space);
-        if (!received) return received.error();
-        if (received->status == ReadResult::bytes && source_->has_datagrams())
-            take_datagram(*received);
-        else if (received->status == ReadResult::bytes)
-            decoder_.add_bytes(received->count);
-        if (received->status == ReadResult::disconnected || received->status == ReadResult::end) end_sender();
-        return received->status != ReadResult::end;
+        const auto received = TRY(source_->read(space));
+        if (received.status == ReadResult::bytes && source_->has_datagrams())
+            take_datagram(received);
+        else if (received.status == ReadResult::bytes)
+            decoder_.add_bytes(received.count);
+        if (received.status == ReadResult::disconnected || received.status == ReadResult::end) end_sender();
+        return received.status != ReadResult::end;
     }
 
     Next next(std::span<double> force) override {

@@ -135,9 +135,8 @@ std::size_t ByteSource::unread_bytes() const {
 
 Result<std::unique_ptr<ByteSource>> listen_on(const std::string& address, int port, const SenderLimits& limits) {
     Endpoint at{address, port};
-    auto listener = open_listening_socket(at);
-    if (!listener) return listener.error();
-    return std::unique_ptr<ByteSource>(std::make_unique<Listener>(at, std::move(*listener), limits));
+    auto listener = TRY(open_listening_socket(at));
+    return std::unique_ptr<ByteSource>(std::make_unique<Listener>(at, std::move(listener), limits));
 }
 
 Result<std::unique_ptr<ByteSource>> open_serial(const std::string& path, long baud) {

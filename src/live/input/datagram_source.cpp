@@ -99,9 +99,8 @@ public:
 
 Result<std::unique_ptr<ByteSource>> receive_datagrams(const std::string& address, int port, const SenderLimits& limits) {
     Endpoint at{address, port};
-    auto fd = open_datagram_socket(at);
-    if (!fd) return fd.error();
-    return std::unique_ptr<ByteSource>(std::make_unique<DatagramSource>(at, std::move(*fd), limits));
+    auto fd = TRY(open_datagram_socket(at));
+    return std::unique_ptr<ByteSource>(std::make_unique<DatagramSource>(at, std::move(fd), limits));
 }
 
 }  // namespace corpuscle

@@ -37,7 +37,7 @@ public:
     Result<bool> receive() override {
         in_batch_ = 0;
         if (at_ == frames_.count) {
-            if (auto ok = source_->read(frames_); !ok) return ok.error();
+            TRY(source_->read(frames_));
             at_ = 0;
         }
         if (begun_ < 0) begun_ = steady_now();

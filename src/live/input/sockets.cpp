@@ -73,9 +73,8 @@ bool SocketAddress::operator==(const SocketAddress& other) const {
 }
 
 Result<ResolvedEndpoint> resolve(const Endpoint& at) {
-    auto addresses = addresses_of(at, SOCK_STREAM, 0);
-    if (!addresses) return addresses.error();
-    return ResolvedEndpoint{at, std::move(*addresses)};
+    auto addresses = TRY(addresses_of(at, SOCK_STREAM, 0));
+    return ResolvedEndpoint{at, std::move(addresses)};
 }
 
 namespace {
@@ -84,10 +83,9 @@ namespace {
 /// socket; it returns false on failure.
 template <class MakeReady>
 Result<Descriptor> bind_socket(Endpoint& at, int socket_type, const MakeReady& make_ready) {
-    const auto addresses = addresses_of(at, socket_type, AI_PASSIVE);
-    if (!addresses) return addresses.error();
+    const auto addresses = TRY(addresses_of(at, socket_type, AI_PASSIVE));
     int error_number = EADDRNOTAVAIL;
-    for (const auto& a : *addresses) {
+    for (const auto& a : addresses) {
         Descriptor fd(::socket(a.bytes.ss_family, socket_type | SOCK_CLOEXEC | SOCK_NONBLOCK, 0));
         if (fd && make_ready(fd.get(), a)) {
             at.port = port_of(fd.get());

@@ -85,13 +85,13 @@ public:
             wake_writer_.notify_one();
             space_.wait_for(lock, std::chrono::milliseconds(ms), is_done);
         }
-        if (auto ok = state(); !ok) return ok.error();
+        TRY(state());
         return ring_.has_space(bytes);
     }
     Result<void> finish(const FinishPolicy&) override {
         join();
         drop_all();
-        if (auto ok = state(); !ok) return ok;
+        TRY(state());
         return commit_();
     }
 };
@@ -121,9 +121,8 @@ Result<std::unique_ptr<EventSink>> create_event_file(const std::string& path, co
         const int fd = own.get();
         return make_pipe_sink(std::move(own), fd, path, format, ring);
     }
-    auto opened = OutputFile::create_growing(path);
-    if (!opened) return opened.error();
-    const auto file = std::make_shared<OutputFile>(std::move(*opened));
+    auto opened = TRY(OutputFile::create_growing(path));
+    const auto file = std::make_shared<OutputFile>(std::move(opened));
     return std::unique_ptr<EventSink>(std::make_unique<FileEventSink>(
         format, ring, path, [file](std::string_view text) { return file->write(text); },
         [file] {

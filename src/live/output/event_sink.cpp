@@ -80,10 +80,10 @@ public:
     int poll_fd() const override { return waiting_ ? fd_ : -1; }
     Result<void> flush() override { return check(write_some(ring_, fd_, socket_)); }
     Result<bool> wait_for_space(std::size_t bytes, int ms) override {
-        if (auto ok = flush(); !ok) return ok.error();
+        TRY(flush());
         if (ring_.has_space(bytes)) return true;
         poll_for_writing(fd_, ms);
-        if (auto ok = flush(); !ok) return ok.error();
+        TRY(flush());
         return ring_.has_space(bytes);
     }
     Result<void> finish(const FinishPolicy& policy) override {
@@ -187,17 +187,14 @@ Result<std::unique_ptr<EventSink>> open_standard_output(const EventFormat& forma
 }
 
 Result<std::unique_ptr<EventSink>> connect_event_client(const std::string& endpoint, const EventFormat& format, std::size_t ring) {
-    const auto at = parse_endpoint(endpoint);
-    if (!at) return at.error();
-    auto to = resolve(*at);
-    if (!to) return to.error();
-    return connect_event_client(std::move(*to), format, ring);
+    const auto at = TRY(parse_endpoint(endpoint));
+    auto to = TRY(resolve(at));
+    return connect_event_client(std::move(to), format, ring);
 }
 
 Result<std::unique_ptr<EventSink>> connect_event_client(ResolvedEndpoint to, const EventFormat& format, std::size_t ring) {
-    auto fd = connect_socket(to, 5000);
-    if (!fd) return fd.error();
-    return std::unique_ptr<EventSink>(std::make_unique<TcpClientSink>(format, ring, std::move(to), std::move(*fd)));
+    auto fd = TRY(connect_socket(to, 5000));
+    return std::unique_ptr<EventSink>(std::make_unique<TcpClientSink>(format, ring, std::move(to), std::move(fd)));
 }
 
 }  // namespace corpuscle

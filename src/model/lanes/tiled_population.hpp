@@ -282,7 +282,7 @@ class TiledPopulation final : public LanePopulation {
     /// Returns an error if a job has met a force or a state that is NaN or infinite.
     Result<void> check_jobs(const Block& b, PopulationResponse& response) const {
         if (std::none_of(jobs_.begin(), jobs_.end(), [](const JobResult& job) { return job.non_finite; })) return {};
-        if (auto ok = check_finite_force(b, response); !ok) return ok;
+        TRY(check_finite_force(b, response));
         const auto afferent = first_non_finite_state();
         if (afferent) return non_finite_state(*afferent, b, response);
         return {};
@@ -343,7 +343,7 @@ public:
     }
 
     Result<void> respond(const PopulationForce& force, std::size_t steps, PopulationResponse& response, ThreadPool& pool) override {
-        if (auto ok = check(force, steps); !ok) return ok;
+        TRY(check(force, steps));
         if (steps == 0) return {};
         Block block{force, steps, shares_currents(force), nullptr};
         if (const auto* profile = std::get_if<ForceProfile>(&force)) {
@@ -358,7 +358,7 @@ public:
         for (const auto& job : jobs_)
             response.truncated_steps += job.truncated_steps, response.extra_spikes += job.extra_spikes,
                 response.skipped_steps += job.skipped_steps;
-        if (auto ok = check_jobs(block, response); !ok) return ok.error();
+        TRY(check_jobs(block, response));
         if (response.spikes) merge_spikes(jobs_, steps, step_, layout_.afferent_numbers, *response.spikes, begin_, at_);
         step_ += static_cast<std::int64_t>(steps);
         return {};

@@ -83,7 +83,7 @@ Result<void> DigitalAfferent::respond(std::span<const double> force, State& stat
 Result<void> DigitalAfferent::respond_and_report(std::span<const double> force, State& state, ResponseBlock& response,
                                                  const ConversionCallback& on_conversion) const {
     const auto size = values_before_words + chain_->words() + chain_->recordables().size();
-    if (auto ok = check_block(name_, format_, size, state, force); !ok) return ok;
+    TRY(check_block(name_, format_, size, state, force));
     auto unpacked = unpack_state(state);
     if (!unpacked) return bad_input(name_ + ": a saved state is damaged: it contains values that are neither words nor counts");
     if (force.empty()) return {};

@@ -48,7 +48,7 @@ std::vector<double> FrontEndAfferent::calibrated_block(std::span<const double> f
 }
 
 Result<void> FrontEndAfferent::respond(std::span<const double> force, State& state, ResponseBlock& response) const {
-    if (auto ok = check_block(name_, format_, own_values + inner_values_, state, force); !ok) return ok;
+    TRY(check_block(name_, format_, own_values + inner_values_, state, force));
     if (force.empty()) return {};
     const auto calibrated = calibrated_block(force, state, response);
     State inner_state{inner_format_, state.step, {state.values.begin() + own_values, state.values.end()}};

@@ -68,14 +68,12 @@ ChannelSimulator::ChannelSimulator(ForceSource& source, const std::string& input
 }
 
 Result<void> ChannelSimulator::start(const RespondOptions& options, bool wants_probes) {
-    const auto set = instruction_set();
-    if (!set) return set.error();
+    const auto set = TRY(instruction_set());
     wants_probes_ = wants_probes;
     force_ = Frames(population_.channels(), block_size(population_, options, wants_probes));
     const auto run = options.for_clock(input_.clock);
-    const auto is_scalar = place_on_lanes(run, options, *set);
-    if (!is_scalar) return is_scalar.error();
-    make_scalar_afferents(*is_scalar, run);
+    const auto is_scalar = TRY(place_on_lanes(run, options, set));
+    make_scalar_afferents(is_scalar, run);
     return {};
 }
 
@@ -143,9 +141,8 @@ Result<void> ChannelSimulator::make_lane_groups(std::span<const std::size_t> pla
         if (plans.size() == 1) lane_plans = {&population_.plans()[plans[0]]};
         std::vector<std::uint32_t> indexes;
         for (const auto u : group.afferents) indexes.push_back(input_.first_afferent + u);
-        auto population = make_lane_population({lane_plans, group.afferents.size(), indexes, precision}, run, set);
-        if (!population) return population.error();
-        group.population = std::move(*population);
+        auto population = TRY(make_lane_population({lane_plans, group.afferents.size(), indexes, precision}, run, set));
+        group.population = std::move(population);
         lane_groups_.push_back(std::exchange(group, {{}, {}, by_channel}));
         lane_plans.clear();
     }
@@ -244,12 +241,11 @@ Result<void> ChannelSimulator::simulate_scalars(ThreadPool& pool, RunStats& stat
 }
 
 Result<RunBlock> ChannelSimulator::next(ThreadPool& pool, RunStats& stats) {
-    if (auto ok = lookahead_.next(source_, force_); !ok) return ok.error();
+    TRY(lookahead_.next(source_, force_));
     if (force_.count == 0) return RunBlock{};
     spikes_.clear();
-    for (auto& group : lane_groups_)
-        if (auto ok = simulate_lane_group(group, pool, stats); !ok) return ok.error();
-    if (auto ok = simulate_scalars(pool, stats); !ok) return ok.error();
+    for (auto& group : lane_groups_) TRY(simulate_lane_group(group, pool, stats));
+    TRY(simulate_scalars(pool, stats));
     if (!std::is_sorted(spikes_.begin(), spikes_.end())) std::sort(spikes_.begin(), spikes_.end());
     const auto first = samples_, steps = static_cast<std::int64_t>(force_.count);
     samples_ += steps;

@@ -8,7 +8,7 @@ Result<void> LookaheadBuffer::next(ForceSource& source, Frames& block) {
     if (lookahead_ == 0) return source.read(block);
     for (auto& channel : buffer_) channel.erase(channel.begin(), channel.begin() + static_cast<std::ptrdiff_t>(last_block_));
     available_ -= last_block_;
-    if (auto ok = fill(source, block); !ok) return ok;
+    TRY(fill(source, block));
     // Before the end of the source, fill() leaves at least lookahead_ samples after the block.
     last_block_ = block.count = std::min(block.capacity, ended_ ? available_ : available_ - lookahead_);
     for (std::size_t c = 0; c < buffer_.size(); ++c) std::copy_n(buffer_[c].begin(), last_block_, block.force[c].begin());
@@ -18,7 +18,7 @@ Result<void> LookaheadBuffer::next(ForceSource& source, Frames& block) {
 /// Reads until the buffer has a full block and the look-ahead after it, or the source ends. Uses `block` to read into.
 Result<void> LookaheadBuffer::fill(ForceSource& source, Frames& block) {
     while (!ended_ && available_ < block.capacity + lookahead_) {
-        if (auto ok = source.read(block); !ok) return ok;
+        TRY(source.read(block));
         ended_ = block.count == 0;
         available_ += block.count;
         for (std::size_t c = 0; c < buffer_.size(); ++c) {

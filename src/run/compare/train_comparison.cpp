@@ -157,8 +157,7 @@ Result<std::vector<TrainPair>> pair_trains(const Trains& a, const Trains& b, con
         for (std::size_t k = 0; k < a.size(); ++k) out.push_back(train_pair(&a[k], &b[k]));
         return out;
     }
-    for (const auto& text : options.pairs)
-        if (auto ok = add_pairs(a, b, text, out); !ok) return ok.error();
+    for (const auto& text : options.pairs) TRY(add_pairs(a, b, text, out));
     if (!options.pairs.empty()) return out;
     out = by_name(a, b);
     if (a.empty() || b.empty() || std::any_of(out.begin(), out.end(), [](const auto& p) { return p.train_a && p.train_b; })) return out;

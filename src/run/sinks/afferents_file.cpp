@@ -28,12 +28,11 @@ class AfferentsFile final : public FileSink {
 public:
     AfferentsFile(std::string directory, const SkinSummary& summary) : FileSink(std::move(directory)), summary_(summary) {}
     Result<void> open() {
-        if (auto ok = create("afferents.csv"); !ok) return ok;
+        TRY(create("afferents.csv"));
         return files_[0].write("afferent_index,afferent,region,x_mm,y_mm,delay_ms,spikes,first_spike_s,touched_s,rate_Hz\n");
     }
     Result<void> end(const Input& input, std::int64_t, std::span<const Spike>) override {
-        for (std::size_t u = 0; u < input.population.size(); ++u)
-            if (auto ok = files_[0].write(afferent_row(summary_, u)); !ok) return ok;
+        for (std::size_t u = 0; u < input.population.size(); ++u) TRY(files_[0].write(afferent_row(summary_, u)));
         return {};
     }
 };

@@ -44,7 +44,7 @@ CopiesFile::CopiesFile(std::string directory, const CopySpec& copies) : FileSink
 }
 
 Result<void> CopiesFile::open() {
-    if (auto ok = create("copies.csv"); !ok) return ok;
+    TRY(create("copies.csv"));
     std::string header = "afferent,channel";
     for (const auto& c : columns_)
         header += "," + quote_csv_field(c.unit.empty() ? std::string(c.parameter) : fmt::format("{}_{}", c.parameter, c.unit));
@@ -80,7 +80,7 @@ Result<void> CopiesFile::end(const Input& input, std::int64_t samples, std::span
         put_row(input, u);
         // Writes in pieces of 64 KiB.
         if (text_.size() < std::size_t{1} << 16 && u + 1 < input.population.size()) continue;
-        if (auto ok = write_text(text_); !ok) return ok;
+        TRY(write_text(text_));
     }
     return {};
 }

@@ -29,11 +29,8 @@ public:
         : SpikeFileSink(std::move(directory)), format_name_(std::move(format)), extension_(extension) {}
     Result<void> open() { return create("spikes" + extension_); }
     Result<void> begin(const Input& input) override {
-        if (input.index > 0)
-            if (auto ok = create(numbered_name("spikes#" + extension_, input.index)); !ok) return ok;
-        auto format = make_event_format(format_name_, input.population.event_addressing(input.clock));
-        if (!format) return format.error();
-        format_ = std::move(*format);
+        if (input.index > 0) TRY(create(numbered_name("spikes#" + extension_, input.index)));
+        format_ = TRY(make_event_format(format_name_, input.population.event_addressing(input.clock)));
         return files_.back().write(format_->header());
     }
 };

@@ -7,9 +7,7 @@
 namespace corpuscle {
 
 Result<void> FileSink::create(const std::string& name) {
-    auto file = OutputFile::create(directory_ + "/" + name);
-    if (!file) return file.error();
-    files_.push_back(std::move(*file));
+    files_.push_back(TRY(OutputFile::create(directory_ + "/" + name)));
     return {};
 }
 
@@ -30,8 +28,7 @@ std::vector<std::string> FileSink::paths() const {
 }
 
 Result<void> FileSink::commit() {
-    for (auto& file : files_)
-        if (auto ok = file.commit(); !ok) return ok;
+    for (auto& file : files_) TRY(file.commit());
     return {};
 }
 

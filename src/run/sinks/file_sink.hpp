@@ -96,7 +96,7 @@ Result<void> check_recorded_copies(const OutputRequest&, std::string_view option
 template <class F, class... A>
 Result<std::unique_ptr<FileSink>> make_file_sink(A&&... arguments) {
     auto sink = std::make_unique<F>(std::forward<A>(arguments)...);
-    if (auto ok = sink->open(); !ok) return ok.error();
+    TRY(sink->open());
     return std::unique_ptr<FileSink>(std::move(sink));
 }
 

@@ -62,9 +62,8 @@ public:
         npz_.add("unit_afferent", afferents_);
         npz_.add("unit_channel", channels_);
         if (!x_.empty()) npz_.add("unit_x_m", x_), npz_.add("unit_y_m", y_);
-        const auto bytes = npz_.bytes();
-        if (!bytes) return bytes.error();
-        if (auto ok = files_[0].write(*bytes); !ok) return ok;
+        const auto bytes = TRY(npz_.bytes());
+        TRY(files_[0].write(bytes));
         return FileSink::commit();
     }
 };

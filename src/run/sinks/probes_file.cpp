@@ -18,7 +18,7 @@ public:
 
     Result<void> begin(const Input& input) override {
         const auto& population = input.population;
-        if (auto ok = create(numbered_name("probes#.csv", input.index)); !ok) return ok;
+        TRY(create(numbered_name("probes#.csv", input.index)));
         std::string header = "time_s";
         for (const auto& name : population.force_names()) header += "," + quote_csv_field(name + "_N");
         for (std::size_t u = 0; u < population.size(); ++u)

@@ -64,7 +64,7 @@ Result<void> check_bin_width(const Clock& clock, double bin_width) {
 }
 
 Result<void> PsthFile::begin(const Input& input) {
-    if (auto ok = check_bin_width(input.clock, bin_width_); !ok) return ok;
+    TRY(check_bin_width(input.clock, bin_width_));
     groups_ = input.population.bin_groups();
     t0_ = input.clock.t0, current_bin_ = 0, counts_.assign(groups_.groups.size(), 0);
     if (std::exchange(has_header_, true)) return {};

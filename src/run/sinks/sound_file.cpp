@@ -87,8 +87,8 @@ Result<void> SpikeSoundFile::shape_clicks(const Input& input) {
 }
 
 Result<void> SpikeSoundFile::begin(const Input& input) {
-    if (auto ok = create(numbered_name("spikes#.wav", input.index)); !ok) return ok;
-    if (auto ok = shape_clicks(input); !ok) return ok;
+    TRY(create(numbered_name("spikes#.wav", input.index)));
+    TRY(shape_clicks(input));
     SF_INFO info = {};
     info.samplerate = sound_rate;
     info.channels = static_cast<int>(ears_);
@@ -145,7 +145,7 @@ Result<void> SpikeSoundFile::block(const Input& input, const RunBlock& block) {
 Result<void> SpikeSoundFile::end(const Input& input, std::int64_t samples, std::span<const Spike> last) {
     add_clicks(input, last);
     const auto clicks_end = written_ + static_cast<std::int64_t>(pending_.size() / ears_);
-    if (auto ok = write_up_to(std::max(frame_of(input.since_start(samples)), clicks_end)); !ok) return ok;
+    TRY(write_up_to(std::max(frame_of(input.since_start(samples)), clicks_end)));
     if (sf_close(wav_.release()) != 0) return bad_input("cannot write the complete sound", {files_.back().path()});
     return {};
 }

@@ -20,7 +20,7 @@ class SpikesFile final : public SpikeFileSink {
 public:
     using SpikeFileSink::SpikeFileSink;
     Result<void> open() {
-        if (auto ok = create("spikes.csv"); !ok) return ok;
+        TRY(create("spikes.csv"));
         return files_[0].write("afferent,channel,time_s\n");
     }
     Result<void> begin(const Input& input) override {

@@ -79,8 +79,8 @@ Result<void> VectorsFile::make_afferents(const Input& input) {
         const bool is_digital = !plan.converter.empty();
         digital_.push_back(is_digital ? make_digital(plan, {input.clock.T()}) : nullptr);
         if (!is_digital || input.index > 0) continue;
-        if (auto ok = create(fmt::format("rom-{}.csv", plan.name)); !ok) return ok;
-        if (auto ok = files_.back().write(rom_text(*digital_.back())); !ok) return ok;
+        TRY(create(fmt::format("rom-{}.csv", plan.name)));
+        TRY(files_.back().write(rom_text(*digital_.back())));
     }
     file_counts_.resize(digital_.size());
     return {};
@@ -90,20 +90,19 @@ Result<void> VectorsFile::open_vectors_file(const Input& input, std::size_t affe
     const auto& afferents = input.on_channels();
     const auto a = afferent_index % digital_.size(), c = afferents.channel_of(afferent_index);
     const auto& plan = afferents.plan_of(afferent_index);
-    if (auto ok = create(vectors_name(plan, file_counts_[a]++)); !ok) return ok;
-    if (auto ok = files_.back().write(header_text(plan, one_line(afferents.channel(c)), *digital_[a])); !ok) return ok;
+    TRY(create(vectors_name(plan, file_counts_[a]++)));
+    TRY(files_.back().write(header_text(plan, one_line(afferents.channel(c)), *digital_[a])));
     const ChannelSlot slot{static_cast<std::uint32_t>(c), static_cast<std::uint32_t>(afferents.channels())};
     afferent_files_[afferent_index] = AfferentFile{a, files_.size() - 1, digital_[a]->start(slot)};
     return {};
 }
 
 Result<void> VectorsFile::begin(const Input& input) {
-    if (auto ok = make_afferents(input); !ok) return ok;
+    TRY(make_afferents(input));
     afferent_files_.clear();
     afferent_files_.resize(input.population.size());
     for (std::size_t u = 0; u < afferent_files_.size(); ++u)
-        if (digital_[u % digital_.size()])
-            if (auto ok = open_vectors_file(input, u); !ok) return ok;
+        if (digital_[u % digital_.size()]) TRY(open_vectors_file(input, u));
     return {};
 }
 
@@ -121,8 +120,8 @@ Result<void> VectorsFile::block(const Input& input, const RunBlock& block) {
         ResponseBlock response{spikes};
         auto& [plan, file, state] = *afferent_files_[u];
         const auto force = block.force[input.on_channels().channel_of(u)];
-        if (auto ok = digital_[plan]->respond_and_report(force, state, response, put_row); !ok) return ok;
-        if (auto ok = files_[file].write({text.data(), text.size()}); !ok) return ok;
+        TRY(digital_[plan]->respond_and_report(force, state, response, put_row));
+        TRY(files_[file].write({text.data(), text.size()}));
     }
     return {};
 }

@@ -88,16 +88,15 @@ Error SkinCheckpoint::changed_force_error() const {
 
 Result<std::unique_ptr<SkinCheckpoint>> SkinCheckpoint::open(const std::string& file, Skin& skin, RunFingerprint fingerprint) {
     std::unique_ptr<SkinCheckpoint> checkpoint(new SkinCheckpoint(file, skin, std::move(fingerprint)));
-    if (auto ok = checkpoint->check_file(); !ok) return ok.error();
-    if (auto ok = checkpoint->lock_spikes(); !ok) return ok.error();
+    TRY(checkpoint->check_file());
+    TRY(checkpoint->lock_spikes());
     if (!read_beginning(checkpoint->spikes_file_).starts_with(spikes_header))
         return bad_input(fmt::format("this file was not written by a checkpoint of this version and was left unchanged; move it away, or "
                                      "name another file than {} with --checkpoint",
                                      file),
                          {checkpoint->spikes_file_});
     std::error_code status;
-    if (fs::exists(file, status))
-        if (auto ok = checkpoint->resume(); !ok) return ok.error();
+    if (fs::exists(file, status)) TRY(checkpoint->resume());
     // Spikes after the last checkpoint are removed; this run computes them again.
     if (::ftruncate(::fileno(checkpoint->spikes_.get()), position_of_spike(checkpoint->spike_count_)) != 0)
         return checkpoint->system_error(checkpoint->spikes_file_);
@@ -270,17 +269,16 @@ void SkinCheckpoint::remove_files() {
 }
 
 Result<std::string> checksum_of_file(const std::string& path) {
-    auto file = open_bytes(path);
-    if (!file) return file.error();
+    auto file = TRY(open_bytes(path));
     Checksum sum;
     std::vector<std::byte> buffer(std::size_t{1} << 20);
-    for (auto left = (*file)->size(); left > 0;) {
+    for (auto left = file->size(); left > 0;) {
         const auto chunk = std::span(buffer).first(std::min<std::uint64_t>(buffer.size(), left));
-        if (auto ok = (*file)->read(chunk); !ok) return ok.error();
+        TRY(file->read(chunk));
         sum.add(chunk.data(), chunk.size());
         left -= chunk.size();
     }
-    return fmt::format("{} bytes, checksum {:016x}", (*file)->size(), sum.value());
+    return fmt::format("{} bytes, checksum {:016x}", file->size(), sum.value());
 }
 
 }  // namespace corpuscle

@@ -33,15 +33,14 @@ public:
 
     Result<Block> next() override {
         frames_.count = 0;
-        if (auto ok = source_.read(frames_); !ok) return ok.error();
+        TRY(source_.read(frames_));
         const std::span<const double> force(frames_.force[0].data(), frames_.count);
         if (const auto at = first_non_finite(force); at < force.size())
             return bad_input(
                 fmt::format("the force of sample {} is {}, not a finite number", first_ + static_cast<std::int64_t>(at), force[at]));
-        auto site_force = contact_.press(force, first_);
-        if (!site_force) return site_force.error();
+        auto site_force = TRY(contact_.press(force, first_));
         first_ += static_cast<std::int64_t>(force.size());
-        return Block{*site_force, force};
+        return Block{site_force, force};
     }
 };
 
@@ -57,7 +56,7 @@ public:
 
     Result<Block> next() override {
         frames_.count = 0;
-        if (auto ok = source_.read(frames_); !ok) return ok.error();
+        TRY(source_.read(frames_));
         std::fill(total_.begin(), total_.end(), 0.0);
         for (std::size_t c = 0; c < sites_.size(); ++c) {
             std::copy_n(frames_.force[c].begin(), frames_.count, force_.begin() + static_cast<std::ptrdiff_t>(sites_[c] * site_block));

@@ -15,9 +15,8 @@ Result<SkinProbes> SkinProbes::make(const Innervation& skin, const SimulationOpt
                 fmt::format("--probe-files works with at most {} afferents of a class, but {} has {} of {}; use fewer, such as "
                             "--population 'grid 4x4'",
                             max_afferents, skin.plan.name, count, plan.name));
-        const auto plans = make_copies(plan.afferent, static_cast<std::uint32_t>(count), plan.distributions, skin.plan.seed);
-        if (!plans) return plans.error();
-        for (const auto& afferent : *plans) {
+        const auto plans = TRY(make_copies(plan.afferent, static_cast<std::uint32_t>(count), plan.distributions, skin.plan.seed));
+        for (const auto& afferent : plans) {
             out.afferents_.push_back(make_afferent(afferent, run));
             out.states_.push_back(out.afferents_.back()->start());
             out.values_.emplace_back(out.afferents_.back()->probes().size());

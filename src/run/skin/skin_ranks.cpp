@@ -81,11 +81,10 @@ public:
 Result<bool> simulate_rank_afferents(WorkerChannel& channel, SkinForce& force, Skin& skin, ThreadPool& pool) {
     std::vector<Spike> spikes;
     for (;;) {
-        auto block = force.next();
-        if (!block) return block.error();
-        if (block->total_force.empty()) break;
+        auto block = TRY(force.next());
+        if (block.total_force.empty()) break;
         spikes.clear();
-        if (auto ok = skin.respond(block->force, block->total_force.size(), spikes, pool); !ok) return ok.error();
+        TRY(skin.respond(block.force, block.total_force.size(), spikes, pool));
         if (!channel.send(pack_spikes(spikes))) return false;
     }
     spikes.clear();
@@ -114,9 +113,8 @@ Result<std::string> SkinWorkers::next_from(int rank) {
 
 Result<void> SkinWorkers::gather(std::vector<Spike>& spikes) {
     for (int rank = 1; rank < ranks_.size(); ++rank) {
-        auto text = next_from(rank);
-        if (!text) return text.error();
-        unpack_into(*text, spikes);
+        auto text = TRY(next_from(rank));
+        unpack_into(text, spikes);
         ranks_.send(rank, std::string(1, acknowledged));
     }
     (void)ranks_.unsent();  // frees the acknowledgements that have been sent
@@ -125,12 +123,11 @@ Result<void> SkinWorkers::gather(std::vector<Spike>& spikes) {
 }
 
 Result<void> SkinWorkers::finish(std::vector<Spike>& spikes, SkinStats& stats) {
-    if (auto ok = gather(spikes); !ok) return ok;
+    TRY(gather(spikes));
     for (int rank = 1; rank < ranks_.size(); ++rank) {
-        auto text = next_from(rank);
-        if (!text) return text.error();
+        auto text = TRY(next_from(rank));
         SkinStats worker;  // its `steps` are the same for all ranks
-        std::memcpy(&worker, text->data() + 1, std::min(sizeof worker, text->size() - 1));
+        std::memcpy(&worker, text.data() + 1, std::min(sizeof worker, text.size() - 1));
         stats.afferent_steps += worker.afferent_steps, stats.skipped_steps += worker.skipped_steps;
         stats.spikes += worker.spikes, stats.truncated_steps += worker.truncated_steps;
     }

@@ -96,7 +96,7 @@ class IndenterContact final : public Contact {
             return {};
         }
         const double t = clock_.time(sample), size = pressure_->size(force);
-        if (auto ok = check(size, force); !ok) return ok;
+        TRY(check(size, force));
         distribute(path_.at(t), size, path_.pattern_shift(t));
         pressed_ += force, off_skin_ += force * (1 - on_skin_), max_size_ = std::max(max_size_, size);
         for (const auto& s : fractions_) {
@@ -166,7 +166,7 @@ public:
             if (!std::isfinite(force[k]))
                 return bad_input(
                     fmt::format("the force of sample {} is {}, not a finite number", first + static_cast<std::int64_t>(k), force[k]));
-            if (auto ok = press_once(force[k], first + static_cast<std::int64_t>(k), k, force.size()); !ok) return ok.error();
+            TRY(press_once(force[k], first + static_cast<std::int64_t>(k), k, force.size()));
         }
         std::sort(touched_.begin(), touched_.end());
         return SiteForce{force_.data(), stride_, touched_, false};
@@ -177,12 +177,10 @@ public:
 
 Result<Applied<std::unique_ptr<Contact>>> make_contact(std::string_view name, std::span<const ParameterOverride> overrides,
                                                        const Sites& sites, const Clock& clock) {
-    const auto indenter = find_indenter(name);
-    if (!indenter) return indenter.error();
-    auto params = read_contact_params(**indenter, overrides, sites);
-    if (!params) return params.error();
-    return Applied<std::unique_ptr<Contact>>{std::make_unique<IndenterContact>(**indenter, params->result, sites, clock),
-                                             std::move(params->unused)};
+    const auto indenter = TRY(find_indenter(name));
+    auto params = TRY(read_contact_params(*indenter, overrides, sites));
+    return Applied<std::unique_ptr<Contact>>{std::make_unique<IndenterContact>(*indenter, params.result, sites, clock),
+                                             std::move(params.unused)};
 }
 
 std::span<const NamedTouch> named_touches() {

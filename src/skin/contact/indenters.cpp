@@ -58,9 +58,8 @@ Result<const Indenter*> find_indenter(std::string_view name) {
 Result<Applied<ContactParams>> read_contact_params(const Indenter& indenter, std::span<const ParameterOverride> overrides,
                                                    const Sites& sites) {
     const auto rows = contact_parameters();
-    auto applied = settings_for("contact", rows, overrides);
-    if (!applied) return applied.error();
-    const auto& settings = applied->result;
+    auto applied = TRY(settings_for("contact", rows, overrides));
+    const auto& settings = applied.result;
     const auto is_set = [&](std::string_view name) {
         return std::any_of(settings.begin(), settings.end(), [&](const Setting& s) { return s.name == name; });
     };
@@ -77,8 +76,8 @@ Result<Applied<ContactParams>> read_contact_params(const Indenter& indenter, std
     }
     if (!is_set("x1")) p.x1 = p.x;
     if (!is_set("y1")) p.y1 = p.y;
-    if (auto ok = check_contact(indenter, p); !ok) return ok.error();
-    return Applied<ContactParams>{p, std::move(applied->unused)};
+    TRY(check_contact(indenter, p));
+    return Applied<ContactParams>{p, std::move(applied.unused)};
 }
 
 }  // namespace corpuscle

@@ -5,11 +5,10 @@ namespace corpuscle {
 Result<Applied<SkinPlan>> apply_overrides(SkinPlan plan, std::span<const ParameterOverride> overrides) {
     std::vector<ParameterOverride> unused(overrides.begin(), overrides.end());
     for (auto& c : plan.classes) {
-        const auto settings = settings_for(c.name, parameter_infos(c.afferent), overrides);
-        if (!settings) return settings.error();
-        keep_unused(unused, settings->unused);
-        set_values(c.afferent, settings->result);
-        if (auto ok = check_plan(c.afferent); !ok) return ok.error();
+        const auto settings = TRY(settings_for(c.name, parameter_infos(c.afferent), overrides));
+        keep_unused(unused, settings.unused);
+        set_values(c.afferent, settings.result);
+        TRY(check_plan(c.afferent));
     }
     return Applied<SkinPlan>{std::move(plan), std::move(unused)};
 }

@@ -28,19 +28,17 @@ Result<AfferentPlan> afferent_of(const ClassSpec& spec) {
     const auto& text = spec.afferent->text;
     // Without overrides, so that an unknown afferent is not reported as an error of a setting.
     if (const auto known = plan_afferent(text); !known) return spec.afferent->error_here(known.error().message);
-    auto planned = plan_afferent(text, overrides_for(text, spec.set));
-    if (!planned) return planned.error();
-    if (auto ok = check_all_used(planned->unused, std::array{std::string_view(text)}); !ok) return ok.error();
-    return std::move(planned->result);
+    auto planned = TRY(plan_afferent(text, overrides_for(text, spec.set)));
+    TRY(check_all_used(planned.unused, std::array{std::string_view(text)}));
+    return std::move(planned.result);
 }
 
 /// The distributions of parameters that the key `spread` of a class defines.
 Result<std::vector<ParameterDistribution>> distributions_of(const ClassSpec& spec, const AfferentPlan& plan) {
     const auto& text = spec.afferent->text;
-    auto applied = distributions_for(plan, text, overrides_for(text, spec.spread));
-    if (!applied) return applied.error();
-    if (auto ok = check_all_used(applied->unused, std::array{std::string_view(text)}); !ok) return ok.error();
-    return std::move(applied->result);
+    auto applied = TRY(distributions_for(plan, text, overrides_for(text, spec.spread)));
+    TRY(check_all_used(applied.unused, std::array{std::string_view(text)}));
+    return std::move(applied.result);
 }
 
 /// True if `key` of a density table refers to a region: by its full name ("index.tip"), or by the part after a dot ("tip").
@@ -58,13 +56,12 @@ Result<std::vector<double>> densities_of(const ClassSpec& spec, const Sites& sit
     std::vector<double> out(sites.regions.size(), -1);  // -1: not given yet
     std::vector<char> exact(sites.regions.size(), 0);   // 1: given by a key with the region's full name
     for (const auto& s : spec.density) {
-        const auto value = density(s.value);
-        if (!value) return value.error();
+        const auto value = TRY(density(s.value));
         bool matched = false;
         for (std::size_t r = 0; r < out.size(); ++r) {
             if (!matches_region(s.name, sites.regions[r])) continue;
             matched = true;
-            if (const bool is_same = sites.regions[r] == s.name; is_same || !exact[r]) out[r] = *value, exact[r] = is_same;
+            if (const bool is_same = sites.regions[r] == s.name; is_same || !exact[r]) out[r] = value, exact[r] = is_same;
         }
         if (matched) continue;
         const std::vector<std::string_view> names(sites.regions.begin(), sites.regions.end());
@@ -89,13 +86,11 @@ Result<void> read_numbers(const ClassSpec& spec, const Sites& sites, const Numbe
                                      "[sites]. For sensors use per_site = 1",
                                      out.name),
                          spec.location);
-    const auto per_site = numbers.integer(spec.per_site, "per_site", 1, 1000, 0);
-    if (!per_site) return per_site.error();
-    out.per_site = static_cast<std::uint32_t>(*per_site);
+    const auto per_site = TRY(numbers.integer(spec.per_site, "per_site", 1, 1000, 0));
+    out.per_site = static_cast<std::uint32_t>(per_site);
     if (!has_density) return {};
-    auto density = densities_of(spec, sites, numbers);
-    if (!density) return density.error();
-    out.density = std::move(*density);
+    auto density = TRY(densities_of(spec, sites, numbers));
+    out.density = std::move(density);
     return {};
 }
 
@@ -111,14 +106,10 @@ Result<void> read_fields_and_velocity(const ClassSpec& spec, const NumberReader&
                                 {spec.hot_spot_spread, "hot_spot_spread", "m", 0, max_width, out.hot_spot_spread},
                                 {spec.velocity, "velocity", "m/s", min_velocity, max_velocity, out.velocity},
                                 {spec.velocity_spread, "velocity_spread", "m/s", 0, max_velocity, out.velocity_spread}};
-    for (const auto& setting : all) {
-        const auto value = numbers.number(setting.spec, setting.name, setting.unit, setting.low, setting.high, 0);
-        if (!value) return value.error();
-        setting.target = *value;
-    }
-    const auto spots = numbers.integer(spec.hot_spots, "hot_spots", 1, 100, 1);
-    if (!spots) return spots.error();
-    out.hot_spots = static_cast<std::uint32_t>(*spots);
+    for (const auto& setting : all)
+        setting.target = TRY(numbers.number(setting.spec, setting.name, setting.unit, setting.low, setting.high, 0));
+    const auto spots = TRY(numbers.integer(spec.hot_spots, "hot_spots", 1, 100, 1));
+    out.hot_spots = static_cast<std::uint32_t>(spots);
     if (out.hot_spots > 1 && !(out.sigma > 0 && out.hot_spot_spread > 0))
         return spec.hot_spots->error_here("several hot spots need a sigma and a hot_spot_spread");
     if (spec.velocity_spread && !spec.velocity) return spec.velocity_spread->error_here("velocity_spread needs a velocity");
@@ -127,19 +118,17 @@ Result<void> read_fields_and_velocity(const ClassSpec& spec, const NumberReader&
 
 Result<SkinClass> class_of(const ClassSpec& spec, const Sites& sites, const NumberReader& numbers) {
     SkinClass out;
-    auto plan = afferent_of(spec);
-    if (!plan) return plan.error();
-    out.name = spec.name ? spec.name->text : plan->name;
+    auto plan = TRY(afferent_of(spec));
+    out.name = spec.name ? spec.name->text : plan.name;
     if (out.name.empty() || out.name.find_first_of("# \t,\n\r\"") != std::string::npos)
         return (spec.name ? *spec.name : *spec.afferent)
             .error_here(fmt::format("'{}' is not a valid class name: it must not contain blanks, commas, # or quotes", out.name));
-    auto distributions = distributions_of(spec, *plan);
-    if (!distributions) return distributions.error();
-    plan->name = out.name;  // two classes may use the same afferent, but need different random streams and names in outputs
-    for (auto& d : *distributions) d.afferent = out.name;
-    out.afferent = std::move(*plan), out.distributions = std::move(*distributions), out.sources = read_sources(spec.source);
-    if (auto ok = read_numbers(spec, sites, numbers, out); !ok) return ok.error();
-    if (auto ok = read_fields_and_velocity(spec, numbers, out); !ok) return ok.error();
+    auto distributions = TRY(distributions_of(spec, plan));
+    plan.name = out.name;  // two classes may use the same afferent, but need different random streams and names in outputs
+    for (auto& d : distributions) d.afferent = out.name;
+    out.afferent = std::move(plan), out.distributions = std::move(distributions), out.sources = read_sources(spec.source);
+    TRY(read_numbers(spec, sites, numbers, out));
+    TRY(read_fields_and_velocity(spec, numbers, out));
     return out;
 }
 
@@ -155,11 +144,10 @@ Result<std::vector<SkinClass>> read_classes(const SkinSpec& spec, const Sites& s
     if (spec.classes.empty()) return bad_input("a skin needs afferents: [[class]]", {spec.file});
     std::vector<SkinClass> out;
     for (const auto& c : spec.classes) {
-        auto read = class_of(c, sites, numbers);
-        if (!read) return read.error();
-        if (std::any_of(out.begin(), out.end(), [&](const SkinClass& other) { return other.name == read->name; }))
-            return (c.name ? *c.name : *c.afferent).error_here(fmt::format("there are two classes '{}'; rename one of them", read->name));
-        out.push_back(std::move(*read));
+        auto read = TRY(class_of(c, sites, numbers));
+        if (std::any_of(out.begin(), out.end(), [&](const SkinClass& other) { return other.name == read.name; }))
+            return (c.name ? *c.name : *c.afferent).error_here(fmt::format("there are two classes '{}'; rename one of them", read.name));
+        out.push_back(std::move(read));
     }
     return out;
 }

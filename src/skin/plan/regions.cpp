@@ -119,21 +119,20 @@ std::pair<Position, Position> SkinShape::bounding_box() const {
 }
 
 Result<Sites> fill_regions(std::span<const SkinRegion> regions, double pitch) {
-    auto lattice = lattice_over(regions, pitch);
-    if (!lattice) return lattice.error();
+    auto lattice = TRY(lattice_over(regions, pitch));
     Sites out;
     out.area = pitch * pitch;
     std::int32_t number = 0;
     for (const auto& r : regions) {
         out.regions.push_back(r.name);
-        for (const auto& s : r.shapes) fill(*lattice, s, number);
+        for (const auto& s : r.shapes) fill(lattice, s, number);
         ++number;
     }
     std::vector<std::size_t> count(regions.size());
-    for (std::size_t k = 0; k < lattice->region.size(); ++k) {
-        if (lattice->region[k] < 0) continue;
-        const auto region = static_cast<std::size_t>(lattice->region[k]);
-        out.positions.push_back({lattice->x(k % lattice->columns), lattice->y(k / lattice->columns), 0});
+    for (std::size_t k = 0; k < lattice.region.size(); ++k) {
+        if (lattice.region[k] < 0) continue;
+        const auto region = static_cast<std::size_t>(lattice.region[k]);
+        out.positions.push_back({lattice.x(k % lattice.columns), lattice.y(k / lattice.columns), 0});
         out.region.push_back(static_cast<std::uint32_t>(region));
         out.names.push_back(fmt::format("{}.{}", regions[region].name, ++count[region]));
     }

@@ -63,10 +63,9 @@ class SiteMapReader {
     }
 
     Result<void> read_header() {
-        const auto more = next_row();
-        if (!more) return more.error();
+        const auto more = TRY(next_row());
         dialect_ = Dialect::detect(line_);
-        if (*more) dialect_.split(line_, fields_);
+        if (more) dialect_.split(line_, fields_);
         for (std::size_t f = 0; f < fields_.size(); ++f) {
             const auto word = lower(fields_[f]);
             if (word == "channel" || word == "sensor") channel_ = f;
@@ -101,13 +100,12 @@ public:
         : lines_(std::move(lines)), sites_(sites), index_(index_sites(sites)), taken_(sites.size()) {}
 
     Result<std::vector<std::uint32_t>> read() {
-        if (auto ok = read_header(); !ok) return ok.error();
+        TRY(read_header());
         for (;;) {
-            const auto more = next_row();
-            if (!more) return more.error();
-            if (!*more) break;
+            const auto more = TRY(next_row());
+            if (!more) break;
             dialect_.split(line_, fields_);
-            if (auto ok = add_row(); !ok) return ok.error();
+            TRY(add_row());
         }
         std::vector<std::uint32_t> out;
         for (const auto& site : map_) {
@@ -156,9 +154,8 @@ Result<std::optional<std::vector<std::uint32_t>>> find_sites_if_named(const Site
 Result<std::vector<std::uint32_t>> read_site_map(const std::string& path, const Sites& sites) {
     std::error_code status;
     if (!std::filesystem::is_regular_file(path, status)) return bad_input("cannot be read: there is no such file", {path});
-    auto lines = LineReader::open(path);
-    if (!lines) return lines.error();
-    return SiteMapReader(std::move(*lines), sites).read();
+    auto lines = TRY(LineReader::open(path));
+    return SiteMapReader(std::move(lines), sites).read();
 }
 
 }  // namespace corpuscle

@@ -41,9 +41,8 @@ class SiteTableReader {
     }
 
     Result<void> read_header() {
-        const auto more = next_line();
-        if (!more) return more.error();
-        if (!*more) return bad_input("no sites in this file", {lines_.path()});
+        const auto more = TRY(next_line());
+        if (!more) return bad_input("no sites in this file", {lines_.path()});
         dialect_ = Dialect::detect(line_);
         dialect_.split(line_, fields_);
         columns_ = fields_.size();
@@ -89,14 +88,13 @@ public:
     explicit SiteTableReader(LineReader lines) : lines_(std::move(lines)) {}
 
     Result<Sites> read() {
-        if (auto ok = read_header(); !ok) return ok.error();
+        TRY(read_header());
         Sites out;
         for (;;) {
-            const auto more = next_line();
-            if (!more) return more.error();
-            if (!*more) break;
+            const auto more = TRY(next_line());
+            if (!more) break;
             dialect_.split(line_, fields_);
-            if (auto ok = add_site(out); !ok) return ok.error();
+            TRY(add_site(out));
         }
         if (out.positions.empty()) return bad_input("no sites in this file", {lines_.path()});
         return out;
@@ -108,9 +106,8 @@ public:
 Result<Sites> read_site_table(const std::string& path) {
     std::error_code status;
     if (!std::filesystem::is_regular_file(path, status)) return bad_input("cannot be read: there is no such file", {path});
-    auto lines = LineReader::open(path);
-    if (!lines) return lines.error();
-    return SiteTableReader(std::move(*lines)).read();
+    auto lines = TRY(LineReader::open(path));
+    return SiteTableReader(std::move(lines)).read();
 }
 
 }  // namespace corpuscle

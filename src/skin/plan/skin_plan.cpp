@@ -29,9 +29,8 @@ Result<NumberReader> numbers_of(const SkinSpec& spec) {
 Result<Position> position_of(const PositionSpec& spec, std::string_view name, const NumberReader& numbers) {
     Position out;
     for (const auto k : {0U, 1U}) {
-        const auto value = numbers.number(spec[k], name, "m", -max_coordinate, max_coordinate);
-        if (!value) return value.error();
-        (k == 0 ? out.x : out.y) = *value;
+        const auto value = TRY(numbers.number(spec[k], name, "m", -max_coordinate, max_coordinate));
+        (k == 0 ? out.x : out.y) = value;
     }
     return out;
 }
@@ -45,11 +44,7 @@ Result<SkinShape> shape_of(const ShapeSpec& spec, const NumberReader& numbers) {
                                       : Kind::polygon,
                   {}};
     const bool has_centre_line = out.kind == Kind::strip || out.kind == Kind::capsule;
-    for (const auto& p : spec.points) {
-        const auto position = position_of(p, kind, numbers);
-        if (!position) return position.error();
-        out.points.push_back(*position);
-    }
+    for (const auto& p : spec.points) out.points.push_back(TRY(position_of(p, kind, numbers)));
     const auto error = [&](std::string_view why) { return spec.kind.error_here(fmt::format("a {} {}", kind, why)); };
     if (has_centre_line && out.points.size() != 2) return error("needs the two ends of its centre line: [[x, y], [x, y]]");
     if (out.kind == Kind::polygon && (out.points.size() < 3 || out.points.size() > 1000)) return error("needs 3 to 1000 corners");
@@ -59,15 +54,13 @@ Result<SkinShape> shape_of(const ShapeSpec& spec, const NumberReader& numbers) {
     if (out.kind == Kind::polygon) return spec.width.empty() ? Result<SkinShape>(out) : error("has no width");
     if (spec.width.empty() || spec.width.size() > (has_centre_line ? 2U : 1U))
         return error(has_centre_line ? "needs one width, or one for each end: width = [16, 14]" : "needs one width");
-    const auto width = numbers.number(spec.width.front(), "width", "m", min_pitch, max_coordinate);
-    if (!width) return width.error();
+    const auto width = TRY(numbers.number(spec.width.front(), "width", "m", min_pitch, max_coordinate));
     // The second width of a strip or capsule, or the height of an ellipse.
     const auto other =
         numbers.number(is_ellipse ? *spec.height : spec.width.back(), is_ellipse ? "height" : "width", "m", min_pitch, max_coordinate);
     if (!other) return other.error();
-    const auto angle = numbers.number(spec.angle, "angle (degrees)", "", -360, 360, 0);
-    if (!angle) return angle.error();
-    out.width = *width, out.end_width = *other, out.turns = *angle / 360;
+    const auto angle = TRY(numbers.number(spec.angle, "angle (degrees)", "", -360, 360, 0));
+    out.width = width, out.end_width = *other, out.turns = angle / 360;
     return out;
 }
 
@@ -79,11 +72,7 @@ Result<Sites> sites_of_regions(const SkinSpec& spec, double pitch, const NumberR
             if (other.name == r.name.text) return r.name.error_here(fmt::format("there are two regions '{}'", r.name.text));
         auto& region = regions.emplace_back(SkinRegion{r.name.text, {}});
         if (r.shapes.empty()) return r.name.error_here(fmt::format("region '{}' has no shape", r.name.text));
-        for (const auto& s : r.shapes) {
-            auto shape = shape_of(s, numbers);
-            if (!shape) return shape.error();
-            region.shapes.push_back(std::move(*shape));
-        }
+        for (const auto& s : r.shapes) region.shapes.push_back(TRY(shape_of(s, numbers)));
     }
     auto sites = fill_regions(regions, pitch);
     if (!sites) return bad_input(sites.error().message, spec.sites->location);  // only called if the file has [sites]
@@ -95,11 +84,10 @@ Result<Sites> sites_of_list(const SitesSpec& spec, const NumberReader& numbers) 
     std::set<std::string_view> names;
     if (spec.list.empty()) return bad_input("list = []: a skin needs sites", spec.location);
     for (const auto& s : spec.list) {
-        const auto position = position_of({s.x, s.y}, s.name.text, numbers);
-        if (!position) return position.error();
+        const auto position = TRY(position_of({s.x, s.y}, s.name.text, numbers));
         if (s.name.text.empty() || !names.insert(s.name.text).second)
             return s.name.error_here(s.name.text.empty() ? "a site needs a name" : fmt::format("there are two sites '{}'", s.name.text));
-        out.positions.push_back(*position), out.names.push_back(s.name.text);
+        out.positions.push_back(position), out.names.push_back(s.name.text);
         const std::string region = s.region ? s.region->text : "skin";
         const auto found = std::find(out.regions.begin(), out.regions.end(), region);
         out.region.push_back(static_cast<std::uint32_t>(found - out.regions.begin()));
@@ -109,12 +97,10 @@ Result<Sites> sites_of_list(const SitesSpec& spec, const NumberReader& numbers) 
 }
 
 Result<Sites> sites_of_grid(const SitesSpec& spec, double pitch, const NumberReader& numbers) {
-    const auto rows = numbers.integer(spec.rows, "rows", 1, max_sites, 0),
-               columns = numbers.integer(spec.columns, "columns", 1, max_sites, 0);
-    if (!rows) return rows.error();
-    if (!columns) return columns.error();
-    if (*rows == 0 || *columns == 0) return bad_input("a grid needs rows and columns", spec.location);
-    auto grid = grid_sites(*rows, *columns, pitch);
+    const auto rows = TRY(numbers.integer(spec.rows, "rows", 1, max_sites, 0));
+    const auto columns = TRY(numbers.integer(spec.columns, "columns", 1, max_sites, 0));
+    if (rows == 0 || columns == 0) return bad_input("a grid needs rows and columns", spec.location);
+    auto grid = grid_sites(rows, columns, pitch);
     if (!grid) return bad_input(grid.error().message, spec.location);
     return grid;
 }
@@ -138,9 +124,8 @@ Result<Sites> requested_sites(const SkinSpec& spec, std::span<const Channel> cha
     if (s.file) return read_site_table((std::filesystem::path(spec.file).parent_path() / s.file->text).string());
     if (is_list) return sites_of_list(s, numbers);
     if (!s.pitch) return bad_input("pitch is missing: pitch = \"2 mm\"", s.location);
-    const auto pitch = numbers.number(*s.pitch, "pitch", "m", min_pitch, max_pitch);
-    if (!pitch) return pitch.error();
-    return is_grid ? sites_of_grid(s, *pitch, numbers) : sites_of_regions(spec, *pitch, numbers);
+    const auto pitch = TRY(numbers.number(*s.pitch, "pitch", "m", min_pitch, max_pitch));
+    return is_grid ? sites_of_grid(s, pitch, numbers) : sites_of_regions(spec, pitch, numbers);
 }
 
 /// The sites of a population file.
@@ -149,36 +134,29 @@ Result<Sites> sites_of(const SkinSpec& spec, std::span<const Channel> channels, 
     auto sites = requested_sites(spec, channels, numbers);
     if (!sites || !spec.sites->area) return sites;
     if (!spec.regions.empty()) return spec.sites->area->error_here("each site of a region represents pitch squared; remove area");
-    const auto area = numbers.number(*spec.sites->area, "area", "m2", 1e-10, 1);
-    if (!area) return area.error();
-    sites->area = *area;
+    const auto area = TRY(numbers.number(*spec.sites->area, "area", "m2", 1e-10, 1));
+    sites->area = area;
     return sites;
 }
 
 Result<SkinPlan> plan_of(const SkinSpec& spec, std::span<const Channel> channels) {
-    const auto numbers = numbers_of(spec);
-    if (!numbers) return numbers.error();
+    const auto numbers = TRY(numbers_of(spec));
     SkinPlan plan;
     plan.name = std::filesystem::path(spec.file).stem().string(), plan.description = spec.title ? spec.title->text : "";
-    auto sites = sites_of(spec, channels, *numbers);
-    if (!sites) return sites.error();
-    plan.sites = std::move(*sites);
-    const auto seed = numbers->integer(spec.seed, "seed", 0, UINT64_MAX, 1);
-    if (!seed) return seed.error();
-    plan.seed = *seed;
-    const auto felt_area = numbers->number(spec.felt_area, "felt_area", "m2", 1e-10, 1, 0);
-    if (!felt_area) return felt_area.error();
+    auto sites = TRY(sites_of(spec, channels, numbers));
+    plan.sites = std::move(sites);
+    const auto seed = TRY(numbers.integer(spec.seed, "seed", 0, UINT64_MAX, 1));
+    plan.seed = seed;
+    const auto felt_area = TRY(numbers.number(spec.felt_area, "felt_area", "m2", 1e-10, 1, 0));
     if (spec.felt_area && !(plan.sites.area > 0))
         return spec.felt_area->error_here("felt_area needs sites that represent an area of skin: regions, or area = \"4 mm2\" in [sites]");
-    plan.felt_area = *felt_area;
+    plan.felt_area = felt_area;
     if (!spec.nerve.empty()) {
-        const auto nerve = position_of(spec.nerve, "nerve", *numbers);
-        if (!nerve) return nerve.error();
-        plan.nerve = *nerve;
+        const auto nerve = TRY(position_of(spec.nerve, "nerve", numbers));
+        plan.nerve = nerve;
     }
-    auto classes = read_classes(spec, plan.sites, *numbers);
-    if (!classes) return classes.error();
-    plan.classes = std::move(*classes);
+    auto classes = TRY(read_classes(spec, plan.sites, numbers));
+    plan.classes = std::move(classes);
     plan.sources = read_sources(spec.source);
     return plan;
 }
@@ -187,9 +165,8 @@ Result<SkinPlan> plan_of(const SkinSpec& spec, std::span<const Channel> channels
 }  // namespace skins
 
 Result<SkinPlan> parse_skin_plan(std::string_view text, const std::string& file, std::span<const Channel> channels) {
-    const auto spec = skins::parse_skin_spec(text, file);
-    if (!spec) return spec.error();
-    return skins::plan_of(*spec, channels);
+    const auto spec = TRY(skins::parse_skin_spec(text, file));
+    return skins::plan_of(spec, channels);
 }
 
 }  // namespace corpuscle

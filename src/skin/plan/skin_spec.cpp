@@ -153,10 +153,9 @@ SkinSpec skin_from(const toml::table& top, SkinReading& reading) {
 }  // namespace
 
 Result<SkinSpec> parse_skin_spec(std::string_view text, const std::string& file) {
-    const auto top = parse_toml(text, file);
-    if (!top) return top.error();
+    const auto top = TRY(parse_toml(text, file));
     SkinReading reading(file);
-    auto out = skin_from(*top, reading);
+    auto out = skin_from(top, reading);
     if (reading.first_error) return *reading.first_error;
     out.file = file;
     return out;

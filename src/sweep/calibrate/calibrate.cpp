@@ -52,12 +52,10 @@ class ChipPresser {
         for (std::size_t k = 0; k < trim_values.size(); ++k)
             for (const auto& name : options_.trims[k].names)
                 overrides.push_back({options_.netlist, name, fmt::format("{:.17g}", trim_values[k]), name});
-        const auto netlist = circuit::apply_overrides(options_.netlist, overrides);
-        if (!netlist) return netlist.error();
-        if (auto ok = check_all_used(netlist->unused, std::array{std::string_view(options_.netlist)}); !ok) return ok.error();
-        auto factory = CircuitAfferentFactory::create(netlist->result);
-        if (!factory) return factory.error();
-        return designs_.emplace(trim_values, *factory).first->second;
+        const auto netlist = TRY(circuit::apply_overrides(options_.netlist, overrides));
+        TRY(check_all_used(netlist.unused, std::array{std::string_view(options_.netlist)}));
+        auto factory = TRY(CircuitAfferentFactory::create(netlist.result));
+        return designs_.emplace(trim_values, factory).first->second;
     }
     /// Sets the results of a press.
     void evaluate(ChipPress& p, ChipResponse&& response) const {
@@ -81,11 +79,7 @@ public:
     Result<void> press(std::vector<ChipPress>& all) {
         if (all.empty()) return {};
         std::vector<std::shared_ptr<const CircuitAfferentFactory>> designs;
-        for (const auto& p : all) {
-            auto factory = design(p.codes);
-            if (!factory) return factory.error();
-            designs.push_back(std::move(*factory));
-        }
+        for (const auto& p : all) designs.push_back(TRY(design(p.codes)));
         std::mutex mutex;
         std::size_t next = 0;
         std::optional<Error> failed;
@@ -210,10 +204,9 @@ double Trim::value(int code, int bits) const {
 
 Result<Trim> trim_of(const std::string& netlist, const std::vector<ParameterOverride>& overrides, std::vector<std::string> names,
                      double range, bool is_integer) {
-    const auto read = circuit::apply_overrides(netlist, overrides);
-    if (!read) return read.error();
-    if (auto ok = check_all_used(read->unused, std::array{std::string_view(netlist)}); !ok) return ok.error();
-    const auto circuit = read->result.elaborate();
+    const auto read = TRY(circuit::apply_overrides(netlist, overrides));
+    TRY(check_all_used(read.unused, std::array{std::string_view(netlist)}));
+    const auto circuit = read.result.elaborate();
     if (!circuit) return circuit.error();
     const auto full_name = lower(names.at(0));
     if (const auto p = circuit->parameters.find(full_name); p != circuit->parameters.end())
@@ -246,7 +239,7 @@ Result<std::vector<CalibratedChip>> calibrate(const ChipCalibration& options, co
             if (!s.is_finished())
                 for (auto& p : s.next_presses()) all.push_back(std::move(p));
         if (all.empty()) break;
-        if (auto done = presser.press(all); !done) return done.error();
+        TRY(presser.press(all));
         presses += all.size();
         for (std::size_t from = 0, to = 0; from < all.size(); from = to) {  // the presses of a chip follow one another
             while (to < all.size() && all[to].chip == all[from].chip) ++to;

@@ -150,12 +150,12 @@ class Coordinator {
             auto outcomes = pool_.collect(0);
             throughput_.add_finished(outcomes.size(), now_);
             for (auto& o : outcomes) accept(std::move(o));
-            if (auto ok = write(); !ok) return ok;
+            TRY(write());
             if (auto ok = pool_.sweep_error(); !ok && fault_) fault_ = ok;
             if (!fault_) break;
             if (!stopped_ && run_.should_stop()) stopped_ = true, stopped_at_ = now_, pool_.stop();
         }
-        if (auto ok = results_.add(sweep_, std::exchange(pending_, {})); !ok) return ok;
+        TRY(results_.add(sweep_, std::exchange(pending_, {})));
         if (!fault_) return fault_;
         if (stopped_) return Error{ErrorCode::interrupted, "interrupted"};
         return {};

@@ -81,28 +81,24 @@ class AxisReader {
         if (!spec_.from || !spec_.to)
             return error_at_axis(fmt::format("{} is missing; how = \"{}\" needs {}", spec_.from ? "to" : "from", method_,
                                              method_ == "grid" ? "from, to and count, or a list" : "from and to"));
-        const auto from = allowed_number(*spec_.from), to = allowed_number(*spec_.to);
-        if (!from) return from.error();
-        if (!to) return to.error();
-        const auto logarithmic = is_logarithmic();
-        if (!logarithmic) return logarithmic.error();
-        if (*logarithmic && !(*from > 0 && *to > 0)) return error_at(*spec_.log, "log = true needs values above 0");
-        axis.first = *from, axis.second = *to, axis.is_logarithmic = *logarithmic;
+        const double from = TRY(allowed_number(*spec_.from)), to = TRY(allowed_number(*spec_.to));
+        const auto logarithmic = TRY(is_logarithmic());
+        if (logarithmic && !(from > 0 && to > 0)) return error_at(*spec_.log, "log = true needs values above 0");
+        axis.first = from, axis.second = to, axis.is_logarithmic = logarithmic;
         return {};
     }
 
     Result<void> grid(SweepAxis& axis) const {
-        if (auto ok = accept_only({"from", "to", "count", "log"}); !ok) return ok;
-        if (auto ok = range(axis); !ok) return ok;
+        TRY(accept_only({"from", "to", "count", "log"}));
+        TRY(range(axis));
         if (!spec_.count)
             return error_at_axis("count is missing: the number of values between from and to (or how = \"uniform\" for random values)");
-        const auto count = parse_integer(*spec_.count, name() + ": count", 1, max_values);
-        if (!count) return count.error();
-        if (*count == 1 && axis.first != axis.second) return error_at(*spec_.count, "count must be 2 or more, because from and to differ");
-        for (std::int64_t k = 0; k < *count; ++k) {
-            const double fraction = *count == 1 ? 0 : static_cast<double>(k) / static_cast<double>(*count - 1);
+        const auto count = TRY(parse_integer(*spec_.count, name() + ": count", 1, max_values));
+        if (count == 1 && axis.first != axis.second) return error_at(*spec_.count, "count must be 2 or more, because from and to differ");
+        for (std::int64_t k = 0; k < count; ++k) {
+            const double fraction = count == 1 ? 0 : static_cast<double>(k) / static_cast<double>(count - 1);
             axis.values.push_back(k == 0                ? axis.first
-                                  : k == *count - 1     ? axis.second
+                                  : k == count - 1      ? axis.second
                                   : axis.is_logarithmic ? axis.first * num::exp(fraction * num::log(axis.second / axis.first))
                                                         : axis.first + fraction * (axis.second - axis.first));
         }
@@ -121,16 +117,12 @@ class AxisReader {
     }
 
     Result<void> list(SweepAxis& axis) const {
-        if (auto ok = accept_only({"list"}); !ok) return ok;
+        TRY(accept_only({"list"}));
         if (!spec_.list || spec_.list->empty()) return error_at_axis("the list is empty: list = [...]");
         const auto is_label = [&](const LocatedText& s) { return !quantity_.parse(s); };
         if (quantity_.labels_only || (quantity_.allows_labels && std::any_of(spec_.list->begin(), spec_.list->end(), is_label)))
             return labels(axis);
-        for (const auto& one : *spec_.list) {
-            const auto value = allowed_number(one);
-            if (!value) return value.error();
-            axis.values.push_back(*value);
-        }
+        for (const auto& one : *spec_.list) axis.values.push_back(TRY(allowed_number(one)));
         return {};
     }
 
@@ -146,25 +138,21 @@ class AxisReader {
     }
 
     Result<void> normal(SweepAxis& axis) const {
-        if (auto ok = accept_only({"mean", "sigma", "at_least", "at_most"}); !ok) return ok;
+        TRY(accept_only({"mean", "sigma", "at_least", "at_most"}));
         if (!spec_.sigma) return error_at_axis("sigma is missing: a standard deviation, or a percentage of the mean such as \"5%\"");
         if (!spec_.mean && !quantity_.nominal) return error_at_axis("mean is missing");
-        const auto mean = spec_.mean ? allowed_number(*spec_.mean) : *quantity_.nominal;
-        if (!mean) return mean.error();
-        const auto deviation = sigma(*mean);
-        if (!deviation) return deviation.error();
-        axis.is_normal = true, axis.first = *mean, axis.second = *deviation;
+        const auto mean = TRY(spec_.mean ? allowed_number(*spec_.mean) : *quantity_.nominal);
+        const auto deviation = TRY(sigma(mean));
+        axis.is_normal = true, axis.first = mean, axis.second = deviation;
         double low = quantity_.min, high = quantity_.max;  // range in which the normal distribution is truncated
         for (const auto& [given, end] : {std::pair{&spec_.min, &low}, {&spec_.max, &high}}) {
             if (!*given) continue;
-            const auto value = allowed_number(**given);
-            if (!value) return value.error();
-            *end = *value;
+            *end = TRY(allowed_number(**given));
         }
-        if (!(*mean >= low && *mean <= high)) return error_at_axis("the mean is not between at_least and at_most");
-        if (*deviation == 0) return {};  // all samples are the mean
-        if (std::isfinite(low)) axis.min_probability = normal_probability((low - *mean) / *deviation);
-        if (std::isfinite(high)) axis.max_probability = normal_probability((high - *mean) / *deviation);
+        if (!(mean >= low && mean <= high)) return error_at_axis("the mean is not between at_least and at_most");
+        if (deviation == 0) return {};  // all samples are the mean
+        if (std::isfinite(low)) axis.min_probability = normal_probability((low - mean) / deviation);
+        if (std::isfinite(high)) axis.max_probability = normal_probability((high - mean) / deviation);
         return {};
     }
 
@@ -172,9 +160,8 @@ class AxisReader {
     Result<void> sampled(SweepAxis& axis, SamplingSpec& sampling_spec) const {
         const auto sampling = method_ == "latin" ? Sampling::latin : method_ == "sobol" ? Sampling::sobol : Sampling::random;
         const bool as_normal = method_ == "normal" || (method_ != "uniform" && (spec_.mean || spec_.sigma));
-        if (!as_normal)
-            if (auto ok = accept_only({"from", "to", "log"}); !ok) return ok;
-        if (auto ok = as_normal ? normal(axis) : range(axis); !ok) return ok;
+        if (!as_normal) TRY(accept_only({"from", "to", "log"}));
+        TRY(as_normal ? normal(axis) : range(axis));
         if (sampling == Sampling::sobol && sampling_spec.dimension == sobol_dimensions)
             return error_at(*spec_.distribution, fmt::format("Sobol points are available for at most {} axes", sobol_dimensions));
         axis.numbers.emplace(sampling, sampling_spec.seed, axis.column.name, sampling == Sampling::sobol ? sampling_spec.dimension++ : 0,

@@ -57,16 +57,15 @@ Result<std::unique_ptr<Sweep>> read_sweep(const std::string& path, const SweepOv
     const fs::path file = path;
     const auto folder = file.parent_path().string();
     const bool is_netlist = file.extension() != ".toml";
-    auto spec = is_netlist ? Result<SweepText>(text_of_netlist(file)) : text_at(file);
-    if (!spec) return spec.error();
-    replace_setting(spec->seed, "seed", text_of(overrides.seed), *spec);
-    replace_setting(spec->samples, "samples", text_of(overrides.samples), *spec);
-    auto sweep = make_sweep(*spec, folder);
+    auto spec = TRY(is_netlist ? Result<SweepText>(text_of_netlist(file)) : text_at(file));
+    replace_setting(spec.seed, "seed", text_of(overrides.seed), spec);
+    replace_setting(spec.samples, "samples", text_of(overrides.samples), spec);
+    auto sweep = make_sweep(spec, folder);
     if (sweep) return sweep;
     auto error = sweep.error();  // in it, netlists and the files they include have paths relative to the folder of the sweep file
     std::error_code status;
     if (const auto full_path = file.parent_path() / error.location.file;
-        !error.location.file.empty() && error.location.file != spec->file && fs::exists(full_path, status))
+        !error.location.file.empty() && error.location.file != spec.file && fs::exists(full_path, status))
         error.location.file = full_path.string();
     if (error.location.file.empty()) error.location.file = path;
     return error;

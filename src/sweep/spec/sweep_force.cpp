@@ -23,7 +23,7 @@ Result<std::shared_ptr<const SweepForce>> read_force(ForceSource& source) {
     force->phases = source.phases(), force->cycle_frequency = source.cycle_frequency();
     Frames frames(source.channels().size(), 4096);
     for (;;) {
-        if (auto ok = source.read(frames); !ok) return ok.error();
+        TRY(source.read(frames));
         if (frames.count == 0) break;
         force->samples.insert(force->samples.end(), frames.force[0].begin(),
                               frames.force[0].begin() + static_cast<std::ptrdiff_t>(frames.count));
@@ -55,9 +55,8 @@ struct ForceFactory::Cache {
 Result<ForceFactory> ForceFactory::of(const SweepText& spec, const std::string& folder, std::uint64_t seed) {
     ForceFactory out;
     out.text_ = spec.force ? spec.force->text : "press", out.seed_ = seed, out.cache_ = std::make_shared<Cache>();
-    const auto rate = number_of(spec.rate, "Hz", 10e3);
-    if (!rate) return rate.error();
-    out.rate_ = *rate;
+    const auto rate = TRY(number_of(spec.rate, "Hz", 10e3));
+    out.rate_ = rate;
     out.is_recording_ = !is_stimulus(out.text_);
     if (!out.is_recording_) {
         for (const auto& [name, value] : {std::pair{"channel", &spec.channel}, {"unit", &spec.unit}, {"scale", &spec.scale}})
@@ -73,21 +72,17 @@ Result<ForceFactory> ForceFactory::of(const SweepText& spec, const std::string& 
     }
     RecordingOptions options;
     if (spec.channel) options.channels = {spec.channel->text};
-    if (spec.rate) options.rate = *rate;
+    if (spec.rate) options.rate = rate;
     if (spec.unit) options.unit = spec.unit->text;
-    const auto scale = number_of(spec.scale, "", 1);
-    if (!scale) return scale.error();
-    if (spec.scale) options.scale = *scale;
-    auto source = open_recording(path, options);
-    if (!source) return source.error();
-    if ((*source)->channels().size() > 1) {
+    const auto scale = TRY(number_of(spec.scale, "", 1));
+    if (spec.scale) options.scale = scale;
+    auto source = TRY(open_recording(path, options));
+    if (source->channels().size() > 1) {
         std::vector<std::string_view> names;
-        for (const auto& c : (*source)->channels()) names.push_back(c.name);
+        for (const auto& c : source->channels()) names.push_back(c.name);
         return spec.force->error_here(fmt::format("{} has {} channels; select one: channel = \"{}\"", out.text_, names.size(), names[0]));
     }
-    auto force = read_force(**source);
-    if (!force) return force.error();
-    out.nominal_ = std::move(*force);
+    out.nominal_ = TRY(read_force(*source));
     return out;
 }
 
@@ -118,8 +113,7 @@ Result<VariedQuantity> ForceFactory::find_quantity(const LocatedText& quantity) 
 Result<void> ForceFactory::set(const LocatedSetting& setting) {
     auto given = located_override(setting, text_);
     for (const auto& stimulus : stimulus_catalog())
-        if (stimulus.name == given.target)
-            if (const auto ok = setting_of(given, stimulus.parameters); !ok) return ok.error();
+        if (stimulus.name == given.target) TRY(setting_of(given, stimulus.parameters));
     overrides_.push_back(std::move(given));
     fixed_count_ = overrides_.size();  // vary() comes after all calls of set()
     return {};
@@ -136,15 +130,12 @@ Result<std::shared_ptr<const SweepForce>> ForceFactory::make(std::span<const dou
     auto overrides = overrides_;
     overrides.resize(fixed_count_ + varied_values.size());
     for (std::size_t k = 0; k < varied_values.size(); ++k) overrides[fixed_count_ + k].value = fmt::format("{}", varied_values[k]);
-    const auto source = make_stimulus(text_, overrides, rate_, seed_);
-    if (!source) return source.error();
-    return read_force(*source->result);
+    const auto source = TRY(make_stimulus(text_, overrides, rate_, seed_));
+    return read_force(*source.result);
 }
 
 Result<void> ForceFactory::prepare() {
-    auto force = make({});
-    if (!force) return force.error();
-    nominal_ = std::move(*force);
+    nominal_ = TRY(make({}));
     return {};
 }
 

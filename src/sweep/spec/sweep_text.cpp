@@ -106,12 +106,11 @@ std::string canonical_text(toml::table top) {
 }  // namespace
 
 Result<SweepText> read_sweep_text(std::string_view text, const std::string& file) {
-    const auto top = parse_toml(text, file);
-    if (!top) return top.error();
+    const auto top = TRY(parse_toml(text, file));
     SweepFileReader reader(file);
-    auto out = text_from(*top, reader);
+    auto out = text_from(top, reader);
     if (reader.first_error) return *reader.first_error;
-    out.file = file, out.canonical = canonical_text(*top);
+    out.file = file, out.canonical = canonical_text(top);
     return out;
 }
 

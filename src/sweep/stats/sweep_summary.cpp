@@ -263,13 +263,12 @@ std::vector<Dependence> effects_on_all(const SweepTable& table, const std::vecto
 
 Result<SweepSummary> summary_of(const SweepTable& table, const std::optional<MismatchSamples>& mismatch,
                                 const SweepSummaryOptions& options) {
-    const auto groups = group_rows(table, options.axes);
-    if (!groups) return groups.error();
+    const auto groups = TRY(group_rows(table, options.axes));
     SweepSummary out;
-    out.options = options, out.axes = groups->axes, out.mismatch = mismatch;
+    out.options = options, out.axes = groups.axes, out.mismatch = mismatch;
     std::vector<char> passed(table.rows());
     for (std::size_t r = 0; r < passed.size(); ++r) passed[r] = table.passes(r);
-    for (const auto& g : groups->groups) {
+    for (const auto& g : groups.groups) {
         auto& point = out.points.emplace_back(point_summary(table, g, passed));
         out.all.done += point.done, out.all.iteration_limit += point.iteration_limit, out.all.diverged += point.diverged,
             out.all.passed += point.passed;
@@ -277,7 +276,7 @@ Result<SweepSummary> summary_of(const SweepTable& table, const std::optional<Mis
     }
     finish_point(out.all, table.measures.size());
     ThreadPool pool(table.rows() > 100000 ? 0 : 1);
-    pool.for_each(table.measures.size(), [&](std::size_t m, unsigned) { put_measure(out, table, *groups, m); });
+    pool.for_each(table.measures.size(), [&](std::size_t m, unsigned) { put_measure(out, table, groups, m); });
     if (!table.is_grid) {
         out.dependences = dependences_of(table, mismatch, passed, out.analysed_chips);
         return out;

@@ -56,20 +56,18 @@ struct ReadPart {
 /// Reads the rows of items [from, to). `columns_sql`: names of the columns, separated by commas; `columns`: their number.
 Result<ReadPart> read_part(const SweepResults& results, const std::string& columns_sql, std::size_t columns, std::int64_t from,
                            std::int64_t to) {
-    auto rows = sql::Statement::make(
+    auto rows = TRY(sql::Statement::make(
         results.handle(), results.path(),
-        fmt::format("SELECT item, ended, {} FROM items WHERE item >= {} AND item < {} ORDER BY item", columns_sql, from, to));
-    if (!rows) return rows.error();
+        fmt::format("SELECT item, ended, {} FROM items WHERE item >= {} AND item < {} ORDER BY item", columns_sql, from, to)));
     ReadPart out;
     out.columns.resize(columns);
     for (;;) {
-        const auto more = rows->step();
-        if (!more) return more.error();
-        if (!*more) return out;
-        out.items.push_back(rows->integer(0));
-        const auto ended = rows->text(1);
+        const auto more = TRY(rows.step());
+        if (!more) return out;
+        out.items.push_back(rows.integer(0));
+        const auto ended = rows.text(1);
         out.end.push_back(ended == "done" ? ItemEnd::done : ended == "truncated" ? ItemEnd::iteration_limit : ItemEnd::diverged);
-        for (std::size_t k = 0; k < columns; ++k) out.columns[k].push_back(rows->number(static_cast<int>(k) + 2));
+        for (std::size_t k = 0; k < columns; ++k) out.columns[k].push_back(rows.number(static_cast<int>(k) + 2));
     }
 }
 
@@ -117,13 +115,12 @@ bool SweepTable::passes(std::size_t row) const {
 }
 
 Result<SweepTable> read_table(const SweepResults& results, const std::vector<std::string>& measure_names) {
-    const auto wanted = find_measures(results, measure_names);
-    if (!wanted) return wanted.error();
+    const auto wanted = TRY(find_measures(results, measure_names));
     SweepTable out;
     out.item_count = results.item_count(), out.axes = results.axes();
     std::vector<std::string> columns_sql;
     for (std::size_t k = 0; k < results.axes().size(); ++k) columns_sql.push_back(sql::quoted_name(results.stored_column_names()[k]));
-    for (const auto m : *wanted)
+    for (const auto m : wanted)
         columns_sql.push_back(sql::quoted_name(results.stored_column_names()[results.axes().size() + m])),
             out.measures.push_back(results.measures()[m]);
     const auto has_iterations =
@@ -133,13 +130,12 @@ Result<SweepTable> read_table(const SweepResults& results, const std::vector<std
         columns_sql.emplace_back("iterations");
         out.measures.push_back({"iterations", "", "Newton iterations of the circuit"});
     }
-    auto parts = read_parts(results, fmt::format("{}", fmt::join(columns_sql, ", ")), columns_sql.size());
-    if (!parts) return parts.error();
+    auto parts = TRY(read_parts(results, fmt::format("{}", fmt::join(columns_sql, ", ")), columns_sql.size()));
     out.axis_values.resize(out.axes.size()), out.measure_values.resize(out.measures.size());
     const auto append = [](auto& all, auto& part) {
         all.empty() ? void(all = std::move(part)) : void(all.insert(all.end(), part.begin(), part.end()));
     };
-    for (auto& part : *parts) {
+    for (auto& part : parts) {
         append(out.items, part.items), append(out.ends, part.end);
         for (std::size_t k = 0; k < columns_sql.size(); ++k) {
             append(k < out.axes.size() ? out.axis_values[k] : out.measure_values[k - out.axes.size()], part.columns[k]);
@@ -154,15 +150,14 @@ Result<SweepTable> read_table(const SweepResults& results, const std::vector<std
 }
 
 Result<std::vector<FailedItem>> failed_items(const SweepResults& results, std::size_t limit) {
-    auto rows = sql::Statement::make(results.handle(), results.path(),
-                                     fmt::format("SELECT item, ended, why FROM items WHERE ended <> 'done' ORDER BY item LIMIT {}", limit));
-    if (!rows) return rows.error();
+    auto rows =
+        TRY(sql::Statement::make(results.handle(), results.path(),
+                                 fmt::format("SELECT item, ended, why FROM items WHERE ended <> 'done' ORDER BY item LIMIT {}", limit)));
     std::vector<FailedItem> out;
     for (;;) {
-        const auto more = rows->step();
-        if (!more) return more.error();
-        if (!*more) return out;
-        out.push_back({rows->integer(0), rows->text(2).empty() ? rows->text(1) : rows->text(2)});
+        const auto more = TRY(rows.step());
+        if (!more) return out;
+        out.push_back({rows.integer(0), rows.text(2).empty() ? rows.text(1) : rows.text(2)});
     }
 }
 

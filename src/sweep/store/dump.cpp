@@ -32,25 +32,20 @@ class BlobReader {
     bool has_row_ = false;  // false: all rows are read
 
     Result<void> advance() {
-        const auto more = rows_.step();
-        if (!more) return more.error();
-        has_row_ = *more;
+        has_row_ = TRY(rows_.step());
         return {};
     }
 
 public:
     /// Starts a query whose columns are item, index of the train or probe, and blob, sorted by the first two.
     Result<void> begin(const SweepResults& results, const std::string& query) {
-        auto statement = sql::Statement::make(results.handle(), results.path(), query);
-        if (!statement) return statement.error();
-        rows_ = std::move(*statement);
+        rows_ = TRY(sql::Statement::make(results.handle(), results.path(), query));
         return advance();
     }
 
     /// Appends the blobs of an item to the text as `columns` fields; a train or probe without a blob gives an empty field.
     Result<void> append(std::int64_t item, std::size_t columns, std::string& text) {
-        while (has_row_ && rows_.integer(0) < item)
-            if (auto ok = advance(); !ok) return ok;
+        while (has_row_ && rows_.integer(0) < item) TRY(advance());
         for (std::size_t k = 0; k < columns; ++k) {
             text += ",";
             if (!has_row_ || rows_.integer(0) != item || rows_.integer(1) != static_cast<std::int64_t>(k)) continue;
@@ -60,7 +55,7 @@ public:
                 std::memcpy(&x, bytes.data() + at, sizeof x);
                 fmt::format_to(std::back_inserter(text), "{}{}", at ? " " : "", x);
             }
-            if (auto ok = advance(); !ok) return ok;
+            TRY(advance());
         }
         return {};
     }
@@ -79,7 +74,7 @@ std::string header_line(const SweepResults& results) {
 Result<void> dump_results(const SweepResults& results, const std::function<bool(const std::string&)>& put) {
     BlobReader<double> spikes;
     BlobReader<float> probes;
-    if (auto ok = sql::run(results.handle(), results.path(), "BEGIN"); !ok) return ok;  // one consistent state, also during a run
+    TRY(sql::run(results.handle(), results.path(), "BEGIN"));  // one consistent state, also during a run
     auto ok = spikes.begin(results, "SELECT item, train, times FROM spikes ORDER BY item, train");
     if (ok) ok = probes.begin(results, "SELECT item, trace, samples FROM traces ORDER BY item, trace");
     bool should_continue = ok && put(header_line(results));

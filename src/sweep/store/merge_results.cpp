@@ -49,18 +49,16 @@ std::string select_differing(const ResultsLayout& layout) {
 
 /// Returns an error if an item has different results in the two files. `path`, `from`: paths of `main` and `source`.
 Result<void> check_differences(sqlite3* file, const ResultsLayout& layout, const std::string& path, const std::string& from) {
-    auto rows = sql::Statement::make(file, path, select_differing(layout));
-    if (!rows) return rows.error();
+    auto rows = TRY(sql::Statement::make(file, path, select_differing(layout)));
     std::string listed;
     for (int k = 0;; ++k) {
-        const auto more = rows->step();
-        if (!more) return more.error();
-        if (!*more) break;
+        const auto more = TRY(rows.step());
+        if (!more) break;
         if (k == max_listed) {
             listed += " ...";
             break;
         }
-        listed += fmt::format("{}{}", listed.empty() ? "" : ", ", rows->integer(0));
+        listed += fmt::format("{}{}", listed.empty() ? "" : ", ", rows.integer(0));
     }
     if (listed.empty()) return {};
     return bad_input(
@@ -82,14 +80,13 @@ Result<void> SweepResults::check_same_sweep(const SweepResults& other) const {
 
 Result<std::int64_t> SweepResults::merge(const SweepResults& from) {
     auto& impl = *impl_;
-    if (auto same = from.check_same_sweep(*this); !same) return same.error();
+    TRY(from.check_same_sweep(*this));
     std::error_code status;
     if (std::filesystem::equivalent(path(), from.path(), status)) return bad_input("is also the file to merge into", {from.path()});
-    if (auto ok = impl.begin_writing(); !ok) return ok.error();
+    TRY(impl.begin_writing());
     auto* file = impl.file.get();
-    auto attach = sql::Statement::make(file, path(), "ATTACH ? AS source");
-    if (!attach) return attach.error();
-    if (auto ok = attach->set(1, std::string_view(from.path())).finish(); !ok)
+    auto attach = TRY(sql::Statement::make(file, path(), "ATTACH ? AS source"));
+    if (auto ok = attach.set(1, std::string_view(from.path())).finish(); !ok)
         return Error{ok.error().code, ok.error().message, {from.path()}};
     const auto before = impl.finished;
     auto ok = check_differences(file, impl.layout, path(), from.path());

@@ -80,12 +80,11 @@ Result<void> copy_pages(sqlite3* from, sqlite3* to, const std::string& path) {
 Result<void> SweepResults::Impl::create_file() const {
     // A -wal that remains of a removed file must not be applied to this file.
     ::unlink(wal_path().c_str()), ::unlink(shared_memory_path().c_str());
-    if (auto ok = create_empty(checkpoint_path()); !ok) return ok;
-    auto database = sql::open(checkpoint_path(), SQLITE_OPEN_READWRITE);
-    if (!database) return database.error();
-    if (auto ok = sql::run(database->get(), path, "PRAGMA journal_mode = OFF"); !ok) return ok;
-    auto ok = layout.write(database->get(), path);
-    database->reset();
+    TRY(create_empty(checkpoint_path()));
+    auto database = TRY(sql::open(checkpoint_path(), SQLITE_OPEN_READWRITE));
+    TRY(sql::run(database.get(), path, "PRAGMA journal_mode = OFF"));
+    auto ok = layout.write(database.get(), path);
+    database.reset();
     if (ok) ok = sync_file(checkpoint_path(), false);
     if (ok) ok = move_into_place(checkpoint_path(), path);
     if (!ok) return ::unlink(checkpoint_path().c_str()), ok;
@@ -102,7 +101,7 @@ void SweepResults::Impl::set_next_checkpoint_size() {
 Result<void> SweepResults::Impl::checkpoint(bool last) {
     if (std::error_code status; !fs::exists(wal_path(), status) && !is_writing) return {};  // no new rows
     {
-        if (auto fresh = create_empty(checkpoint_path()); !fresh) return fresh;
+        TRY(create_empty(checkpoint_path()));
         auto database = sql::open(checkpoint_path(), SQLITE_OPEN_READWRITE);
         auto ok = database ? sql::run(database->get(), checkpoint_path(), "PRAGMA journal_mode = OFF; PRAGMA synchronous = OFF")
                            : database.error();
@@ -112,7 +111,7 @@ Result<void> SweepResults::Impl::checkpoint(bool last) {
     }
     insert_item = {}, insert_spikes = {}, insert_probe = {}, is_writing = false;
     file.reset();
-    if (auto ok = move_into_place(checkpoint_path(), path); !ok) return ok;
+    TRY(move_into_place(checkpoint_path(), path));
     ::unlink(wal_path().c_str()), ::unlink(shared_memory_path().c_str());
     sync_folder(path);
     return open_file(SQLITE_OPEN_READWRITE);

@@ -75,17 +75,15 @@ Error changed_by_other_program(const std::string& path, std::string_view how) {
 /// Returns an error if a table lacks one of the columns `wanted`, or if the table of items has another key than the item.
 Result<void> check_table(sqlite3* file, const std::string& path, const std::string& table, const std::vector<std::string>& wanted,
                          const FormatNames& names = current_names) {
-    auto rows = sql::Statement::make(file, path, "SELECT name, type, pk FROM pragma_table_info(?)");
-    if (!rows) return rows.error();
-    rows->set(1, std::string_view(table));
+    auto rows = TRY(sql::Statement::make(file, path, "SELECT name, type, pk FROM pragma_table_info(?)"));
+    rows.set(1, std::string_view(table));
     std::set<std::string> existing;
     bool has_integer_key = false;
     for (;;) {
-        const auto more = rows->step();
-        if (!more) return more.error();
-        if (!*more) break;
-        existing.insert(lower(rows->text(0)));
-        has_integer_key = has_integer_key || (rows->text(0) == names.item && lower(rows->text(1)) == "integer" && rows->integer(2) == 1);
+        const auto more = TRY(rows.step());
+        if (!more) break;
+        existing.insert(lower(rows.text(0)));
+        has_integer_key = has_integer_key || (rows.text(0) == names.item && lower(rows.text(1)) == "integer" && rows.integer(2) == 1);
     }
     if (existing.empty()) return changed_by_other_program(path, fmt::format("it has no table '{}'", table));
     for (const auto& name : wanted)
@@ -101,8 +99,8 @@ Result<void> check_table(sqlite3* file, const std::string& path, const std::stri
 Result<void> check_tables(sqlite3* file, const std::string& path, const std::vector<std::string>& stored, const FormatNames& names) {
     std::vector<std::string> columns = {names.item, "ended", "steps", "iterations", "alone", "why"};
     columns.insert(columns.end(), stored.begin(), stored.end());
-    if (auto ok = check_table(file, path, names.items, columns, names); !ok) return ok;
-    if (auto ok = check_table(file, path, "spikes", {names.item, "train", "times"}); !ok) return ok;
+    TRY(check_table(file, path, names.items, columns, names));
+    TRY(check_table(file, path, "spikes", {names.item, "train", "times"}));
     return check_table(file, path, "traces", {names.item, "trace", "samples"});
 }
 
@@ -125,57 +123,52 @@ Result<void> show_first_format(sqlite3* file, const std::string& path, const std
 
 /// Returns an error if the file has an item that is not one of the sweep's `items` items.
 Result<void> check_items(sqlite3* file, const std::string& path, std::int64_t items) {
-    auto rows = sql::Statement::make(file, path, "SELECT item FROM items WHERE item < 0 OR item >= ? LIMIT 1");
-    if (!rows) return rows.error();
-    const auto found = rows->set(1, items).step();
-    if (!found) return found.error();
-    if (!*found) return {};
+    auto rows = TRY(sql::Statement::make(file, path, "SELECT item FROM items WHERE item < 0 OR item >= ? LIMIT 1"));
+    const auto found = TRY(rows.set(1, items).step());
+    if (!found) return {};
     return changed_by_other_program(path,
-                                    fmt::format("it holds item {}, of a sweep of {} items (0 to {})", rows->integer(0), items, items - 1));
+                                    fmt::format("it holds item {}, of a sweep of {} items (0 to {})", rows.integer(0), items, items - 1));
 }
 
 /// Reads the axes or measures. `kind`: "axis" or "measure". Appends their names in the table items to `stored`.
 Result<std::vector<SweepColumn>> read_columns(sqlite3* file, const std::string& path, const char* kind, const FormatNames& names,
                                               std::vector<std::string>& stored) {
-    auto rows = sql::Statement::make(
+    auto rows = TRY(sql::Statement::make(
         file, path,
         fmt::format("SELECT name, unit, {}, words, at_least, at_most, stored FROM columns WHERE kind = ? ORDER BY position",
-                    names.description));
-    if (!rows) return rows.error();
-    rows->set(1, std::string_view(kind));
+                    names.description)));
+    rows.set(1, std::string_view(kind));
     std::vector<SweepColumn> out;
     std::size_t label_bytes = 0;
     for (;;) {
-        const auto more = rows->step();
-        if (!more) return more.error();
-        if (!*more) return out;
+        const auto more = TRY(rows.step());
+        if (!more) return out;
         if (out.size() == max_columns) return changed_by_other_program(path, fmt::format("there are more than {} columns", max_columns));
-        for (const int column : {0, 1, 2, 3, 6}) label_bytes += rows->bytes(column).size();
+        for (const int column : {0, 1, 2, 3, 6}) label_bytes += rows.bytes(column).size();
         if (label_bytes > max_label_bytes)
             return changed_by_other_program(path, fmt::format("its table columns holds more than {} MB of labels", max_label_bytes >> 20));
-        SweepColumn c{rows->text(0), rows->text(1), rows->text(2)};
-        c.labels = Json::parse(rows->text(3)).get<std::vector<std::string>>();
-        if (!rows->is_null(4)) c.min = rows->number(4);
-        if (!rows->is_null(5)) c.max = rows->number(5);
+        SweepColumn c{rows.text(0), rows.text(1), rows.text(2)};
+        c.labels = Json::parse(rows.text(3)).get<std::vector<std::string>>();
+        if (!rows.is_null(4)) c.min = rows.number(4);
+        if (!rows.is_null(5)) c.max = rows.number(5);
         out.push_back(std::move(c));
-        stored.push_back(rows->text(6));
+        stored.push_back(rows.text(6));
     }
 }
 
 /// Writes the axes or measures. `stored`: names of all axes and measures in the table items; `first`: index of the first of these columns.
 Result<void> write_columns(sqlite3* file, const std::string& path, const char* kind, const std::vector<SweepColumn>& columns,
                            const std::vector<std::string>& stored, std::size_t first) {
-    auto row = sql::Statement::make(file, path, "INSERT INTO columns VALUES(?, ?, ?, ?, ?, ?, ?, ?, ?)");
-    if (!row) return row.error();
+    auto row = TRY(sql::Statement::make(file, path, "INSERT INTO columns VALUES(?, ?, ?, ?, ?, ?, ?, ?, ?)"));
     for (std::size_t k = 0; k < columns.size(); ++k) {
         const auto& c = columns[k];
         const auto labels = Json(c.labels).dump();
-        row->set(1, static_cast<std::int64_t>(first + k)).set(2, std::string_view(kind)).set(3, std::string_view(c.name));
-        row->set(4, std::string_view(c.unit)).set(5, std::string_view(c.description)).set(6, std::string_view(labels));
-        c.min ? row->set(7, *c.min) : row->set_null(7);
-        c.max ? row->set(8, *c.max) : row->set_null(8);
-        row->set(9, std::string_view(stored[first + k]));
-        if (auto ok = row->finish(); !ok) return ok;
+        row.set(1, static_cast<std::int64_t>(first + k)).set(2, std::string_view(kind)).set(3, std::string_view(c.name));
+        row.set(4, std::string_view(c.unit)).set(5, std::string_view(c.description)).set(6, std::string_view(labels));
+        c.min ? row.set(7, *c.min) : row.set_null(7);
+        c.max ? row.set(8, *c.max) : row.set_null(8);
+        row.set(9, std::string_view(stored[first + k]));
+        TRY(row.finish());
     }
     return {};
 }
@@ -186,9 +179,8 @@ Result<std::map<std::string, std::string>> read_about(sqlite3* file, const std::
     std::map<std::string, std::string> out;
     std::size_t bytes = 0;
     for (;;) {
-        const auto more = rows->step();
-        if (!more) return more.error();
-        if (!*more) return out;
+        const auto more = TRY(rows->step());
+        if (!more) return out;
         bytes += rows->bytes(0).size() + rows->bytes(1).size();
         if (bytes > max_about_bytes)
             return changed_by_other_program(path, fmt::format("its table about holds more than {} MB", max_about_bytes >> 20));
@@ -198,20 +190,18 @@ Result<std::map<std::string, std::string>> read_about(sqlite3* file, const std::
 
 /// The format of a results file. Returns an error for any other SQLite file and for an unknown format.
 Result<std::int64_t> format_of(sqlite3* file, const std::string& path) {
-    const auto application = sql::query_integer(file, path, "PRAGMA application_id");
-    if (!application) return application.error();
-    const auto file_version = sql::query_integer(file, path, "PRAGMA user_version");
-    if (!file_version) return file_version.error();
-    if (*application != ResultsLayout::application_id)
+    const auto application = TRY(sql::query_integer(file, path, "PRAGMA application_id"));
+    const auto file_version = TRY(sql::query_integer(file, path, "PRAGMA user_version"));
+    if (application != ResultsLayout::application_id)
         return bad_input("is an SQLite file, but holds no results of a sweep; name another file", {path});
-    if (*file_version < 1) return changed_by_other_program(path, "its format version is missing");
-    if (*file_version > ResultsLayout::format)
+    if (file_version < 1) return changed_by_other_program(path, "its format version is missing");
+    if (file_version > ResultsLayout::format)
         return bad_input(
             fmt::format("was written by a later corpuscle (its format is {}, this one reads up to {}): use the later version, or name "
                         "another file",
-                        *file_version, ResultsLayout::format),
+                        file_version, ResultsLayout::format),
             {path});
-    return *file_version;
+    return file_version;
 }
 
 /// Compares everything but the descriptions.
@@ -237,20 +227,18 @@ ResultsLayout ResultsLayout::of(const Sweep& sweep) {
 }
 
 Result<ResultsLayout> ResultsLayout::read(sqlite3* file, const std::string& path) {
-    const auto stored_format = format_of(file, path);
-    if (!stored_format) return stored_format.error();
-    const auto& names = names_of_format(*stored_format);
+    const auto stored_format = TRY(format_of(file, path));
+    const auto& names = names_of_format(stored_format);
     ResultsLayout out;
-    out.file_format = *stored_format;
-    if (auto ok = check_table(file, path, "about", {"key", "value"}); !ok) return ok.error();
+    out.file_format = stored_format;
+    TRY(check_table(file, path, "about", {"key", "value"}));
     if (auto ok = check_table(file, path, "columns",
                               {"position", "kind", "name", "unit", names.description, "words", "at_least", "at_most", "stored"});
         !ok)
         return ok.error();
     try {
-        auto about = read_about(file, path);
-        if (!about) return about.error();
-        out.about = std::move(*about);
+        auto about = TRY(read_about(file, path));
+        out.about = std::move(about);
         for (const auto& [key, limit] : {std::pair{names.metadata, max_label_bytes},
                                          {"trains", max_label_bytes},
                                          {"traces", max_label_bytes},
@@ -263,22 +251,20 @@ Result<ResultsLayout> ResultsLayout::read(sqlite3* file, const std::string& path
         out.probe_names = Json::parse(out.about.at("traces")).get<std::vector<std::string>>();
         out.probe_times = Json::parse(out.about.at("trace_times")).get<std::vector<double>>();
         for (auto [kind, into] : {std::pair{"axis", &out.axes}, std::pair{"measure", &out.measures}}) {
-            auto columns = read_columns(file, path, kind, names, out.stored_column_names);
-            if (!columns) return columns.error();
-            *into = std::move(*columns);
+            *into = TRY(read_columns(file, path, kind, names, out.stored_column_names));
         }
     } catch (const std::exception&) {  // of JSON, std::stoll or map::at, if a table was edited by hand
         return bad_input("is damaged: its tables about and columns cannot be read; name another file", {path});
     }
     if (out.item_count < 1 || out.item_count > max_items)
         return changed_by_other_program(path, fmt::format("its number of items is {}", out.item_count));
-    if (auto ok = check_tables(file, path, out.stored_column_names, names); !ok) return ok.error();
-    if (*stored_format == 1) {
+    TRY(check_tables(file, path, out.stored_column_names, names));
+    if (stored_format == 1) {
         const auto shown = unique_names(out.axes, out.measures);
-        if (auto ok = show_first_format(file, path, out.stored_column_names, shown); !ok) return ok.error();
+        TRY(show_first_format(file, path, out.stored_column_names, shown));
         out.stored_column_names = shown;
     }
-    if (auto ok = check_items(file, path, out.item_count); !ok) return ok.error();
+    TRY(check_items(file, path, out.item_count));
     return out;
 }
 
@@ -289,19 +275,17 @@ Result<void> ResultsLayout::write(sqlite3* file, const std::string& path) const 
                          {path});
     std::string statements = fmt::format("PRAGMA application_id = {}; PRAGMA user_version = {}; BEGIN;{}", application_id, format, tables);
     for (const auto& column : stored_column_names) statements += fmt::format(", {} REAL", sql::quoted_name(column));
-    if (auto ok = sql::run(file, path, statements + ");"); !ok) return ok;
-    auto row = sql::Statement::make(file, path, "INSERT INTO about VALUES(?, ?)");
-    if (!row) return row.error();
+    TRY(sql::run(file, path, statements + ");"));
+    auto row = TRY(sql::Statement::make(file, path, "INSERT INTO about VALUES(?, ?)"));
     auto all = about;
     all["items"] = fmt::format("{}", item_count);
     all["metadata"] = Json(metadata_names).dump();
     all["trains"] = Json(train_names).dump();
     all["traces"] = Json(probe_names).dump();
     all["trace_times"] = Json(probe_times).dump();
-    for (const auto& [key, value] : all)
-        if (auto ok = row->set(1, std::string_view(key)).set(2, std::string_view(value)).finish(); !ok) return ok;
-    if (auto ok = write_columns(file, path, "axis", axes, stored_column_names, 0); !ok) return ok;
-    if (auto ok = write_columns(file, path, "measure", measures, stored_column_names, axes.size()); !ok) return ok;
+    for (const auto& [key, value] : all) TRY(row.set(1, std::string_view(key)).set(2, std::string_view(value)).finish());
+    TRY(write_columns(file, path, "axis", axes, stored_column_names, 0));
+    TRY(write_columns(file, path, "measure", measures, stored_column_names, axes.size()));
     return sql::run(file, path, "COMMIT");
 }
 

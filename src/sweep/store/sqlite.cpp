@@ -137,9 +137,8 @@ Result<bool> Statement::step() {
 
 Result<void> Statement::finish() {
     for (;;) {
-        const auto more = step();
-        if (!more) return more.error();
-        if (!*more) break;
+        const auto more = TRY(step());
+        if (!more) break;
     }
     reset();
     return {};
@@ -162,11 +161,9 @@ std::span<const std::byte> Statement::bytes(int column) const {
 }
 
 Result<std::int64_t> query_integer(sqlite3* file, const std::string& path, const std::string& text) {
-    auto statement = Statement::make(file, path, text);
-    if (!statement) return statement.error();
-    const auto found = statement->step();
-    if (!found) return found.error();
-    return *found ? statement->integer(0) : 0;
+    auto statement = TRY(Statement::make(file, path, text));
+    const auto found = TRY(statement.step());
+    return found ? statement.integer(0) : 0;
 }
 
 }  // namespace corpuscle::sql

@@ -44,8 +44,7 @@ Result<void> AfferentMeasures::select(const std::optional<std::vector<LocatedTex
     if (names) {
         for (const auto& name : *names) {
             const auto before = columns_.size();
-            const auto column = require_column(name);
-            if (!column) return column.error();
+            TRY(require_column(name));
             if (columns_.size() == before) return name.error_here(fmt::format("measures: '{}' is listed twice", name.text));
         }
         return {};

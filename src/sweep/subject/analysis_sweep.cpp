@@ -64,10 +64,9 @@ Result<RunOutcome> run_without_transients(const Circuit& circuit) {
     });
     circuit::RunOptions run_options;
     run_options.print_tables = false;
-    auto context = AnalysisContext::make(std::move(without_transients));
-    if (!context) return context.error();
-    (*context)->is_brief = true;
-    return circuit::run_directives(**context, run_options);
+    auto context = TRY(AnalysisContext::make(std::move(without_transients)));
+    context->is_brief = true;
+    return circuit::run_directives(*context, run_options);
 }
 
 bool has_directive(const Circuit& circuit, std::string_view name) {
@@ -122,17 +121,15 @@ Result<void> AnalysesSweep::select_measures(const SweepText& spec) {
         return measures_.size() - 1;
     };
     if (spec.measures) {
-        for (const auto& name : *spec.measures)
-            if (const auto ok = column(name); !ok) return ok.error();
+        for (const auto& name : *spec.measures) TRY(column(name));
     } else {
-        for (const auto& name : known)
-            if (const auto ok = column({name, {}}); !ok) return ok.error();
+        for (const auto& name : known) TRY(column({name, {}}));
     }
     const MeasureLookup lookup{
         column, [](const LocatedText& model, std::size_t) -> Result<double> {
             return model.error_here("like: models respond to a force; use it with afferent = ..., not with a netlist's own analyses");
         }};
-    if (auto ok = set_limits(spec, lookup, measures_); !ok) return ok;
+    TRY(set_limits(spec, lookup, measures_));
     if (measures_.empty())
         return spec.netlist->error_here("the netlist computes no numbers (.meas, .print op); name the measures: measures = [\"v(out)\"]");
     return {};
@@ -141,9 +138,8 @@ Result<void> AnalysesSweep::select_measures(const SweepText& spec) {
 /// One train for each .tran, if spikes are kept and the netlist has a .spike.
 Result<void> AnalysesSweep::select_trains(const SweepText& spec) {
     if (!spec.probes.empty()) return spec.probes[0].error_here("traces applies to afferent = ...; for a netlist's own analyses use .meas");
-    const auto keeps = keeps_spikes(spec);
-    if (!keeps) return keeps.error();
-    if (!*keeps || !has_directive(*nominal_, "spike")) return {};
+    const auto keeps = TRY(keeps_spikes(spec));
+    if (!keeps || !has_directive(*nominal_, "spike")) return {};
     for (const auto& d : nominal_->directives)
         if (d.name == "tran") train_names_.push_back(train_names_.empty() ? "tran" : fmt::format("tran {}", train_names_.size() + 1));
     return {};
@@ -157,36 +153,27 @@ Result<std::unique_ptr<Sweep>> AnalysesSweep::make(const SweepText& spec, const 
         if (*value)
             return (*value)->error_here(
                 fmt::format("{} applies to afferent = ...; a netlist's own .tran takes its force from .force", name));
-    auto netlist = NetlistFactory::of(*spec.netlist, folder, spec.directives ? spec.directives->text : "");
-    if (!netlist) return netlist.error();
-    s.netlist_ = std::move(*netlist);
-    for (const auto& setting : spec.settings)
-        if (auto ok = s.netlist_.set(setting); !ok) return ok.error();
-    const auto nominal = s.netlist_.nominal();
-    if (!nominal) return nominal.error();
-    auto elaborated = nominal->elaborate();
-    if (!elaborated) return elaborated.error();
-    s.nominal_ = std::make_shared<const Circuit>(std::move(*elaborated));
-    auto variants = circuit::NetlistVariants::create(*nominal);
-    if (!variants) return variants.error();
+    s.netlist_ = TRY(NetlistFactory::of(*spec.netlist, folder, spec.directives ? spec.directives->text : ""));
+    for (const auto& setting : spec.settings) TRY(s.netlist_.set(setting));
+    const auto nominal = TRY(s.netlist_.nominal());
+    auto elaborated = TRY(nominal.elaborate());
+    s.nominal_ = std::make_shared<const Circuit>(std::move(elaborated));
+    auto variants = TRY(circuit::NetlistVariants::create(nominal));
     VariableQuantities quantities;
     quantities.subject_name = s.netlist_.name(), quantities.can_sample_chips = true;
     quantities.find_quantity = [&](const LocatedText& quantity) { return s.netlist_.find_quantity(quantity); };
     quantities.vary = [&](const SweepAxis& a, const std::string& quantity, std::size_t axis) {
         s.netlist_.vary(quantity, axis, a.column.labels);
     };
-    auto plan = plan_of(spec, quantities, &*variants);
-    if (!plan) return plan.error();
-    s.plan_ = std::move(*plan);
+    s.plan_ = TRY(plan_of(spec, quantities, &variants));
     if (s.plan_.samples_chips() && s.nominal_->mismatch_seed)
         return bad_input("[set] selects one chip by mismatch = ..., but the sweep samples others; remove one of the two", {spec.file});
     if (spec.iterations) {
-        const auto limit = parse_integer(*spec.iterations, "iterations", 1, 1e12);
-        if (!limit) return limit.error();
-        s.iteration_limit_ = static_cast<long>(*limit);
+        const auto limit = TRY(parse_integer(*spec.iterations, "iterations", 1, 1e12));
+        s.iteration_limit_ = static_cast<long>(limit);
     }
-    if (auto ok = s.select_measures(spec); !ok) return ok.error();
-    if (auto ok = s.select_trains(spec); !ok) return ok.error();
+    TRY(s.select_measures(spec));
+    TRY(s.select_trains(spec));
     s.metadata_ = first_metadata(spec, s.nominal_->title);
     for (auto& entry : s.netlist_.metadata()) s.metadata_.push_back(std::move(entry));
     s.add_mismatch_metadata(s.netlist_.name(), *s.nominal_);
@@ -199,15 +186,12 @@ Result<void> AnalysesSweep::prepare(ThreadContext& thread, std::span<const doubl
     thread.context.reset();
     std::shared_ptr<const Circuit> circuit = nominal_;
     if (netlist_.varies()) {
-        const auto netlist = netlist_.at(values);
-        if (!netlist) return netlist.error();
-        auto elaborated = netlist->elaborate();
-        if (!elaborated) return elaborated.error();
-        circuit = std::make_shared<const Circuit>(std::move(*elaborated));
+        const auto netlist = TRY(netlist_.at(values));
+        auto elaborated = TRY(netlist.elaborate());
+        circuit = std::make_shared<const Circuit>(std::move(elaborated));
     }
-    auto context = AnalysisContext::make(std::move(circuit));
-    if (!context) return context.error();
-    thread.context = std::move(*context), thread.context->is_brief = true, thread.values = std::move(netlist_values);
+    auto context = TRY(AnalysisContext::make(std::move(circuit)));
+    thread.context = std::move(context), thread.context->is_brief = true, thread.values = std::move(netlist_values);
     return {};
 }
 

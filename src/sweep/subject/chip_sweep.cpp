@@ -61,8 +61,7 @@ public:
 };
 
 Result<void> ChipSweep::apply_settings(const SweepText& spec) {
-    for (const auto& s : spec.settings)
-        if (auto ok = force_.has_parameter(s.name) ? force_.set(s) : netlist_.set(s); !ok) return ok;
+    for (const auto& s : spec.settings) TRY(force_.has_parameter(s.name) ? force_.set(s) : netlist_.set(s));
     return {};
 }
 
@@ -71,12 +70,12 @@ Result<void> ChipSweep::select_measures(const SweepText& spec) {
     std::vector<std::string> ranges;
     for (const auto& w : nominal_->operating_ranges) ranges.emplace_back(w.range().quantity);
     afferent_measures_ = std::make_unique<AfferentMeasures>(*force_.nominal(), true, ranges);
-    if (auto ok = afferent_measures_->select(spec.measures); !ok) return ok;
+    TRY(afferent_measures_->select(spec.measures));
     const MeasureLookup lookup{[&](const LocatedText& name) { return afferent_measures_->require_column(name); },
                                [&](const LocatedText& model, std::size_t column) {
                                    return model_measure(model, force_, {afferent_measures_->columns()[column].name, model.location});
                                }};
-    if (auto ok = set_limits(spec, lookup, afferent_measures_->columns()); !ok) return ok;
+    TRY(set_limits(spec, lookup, afferent_measures_->columns()));
     measures_ = afferent_measures_->columns();
     return {};
 }
@@ -93,15 +92,10 @@ Result<void> ChipSweep::select_probes(const SweepText& spec) {
     }
     if (probe_names_.empty()) return {};
     netlist_.save(probe_names_);
-    const auto netlist = netlist_.nominal();
-    if (!netlist) return netlist.error();
-    auto design = CircuitAfferentFactory::create(*netlist);
-    if (!design) return design.error();
-    nominal_ = std::move(*design);
+    const auto netlist = TRY(netlist_.nominal());
+    nominal_ = TRY(CircuitAfferentFactory::create(netlist));
     const auto& force = *force_.nominal();
-    const auto every = probe_stride(spec, force.clock.T());
-    if (!every) return every.error();
-    every_ = *every;
+    every_ = TRY(probe_stride(spec, force.clock.T()));
     for (std::size_t k = 0; k < force.samples.size(); k += every_) probe_times_.push_back(force.clock.time(static_cast<std::int64_t>(k)));
     return {};
 }
@@ -110,22 +104,13 @@ Result<std::unique_ptr<Sweep>> ChipSweep::make(const SweepText& spec, const std:
     auto out = std::make_unique<ChipSweep>();
     auto& s = *out;
     if (spec.directives) return spec.directives->error_here("orders applies to netlist = ...; an afferent = ... responds to its force");
-    auto netlist = NetlistFactory::of(*spec.afferent, folder);
-    if (!netlist) return netlist.error();
-    s.netlist_ = std::move(*netlist);
-    const auto seed = seed_of(spec);
-    if (!seed) return seed.error();
-    auto force = ForceFactory::of(spec, folder, *seed);
-    if (!force) return force.error();
-    s.force_ = std::move(*force);
-    if (auto ok = s.apply_settings(spec); !ok) return ok.error();
-    const auto nominal = s.netlist_.nominal();
-    if (!nominal) return nominal.error();
-    auto design = CircuitAfferentFactory::create(*nominal);
-    if (!design) return design.error();
-    s.nominal_ = std::move(*design);
-    auto variants = circuit::NetlistVariants::create(*nominal);
-    if (!variants) return variants.error();
+    s.netlist_ = TRY(NetlistFactory::of(*spec.afferent, folder));
+    const auto seed = TRY(seed_of(spec));
+    s.force_ = TRY(ForceFactory::of(spec, folder, seed));
+    TRY(s.apply_settings(spec));
+    const auto nominal = TRY(s.netlist_.nominal());
+    s.nominal_ = TRY(CircuitAfferentFactory::create(nominal));
+    auto variants = TRY(circuit::NetlistVariants::create(nominal));
     VariableQuantities quantities;
     quantities.subject_name = s.netlist_.name(), quantities.can_sample_chips = true;
     quantities.find_quantity = [&](const LocatedText& quantity) {
@@ -134,22 +119,18 @@ Result<std::unique_ptr<Sweep>> ChipSweep::make(const SweepText& spec, const std:
     quantities.vary = [&](const SweepAxis& a, const std::string& quantity, std::size_t axis) {
         s.force_.has_parameter(quantity) ? s.force_.vary(quantity, axis) : s.netlist_.vary(quantity, axis, a.column.labels);
     };
-    auto plan = plan_of(spec, quantities, &*variants);
-    if (!plan) return plan.error();
-    s.plan_ = std::move(*plan);
+    s.plan_ = TRY(plan_of(spec, quantities, &variants));
     if (s.plan_.samples_chips() && s.nominal_->circuit->mismatch_seed)
         return bad_input("[set] selects one chip by mismatch = ..., but the sweep samples others; remove one of the two", {spec.file});
     if (spec.iterations) {
-        const auto limit = parse_integer(*spec.iterations, "iterations", 1, 1e12);
-        if (!limit) return limit.error();
-        s.iteration_limit_ = static_cast<long>(*limit);
+        const auto limit = TRY(parse_integer(*spec.iterations, "iterations", 1, 1e12));
+        s.iteration_limit_ = static_cast<long>(limit);
     }
-    if (auto ok = s.force_.prepare(); !ok) return ok.error();
-    if (auto ok = s.select_measures(spec); !ok) return ok.error();
-    const auto keeps = keeps_spikes(spec);
-    if (!keeps) return keeps.error();
-    if (*keeps) s.train_names_ = {s.netlist_.name()};
-    if (auto ok = s.select_probes(spec); !ok) return ok.error();
+    TRY(s.force_.prepare());
+    TRY(s.select_measures(spec));
+    const auto keeps = TRY(keeps_spikes(spec));
+    if (keeps) s.train_names_ = {s.netlist_.name()};
+    TRY(s.select_probes(spec));
     s.metadata_ = first_metadata(spec, s.nominal_->circuit->title);
     for (auto& entry : s.netlist_.metadata()) s.metadata_.push_back(std::move(entry));
     if (auto recorded = s.force_.recording_summary(); !recorded.empty())

@@ -94,12 +94,11 @@ Result<void> ModelSweep::apply_settings(const SweepText& spec) {
         else if (auto ok = force_.set(s); !ok)
             return ok;
     }
-    auto planned = plan_any_afferent(afferent_name, overrides);
-    if (!planned) return planned.error();
-    nominal_ = std::move(planned->result);
+    auto planned = TRY(plan_any_afferent(afferent_name, overrides));
+    nominal_ = std::move(planned.result);
     auto targets = is_stimulus(force_.name()) ? stimulus_members(force_.name()) : std::vector<std::string_view>();
     targets.insert(targets.begin(), afferent_name);
-    return check_all_used(planned->unused, targets);
+    return check_all_used(planned.unused, targets);
 }
 
 /// Selects the probes that are written to the results.
@@ -117,9 +116,7 @@ Result<void> ModelSweep::select_probes(const SweepText& spec) {
         probes_.push_back(static_cast<std::size_t>(at - names.begin()));
         probe_names_.push_back(probe.text);
     }
-    const auto every = probe_stride(spec, force.clock.T());
-    if (!every) return every.error();
-    every_ = *every;
+    every_ = TRY(probe_stride(spec, force.clock.T()));
     for (std::size_t k = 0; k < force.samples.size(); k += every_) probe_times_.push_back(force.clock.time(static_cast<std::int64_t>(k)));
     return {};
 }
@@ -134,13 +131,9 @@ Result<std::unique_ptr<Sweep>> ModelSweep::make(const SweepText& spec, const std
     auto plan = plan_any_afferent(afferent_name);
     if (!plan) return spec.afferent->error_here(plan.error().message);
     s.nominal_ = std::move(*plan);
-    const auto seed = seed_of(spec);
-    if (!seed) return seed.error();
-    auto force = ForceFactory::of(spec, folder, *seed);
-    if (!force) return force.error();
-    s.force_ = std::move(*force);
-    if (!spec.settings.empty())
-        if (auto ok = s.apply_settings(spec); !ok) return ok.error();
+    const auto seed = TRY(seed_of(spec));
+    s.force_ = TRY(ForceFactory::of(spec, folder, seed));
+    if (!spec.settings.empty()) TRY(s.apply_settings(spec));
     VariableQuantities quantities;
     quantities.subject_name = s.nominal_.name;
     quantities.find_quantity = [&](const LocatedText& quantity) { return s.find_quantity(afferent_name, quantity); };
@@ -150,25 +143,22 @@ Result<std::unique_ptr<Sweep>> ModelSweep::make(const SweepText& spec, const std
         else
             s.varied_.push_back({s.parameter_index(s.parameter_name(afferent_name, quantity)), axis});
     };
-    auto sweep_plan = plan_of(spec, quantities);
-    if (!sweep_plan) return sweep_plan.error();
-    s.plan_ = std::move(*sweep_plan);
-    if (auto ok = s.force_.prepare(); !ok) return ok.error();
+    s.plan_ = TRY(plan_of(spec, quantities));
+    TRY(s.force_.prepare());
     if (const double rate = s.force_.nominal()->clock.rate(); rate < s.nominal_.min_rate)
         return (spec.rate ? *spec.rate : *spec.afferent)
             .error_here(fmt::format("the sample rate is {:g} Hz, but {} needs {:g} Hz or more", rate, afferent_name, s.nominal_.min_rate));
     s.afferent_measures_ = std::make_unique<AfferentMeasures>(*s.force_.nominal(), false, std::span<const std::string>());
-    if (auto ok = s.afferent_measures_->select(spec.measures); !ok) return ok.error();
+    TRY(s.afferent_measures_->select(spec.measures));
     const MeasureLookup lookup{[&](const LocatedText& name) { return s.afferent_measures_->require_column(name); },
                                [&](const LocatedText& model, std::size_t column) {
                                    return model_measure(model, s.force_, {s.afferent_measures_->columns()[column].name, model.location});
                                }};
-    if (auto ok = set_limits(spec, lookup, s.afferent_measures_->columns()); !ok) return ok.error();
+    TRY(set_limits(spec, lookup, s.afferent_measures_->columns()));
     s.measures_ = s.afferent_measures_->columns();
-    const auto keeps = keeps_spikes(spec);
-    if (!keeps) return keeps.error();
-    if (*keeps) s.train_names_ = {s.nominal_.name};
-    if (auto ok = s.select_probes(spec); !ok) return ok.error();
+    const auto keeps = TRY(keeps_spikes(spec));
+    if (keeps) s.train_names_ = {s.nominal_.name};
+    TRY(s.select_probes(spec));
     s.metadata_ = first_metadata(spec, fmt::format("{}, {}", afferent_name, s.force_.name()));
     if (auto summary = s.force_.recording_summary(); !summary.empty())
         s.metadata_.push_back({"recording " + s.force_.name(), std::move(summary)});
@@ -177,9 +167,8 @@ Result<std::unique_ptr<Sweep>> ModelSweep::make(const SweepText& spec, const std
 
 Result<ModelItem> ModelSweep::make_item(std::int64_t number) const {
     const auto values = plan_.values(number);
-    auto force = force_.at(values);
-    if (!force) return force.error();
-    ModelItem out{number, nominal_, std::move(*force)};
+    auto force = TRY(force_.at(values));
+    ModelItem out{number, nominal_, std::move(force)};
     for (const auto& v : varied_) out.plan.values[v.parameter] = values[v.axis];
     if (!varied_.empty())
         if (const auto ok = check_plan(out.plan); !ok) out.failure = ok.error().message;
@@ -201,9 +190,7 @@ Result<void> ModelSweep::run_items(const NextItem& next, const OutcomeHandler& o
         while (block.size() < limit && !stop()) {
             const auto number = next();
             if (!number) break;
-            auto item = make_item(*number);
-            if (!item) return item.error();
-            block.push_back(std::move(*item));
+            block.push_back(TRY(make_item(*number)));
         }
         if (block.empty() || stop()) return {};
         if (auto ok = respond(block, on_outcome, stop); !ok) return ok.error().code == ErrorCode::interrupted ? Result<void>() : ok;
@@ -213,13 +200,12 @@ Result<void> ModelSweep::run_items(const NextItem& next, const OutcomeHandler& o
 /// Groups the items by the parameters that must be equal in a lane population, and simulates each group on lanes. Items that cannot use
 /// lanes are simulated one at a time.
 Result<void> ModelSweep::respond(std::vector<ModelItem>& block, const OutcomeHandler& on_outcome, const std::function<bool()>& stop) const {
-    const auto set = instruction_set();
-    if (!set) return set.error();
+    const auto set = TRY(instruction_set());
     std::map<std::vector<double>, std::vector<ModelItem*>> lane_groups;
     std::vector<ModelItem*> scalars;  // items that are simulated one at a time
     for (auto& item : block) {
         if (item.failure) continue;
-        if (*set == InstructionSet::scalar || !probes_.empty() || !can_use_lanes(item.plan, options_for(*item.force))) {
+        if (set == InstructionSet::scalar || !probes_.empty() || !can_use_lanes(item.plan, options_for(*item.force))) {
             scalars.push_back(&item);
             continue;
         }
@@ -229,16 +215,14 @@ Result<void> ModelSweep::respond(std::vector<ModelItem>& block, const OutcomeHan
         lane_groups[shared].push_back(&item);
     }
     for (const auto& [shared, items] : lane_groups) {
-        const auto done = respond_on_lanes(items, *set, stop);
-        if (!done) return done.error();
-        if (!*done) scalars.insert(scalars.end(), items.begin(), items.end());
+        const auto done = TRY(respond_on_lanes(items, set, stop));
+        if (!done) scalars.insert(scalars.end(), items.begin(), items.end());
     }
     std::vector<bool> is_reported(block.size());
     for (auto* item : scalars) {
         item->spikes.clear();  // left over if the lanes failed
-        auto probe_samples = respond_alone(*item, stop);
-        if (!probe_samples) return probe_samples.error();
-        report(*item, std::move(*probe_samples), on_outcome), is_reported[static_cast<std::size_t>(item - block.data())] = true;
+        auto probe_samples = TRY(respond_alone(*item, stop));
+        report(*item, std::move(probe_samples), on_outcome), is_reported[static_cast<std::size_t>(item - block.data())] = true;
     }
     for (std::size_t k = 0; k < block.size(); ++k)
         if (!is_reported[k]) report(block[k], {}, on_outcome);

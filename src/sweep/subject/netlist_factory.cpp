@@ -81,8 +81,7 @@ Result<NetlistFactory> NetlistFactory::of(const LocatedText& name_or_path, const
                             name_or_path.text, did_you_mean(name_or_path.text, known)));
         out.is_embedded_ = true;
     }
-    auto opened = out.open("");  // finds errors in the netlist
-    if (!opened) return opened.error();
+    auto opened = TRY(out.open(""));  // finds errors in the netlist
     return out;
 }
 
@@ -151,14 +150,12 @@ Result<VariedQuantity> NetlistFactory::find_quantity(const LocatedText& quantity
         out.labels_only = true, out.column.description = "process corner";
         return out;
     }
-    const auto netlist = nominal();
-    if (!netlist) return netlist.error();
-    const auto circuit = netlist->elaborate();
-    if (!circuit) return circuit.error();
+    const auto netlist = TRY(nominal());
+    const auto circuit = TRY(netlist.elaborate());
     if (lowercase == "temp") {
-        out.parse = temperature_of, out.nominal = circuit->temperature, out.allows_labels = false;
+        out.parse = temperature_of, out.nominal = circuit.temperature, out.allows_labels = false;
         out.column.unit = "degC", out.column.description = "temperature";
-    } else if (const auto at = circuit->parameters.find(lowercase); at != circuit->parameters.end()) {
+    } else if (const auto at = circuit.parameters.find(lowercase); at != circuit.parameters.end()) {
         out.nominal = at->second, out.allows_labels = false;
         out.column.description = fmt::format(".param {} of {}", lowercase, file_);
     } else {

@@ -10,11 +10,10 @@ namespace corpuscle::sweeps {
 
 Result<SimulatedResponse> simulate_afferent(const Afferent& afferent, const SweepForce& force, std::span<const std::size_t> probes,
                                             std::size_t every, const std::function<bool()>& stop) {
-    const auto response = simulate(afferent, force.samples, {probes, every, stop});
-    if (!response) return response.error();
+    const auto response = TRY(simulate(afferent, force.samples, {probes, every, stop}));
     SimulatedResponse out;
-    for (const auto& values : response->probes) out.probe_samples.emplace_back(values.begin(), values.end());
-    for (const auto& s : response->spikes)
+    for (const auto& values : response.probes) out.probe_samples.emplace_back(values.begin(), values.end());
+    for (const auto& s : response.spikes)
         if (s.step <= static_cast<std::int64_t>(force.samples.size())) out.spikes.push_back(force.clock.time(s.step, s.offset));
     return out;
 }
@@ -26,14 +25,12 @@ Result<double> model_measure(const LocatedText& model, const ForceFactory& force
     if (!plan) return model.error_here("like: " + plan.error().message);
     const auto& sweep_force = *force.nominal();
     const auto afferent = make_afferent(*plan, {sweep_force.clock.T()});
-    const auto response = simulate_afferent(*afferent, sweep_force);
-    if (!response) return response.error();
+    const auto response = TRY(simulate_afferent(*afferent, sweep_force));
     AfferentMeasures measures(sweep_force, false, {});
-    const auto column = measures.require_column(measure);
-    if (!column) return column.error();
+    const auto column = TRY(measures.require_column(measure));
     ItemResponse item;
-    item.spikes = response->spikes;
-    return measures.values(sweep_force, item)[*column];
+    item.spikes = response.spikes;
+    return measures.values(sweep_force, item)[column];
 }
 
 }  // namespace corpuscle::sweeps

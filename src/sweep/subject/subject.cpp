@@ -62,14 +62,13 @@ class PlanReader {
         for (const auto& a : spec_.axes)
             if (!sampled_axis && is_sampled(a)) sampled_axis = &a;
         if (spec_.samples) {
-            const auto samples = parse_integer(*spec_.samples, "samples", 1, 1e9);
-            if (!samples) return samples.error();
-            if (!sampled_axis && !netlist_samples_chips() && *samples > 1)
+            const auto samples = TRY(parse_integer(*spec_.samples, "samples", 1, 1e9));
+            if (!sampled_axis && !netlist_samples_chips() && samples > 1)
                 return spec_.samples->error_here(
                     fmt::format("samples = {}, but nothing is sampled, so all samples would be equal; remove samples (the number of items "
                                 "follows from the listed values)",
-                                *samples));
-            sampling_.samples = static_cast<std::uint64_t>(*samples);
+                                samples));
+            sampling_.samples = static_cast<std::uint64_t>(samples);
         } else if (netlist_samples_chips()) {
             sampling_.samples = static_cast<std::uint64_t>(variants_->chips().count);
         } else if (sampled_axis) {
@@ -89,9 +88,8 @@ class PlanReader {
         if (!variants_) return {};
         for (const auto& step : variants_->axes()) {
             if (is_in_file(step.name)) continue;
-            const auto target = quantities_.find_quantity({step.name, {}});
-            if (!target) return target.error();
-            SweepAxis axis{target->column, step.values};
+            const auto target = TRY(quantities_.find_quantity({step.name, {}}));
+            SweepAxis axis{target.column, step.values};
             quantities_.vary(axis, step.name, axes_.size());
             axes_.push_back(std::move(axis));
         }
@@ -113,13 +111,11 @@ class PlanReader {
         for (const auto& other : axes_)
             if (equal_ignoring_case(other.column.name, spec.name.text))
                 return spec.name.error_here(fmt::format("'{}' varies twice", spec.name.text));
-        auto target = quantities_.find_quantity(spec.name);
-        if (!target) return target.error();
-        if (target->column.unit.empty() && target->check) target->column.unit = unit_in(spec);
-        auto axis = axis_of(spec, *target, sampling_);
-        if (!axis) return axis.error();
-        quantities_.vary(*axis, spec.name.text, axes_.size());
-        axes_.push_back(std::move(*axis));
+        auto target = TRY(quantities_.find_quantity(spec.name));
+        if (target.column.unit.empty() && target.check) target.column.unit = unit_in(spec);
+        auto axis = TRY(axis_of(spec, target, sampling_));
+        quantities_.vary(axis, spec.name.text, axes_.size());
+        axes_.push_back(std::move(axis));
         return {};
     }
 
@@ -128,15 +124,13 @@ public:
         : spec_(spec), quantities_(quantities), variants_(variants) {}
 
     Result<SweepPlan> read() {
-        const auto seed = seed_of(spec_);
-        if (!seed) return seed.error();
-        sampling_.seed = *seed;
-        if (auto ok = chips(); !ok) return ok.error();
-        if (auto ok = samples(); !ok) return ok.error();
-        if (auto ok = steps(); !ok) return ok.error();
+        const auto seed = TRY(seed_of(spec_));
+        sampling_.seed = seed;
+        TRY(chips());
+        TRY(samples());
+        TRY(steps());
         for (const auto& a : spec_.axes)
-            if (a.name.text != "process" && a.name.text != "mismatch")
-                if (auto ok = axis(a); !ok) return ok.error();
+            if (a.name.text != "process" && a.name.text != "mismatch") TRY(axis(a));
         double count = static_cast<double>(sampling_.samples);
         for (const auto& a : axes_) count *= a.values.empty() ? 1 : static_cast<double>(a.values.size());
         if (count > SweepPlan::max_items)
@@ -147,9 +141,8 @@ public:
 
 /// Reads one line of [limits] into its column.
 Result<void> set_limit(const LimitSpec& limit, const MeasureLookup& lookup, std::vector<SweepColumn>& columns) {
-    const auto at = lookup.column(limit.measure);
-    if (!at) return at.error();
-    auto& column = columns[*at];
+    const auto at = TRY(lookup.column(limit.measure));
+    auto& column = columns[at];
     const auto wrong = [&](const LocatedText& s, std::string why) { return s.error_here(fmt::format("{}: {}", limit.measure.text, why)); };
     const auto read = [&](const LocatedText& s) {
         const auto value = parse_quantity(s.text, column.unit);
@@ -158,24 +151,21 @@ Result<void> set_limit(const LimitSpec& limit, const MeasureLookup& lookup, std:
     if (limit.like) {
         if (limit.min || limit.max) return wrong(*limit.like, "give either like and within, or at_least and at_most");
         if (!limit.within) return wrong(*limit.like, "within is missing: the allowed distance from the model, such as 3 or \"10%\"");
-        const auto model = lookup.model_value(*limit.like, *at);
-        if (!model) return model.error();
-        if (std::isnan(*model)) return wrong(*limit.like, fmt::format("{} has no value for this force", limit.like->text));
+        const auto model = TRY(lookup.model_value(*limit.like, at));
+        if (std::isnan(model)) return wrong(*limit.like, fmt::format("{} has no value for this force", limit.like->text));
         // A percentage is relative to the model's value, also for a measure without unit, where read() turns "10%" into 0.1.
         const bool is_percentage = trimmed(limit.within->text).ends_with('%') && !column.unit.empty();
         auto within = is_percentage ? parse_quantity(limit.within->text, "") : read(*limit.within);
         if (!within) return wrong(*limit.within, within.error().message);
-        if (is_percentage || trimmed(limit.within->text).ends_with('%')) *within *= std::abs(*model);
+        if (is_percentage || trimmed(limit.within->text).ends_with('%')) *within *= std::abs(model);
         if (!(*within >= 0)) return wrong(*limit.within, "within must not be negative");
-        column.min = *model - *within, column.max = *model + *within;
+        column.min = model - *within, column.max = model + *within;
         return {};
     }
     if (limit.within) return wrong(*limit.within, "within is allowed only with like, such as like = \"sa1\"");
     for (const auto& [spec, end] : {std::pair{&limit.min, &column.min}, {&limit.max, &column.max}}) {
         if (!*spec) continue;
-        const auto value = read(**spec);
-        if (!value) return value.error();
-        *end = *value;
+        *end = TRY(read(**spec));
     }
     if (!limit.min && !limit.max) return wrong(limit.measure, "the limit is empty; write at_least, at_most or both");
     if (column.min && column.max && *column.min > *column.max)
@@ -195,9 +185,8 @@ void PlannedSweep::add_mismatch_metadata(const std::string& subject, const circu
 
 Result<std::uint64_t> seed_of(const SweepText& spec) {
     if (!spec.seed) return std::uint64_t{0};
-    const auto seed = parse_integer(*spec.seed, "seed", 0, max_seed);
-    if (!seed) return seed.error();
-    return static_cast<std::uint64_t>(*seed);
+    const auto seed = TRY(parse_integer(*spec.seed, "seed", 0, max_seed));
+    return static_cast<std::uint64_t>(seed);
 }
 
 Result<SweepPlan> plan_of(const SweepText& spec, const VariableQuantities& quantities, const circuit::NetlistVariants* variants) {
@@ -205,8 +194,7 @@ Result<SweepPlan> plan_of(const SweepText& spec, const VariableQuantities& quant
 }
 
 Result<void> set_limits(const SweepText& spec, const MeasureLookup& lookup, std::vector<SweepColumn>& columns) {
-    for (const auto& limit : spec.limits)
-        if (auto ok = set_limit(limit, lookup, columns); !ok) return ok;
+    for (const auto& limit : spec.limits) TRY(set_limit(limit, lookup, columns));
     return {};
 }
 
