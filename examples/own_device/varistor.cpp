@@ -45,10 +45,9 @@ public:
 }  // namespace
 
 Result<std::unique_ptr<Device>> make_varistor(const Element& e, DeviceSetup& setup) {
-    if (auto ok = check_value_names(e.name, e.values, {}, e.location); !ok) return ok.error();
-    const auto card = read_model_card<VaristorCard>(fields, setup.circuit().models[static_cast<std::size_t>(e.model)], {});
-    if (!card) return card.error();
-    auto device = std::make_unique<Varistor>(*card);
+    TRY(check_value_names(e.name, e.values, {}, e.location));
+    const auto card = TRY(read_model_card<VaristorCard>(fields, setup.circuit().models[static_cast<std::size_t>(e.model)], {}));
+    auto device = std::make_unique<Varistor>(card);
     device->unknowns = {setup.node_unknown(e.nodes[0]), setup.node_unknown(e.nodes[1])};
     return std::unique_ptr<Device>(std::move(device));
 }

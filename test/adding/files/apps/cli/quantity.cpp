@@ -14,9 +14,8 @@ struct QuantityArguments {
 };
 
 Result<void> print_quantity(const QuantityArguments& args) {
-    const auto value = parse_quantity(args.text, args.unit);
-    if (!value) return value.error();
-    fmt::print("{:g}\n", *value);
+    const double value = TRY(parse_quantity(args.text, args.unit));
+    fmt::print("{:g}\n", value);
     return {};
 }
 
