@@ -59,8 +59,8 @@ std::vector<ListEntry> afferent_entries() {
     }
     for (const auto& c : circuit::embedded_netlists)
         if (const auto plan = plan_any_afferent(c.name))
-            add(plan->name, *plan,
-                std::string(plan->description) + "; also settable: temp, corner, mismatch, every array and device (doc/circuits.md)",
+            add(plan->result.name, plan->result,
+                std::string(plan->result.description) + "; also settable: temp, corner, mismatch, every array and device (doc/circuits.md)",
                 c.file);
     entries.push_back(list_entry("path/own.cir", "netlist",
                                  "any netlist with a force input (a source with FORCE) and a spike output (.spike)",

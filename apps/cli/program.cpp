@@ -102,8 +102,8 @@ int run_program(const ProgramTexts& texts, const std::vector<Verb>& verbs, int a
     int status = 0;
     try {
         status = run_command_line(*app, verbs, common);
-    } catch (const UsageError& e) {
-        return report_error(bad_usage(e.what()));
+    } catch (const OptionError& e) {
+        return report_error(e.error);
     } catch (const CLI::ParseError& e) {
         if (e.get_exit_code() != 0) return report_usage_error(e.what());
         std::ostringstream text;

@@ -90,6 +90,16 @@ std::size_t read_front_end(std::span<const std::string_view> words, AfferentComp
     return taken;
 }
 
+/// The named afferent with this name or alias, in upper or lower case; null if there is none.
+const NamedAfferent* find_named_afferent(std::string_view text) {
+    for (const auto& a : named_afferents()) {
+        if (equal_ignoring_case(a.name, text)) return &a;
+        for (const auto other : a.aliases)
+            if (equal_ignoring_case(other, text)) return &a;
+    }
+    return nullptr;
+}
+
 /// Reads the words after the front end: a named afferent, or a receptor and a neuron.
 Result<void> read_afferent(std::string_view text, std::span<const std::string_view> words, AfferentComponents& parts) {
     static const auto receptors = names_of(receptor_entries()), neurons = names_of(neuron_entries());
@@ -110,15 +120,6 @@ Result<void> read_afferent(std::string_view text, std::span<const std::string_vi
 }
 
 }  // namespace
-
-const NamedAfferent* find_named_afferent(std::string_view text) {
-    for (const auto& a : named_afferents()) {
-        if (equal_ignoring_case(a.name, text)) return &a;
-        for (const auto other : a.aliases)
-            if (equal_ignoring_case(other, text)) return &a;
-    }
-    return nullptr;
-}
 
 std::string AfferentComponents::front_end() const {
     std::string text;

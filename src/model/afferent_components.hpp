@@ -18,7 +18,4 @@ struct AfferentComponents {
 /// Parses a text such as "fsr+f2v+sa1". The front end of a named afferent, if it has one, is among the components.
 Result<AfferentComponents> parse_components(std::string_view text);
 
-/// The named afferent with this name or alias, in upper or lower case; null if there is none.
-const NamedAfferent* find_named_afferent(std::string_view text);
-
 }  // namespace corpuscle

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 #include <algorithm>
 
+#include "core/text/ascii_text.hpp"
 #include "model/afferent_components.hpp"
 #include "model/model_factory.hpp"
 #include "model/sensor/front_end_factory.hpp"
@@ -105,13 +106,14 @@ std::vector<CatalogEntry> converter_entries() { return entries_of_list(Converter
 std::vector<CatalogEntry> receptor_entries() { return entries_of_list(Receptors{}); }
 std::vector<CatalogEntry> neuron_entries() { return entries_of_list(Neurons{}); }
 
-bool matches_name(const AfferentPlan& plan, std::string_view requested, std::string_view name) {
-    if (name == requested || name == plan.name) return true;
-    const auto* named = find_named_afferent(name);
-    return named && named->name == plan.name;
-}
-
 namespace {
+
+/// The name of the afferent that `text` specifies.
+std::string name_of(std::string_view text, const AfferentComponents& parts) {
+    if (!parts.named) return std::string(text);
+    const bool has_added_front_end = parts.named->front_end.empty() && !parts.front_end().empty();
+    return has_added_front_end ? fmt::format("{}+{}", parts.front_end(), parts.named->name) : std::string(parts.named->name);
+}
 
 /// The plan of an afferent with the values of its name, before overrides.
 AfferentPlan plan_of_components(std::string_view text, const AfferentComponents& parts) {
@@ -119,10 +121,7 @@ AfferentPlan plan_of_components(std::string_view text, const AfferentComponents&
     const auto entries = entries_of_components(parts);
     const auto& receptor = entries[entries.size() - 2];  // the neuron is last
     AfferentPlan plan;
-    plan.name = text;
-    if (named)
-        plan.name =
-            named->front_end.empty() && !parts.front_end().empty() ? fmt::format("{}+{}", parts.front_end(), named->name) : named->name;
+    plan.name = name_of(text, parts);
     plan.receptor = parts.receptor, plan.neuron = parts.neuron;
     plan.description = named ? named->description : receptor.description, plan.source = named ? named->source : receptor.source;
     plan.sensor = parts.sensor, plan.transducer = parts.transducer, plan.converter = parts.converter;
@@ -161,18 +160,40 @@ SourceLocation location_of_invalid(const AfferentPlan& plan, std::span<const Par
     return overrides.empty() ? SourceLocation{} : overrides[0].location;
 }
 
+/// An afferent of equations: its components, as the plan with the values of its name.
+class ModelSpec final : public AfferentSpec {
+    AfferentPlan plan_;
+
+public:
+    ModelSpec(std::string_view text, const AfferentComponents& parts) : AfferentSpec(text), plan_(plan_of_components(text, parts)) {}
+    Result<PlannedAfferent> plan(std::span<const ParameterOverride> overrides, std::span<const std::string>) const override {
+        auto [own, unused] = select_overrides(overrides, [&](std::string_view target) { return matches_name(plan_, target); });
+        const auto rows = parameter_infos(plan_);
+        std::vector<Setting> settings;
+        for (const auto& given : own) settings.push_back(TRY(setting_of(given, rows)));
+        auto changed = with_user_settings(plan_, settings);
+        if (const auto ok = check_plan(changed); !ok) return bad_input(ok.error().message, location_of_invalid(plan_, own, settings));
+        return PlannedAfferent{{std::move(changed), std::move(unused)}, {}};
+    }
+};
+
 }  // namespace
 
-Result<Applied<AfferentPlan>> plan_afferent(std::string_view text, std::span<const ParameterOverride> overrides) {
+bool matches_name(const AfferentPlan& plan, std::string_view name) {
+    if (name == plan.name || (plan.traits().ignores_case && equal_ignoring_case(name, plan.name))) return true;
+    const auto parts = parse_components(name);
+    return parts && name_of(name, *parts) == plan.name;
+}
+
+Result<std::shared_ptr<const AfferentSpec>> read_model_spec(std::string_view text) {
     const auto parts = TRY(parse_components(text));
-    const auto plan = plan_of_components(text, parts);
-    auto [own, unused] = select_overrides(overrides, [&](std::string_view target) { return matches_name(plan, text, target); });
-    const auto rows = parameter_infos(plan);
-    std::vector<Setting> settings;
-    for (const auto& given : own) settings.push_back(TRY(setting_of(given, rows)));
-    auto changed = with_user_settings(plan, settings);
-    if (const auto ok = check_plan(changed); !ok) return bad_input(ok.error().message, location_of_invalid(plan, own, settings));
-    return Applied<AfferentPlan>{std::move(changed), std::move(unused)};
+    return std::shared_ptr<const AfferentSpec>(std::make_shared<ModelSpec>(text, parts));
+}
+
+Result<Applied<AfferentPlan>> plan_afferent(std::string_view text, std::span<const ParameterOverride> overrides) {
+    const auto spec = TRY(read_model_spec(text));
+    auto planned = TRY(spec->plan(overrides, {}));
+    return Applied<AfferentPlan>(std::move(planned));
 }
 
 Result<AfferentPlan> plan_afferent(std::string_view text) {

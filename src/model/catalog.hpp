@@ -6,7 +6,7 @@
 #include <string_view>
 #include <vector>
 
-#include "core/afferent_factory.hpp"
+#include "core/afferent_spec.hpp"
 #include "model/chain.hpp"
 #include "model/models.hpp"
 #include "model/sensor/adc.hpp"
@@ -54,9 +54,8 @@ struct ParameterOrder {
     bool or_equal = false;          ///< true: the two values may also be equal
 };
 
-/// True if `name`, the target of an override, means this plan: if it is the plan's name, an alias of it, or `requested`, the text from
-/// which the user had the plan made.
-bool matches_name(const AfferentPlan&, std::string_view requested, std::string_view name);
+/// True if `name`, the target of an override, means this plan: if it is the plan's name, or a text that specifies the same afferent.
+bool matches_name(const AfferentPlan&, std::string_view name);
 
 /// All order constraints on a plan's parameters.
 std::vector<ParameterOrder> order_constraints_of(const AfferentPlan&);
@@ -65,10 +64,11 @@ std::vector<ParameterOrder> order_constraints_of(const AfferentPlan&);
 /// that the front end can measure its range of force, and that fixed-point words are long enough.
 Result<void> check_plan(const AfferentPlan&);
 
-/// Makes the plan of the afferent that `text` specifies: "sa1", "SA1", "sa1b+izhikevich", "fsr+f2i+sa1".
-Result<AfferentPlan> plan_afferent(std::string_view text);
+/// Reads the text that specifies an afferent of equations: "sa1", "SA1", "sa1b+izhikevich", "fsr+f2i+sa1".
+Result<std::shared_ptr<const AfferentSpec>> read_model_spec(std::string_view text);
 
-/// The same with the overrides applied whose target is `text`, the plan's name or an alias.
+/// The plan of the afferent that `text` specifies, with the overrides applied whose target is `text`, the plan's name or an alias.
+Result<AfferentPlan> plan_afferent(std::string_view text);
 Result<Applied<AfferentPlan>> plan_afferent(std::string_view text, std::span<const ParameterOverride> overrides);
 
 }  // namespace corpuscle

@@ -150,11 +150,11 @@ public:
 
 }  // namespace
 
-Result<Applied<std::vector<ParameterDistribution>>> distributions_for(const AfferentPlan& plan, std::string_view requested,
+Result<Applied<std::vector<ParameterDistribution>>> distributions_for(const AfferentPlan& plan,
                                                                       std::span<const ParameterOverride> overrides) {
     const auto rows = parameter_infos(plan);
     const bool ignores_case = plan.traits().ignores_case;
-    auto [own, unused] = select_overrides(overrides, [&](std::string_view target) { return matches_name(plan, requested, target); });
+    auto [own, unused] = select_overrides(overrides, [&](std::string_view target) { return matches_name(plan, target); });
     std::vector<ParameterDistribution> distributions;
     for (auto& o : own) {
         if (ignores_case) o.parameter = lower(o.parameter);

@@ -23,10 +23,8 @@ struct CopySpec {
 inline constexpr std::uint32_t max_copies = 1'000'000;  ///< limit of CopySpec::count
 
 /// The distributions that the values of --spread (`overrides`: "sa1.f_B=10%", "sa1.f_B=2Hz") give to the parameters of this plan.
-/// `requested` is the text from which the user had the plan made, see matches_name(). Refuses a parameter that all copies share, a
-/// percentage of a value that is 0, and the same parameter twice.
-Result<Applied<std::vector<ParameterDistribution>>> distributions_for(const AfferentPlan&, std::string_view requested,
-                                                                      std::span<const ParameterOverride> overrides);
+/// Refuses a parameter that all copies share, a percentage of a value that is 0, and the same parameter twice.
+Result<Applied<std::vector<ParameterDistribution>>> distributions_for(const AfferentPlan&, std::span<const ParameterOverride> overrides);
 
 /// Copies 1 to n of a plan, each with its own parameter values. A value depends only on the seed, the names of afferent and parameter, and
 /// the number of the copy. A value outside the parameter's range is sampled again. If the values violate an order constraint, all

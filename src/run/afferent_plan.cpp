@@ -24,17 +24,16 @@ Error unknown_afferent(std::string_view text, Error error) {
 
 }  // namespace
 
-Result<PlannedAfferent> plan_any_afferent(std::string_view text, std::span<const ParameterOverride> overrides,
-                                          std::span<const std::string> probes) {
-    if (names_netlist(text)) return circuit::plan_netlist(text, overrides, probes);
-    auto planned = plan_afferent(text, overrides);
-    if (!planned) return unknown_afferent(text, planned.error());
-    return PlannedAfferent{std::move(*planned), {}};
+Result<std::shared_ptr<const AfferentSpec>> read_afferent_spec(std::string_view text) {
+    if (names_netlist(text)) return std::shared_ptr<const AfferentSpec>(std::make_shared<circuit::NetlistSpec>(text));
+    auto spec = read_model_spec(text);
+    return spec ? std::move(spec) : unknown_afferent(text, spec.error());
 }
 
-Result<AfferentPlan> plan_any_afferent(std::string_view text) {
-    auto planned = TRY(plan_any_afferent(text, {}));
-    return std::move(planned.result);
+Result<PlannedAfferent> plan_any_afferent(std::string_view text, std::span<const ParameterOverride> overrides,
+                                          std::span<const std::string> probes) {
+    const auto spec = TRY(read_afferent_spec(text));
+    return spec->plan(overrides, probes);
 }
 
 }  // namespace corpuscle

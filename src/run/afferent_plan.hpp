@@ -11,11 +11,13 @@ inline bool names_netlist(std::string_view text) {
     return circuit::find_embedded_netlist(text) != nullptr || text.find_first_of("./") != std::string_view::npos;
 }
 
-/// As plan_afferent, but also accepts netlists: "sa1-circuit", or "path/own.cir" with a force input and a spike output (doc/circuits.md).
-/// An override for a netlist sets one of its values: "sa1-circuit.summer.N3B.w=1.2um"; one without a target is for every netlist.
-/// `probes`: recorded instead of the .save quantities of a netlist that has at least one of them.
-Result<PlannedAfferent> plan_any_afferent(std::string_view text, std::span<const ParameterOverride> overrides,
+/// Reads the text that specifies an afferent: as read_model_spec(), or a netlist, "sa1-circuit" or "path/own.cir" with a force input and a
+/// spike output (doc/circuits.md).
+Result<std::shared_ptr<const AfferentSpec>> read_afferent_spec(std::string_view text);
+
+/// The plan of the afferent that a text specifies; see AfferentSpec. An override for a netlist sets one of its values:
+/// "sa1-circuit.summer.N3B.w=1.2um"; one without a target is for every netlist.
+Result<PlannedAfferent> plan_any_afferent(std::string_view text, std::span<const ParameterOverride> overrides = {},
                                           std::span<const std::string> probes = {});
-Result<AfferentPlan> plan_any_afferent(std::string_view text);
 
 }  // namespace corpuscle

@@ -321,7 +321,8 @@ TEST(Respond, NetlistsAndModelsRespondTheSameInBlocksOfAnySize) {
     const auto path = corpuscle::test::source_root() + "/circuits/spiker.cir";
     std::vector<RecordingListener> recorders(3);
     for (std::size_t k = 0; k < recorders.size(); ++k) {
-        const std::vector<AfferentPlan> plans = {value_or_throw(plan_any_afferent(path)), value_or_throw(plan_any_afferent("fa1"))};
+        const std::vector<AfferentPlan> plans = {value_or_throw(plan_any_afferent(path)).result,
+                                                 value_or_throw(plan_any_afferent("fa1")).result};
         std::vector<std::unique_ptr<ForceSource>> sources;
         sources.push_back(value_or_throw(make_stimulus("press", 1e3, 0)));
         Sink* listeners[] = {&recorders[k]};

@@ -48,7 +48,7 @@ void run(const AfferentPlan& plan, ForceSource& source, Method method) {
 void make_random_copies(std::string_view text, std::span<const ParameterOverride> overrides) {
     const auto plan = plan_afferent(text);
     if (!plan) return;
-    const auto spreads = distributions_for(*plan, text, overrides);
+    const auto spreads = distributions_for(*plan, overrides);
     if (!spreads) return spreads.error().message.empty() ? std::abort() : void();
     const auto copies = make_copies(*plan, 3, spreads->result, 1);
     if (!copies) return copies.error().message.empty() ? std::abort() : void();

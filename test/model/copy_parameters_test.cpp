@@ -22,7 +22,7 @@ struct SampleOptions {
 std::vector<AfferentPlan> sample_copies(const std::string& name, const SampleOptions& d) {
     const auto plan = test::applied_or_throw(plan_afferent(name, test::parse_settings(d.settings)));
     return value_or_throw(
-        make_copies(plan, d.copies, test::applied_or_throw(distributions_for(plan, name, test::parse_settings(d.spreads))), d.seed));
+        make_copies(plan, d.copies, test::applied_or_throw(distributions_for(plan, test::parse_settings(d.spreads))), d.seed));
 }
 
 /// The value of a parameter in each copy.
@@ -146,7 +146,7 @@ TEST(Contract, EveryParameterThatCopiesDoNotShareCanDifferInEveryAfferent) {
             const auto& row = (*plan.parameters)[k].info;
             if (!row.is_shared_by_copies && plan.values[k] != 0) overrides.push_back({name, std::string(row.name), "2%"});
         }
-        const auto spreads = test::applied_or_throw(distributions_for(plan, name, overrides));
+        const auto spreads = test::applied_or_throw(distributions_for(plan, overrides));
         const auto copies = value_or_throw(make_copies(plan, 4, spreads, 3));
         for (const auto& copy : copies) {
             EXPECT_TRUE(check_plan(copy)) << copy.name;
@@ -194,7 +194,7 @@ TEST(ParameterDistribution, OfASharedParameterIsRefusedByName) {
         {"sa1", {"sa1.f_B=1Hz", "SA-I.f_B=10%"}, "--spread SA-I.f_B=10%: sa1.f_B is given twice"},
     };
     for (const auto& c : cases) {
-        const auto spreads = distributions_for(value_or_throw(plan_afferent(c.name)), c.name, test::parse_settings(c.spreads, "--spread"));
+        const auto spreads = distributions_for(value_or_throw(plan_afferent(c.name)), test::parse_settings(c.spreads, "--spread"));
         ASSERT_FALSE(spreads) << c.message;
         EXPECT_EQ(spreads.error().text(), c.message);
     }
@@ -202,8 +202,7 @@ TEST(ParameterDistribution, OfASharedParameterIsRefusedByName) {
 
 TEST(ParameterDistribution, WithoutAcceptableSamplesIsAnErrorAfterAThousandTries) {
     const auto plan = value_or_throw(plan_afferent("sa1"));
-    const auto wide =
-        make_copies(plan, 2, test::applied_or_throw(distributions_for(plan, "sa1", test::parse_settings({"sa1.V_th=1GV"}))), 1);
+    const auto wide = make_copies(plan, 2, test::applied_or_throw(distributions_for(plan, test::parse_settings({"sa1.V_th=1GV"}))), 1);
     ASSERT_FALSE(wide);
     EXPECT_EQ(wide.error().text(),
               "sa1#1: none of 1000 samples of V_th about 500 mV with a standard deviation of 1 GV is valid; lower its --spread");

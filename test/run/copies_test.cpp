@@ -26,7 +26,7 @@ CopiesOfAfferents make_test_copies(const std::vector<std::string>& names, std::u
     out.population.count = n;
     for (const auto& name : names) {
         out.base.push_back(value_or_throw(plan_afferent(name)));
-        const auto distributions = value_or_throw(distributions_for(out.base.back(), name, test::parse_settings(spreads))).result;
+        const auto distributions = value_or_throw(distributions_for(out.base.back(), test::parse_settings(spreads))).result;
         for (auto& c : value_or_throw(make_copies(out.base.back(), n, distributions, 4))) out.copies.push_back(c);
         out.population.distributions.insert(out.population.distributions.end(), distributions.begin(), distributions.end());
     }

@@ -15,7 +15,7 @@ namespace {
 using test::value_or_throw;
 
 AfferentPlan make_named(const std::string& name) {
-    auto plan = value_or_throw(plan_any_afferent("sa1"));
+    auto plan = value_or_throw(plan_any_afferent("sa1")).result;
     plan.name = name;
     return plan;
 }
@@ -33,7 +33,7 @@ TEST(ImplementationGroup, IsTheAfferentTypeAtTheBeginningOfAName) {
 }
 
 TEST(ImplementationGroup, TheAfferentOfThisNameIsFirstThenModelsThenNetlists) {
-    const auto chip = value_or_throw(plan_any_afferent(test::source_root() + "/circuits/sa1.cir"));
+    const auto chip = value_or_throw(plan_any_afferent(test::source_root() + "/circuits/sa1.cir")).result;
     const AfferentPlan plans[] = {chip, make_named("sa1-kim"), make_named("fa1"), make_named("sa1")};
     const auto all = implementation_groups(plans);
     ASSERT_EQ(all.size(), 2u);
@@ -52,7 +52,7 @@ ImplementationRun run_implementations(const std::vector<std::string>& stimuli, c
     std::vector<std::unique_ptr<ForceSource>> sources;
     std::vector<AfferentPlan> plans;
     for (const auto& s : stimuli) sources.push_back(value_or_throw(make_stimulus(s, 2e3, 9)));
-    for (const auto& n : names) plans.push_back(value_or_throw(plan_any_afferent(n)));
+    for (const auto& n : names) plans.push_back(value_or_throw(plan_any_afferent(n)).result);
     std::vector<AfferentPlan> all_plans;  // with copies
     for (const auto& p : plans)
         for (auto& copy : copies ? value_or_throw(make_copies(p, copies, {}, 1)) : std::vector{p}) all_plans.push_back(std::move(copy));

@@ -1,6 +1,7 @@
 // Every kind of population with every output format: the files have the spikes of spikes.csv, or the table of exceptions has the reason.
 
 #include <fmt/format.h>
+#include <map>
 #include <nlohmann/json.hpp>
 #include <numeric>
 
@@ -191,8 +192,9 @@ TEST(PopulationsAndFormats, AnOptionInTheTableOfExceptionsIsRefusedWithItsReason
     for (const auto& exception : population_exceptions()) {
         if (!exception.option.starts_with("--")) continue;
         const auto population = exception.population == PopulationKind::skin ? "--population 'grid 2x2'" : "";
-        const bool is_flag = exception.option == "--float" || exception.option == "--vectors";
-        const auto* const value = is_flag ? "" : exception.option == "--spread" ? "sa1.f_B=10%" : "1";
+        const std::map<std::string_view, std::string_view> values = {
+            {"--float", ""}, {"--vectors", ""}, {"--afferent", "sa1"}, {"--spread", "sa1.f_B=10%"}};
+        const auto value = values.contains(exception.option) ? values.at(exception.option) : "1";
         const auto ran = run_program(folder, fmt::format("respond press {} {} {} -o out", population, exception.option, value));
         EXPECT_EQ(ran.status, 2) << exception.option;
         for (const auto text : {exception.option, exception.reason, exception.remedy})

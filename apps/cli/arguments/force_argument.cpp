@@ -5,27 +5,39 @@
 #include <filesystem>
 
 #include "core/stimulus/stimuli.hpp"
-#include "skin/contact/contact.hpp"
 
 namespace corpuscle {
+namespace {
 
-bool is_force(const std::string& argument) {
-    const auto touches = named_touches();
+bool is_file(const std::string& path) {
     std::error_code status;
-    return is_stimulus(argument) || argument == "-" || std::filesystem::exists(argument, status) ||
-           std::any_of(touches.begin(), touches.end(), [&](const NamedTouch& t) { return t.name == argument; });
+    return path == "-" || std::filesystem::exists(path, status);
 }
 
-Result<Applied<std::unique_ptr<ForceSource>>> open_force(const std::string& force, const RecordingOptions& options,
-                                                         std::span<const ParameterOverride> overrides, double rate, std::uint64_t seed) {
-    if (is_stimulus(force)) return make_stimulus(force, overrides, options.rate.value_or(rate), seed);
-    std::error_code status;
-    if (!std::filesystem::exists(force, status) && force.find_first_of("./") == std::string::npos && force != "-") {
-        auto error = make_stimulus(force, rate, seed).error();
-        error.message += fmt::format(" (and no file '{}' exists)", force.substr(0, 64));
+}  // namespace
+
+ForceArgument read_force(std::string text) {
+    const auto all = named_touches();
+    const auto touch = std::find_if(all.begin(), all.end(), [&](const NamedTouch& t) { return t.name == text; });
+    const bool is_of_catalog = is_stimulus(text);
+    return {std::move(text), is_of_catalog, touch == all.end() ? nullptr : &*touch};
+}
+
+bool is_force(const std::string& argument) {
+    const auto force = read_force(argument);
+    return force.is_stimulus || force.touch || is_file(argument);
+}
+
+Result<Applied<std::unique_ptr<ForceSource>>> ForceArgument::open(const RecordingOptions& options,
+                                                                  std::span<const ParameterOverride> overrides, double rate,
+                                                                  std::uint64_t seed) const {
+    if (is_stimulus) return make_stimulus(text, overrides, options.rate.value_or(rate), seed);
+    if (!is_file(text) && text.find_first_of("./") == std::string::npos) {
+        auto error = make_stimulus(text, rate, seed).error();
+        error.message += fmt::format(" (and no file '{}' exists)", text.substr(0, 64));
         return error;
     }
-    auto recording = TRY(open_recording(force == "-" ? "/dev/stdin" : force, options));
+    auto recording = TRY(open_recording(text == "-" ? "/dev/stdin" : text, options));
     return Applied<std::unique_ptr<ForceSource>>{std::move(recording), {overrides.begin(), overrides.end()}};
 }
 

@@ -1,5 +1,5 @@
 #pragma once
-// Opens the FORCE argument of the command line: a stimulus by name, or a recording.
+// A FORCE of the command line: a stimulus by name, a touch of a skin, or a recording.
 
 #include <memory>
 #include <span>
@@ -8,15 +8,24 @@
 #include "core/force_source.hpp"
 #include "core/parameter_override.hpp"
 #include "io/recording/recording.hpp"
+#include "skin/contact/contact.hpp"
 
 namespace corpuscle {
 
-/// True if an argument names a stimulus ("press"), a touch of a skin ("stroke") or an existing file, or is "-" (standard input).
-bool is_force(const std::string& argument);
+/// A FORCE as typed. A stimulus takes precedence over a file of the same name: write ./press for the file. "-" is standard input.
+struct ForceArgument {
+    std::string text;
+    bool is_stimulus = false;           ///< "press", "press+noise"; otherwise a recording
+    const NamedTouch* touch = nullptr;  ///< for a skin, the touch of this name: "stroke"; null: there is none
 
-/// Opens a stimulus or a recording. A stimulus takes precedence over a file of the same name: write ./press for the file. "-" is standard
-/// input. `rate` (Hz) and `seed` are for stimuli; RecordingOptions::rate, if set, replaces `rate`.
-Result<Applied<std::unique_ptr<ForceSource>>> open_force(const std::string& force, const RecordingOptions&,
-                                                         std::span<const ParameterOverride> overrides, double rate, std::uint64_t seed);
+    /// Opens the stimulus or recording. `rate` (Hz) and `seed` are for stimuli; RecordingOptions::rate, if set, replaces `rate`.
+    Result<Applied<std::unique_ptr<ForceSource>>> open(const RecordingOptions&, std::span<const ParameterOverride>, double rate,
+                                                       std::uint64_t seed) const;
+};
+
+ForceArgument read_force(std::string text);
+
+/// True if an argument names a stimulus, a touch of a skin or an existing file, or is "-" (standard input).
+bool is_force(const std::string& argument);
 
 }  // namespace corpuscle

@@ -24,14 +24,18 @@ bool has_visible_default(const T& value, const OptionCheck& check) {
 CLI::Option* add_read_option(CLI::App& part, const OptionRow& row, const OptionReader& reader) {
     const std::string names(row.names), option = names.substr(0, names.find(',')), description(row.description);
     const auto read = [reader, option](const std::string& text) {
-        if (const auto ok = reader(text); !ok) throw UsageError(fmt::format("{} {}", option, ok.error().message));
+        if (const auto ok = reader(text); !ok)
+            throw OptionError(ok.error().code == ErrorCode::bad_usage ? bad_usage(fmt::format("{} {}", option, ok.error().message))
+                                                                      : ok.error());
     };
     const auto read_all = [read](const std::vector<std::string>& texts) {
         for (const auto& text : texts) read(text);
     };
     if (row.value.empty()) return part.add_flag_callback(names, [read] { read(""); }, description);
-    if (row.is_repeatable) return part.add_option_function<std::vector<std::string>>(names, read_all, description)->allow_extra_args(false);
-    auto* const added = part.add_option_function<std::string>(names, read, description);
+    auto* const added = row.is_repeatable ? part.add_option_function<std::vector<std::string>>(names, read_all, description)
+                                          : part.add_option_function<std::string>(names, read, description);
+    if (row.is_repeatable && names.starts_with('-')) added->allow_extra_args(false);
+    if (row.splits_at_commas) added->delimiter(',');
     return row.shown_default ? added->default_str(row.shown_default) : added;
 }
 
@@ -50,10 +54,8 @@ CLI::Option* add_option(CLI::App& part, const OptionRow& row) {
         } else {
             auto* const option = part.add_option(names, *target, description);
             if (has_visible_default(*target, row.check)) option->capture_default_str();
-            if constexpr (is_list<T>) {
+            if constexpr (is_list<T>)
                 if (names.starts_with('-')) option->allow_extra_args(row.count.has_value());
-                if (row.splits_at_commas) option->delimiter(',')->default_str(fmt::format("{}", fmt::join(*target, ",")));
-            }
             return option;
         }
     };
@@ -78,10 +80,7 @@ OptionReader refuse_if(std::function<bool()> is_invalid, std::string_view messag
 }
 
 OptionReader override_reader(std::vector<ParameterOverride>& to, std::string option) {
-    return [&to, option = std::move(option)](const std::string& text) -> Result<void> {
-        to.push_back(TRY(parse_override(text, option)));
-        return {};
-    };
+    return list_reader(to, [option = std::move(option)](const std::string& text) { return parse_override(text, option); });
 }
 
 void add_options(CLI::App& part, const OptionGroup& group) {

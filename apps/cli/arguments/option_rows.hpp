@@ -20,7 +20,7 @@ class App;
 
 namespace corpuscle {
 
-/// Reads the text of an option into a typed value. An error is one of usage; its message follows the name of the option.
+/// Reads the text of an option into a typed value. The message of an error of usage follows the name of the option.
 using OptionReader = std::function<Result<void>(const std::string& text)>;
 
 /// The variable that an option sets, or the function that reads it. The value of a list is that of all occurrences of the option; a bool is
@@ -52,8 +52,8 @@ struct OptionRow {
     /// The numbers of values per occurrence, lowest and highest. Default: one, and any number for a positional list.
     std::optional<std::pair<int, int>> count = {};
     bool is_required = false;
-    bool splits_at_commas = false;        ///< a value with commas is a list
     bool is_repeatable = false;           ///< with a reader: may be given several times
+    bool splits_at_commas = false;        ///< with a reader: each part of a value is read
     const char* shown_default = nullptr;  ///< with a reader: the default that --help prints
     const char* needs = nullptr;          ///< an option that must also be given
     const char* excludes = nullptr;       ///< an option that must not be given, too
@@ -66,7 +66,7 @@ inline OptionRow needing(const char* option, OptionRow row) { return row.needs =
 inline OptionRow excluding(const char* option, OptionRow row) { return row.excludes = option, row; }
 inline OptionRow repeatable(OptionRow row) { return row.is_repeatable = true, row; }
 inline OptionRow with_default(const char* text, OptionRow row) { return row.shown_default = text, row; }
-inline OptionRow split_at_commas(OptionRow row) { return row.splits_at_commas = true, row; }
+inline OptionRow split_at_commas(OptionRow row) { return row.is_repeatable = row.splits_at_commas = true, row; }
 
 /// Reads a quantity, in SI, into a variable. `unit`: as for parse_quantity().
 template <class T>
@@ -80,6 +80,15 @@ OptionReader quantity_reader(T& to, std::string_view unit) {
 }
 /// A reader that refuses a text after reading it if `is_invalid()`: "TEXT: MESSAGE".
 OptionReader refuse_if(std::function<bool()> is_invalid, std::string_view message, OptionReader);
+/// Reads texts into a list. `read` turns a text into an element of the list or an error.
+template <class T, class Read>
+OptionReader list_reader(std::vector<T>& to, Read read) {
+    return [&to, read](const std::string& text) -> Result<void> {
+        Result<T> value = read(text);
+        if (!value) return value.error();
+        return to.push_back(std::move(*value)), Result<void>();
+    };
+}
 /// Reads settings ("sa1.f_B=25Hz") of this option into a list.
 OptionReader override_reader(std::vector<ParameterOverride>&, std::string option);
 
@@ -89,10 +98,10 @@ struct OptionGroup {
     std::vector<OptionRow> rows;
 };
 
-/// An option whose text a reader refused.
-class UsageError : public std::runtime_error {
-public:
-    using std::runtime_error::runtime_error;
+/// A reader refused the text of an option.
+struct OptionError : std::runtime_error {
+    Error error;
+    explicit OptionError(const Error& refusal) : std::runtime_error(refusal.message), error(refusal) {}
 };
 
 /// Adds a group to the part of the command line that belongs to a verb.

@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 #include <algorithm>
 
-#include "core/stimulus/stimuli.hpp"
 #include "core/text/quantity.hpp"
 
 namespace corpuscle {
@@ -101,12 +100,12 @@ std::vector<std::string> given_recording_options(const CommonArguments& common) 
     return given;
 }
 
-Result<void> check_recording_arguments(const CommonArguments& common, std::span<const std::string> forces) {
-    if (forces.empty() || !std::all_of(forces.begin(), forces.end(), [](const auto& f) { return is_stimulus(f); })) return {};
+Result<void> check_recording_arguments(const CommonArguments& common, std::span<const ForceArgument> forces) {
+    if (forces.empty() || !std::all_of(forces.begin(), forces.end(), [](const auto& f) { return f.is_stimulus; })) return {};
     const auto options = given_recording_options(common);
     if (options.empty()) return {};
     return bad_usage(
-        fmt::format("{} is for recordings, but {} is a stimulus; change it by --set {}.PARAMETER=VALUE", options[0], forces[0], forces[0]));
+        fmt::format("{0} is for recordings, but {1} is a stimulus; change it by --set {1}.PARAMETER=VALUE", options[0], forces[0].text));
 }
 
 }  // namespace corpuscle

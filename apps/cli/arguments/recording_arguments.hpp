@@ -6,8 +6,8 @@
 #include <string_view>
 #include <vector>
 
+#include "cli/arguments/force_argument.hpp"
 #include "cli/verb.hpp"
-#include "io/recording/recording.hpp"
 
 namespace corpuscle {
 
@@ -18,6 +18,6 @@ OptionGroup recording_option_group(RecordingOptions&);
 std::vector<std::string> given_recording_options(const CommonArguments&);
 
 /// Returns an error if a recording option was given although all `forces` are stimuli.
-Result<void> check_recording_arguments(const CommonArguments&, std::span<const std::string> forces);
+Result<void> check_recording_arguments(const CommonArguments&, std::span<const ForceArgument> forces);
 
 }  // namespace corpuscle

@@ -9,13 +9,12 @@
 namespace corpuscle {
 
 /// The run that the arguments request.
-struct ChannelJob {
-    std::vector<ParameterOverride> overrides, unused;  // unused: those that no afferent and no source so far has used
-    std::vector<AfferentPlan> afferents;               // the afferents of --afferent
+struct ChannelJob : RespondJob {
+    std::vector<ParameterOverride> spreads;  // of --spread; those that no afferent so far has used
+    std::vector<AfferentPlan> afferents;     // the afferents of --afferent
     CopySpec copy_spec;
     std::vector<AfferentPlan> copies;  // the simulated afferents: all copies, or without --copies the afferents themselves
     std::vector<std::unique_ptr<ForceSource>> sources;
-    RespondOptions options;
     std::vector<std::string> warnings;
 };
 

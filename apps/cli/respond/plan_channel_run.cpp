@@ -5,11 +5,7 @@
 #include <iterator>
 #include <limits>
 
-#include "cli/arguments/netlist_arguments.hpp"
-#include "cli/arguments/recording_arguments.hpp"
 #include "cli/respond/channel_run.hpp"
-#include "core/text/ascii_text.hpp"
-#include "run/afferent_plan.hpp"
 #include "run/channels/channel_warnings.hpp"
 
 namespace corpuscle {
@@ -17,23 +13,23 @@ namespace {
 
 constexpr double default_rate = 10e3;  // Hz, sample rate of stimuli
 
-/// Fills in job.copies and job.copy_spec.
-Result<void> populate(ChannelJob& job, const RespondArguments& args) {
-    if (args.copies == 0 && !args.spreads.empty())
-        return bad_usage(fmt::format("{} needs --copies N, such as --copies 100", args.spreads[0].typed));
-    auto unused = args.spreads;
-    job.copy_spec.count = args.copies;
-    if (args.copies == 0) job.copies = job.afferents;
-    for (std::size_t a = 0; args.copies > 0 && a < job.afferents.size(); ++a) {
-        auto spreads = TRY(distributions_for(job.afferents[a], args.afferents[a], args.spreads));
-        keep_unused(unused, spreads.unused);
-        auto copies = TRY(make_copies(job.afferents[a], args.copies, spreads.result, args.simulation.seed));
-        std::move(copies.begin(), copies.end(), std::back_inserter(job.copies));
-        std::move(spreads.result.begin(), spreads.result.end(), std::back_inserter(job.copy_spec.distributions));
+/// Makes the copies of the afferents. Each of job.spreads is for one afferent.
+Result<void> populate(ChannelJob& job) {
+    if (job.copy_spec.count == 0) {
+        job.copies = job.afferents;
+        return job.spreads.empty() ? Result<void>()
+                                   : bad_usage(fmt::format("{} needs --copies N, such as --copies 100", job.spreads[0].typed));
     }
     std::vector<std::string_view> names;
-    for (const auto& a : job.afferents) names.push_back(a.name);
-    return check_all_used(unused, names);
+    for (const auto& afferent : job.afferents) {
+        names.push_back(afferent.name);
+        auto applied = TRY(distributions_for(afferent, job.spreads));
+        job.spreads = std::move(applied.unused);
+        auto copies = TRY(make_copies(afferent, job.copy_spec.count, applied.result, job.options.seed));
+        std::move(copies.begin(), copies.end(), std::back_inserter(job.copies));
+        std::move(applied.result.begin(), applied.result.end(), std::back_inserter(job.copy_spec.distributions));
+    }
+    return check_all_used(job.spreads, names);
 }
 
 /// Returns an error if there are more afferents than 32-bit indexes.
@@ -65,13 +61,13 @@ Result<void> check_probes(std::span<const std::string> names, std::span<const st
     return {};
 }
 
-Result<void> plan_afferents(ChannelJob& job, const RespondArguments& args) {
-    const auto& probes = args.netlists.probes;
+Result<void> plan_afferents(ChannelJob& job, std::span<const std::shared_ptr<const AfferentSpec>> specs,
+                            std::span<const std::string> probes) {
     std::vector<std::vector<RequestedProbe>> found;
-    for (const auto& name : args.afferents) {
-        auto planned = TRY(plan_any_afferent(name, job.overrides, probes));
+    for (const auto& spec : specs) {
+        auto planned = TRY(spec->plan(job.overrides, probes));
         if (std::any_of(job.afferents.begin(), job.afferents.end(), [&](const auto& a) { return a.name == planned.result.name; }))
-            return bad_usage(fmt::format("--afferent {}: given twice", name));
+            return bad_usage(fmt::format("--afferent {}: given twice", spec->text()));
         keep_unused(job.unused, planned.unused);
         job.afferents.push_back(std::move(planned.result));
         if (!planned.probes.empty()) found.push_back(std::move(planned.probes));
@@ -79,28 +75,25 @@ Result<void> plan_afferents(ChannelJob& job, const RespondArguments& args) {
     return check_probes(probes, found);
 }
 
-/// Opens every FORCE, and keeps the overrides that they have not used.
-Result<void> open_sources(ChannelJob& job, const RespondArguments& args, bool quiet) {
-    for (const auto& force : args.forces) {
-        auto source = TRY(open_source(force, args, job.overrides, default_rate, quiet));
-        keep_unused(job.unused, source.unused);
-        job.sources.push_back(std::move(source.result));
-    }
+Result<void> open_sources(ChannelJob& job, std::span<const ForceArgument> forces, const RecordingOptions& recording, bool quiet) {
+    for (const auto& force : forces) job.sources.push_back(TRY(open_source(job, force, recording, default_rate, quiet)));
     return {};
 }
 
 }  // namespace
 
 Result<ChannelJob> plan_channel_job(const RespondArguments& args, bool quiet) {
+    if (args.forces.empty()) return bad_usage("respond: no FORCE given; try 'corpuscle respond press'");
     ChannelJob job;
     job.options = args.simulation;
-    if (args.forces.empty()) return bad_usage("respond: no FORCE given; try 'corpuscle respond press'");
+    job.spreads = args.spreads;
+    job.copy_spec.count = args.copies;
     job.overrides = args.netlists.overrides;  // first, so that a setting for one netlist takes precedence
     job.overrides.insert(job.overrides.end(), args.settings.begin(), args.settings.end());
     job.unused = job.overrides;
-    TRY(plan_afferents(job, args));
-    TRY(populate(job, args));
-    TRY(open_sources(job, args, quiet));
+    TRY(plan_afferents(job, args.afferents, args.netlists.probes));
+    TRY(populate(job));
+    TRY(open_sources(job, args.forces, args.recording, quiet));
     TRY(check_overrides(job));
     TRY(check_afferent_count(job));
     job.warnings = rate_warnings(job.sources, job.afferents);

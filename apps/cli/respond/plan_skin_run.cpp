@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 #include <algorithm>
 
-#include "cli/arguments/recording_arguments.hpp"
 #include "cli/respond/skin_run.hpp"
 #include "core/text/ascii_text.hpp"
 #include "skin/plan/class_overrides.hpp"
@@ -13,7 +12,7 @@ namespace corpuscle {
 namespace {
 
 constexpr double skin_rate = 1e3;  // Hz, default sample rate of stimuli
-constexpr const char* default_indenter = "flat";
+constexpr std::string_view default_indenter = "flat";
 
 /// Adds the settings of a touch as overrides. Overrides of the user take precedence.
 void add_touch_overrides(std::vector<ParameterOverride>& overrides, const NamedTouch& touch) {
@@ -27,25 +26,20 @@ void add_touch_overrides(std::vector<ParameterOverride>& overrides, const NamedT
     add(touch.force, touch.force_settings);
 }
 
-/// Returns an error if an override was not applied.
-Result<void> check_skin_overrides(const SkinJob& job) {
-    return check_all_used(job.unused, override_targets(job.skin->plan, {"contact", job.source->name()}));
-}
-
 /// Makes job.force: with an indenter if the force has one channel and the skin several sites, otherwise from one channel for each site.
-Result<void> open_contact(SkinJob& job, const RespondArguments& args, const NamedTouch* touch) {
+Result<void> open_contact(SkinJob& job, std::string indenter, const NamedTouch* touch) {
     const auto& sites = job.skin->plan.sites;
     const std::size_t channels = job.source->channels().size();
     if (channels > 1 || sites.size() == 1) {
-        if (!args.contact.empty())
+        if (!indenter.empty())
             return bad_usage(channels > 1 ? fmt::format("--contact {}: {} has {} channels; an indenter needs a force of one channel",
-                                                        args.contact, job.source->name(), channels)
-                                          : fmt::format("--contact {}: the skin has one site; an indenter needs several", args.contact));
+                                                        indenter, job.source->name(), channels)
+                                          : fmt::format("--contact {}: the skin has one site; an indenter needs several", indenter));
         auto at = TRY(match_sites(job.skin->plan, *job.source));
         job.force = make_site_force(*job.source, std::move(at), sites.size());
         return {};
     }
-    const std::string indenter = !args.contact.empty() ? args.contact : touch ? std::string(touch->indenter) : default_indenter;
+    if (indenter.empty()) indenter = touch ? touch->indenter : default_indenter;
     auto contact = TRY(make_contact(indenter, job.overrides, sites, job.source->clock()));
     keep_unused(job.unused, contact.unused);
     job.contact = std::move(contact.result);
@@ -54,12 +48,12 @@ Result<void> open_contact(SkinJob& job, const RespondArguments& args, const Name
 }
 
 /// Loads the population, applies the overrides to its classes, and places its afferents.
-Result<void> place_afferents(SkinJob& job, const RespondArguments& args) {
-    auto plan = TRY(load_skin_plan(args.population, job.source->channels()));
+Result<void> place_afferents(SkinJob& job, const std::string& population) {
+    auto plan = TRY(load_skin_plan(population, job.source->channels()));
     auto applied = TRY(apply_overrides(std::move(plan), job.overrides));
     keep_unused(job.unused, applied.unused);
     auto& skin_plan = applied.result;
-    if (args.simulation.seed != 0) skin_plan.seed = args.simulation.seed;  // 0, the default, keeps the seed of the population file
+    if (job.options.seed != 0) skin_plan.seed = job.options.seed;  // 0, the default, keeps the seed of the population file
     if (job.source->channels().size() == 1) job.skin_note = treat_as_skin(skin_plan);
     job.skin = TRY(innervate(std::move(skin_plan)));
     return {};
@@ -67,27 +61,20 @@ Result<void> place_afferents(SkinJob& job, const RespondArguments& args) {
 
 }  // namespace
 
-const NamedTouch* find_touch(const std::string& force) {
-    const auto all = named_touches();
-    const auto at = std::find_if(all.begin(), all.end(), [&](const NamedTouch& t) { return t.name == force; });
-    return at == all.end() ? nullptr : &*at;
-}
-
 Result<SkinJob> plan_skin_job(const RespondArguments& args, bool quiet) {
     if (args.forces.size() != 1) return bad_usage(fmt::format("--population takes one FORCE, not {}", args.forces.size()));
     SkinJob job;
     job.options = args.simulation;
     job.overrides = job.unused = args.settings;
-    const auto* touch = find_touch(args.forces[0]);
+    const auto* touch = args.forces[0].touch;
     if (touch) add_touch_overrides(job.overrides, *touch);
-    const auto force = touch ? std::string(touch->force) : args.forces[0];
-    auto source = TRY(open_source(force, args, job.overrides, skin_rate, quiet));
-    keep_unused(job.unused, source.unused);
-    job.source = std::move(source.result);
+    const auto force = touch ? ForceArgument{std::string(touch->force), true} : args.forces[0];
+    job.source = TRY(open_source(job, force, args.recording, skin_rate, quiet));
     job.name = touch ? std::string(touch->name) : job.source->name();
-    TRY(place_afferents(job, args));
-    TRY(open_contact(job, args, touch));
-    TRY(check_skin_overrides(job));
+    TRY(place_afferents(job, args.population));
+    TRY(open_contact(job, args.contact, touch));
+    const auto targets = override_targets(job.skin->plan, {"contact", job.source->name()});
+    TRY(check_all_used(job.unused, targets));
     return job;
 }
 

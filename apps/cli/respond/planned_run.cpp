@@ -1,16 +1,16 @@
 #include "cli/respond/planned_run.hpp"
 
-#include "cli/arguments/force_argument.hpp"
 #include "cli/output/terminal.hpp"
 
 namespace corpuscle {
 
-Result<Applied<std::unique_ptr<ForceSource>>> open_source(const std::string& force, const RespondArguments& args,
-                                                          std::span<const ParameterOverride> overrides, double rate, bool quiet) {
-    auto options = args.recording;
+Result<std::unique_ptr<ForceSource>> open_source(RespondJob& job, const ForceArgument& force, RecordingOptions recording, double rate,
+                                                 bool quiet) {
     Progress progress(quiet);
-    options.should_continue = [&](double fraction) { return progress.update(fraction), !interrupted(); };
-    return open_force(force, options, overrides, rate, args.simulation.seed);
+    recording.should_continue = [&](double fraction) { return progress.update(fraction), !interrupted(); };
+    auto source = TRY(force.open(recording, job.overrides, rate, job.options.seed));
+    keep_unused(job.unused, source.unused);
+    return std::move(source.result);
 }
 
 }  // namespace corpuscle

@@ -38,8 +38,13 @@ public:
     virtual Result<void> verdict(const RunStats&) const { return {}; }
 };
 
-/// Opens a stimulus or a recording. `rate`: default sample rate of stimuli, Hz. `quiet`: without progress bar.
-Result<Applied<std::unique_ptr<ForceSource>>> open_source(const std::string& force, const RespondArguments&,
-                                                          std::span<const ParameterOverride>, double rate, bool quiet);
+/// The parts of a run of afferents on channels and of a skin that are planned in the same way.
+struct RespondJob {
+    std::vector<ParameterOverride> overrides, unused;  ///< unused: those of the user that no part of the run so far has used
+    RespondOptions options;
+};
+
+/// Opens a force with the overrides of the job, and with a progress bar unless `quiet`. `rate`: default sampling rate of stimuli, Hz.
+Result<std::unique_ptr<ForceSource>> open_source(RespondJob&, const ForceArgument&, RecordingOptions, double rate, bool quiet);
 
 }  // namespace corpuscle

@@ -58,16 +58,15 @@ void print_result(const PlannedRun& run, const RunOutputs& outputs, nlohmann::or
     }
 }
 
-Result<void> respond_with(const RespondArguments& args, const CommonArguments& common, Ranks* ranks) {
-    const auto planned = TRY(plan_run(args, common, ranks));
-    PlannedRun& run = *planned;
+/// Simulates a planned run, and writes and prints its result.
+Result<void> respond_with(PlannedRun& run, const OutputArguments& args, std::uint32_t threads, const CommonArguments& common) {
     RunOutputs outputs;
     TRY(outputs.open(args, run, common.overwrite));
     SpikeTimes times;
     auto sinks = run.summaries();
     outputs.add_sinks(sinks);
     if (common.json) sinks.push_back(&times);
-    const auto stats = TRY(simulate_run(run, sinks, ranks ? std::max(1U, args.threads) : args.threads, common.quiet));
+    const auto stats = TRY(simulate_run(run, sinks, threads, common.quiet));
     auto document = run.summarize(stats);
     document["files"] = outputs.file_names();
     TRY(outputs.commit(run, document));
@@ -79,9 +78,9 @@ Result<void> respond_with(const RespondArguments& args, const CommonArguments& c
 /// With --probe, the probes are recorded in probes.csv or on the report page.
 Result<void> request_probes(RespondArguments& args) {
     if (args.netlists.probes.empty()) return {};
-    if (args.out.empty() && !args.has_report)
+    if (args.outputs.directory.empty() && !args.outputs.page)
         return bad_usage(fmt::format("--probe {} needs --out DIR or --report", args.netlists.probes[0]));
-    if (!args.out.empty()) args.outputs["--probe-files"];
+    if (!args.outputs.directory.empty()) args.outputs.formats["--probe-files"];
     return {};
 }
 
@@ -101,7 +100,9 @@ int respond(const RespondArguments& given, const CommonArguments& common) {
     if (!ranks) return report_once(ranks.error());
     auto* const group = *ranks && (*ranks)->size() > 1 ? ranks->get() : nullptr;
     if (group && group->rank() > 0) return work_for_skin_run(args, *group), 0;
-    const auto done = respond_with(args, common, group);
+    const auto run = plan_run(args, common, group);
+    const auto threads = group ? std::max(1U, args.threads) : args.threads;
+    const auto done = run ? respond_with(**run, args.outputs, threads, common) : run.error();
     if (group) shut_down_skin_workers(*group);
     return done ? 0 : report_error(done.error());
 }

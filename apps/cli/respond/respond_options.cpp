@@ -10,6 +10,7 @@
 #include "cli/verbs.hpp"
 #include "io/table/foreign_format.hpp"
 #include "model/copies.hpp"
+#include "run/afferent_plan.hpp"
 #include "run/sinks.hpp"
 
 namespace corpuscle {
@@ -74,9 +75,9 @@ OptionReader spread_reader(std::vector<ParameterOverride>& spreads) {
 OptionGroup afferent_options(RespondArguments& args) {
     return {
         "",
-        {{"FORCE", &args.forces, "", "recordings and stimuli"},
-         split_at_commas(
-             {"--afferent,-a", &args.afferents, "NAME", "the afferents to simulate (repeat the option, or separate by commas)"}),
+        {repeatable({"FORCE", list_reader(args.forces, read_force), "TEXT", "recordings and stimuli"}),
+         with_default("sa1,fa1", split_at_commas({"--afferent,-a", list_reader(args.afferents, read_afferent_spec), "NAME",
+                                                  "the afferents to simulate (repeat the option, or separate by commas)"})),
          repeatable({"--set,-s", override_reader(args.settings, "--set"), "NAME.PARAMETER=VALUE",
                      "set a parameter of an afferent or a stimulus, such as sa1.f_B=25Hz"}),
          {"--copies", &args.copies, "N", "simulate N copies of each afferent on every channel: sa1#1 ... sa1#N", std::pair(1U, max_copies)},
@@ -91,7 +92,8 @@ OptionGroup skin_options(RespondArguments& args) {
              {"--contact", &args.contact, "INDENTER",
               "indenter that applies the force of a single channel to the skin: flat (default), sphere, edge, grating; for its "
               "parameters see 'corpuscle list contact', and set them by --set contact.radius=5mm"},
-             {"--checkpoint", &args.checkpoint, "FILE", "save progress in this file; after an interruption the same command continues"}}};
+             {"--checkpoint", &args.outputs.checkpoint, "FILE",
+              "save progress in this file; after an interruption the same command continues"}}};
 }
 
 OptionGroup simulation_options(RespondArguments& args) {
@@ -117,11 +119,11 @@ OptionGroup simulation_options(RespondArguments& args) {
 OptionGroup output_options(RespondArguments& args) {
     OptionGroup group{
         "Output",
-        {{"--out,-o", &args.out, "DIR",
+        {{"--out,-o", &args.outputs.directory, "DIR",
           "write spikes.csv and summary.json into this directory; also copies.csv with --copies, afferents.csv with --population"}}};
     for (const auto* format : output_formats)
         if (const std::string option(format->option); !option.empty()) {
-            const auto keep = [&args, option](const std::string& text) { return args.outputs[option] = text, Result<void>(); };
+            const auto keep = [&args, option](const std::string& text) { return args.outputs.formats[option] = text, Result<void>(); };
             group.rows.push_back({format->option, keep, format->value_name, format->help});
         }
     group.rows.push_back(counted(
@@ -129,18 +131,27 @@ OptionGroup output_options(RespondArguments& args) {
     return group;
 }
 
-/// "respond --report press": the argument is not a page, so it is the force. If a force was already given, it may be a misspelt page.
-Result<void> complete_arguments(RespondArguments& args, const CommonArguments& common) {
-    args.has_report =
-        std::any_of(common.typed.begin(), common.typed.end(), [](const TypedOption& option) { return option.name == "--report"; });
-    auto ok = check_page_name(args.report_file);
-    if (ok || !is_force(args.report_file)) return ok;
-    if (args.forces.empty()) return args.forces.push_back(std::exchange(args.report_file, "")), Result<void>();
+/// The error for `respond press --report touch`, in which the name of the page is a force.
+Error force_as_page(const RespondArguments& args, const Error& error) {
     std::string forces;
-    for (const auto& force : args.forces) forces += quote_shell_word(force) + " ";
-    if (std::find(args.forces.begin(), args.forces.end(), args.report_file) == args.forces.end())
-        forces += quote_shell_word(args.report_file) + " ";
-    return bad_usage(fmt::format("{}; for a report of these forces type: corpuscle respond {}--report", ok.error().message, forces));
+    for (const auto& force : args.forces) forces += quote_shell_word(force.text) + " ";
+    const auto is_page = [&](const ForceArgument& force) { return force.text == args.report_file; };
+    if (std::none_of(args.forces.begin(), args.forces.end(), is_page)) forces += quote_shell_word(args.report_file) + " ";
+    return bad_usage(fmt::format("{}; for a report of these forces type: corpuscle respond {}--report", error.message, forces));
+}
+
+Result<void> complete_arguments(RespondArguments& args, const CommonArguments& common) {
+    if (args.afferents.empty())
+        for (const auto* name : {"sa1", "fa1"}) args.afferents.push_back(*read_afferent_spec(name));
+    if (const auto ok = check_page_name(args.report_file); !ok) {
+        if (!is_force(args.report_file)) return ok;
+        if (!args.forces.empty()) return force_as_page(args, ok.error());
+        args.forces.push_back(read_force(std::exchange(args.report_file, "")));  // respond --report press
+    }
+    const auto& directory = args.outputs.directory;
+    if (std::any_of(common.typed.begin(), common.typed.end(), [](const TypedOption& option) { return option.name == "--report"; }))
+        args.outputs.page = !args.report_file.empty() ? args.report_file : directory.empty() ? "report.html" : directory + "/report.html";
+    return {};
 }
 
 }  // namespace

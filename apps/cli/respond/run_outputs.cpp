@@ -1,8 +1,11 @@
 #include "cli/respond/run_outputs.hpp"
 
 #include <fmt/format.h>
+#include <algorithm>
+#include <filesystem>
 #include <nlohmann/json.hpp>
 
+#include "cli/arguments/own_files.hpp"
 #include "cli/output/output_files.hpp"
 #include "cli/output/printable.hpp"
 #include "run/earlier_outputs.hpp"
@@ -23,6 +26,30 @@ Result<std::vector<const OutputFormat*>> wanted_formats(const OutputRequest& req
     return wanted;
 }
 
+/// The file names of the paths that are directly in this directory, without the other paths.
+std::vector<std::string> file_names_in(const std::string& directory, const std::vector<std::string>& paths) {
+    std::vector<std::string> all;
+    for (const auto& path : paths)
+        if (!directory.empty() && path.starts_with(directory + "/") && path.find('/', directory.size() + 1) == path.npos)
+            all.push_back(std::filesystem::path(path).filename().string());
+    return all;
+}
+
+/// Checks that each output may be written: the files `names` in the directory, the report page and the checkpoint.
+Result<void> check_outputs(const OutputArguments& args, std::vector<std::string> names, bool overwrite) {
+    OutputCheck check(overwrite);
+    if (args.page) {
+        const auto page_names = file_names_in(args.directory, {*args.page});
+        if (page_names.empty()) TRY(check.check_file(*args.page, is_own_page));
+        names.insert(names.end(), page_names.begin(), page_names.end());
+    }
+    if (!args.checkpoint.empty()) TRY(check.check_file(args.checkpoint, is_own_checkpoint));
+    if (args.directory.empty()) return {};
+    const auto earlier = earlier_outputs(args.directory);
+    const auto is_listed = [&](const std::string& name) { return std::find(earlier.begin(), earlier.end(), name) != earlier.end(); };
+    return check.check_directory(args.directory, names, is_listed, is_output_name, is_own_page);
+}
+
 }  // namespace
 
 /// Removes the files that were not committed. The last one is removed first: the first one may have created the directory, and removes it
@@ -32,22 +59,20 @@ RunOutputs::~RunOutputs() {
     while (!files_.empty()) files_.pop_back();
 }
 
-Result<void> RunOutputs::open(const RespondArguments& args, PlannedRun& run, bool overwrite) {
+Result<void> RunOutputs::open(const OutputArguments& args, PlannedRun& run, bool overwrite) {
     auto request = run.output_request();
-    request.directory = directory_ = args.out, request.options = args.outputs;
+    request.directory = directory_ = args.directory, request.options = args.formats;
     const auto formats = TRY(wanted_formats(request));
     std::vector<std::string> names;
     for (const auto* format : formats)
         for (auto& name : file_names_of(*format, request)) names.push_back(std::move(name));
     if (!directory_.empty()) names.emplace_back("summary.json");
-    const auto page_path = report_page_path(args);
-    OutputCheck check(overwrite);
-    TRY(check_outputs(args.out, std::move(names), page_path, args.checkpoint, check));
+    TRY(check_outputs(args, std::move(names), overwrite));
     for (const auto* format : formats) files_.push_back(TRY(format->make(request)));
     if (!directory_.empty()) summary_file_ = TRY(OutputFile::create(directory_ + "/summary.json"));
-    if (!page_path) return {};
+    if (!args.page) return {};
     report_ = &run.start_report();
-    report_file_ = TRY(OutputFile::create(*page_path));
+    report_file_ = TRY(OutputFile::create(*args.page));
     return {};
 }
 
@@ -75,6 +100,13 @@ Result<void> RunOutputs::commit(const PlannedRun& run, const nlohmann::ordered_j
     return write_and_commit(*summary_file_, json_text(document) + "\n");
 }
 
-std::string RunOutputs::written_text() const { return written_files_text(paths(), removed_); }
+std::string RunOutputs::written_text() const {
+    const auto all = paths();
+    if (all.empty()) return "Nothing was written: --out DIR writes the spikes, --report writes a report page.\n";
+    const auto removed_text =
+        removed_.empty() ? ""
+                         : fmt::format("Removed files of an earlier run: {}\n", printable(fmt::format("{}", fmt::join(removed_, ", "))));
+    return fmt::format("Written: {}\n{}", printable(fmt::format("{}", fmt::join(all, ", "))), removed_text);
+}
 
 }  // namespace corpuscle

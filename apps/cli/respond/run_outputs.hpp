@@ -26,7 +26,7 @@ public:
     RunOutputs& operator=(const RunOutputs&) = delete;
     ~RunOutputs();
     /// Checks that all files may be written, and creates them.
-    Result<void> open(const RespondArguments&, PlannedRun&, bool overwrite);
+    Result<void> open(const OutputArguments&, PlannedRun&, bool overwrite);
     /// Adds the sinks of all files to the sinks of the run.
     void add_sinks(std::vector<Sink*>&) const;
     /// The names of the files that are written into the directory.

@@ -6,7 +6,6 @@
 
 #include "cli/respond/skin_run.hpp"
 #include "core/checksum.hpp"
-#include "core/stimulus/stimuli.hpp"
 #include "core/version.hpp"
 
 namespace corpuscle {
@@ -43,10 +42,10 @@ std::string sites_checksum(const Sites& sites) {
 }  // namespace
 
 Result<RunFingerprint> fingerprint_of(const SkinJob& job, const RespondArguments& args, const CommonArguments& common) {
-    RunFingerprint all = {{"the program", fmt::format("version {}", version)}, {"FORCE", args.forces[0]}};
+    RunFingerprint all = {{"the program", fmt::format("version {}", version)}, {"FORCE", args.forces[0].text}};
     for (const auto& [name, values] : common.typed)
         if (name != "FORCE" && !is_output_option(name)) all.emplace_back(name, fmt::format("{}", fmt::join(values, " ")));
-    if (!is_stimulus(args.forces[0]) && !find_touch(args.forces[0])) TRY(add_contents(all, "recording", args.forces[0]));
+    if (const auto& force = args.forces[0]; !force.is_stimulus && !force.touch) TRY(add_contents(all, "recording", force.text));
     TRY(add_contents(all, "population file", args.population));
     TRY(add_contents(all, "layout file", args.recording.layout));
     all.emplace_back("contents of the table of sites", sites_checksum(job.skin->plan.sites));

@@ -28,13 +28,14 @@ void work_for_skin_run(const RespondArguments& args, Ranks& ranks) {
 }
 
 Result<void> SkinRun::open_checkpoint() {
-    if (args_.checkpoint.empty()) return {};
+    if (args_.outputs.checkpoint.empty()) return {};
     if (ranks_) return bad_usage("--checkpoint works with one process only, not under mpirun");
     auto fingerprint = TRY(fingerprint_of(job_, args_, common_));
-    checkpoint_ = TRY(SkinCheckpoint::open(args_.checkpoint, *skin_, std::move(fingerprint)));
+    checkpoint_ = TRY(SkinCheckpoint::open(args_.outputs.checkpoint, *skin_, std::move(fingerprint)));
     if (checkpoint_->resumed_samples() > 0 && !common_.quiet)
         print_message(fmt::format("resuming after {:.3f} s, from {}",
-                                  job_.source->clock().T() * static_cast<double>(checkpoint_->resumed_samples()), args_.checkpoint));
+                                  job_.source->clock().T() * static_cast<double>(checkpoint_->resumed_samples()),
+                                  args_.outputs.checkpoint));
     return {};
 }
 
@@ -50,7 +51,7 @@ Result<std::vector<std::unique_ptr<BlockSimulator>>> SkinRun::simulators() {
 }
 
 Error SkinRun::interruption(Error error) const {
-    if (checkpoint_) error.message = fmt::format("interrupted; the same command resumes from {}", args_.checkpoint);
+    if (checkpoint_) error.message = fmt::format("interrupted; the same command resumes from {}", args_.outputs.checkpoint);
     return error;
 }
 

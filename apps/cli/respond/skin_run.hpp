@@ -10,20 +10,16 @@
 namespace corpuscle {
 
 /// The run that the arguments request.
-struct SkinJob {
-    std::vector<ParameterOverride> overrides, unused;  ///< unused: those of the user that no part of the run so far has used
+struct SkinJob : RespondJob {
     std::unique_ptr<ForceSource> source;
     std::shared_ptr<const Innervation> skin;
     std::unique_ptr<Contact> contact;  ///< null: each channel is the force at one site
     std::unique_ptr<SkinForce> force;
-    RespondOptions options;
     SkinRunNotes notes;
     std::string name;       ///< of the touch, stimulus or recording
     std::string skin_note;  ///< note that a sensor array is treated as skin; "" if it is not
 };
 
-/// The touch of this name, such as "stroke"; null if there is none.
-const NamedTouch* find_touch(const std::string& force);
 /// Reads the options, opens the force and places the afferents.
 Result<SkinJob> plan_skin_job(const RespondArguments&, bool quiet);
 /// All that determines the response: the program's version, the force, all options except those of outputs, and the contents of the files

@@ -35,10 +35,11 @@ bool is_live_input(const std::string& in) {
 std::string input_name(const std::string& in) { return in == "-" ? "standard input" : in; }
 
 Result<Applied<std::unique_ptr<ForceSource>>> open_stream_source(const StreamArguments& args, const CommonArguments& common) {
-    TRY(check_recording_arguments(common, {&args.in, 1}));
+    const auto force = read_force(args.in);
+    TRY(check_recording_arguments(common, {&force, 1}));
     auto options = args.recording;
     options.should_continue = [](double) { return !interrupted(); };
-    return open_force(args.in, options, args.settings, stimulus_rate, 0);
+    return force.open(options, args.settings, stimulus_rate, 0);
 }
 
 Result<void> check_live_options(const StreamArguments& args, const CommonArguments& common) {

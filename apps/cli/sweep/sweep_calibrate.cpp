@@ -71,7 +71,7 @@ Result<void> set_target(ChipCalibration& calibration, const std::string& model, 
     auto force = TRY(read_channel(*stimulus));
     const auto& clock = stimulus->clock();
     const auto plan = TRY(plan_any_afferent(model));
-    const auto response = TRY(simulate(*make_afferent(plan, {clock.T()}), force));
+    const auto response = TRY(simulate(*make_afferent(plan.result, {clock.T()}), force));
     calibration.force = std::move(force), calibration.T = clock.T();
     std::vector<TimeWindow> phases;
     double from = 0;

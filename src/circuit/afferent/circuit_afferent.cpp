@@ -236,7 +236,7 @@ std::vector<std::pair<std::string, std::string>> CircuitAfferentFactory::labels(
 Result<std::shared_ptr<const AfferentFactory>> CircuitAfferentFactory::rebuilt(const AfferentPlan& copy,
                                                                                const AfferentPlan& original) const {
     if (copy.values == original.values) return std::shared_ptr<const AfferentFactory>();
-    auto changes = netlist->overrides();  // plan_netlist() has made the plan, so there is a netlist
+    auto changes = netlist->overrides();  // NetlistSpec has made the plan, so there is a netlist
     for (std::size_t k = 0; k < copy.values.size(); ++k)
         if (copy.values[k] != original.values[k])
             changes.parameters.insert_or_assign(std::string((*copy.parameters)[k].info.name), copy.values[k]);

@@ -86,10 +86,9 @@ Result<std::vector<RequestedProbe>> request_probes(Netlist& netlist, std::span<c
 
 }  // namespace
 
-Result<PlannedAfferent> plan_netlist(std::string_view name_or_path, std::span<const ParameterOverride> overrides,
-                                     std::span<const std::string> probes) {
-    const auto* embedded = find_embedded_netlist(name_or_path);
-    const std::string name(embedded ? embedded->name : name_or_path);
+Result<PlannedAfferent> NetlistSpec::plan(std::span<const ParameterOverride> overrides, std::span<const std::string> probes) const {
+    const auto* embedded = find_embedded_netlist(text());
+    const std::string name(embedded ? embedded->name : text());
     auto applied = TRY(apply_overrides(name, overrides));
     auto requested = TRY(request_probes(applied.result, probes));
     const auto design = TRY(CircuitAfferentFactory::create(applied.result));

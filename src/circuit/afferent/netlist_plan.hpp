@@ -1,14 +1,16 @@
 #pragma once
 // The plan of an afferent that is a netlist.
 
-#include "core/afferent_factory.hpp"
+#include "core/afferent_spec.hpp"
 
 namespace corpuscle::circuit {
 
-/// Plans the afferent of an embedded netlist or of a netlist file with a force input and a spike output (doc/circuits.md). Applies the
-/// overrides that are for this netlist; see netlist_overrides.hpp. If the netlist has at least one of `probes`, they replace its .save
-/// quantities.
-Result<PlannedAfferent> plan_netlist(std::string_view name_or_path, std::span<const ParameterOverride>,
-                                     std::span<const std::string> probes);
+/// The afferent of an embedded netlist or of a netlist file with a force input and a spike output (doc/circuits.md). The file is read when
+/// the afferent is planned, because an override can choose the process corner; see netlist_overrides.hpp.
+class NetlistSpec final : public AfferentSpec {
+public:
+    explicit NetlistSpec(std::string_view name_or_path) : AfferentSpec(name_or_path) {}
+    Result<PlannedAfferent> plan(std::span<const ParameterOverride>, std::span<const std::string> probes) const override;
+};
 
 }  // namespace corpuscle::circuit

@@ -26,9 +26,9 @@ std::vector<ParameterOverride> overrides_for(std::string_view afferent, std::spa
 Result<AfferentPlan> afferent_of(const ClassSpec& spec) {
     if (!spec.afferent) return bad_input("[[class]]: afferent is missing: afferent = \"sa1\"", spec.location);
     const auto& text = spec.afferent->text;
-    // Without overrides, so that an unknown afferent is not reported as an error of a setting.
-    if (const auto known = plan_afferent(text); !known) return spec.afferent->error_here(known.error().message);
-    auto planned = TRY(plan_afferent(text, overrides_for(text, spec.set)));
+    const auto afferent = read_model_spec(text);
+    if (!afferent) return spec.afferent->error_here(afferent.error().message);
+    auto planned = TRY((*afferent)->plan(overrides_for(text, spec.set), {}));
     TRY(check_all_used(planned.unused, std::array{std::string_view(text)}));
     return std::move(planned.result);
 }
@@ -36,7 +36,7 @@ Result<AfferentPlan> afferent_of(const ClassSpec& spec) {
 /// The distributions of parameters that the key `spread` of a class defines.
 Result<std::vector<ParameterDistribution>> distributions_of(const ClassSpec& spec, const AfferentPlan& plan) {
     const auto& text = spec.afferent->text;
-    auto applied = TRY(distributions_for(plan, text, overrides_for(text, spec.spread)));
+    auto applied = TRY(distributions_for(plan, overrides_for(text, spec.spread)));
     TRY(check_all_used(applied.unused, std::array{std::string_view(text)}));
     return std::move(applied.result);
 }

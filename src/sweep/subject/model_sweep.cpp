@@ -47,14 +47,14 @@ class ModelSweep final : public PlannedSweep {
             std::find_if(all.begin(), all.end(), [&](const AfferentParameter& p) { return p.info.name == name; }) - all.begin());
     }
     /// The name of a parameter without the afferent: "f_B" of "sa1.f_B" or "f_B".
-    std::string_view parameter_name(std::string_view afferent_name, std::string_view text) const {
+    std::string_view parameter_name(std::string_view text) const {
         const auto dot = text.rfind('.');
-        return dot != std::string_view::npos && matches_name(nominal_, afferent_name, text.substr(0, dot)) ? text.substr(dot + 1) : text;
+        return dot != std::string_view::npos && matches_name(nominal_, text.substr(0, dot)) ? text.substr(dot + 1) : text;
     }
 
-    Result<VariedQuantity> find_quantity(std::string_view afferent_name, const LocatedText& quantity) const;
-    /// Applies the fixed settings of the sweep file.
-    Result<void> apply_settings(const SweepText&);
+    Result<VariedQuantity> find_quantity(const LocatedText& quantity) const;
+    /// Plans the afferent and sets the force with the fixed settings of the sweep file.
+    Result<void> apply_settings(const AfferentSpec&, const SweepText&);
     Result<void> select_probes(const SweepText&);
 
     SimulationOptions options_for(const SweepForce& force) const { return {force.clock.T()}; }
@@ -72,11 +72,11 @@ public:
     Result<void> run_items(const NextItem&, const OutcomeHandler&, const std::function<bool()>& stop) const override;
 };
 
-Result<VariedQuantity> ModelSweep::find_quantity(std::string_view afferent_name, const LocatedText& quantity) const {
+Result<VariedQuantity> ModelSweep::find_quantity(const LocatedText& quantity) const {
     if (force_.has_parameter(quantity.text)) return force_.find_quantity(quantity);
     std::vector<ParameterInfo> rows;
     for (const auto& p : *nominal_.parameters) rows.push_back(p.info);
-    const auto row = find_parameter({nominal_.name, std::string(parameter_name(afferent_name, quantity.text)), ""}, rows);
+    const auto row = find_parameter({nominal_.name, std::string(parameter_name(quantity.text)), ""}, rows);
     if (!row) return quantity.error_here(row.error().message);
     const auto& r = **row;
     VariedQuantity out{
@@ -85,19 +85,18 @@ Result<VariedQuantity> ModelSweep::find_quantity(std::string_view afferent_name,
     return out;
 }
 
-Result<void> ModelSweep::apply_settings(const SweepText& spec) {
-    const auto& afferent_name = spec.afferent->text;
+Result<void> ModelSweep::apply_settings(const AfferentSpec& afferent, const SweepText& spec) {
     std::vector<ParameterOverride> overrides;
     for (const auto& s : spec.settings) {
         if (!force_.has_parameter(s.name))
-            overrides.push_back(located_override(s, afferent_name));
+            overrides.push_back(located_override(s, afferent.text()));
         else if (auto ok = force_.set(s); !ok)
             return ok;
     }
-    auto planned = TRY(plan_any_afferent(afferent_name, overrides));
+    auto planned = TRY(afferent.plan(overrides, {}));
     nominal_ = std::move(planned.result);
     auto targets = is_stimulus(force_.name()) ? stimulus_members(force_.name()) : std::vector<std::string_view>();
-    targets.insert(targets.begin(), afferent_name);
+    targets.insert(targets.begin(), afferent.text());
     return check_all_used(planned.unused, targets);
 }
 
@@ -128,20 +127,19 @@ Result<std::unique_ptr<Sweep>> ModelSweep::make(const SweepText& spec, const std
     const auto& afferent_name = spec.afferent->text;
     if (spec.iterations)
         return spec.iterations->error_here(fmt::format("{} is a model and has no iterations; remove iterations", afferent_name));
-    auto plan = plan_any_afferent(afferent_name);
-    if (!plan) return spec.afferent->error_here(plan.error().message);
-    s.nominal_ = std::move(*plan);
+    const auto afferent = read_afferent_spec(afferent_name);
+    if (!afferent) return spec.afferent->error_here(afferent.error().message);
     const auto seed = TRY(seed_of(spec));
     s.force_ = TRY(ForceFactory::of(spec, folder, seed));
-    if (!spec.settings.empty()) TRY(s.apply_settings(spec));
+    TRY(s.apply_settings(**afferent, spec));
     VariableQuantities quantities;
     quantities.subject_name = s.nominal_.name;
-    quantities.find_quantity = [&](const LocatedText& quantity) { return s.find_quantity(afferent_name, quantity); };
+    quantities.find_quantity = [&](const LocatedText& quantity) { return s.find_quantity(quantity); };
     quantities.vary = [&](const SweepAxis&, const std::string& quantity, std::size_t axis) {
         if (s.force_.has_parameter(quantity))
             s.force_.vary(quantity, axis);
         else
-            s.varied_.push_back({s.parameter_index(s.parameter_name(afferent_name, quantity)), axis});
+            s.varied_.push_back({s.parameter_index(s.parameter_name(quantity)), axis});
     };
     s.plan_ = TRY(plan_of(spec, quantities));
     TRY(s.force_.prepare());

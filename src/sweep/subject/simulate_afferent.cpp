@@ -24,7 +24,7 @@ Result<double> model_measure(const LocatedText& model, const ForceFactory& force
     const auto plan = plan_any_afferent(model.text);
     if (!plan) return model.error_here("like: " + plan.error().message);
     const auto& sweep_force = *force.nominal();
-    const auto afferent = make_afferent(*plan, {sweep_force.clock.T()});
+    const auto afferent = make_afferent(plan->result, {sweep_force.clock.T()});
     const auto response = TRY(simulate_afferent(*afferent, sweep_force));
     AfferentMeasures measures(sweep_force, false, {});
     const auto column = TRY(measures.require_column(measure));

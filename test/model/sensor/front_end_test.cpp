@@ -140,7 +140,7 @@ TEST(AfferentComponents, WrongOrUnknownComponentsAreRefusedWithASuggestion) {
 
 TEST(AfferentComponents, NamesAreMatchedWithoutRegardToCaseAlsoInSettings) {
     EXPECT_EQ(test::value_or_throw(plan_afferent("FSR+f2i+RA")).name, "fsr+f2i+fa1");
-    for (const auto* of : {"fsr+f2i+fa1", "FSR+f2i+RA"}) {
+    for (const auto* of : {"fsr+f2i+fa1", "FSR+f2i+RA", "fsr+F2I+FA1"}) {
         const auto overrides = test::parse_settings({std::string(of) + ".f=3Hz", std::string(of) + ".F_cal=2N"});
         const auto plan = test::applied_or_throw(plan_afferent("FSR+f2i+RA", overrides));
         EXPECT_EQ(plan.value("f"), 3);
