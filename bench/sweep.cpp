@@ -1,10 +1,10 @@
 // How long do the operations of rank 0 in a sweep take: to write a row, to pack an outcome, to exchange a message? How large is a results
 // file of 1e6 rows, and how fast are queries of it?
 //   bench-sweep [ITEMS [FOLDER]]        rows of ITEMS (1e6) work items: 6 axes, 10 measures, a train of 15 spikes; random numbers
-//   mpirun -n 2 bench-sweep             messages between two ranks (-n 2 binds them to different cores)
+//   mpirun -n 2 bench-sweep             messages from rank 1 to rank 0 (-n 2 binds them to different cores)
 // Rows are written by SweepResults::add in batches of 8192, each a transaction on disk; then the file is checkpointed and queried. One run.
-// Output: wall time and processor time. Processor time limits rank 0, and depends less on other load. Messages: the mean time of 20,000
-// exchanges in sequence, and the processor time of rank 0 in the calls that send one and receive one.
+// Output: wall time and processor time. Processor time limits rank 0, and depends less on other load. Messages: the mean of 20,000 in
+// sequence; rank 0's processor time includes its waiting.
 
 #include <fmt/format.h>
 #include <sys/resource.h>
@@ -14,7 +14,7 @@
 #include <random>
 
 #include "run/ranks.hpp"
-#include "sweep/parallel/rank_messages.hpp"
+#include "sweep/parallel/outcome_message.hpp"
 #include "sweep/store/sqlite.hpp"
 #include "sweep/store/sweep_results.hpp"
 
@@ -97,9 +97,9 @@ int rows(std::int64_t items, const std::string& folder) {
         std::vector<ItemOutcome> outcomes, decoded;
         for (std::int64_t k = from; k < std::min(items, from + batch); ++k) outcomes.push_back(sweep.outcome(k, random));
         auto start = processor();
-        auto packed = rank_message(outcomes);
+        auto packed = pack_outcomes(outcomes);
         packing += processor() - start, start = processor();
-        (void)decode_rank_message_type(packed), (void)decode_rank_message(packed, decoded);
+        if (!unpack_outcomes(std::move(packed), decoded)) return 1;
         unpacking += processor() - start, start = processor();
         const auto wall = Clock::now();
         if (auto ok = results->add(sweep, std::move(decoded)); !ok) return fmt::print("{}\n", ok.error().text()), 1;
@@ -123,44 +123,29 @@ int rows(std::int64_t items, const std::string& folder) {
     return 0;
 }
 
-/// Times messages between two ranks. Returns the exit status.
-int messages() {
-    auto joined = Ranks::join();
-    if (!joined) return fmt::print("{}\n", joined.error().text()), 1;
-    auto& ranks = **joined;
-    const bool is_first = ranks.rank() == 0;
+/// Times messages from rank 1 to rank 0. Returns the exit status.
+int messages(Ranks& ranks) {
     for (const std::size_t size : {16UL, 4096UL, 131072UL}) {
         constexpr int count = 20'000;
         const std::string text(size, 'x');
         const auto start = Clock::now();
-        double busy = 0;  // processor time in the calls that send or receive a message, s
-        const auto send = [&] {
-            const auto before = processor();
-            ranks.send(is_first ? 1 : 0, text);
-            (void)ranks.unsent();
-            busy += processor() - before;
-        };
-        if (is_first) send();
-        for (int k = 0; k < count; ++k) {
-            for (bool found = false; !found; (void)ranks.unsent()) {
-                const auto before = processor();
-                found = ranks.receive().has_value();
-                if (found) busy += processor() - before;
-            }
-            if (!is_first || k + 1 < count) send();
-        }
-        while (ranks.unsent() > 0) {
-        }
-        if (is_first)
-            fmt::print("a message of {} bytes: {:.2f} us one way; {:.2f} us of rank 0's processor to receive one and send one\n", size,
-                       since(start) / count / 2 * 1e6, busy / count * 1e6);
+        const double busy = processor();
+        for (int k = 0; k < count; ++k)
+            if (ranks.rank() == 1)
+                ranks.send(0, text);
+            else if (ranks.rank() == 0 && !ranks.receive(1))
+                return 1;
+        if (ranks.rank() == 0)
+            fmt::print("a message of {} bytes: {:.2f} us; {:.2f} us of rank 0's processor\n", size, since(start) / count * 1e6,
+                       (processor() - busy) / count * 1e6);
     }
-    ranks.leave(true);
     return 0;
 }
 
 }  // namespace
 
 int main(int argc, char** argv) {
-    return Ranks::are_started() ? messages() : rows(argc > 1 ? std::atoll(argv[1]) : 1'000'000, argc > 2 ? argv[2] : ".");
+    const auto ranks = Ranks::join();
+    if (!ranks) return fmt::print("{}\n", ranks.error().text()), 1;
+    return *ranks ? messages(**ranks) : rows(argc > 1 ? std::atoll(argv[1]) : 1'000'000, argc > 2 ? argv[2] : ".");
 }

@@ -2,16 +2,20 @@
 
 #include "run/ranks.hpp"
 
-#include <fmt/format.h>
-#include <algorithm>
 #include <cstdlib>
-#include <cstring>
-#include <list>
-#include <vector>
 
 #ifdef CORPUSCLE_MPI
 #include <dlfcn.h>
+#include <fmt/format.h>
 #include <mpi.h>
+#include <unistd.h>
+#include <algorithm>
+#include <array>
+#include <chrono>
+#include <cstdio>
+#include <limits>
+#include <thread>
+#include <utility>
 #endif
 
 namespace corpuscle {
@@ -23,187 +27,160 @@ int launcher_variable(const char* name) {
     return text ? std::atoi(text) : -1;
 }
 
-}  // namespace
-
-bool Ranks::are_started() {
+/// True if a launcher started more than one process.
+bool are_started() {
     const int size = launcher_variable("OMPI_COMM_WORLD_SIZE");
     return size > 1 || (size < 0 && launcher_variable("PMIX_RANK") >= 0);
 }
 
+}  // namespace
+
 bool Ranks::reports_errors() { return launcher_variable("OMPI_COMM_WORLD_RANK") <= 0 && launcher_variable("PMIX_RANK") <= 0; }
 
-#ifdef CORPUSCLE_MPI
+#ifdef OPEN_MPI  // defined by its mpi.h; other MPI libraries have other constants
 
 namespace {
 
-/// MPI's functions, loaded by name from its library. Only types and constants come from the header.
-struct Mpi {
-    decltype(&MPI_Init) init = nullptr;
-    decltype(&MPI_Comm_rank) rank = nullptr;
-    decltype(&MPI_Comm_size) size = nullptr;
-    decltype(&MPI_Comm_set_errhandler) set_errhandler = nullptr;
-    decltype(&MPI_Isend) isend = nullptr;
-    decltype(&MPI_Improbe) improbe = nullptr;
-    decltype(&MPI_Imrecv) imrecv = nullptr;
-    decltype(&MPI_Test) test = nullptr;
-    decltype(&MPI_Get_count) count = nullptr;
-    decltype(&MPI_Finalize) finalize = nullptr;
-    MPI_Comm world = {};
-    MPI_Errhandler errors_return = {};
-    MPI_Datatype byte = {};
-    std::string missing;  ///< why the library cannot be loaded, or a function that it lacks; empty if all is loaded
+/// The address of a function or constant of the MPI library; null if there is none. The library is loaded here and not linked: a linked
+/// program would not start on a machine without it, and start 1 ms (a fifth) later on any other.
+void* address_in_mpi(const char* name) {
+    static void* const library = ::dlopen("libmpi.so.40", RTLD_NOW | RTLD_GLOBAL);
+    return library ? ::dlsym(library, name) : nullptr;
+}
 
-    Mpi() {
-        void* library = nullptr;
-        for (const char* name : {"libmpi.so.40", "libmpi.so"})
-            if (!library) library = ::dlopen(name, RTLD_NOW | RTLD_GLOBAL);
-        if (!library) {
-            missing = ::dlerror();
-            return;
-        }
-        const auto find = [&](auto& into, const char* name) {
-            void* symbol = ::dlsym(library, name);
-            if (!symbol) missing = name;
-            std::memcpy(&into, &symbol, sizeof into);
-        };
-        find(init, "MPI_Init"), find(rank, "MPI_Comm_rank"), find(size, "MPI_Comm_size"), find(set_errhandler, "MPI_Comm_set_errhandler");
-        find(isend, "MPI_Isend"), find(improbe, "MPI_Improbe"), find(imrecv, "MPI_Imrecv"), find(test, "MPI_Test");
-        find(count, "MPI_Get_count"), find(finalize, "MPI_Finalize");
-#ifdef OPEN_MPI  // Open MPI's constants are objects of the library
-        find(world, "ompi_mpi_comm_world"), find(errors_return, "ompi_mpi_errors_return"), find(byte, "ompi_mpi_byte");
-#else
-        world = MPI_COMM_WORLD, errors_return = MPI_ERRORS_RETURN, byte = MPI_BYTE;
-#endif
+/// A function of the MPI library. Errors in it end all ranks (MPI's default), so their results are not checked.
+#define CORPUSCLE_MPI_FUNCTION(name) reinterpret_cast<decltype(&name)>(address_in_mpi(#name))
+
+MPI_Comm world() { return static_cast<MPI_Comm>(address_in_mpi("ompi_mpi_comm_world")); }
+MPI_Datatype byte() { return static_cast<MPI_Datatype>(address_in_mpi("ompi_mpi_byte")); }
+
+constexpr int message_tag = 0, error_tag = 1;
+
+/// Calls `is_done` until it returns true or this time (s) has passed. Returns its last result. After the first moments it sleeps between
+/// the calls: MPI's own waiting would keep a processor busy.
+template <class IsDone>
+bool wait_until(const IsDone& is_done, double seconds = std::numeric_limits<double>::infinity()) {
+    using Clock = std::chrono::steady_clock;
+    constexpr Clock::duration busy = std::chrono::microseconds(200), longest_sleep = std::chrono::milliseconds(1);
+    const auto start = Clock::now();
+    while (!is_done()) {
+        const auto waited = Clock::now() - start;
+        if (std::chrono::duration<double>(waited).count() > seconds) return false;
+        if (waited < busy)
+            std::this_thread::yield();
+        else
+            std::this_thread::sleep_for(std::min(waited / 4, longest_sleep));
     }
-};
+    return true;
+}
 
-/// A message that is being sent or received. Its bytes must not move in memory.
-struct PendingMessage {
-    int rank;  ///< of the receiver or the sender
-    std::string bytes;
-    MPI_Request request;
+bool is_complete(MPI_Request& request) {
+    int complete = 0;
+    CORPUSCLE_MPI_FUNCTION(MPI_Test)(&request, &complete, MPI_STATUS_IGNORE);
+    return complete != 0;
+}
+
+class MpiRanks final : public Ranks {
+    /// A message that begins to arrive. Its bytes must not move in memory.
+    struct Arriving {
+        std::string bytes;
+        int from, tag;
+        MPI_Request request;
+    };
+    int rank_ = 0, size_ = 1;
+    std::optional<Arriving> arriving_;
+
+    void send_with_tag(int to, const std::string& bytes, int tag) {
+        MPI_Request request = {};
+        CORPUSCLE_MPI_FUNCTION(MPI_Issend)(bytes.data(), static_cast<int>(bytes.size()), byte(), to, tag, world(), &request);
+        wait_until([&] { return is_complete(request); });
+    }
+
+    /// `from`: a rank, or MPI_ANY_SOURCE.
+    void begin_receiving(int from) {
+        int has_arrived = 0, size = 0;
+        MPI_Status status = {};
+        CORPUSCLE_MPI_FUNCTION(MPI_Iprobe)(from, MPI_ANY_TAG, world(), &has_arrived, &status);
+        if (!has_arrived) return;
+        CORPUSCLE_MPI_FUNCTION(MPI_Get_count)(&status, byte(), &size);
+        auto& a = arriving_.emplace(Arriving{std::string(static_cast<std::size_t>(size), '\0'), status.MPI_SOURCE, status.MPI_TAG, {}});
+        CORPUSCLE_MPI_FUNCTION(MPI_Irecv)(a.bytes.data(), size, byte(), a.from, a.tag, world(), &a.request);
+    }
+
+    bool has_arrived() { return arriving_ && is_complete(arriving_->request); }
+
+    Received take_arrived() {
+        auto arrived = *std::exchange(arriving_, std::nullopt);
+        if (arrived.tag == message_tag) return {arrived.from, std::move(arrived.bytes)};
+        return {arrived.from, Error{static_cast<ErrorCode>(static_cast<unsigned char>(arrived.bytes[0])), arrived.bytes.substr(1)}};
+    }
+
+public:
+    MpiRanks() {
+        // Otherwise the receiver reads a large message from the memory of the sender: not allowed in some containers, and an error if the
+        // sender has been killed.
+        ::setenv("OMPI_MCA_btl_vader_single_copy_mechanism", "none", 0);
+        int provided = 0;
+        CORPUSCLE_MPI_FUNCTION(MPI_Init_thread)(nullptr, nullptr, MPI_THREAD_FUNNELED, &provided);
+        CORPUSCLE_MPI_FUNCTION(MPI_Comm_rank)(world(), &rank_);
+        CORPUSCLE_MPI_FUNCTION(MPI_Comm_size)(world(), &size_);
+    }
+    ~MpiRanks() override { CORPUSCLE_MPI_FUNCTION(MPI_Finalize)(); }
+
+    int rank() const override { return rank_; }
+    int size() const override { return size_; }
+    void send(int to, const std::string& message) override { send_with_tag(to, message, message_tag); }
+    void send_error(const Error& error) override {
+        std::array<char, 256> host = {};
+        ::gethostname(host.data(), host.size() - 1);
+        send_with_tag(0, fmt::format("{}rank {} on {}: {}", static_cast<char>(error.code), rank_, host.data(), error.text()), error_tag);
+    }
+    std::optional<Received> receive_any() override {
+        constexpr double longest_arrival = 0.1;  // s; after this time the caller can do something else, and then continue to wait
+        if (!arriving_) begin_receiving(MPI_ANY_SOURCE);
+        if (!arriving_ || !wait_until([&] { return has_arrived(); }, longest_arrival)) return {};
+        return take_arrived();
+    }
+    Result<std::string> receive(int from) override {
+        wait_until([&] {
+            if (!arriving_) begin_receiving(from);
+            return has_arrived();
+        });
+        return take_arrived().message;
+    }
+    [[noreturn]] void abort(int exit_status) override {
+        std::fflush(nullptr);
+        CORPUSCLE_MPI_FUNCTION(MPI_Abort)(world(), exit_status);
+        std::_Exit(exit_status);  // MPI_Abort returns if it cannot end the other ranks
+    }
 };
 
 }  // namespace
 
-struct Ranks::Impl {
-    Mpi mpi;
-    int rank = 0, size = 1;
-    std::list<PendingMessage> sending, receiving;
-
-    enum class State { in_progress, complete, failed };
-    State state(PendingMessage& m) {
-        int done = 0;
-        if (mpi.test(&m.request, &done, MPI_STATUS_IGNORE) != MPI_SUCCESS) return State::failed;
-        return done ? State::complete : State::in_progress;
-    }
-    /// Starts to receive all messages that have arrived.
-    void begin_receiving();
-};
-
 Result<std::unique_ptr<Ranks>> Ranks::join() {
-    auto impl = std::make_unique<Impl>();
-    auto& mpi = impl->mpi;
-    if (!mpi.missing.empty())
+    if (!are_started()) return std::unique_ptr<Ranks>();
+    if (!address_in_mpi("MPI_Init_thread"))
         return bad_input(
             fmt::format("started by mpirun, but the MPI library cannot be loaded here ({}); install OpenMPI, or start it "
                         "without mpirun: -j for the cores of one machine, --shard and 'corpuscle sweep merge' for several",
-                        mpi.missing));
-    // With Open MPI's single-copy transfer, the receiver would read a large message from the memory of the sender, which may have died.
-    ::setenv("OMPI_MCA_btl_vader_single_copy_mechanism", "none", 0);
-    if (mpi.init(nullptr, nullptr) != MPI_SUCCESS) return bad_input("MPI_Init failed; see its message above");
-    mpi.set_errhandler(mpi.world, mpi.errors_return);
-    mpi.rank(mpi.world, &impl->rank);
-    mpi.size(mpi.world, &impl->size);
-    return std::unique_ptr<Ranks>(new Ranks(std::move(impl)));
-}
-
-void Ranks::Impl::begin_receiving() {
-    for (;;) {
-        int is_available = 0;
-        MPI_Message found = {};
-        MPI_Status status = {};
-        if (mpi.improbe(MPI_ANY_SOURCE, 0, mpi.world, &is_available, &found, &status) != MPI_SUCCESS || !is_available) return;
-        int bytes = 0;
-        mpi.count(&status, mpi.byte, &bytes);
-        auto& m = receiving.emplace_back(PendingMessage{status.MPI_SOURCE, std::string(static_cast<std::size_t>(bytes), '\0'), {}});
-        if (mpi.imrecv(m.bytes.data(), bytes, mpi.byte, &found, &m.request) != MPI_SUCCESS) receiving.pop_back();
-    }
-}
-
-int Ranks::rank() const { return impl_->rank; }
-int Ranks::size() const { return impl_->size; }
-
-bool Ranks::survive_death_of_one() const {
-    return launcher_variable("OMPI_COMM_WORLD_SIZE") < 0 || launcher_variable("OMPI_MCA_orte_enable_recovery") == 1;
-}
-
-void Ranks::send(int to, std::string message) {
-    auto& m = impl_->sending.emplace_back(PendingMessage{to, std::move(message), {}});
-    const auto& mpi = impl_->mpi;
-    if (mpi.isend(m.bytes.data(), static_cast<int>(m.bytes.size()), mpi.byte, to, 0, mpi.world, &m.request) != MPI_SUCCESS)
-        impl_->sending.pop_back();
-}
-
-std::size_t Ranks::unsent() const {
-    impl_->sending.remove_if([&](PendingMessage& m) { return impl_->state(m) != Impl::State::in_progress; });
-    return impl_->sending.size();
-}
-
-std::optional<Ranks::Received> Ranks::receive() {
-    impl_->begin_receiving();
-    std::vector<int> incomplete;  // senders of an incomplete message; their later messages must wait
-    for (auto m = impl_->receiving.begin(); m != impl_->receiving.end();) {
-        const auto current = m++;
-        if (std::find(incomplete.begin(), incomplete.end(), current->rank) != incomplete.end()) continue;
-        const auto state = impl_->state(*current);
-        if (state == Impl::State::in_progress) {
-            incomplete.push_back(current->rank);
-            continue;
-        }
-        Received out{current->rank, std::move(current->bytes)};
-        impl_->receiving.erase(current);
-        if (state == Impl::State::complete) return out;
-    }
-    return {};
-}
-
-// MPI may still use the buffers of these messages, so they are never freed.
-void Ranks::drop_messages_of(int rank) {
-    static std::list<PendingMessage> forgotten;
-    for (auto* all : {&impl_->sending, &impl_->receiving})
-        for (auto m = all->begin(); m != all->end();) {
-            const auto current = m++;
-            if (current->rank == rank) forgotten.splice(forgotten.end(), *all, current);
-        }
-}
-
-void Ranks::leave(bool together) {
-    left_together_ = together;
-    if (together) impl_->mpi.finalize();
+                        ::dlerror()));
+    if (launcher_variable("OMPI_MCA_orte_enable_recovery") == 1)
+        return bad_usage(
+            "mpirun --enable-recovery: the other ranks would wait for ever for one that has died; leave the option out: mpirun then ends "
+            "all ranks, and the same command resumes a sweep");
+    auto ranks = std::make_unique<MpiRanks>();
+    return ranks->size() > 1 ? std::unique_ptr<Ranks>(std::move(ranks)) : nullptr;
 }
 
 #else
 
-struct Ranks::Impl {};
-
 Result<std::unique_ptr<Ranks>> Ranks::join() {
+    if (!are_started()) return std::unique_ptr<Ranks>();
     return bad_input(
         "started by mpirun, but this corpuscle was built without MPI; build it where OpenMPI is installed (libopenmpi-dev), or start "
         "it without mpirun: -j for the cores of one machine, --shard and 'corpuscle sweep merge' for several");
 }
-int Ranks::rank() const { return 0; }
-int Ranks::size() const { return 1; }
-bool Ranks::survive_death_of_one() const { return true; }
-void Ranks::send(int, std::string) {}
-std::size_t Ranks::unsent() const { return 0; }
-std::optional<Ranks::Received> Ranks::receive() { return {}; }
-void Ranks::drop_messages_of(int) {}
-void Ranks::leave(bool) {}
 
 #endif
-
-Ranks::Ranks(std::unique_ptr<Impl> impl) : impl_(std::move(impl)) {}
-Ranks::~Ranks() = default;
 
 }  // namespace corpuscle

@@ -1,6 +1,6 @@
 #pragma once
-// Ranks: processes that mpirun starts together for one command, a sweep or a skin, and that exchange messages. Only ranks.cpp uses MPI.
-// join() loads the MPI library, so that a start without mpirun does not take the time to load it.
+// Ranks: processes that mpirun starts together for one command, a sweep or a skin. Rank 0 (the coordinator) writes the files; the others
+// (the workers) send it what they have computed. If one of them dies, mpirun ends all. Only ranks.cpp uses MPI.
 
 #include <memory>
 #include <optional>
@@ -10,42 +10,33 @@
 
 namespace corpuscle {
 
-/// The communication of this process, which is one of the ranks, with the others.
+/// The communication of this process, which is one of the ranks, with the others. One thread uses it.
 class Ranks {
 public:
-    /// True if mpirun, or another launcher, started more than one process.
-    static bool are_started();
     /// True for rank 0 and for a process without mpirun: this process prints the errors that occur in all processes.
     static bool reports_errors();
-    /// Initialises MPI; this waits until all other processes do the same.
+    /// Joins the other processes, and waits until they do the same. Null: mpirun, or another launcher, did not start more than one process.
     static Result<std::unique_ptr<Ranks>> join();
-    ~Ranks();
+    /// Leaves the other ranks, and waits until they do the same.
+    virtual ~Ranks() = default;
 
-    int rank() const;  ///< number of this process, from 0
-    int size() const;  ///< number of ranks
-    /// True if the launcher keeps the other processes alive when one dies, or if this is unknown.
-    bool survive_death_of_one() const;
+    virtual int rank() const = 0;  ///< number of this process, from 0
+    virtual int size() const = 0;  ///< number of ranks
 
-    /// Starts to send a message and returns at once; the message is kept until it has been sent.
-    void send(int to, std::string message);
-    std::size_t unsent() const;  ///< number of messages that have not been sent completely
+    /// Sends a message, and waits until the other rank receives it; so no rank stores more than one message that it has not asked for.
+    virtual void send(int to, const std::string& message) = 0;
+    /// For a worker: sends an error to the coordinator, which receives it instead of a message.
+    virtual void send_error(const Error&) = 0;
     struct Received {
-        int from;  ///< rank of the sender
-        std::string message;
+        int from;                     ///< rank of the sender
+        Result<std::string> message;  ///< or the error that it sent
     };
-    /// The next message that has arrived completely; no value if there is none. Messages of one sender keep their order.
-    std::optional<Received> receive();
-    /// Gives up the messages to and from this rank that are not complete, because the rank is dead.
-    void drop_messages_of(int rank);
-    /// Ends the communication of this process. `together`: all ranks are alive and leave as well; if false, this process must exit at once.
-    void leave(bool together);
-    bool left_together() const { return left_together_; }  ///< false after leave(false)
-
-private:
-    struct Impl;
-    std::unique_ptr<Impl> impl_;
-    bool left_together_ = true;
-    explicit Ranks(std::unique_ptr<Impl>);
+    /// The next message of any rank. No value: none has begun to arrive, or it is still arriving (for ever, if its sender was killed).
+    virtual std::optional<Received> receive_any() = 0;
+    /// The next message of this rank, or the error that it sent; waits for it.
+    virtual Result<std::string> receive(int from) = 0;
+    /// Ends all ranks at once, with this exit status.
+    [[noreturn]] virtual void abort(int exit_status) = 0;
 };
 
 }  // namespace corpuscle

@@ -108,13 +108,20 @@ struct RanRanks {
     std::string output;
 };
 
-/// Runs the sweep under mpirun. Rank `victim` (-1: none) is killed once the file `out` has rows.
-RanRanks run_ranks(const TemporaryFolder& folder, int ranks, const std::string& out, const std::string& options = "", int victim = -1) {
-    folder.write("rank.sh", "if [ \"$OMPI_COMM_WORLD_RANK\" = " + std::to_string(victim) + " ]; then (until [ \"$(stat -c %s " + out +
-                                "-wal 2>/dev/null || echo 0)\" -gt 50000 ]; do sleep 0.02; done; kill -9 $$) & fi\nexec '" +
-                                test::program_path() + "' sweep a.toml --quiet -o " + out + "\n");
+struct RankOptions {
+    std::string arguments = {};  // of the sweep
+    std::string mpirun = {};     // options of mpirun
+    int victim = -1;             // the rank that is killed once the results have rows; -1: none
+};
+
+/// Runs the sweep `file` under mpirun, with results in `out`. Rank k expands $OMPI_COMM_WORLD_RANK in the name of the file to k.
+RanRanks run_ranks(const TemporaryFolder& folder, int ranks, const std::string& file, const std::string& out,
+                   const RankOptions& options = {}) {
+    folder.write("rank.sh", "if [ \"$OMPI_COMM_WORLD_RANK\" = " + std::to_string(options.victim) + " ]; then (until [ \"$(stat -c %s " +
+                                out + "-wal 2>/dev/null || echo 0)\" -gt 50000 ]; do sleep 0.02; done; kill -9 $$) & fi\nexec '" +
+                                test::program_path() + "' sweep " + file + " --quiet -o " + out + " " + options.arguments + "\n");
     const std::string root = ::geteuid() == 0 ? "--allow-run-as-root " : "";
-    const auto command = "cd '" + folder.path() + "' && timeout 60 mpirun " + root + "--oversubscribe " + options + " -n " +
+    const auto command = "cd '" + folder.path() + "' && timeout 60 mpirun " + root + "--oversubscribe " + options.mpirun + " -n " +
                          std::to_string(ranks) + " sh rank.sh >log 2>&1";
     const int status = std::system(command.c_str());
     return {WEXITSTATUS(status), test::read_file(folder / "log")};
@@ -127,39 +134,64 @@ TEST(SweepRanks, GiveTheResultsOfOneThread) {
     const auto one_thread = dump(folder, "alone");
     for (const int ranks : {1, 2, 3, 4}) {
         const auto out = "r" + std::to_string(ranks);
-        const auto ran = run_ranks(folder, ranks, out);
+        const auto ran = run_ranks(folder, ranks, "a.toml", out);
         ASSERT_EQ(ran.status, 0) << ran.output;
         EXPECT_TRUE(dump(folder, out) == one_thread) << ranks;
     }
 }
 
-TEST(SweepRanks, AKilledRankLosesOnlyItsBlock) {
+// mpirun then ends all ranks.
+TEST(SweepRanks, AfterAKilledRankTheSameCommandComputesOnlyWhatIsMissing) {
     const TemporaryFolder folder;
     folder.write("a.toml", sweep_of(30'000));
     ASSERT_EQ(run_program(folder, "sweep a.toml -o alone").status, 0);
     const auto one_thread = dump(folder, "alone");
-    const auto ran = run_ranks(folder, 3, "r", "--enable-recovery", 1);
-    EXPECT_EQ(ran.status, 0) << ran.output;
-    EXPECT_NE(ran.output.find("1 rank died or stopped responding, and "), std::string::npos) << ran.output;
-    EXPECT_TRUE(dump(folder, "r") == one_thread) << "this run computed all items";
-    // Without rank 0 the other ranks end, and the same command resumes the sweep.
-    const auto without_rank_0 = run_ranks(folder, 3, "h", "--enable-recovery", 0);
-    EXPECT_NE(without_rank_0.output.find("rank 0, which writes the results, has died; results so far are kept"), std::string::npos)
-        << without_rank_0.output;
-    ASSERT_EQ(run_program(folder, "sweep a.toml -o h").status, 0);
-    EXPECT_TRUE(dump(folder, "h") == one_thread);
+    for (const int victim : {0, 2}) {
+        const auto out = "r" + std::to_string(victim);
+        const auto ran = run_ranks(folder, 3, "a.toml", out, {.victim = victim});
+        EXPECT_NE(ran.status, 0) << ran.output;
+        EXPECT_NE(ran.output.find("mpirun noticed that process rank " + std::to_string(victim)), std::string::npos) << ran.output;
+        if (victim > 0) {
+            EXPECT_NE(ran.output.find("the same command resumes the sweep"), std::string::npos) << ran.output;
+        }
+        const auto ended = Json::parse(run_program(folder, "sweep a.toml --status --json -o " + out).out)["finished"].get<int>();
+        EXPECT_GT(ended, 0);
+        const auto resumed = run_ranks(folder, 2, "a.toml", out);
+        EXPECT_EQ(resumed.status, 0) << resumed.output;
+        const auto rest = Json::parse(run_program(folder, "sweep a.toml --json -o " + out).out);
+        EXPECT_EQ(rest["missing"], 0);
+        EXPECT_EQ(rest["this_run"], 0);
+        EXPECT_TRUE(dump(folder, out) == one_thread) << victim;
+    }
 }
 
-TEST(SweepRanks, WithoutRecoveryNoFinishedItemIsLost) {
+TEST(SweepRanks, ComputeOneShardTogether) {
     const TemporaryFolder folder;
-    folder.write("a.toml", sweep_of(30'000));
-    const auto ran = run_ranks(folder, 3, "r", "", 2);
-    EXPECT_NE(ran.status, 0) << "mpirun ends all ranks\n" << ran.output;
-    const auto ended = Json::parse(run_program(folder, "sweep a.toml -o r --status --json").out)["finished"].get<int>();
-    EXPECT_GT(ended, 0);
-    const auto rest = Json::parse(run_program(folder, "sweep a.toml -o r --json").out);
-    EXPECT_EQ(rest["this_run"], 60'000 - ended);
-    EXPECT_EQ(rest["missing"], 0);
+    folder.write("a.toml", sweep_of(300));
+    ASSERT_EQ(run_program(folder, "sweep a.toml -o alone").status, 0);
+    for (const std::string k : {"1/2", "2/2"})
+        ASSERT_EQ(run_ranks(folder, 2, "a.toml", "s" + k.substr(0, 1), {.arguments = "--shard " + k}).status, 0);
+    const auto merged = run_program(folder, "sweep merge both s1 s2");
+    EXPECT_NE(merged.out.find("s1: 300 items, 300 of them new"), std::string::npos) << merged.out;
+    EXPECT_TRUE(dump(folder, "both") == dump(folder, "alone"));
+}
+
+TEST(SweepRanks, EndWithTheErrorOfAnyOfThemAndItsExitStatus) {
+    const TemporaryFolder folder;
+    folder.write("0.toml", sweep_of(300));
+    const auto missing = run_ranks(folder, 2, "$OMPI_COMM_WORLD_RANK.toml", "r");
+    EXPECT_EQ(missing.status, 1);
+    EXPECT_NE(missing.output.find(": 1.toml: cannot be read"), std::string::npos) << missing.output;
+    EXPECT_NE(missing.output.find("corpuscle: rank 1 on "), std::string::npos) << missing.output;
+    folder.write("1.toml", sweep_of(301));
+    const auto other = run_ranks(folder, 2, "$OMPI_COMM_WORLD_RANK.toml", "r");
+    EXPECT_EQ(other.status, 1);
+    EXPECT_NE(other.output.find("reads another sweep than rank 0: give all ranks the same files"), std::string::npos) << other.output;
+    const auto none = run_ranks(folder, 2, "none.toml", "r");
+    EXPECT_EQ(none.status, 1);
+    EXPECT_EQ(none.output.find("none.toml"), none.output.rfind("none.toml")) << "printed once\n" << none.output;
+    const auto recovery = run_ranks(folder, 2, "0.toml", "r", {.mpirun = "--enable-recovery"});
+    EXPECT_NE(recovery.output.find("leave the option out"), std::string::npos) << recovery.output;
 }
 
 }  // namespace

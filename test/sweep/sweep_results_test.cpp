@@ -16,6 +16,7 @@
 #include "support/support.hpp"
 #include "sweep/parallel/run_sweep.hpp"
 #include "sweep/store/dump.hpp"
+#include "sweep/store/sqlite.hpp"
 
 namespace corpuscle {
 namespace {
@@ -47,6 +48,9 @@ TEST(SweepResults, AreReadBackAsWrittenAndEndAsOneFile) {
     run_sweep_of(sweep, folder / "r.sqlite", {.threads = 3});
     EXPECT_EQ(folder.file_names(), std::vector<std::string>{"r.sqlite"});
     const auto results = value_or_throw(SweepResults::open_read_only(folder / "r.sqlite"));
+    auto mode = value_or_throw(sql::Statement::make(results.handle(), results.path(), "PRAGMA journal_mode"));
+    EXPECT_TRUE(value_or_throw(mode.step()));
+    EXPECT_EQ(mode.text(0), "delete") << "other programs can read the file in a read-only folder";
     EXPECT_EQ(results.item_count(), 1000);
     EXPECT_EQ(results.finished_count(), 1000);
     EXPECT_EQ(results.about("netlist circuits/sa1.cir"), "a\nb\nc\n");

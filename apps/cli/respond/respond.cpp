@@ -95,16 +95,17 @@ int respond(const RespondArguments& given, const CommonArguments& common) {
     if (auto ok = check_population_options(args, common); !ok) return report_once(ok.error());
     if (auto ok = check_recording_arguments(common, args.forces); !ok) return report_once(ok.error());
     if (auto ok = request_probes(args); !ok) return report_once(ok.error());
-    const bool has_ranks = !args.population.empty() && Ranks::are_started();
-    auto ranks = has_ranks ? Ranks::join() : Result<std::unique_ptr<Ranks>>(nullptr);
+    auto ranks = args.population.empty() ? Result<std::unique_ptr<Ranks>>(nullptr) : Ranks::join();
     if (!ranks) return report_once(ranks.error());
-    auto* const group = *ranks && (*ranks)->size() > 1 ? ranks->get() : nullptr;
+    auto* const group = ranks->get();
     if (group && group->rank() > 0) return work_for_skin_run(args, *group), 0;
     const auto run = plan_run(args, common, group);
     const auto threads = group ? std::max(1U, args.threads) : args.threads;
     const auto done = run ? respond_with(**run, args.outputs, threads, common) : run.error();
-    if (group) shut_down_skin_workers(*group);
-    return done ? 0 : report_error(done.error());
+    if (done) return 0;
+    const int code = report_error(done.error());
+    if (group) group->abort(code);
+    return code;
 }
 
 }  // namespace corpuscle

@@ -42,8 +42,7 @@ Result<void> SkinRun::open_checkpoint() {
 Result<std::vector<std::unique_ptr<BlockSimulator>>> SkinRun::simulators() {
     skin_ = TRY(make_skin(job_, ranks_));
     TRY(open_checkpoint());
-    if (ranks_) workers_.emplace(*ranks_);
-    const SkinRunParts parts{workers_ ? &*workers_ : nullptr, checkpoint_.get()};
+    const SkinRunParts parts{ranks_, checkpoint_.get()};
     std::vector<std::unique_ptr<BlockSimulator>> inputs;
     inputs.push_back(
         std::make_unique<SkinSimulator>(population_, make_input(population_, job_.name, *job_.source), *job_.force, *skin_, parts));

@@ -38,7 +38,6 @@ class SkinRun final : public PlannedRun {
     SkinPopulation population_;
     std::unique_ptr<Skin> skin_;
     std::unique_ptr<SkinCheckpoint> checkpoint_;
-    std::optional<SkinWorkers> workers_;
     SkinSummary summary_;
     SilenceDetector silence_;
     std::optional<SkinReport> report_;

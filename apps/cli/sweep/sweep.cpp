@@ -38,7 +38,7 @@ Examples:
   corpuscle sweep chips.toml --seed 2 --samples 100 -o again.sqlite other random chips, fewer of them
   corpuscle sweep chips.toml --shard 1/3                            one third, on one of three machines (chips-1of3.sqlite)
   corpuscle sweep merge chips.sqlite chips-?of3.sqlite              combine the three parts
-  mpirun --enable-recovery -n 64 corpuscle sweep chips.toml         64 MPI processes; if one dies, only its block is repeated
+  mpirun -n 64 corpuscle sweep chips.toml                           64 MPI processes, into one file
   sqlite3 chips.sqlite "SELECT ended, count(*) FROM items GROUP BY ended"
 
 Exit status: 0 all items have ended (truncated and diverged ones are reported), 1 bad input, 2 bad
@@ -70,27 +70,8 @@ std::string results_path(const SweepArguments& args, const Shard& shard) {
     return shard.shard_count == 1 ? stem + ".sqlite" : fmt::format("{}-{}of{}.sqlite", stem, shard.index + 1, shard.shard_count);
 }
 
-/// This process among the MPI ranks.
-struct SweepProcess {
-    std::unique_ptr<Ranks> ranks;  ///< null: a single process
-    bool is_coordinator() const { return !ranks || ranks->rank() == 0; }
-};
-
-/// Runs the missing items, in a single process or as the coordinator of the ranks.
-Result<void> run_items(const SweepProcess& self, const Sweep& sweep, SweepResults& results, const SweepRunOptions& run_options,
-                       const CommonArguments& common) {
-    SweepProgress progress;
-    if (!self.ranks) return run_sweep(sweep, results, run_options, progress);
-    if (!self.ranks->survive_death_of_one() && !common.quiet)
-        fmt::print(stderr,
-                   "corpuscle: note: if one rank dies, mpirun ends all of them, and the same command resumes the sweep. "
-                   "With 'mpirun --enable-recovery ...' the other ranks finish\n");
-    DeadRanks dead_ranks;
-    auto ok = run_coordinator(*self.ranks, sweep, results, run_options, progress, dead_ranks);
-    if (dead_ranks.ranks > 0)
-        fmt::print(stderr, "corpuscle: warning: {} rank{} died or stopped responding, and other ranks repeat {} items\n", dead_ranks.ranks,
-                   dead_ranks.ranks == 1 ? "" : "s", dead_ranks.redistributed_items);
-    return ok;
+SweepRunOptions run_options_of(const SweepArguments& args, const Shard& shard, const Ranks* ranks) {
+    return {.threads = ranks ? std::max(1U, args.threads) : args.threads, .shard = shard, .should_stop = interrupted};
 }
 
 /// The error of a run; if it was interrupted, the message says how to resume it.
@@ -100,30 +81,28 @@ Error with_advice(const Error& error, const SweepResults& results) {
                                     results.finished_count(), results.item_count(), results.path())};
 }
 
-/// Opens the results file, runs the missing items and prints the status.
-Result<void> coordinate_run(const SweepProcess& self, const Sweep& sweep, const SweepArguments& args, const CommonArguments& common,
+/// Opens the results file, runs the missing items and prints the status. `ranks`: null for a single process; the others for rank 0.
+Result<void> run_and_report(Ranks* ranks, const Sweep& sweep, const SweepArguments& args, const CommonArguments& common,
                             const Shard& shard) {
     auto results = SweepResults::open(results_path(args, shard), sweep);
-    if (!results) {
-        if (self.ranks) shut_down_workers(*self.ranks);
-        return results.error();
-    }
+    if (!results) return results.error();
     const auto finished_before = results->finished_count();
-    SweepRunOptions run_options{
-        .threads = self.ranks ? std::max(1U, args.threads) : args.threads, .shard = shard, .should_stop = interrupted};
+    auto run_options = run_options_of(args, shard, ranks);
     auto done = [&] {
         Progress progress(common.quiet);
         run_options.on_progress = [&](const SweepProgress& c) {
             progress.update(static_cast<double>(c.finished()) / static_cast<double>(std::max<std::int64_t>(1, c.planned)));
         };
-        return run_items(self, sweep, *results, run_options, common);
+        SweepProgress counts;
+        return ranks ? run_coordinator(*ranks, sweep, *results, run_options, counts) : run_sweep(sweep, *results, run_options, counts);
     }();
     if (const auto checkpointed = results->checkpoint(); !checkpointed && !common.quiet)
         print_warning(fmt::format("the results are complete only if {} is kept together with {}-wal: {}", results->path(), results->path(),
                                   checkpointed.error().message));
     if (!done) return with_advice(done.error(), *results);
-    const auto state = TRY(read_sweep_status(*results, shard));
-    auto final_state = state;
+    const auto state = read_sweep_status(*results, shard);
+    if (!state) return state.error();
+    auto final_state = *state;
     final_state.finished_now = results->finished_count() - finished_before, final_state.sweep = args.file;
     print_sweep_status(common, final_state);
     if (results->finished_count() > 0 && final_state.diverged == results->finished_count())
@@ -132,46 +111,39 @@ Result<void> coordinate_run(const SweepProcess& self, const Sweep& sweep, const 
     return {};
 }
 
-Result<void> run_as(const SweepArguments& args, const CommonArguments& common, SweepProcess& self) {
-    const auto shard = TRY(shard_of(args.shard));
-    if (Ranks::are_started()) {
-        auto ranks = TRY(Ranks::join());
-        if (ranks->size() > 1) self.ranks = std::move(ranks);
-    }
-    auto sweep = read_sweep(args.file, {args.seed, args.samples});
-    if (sweep) (*sweep)->set_lanes(args.lanes);
-    if (!self.is_coordinator()) return run_worker(*self.ranks, sweep, {.threads = args.threads, .should_stop = interrupted});
-    if (!sweep) {
-        if (self.ranks) shut_down_workers(*self.ranks);
-        return sweep.error();
-    }
-    return coordinate_run(self, **sweep, args, common, shard);
-}
-
 Result<void> show_sweep_status(const SweepArguments& args, const CommonArguments& common) {
-    const auto shard = TRY(shard_of(args.shard));
-    const auto results = TRY(SweepResults::open_read_only(results_path(args, shard)));
-    auto state = TRY(read_sweep_status(results, shard));
-    state.sweep = args.file;
-    if (const auto writer = WriterLock::holder(results.path())) {
+    const auto shard = shard_of(args.shard);
+    if (!shard) return shard.error();
+    const auto results = SweepResults::open_read_only(results_path(args, *shard));
+    if (!results) return results.error();
+    auto state = read_sweep_status(*results, *shard);
+    if (!state) return state.error();
+    state->sweep = args.file;
+    if (const auto writer = WriterLock::holder(results->path())) {
         const auto now = std::chrono::duration<double>(std::chrono::system_clock::now().time_since_epoch()).count();
-        state.writer = *writer, state.running_for = now - writer->since;
+        state->writer = *writer, state->running_for = now - writer->since;
     }
-    print_sweep_status(common, state);
+    print_sweep_status(common, *state);
     return {};
 }
 
-/// Runs the sweep in this process. Returns the exit status.
+/// Runs the sweep, in this process or as one of the ranks of mpirun. Returns the exit status.
 int run_in_process(const SweepArguments& args, const CommonArguments& common) {
-    SweepProcess self;
-    const auto done = run_as(args, common, self);
-    // With several ranks the coordinator prints all errors. A worker returns an error only if the coordinator has died.
-    const bool prints_errors = self.ranks ? self.is_coordinator() || !done : Ranks::reports_errors();
-    const int code = done ? 0 : prints_errors ? report_error(done.error()) : static_cast<int>(done.error().code);
-    if (self.ranks && !self.ranks->left_together()) {
-        std::fflush(nullptr);
-        std::_Exit(code);  // MPI_Finalize would wait for dead ranks
-    }
+    const auto report_once = [](const Error& error) {
+        return Ranks::reports_errors() ? report_error(error) : static_cast<int>(error.code);
+    };
+    const auto shard = shard_of(args.shard);
+    if (!shard) return report_once(shard.error());
+    const auto joined = Ranks::join();
+    if (!joined) return report_once(joined.error());
+    auto* const ranks = joined->get();
+    const auto sweep = read_sweep(args.file, {args.seed, args.samples});
+    if (sweep) (*sweep)->set_lanes(args.lanes);
+    if (ranks && ranks->rank() > 0) return run_worker(*ranks, sweep, run_options_of(args, *shard, ranks)), 0;
+    const auto done = sweep ? run_and_report(ranks, **sweep, args, common, *shard) : Result<void>(sweep.error());
+    if (done) return 0;
+    const int code = report_error(done.error());
+    if (ranks) ranks->abort(code);
     return code;
 }
 

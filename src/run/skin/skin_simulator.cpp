@@ -12,7 +12,9 @@ constexpr std::chrono::seconds save_interval{10};
 
 Result<void> SkinSimulator::start(const RespondOptions& options, bool wants_probes) {
     if (!wants_probes) return {};
-    probes_ = TRY(SkinProbes::make(skin_.innervation(), options.for_clock(input_.clock)));
+    auto probes = SkinProbes::make(skin_.innervation(), options.for_clock(input_.clock));
+    if (!probes) return probes.error();
+    probes_ = std::move(*probes);
     population_.set_probes(probes_->names());
     return {};
 }
@@ -22,23 +24,27 @@ Result<void> SkinSimulator::simulate(const SkinForce::Block& block, ThreadPool& 
     spikes_.clear();
     const auto steps = block.total_force.size();
     auto* const checkpoint = parts_.checkpoint;
-    if (checkpoint) TRY(checkpoint->add_force(block, samples_));
+    if (checkpoint)
+        if (auto ok = checkpoint->add_force(block, samples_); !ok) return ok;
     if (checkpoint && samples_ < checkpoint->resumed_samples())
         return checkpoint->replay(samples_ + static_cast<std::int64_t>(steps), spikes_);
-    TRY(skin_.respond(block.force, steps, spikes_, pool));
-    if (parts_.workers) TRY(parts_.workers->gather(spikes_));
+    if (auto ok = skin_.respond(block.force, steps, spikes_, pool); !ok) return ok;
+    if (parts_.ranks)
+        if (auto ok = gather_spikes(*parts_.ranks, spikes_); !ok) return ok;
     return checkpoint ? checkpoint->append(spikes_) : Result<void>{};
 }
 
 Result<RunBlock> SkinSimulator::next(ThreadPool& pool, RunStats&) {
-    const auto block = TRY(force_.next());
-    const auto steps = block.total_force.size();
+    const auto block = force_.next();
+    if (!block) return block.error();
+    const auto steps = block->total_force.size();
     if (steps == 0) return RunBlock{};
-    TRY(simulate(block, pool));
-    if (probes_) TRY(probes_->respond(block.force, steps, pool));
-    total_force_ = block.total_force;
+    if (auto ok = simulate(*block, pool); !ok) return ok.error();
+    if (probes_)
+        if (auto ok = probes_->respond(block->force, steps, pool); !ok) return ok.error();
+    total_force_ = block->total_force;
     const auto first = std::exchange(samples_, samples_ + static_cast<std::int64_t>(steps));
-    RunBlock response{first, steps, {&total_force_, 1}, block.force, spikes_};
+    RunBlock response{first, steps, {&total_force_, 1}, block->force, spikes_};
     if (probes_) response.probes = probes_->values();
     return response;
 }
@@ -53,10 +59,14 @@ Result<void> SkinSimulator::save(bool stops) {
 }
 
 Result<void> SkinSimulator::finish(std::vector<Spike>& last, RunStats& stats) {
-    if (parts_.checkpoint) TRY(parts_.checkpoint->finish(samples_));
+    if (parts_.checkpoint)
+        if (auto ok = parts_.checkpoint->finish(samples_); !ok) return ok;
     skin_.finish(last);
     auto work = skin_.stats();
-    if (parts_.workers) TRY(parts_.workers->finish(last, work));
+    if (parts_.ranks) {
+        if (auto ok = gather_spikes(*parts_.ranks, last); !ok) return ok;
+        if (auto ok = gather_stats(*parts_.ranks, work); !ok) return ok;
+    }
     stats.samples += work.steps, stats.afferent_steps += work.afferent_steps, stats.skipped_steps += work.skipped_steps;
     stats.spikes += work.spikes, stats.truncated_steps += work.truncated_steps;
     input_.quality = force_.quality();

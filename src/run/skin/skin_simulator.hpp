@@ -15,7 +15,7 @@ namespace corpuscle {
 
 /// Parts that not every run of a skin has.
 struct SkinRunParts {
-    SkinWorkers* workers = nullptr;        ///< the other ranks; null: a single process
+    Ranks* ranks = nullptr;                ///< of which this process is rank 0; null: a single process
     SkinCheckpoint* checkpoint = nullptr;  ///< null: the run cannot be resumed
 };
 

@@ -24,25 +24,23 @@ class ItemQueue {
 public:
     using Range = std::pair<std::int64_t, std::int64_t>;  ///< items in [first, second)
 
-    /// The items of the shard in the ranges `missing`.
-    ItemQueue(std::vector<Range> missing, Shard shard) : ranges_(std::move(missing)), shard_(shard) {
-        for (const auto& [from, to] : ranges_) remaining_ += shard_.count(from, to);
+    /// The items of the shard in the ranges `missing`. `part`: only these of them, counted in ascending order, so that the parts have equal
+    /// numbers of items.
+    ItemQueue(std::vector<Range> missing, Shard shard, Shard part = {}) : ranges_(std::move(missing)), shard_(shard), part_(part) {
+        std::int64_t items = 0;
+        for (const auto& [from, to] : ranges_) items += shard_.count(from, to);
+        remaining_ = part_.count(0, items);
     }
 
-    /// Removes and returns at most `max` items: first those that were put back, then the others in ascending order.
+    /// Removes and returns at most `max` items, in ascending order.
     std::vector<std::int64_t> take(std::int64_t max);
-    /// Puts back items that were taken but not computed.
-    void put_back(const std::vector<std::int64_t>& items) {
-        put_back_.insert(put_back_.end(), items.begin(), items.end());
-        remaining_ += static_cast<std::int64_t>(items.size());
-    }
     std::int64_t remaining() const { return remaining_; }  ///< number of items in the queue
 
 private:
-    std::vector<Range> ranges_;           // [first item not yet taken, end)
-    std::vector<std::int64_t> put_back_;  // items to hand out again
-    std::size_t at_ = 0;                  // index of the first range with items left
-    Shard shard_;
+    std::vector<Range> ranges_;  // [first item not yet taken, end)
+    std::size_t at_ = 0;         // index of the first range with items left
+    Shard shard_, part_;
+    std::int64_t passed_ = 0;  // number of items of the shard that were taken or belong to other parts
     std::int64_t remaining_ = 0;
 };
 

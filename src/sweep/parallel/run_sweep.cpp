@@ -17,26 +17,39 @@ void SweepProgress::add(const ItemOutcome& o) {
     for (const auto& train : o.spikes) spikes += static_cast<std::int64_t>(train.size());
 }
 
-Result<void> run_sweep(const Sweep& sweep, SweepResults& results, const SweepRunOptions& run, SweepProgress& progress) {
-    auto missing = TRY(results.missing_ranges());
-    ItemQueue queue(std::move(missing), run.shard);
-    progress = {.planned = queue.remaining()};
-    if (progress.planned == 0) return {};
-    results.announce_run(progress.planned);
+Result<void> write_outcomes(const Sweep& sweep, SweepResults& results, const SweepRunOptions& run, SweepProgress& progress,
+                            std::vector<ItemOutcome>&& outcomes) {
+    for (const auto& o : outcomes) progress.add(o);
+    if (auto ok = results.add(sweep, std::move(outcomes)); !ok) return ok;
+    run.on_progress(progress);
+    return {};
+}
+
+Result<void> compute_items(const Sweep& sweep, ItemQueue queue, const SweepRunOptions& run,
+                           const std::function<Result<void>(std::vector<ItemOutcome>&&)>& write) {
     WorkerPool pool(sweep, run.threads);
     bool stopped = false;
     for (;;) {
         if (!stopped && pool.queued() < queue_length / 2) pool.add(queue.take(queue_length));
-        auto outcomes = pool.collect(run.write_interval);
-        for (const auto& o : outcomes) progress.add(o);
-        TRY(results.add(sweep, std::move(outcomes)));
-        run.on_progress(progress);
+        if (auto ok = write(pool.collect(run.write_interval)); !ok) return ok;
         if (!stopped && run.should_stop()) stopped = true, pool.stop();
         if (pool.is_done() && (stopped || queue.remaining() == 0 || !pool.sweep_error())) break;  // the last term: there was an error
     }
-    TRY(pool.sweep_error());
+    if (auto ok = pool.sweep_error(); !ok) return ok;
     if (stopped) return Error{ErrorCode::interrupted, "interrupted"};
     return {};
+}
+
+Result<void> run_sweep(const Sweep& sweep, SweepResults& results, const SweepRunOptions& run, SweepProgress& progress) {
+    auto missing = results.missing_ranges();
+    if (!missing) return missing.error();
+    ItemQueue queue(std::move(*missing), run.shard);
+    progress = {.planned = queue.remaining()};
+    if (progress.planned == 0) return {};
+    results.announce_run(progress.planned);
+    return compute_items(sweep, std::move(queue), run, [&](std::vector<ItemOutcome>&& outcomes) {
+        return write_outcomes(sweep, results, run, progress, std::move(outcomes));
+    });
 }
 
 }  // namespace corpuscle

@@ -29,4 +29,11 @@ struct SweepRunOptions {
 /// error in the sweep or in writing. All finished items are then in the results, unless writing failed. Updates `progress` during the run.
 Result<void> run_sweep(const Sweep&, SweepResults&, const SweepRunOptions&, SweepProgress& progress);
 
+/// Computes these items on threads. Passes the outcomes to `write` every `write_interval`, until all are finished, `run` stops them (error
+/// `interrupted`), or there is an error in the sweep or in `write`. The parts of a run on several ranks.
+Result<void> compute_items(const Sweep&, ItemQueue, const SweepRunOptions& run,
+                           const std::function<Result<void>(std::vector<ItemOutcome>&&)>& write);
+/// Writes outcomes to the results, and reports the progress.
+Result<void> write_outcomes(const Sweep&, SweepResults&, const SweepRunOptions&, SweepProgress&, std::vector<ItemOutcome>&&);
+
 }  // namespace corpuscle

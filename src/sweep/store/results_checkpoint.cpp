@@ -1,9 +1,12 @@
 // Creates and replaces a results file, always by renaming a complete new file, because another program may be copying the old one.
+//
+// SQLite's wal_checkpoint is not enough for this: it writes into the file, so that a copy made meanwhile would have pages of both states.
+// VACUUM INTO writes a new file, but gives its pages other numbers; the old -wal, which remains for a moment after the renaming, would
+// damage such a file if the program were killed in that moment. SQLite's backup writes a new file whose pages have the same numbers.
 
 #include <fcntl.h>
 #include <sqlite3.h>
 #include <unistd.h>
-#include <array>
 #include <cerrno>
 #include <cstring>
 #include <filesystem>
@@ -30,23 +33,6 @@ Error not_written(const std::string& path) {
     return bad_input(fmt::format("cannot be written ({}); the existing results are kept", std::strerror(errno)), {path});
 }
 
-/// Makes the operating system write a file to disk, so that it survives a loss of power. `without_wal`: first marks it as a file without a
-/// -wal (bytes 18 and 19 of SQLite's file format).
-Result<void> sync_file(const std::string& path, bool without_wal) {
-    const int file = ::open(path.c_str(), O_RDWR | O_CLOEXEC);
-    if (file < 0) return not_written(path);
-    constexpr std::array<char, 2> versions = {1, 1};
-    const bool ok = (!without_wal || ::pwrite(file, versions.data(), versions.size(), 18) == 2) && ::fsync(file) == 0;
-    ::close(file);
-    if (!ok) return not_written(path);
-    return {};
-}
-
-Result<void> move_into_place(const std::string& from, const std::string& to) {
-    if (::rename(from.c_str(), to.c_str()) != 0) return not_written(to);
-    return {};
-}
-
 /// Creates an empty file. Never follows a link or reuses an existing file.
 Result<void> create_empty(const std::string& path) {
     ::unlink(path.c_str());
@@ -56,67 +42,82 @@ Result<void> create_empty(const std::string& path) {
     return {};
 }
 
-/// Makes the operating system write the folder of a file to disk, so that a rename survives a loss of power.
-void sync_folder(const std::string& path) {
-    const auto folder = fs::path(path).parent_path();
-    const int file = ::open(folder.empty() ? "." : folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
-    if (file < 0) return;
-    ::fsync(file);
-    ::close(file);
+/// Opens a file that no other process knows yet. If it is in WAL mode, this ends it, so that other programs can read the file in a
+/// read-only folder. Each transaction is written to disk at once. There is no journal: a file that cannot be completed is removed.
+Result<sql::Handle> open_new_file(const std::string& path) {
+    auto file = sql::open(path, SQLITE_OPEN_READWRITE);
+    if (!file) return file;
+    if (auto ok = sql::run(file->get(), path, "PRAGMA locking_mode = EXCLUSIVE; PRAGMA synchronous = FULL; PRAGMA journal_mode = OFF"); !ok)
+        return ok.error();
+    return file;
 }
 
-/// Copies all pages of one database, including those in its -wal, to the other, with the same page numbers. `path`: of the other, for
-/// errors.
-Result<void> copy_pages(sqlite3* from, sqlite3* to, const std::string& path) {
-    auto* backup = sqlite3_backup_init(to, "main", from, "main");
-    if (!backup) return sql::error_of(to, path);
+/// Copies all pages of a database, including those in its -wal, to a new file.
+Result<void> copy_pages(sqlite3* from, const std::string& path) {
+    const auto to = open_new_file(path);
+    if (!to) return to.error();
+    auto* backup = sqlite3_backup_init(to->get(), "main", from, "main");
+    if (!backup) return sql::error_of(to->get(), path);
     sqlite3_backup_step(backup, -1);
-    if (sqlite3_backup_finish(backup) != SQLITE_OK) return sql::error_of(to, path);
+    if (sqlite3_backup_finish(backup) != SQLITE_OK) return sql::error_of(to->get(), path);
+    return {};
+}
+
+/// Renames a new file, so that it replaces the other at once, and makes the operating system write the folder to disk, so that this
+/// survives a loss of power.
+Result<void> move_into_place(const std::string& from, const std::string& to) {
+    if (::rename(from.c_str(), to.c_str()) != 0) return not_written(to);
+    const auto folder = fs::path(to).parent_path();
+    const int file = ::open(folder.empty() ? "." : folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
+    if (file < 0) return {};
+    ::fsync(file);
+    ::close(file);
     return {};
 }
 
 }  // namespace
 
-Result<void> SweepResults::Impl::create_file() const {
-    // A -wal that remains of a removed file must not be applied to this file.
-    ::unlink(wal_path().c_str()), ::unlink(shared_memory_path().c_str());
-    TRY(create_empty(checkpoint_path()));
-    auto database = TRY(sql::open(checkpoint_path(), SQLITE_OPEN_READWRITE));
-    TRY(sql::run(database.get(), path, "PRAGMA journal_mode = OFF"));
-    auto ok = layout.write(database.get(), path);
-    database.reset();
-    if (ok) ok = sync_file(checkpoint_path(), false);
+/// Writes a new file with `write` and moves it to the path of the results.
+Result<void> SweepResults::Impl::replace_file(const std::function<Result<void>(const std::string& new_path)>& write) const {
+    auto ok = create_empty(checkpoint_path());
+    if (ok) ok = write(checkpoint_path());
     if (ok) ok = move_into_place(checkpoint_path(), path);
-    if (!ok) return ::unlink(checkpoint_path().c_str()), ok;
-    sync_folder(path);
-    return {};
+    if (!ok) remove_new_file();
+    return ok;
+}
+
+void SweepResults::Impl::remove_new_file() const { ::unlink(checkpoint_path().c_str()), ::unlink((checkpoint_path() + "-wal").c_str()); }
+
+void SweepResults::Impl::remove_wal() const { ::unlink(wal_path().c_str()), ::unlink(shared_memory_path().c_str()); }
+
+Result<void> SweepResults::Impl::create_file() const {
+    remove_wal();  // of a file that was removed; it must not be applied to this file
+    return replace_file([&](const std::string& new_path) -> Result<void> {
+        const auto opened = open_new_file(new_path);
+        return opened ? layout.write(opened->get(), path) : opened.error();
+    });
 }
 
 void SweepResults::Impl::set_next_checkpoint_size() {
     next_checkpoint_size = std::max({min_checkpoint_size, size_of(path), 2 * size_of(wal_path())});
 }
 
-// The new file contains the newest version of each page. A crash between renaming it and removing the -wal is safe: the new file with the
-// old -wal has the same content. A copy of the old file without its -wal has the content of the previous checkpoint.
-Result<void> SweepResults::Impl::checkpoint(bool last) {
+// A kill between replacing the file and removing the -wal is safe: the new file with the old -wal has the same content. A copy of the old
+// file without its -wal has the content of the previous checkpoint.
+Result<void> SweepResults::Impl::checkpoint() {
     if (std::error_code status; !fs::exists(wal_path(), status) && !is_writing) return {};  // no new rows
-    {
-        TRY(create_empty(checkpoint_path()));
-        auto database = sql::open(checkpoint_path(), SQLITE_OPEN_READWRITE);
-        auto ok = database ? sql::run(database->get(), checkpoint_path(), "PRAGMA journal_mode = OFF; PRAGMA synchronous = OFF")
-                           : database.error();
-        if (ok) ok = copy_pages(file.get(), database->get(), checkpoint_path());
-        if (ok) database->reset(), ok = sync_file(checkpoint_path(), last);
-        if (!ok) return ::unlink(checkpoint_path().c_str()), ok;
-    }
+    auto ok = replace_file([&](const std::string& new_path) -> Result<void> {
+        if (auto copied = copy_pages(file.get(), new_path); !copied) return copied;
+        const auto ended_wal_mode = open_new_file(new_path);
+        return ended_wal_mode ? Result<void>() : ended_wal_mode.error();
+    });
+    if (!ok) return ok;
     insert_item = {}, insert_spikes = {}, insert_probe = {}, is_writing = false;
     file.reset();
-    TRY(move_into_place(checkpoint_path(), path));
-    ::unlink(wal_path().c_str()), ::unlink(shared_memory_path().c_str());
-    sync_folder(path);
+    remove_wal();
     return open_file(SQLITE_OPEN_READWRITE);
 }
 
-Result<void> SweepResults::checkpoint() { return impl_->checkpoint(true); }
+Result<void> SweepResults::checkpoint() { return impl_->checkpoint(); }
 
 }  // namespace corpuscle

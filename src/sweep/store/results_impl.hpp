@@ -10,7 +10,7 @@ namespace corpuscle {
 struct SweepResults::Impl {
     std::string path;
     ResultsLayout layout;
-    std::optional<WriterLock> lock;  ///< no value: the file was opened for reading
+    std::unique_ptr<WriterLock> lock;  ///< null: the file was opened for reading
     sql::Handle file;
     bool is_writing = false;  ///< true after begin_writing(): the file has a -wal, to which rows are written
     sql::Statement insert_item, insert_spikes, insert_probe;
@@ -24,9 +24,11 @@ struct SweepResults::Impl {
     Result<void> insert(const Sweep&, const ItemOutcome&);
     /// Creates a file with `layout` and no items, atomically.
     Result<void> create_file() const;
-    /// Moves the rows from the -wal to the file. `last`: the file is then marked as one without a -wal, so that it can be read in a
-    /// read-only folder.
-    Result<void> checkpoint(bool last);
+    /// Moves the rows from the -wal to the file, by replacing the file.
+    Result<void> checkpoint();
+    Result<void> replace_file(const std::function<Result<void>(const std::string& new_path)>& write) const;
+    void remove_new_file() const;  ///< an incomplete one, of this run or of one that was killed
+    void remove_wal() const;
     void set_next_checkpoint_size();
 
     std::string wal_path() const { return path + "-wal"; }            ///< SQLite's write-ahead log

@@ -9,7 +9,6 @@
 #include <chrono>
 #include <cstring>
 #include <sstream>
-#include <utility>
 
 namespace corpuscle {
 namespace {
@@ -31,17 +30,22 @@ bool is_file_at_path(int file, const std::string& path) {
            open_file.st_dev == file_at_path.st_dev;
 }
 
+/// The content of a lock file as write_progress() writes it; all members are 0 or empty if the file is empty. No value: anything else.
+std::optional<WriterLock::Writer> read_writer(int file) {
+    std::array<char, 512> text = {};
+    const auto size = ::pread(file, text.data(), text.size() - 1, 0);
+    WriterLock::Writer out;
+    if (size == 0) return out;
+    std::istringstream words(text.data());
+    std::string more;
+    if (size < 0 || !(words >> out.process >> out.since >> out.finished >> out.planned >> out.host) || words >> more) return {};
+    return out;
+}
+
 /// True if the file is empty or looks as if write_progress() wrote it. Any other file must not be overwritten.
 bool is_ours(int file) {
     struct stat status = {};
-    if (::fstat(file, &status) != 0 || !S_ISREG(status.st_mode) || status.st_nlink > 1 || status.st_size > 512) return false;
-    if (status.st_size == 0) return true;
-    std::array<char, 513> text = {};
-    if (::pread(file, text.data(), text.size() - 1, 0) <= 0) return false;
-    std::istringstream words(text.data());
-    double process = 0, since = 0, finished = 0, planned = 0;
-    std::string host, more;
-    return static_cast<bool>(words >> process >> since >> finished >> planned >> host) && !(words >> more);
+    return ::fstat(file, &status) == 0 && S_ISREG(status.st_mode) && status.st_nlink == 1 && status.st_size < 512 && read_writer(file);
 }
 
 /// `why`: a verb and its object, such as "is a link".
@@ -64,20 +68,12 @@ Error locked_error(const std::string& results) {
 
 }  // namespace
 
-WriterLock::WriterLock(WriterLock&& other) noexcept : path_(std::move(other.path_)), file_(std::exchange(other.file_, -1)) {}
-WriterLock& WriterLock::operator=(WriterLock&& other) noexcept {
-    std::swap(path_, other.path_);
-    std::swap(file_, other.file_);
-    return *this;
-}
 WriterLock::~WriterLock() {
-    if (file_ < 0) return;
     ::unlink(path_.c_str());
     ::close(file_);
 }
 
-Result<WriterLock> WriterLock::take(const std::string& results) {
-    WriterLock lock;
+Result<std::unique_ptr<WriterLock>> WriterLock::take(const std::string& results) {
     const auto path = lock_path(results);
     for (;;) {
         const int file = ::open(path.c_str(), O_RDWR | O_CREAT | O_CLOEXEC | O_NOFOLLOW, 0666);
@@ -96,8 +92,8 @@ Result<WriterLock> WriterLock::take(const std::string& results) {
         }
         if (is_file_at_path(file, path)) {
             if (!is_ours(file)) return ::close(file), not_ours(path, "has other content");
-            lock.path_ = path, lock.file_ = file;
-            lock.write_progress(0, 0);
+            auto lock = std::make_unique<WriterLock>(path, file);
+            lock->write_progress(0, 0);
             return lock;
         }
         ::close(file);
@@ -119,13 +115,10 @@ std::optional<WriterLock::Writer> WriterLock::holder(const std::string& results)
     if (file < 0) return {};
     auto lock_range = whole_file_lock(F_RDLCK);
     const bool is_free = ::fcntl(file, F_OFD_GETLK, &lock_range) == 0 && lock_range.l_type == F_UNLCK;
-    std::array<char, 512> text = {};
-    const auto size = ::read(file, text.data(), text.size() - 1);
+    const auto writer = read_writer(file);
     ::close(file);
     if (is_free) return {};
-    Writer out;
-    if (size > 0) std::istringstream(text.data()) >> out.process >> out.since >> out.finished >> out.planned >> out.host;
-    return out;
+    return writer.value_or(Writer{});
 }
 
 }  // namespace corpuscle

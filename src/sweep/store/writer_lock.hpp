@@ -1,7 +1,11 @@
 #pragma once
 // Lock of a results file, so that only one process writes it. The lock is released when the process ends, also when it is killed.
+//
+// SQLite's own locks cannot do this. They are on the results file, which a checkpoint replaces by another; a lock for the whole run
+// (locking_mode = EXCLUSIVE) would also keep readers out, such as --status; and they do not tell which process has the lock.
 
 #include <cstdint>
+#include <memory>
 #include <optional>
 #include <string>
 
@@ -13,7 +17,7 @@ namespace corpuscle {
 /// SQLite.)
 class WriterLock {
     std::string path_;  // of the lock file
-    int file_ = -1;     // its descriptor; -1: no lock
+    int file_;          // its descriptor
 
 public:
     /// The process that has the lock. If it has not yet written the lock file, all members are 0 or empty.
@@ -25,13 +29,14 @@ public:
         std::int64_t planned = 0;   ///< items that the run is to compute
     };
 
-    WriterLock() = default;
-    WriterLock(WriterLock&&) noexcept;
-    WriterLock& operator=(WriterLock&&) noexcept;
+    /// `file`: descriptor of the locked lock file.
+    WriterLock(std::string path, int file) : path_(std::move(path)), file_(file) {}
+    WriterLock(const WriterLock&) = delete;
+    WriterLock& operator=(const WriterLock&) = delete;
     ~WriterLock();  ///< also removes the lock file
 
     /// `results`: path of the results file. If another process has the lock, the error names that process.
-    static Result<WriterLock> take(const std::string& results);
+    static Result<std::unique_ptr<WriterLock>> take(const std::string& results);
     /// Writes this process and these numbers, see Writer, to the lock file.
     void write_progress(std::int64_t finished, std::int64_t planned) const;
     /// The process that has the lock; no value if no process has it.
