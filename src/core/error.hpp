@@ -65,22 +65,18 @@ template <class T>
 T value_of(Result<T>&& result) {
     return *std::move(result);
 }
-template <class T>
-T value_of(const Result<T>& result) {
-    return *result;
-}
-inline void value_of(const Result<void>&) {}
 inline void value_of(Result<void>&&) {}
 
 }  // namespace corpuscle
 
-/// TRY(result) is the value of the result. If the result holds an error, TRY returns this error from the surrounding function. Write it as
-/// a statement, or as all of what initialises a variable: `const auto plan = TRY(read_plan(text));`
+/// TRY(call) is the value of the Result that the call returns. If it holds an error, TRY returns this error from the surrounding function.
+/// Write it as a statement, as the value of a variable or an assignment, or as the only argument of a call:
+/// `const auto plan = TRY(read_plan(text));`, `files.push_back(TRY(open(path)));`
 #define TRY(...) CORPUSCLE_TRY_NUMBERED(__COUNTER__, __VA_ARGS__)
 #define CORPUSCLE_TRY_NUMBERED(number, ...) CORPUSCLE_TRY_NAMED(number, __VA_ARGS__)
-#define CORPUSCLE_TRY_NAMED(number, ...)                                               \
-    __extension__({                                                                    \
-        auto&& tried_##number = (__VA_ARGS__);                                         \
-        if (!tried_##number) return tried_##number.error();                            \
-        ::corpuscle::value_of(std::forward<decltype(tried_##number)>(tried_##number)); \
+#define CORPUSCLE_TRY_NAMED(number, ...)                    \
+    __extension__({                                         \
+        auto tried_##number = (__VA_ARGS__);                \
+        if (!tried_##number) return tried_##number.error(); \
+        ::corpuscle::value_of(std::move(tried_##number));   \
     })

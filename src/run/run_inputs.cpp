@@ -7,7 +7,7 @@
 namespace corpuscle {
 namespace {
 
-/// The work that the inputs of a run share.
+/// The sinks, options, threads and totals that the inputs of a run share.
 struct RunLoop {
     std::span<Sink* const> sinks;
     const RespondOptions& options;
@@ -26,12 +26,12 @@ struct RunLoop {
 Result<void> RunLoop::run_input(BlockSimulator& simulator, bool wants_probes) {
     TRY(simulator.start(options, wants_probes));
     const Input& input = simulator.input();
-    if (auto ok = for_each_sink([&](Sink& sink) { return sink.begin(input); }); !ok) return ok;
+    TRY(for_each_sink([&](Sink& sink) { return sink.begin(input); }));
     std::int64_t samples = 0;
     for (;;) {
         const auto block = TRY(simulator.next(pool, stats));
         if (block.steps == 0) break;
-        if (auto ok = for_each_sink([&](Sink& sink) { return sink.block(input, block); }); !ok) return ok;
+        TRY(for_each_sink([&](Sink& sink) { return sink.block(input, block); }));
         samples = block.end_sample();
         const double inputs_done = static_cast<double>(input.index) + simulator.progress();
         const bool stops = !options.should_continue(inputs_done / static_cast<double>(input.input_count));

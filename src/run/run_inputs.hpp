@@ -15,7 +15,7 @@ struct RespondOptions {
     Method method = Method::exact;
     bool sampled = false;    ///< true: spikes get the time of a sample, as in the thesis; false: a time within the step
     double noise = 0;        ///< A, see SimulationOptions::noise
-    std::uint64_t seed = 0;  ///< of the membrane noise
+    std::uint64_t seed = 0;  ///< of all random numbers of the run
     Precision precision = Precision::double_precision;
     ThreadPool* pool = nullptr;  ///< threads, or null for only the calling thread; the response does not depend on it
     std::size_t block = 4096;    ///< maximum number of samples in a block; the response does not depend on it

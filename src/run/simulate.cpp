@@ -19,6 +19,7 @@ std::vector<double> padded_block(std::span<const double> force, std::size_t firs
 }  // namespace
 
 Result<void> AfferentSimulation::respond(std::span<const double> force, ResponseBlock& response) {
+    // The response to the first delay_ samples would lie before the force, so nothing of it is recorded.
     if (delay_ > 0 && !std::exchange(has_started_, true)) {
         const auto probes = std::exchange(response.probes, {});
         const auto range_violations = std::exchange(response.range_violations, {});

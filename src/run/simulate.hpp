@@ -1,5 +1,6 @@
 #pragma once
-// Simulates one afferent. Only this file and lookahead_buffer.hpp handle the delay of an afferent, whose response lags behind the force.
+// Simulates one afferent. AfferentSimulation handles the delay of an afferent, whose response lags behind the force; ChannelSimulator reads
+// that far ahead with a LookaheadBuffer.
 
 #include <functional>
 #include <span>
@@ -27,7 +28,7 @@ public:
 
 struct SimulateOptions {
     std::span<const std::size_t> probes = {};  ///< indexes into the afferent's probes: those to record
-    std::size_t every = 1;                     ///< every which sample of a probe is recorded, beginning with the first
+    std::size_t every = 1;                     ///< 1: all samples of a probe are recorded; 2: every second one, beginning with the first
     std::function<bool()> stop = {};           ///< called once per block; true ends the simulation with an error of code `interrupted`
 };
 

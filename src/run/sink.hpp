@@ -36,7 +36,7 @@ struct Input {
     double since_start(std::int64_t sample) const { return clock_since_start().time(sample); }
 };
 
-/// The input that a source gives to a population.
+/// The input of this population, with the clock, phases and notes of the source.
 Input make_input(const Population&, std::string name, const ForceSource&);
 
 /// The response to one block of force. Valid until the next block.

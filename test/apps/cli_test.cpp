@@ -112,7 +112,8 @@ TEST(Program, FloatSpikesAreWithinMicrosecondsAndHaveNoProbes) {
     EXPECT_EQ(Json::parse(test::read_file(folder / "float/summary.json"))["options"]["precision"], "float");
     const auto with_probes = run_program(folder, "respond press --float --out float --probe-files");
     EXPECT_EQ(with_probes.status, 2);
-    EXPECT_NE(with_probes.err.find("float precision cannot record probes: leave out --probe-files"), std::string::npos) << with_probes.err;
+    EXPECT_NE(with_probes.err.find("float precision cannot record probes: remove --float, or --probe and --probe-files"), std::string::npos)
+        << with_probes.err;
     const auto sensor = run_program(folder, "respond press --float --afferent fsr+sa1");
     EXPECT_EQ(sensor.status, 2);
     EXPECT_NE(sensor.err.find("fsr+sa1: sensors, converters and noise cannot run in float"), std::string::npos) << sensor.err;
@@ -296,7 +297,10 @@ TEST(Program, BadInputAndBadUsageHaveTheirStatusAndMessageAndLeaveNoFiles) {
         {"respond press --rate fast", 2, "--rate 'fast' is not a quantity; write a number and a unit, such as '2 Hz'"},
         {"respond press --probe-files", 2, "--probe-files needs --out DIR"},
         {"respond press --vectors", 2, "--vectors needs --out DIR"},
-        {"respond press --vectors --out answer", 2, "--vectors: sa1 has no converter, and so no fixed-point values; try 'adc+sa1'"},
+        {"respond press --vectors --out answer", 2,
+         "--vectors: sa1 has no converter, and so no fixed-point values; try --afferent adc+sa1"},
+        {"respond press --afferent sa1-circuit --vectors --out answer", 2,
+         "--vectors: sa1-circuit has no converter, and so no fixed-point values; try --afferent sa1-kim"},
         {"respond press --noise -1nA", 2, "--noise '-1nA' is negative; write a standard deviation, such as '50 nA'"},
         {"respond press -a sa1 -a SA1", 2, "--afferent SA1: given twice"},
         {"respond", 2, "respond: no FORCE given; try 'corpuscle respond press'"},

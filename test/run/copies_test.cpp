@@ -123,7 +123,7 @@ TEST(Summary, OfAHundredTimesAsManyCopiesHasTheSameLength) {
         const auto p = make_test_copies({"sa1"}, n, {"sa1.f_B=10%"});
         RunSummary summary;
         simulate_press_and_sine(p.copies, {&summary});
-        const auto document = summary.document(p.base, {}, {}, 0, {});
+        const auto document = summary.document(p.base, {}, {}, {});
         EXPECT_EQ(document["afferents"].size(), 1U);
         EXPECT_EQ(document["rates"].size(), 6U);
         EXPECT_EQ(document["rates"][1]["spikes"]["copies"], n);

@@ -61,7 +61,7 @@ ImplementationRun run_implementations(const std::vector<std::string>& stimuli, c
     RespondOptions options;
     options.block = block;
     const auto work = value_or_throw(run(sources, all_plans, sinks, options));
-    ran.document = ran.summary.document(plans, work, options, 9, {}).dump();
+    ran.document = ran.summary.document(plans, work, options, {}).dump();
     return ran;
 }
 

@@ -37,7 +37,7 @@ RunFiles run(const TemporaryFolder& folder, const std::vector<std::string>& stim
     EXPECT_TRUE(spikes->commit());
     EXPECT_TRUE(probes->commit());
     return {test::read_file(folder / "spikes.csv"), test::read_file(folder / "probes.csv"),
-            summary.document(plans, work, options, 9, {}).dump(), work};
+            summary.document(plans, work, options, {}).dump(), work};
 }
 
 TEST(Respond, FilesDoNotDependOnTheBlock) {

@@ -67,7 +67,7 @@ nlohmann::ordered_json ChannelRun::summarize(const RunStats& stats) {
     }
     for (const auto& warning : response_warnings(stats)) warn(warning);
     warn_of_rates();
-    auto result = summary_.document(job_.afferents, stats, job_.options, job_.options.seed, job_.warnings);
+    auto result = summary_.document(job_.afferents, stats, job_.options, job_.warnings);
     if (job_.copy_spec.count > 0) result["copies"] = document_of(job_.copy_spec);
     for (const auto& s : silence_.silent_classes(job_.options)) {
         const auto& name = job_.afferents[s.class_index].name;

@@ -8,7 +8,7 @@
 
 namespace corpuscle {
 
-/// The run that the arguments request.
+/// The parts of a run on channels, planned from the arguments.
 struct ChannelJob : RespondJob {
     std::vector<ParameterOverride> spreads;  // of --spread; those that no afferent so far has used
     std::vector<AfferentPlan> afferents;     // the afferents of --afferent

@@ -14,7 +14,7 @@ namespace {
 constexpr double default_rate = 10e3;  // Hz, sample rate of stimuli
 
 /// Makes the copies of the afferents. Each of job.spreads is for one afferent.
-Result<void> populate(ChannelJob& job) {
+Result<void> add_copies(ChannelJob& job) {
     if (job.copy_spec.count == 0) {
         job.copies = job.afferents;
         return job.spreads.empty() ? Result<void>()
@@ -92,7 +92,7 @@ Result<ChannelJob> plan_channel_job(const RespondArguments& args, bool quiet) {
     job.overrides.insert(job.overrides.end(), args.settings.begin(), args.settings.end());
     job.unused = job.overrides;
     TRY(plan_afferents(job, args.afferents, args.netlists.probes));
-    TRY(populate(job));
+    TRY(add_copies(job));
     TRY(open_sources(job, args.forces, args.recording, quiet));
     TRY(check_overrides(job));
     TRY(check_afferent_count(job));

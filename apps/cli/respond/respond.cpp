@@ -80,7 +80,7 @@ Result<void> request_probes(RespondArguments& args) {
     if (args.netlists.probes.empty()) return {};
     if (args.outputs.directory.empty() && !args.outputs.page)
         return bad_usage(fmt::format("--probe {} needs --out DIR or --report", args.netlists.probes[0]));
-    if (!args.outputs.directory.empty()) args.outputs.formats["--probe-files"];
+    if (!args.outputs.directory.empty()) args.outputs.formats.try_emplace("--probe-files");  // as if the user had given it
     return {};
 }
 

@@ -23,8 +23,8 @@ bool is_output_option(std::string_view name) {
 Result<void> add_contents(RunFingerprint& all, const std::string& kind, const std::string& path) {
     std::error_code status;
     if (!std::filesystem::is_regular_file(path, status)) return {};
-    auto contents = TRY(checksum_of_file(path));
-    all.emplace_back(fmt::format("contents of the {}", kind), std::move(contents));
+    const auto contents = TRY(checksum_of_file(path));
+    all.emplace_back(fmt::format("contents of the {}", kind), contents);
     return {};
 }
 

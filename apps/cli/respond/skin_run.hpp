@@ -9,7 +9,7 @@
 
 namespace corpuscle {
 
-/// The run that the arguments request.
+/// The parts of a run of a skin, planned from the arguments.
 struct SkinJob : RespondJob {
     std::unique_ptr<ForceSource> source;
     std::shared_ptr<const Innervation> skin;

@@ -86,7 +86,7 @@ Result<std::vector<bool>> ChannelSimulator::place_on_lanes(const SimulationOptio
     if (in_float && set == InstructionSet::scalar) return bad_usage("float needs SIMD lanes: CORPUSCLE_ISA=scalar has none");
     const auto groups = group_plans(plans, run);
     if (in_float && (wants_probes_ || !groups.scalar.empty()))
-        return bad_usage(wants_probes_ ? "float precision cannot record probes: leave out --probe-files"
+        return bad_usage(wants_probes_ ? "float precision cannot record probes: remove --float, or --probe and --probe-files"
                                        : fmt::format("{}: {} cannot run in float", plans[groups.scalar[0]].name,
                                                      plans[groups.scalar[0]].traits().lane_obstacles));
     std::vector<bool> is_scalar(plans.size());
@@ -94,8 +94,8 @@ Result<std::vector<bool>> ChannelSimulator::place_on_lanes(const SimulationOptio
     for (const auto& group : groups.on_lanes) {
         if (!in_float && (wants_probes_ || set == InstructionSet::scalar || group.size() * population_.channels() < min_lane_group))
             for (const auto k : group) is_scalar[k] = true;
-        else if (auto ok = make_lane_groups(group, run, options.precision, set); !ok)
-            return ok.error();
+        else
+            TRY(make_lane_groups(group, run, options.precision, set));
     }
     return is_scalar;
 }
@@ -141,8 +141,7 @@ Result<void> ChannelSimulator::make_lane_groups(std::span<const std::size_t> pla
         if (plans.size() == 1) lane_plans = {&population_.plans()[plans[0]]};
         std::vector<std::uint32_t> indexes;
         for (const auto u : group.afferents) indexes.push_back(input_.first_afferent + u);
-        auto population = TRY(make_lane_population({lane_plans, group.afferents.size(), indexes, precision}, run, set));
-        group.population = std::move(population);
+        group.population = TRY(make_lane_population({lane_plans, group.afferents.size(), indexes, precision}, run, set));
         lane_groups_.push_back(std::exchange(group, {{}, {}, by_channel}));
         lane_plans.clear();
     }

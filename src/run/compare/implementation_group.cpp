@@ -1,18 +1,12 @@
 #include "run/compare/implementation_group.hpp"
 
 #include <algorithm>
-#include <cctype>
 #include <filesystem>
 
-#include "run/afferent_plan.hpp"
+#include "core/text/ascii_text.hpp"
 
 namespace corpuscle {
 namespace {
-
-std::string in_lower_case(std::string text) {
-    std::transform(text.begin(), text.end(), text.begin(), [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-    return text;
-}
 
 /// The catalogue's afferent with this name or alias; null if there is none.
 const NamedAfferent* find_afferent(const std::string& name) {
@@ -30,7 +24,7 @@ int reference_rank(const AfferentPlan& plan, const std::string& afferent_type) {
 
 std::string afferent_type_of(const AfferentPlan& plan) {
     const auto stem = std::filesystem::path(plan.name).stem().string();  // without folder and extension, if the name is a path
-    const auto name = in_lower_case(stem);
+    const auto name = lower(stem);
     // A type has a name without hyphen: the alias SA-I leads to sa1 here, but sa1-kim is reduced to its prefix below.
     if (const auto* a = find_afferent(name); a && a->name.find('-') == a->name.npos) return std::string(a->name);
     const auto* prefix_match = find_afferent(name.substr(0, name.find_first_of("-_")));

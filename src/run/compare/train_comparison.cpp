@@ -170,16 +170,14 @@ Result<std::vector<TrainPair>> pair_trains(const Trains& a, const Trains& b, con
 Result<TrainDifference> compare_trains(const TrainPair& pair, const CompareOptions& options) {
     static const std::vector<double> empty_train;
     const auto &a = pair.train_a ? *pair.train_a : empty_train, &b = pair.train_b ? *pair.train_b : empty_train;
-    const auto matched = align_trains(a, b, 2 / options.window);  // a cost at which only spikes closer than the window can match
-    const auto distance = victor_purpura(a, b, options.cost);
-    if (!matched || !distance) return matched ? distance.error() : matched.error();
-    TrainDifference d{pair.a, pair.b, a.size(), b.size(), matched->moved.size()};
-    for (const auto& m : matched->moved) {
+    const auto matched = TRY(align_trains(a, b, 2 / options.window));  // a cost at which only spikes closer than the window can match
+    TrainDifference d{pair.a, pair.b, a.size(), b.size(), matched.moved.size()};
+    for (const auto& m : matched.moved) {
         const double shift = std::abs(b[m.b] - a[m.a]);
         d.max_shift = std::max(d.max_shift, shift);
         d.sum_of_squares += shift * shift;
     }
-    d.victor_purpura = *distance;
+    d.victor_purpura = TRY(victor_purpura(a, b, options.cost));
     d.van_rossum_squared = van_rossum_squared(a, b, options.tau);
     return d;
 }

@@ -29,7 +29,8 @@ public:
     FileSink& operator=(const FileSink&) = delete;
     /// Removes the files that were not committed. The last one is removed first: the first one may have created the directory.
     ~FileSink() override;
-    Result<void> open() { return {}; }       ///< creates the first file, if it exists before the run starts
+    /// Creates the files that are needed before begin(). make_file_sink() calls the open() of the derived class.
+    Result<void> open() { return {}; }
     std::vector<std::string> paths() const;  ///< final paths of the files
     virtual Result<void> commit();
 };
@@ -58,7 +59,7 @@ struct OutputRequest {
     bool has(std::string_view option) const { return options.contains(option); }
 };
 
-/// The largest number of copies of an afferent, or of afferents of a class of a skin, whose probes or vectors are written.
+/// The largest number of copies of an afferent whose probes or vectors are written.
 inline constexpr std::uint32_t max_recorded_copies = 50;
 
 /// An output format. The user requests it by its option.

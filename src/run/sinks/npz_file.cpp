@@ -45,7 +45,7 @@ public:
         return {};
     }
     Result<void> end(const Input& input, std::int64_t, std::span<const Spike> last) override {
-        (void)add(input, last);  // never an error
+        TRY(add(input, last));
         npz_.add(fmt::format("spike_indexes_seg{}", segments_), indexes_);
         npz_.add(fmt::format("spike_labels_seg{}", segments_), labels_);
         npz_.add(fmt::format("spike_times_seg{}", segments_), times_);

@@ -129,8 +129,10 @@ Result<void> VectorsFile::block(const Input& input, const RunBlock& block) {
 Result<void> check_vectors(const OutputRequest& request) {
     const auto has_converter = [](const AfferentPlan& plan) { return !plan.converter.empty(); };
     if (std::none_of(request.plans.begin(), request.plans.end(), has_converter)) {
-        const auto name = request.plans.empty() ? std::string("skin") : base_name(request.plans[0]);
-        return bad_usage(fmt::format("--vectors: {} has no converter, and so no fixed-point values; try 'adc+{}'", name, name));
+        const auto& plan = request.plans[0];
+        const auto with_converter = plan.receptor.empty() ? "sa1-kim" : "adc+" + base_name(plan);
+        return bad_usage(fmt::format("--vectors: {} has no converter, and so no fixed-point values; try --afferent {}", base_name(plan),
+                                     with_converter));
     }
     return check_recorded_copies(request, "--vectors");
 }

@@ -23,7 +23,7 @@ namespace fs = std::filesystem;
 
 // FILE: header, fingerprint, checksum of the force, number and checksum of the spikes, the skin's state, checksum of all this.
 constexpr std::string_view checkpoint_magic = "corpuscle checkpoint ", checkpoint_header = "corpuscle checkpoint 2\n";
-constexpr std::string_view spikes_header = "corpuscle told spikes 2\n";
+constexpr std::string_view spikes_header = "corpuscle told spikes 2\n";  // "told": handed to the sinks
 static_assert(spikes_header.size() % sizeof(std::uint64_t) == 0);  // the spikes after the header are aligned
 
 /// A spike as stored in FILE.spikes.

@@ -1,9 +1,9 @@
+#include "run/skin/skin_force.hpp"
+
 #include <fmt/format.h>
 #include <algorithm>
 #include <numeric>
 
-#include "core/parameter_override.hpp"
-#include "run/skin/skin_force.hpp"
 #include "skin/plan/site_map.hpp"
 
 namespace corpuscle {

@@ -1,5 +1,5 @@
 #pragma once
-// The force at the sites of a skin, block by block.
+// The force at the sites of a skin: of a contact, or of a recording with one channel for each site.
 
 #include <memory>
 
@@ -9,7 +9,7 @@
 
 namespace corpuscle {
 
-/// Force at the sites, block after block.
+/// The force at the sites, block after block.
 class SkinForce {
 public:
     /// Valid until the next block.

@@ -26,7 +26,7 @@ Result<SkinProbes> SkinProbes::make(const Innervation& skin, const SimulationOpt
     return out;
 }
 
-std::vector<std::span<const Probe>> SkinProbes::names() const {
+std::vector<std::span<const Probe>> SkinProbes::class_probes() const {
     std::vector<std::span<const Probe>> out;
     for (std::size_t c = 0; c < skin_->plan.classes.size(); ++c) {
         const auto first = skin_->class_begin[c];

@@ -14,7 +14,7 @@ public:
     /// Returns an error if a class has more than max_afferents afferents.
     static Result<SkinProbes> make(const Innervation&, const SimulationOptions&);
     /// The probes of each class.
-    std::vector<std::span<const Probe>> names() const;
+    std::vector<std::span<const Probe>> class_probes() const;
     /// Simulates the next block.
     Result<void> respond(const SiteForce&, std::size_t steps, ThreadPool&);
     /// [afferent][probe][sample] of the last block.

@@ -15,7 +15,7 @@ Result<void> SkinSimulator::start(const RespondOptions& options, bool wants_prob
     auto probes = SkinProbes::make(skin_.innervation(), options.for_clock(input_.clock));
     if (!probes) return probes.error();
     probes_ = std::move(*probes);
-    population_.set_probes(probes_->names());
+    population_.set_probes(probes_->class_probes());
     return {};
 }
 

@@ -182,14 +182,14 @@ std::vector<std::size_t> RunSummary::columns() const {
     return columns;
 }
 
-Json RunSummary::document(std::span<const AfferentPlan> afferents, const RunStats& stats, const RespondOptions& options, std::uint64_t seed,
+Json RunSummary::document(std::span<const AfferentPlan> afferents, const RunStats& stats, const RespondOptions& options,
                           const std::vector<std::string>& warnings) const {
     Json out = {{"program", "corpuscle"}, {"version", version}};
     out["options"] = {{"method", options.method == Method::exact ? "exact" : "backward-euler"},
                       {"sampled", options.sampled},
                       {"precision", options.precision == Precision::double_precision ? "double" : "float"},
                       {"noise_A", options.noise},
-                      {"seed", seed}};
+                      {"seed", options.seed}};
     out["afferents"] = Json::array();
     for (const auto& a : afferents) out["afferents"].push_back(document_of(a));
     out["inputs"] = Json::array();

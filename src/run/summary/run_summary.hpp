@@ -72,8 +72,8 @@ public:
     /// The indexes in `measures` of the measures that have a value in some row: the columns of a table.
     std::vector<std::size_t> columns() const;
     /// The summary as a JSON document; the same input and options give the same bytes. The afferents are those that were requested,
-    /// without copies. `seed`: of all random numbers.
-    nlohmann::ordered_json document(std::span<const AfferentPlan>, const RunStats&, const RespondOptions&, std::uint64_t seed,
+    /// without copies.
+    nlohmann::ordered_json document(std::span<const AfferentPlan>, const RunStats&, const RespondOptions&,
                                     const std::vector<std::string>& warnings) const;
 
 private:

@@ -47,8 +47,8 @@ Result<void> SkinSummary::begin(const Input& input) {
     return {};
 }
 
-/// The index of the phase that contains the time t, s since the start of the force; SkinSummaryRow::all if none does. Phases do not
-/// overlap.
+/// The index of the phase that contains the time t, s since the start of the force; SkinSummaryRow::all if none does, because such a time
+/// counts only in the rows of all phases. Phases do not overlap.
 std::size_t SkinSummary::phase_of(double t) const {
     const auto found = std::find_if(phases_.begin(), phases_.end(), [t](const Phase& p) { return t >= p.from && t < p.to; });
     return found == phases_.end() ? SkinSummaryRow::all : static_cast<std::size_t>(found - phases_.begin());
