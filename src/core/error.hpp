@@ -1,9 +1,10 @@
 #pragma once
 // The error type, and a result type that holds a value or an error. The library prints nothing and never ends the process.
 
+#include <memory>
+#include <optional>
 #include <string>
 #include <utility>
-#include <variant>
 
 namespace corpuscle {
 
@@ -32,32 +33,57 @@ inline Error bad_input(std::string message, SourceLocation location = {}) {
 inline Error bad_usage(std::string message) { return {ErrorCode::bad_usage, std::move(message)}; }
 
 /// A value, or the error that prevented it. Check with `if (result)` first: * and -> require a value, error() requires an error.
+/// Not a std::variant: that takes the compiler twice as long for each type of value, of which there are hundreds.
 template <class T>
 class [[nodiscard]] Result {
-    std::variant<T, Error> value_or_error_;
+    union {
+        T value_;
+        Error error_;
+    };
+    bool has_value_;
+
+    template <class Other>
+    void take(Other&& other) {
+        if (has_value_)
+            std::construct_at(&value_, std::forward<Other>(other).value_);
+        else
+            std::construct_at(&error_, std::forward<Other>(other).error_);
+    }
 
 public:
-    Result(T value) : value_or_error_(std::move(value)) {}
-    Result(Error error) : value_or_error_(std::move(error)) {}
-    explicit operator bool() const { return value_or_error_.index() == 0; }
-    T& operator*() & { return std::get<0>(value_or_error_); }
-    T&& operator*() && { return std::get<0>(std::move(value_or_error_)); }
-    const T& operator*() const& { return std::get<0>(value_or_error_); }
-    T* operator->() { return &std::get<0>(value_or_error_); }
-    const T* operator->() const { return &std::get<0>(value_or_error_); }
-    const Error& error() const { return std::get<1>(value_or_error_); }
+    Result(T value) : value_(std::move(value)), has_value_(true) {}
+    Result(Error error) : error_(std::move(error)), has_value_(false) {}
+    Result(Result&& other) noexcept : has_value_(other.has_value_) { take(std::move(other)); }
+    Result(const Result& other) : has_value_(other.has_value_) { take(other); }
+    Result& operator=(Result other) noexcept {
+        std::destroy_at(this);
+        return *std::construct_at(this, std::move(other));
+    }
+    ~Result() {
+        if (has_value_)
+            value_.~T();
+        else
+            error_.~Error();
+    }
+    explicit operator bool() const { return has_value_; }
+    T& operator*() & { return value_; }
+    T&& operator*() && { return std::move(value_); }
+    const T& operator*() const& { return value_; }
+    T* operator->() { return &value_; }
+    const T* operator->() const { return &value_; }
+    const Error& error() const { return error_; }
 };
 
 /// Success without a value, or the error.
 template <>
 class [[nodiscard]] Result<void> {
-    std::variant<std::monostate, Error> value_or_error_;
+    std::optional<Error> error_;
 
 public:
     Result() = default;
-    Result(Error error) : value_or_error_(std::move(error)) {}
-    explicit operator bool() const { return value_or_error_.index() == 0; }
-    const Error& error() const { return std::get<1>(value_or_error_); }
+    Result(Error error) : error_(std::move(error)) {}
+    explicit operator bool() const { return !error_; }
+    const Error& error() const { return *error_; }
 };
 
 /// The value of a result that holds one; for TRY.
