@@ -3,7 +3,7 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
-#include "assets.hpp"
+#include "embedded_file_table.hpp"
 
 namespace corpuscle {
 
@@ -16,8 +16,8 @@ std::string_view compiler_version() {
 }
 
 std::string_view asset(std::string_view name) {
-    for (const auto& a : assets)
-        if (a.name == name) return {a.begin, static_cast<std::size_t>(a.end - a.begin)};
+    for (const auto& f : embedded_file_table)
+        if (f.path.substr(f.path.rfind('/') + 1) == name) return f.text();
     return {};
 }
 

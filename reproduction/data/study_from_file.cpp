@@ -14,7 +14,7 @@ namespace {
 /// The text of an embedded file of reproduction/studies.
 Result<std::string> study_text(const std::string& path) {
     for (const auto& f : embedded_file_table)
-        if (f.path == path) return std::string(f.begin, f.end);
+        if (f.path == path) return std::string(f.text());
     return bad_input(fmt::format("there is no file '{}'; add it, or correct its name here or in studies.def", path));
 }
 

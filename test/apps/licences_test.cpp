@@ -10,7 +10,7 @@ TEST(Licences, EveryPageWithTheChartLibraryContainsItsLicence) {
     for (const auto& file : std::filesystem::recursive_directory_iterator(test::source_root() + "/apps/report")) {
         if (file.path().extension() != ".html") continue;
         const auto text = test::read_file(file.path().string());
-        if (text.find("{{dygraphs.js}}") == std::string::npos) continue;
+        if (text.find("{{dygraph.min.js}}") == std::string::npos) continue;
         EXPECT_NE(text.find("{{licence.html}}"), std::string::npos) << file.path();
         ++templates;
     }

@@ -8,7 +8,7 @@ namespace corpuscle {
 
 Result<std::string> embedded_text(const std::string& path) {
     for (const auto& f : embedded_file_table)
-        if (f.path == path) return std::string(f.begin, f.end);
+        if (f.path == path) return std::string(f.text());
     return bad_input(fmt::format("there is no embedded file '{}'", path), {path});
 }
 
