@@ -25,6 +25,7 @@
 #include <string>
 
 #include "core/stimulus/stimuli.hpp"
+#include "model/catalog.hpp"
 #include "model/lane_population.hpp"
 #include "model/lanes/aligned_buffer.hpp"
 

@@ -4,6 +4,7 @@
 #include <cstdio>
 
 #include "core/stimulus/stimuli.hpp"
+#include "model/catalog.hpp"
 #include "model/lane_population.hpp"
 
 int main() {

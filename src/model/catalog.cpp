@@ -5,7 +5,9 @@
 
 #include "core/text/ascii_text.hpp"
 #include "model/afferent_components.hpp"
+#include "model/components.hpp"
 #include "model/model_factory.hpp"
+#include "model/models.hpp"
 #include "model/sensor/front_end_factory.hpp"
 
 namespace corpuscle {

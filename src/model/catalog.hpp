@@ -1,36 +1,14 @@
 #pragma once
-// The components that can come before a receptor, the named afferents, and the plan of an afferent of equations. To add a sensor,
-// transducer or converter, add its include and its name here.
+// The named afferents, the catalogue of models and components, and the plan of an afferent of equations.
 
+#include <memory>
 #include <span>
 #include <string_view>
 #include <vector>
 
 #include "core/afferent_spec.hpp"
-#include "model/chain.hpp"
-#include "model/models.hpp"
-#include "model/sensor/adc.hpp"
-#include "model/sensor/f2i.hpp"
-#include "model/sensor/f2v.hpp"
-#include "model/sensor/fsr.hpp"
 
 namespace corpuscle {
-
-/// A list of components that can come before a receptor. They are computed in double only, not on lanes.
-template <class... M>
-struct ComponentList {};
-/// The type of a component, to be passed to a function.
-template <class M>
-struct ComponentTag {};
-/// Calls f with the tag of each component of the list.
-template <class... M, class F>
-void for_each_type(ComponentList<M...>, const F& f) {
-    (f(ComponentTag<M>{}), ...);
-}
-
-using Sensors = ComponentList<Fsr>;
-using Transducers = ComponentList<F2v, F2i>;
-using Converters = ComponentList<Adc>;
 
 /// An afferent with a name of its own: its receptor, its neuron, and the parameters whose values differ from the defaults of these models.
 struct NamedAfferent {

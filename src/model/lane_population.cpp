@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include "model/lanes/tiled_population.hpp"
+#include "model/models.hpp"
 
 namespace corpuscle {
 namespace {

@@ -8,9 +8,9 @@
 #include <variant>
 #include <vector>
 
+#include "core/afferent_factory.hpp"
 #include "core/number/instruction_set.hpp"
 #include "core/thread_pool.hpp"
-#include "model/catalog.hpp"
 
 namespace corpuscle {
 

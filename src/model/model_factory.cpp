@@ -1,6 +1,8 @@
 #include "model/model_factory.hpp"
 
 #include "model/catalog.hpp"
+#include "model/chain.hpp"
+#include "model/models.hpp"
 #include "model/sensor/front_end_afferent.hpp"
 #include "model/sensor/front_end_factory.hpp"
 

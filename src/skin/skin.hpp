@@ -8,8 +8,8 @@
 #include <vector>
 
 #include "core/number/instruction_set.hpp"
+#include "core/simulation_options.hpp"
 #include "core/thread_pool.hpp"
-#include "model/chain.hpp"
 #include "skin/innervation.hpp"
 
 namespace corpuscle {

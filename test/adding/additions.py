@@ -68,7 +68,7 @@ ADDITIONS = [
     Addition(
         kind="a sensor, a transducer",
         file="src/model/sensor/strain_gauge.hpp",
-        list="src/model/catalog.hpp",
+        list="src/model/components.hpp",
         insertions=[included_after("model/sensor/fsr.hpp", "model/sensor/strain_gauge.hpp"), ("ComponentList<Fsr>;", "ComponentList<Fsr, StrainGauge>;")],
         list_names="Sensors|Transducers|Converters",
     ),

@@ -1,5 +1,6 @@
 // Copies of an afferent: which of their parameters are sampled, from which distribution, and on what the samples depend.
 
+#include "model/components.hpp"
 #include "model/copies.hpp"
 
 #include <cmath>

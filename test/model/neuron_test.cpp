@@ -2,6 +2,7 @@
 
 #include <cmath>
 
+#include "model/models.hpp"
 #include "support/support.hpp"
 
 namespace corpuscle {

@@ -4,6 +4,7 @@
 
 #include <cmath>
 
+#include "model/models.hpp"
 #include "support/support.hpp"
 
 namespace corpuscle {

@@ -4,6 +4,9 @@
 #include <optional>
 #include <type_traits>
 
+#include "core/simulation_options.hpp"
+#include "model/models.hpp"
+
 namespace corpuscle::lanes {
 namespace {
 

@@ -6,7 +6,7 @@
 #include <span>
 #include <vector>
 
-#include "model/catalog.hpp"
+#include "core/afferent_factory.hpp"
 #include "model/lanes/kernel.hpp"
 
 namespace corpuscle::lanes {

@@ -1,5 +1,7 @@
 #include "model/sensor/front_end_factory.hpp"
 
+#include "model/components.hpp"
+
 namespace corpuscle {
 namespace {
 

@@ -1,7 +1,7 @@
 #pragma once
 // Builds the front end of a plan and, if it has a converter, the complete digital afferent.
 
-#include "model/catalog.hpp"
+#include "core/afferent_factory.hpp"
 #include "model/sensor/digital_afferent.hpp"
 
 namespace corpuscle {

@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include "model/neuron/threshold_crossing.hpp"
+
 namespace corpuscle {
 
 std::vector<std::string> noise_warnings(std::span<const AfferentPlan> afferents, double noise) {

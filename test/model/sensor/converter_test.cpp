@@ -2,6 +2,7 @@
 
 #include <cmath>
 
+#include "model/components.hpp"
 #include "model/sensor/digital_afferent.hpp"
 #include "support/property.hpp"
 #include "support/support.hpp"

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
+#include "model/components.hpp"
 #include "support/property.hpp"
 #include "support/support.hpp"
 
