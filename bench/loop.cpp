@@ -17,8 +17,7 @@
 #include <ctime>
 #include <functional>
 
-#include "circuit/analysis/initial_condition.hpp"
-#include "circuit/analysis/transient_plan.hpp"
+#include "circuit/analysis/transient_setup.hpp"
 
 namespace {
 

@@ -14,7 +14,7 @@
 #include <map>
 #include <string>
 
-#include "circuit/analysis/initial_condition.hpp"
+#include "circuit/analysis/transient_setup.hpp"
 #include "circuit/device/uicm_card.hpp"
 #include "circuit/variant/netlist_variants.hpp"
 

@@ -74,9 +74,9 @@ std::vector<ListSection> circuit_sections() {
     const CatalogEntry card{UicmCard::name, UicmCard::description, UicmCard::source, parameters_of<UicmCard>(UicmCard::fields)};
     const CatalogEntry size{"m", "transistor size: the parameters of an M line", "choice: 1 um / 1 um",
                             parameters_of<UicmInstance>(UicmInstance::fields)};
-    const auto element = [](const auto& d) { return list_entry({&d.letter, 1}, "", d.description); };
-    const auto analysis = [](const auto& a) { return list_entry("." + std::string(a.name), a.usage, a.description); };
-    return {{"devices", entries_of(circuit::devices, "", element)},
+    const auto element = [](const auto* d) { return list_entry({&d->letter, 1}, "", d->description); };
+    const auto analysis = [](const auto* a) { return list_entry("." + std::string(a->name), a->usage, a->description); };
+    return {{"devices", entries_of(device_kinds, "", element)},
             {"models", entries_of({card, size})},
             {"analyses", entries_of(circuit::analyses, "usage", analysis)}};
 }

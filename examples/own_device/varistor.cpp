@@ -1,8 +1,11 @@
-#include "varistor.hpp"
+// A varistor, `y1 plus minus MODEL`: its current is a power of the voltage, and it has a capacitance.
 
 #include <cmath>
 
+#include "circuit/device/device_kind.hpp"
 #include "circuit/device/named_values.hpp"
+#include "circuit/export/element_text.hpp"
+#include "circuit/netlist/element_reader.hpp"
 
 namespace corpuscle::circuit {
 namespace {
@@ -11,7 +14,7 @@ struct VaristorCard {
     double v0 = 10, i0 = 1e-3, alpha = 5, c = 0;
 };
 
-constexpr ParameterDef<VaristorCard> fields[] = {
+constexpr ParameterDef<VaristorCard> varistor_fields[] = {
     {"v0", &VaristorCard::v0, "V", 1e-3, 1e6, "voltage at which the current is i0"},
     {"i0", &VaristorCard::i0, "A", 1e-15, 1e3, "current at v0"},
     {"alpha", &VaristorCard::alpha, "", 1, 100, "exponent"},
@@ -20,20 +23,17 @@ constexpr ParameterDef<VaristorCard> fields[] = {
 
 /// Current and charge at the voltage v between the terminals:   i = i0 sign(v) |v / v0|^alpha,   q = c v
 class Varistor final : public Device {
-    VaristorCard c_;
+    VaristorCard c_;  // i0 and c of m varistors in parallel
 
 public:
-    explicit Varistor(const VaristorCard& card) : c_(card) {}
+    Varistor(const VaristorCard& card, double m) : c_(card) { c_.i0 *= m, c_.c *= m; }
     bool is_linear() const override { return false; }
 
     void eval(std::span<const double> v, const EvalContext&, const Stamp& out) const override {
         const double u = v[0] - v[1], x = std::abs(u) / c_.v0;
         const double g = c_.i0 / c_.v0 * std::pow(x, c_.alpha - 1);  // i / u
-        const double i = g * u, di = c_.alpha * g;
-        out.f[0] += i, out.f[1] -= i;
-        out.slope(0, 0) += di, out.slope(0, 1) -= di, out.slope(1, 0) -= di, out.slope(1, 1) += di;
-        out.q[0] += c_.c * u, out.q[1] -= c_.c * u;
-        out.capacitance(0, 0) += c_.c, out.capacitance(0, 1) -= c_.c, out.capacitance(1, 0) -= c_.c, out.capacitance(1, 1) += c_.c;
+        Stamp::add_between(out.f, 0, 1, g * u), Stamp::add_between(out.q, 0, 1, c_.c * u);
+        out.add_conductance(0, 1, c_.alpha * g), out.add_capacitance(0, 1, c_.c);
     }
 
     std::vector<OperatingValue> operating_info(std::span<const double> v) const override {
@@ -42,14 +42,40 @@ public:
     }
 };
 
+/// Turns an element, with all its numbers evaluated, into a device.
+Result<std::unique_ptr<Device>> make_varistor(const Element& e, DeviceSetup& setup) {
+    const auto& model = setup.circuit().models[static_cast<std::size_t>(e.model)];
+    const auto card = TRY(read_model_card<VaristorCard>(varistor_fields, model, {}));
+    return make_device<Varistor>(setup.ends(e), card, value_or(e.values, "m", 1));
+}
+
+Result<void> read_varistor(ElementReader& line) {
+    TRY(line.nodes(2, "plus, minus, then the model"));
+    if (line.word_count() < 4) return line.error_at(3, "its model is missing");
+    if (line.word_count() > 4) return line.too_many(4);
+    return line.model(3, {"varistor"});
+}
+
+/// ngspice has no such device: a source with an expression, and a capacitor in parallel.
+Result<std::string> write_varistor(const ElementExport& e) {
+    const auto card = TRY(read_model_card<VaristorCard>(varistor_fields, *e.model(), {}));
+    const auto plus = e.names.node(e.element.nodes[0]), minus = e.names.node(e.element.nodes[1]);
+    const double m = e.value("m", 1);
+    return fmt::format("{} i={}*sgn(v({},{}))*(abs(v({},{}))/{})^{}\nc_{} {} {} {}\n", e.head, m * card.i0, plus, minus, plus, minus,
+                       card.v0, card.alpha, e.names.element(e.element.name), plus, minus, m * card.c);
+}
+
+constexpr ElementParameter varistor_parameters[] = {parameter_m};
+
 }  // namespace
 
-Result<std::unique_ptr<Device>> make_varistor(const Element& e, DeviceSetup& setup) {
-    TRY(check_value_names(e.name, e.values, {}, e.location));
-    const auto card = TRY(read_model_card<VaristorCard>(fields, setup.circuit().models[static_cast<std::size_t>(e.model)], {}));
-    auto device = std::make_unique<Varistor>(card);
-    device->unknowns = {setup.node_unknown(e.nodes[0]), setup.node_unknown(e.nodes[1])};
-    return std::unique_ptr<Device>(std::move(device));
-}
+extern constexpr DeviceKind varistor_kind = {.letter = 'y',
+                                             .description = "varistor",
+                                             .read = read_varistor,
+                                             .make = make_varistor,
+                                             .parameters = varistor_parameters,
+                                             .saves_terminal_current = true,
+                                             .write_spice = write_varistor,
+                                             .export_prefix = "b"};
 
 }  // namespace corpuscle::circuit

@@ -132,25 +132,9 @@ constexpr StudyFunction study_functions[] = {
     {"conductance_slope", "n", [](Inputs a) -> StudyValue { return ForceSensor().slope(a.number(0)); }},
 };
 
-struct NamedOperator {
-    std::string_view name;
-    std::size_t arguments;
-    circuit::Operation operation;
-};
-constexpr NamedOperator named_operators[] = {{"+", 2, circuit::Operation::add},          {"-", 2, circuit::Operation::subtract},
-                                             {"-", 1, circuit::Operation::negate},       {"*", 2, circuit::Operation::multiply},
-                                             {"/", 2, circuit::Operation::divide},       {"!", 1, circuit::Operation::logical_not},
-                                             {"<", 2, circuit::Operation::less},         {">", 2, circuit::Operation::greater},
-                                             {"<=", 2, circuit::Operation::less_equal},  {">=", 2, circuit::Operation::greater_equal},
-                                             {"==", 2, circuit::Operation::equal},       {"!=", 2, circuit::Operation::unequal},
-                                             {"&&", 2, circuit::Operation::logical_and}, {"||", 2, circuit::Operation::logical_or}};
-
-std::optional<circuit::Operation> find_operation(std::string_view name, std::size_t arguments) {
-    for (const auto& row : named_operators)
-        if (row.name == name && row.arguments == arguments) return row.operation;
-    const auto* row = circuit::find_function(name, false);
-    if (!row || static_cast<int>(arguments) < row->min_arguments || static_cast<int>(arguments) > row->max_arguments) return {};
-    return row->operation;
+/// The operator or function of expressions with this name and number of operands; null if there is none.
+const circuit::Operation* find_operation(std::string_view name, std::size_t arguments) {
+    return circuit::find_operation(name == "pwr" ? "^" : name, static_cast<int>(arguments));
 }
 
 /// The numbers of an argument at the k-th point of a curve or list with `count` points, which is at `x` if it is a curve.
@@ -189,7 +173,7 @@ StudyValue map_points(std::span<const StudyValue> arguments, const std::function
 Error no_such_function(std::string_view name, std::span<const StudyValue> arguments) {
     std::vector<std::string_view> names;
     for (const auto& f : study_functions) names.push_back(f.name);
-    for (std::size_t k = 0; !circuit::function_name(k).empty(); ++k) names.push_back(circuit::function_name(k));
+    for (const auto& operation : circuit::all_operations()) names.push_back(operation.name);
     std::vector<std::string_view> kinds;
     for (const auto& argument : arguments) kinds.push_back(kind_of(argument).name);
     const bool is_known = std::find(names.begin(), names.end(), name) != names.end();
@@ -209,11 +193,10 @@ Result<StudyValue> call_study_function(std::string_view name, std::span<const St
         if (f.name == name && f.signature == "n" && arguments.size() == 1)
             return map_points(arguments,
                               [&](std::span<const double> x) { return std::get<double>(f.value({std::array<StudyValue, 1>{x[0]}})); });
-    const auto operation = find_operation(name, arguments.size());
+    const auto* operation = find_operation(name, arguments.size());
     if (!operation) return no_such_function(name, arguments);
-    return map_points(arguments, [&](std::span<const double> x) {
-        return circuit::evaluate_operation(*operation, x[0], x.size() > 1 ? x[1] : 0, x.size() > 2 ? x[2] : 0);
-    });
+    return map_points(
+        arguments, [&](std::span<const double> x) { return operation->value({x[0], x.size() > 1 ? x[1] : 0, x.size() > 2 ? x[2] : 0}); });
 }
 
 const StudyValue* find_study_constant(std::string_view name) {

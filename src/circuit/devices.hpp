@@ -1,62 +1,60 @@
 #pragma once
-// All kinds of devices, by letter. To add one, include its header here and add a line to `devices`.
+// All kinds of devices, by letter. To add one, write its file in circuit/device/ and add its name to the two lists below.
 
-#include "circuit/device/diode.hpp"
-#include "circuit/device/passive.hpp"
-#include "circuit/device/source.hpp"
-#include "circuit/device/transistor.hpp"
+#include "circuit/device/device_kind.hpp"
 
 namespace corpuscle::circuit {
 
-/// A kind of device, chosen by the first letter of an element's name.
-struct DeviceKind {
-    char letter;
-    std::string_view description;
-    Result<std::unique_ptr<Device>> (*make)(const Element&, DeviceSetup&);
-    /// Behaviour at 0 Hz. conducts_dc: the current depends, or may depend, on the voltage across the device. fixes_voltage: the device
-    /// fixes the voltage between its first two terminals.
-    bool conducts_dc, fixes_voltage;
-    /// Makes the batch that evaluates devices of this kind together. If null, they are evaluated one at a time.
-    Result<std::unique_ptr<DeviceBatch>> (*make_batch)() = nullptr;
-};
+extern const DeviceKind resistor_kind, capacitor_kind, inductor_kind, voltage_source_kind, current_source_kind,
+    voltage_controlled_voltage_kind, current_controlled_current_kind, voltage_controlled_current_kind, current_controlled_voltage_kind,
+    expression_source_kind, diode_kind, transistor_kind;
 
-inline constexpr DeviceKind devices[] = {
-    {'r', "resistor", make_resistor, true, false},
-    {'c', "capacitor, linear or with an expression for its charge", make_capacitor, false, false},
-    {'l', "inductor", make_inductor, true, true},
-    {'v', "voltage source", make_voltage_source, true, true},
-    {'i', "current source", make_current_source, false, false},
-    {'e', "voltage source controlled by a voltage or an expression", make_controlled_source, true, true},
-    {'f', "current source controlled by a current", make_controlled_source, true, false},
-    {'g', "current source controlled by a voltage or an expression", make_controlled_source, true, false},
-    {'h', "voltage source controlled by a current", make_controlled_source, true, true},
-    {'b', "voltage or current source with an expression", make_formula_source, true, false},
-    {'d', "junction diode", make_diode, true, false},
-    {'m', "MOS transistor, UICM", make_transistor, true, false, make_transistor_batch},
-};
+/// In the order of messages and catalogues.
+inline constexpr const DeviceKind* device_kinds[] = {&resistor_kind,
+                                                     &capacitor_kind,
+                                                     &inductor_kind,
+                                                     &voltage_source_kind,
+                                                     &current_source_kind,
+                                                     &voltage_controlled_voltage_kind,
+                                                     &current_controlled_current_kind,
+                                                     &voltage_controlled_current_kind,
+                                                     &current_controlled_voltage_kind,
+                                                     &expression_source_kind,
+                                                     &diode_kind,
+                                                     &transistor_kind};
 
 /// The kind of device of this letter; null if there is none.
 inline const DeviceKind* find_device_kind(char letter) {
-    for (const auto& d : devices)
-        if (d.letter == letter) return &d;
+    for (const auto* kind : device_kinds)
+        if (kind->letter == letter) return kind;
     return nullptr;
 }
 
+/// "R C L ... X": the letters of all elements, subcircuits included.
+inline std::string element_letters() {
+    std::string out;
+    for (const auto* kind : device_kinds) (out += static_cast<char>(kind->letter - 'a' + 'A')) += ' ';
+    return out + 'X';
+}
+
+/// The kind of device of an element of a circuit.
+inline const DeviceKind& kind_of(const Element& e) { return *find_device_kind(e.letter); }
+
 /// True if the current through the element is an unknown of the system.
-inline bool has_branch_current(const Element& e) {
-    switch (e.letter) {
-        case 'v':
-        case 'l':
-        case 'h':
-            return true;
-        case 'e':
-            return !e.expression || e.expression_is_voltage;  // an E with a gain is a voltage source, too
-        case 'b':
-        case 'g':
-            return e.expression && e.expression_is_voltage;
-        default:
-            return false;
-    }
+inline bool has_branch_current(const Element& e) { return kind_of(e).has_branch_current(e); }
+
+inline bool has_role(const Element& e, Role role) { return kind_of(e).role == role; }
+inline bool is_independent_source(const Element& e) { return has_role(e, Role::voltage_source) || has_role(e, Role::current_source); }
+/// True for a current source with an expression.
+inline bool is_current_expression(const Element& e) { return e.expression && !e.expression_is_voltage && !has_role(e, Role::capacitor); }
+
+/// The value that a line gives without a name: the DC value of a source, a resistance, a gain ...
+inline double main_value(const Element& e) { return is_independent_source(e) ? e.waveform.dc : e.value; }
+inline void set_main_value(Element& e, double value) {
+    if (is_independent_source(e))
+        e.waveform.dc = value, e.waveform.has_dc = true;
+    else
+        e.value = value;
 }
 
 }  // namespace corpuscle::circuit

@@ -7,14 +7,11 @@
 
 #include "circuit/analyses.hpp"
 #include "circuit/expression/spice_number.hpp"
-#include "circuit/output/curve_selector.hpp"
 #include "circuit/output/curve_view.hpp"
-#include "circuit/output/device_currents.hpp"
 #include "circuit/output/measurement_set.hpp"
-#include "circuit/output/output_directives.hpp"
 #include "circuit/output/print_directive.hpp"
 #include "circuit/output/saved_quantities.hpp"
-#include "circuit/solve/topology.hpp"
+#include "circuit/solve/system.hpp"
 #include "circuit/variant/netlist_warnings.hpp"
 #include "core/parameter.hpp"
 
@@ -29,12 +26,12 @@ Result<Expectation> expectation_of(const Directive& c) {
         words.insert(words.begin() + 1, words[0].substr(at + 1));
         words[0].resize(at);
     }
-    if (words.size() != 3) return bad_input(".expect: expected .expect NAME VALUE TOLERANCE, such as '.expect v(out) 0.35 1%'", c.location);
+    if (words.size() != 3) return error_at(c.location, ".expect: expected .expect NAME VALUE TOLERANCE, such as '.expect v(out) 0.35 1%'");
     const bool is_relative = words[2].ends_with('%');
     const auto value = parse_number(words[1]), tolerance = parse_number(is_relative ? words[2].substr(0, words[2].size() - 1) : words[2]);
-    if (!value) return bad_input(fmt::format(".expect: '{}' is not a number", words[1]), c.location);
+    if (!value) return error_at(c.location, ".expect: '{}' is not a number", words[1]);
     if (!tolerance || !(tolerance->value >= 0))
-        return bad_input(fmt::format(".expect: '{}' is not a tolerance; write one such as 1% or 2m", words[2]), c.location);
+        return error_at(c.location, ".expect: '{}' is not a tolerance; write one such as 1% or 2m", words[2]);
     return Expectation{words[0], value->value, is_relative ? std::abs(value->value) * tolerance->value / 100 : tolerance->value,
                        0,        false,        c.location};
 }
@@ -47,8 +44,7 @@ Result<void> check_expectations(const Circuit& circuit, RunOutcome& out) {
         if (!found) {
             std::vector<std::string_view> known;
             for (const auto& [name, value] : out.numbers) known.push_back(name);
-            return bad_input(fmt::format(".expect: there is no measurement, number or curve '{}'{}", e.name, did_you_mean(e.name, known)),
-                             c.location);
+            return error_at(c.location, ".expect: there is no measurement, number or curve '{}'{}", e.name, did_you_mean(e.name, known));
         }
         e.actual = *found, e.is_met = std::abs(*found - e.expected) <= e.tolerance;
         out.expectations.push_back(std::move(e));
@@ -56,75 +52,82 @@ Result<void> check_expectations(const Circuit& circuit, RunOutcome& out) {
     return {};
 }
 
-/// The number in a word of .tran STEP STOP [START ...]; 0 if there is none.
-double tran_number(const Directive& c, std::size_t word) {
-    return read_number(c, word, "a number") ? *read_number(c, word, "a number") : 0;
+/// STEP, STOP and START of .tran STEP STOP [START ...]; 0 if there is none.
+PrintedTimes printed_times(const Directive& c) {
+    const auto number = [&](std::size_t word) {
+        const auto found = read_number(c, word, "a number");
+        return found ? *found : 0;
+    };
+    return {number(2), number(0), number(1)};
 }
 
-/// Passes each point of a transient to the measurements, to .print and to the sinks of the options. If options.keep_points is true, it also
-/// stores the points, which takes memory in proportion to the length of the run. Other analyses do not use it.
+/// Passes the points of the plots of one analysis to the measurements, to .print and to the sinks of the options, and stores them. Only the
+/// first plot is measured and printed. If options.keep_points is false, a transient is not stored, since it takes memory in proportion to
+/// the length of the run.
 class PointDispatcher final : public PointSink {
     const RunOptions& options_;
-    RunOutcome& out_;
     MeasurementSet& measures_;
     AnalysisRun& run_;
     DeviceCurrents currents_;
-    std::optional<TransientPrinter> printer_;
-    CurveSelector selector_;
-    std::optional<PlotRecorder> recorder_;
-    std::vector<double> last_row_;
-    PointSink* unknowns_sink_ = nullptr;
-    bool has_begun_ = false;
+    TablePrinter printer_;
+    PlotRecorder recorder_;
+    std::optional<CurveSelector> selector_;  // passes the saved curves on to the sink of the options
+    std::vector<PointSink*> sinks_;          // of the present plot
+    std::vector<double> last_values_;        // at the last point of the first plot
 
 public:
-    PointDispatcher(const Circuit& circuit, const RunOptions& options, RunOutcome& out, MeasurementSet& measures, AnalysisRun& run,
-                    const DeviceCurrents& currents)
-        : options_(options), out_(out), measures_(measures), run_(run), currents_(currents) {
-        const auto& c = *run.directive;
-        if (options.print_tables && c.name == "tran") printer_.emplace(circuit, tran_number(c, 2), tran_number(c, 0), tran_number(c, 1));
-        if (options.keep_points) recorder_.emplace();
+    std::vector<Plot> plots;     ///< stored
+    std::size_t plot_count = 0;  ///< ended so far
+
+    PointDispatcher(const Circuit& circuit, const RunOptions& options, const std::vector<std::string>& saved_curves,
+                    MeasurementSet& measures, AnalysisRun& run, const DeviceCurrents& currents)
+        : options_(options), measures_(measures), run_(run), currents_(currents),
+          printer_(circuit, run.directive->name, is_transient() ? printed_times(*run.directive) : PrintedTimes{}) {
+        if (options.curve_sink) selector_.emplace(saved_curves, *options.curve_sink);
     }
-    bool has_begun() const { return has_begun_; }
+    bool is_transient() const { return run_.directive->name == "tran"; }
 
     Result<void> begin(const Plot& unknowns) override {
         Plot head = unknowns;
-        currents_.extend_head(head);
-        run_.last_point = head;
-        unknowns_sink_ = run_.directive->name == "tran" ? options_.unknowns_sink : nullptr;
-        if (unknowns_sink_) TRY(unknowns_sink_->begin(head));
-        TRY(measures_.begin(run_.directive->name, head));
-        if (printer_) TRY(printer_->begin(head));
-        if (recorder_) TRY(recorder_->begin(head));
-        has_begun_ = true;
-        const auto selected_head = selector_.begin(head, out_.saved_curves);
-        return options_.curve_sink ? options_.curve_sink->begin(selected_head) : Result<void>();
+        currents_.begin(head);
+        sinks_.clear();
+        if (is_transient() && options_.unknowns_sink) sinks_.push_back(options_.unknowns_sink);
+        if (is_first() && options_.print_tables) sinks_.push_back(&printer_);
+        if (keeps_points()) sinks_.push_back(&recorder_);
+        if (selector_) sinks_.push_back(&*selector_);
+        if (is_first()) run_.last_point = head, TRY(measures_.begin(run_.directive->name, head));
+        for (auto* sink : sinks_) TRY(sink->begin(head));
+        return {};
     }
-    Result<void> add_point(std::span<const double> unknowns) override {
-        const auto row = currents_.extend_point(unknowns);
-        ++run_.point_count;
-        last_row_.assign(row.begin(), row.end());
-        measures_.add_point(row[0], row);
-        if (printer_) printer_->add_point(row);
-        if (unknowns_sink_) TRY(unknowns_sink_->add_point(row));
-        if (recorder_) TRY(recorder_->add_point(row));
-        return options_.curve_sink ? options_.curve_sink->add_point(selector_.select(row)) : Result<void>();
+    Result<void> add_point(const PlotRow& unknowns) override {
+        const auto row = currents_.extend(unknowns);
+        if (is_first()) {
+            ++run_.point_count;
+            measures_.add_point(row);
+            last_values_.assign(row.real.begin(), row.real.end());
+        }
+        for (auto* sink : sinks_) TRY(sink->add_point(row));
+        return {};
     }
     Result<void> end() override {
-        for (std::size_t k = 0; k < last_row_.size(); ++k) run_.last_point.curves[k].values = {last_row_[k]};
-        if (printer_) run_.printed_tables = printer_->end();
-        return options_.curve_sink ? options_.curve_sink->end() : Result<void>();
+        for (auto* sink : sinks_) TRY(sink->end());
+        if (keeps_points()) plots.push_back(std::move(recorder_.plot));
+        if (plot_count++ > 0) return {};
+        for (std::size_t k = 0; k < last_values_.size(); ++k) run_.last_point.curves[k].values = {last_values_[k]};
+        run_.printed_tables = printer_.text();
+        return {};
     }
-    /// Moves the stored points into the result of the analysis.
-    void move_points_to(AnalysisResult& result) {
-        if (recorder_) result.plots.insert(result.plots.begin(), std::move(recorder_->plot));
-    }
+
+private:
+    bool is_first() const { return plot_count == 0; }
+    bool keeps_points() const { return options_.keep_points || !is_transient(); }
 };
 
-/// Runs one analysis, measures and prints its plots, and passes them to the sinks.
+/// Runs one analysis, and passes on the points of its plots: those of a transient while it runs.
 Result<void> analyse(AnalysisContext& context, const Analysis& analysis, const Directive& c, const RunOptions& options,
                      MeasurementSet& measures, const DeviceCurrents& currents, RunOutcome& out) {
     AnalysisRun run{&c, {}, 0, {}, {}};
-    PointDispatcher dispatcher(*context.circuit, options, out, measures, run, currents);
+    PointDispatcher dispatcher(*context.circuit, options, out.saved_curves, measures, run, currents);
     if (options.should_stop) context.should_stop = [&](double progress) { return options.should_stop(c.name, progress); };
     context.points = &dispatcher;
     auto result = analysis.run(context, c);
@@ -133,16 +136,8 @@ Result<void> analyse(AnalysisContext& context, const Analysis& analysis, const D
     run.result = std::move(*result);
     for (const auto& number : run.result.numbers) out.numbers.push_back(number);
     for (const auto& warning : run.result.warnings) out.warnings.push_back(warning);
-    if (dispatcher.has_begun()) {
-        dispatcher.move_points_to(run.result);
-    } else if (!run.result.plots.empty()) {
-        for (auto& plot : run.result.plots) (void)currents.extend_plot(plot);
-        const auto& plot = run.result.plots[0];
-        run.point_count = plot.point_count();
-        TRY(measures.add_plot(c.name, plot));
-        if (options.print_tables) run.printed_tables = print_tables(*context.circuit, c.name, plot);
-        if (options.curve_sink) TRY(options.curve_sink->add_plots(out.plots(run)));
-    }
+    for (const auto& plot : run.result.plots) TRY(PlotPoints(plot).send_to(dispatcher));
+    run.result.plots = std::move(dispatcher.plots);
     out.analyses.push_back(std::move(run));
     return {};
 }
@@ -181,8 +176,8 @@ Result<RunOutcome> run_directives(AnalysisContext& context, const RunOptions& op
     }
     if (out.analyses.empty()) {
         std::string known;
-        for (const auto& a : analyses) known += fmt::format("\n  {}", a.usage);
-        return bad_input("the netlist has no analysis directive; add one of these:" + known, SourceLocation{circuit->file});
+        for (const auto* a : analyses) known += fmt::format("\n  {}", a->usage);
+        return error_at({circuit->file}, "the netlist has no analysis directive; add one of these:{}", known);
     }
     TRY(measures.finish(out.numbers, out.warnings));
     TRY(check_expectations(*circuit, out));

@@ -14,7 +14,7 @@ struct AnalysisRun {
     AnalysisResult result;
     std::size_t point_count = 0;  ///< number of points of the first plot, even of points that are not kept
     std::string printed_tables;   ///< the tables of .print
-    Plot last_point;              ///< of a transient: a plot of its last point, stored even if RunOptions::keep_points is false
+    Plot last_point;              ///< of the first plot; stored even if RunOptions::keep_points is false
 };
 
 /// One .expect and whether it is met.
@@ -41,17 +41,11 @@ struct RunOutcome {
     std::vector<Plot> plots() const;                    ///< the same of all analyses
 };
 
-/// Receives the saved curves during the run: a transient point by point, other analyses as complete plots.
-class CurveSink : public PointSink {
-public:
-    virtual Result<void> add_plots(std::span<const Plot>) = 0;
-};
-
 /// Options of run_directives().
 struct RunOptions {
     std::function<bool(std::string_view analysis, double progress)>
         should_stop{};  ///< called repeatedly with the name of the analysis and its progress (0 to 1); returns true to stop the run
-    CurveSink* curve_sink = nullptr;     ///< null: no sink
+    PointSink* curve_sink = nullptr;     ///< receives the saved curves of all plots during the run
     PointSink* unknowns_sink = nullptr;  ///< receives time, all unknowns and the saved device currents at each time point of a transient
     bool keep_points = true;             ///< keep the points of a transient in memory, as a plot of its result
     bool print_tables = true;            ///< make the tables of .print, AnalysisRun::printed_tables

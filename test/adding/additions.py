@@ -73,6 +73,21 @@ ADDITIONS = [
         list_names="Sensors|Transducers|Converters",
     ),
     Addition(
+        kind="a netlist device",
+        file="src/circuit/device/varistor.cpp",
+        list="src/circuit/devices.hpp",
+        insertions=[("diode_kind, transistor_kind;", "diode_kind, transistor_kind, varistor_kind;"), ("&transistor_kind};", "&transistor_kind, &varistor_kind};")],
+        list_names="device_kinds|find_device_kind|kind_of|has_branch_current|has_role|is_independent_source|is_current_expression|main_value|element_letters",
+        text="examples/own_device/varistor.cpp",
+    ),
+    Addition(
+        kind="a netlist analysis",
+        file="src/circuit/analysis/size.cpp",
+        list="src/circuit/analyses.hpp",
+        insertions=[("tf_analysis, sens_analysis;", "tf_analysis, sens_analysis, size_analysis;"), ("&sens_analysis};", "&sens_analysis, &size_analysis};")],
+        list_names="analyses|find_analysis",
+    ),
+    Addition(
         kind="an output format of `respond`",
         file="src/run/sinks/names_file.cpp",
         list="src/run/sinks.hpp",

@@ -87,6 +87,41 @@ def check_cmake_finds_the_files():
             check(f"{tree}/{addition.file}" in commands, f"CMake does not compile {addition.file}")
 
 
+def use_the_device(corpuscle):
+    """A varistor with the new letter y, beside an ideal current: v(out) is 10 V times the root of the current in mA."""
+    (out / "surge.cir").write_text(
+        """surge
+i1 0 out 4m
+.subckt clamp a
+y1 a 0 surge
+.ends
+x1 out clamp
+.model surge varistor v0=10 i0=1m alpha=2 c=1n
+.save v(out) i(x1.y1)
+.op
+.end
+"""
+    )
+
+    def number(name, *options):
+        return json.loads(corpuscle("run", "surge.cir", "--json", *options))["plots"][0]["curves"][name][0]
+
+    check(abs(number("v(out)") - 20) < 1e-4, "the device has another voltage")
+    check(abs(number("i(x1.y1)") - 4e-3) < 1e-8, "the current of the device is not saved")
+    check(abs(number("v(out)", "--set", "y1.m=4") - 10) < 1e-4, "--set does not change the parameter of the device")
+    exported = corpuscle("export", "surge.cir", "--for", "ngspice")
+    check("by_x1_y1 out 0 i=0.001*sgn(v(out,0))*(abs(v(out,0))/10)^2" in exported, f"the export has no varistor:\n{exported}")
+
+
+def use_the_analysis(corpuscle):
+    """Two nodes and the current of the source."""
+    (out / "size.cir").write_text("size\nv1 in 0 1\nr1 in out 1k\nr2 out 0 1k\n.op\n.size\n.expect unknowns 3 0.1\n.end\n")
+    check("holds" in corpuscle("run", "size.cir"), "the analysis has another number, or .expect does not find it")
+    check(".size" in corpuscle("run", "--help"), "--help of run does not list the analysis")
+    exported = corpuscle("export", "size.cir", "--for", "ngspice")
+    check("* left out: .size (ngspice has no such directive)" in exported, f"the export does not say that it has no .size:\n{exported}")
+
+
 def use_the_additions(program):
     def corpuscle(*arguments):
         done = subprocess.run([program, *arguments], capture_output=True, text=True, cwd=out)
@@ -112,6 +147,9 @@ def use_the_additions(program):
     check(corpuscle("quantity", "10ms") == "0.01\n", "the verb quantity gives another number")
     check("print a quantity in SI units" in corpuscle("--help"), "--help does not list the verb")
     check("--unit" in corpuscle("quantity", "--help"), "--help of the verb does not list its option")
+
+    use_the_device(corpuscle)
+    use_the_analysis(corpuscle)
 
     if any(a.list == "src/run/sinks.hpp" for a in ADDITIONS):
         corpuscle("respond", "press", "--afferent", "sa1,sa2", "--names", "--out", "result")

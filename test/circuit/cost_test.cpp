@@ -4,7 +4,7 @@
 #include <nlohmann/json.hpp>
 #include <numeric>
 
-#include "circuit/cost/cost_meter.hpp"
+#include "circuit/cost/cost.hpp"
 #include "circuit/device/physical_constants.hpp"
 #include "netlist_runner.hpp"
 #include "support/program.hpp"
@@ -189,7 +189,7 @@ TEST(Cost, ATransistorsLeakageFollowsFromItsThreshold) {
         const auto c = cost(circuit);
         EXPECT_NEAR(block(c, "top level").worst_leak.current, closed, 1e-4 * closed);
         ASSERT_EQ(c.leaks.size(), 1U);
-        EXPECT_EQ(c.leaking_names[0], "m1");
+        EXPECT_EQ(c.leaks[0].name, "m1");
         EXPECT_EQ(c.leaks[0].capacitor_node, "");
         EXPECT_DOUBLE_EQ(c.smallest_bias, 5e-12);
     }
@@ -199,7 +199,7 @@ TEST(Cost, SwitchesLeakOntoTheMembraneUnlessTheyHaveTheHigherThreshold) {
     const auto onto_u = [](const Cost& c) {
         std::map<std::string, double> out;
         for (std::size_t k = 0; k < c.leaks.size(); ++k)
-            if (c.leaks[k].capacitor_node == "u") out[c.leaking_names[k]] = c.leaks[k].current;
+            if (c.leaks[k].capacitor_node == "u") out[c.leaks[k].name] = c.leaks[k].current;
         return out;
     };
     const auto leaks = onto_u(cost(elaborate_file("sa1.cir")));

@@ -80,9 +80,12 @@ TEST(ForceWaveform, DoesNotDependOnTheSizeOfItsBlocks) {
             from += count;
             RC_ASSERT(parts.known_until() >= (static_cast<double>(from) - 1 - ForceWaveform::lookahead) * T);
             numbers.clear();
-            parts.save(numbers);
+            StateArchive writer(numbers);
+            parts.archive(writer);
             parts = ForceWaveform(T);
-            RC_ASSERT(parts.restore(numbers));
+            StateArchive reader(std::span<const double>{numbers});
+            parts.archive(reader);
+            RC_ASSERT(reader.is_valid && reader.rest() == 0);
         }
         RC_ASSERT(breakpoints(parts) == breakpoints(complete));
         parts.discard_before(parts.known_until() / 2);

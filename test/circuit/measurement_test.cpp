@@ -6,7 +6,7 @@
 #include <rapidcheck.h>
 #include <cmath>
 
-#include "circuit/measure/measurement_parser.hpp"
+#include "circuit/measure/measurement.hpp"
 #include "circuit/netlist_runner.hpp"
 #include "support/ngspice.hpp"
 

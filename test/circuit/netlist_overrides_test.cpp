@@ -7,6 +7,7 @@
 #include <map>
 
 #include "circuit/afferent/circuit_afferent.hpp"
+#include "circuit/devices.hpp"
 #include "circuit/netlist_runner.hpp"
 #include "circuit/output/resolve_probe.hpp"
 #include "circuit/variant/hierarchical_names.hpp"
@@ -285,6 +286,16 @@ TEST(SavedQuantity, TheCurrentOfADeviceEqualsThatOfItsSupply) {
         }
     }
     EXPECT_EQ(run.number("most"), run.curve("i(m1)", "dc").back());
+}
+
+TEST(Elements, TheTableInTheManualListsEachKindAndItsParameters) {
+    std::string table = "| letter | element | values that `--set` changes |\n| --- | --- | --- |\n";
+    for (const auto* kind : device_kinds) {
+        std::vector<std::string> values;
+        for (const auto& p : kind->parameters) values.push_back(p.name.empty() ? "the gain" : fmt::format("`{}`", p.name));
+        table += fmt::format("| {} | {} | {} |\n", static_cast<char>(kind->letter - 'a' + 'A'), kind->description, fmt::join(values, " "));
+    }
+    EXPECT_NE(corpuscle::test::read_file(corpuscle::test::source_root() + "/doc/circuits.md").find(table), std::string::npos) << table;
 }
 
 }  // namespace

@@ -105,7 +105,7 @@ TEST(NetlistLines, HaveTheRightLocationAcrossContinuations) {
 
 TEST(NetlistElements, RCLTakeTheirValuesInEveryNotation) {
     const auto c = circuit(
-        ".param rv=3k\nR1 a 0 1k\nR2 a 0 {rv*2}\nR3 a 0 'rv'\nR4 a 0 r=2k tc1=1m tc2=2u m=2\nR5 a 0 rv\nR6 a 0 rm 5k\nR7 a 0 rm l=2u w=1u\n"
+        ".param rv=3k\nR1 a 0 1k\nR2 a 0 {rv*2}\nR3 a 0 'rv'\nR4 a 0 r=2k tc1=1m tc2=2u m=2\nR5 a 0 rv\nR6 a 0 rm 5k\nR7 a 0 rm scale=2\n"
         "R8 a 0 2*rv\nC1 a 0 10pF ic=0.5\nC2 a 0 c={1p*2}\nL1 a 0 1m\nL2 a 0 l=2u\n.model rm r rsh=100\nC3 a 0 q='v(a)*1p'\n");
     EXPECT_EQ(element_in(c, "r1").value, 1e3);
     EXPECT_EQ(element_in(c, "r2").value, 6e3);
@@ -116,7 +116,7 @@ TEST(NetlistElements, RCLTakeTheirValuesInEveryNotation) {
     EXPECT_EQ(element_in(c, "r6").value, 5e3);
     EXPECT_EQ(element_in(c, "r6").model, 0);
     EXPECT_EQ(element_in(c, "r7").model, 0);
-    EXPECT_EQ(element_in(c, "r7").values.at("l"), 2e-6);
+    EXPECT_EQ(element_in(c, "r7").values.at("scale"), 2);
     EXPECT_EQ(element_in(c, "r8").value, 6e3);
     EXPECT_EQ(element_in(c, "c1").value, 10e-12);
     EXPECT_EQ(element_in(c, "c1").values.at("ic"), 0.5);
@@ -159,7 +159,7 @@ TEST(NetlistElements, ControlledSourcesHaveTheirControllingQuantities) {
     const auto c = circuit(
         "V1 a 0 1\nE1 b 0 a 0 10\nE2 c 0 value={v(a)*2}\nE3 d 0 vol='v(a,b)'\nG1 e 0 (a, b) 1m\nG2 f 0 cur='v(a)' m=2\nF1 g 0 V1 2\nH1 h 0 "
         "V1 {2*3}\n"
-        "B1 i 0 v = v(a) * 2 + i(v1) == 3 tc1=0.1\nB2 j 0 i={v(a)}*2\n");
+        "B1 i 0 v = v(a) * 2 + i(v1) == 3 dtemp=0.1\nB2 j 0 i={v(a)}*2\n");
     EXPECT_EQ(nodes(c, element_in(c, "e1")), "b 0 a 0");
     EXPECT_EQ(element_in(c, "e1").value, 10);
     EXPECT_TRUE(element_in(c, "e2").expression_is_voltage);
@@ -171,7 +171,7 @@ TEST(NetlistElements, ControlledSourcesHaveTheirControllingQuantities) {
     EXPECT_EQ(element_in(c, "h1").value, 6);
     EXPECT_EQ(element_in(c, "b1").expression->inputs().size(), 2U);
     EXPECT_TRUE(element_in(c, "b1").expression_is_voltage);
-    EXPECT_EQ(element_in(c, "b1").values.at("tc1"), 0.1);
+    EXPECT_EQ(element_in(c, "b1").values.at("dtemp"), 0.1);
     const double x[] = {3};
     EXPECT_EQ(element_in(c, "b2").expression->value(x), 6);
 }

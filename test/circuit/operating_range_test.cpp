@@ -1,11 +1,11 @@
 // .assert: a quantity outside its design range is reported, in a netlist's transient and in the response of a netlist afferent.
 
-#include "circuit/afferent/operating_range.hpp"
+#include "circuit/afferent/response_directives.hpp"
 
 #include <gtest/gtest.h>
 
 #include "circuit/afferent/circuit_afferent.hpp"
-#include "circuit/netlist/renamed_directives.hpp"
+#include "circuit/netlist/parsed_netlist.hpp"
 #include "circuit/netlist_runner.hpp"
 #include "run/run_inputs.hpp"
 #include "support/program.hpp"

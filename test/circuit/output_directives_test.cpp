@@ -130,6 +130,7 @@ TEST(Elements, HaveNoParameterThatIsSilentlyIgnored) {
     EXPECT_EQ(error_of("i1 0 a 1m\nr1 a 0 1k rx\n.model rx r(rsh=200)\n.op\n"), "t.cir:4:1: rx: unknown parameter 'rsh'");
     EXPECT_NE(error_of("i1 0 a sin(0 1 1k) td=1m\nr1 a 0 1k\n.op\n").find("td= is allowed only with pwl"), std::string::npos);
     EXPECT_NE(error_of("i1 0 b 1m\nr1 b 0 1\nb1 a 0 v={v(b)} tc1=1m\nr2 a 0 1\n.op\n").find("unknown parameter 'tc1'"), std::string::npos);
+    EXPECT_EQ(error_of("i1 0 a 1m\nr1 a 0 1k w=1u\n.op\n").substr(0, 38), "t.cir:3:11: r1: unknown parameter 'w';");
 }
 
 TEST(Curves, ThatDoNotExistAreRejectedBeforeAnyAnalysis) {

@@ -4,8 +4,7 @@
 
 #include <cmath>
 
-#include "circuit/analysis/initial_condition.hpp"
-#include "circuit/analysis/transient_plan.hpp"
+#include "circuit/analysis/transient_setup.hpp"
 #include "circuit/netlist_runner.hpp"
 #include "circuit/oscillator.hpp"
 #include "core/number/instruction_set.hpp"

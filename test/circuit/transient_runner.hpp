@@ -12,7 +12,7 @@
 
 #include "circuit/analyses.hpp"
 #include "circuit/analysis/analysis_context.hpp"
-#include "circuit/analysis/initial_condition.hpp"
+#include "circuit/analysis/transient_setup.hpp"
 #include "circuit/ida_integrator.hpp"
 #include "circuit/netlist_runner.hpp"
 #include "circuit/solve/transient.hpp"
@@ -129,7 +129,7 @@ public:
     std::complex<double> first_ac_value(const std::string& name) const {
         for (const auto& c : context_->circuit->directives)
             if (c.name == "ac")
-                if (const auto found = analyse_ac(*context_, c))
+                if (const auto found = ac_analysis.run(*context_, c))
                     if (const auto* curve = found->plots[0].find_curve(name)) return curve->values[0];
         return std::nan("");
     }

@@ -12,12 +12,14 @@
 #include <vector>
 
 #include "circuit/device/uicm_card.hpp"
-#include "circuit/device/uicm_operating_point.hpp"
 #include "circuit/netlist/netlist.hpp"
+#include "circuit/uicm_cards.hpp"
 #include "netlist_runner.hpp"
 
 namespace corpuscle::circuit {
 namespace {
+
+using test::with_mismatch, test::with_process;
 
 /// A model from one section of the card, as a netlist sees it.
 UicmCard model(const std::string& section, const std::string& name) {

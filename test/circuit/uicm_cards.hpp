@@ -15,6 +15,21 @@ namespace corpuscle::circuit::test {
 inline constexpr double elementary_charge = 1.602176634e-19, boltzmann = 1.380649e-23, phi_t = boltzmann * 300.15 / elementary_charge;
 enum { D, G, S, B };  ///< order of the terminals
 
+/// The instance with the same mismatch as changes of delvto and mulu0.
+inline UicmInstance with_mismatch(UicmInstance instance, const UicmCard& card, std::uint64_t seed, std::uint32_t device,
+                                  std::uint64_t chip) {
+    const UicmShift shift = sample_mismatch(card, instance, seed, device, chip);
+    instance.delvto += shift.V_T, instance.mulu0 *= shift.factor;
+    return instance;
+}
+
+/// The card with the process variation of one chip.
+inline UicmCard with_process(UicmCard card, bool pmos, std::uint64_t seed, std::uint64_t chip) {
+    const UicmShift shift = process_shift(card, pmos, sample_process(seed, chip).values);
+    card.V_T0 += shift.V_T, card.I_SQ *= shift.factor;
+    return card;
+}
+
 /// UICM alone: no velocity saturation, no DIBL, a practically infinite Early voltage, no junctions, only the gate capacitance.
 inline UicmCard plain_card() {
     UicmCard card;

@@ -4,7 +4,7 @@
 
 #include <vector>
 
-#include "circuit/device/uicm_operating_point.hpp"
+#include "circuit/device/uicm_card.hpp"
 #include "circuit/uicm_cards.hpp"
 
 namespace corpuscle::circuit {

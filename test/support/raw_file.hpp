@@ -10,7 +10,7 @@
 #include <string>
 #include <vector>
 
-#include "circuit/output/analysis_plot.hpp"
+#include "circuit/output/point_sink.hpp"
 
 namespace corpuscle::circuit {
 

@@ -69,8 +69,8 @@ std::string area_table(const Cost& cost) {
         transistors += b.transistors, elements += b.unit_transistors;
         if (b.area.total() == 0) continue;
         row(b.name, b.transistors, b.unit_transistors, b.area);
-        rows.back().push_back(b.worst_name.empty() ? "" : cell(b.worst_leak.current * 1e12));
-        rows.back().push_back(b.worst_name);
+        rows.back().push_back(b.worst_leak.name.empty() ? "" : cell(b.worst_leak.current * 1e12));
+        rows.back().push_back(b.worst_leak.name);
     }
     if (rows.size() == 1) return "";
     row("total", transistors, elements, cost.area());
@@ -88,7 +88,7 @@ std::string leaks_table(const Cost& cost) {
         return fmt::format("\nNo transistor that is off leaks more than a tenth of the smallest bias current ({}).\n", bias);
     Rows rows = {{"off in .op", "leakage, pA", "%", "into"}};
     for (std::size_t k = 0; k < cost.leaks.size(); ++k)
-        rows.push_back({cost.leaking_names[k], cell(cost.leaks[k].current * 1e12), cell(100 * cost.leaks[k].current / cost.smallest_bias),
+        rows.push_back({cost.leaks[k].name, cell(cost.leaks[k].current * 1e12), cell(100 * cost.leaks[k].current / cost.smallest_bias),
                         cost.leaks[k].capacitor_node});
     return fmt::format(
         "\nTransistors that are off but leak more than a tenth of the smallest bias current ({}), with V_GS = 0 and V_DS = {}:\n{}", bias,

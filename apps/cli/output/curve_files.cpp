@@ -19,51 +19,33 @@ using namespace circuit;
 
 Result<void> CurveFiles::begin_variant(const Variant& variant) {
     title_ = variant.circuit->title, label_ = variant.label;
-    plot_count_ = 0, file_ = nullptr;
-    analysis_count_ = static_cast<std::size_t>(std::count_if(variant.circuit->directives.begin(), variant.circuit->directives.end(),
-                                                             [](const Directive& c) { return find_analysis(c.name) != nullptr; }));
+    plot_count_ = 0, file_ = transient_file_ = nullptr;
+    expected_count_ = 0;
+    for (const auto& c : variant.circuit->directives)
+        if (const auto* analysis = find_analysis(c.name)) expected_count_ += analysis->plot_count;
     if (!files_.empty()) return {};
     auto check = check_;
-    const auto count = is_csv_ ? analysis_count_ : 1;
+    const auto count = is_csv_ ? expected_count_ : 1;
     for (std::size_t k = 0; k < count; ++k) TRY(check.check_growing_file(path_of(count, k), is_csv_ ? is_own_table : is_own_raw));
     return {};
 }
 
-Result<void> CurveFiles::add_plots(std::span<const Plot> plots) {
-    has_complete_plots_ = true;
-    if (is_csv_) {
-        for (const auto& plot : plots) TRY(write_table(plot, plots.size()));
-        return {};
-    }
-    const auto file = TRY(open(1, 0, {}));
-    std::vector<Plot> named(plots.begin(), plots.end());
-    for (auto& plot : named)
-        if (!label_.empty()) plot.name += fmt::format(" ({})", label_);
-    return file->write(raw_text(title_, named, !options_.ascii));
-}
-
-Result<void> CurveFiles::write_table(const Plot& plot, std::size_t count) {
-    // The number of files matters only if it is 1, because the path then has no number.
-    const auto file = TRY(open(analysis_count_ + count - 1, plot_count_++, (has_steps_ ? "step," : "") + csv_header(plot)));
-    return file->write(csv_rows(plot, has_steps_ ? label_ + "," : ""));
-}
-
 Result<void> CurveFiles::begin(const Plot& head) {
-    file_ = TRY(is_csv_ ? open(analysis_count_, plot_count_++, (has_steps_ ? "step," : "") + csv_header(head)) : open(1, 0, {}));
-    rows_.clear(), point_count_ = 0, last_write_ = Clock::now();
+    file_ = TRY(is_csv_ ? open(expected_count_, plot_count_++, (has_steps_ ? "step," : "") + csv_header(head)) : open(1, 0, {}));
+    head_ = head, rows_.clear(), point_count_ = 0, last_write_ = Clock::now();
+    if (is_transient()) transient_file_ = file_;
     if (is_csv_) return {};
-    Plot named = head;
-    if (!label_.empty()) named.name += fmt::format(" ({})", label_);
-    const auto text = raw_header(title_, named, !options_.ascii);
+    if (!label_.empty()) head_.name += fmt::format(" ({})", label_);
+    const auto text = raw_header(title_, head_, !options_.ascii);
     count_offset_ = file_->size() + text.count_offset;
     return file_->write(text.text);
 }
 
-Result<void> CurveFiles::add_point(std::span<const double> row) {
+Result<void> CurveFiles::add_point(const PlotRow& row) {
     if (is_csv_ && has_steps_) rows_ += label_ + ",";
-    is_csv_ ? append_csv_row(rows_, row) : append_raw_point(rows_, point_count_, row, !options_.ascii);
-    ++point_count_, newest_time_ = row[0];
-    has_streamed_ = has_streamed_ || point_count_ > 1;
+    is_csv_ ? append_csv_row(rows_, head_, row) : append_raw_point(rows_, point_count_, row, !options_.ascii);
+    ++point_count_;
+    if (is_transient()) newest_time_ = row.real[0], has_streamed_ = has_streamed_ || point_count_ > 1;
     return rows_.size() >= block || Clock::now() - last_write_ > max_delay ? write_pending() : Result<void>();
 }
 
@@ -76,6 +58,7 @@ Result<void> CurveFiles::write_pending() {
 }
 
 Result<void> CurveFiles::end() {
+    has_complete_plots_ = has_complete_plots_ || !is_transient();
     if (auto ok = write_pending(); !ok || is_csv_) return ok;
     return file_->write(raw_footer(!options_.ascii));
 }
@@ -91,9 +74,10 @@ Result<std::string> CurveFiles::finish_early(bool interrupted) {
     if (!has_streamed_ && !(interrupted && has_complete_plots_))
         files_.clear();  // removes the unfinished files; files of earlier runs at these paths remain
     if (files_.empty()) return std::string();
-    const bool in_transient = file_ != nullptr;
-    const auto note = fmt::format("{} ends early{}{}", in_transient ? file_->path() : options_.path, label_.empty() ? "" : ", in " + label_,
-                                  in_transient ? ", at " + format_quantity(written_time_, "s") : "");
+    const bool in_transient = transient_file_ != nullptr;
+    const auto note =
+        fmt::format("{} ends early{}{}", in_transient ? transient_file_->path() : options_.path, label_.empty() ? "" : ", in " + label_,
+                    in_transient ? ", at " + format_quantity(written_time_, "s") : "");
     TRY(finish());
     return note;
 }

@@ -21,7 +21,7 @@ struct CurveFileOptions {
 /// Writes curves while they are computed: either one .raw file, or one CSV table for each plot (x.csv, or x-1.csv, x-2.csv ... if there are
 /// several). With .step or .mc, each CSV row begins with the label of its variant (a step or a chip). The points of a transient are written
 /// in blocks; the files are readable at any time.
-class CurveFiles final : public circuit::CurveSink {
+class CurveFiles final : public circuit::PointSink {
     using Clock = std::chrono::steady_clock;
     CurveFileOptions options_;
     OutputCheck check_;
@@ -29,9 +29,11 @@ class CurveFiles final : public circuit::CurveSink {
     std::deque<OutputFile> files_;  // all files so far; a deque keeps their addresses, which file_ and open() use
     // The current variant:
     std::string title_, label_;
-    std::size_t analysis_count_ = 0, plot_count_ = 0;  // number of analyses in its netlist; number of its CSV tables begun so far
-    // The current transient:
-    OutputFile* file_ = nullptr;                 // null before the first transient of the variant
+    std::size_t expected_count_ = 0, plot_count_ = 0;  // number of plots of its analyses; number of its CSV tables begun so far
+    // The current plot:
+    circuit::Plot head_;  // without values
+    OutputFile* file_ = nullptr;
+    OutputFile* transient_file_ = nullptr;       // of the last transient; null before the first of the variant
     std::string rows_;                           // points that are not written yet, in the format of the file
     std::size_t point_count_ = 0;                // points so far, including those in rows_
     std::size_t count_offset_ = 0;               // position of the point count in a .raw file, bytes
@@ -41,9 +43,8 @@ class CurveFiles final : public circuit::CurveSink {
     bool has_streamed_ = false;        // true if a transient has delivered more than its first point
     bool has_complete_plots_ = false;  // true if an analysis other than a transient has delivered its plots
 
+    bool is_transient() const { return !head_.curves.empty() && head_.curves[0].name == "time"; }
     Result<void> write_pending();
-    /// `count`: number of plots of the same analysis.
-    Result<void> write_table(const circuit::Plot&, std::size_t count);
     /// Path of file `index`, from 0, of `file_count` files: x.csv if it is the only one, otherwise x-1.csv for index 0.
     std::string path_of(std::size_t file_count, std::size_t index) const;
     Result<OutputFile*> open(std::size_t file_count, std::size_t index, const std::string& head);
@@ -55,11 +56,8 @@ public:
 
     /// Call before the analyses of each variant. The first call checks that the files may be written.
     Result<void> begin_variant(const circuit::Variant&);
-    /// Writes the plots of an analysis other than a transient. The three functions below write a transient.
-    Result<void> add_plots(std::span<const circuit::Plot>) override;
     Result<void> begin(const circuit::Plot& head) override;
-    /// `row`: the time in s, then the value of each curve.
-    Result<void> add_point(std::span<const double> row) override;
+    Result<void> add_point(const circuit::PlotRow& row) override;
     Result<void> end() override;
 
     /// Renames the finished files to their final names.

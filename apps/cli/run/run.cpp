@@ -4,7 +4,8 @@
 #include <algorithm>
 
 #include "circuit/analyses.hpp"
-#include "circuit/cost/cost_meter.hpp"
+#include "circuit/cost/cost.hpp"
+#include "circuit/devices.hpp"
 #include "circuit/output/resolve_probe.hpp"
 #include "circuit/variant/netlist_overrides.hpp"
 #include "cli/arguments/netlist_arguments.hpp"
@@ -46,16 +47,13 @@ struct RunArguments {
 };
 
 /// Collects the saved curves in memory for the JSON document. It is not used with --out.
-class CollectedPlots final : public CurveSink {
+class CollectedPlots final : public PointSink {
     PlotRecorder recorder_;
 
 public:
     std::vector<Plot> plots;
-    Result<void> add_plots(std::span<const Plot> more) override {
-        return plots.insert(plots.end(), more.begin(), more.end()), Result<void>();
-    }
     Result<void> begin(const Plot& head) override { return recorder_.begin(head); }
-    Result<void> add_point(std::span<const double> row) override { return recorder_.add_point(row); }
+    Result<void> add_point(const PlotRow& row) override { return recorder_.add_point(row); }
     Result<void> end() override { return plots.push_back(std::move(recorder_.plot)), Result<void>(); }
 };
 
@@ -184,8 +182,9 @@ Result<void> run_netlist(const RunArguments& args, const CommonArguments& common
 /// The examples of --help, after the analyses that a netlist may contain.
 std::string run_help() {
     std::string known;
-    for (const auto& a : circuit::analyses) known += fmt::format("\n  {}\n      {}", a.usage, a.description);
-    return "A netlist is SPICE: a title, elements (R C L V I E F G H B D M X), .model, .subckt, .param, .include,\n"
+    for (const auto* a : circuit::analyses) known += fmt::format("\n  {}\n      {}", a->usage, a->description);
+    return "A netlist is SPICE: a title, elements (" + circuit::element_letters() +
+           "), .model, .subckt, .param, .include,\n"
            ".lib, .options ... and the analyses to run:" +
            known + run_examples;
 }

@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "circuit/cost/circuit_cost_document.hpp"
+#include "circuit/cost/cost.hpp"
 #include "cli/output/budget_tables.hpp"
 #include "cli/output/printable.hpp"
 #include "cli/output/terminal.hpp"

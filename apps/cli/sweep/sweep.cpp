@@ -84,9 +84,8 @@ Error with_advice(const Error& error, const SweepResults& results) {
 /// Opens the results file, runs the missing items and prints the status. `ranks`: null for a single process; the others for rank 0.
 Result<void> run_and_report(Ranks* ranks, const Sweep& sweep, const SweepArguments& args, const CommonArguments& common,
                             const Shard& shard) {
-    auto results = SweepResults::open(results_path(args, shard), sweep);
-    if (!results) return results.error();
-    const auto finished_before = results->finished_count();
+    auto results = TRY(SweepResults::open(results_path(args, shard), sweep));
+    const auto finished_before = results.finished_count();
     auto run_options = run_options_of(args, shard, ranks);
     auto done = [&] {
         Progress progress(common.quiet);
@@ -94,36 +93,32 @@ Result<void> run_and_report(Ranks* ranks, const Sweep& sweep, const SweepArgumen
             progress.update(static_cast<double>(c.finished()) / static_cast<double>(std::max<std::int64_t>(1, c.planned)));
         };
         SweepProgress counts;
-        return ranks ? run_coordinator(*ranks, sweep, *results, run_options, counts) : run_sweep(sweep, *results, run_options, counts);
+        return ranks ? run_coordinator(*ranks, sweep, results, run_options, counts) : run_sweep(sweep, results, run_options, counts);
     }();
-    if (const auto checkpointed = results->checkpoint(); !checkpointed && !common.quiet)
-        print_warning(fmt::format("the results are complete only if {} is kept together with {}-wal: {}", results->path(), results->path(),
+    if (const auto checkpointed = results.checkpoint(); !checkpointed && !common.quiet)
+        print_warning(fmt::format("the results are complete only if {} is kept together with {}-wal: {}", results.path(), results.path(),
                                   checkpointed.error().message));
-    if (!done) return with_advice(done.error(), *results);
-    const auto state = read_sweep_status(*results, shard);
-    if (!state) return state.error();
-    auto final_state = *state;
-    final_state.finished_now = results->finished_count() - finished_before, final_state.sweep = args.file;
+    if (!done) return with_advice(done.error(), results);
+    const auto state = TRY(read_sweep_status(results, shard));
+    auto final_state = state;
+    final_state.finished_now = results.finished_count() - finished_before, final_state.sweep = args.file;
     print_sweep_status(common, final_state);
-    if (results->finished_count() > 0 && final_state.diverged == results->finished_count())
+    if (results.finished_count() > 0 && final_state.diverged == results.finished_count())
         return Error{ErrorCode::not_converged,
                      fmt::format("none of {} items converged: {}", final_state.diverged, final_state.reasons.front().first)};
     return {};
 }
 
 Result<void> show_sweep_status(const SweepArguments& args, const CommonArguments& common) {
-    const auto shard = shard_of(args.shard);
-    if (!shard) return shard.error();
-    const auto results = SweepResults::open_read_only(results_path(args, *shard));
-    if (!results) return results.error();
-    auto state = read_sweep_status(*results, *shard);
-    if (!state) return state.error();
-    state->sweep = args.file;
-    if (const auto writer = WriterLock::holder(results->path())) {
+    const auto shard = TRY(shard_of(args.shard));
+    const auto results = TRY(SweepResults::open_read_only(results_path(args, shard)));
+    auto state = TRY(read_sweep_status(results, shard));
+    state.sweep = args.file;
+    if (const auto writer = WriterLock::holder(results.path())) {
         const auto now = std::chrono::duration<double>(std::chrono::system_clock::now().time_since_epoch()).count();
-        state->writer = *writer, state->running_for = now - writer->since;
+        state.writer = *writer, state.running_for = now - writer->since;
     }
-    print_sweep_status(common, *state);
+    print_sweep_status(common, state);
     return {};
 }
 

@@ -10,7 +10,7 @@
 
 #include "circuit/afferent/force_waveform.hpp"
 #include "circuit/afferent/streaming_transient.hpp"
-#include "circuit/cost/circuit_cost_document.hpp"
+#include "circuit/cost/cost.hpp"
 
 namespace corpuscle::circuit {
 namespace {
@@ -161,10 +161,9 @@ Result<void> CircuitAfferent::simulate_samples(StreamingTransient& transient, st
         for (; sample < to && transient.has_reached(sample); ++sample) {
             for (std::size_t p = 0; p < response.probes.size(); ++p)
                 response.probes[p][static_cast<std::size_t>(sample - from)] = transient.probe_value(factory_->probes[p], sample);
-            for (std::size_t k = 0; sample >= 0 && k < response.range_violations.size(); ++k)
-                if (auto& o = response.range_violations[k];
-                    !factory_->operating_ranges[k].contains(transient.probe_value(factory_->operating_ranges[k].quantity, sample)))
-                    o = {o.samples + 1, o.first_sample < 0 ? sample : o.first_sample};
+            if (sample >= 0)
+                check_ranges(factory_->operating_ranges, response.range_violations, sample,
+                             [&](const SavedQuantity& quantity) { return transient.probe_value(quantity, sample); });
         }
         if (sample == to) return {};
         TRY(transient.step());
@@ -190,8 +189,8 @@ Result<std::shared_ptr<const CircuitAfferentFactory>> CircuitAfferentFactory::cr
     auto probes = TRY(resolve_saved_quantities(context->system));
     auto ranges = TRY(read_operating_ranges(context->system));
     if (!context->system.set_force_input(nullptr))
-        return bad_input("no source carries a force; add one, such as 'iin 0 fin force 60n' (60 nA per newton)", location);
-    if (!output) return bad_input("no .spike directive defines the spike output; add '.spike v(NODE) LEVEL [rise|fall]'", location);
+        return error_at(location, "no source carries a force; add one, such as 'iin 0 fin force 60n' (60 nA per newton)");
+    if (!output) return error_at(location, "no .spike directive defines the spike output; add '.spike v(NODE) LEVEL [rise|fall]'");
     auto factory = std::make_shared<CircuitAfferentFactory>();
     for (const auto& c : circuit->directives) {
         if (c.name == "mc") {

@@ -1,9 +1,8 @@
 #pragma once
 // A netlist with a force input and a spike output, as an afferent.
 
-#include "circuit/afferent/operating_range.hpp"
-#include "circuit/afferent/spike_output.hpp"
-#include "circuit/analysis/transient_plan.hpp"
+#include "circuit/afferent/response_directives.hpp"
+#include "circuit/analysis/transient_setup.hpp"
 #include "circuit/output/saved_quantities.hpp"
 #include "circuit/variant/netlist_variants.hpp"
 #include "core/afferent_factory.hpp"

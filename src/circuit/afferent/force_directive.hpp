@@ -16,4 +16,8 @@ Result<std::optional<ForceWaveform>> force_directive(const Circuit&);
 /// The phases of the stimulus in .force; empty if the netlist has no .force or the stimulus has no phases.
 Result<std::vector<Phase>> force_phases(const Circuit&);
 
+/// "pwl(0 0.2 0.25 0.2 ...)" in several lines: the force of .force times `scale` (V/N or A/N). It differs from the samples of the force by
+/// at most 1e-4 of the largest force. "" if the netlist has no .force.
+Result<std::string> pwl_force(const Circuit&, double scale);
+
 }  // namespace corpuscle::circuit

@@ -7,10 +7,9 @@
 namespace corpuscle::circuit {
 namespace {
 
-constexpr double min_bend = 2e-3;          // smallest bend of a breakpoint, as a fraction of the largest force
-constexpr double min_bend_ratio = 4;       // smallest ratio of its bend to the smaller of the bends two samples before and after
-constexpr double max_deviation = 0.05;     // from the line from the last breakpoint, as a fraction of the largest force
-constexpr std::size_t header_numbers = 7;  // count of the numbers that save() writes before breakpoints and samples
+constexpr double min_bend = 2e-3;       // smallest bend of a breakpoint, as a fraction of the largest force
+constexpr double min_bend_ratio = 4;    // smallest ratio of its bend to the smaller of the bends two samples before and after
+constexpr double max_deviation = 0.05;  // from the line from the last breakpoint, as a fraction of the largest force
 
 /// Limits a number of samples to the range in which a double represents every integer; a damaged state may contain larger ones.
 double to_exact_range(double samples) { return samples >= -0x1p53 && samples <= 0x1p53 ? samples : samples > 0 ? 0x1p53 : -0x1p53; }
@@ -70,27 +69,14 @@ void ForceWaveform::shift_origin(std::int64_t samples) {
     for (auto& k : breakpoints_) k -= samples;
 }
 
-void ForceWaveform::save(std::vector<double>& out) const {
-    for (const std::int64_t n : {first_, next_to_check_, static_cast<std::int64_t>(breakpoints_.size())})
-        out.push_back(static_cast<double>(n));
-    for (const double x : {line_from_, line_at_, line_slope_, largest_}) out.push_back(x);
-    for (const auto k : breakpoints_) out.push_back(static_cast<double>(k));
-    out.insert(out.end(), samples_.begin(), samples_.end());
-}
-
-bool ForceWaveform::restore(std::span<const double> in) {
-    const auto is_integer = [](double x) { return std::abs(x) < 0x1p53 && x == std::floor(x); };
-    if (in.size() < header_numbers || !is_integer(in[0]) || !is_integer(in[1]) ||
-        !(in[2] >= 0 && in[2] <= static_cast<double>(in.size() - header_numbers)))
-        return false;
-    const auto breakpoints = in.subspan(header_numbers).first(static_cast<std::size_t>(in[2]));
-    if (!std::all_of(breakpoints.begin(), breakpoints.end(), is_integer)) return false;
-    first_ = static_cast<std::int64_t>(in[0]), next_to_check_ = static_cast<std::int64_t>(in[1]);
-    line_from_ = in[3], line_at_ = in[4], line_slope_ = in[5], largest_ = in[6];
-    breakpoints_.clear();
-    for (const double k : breakpoints) breakpoints_.push_back(static_cast<std::int64_t>(k));
-    samples_.assign(in.begin() + static_cast<std::ptrdiff_t>(header_numbers + breakpoints.size()), in.end());
-    return true;
+void ForceWaveform::archive(StateArchive& a) {
+    auto breakpoints = breakpoints_.size();
+    for (auto* n : {&first_, &next_to_check_}) a.integer(*n, -max_exact_integer, max_exact_integer);
+    a.integer(breakpoints, 0, a.is_reader() ? static_cast<double>(a.rest()) : max_exact_integer);
+    for (double* x : {&line_from_, &line_at_, &line_slope_, &largest_}) a.number(*x);
+    breakpoints_.resize(breakpoints);
+    for (auto& k : breakpoints_) a.integer(k, -max_exact_integer, max_exact_integer);
+    a.numbers(samples_, a.is_reader() ? a.rest() : samples_.size());
 }
 
 }  // namespace corpuscle::circuit

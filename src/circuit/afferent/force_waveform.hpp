@@ -5,6 +5,8 @@
 #include <span>
 #include <vector>
 
+#include "circuit/afferent/state_archive.hpp"
+
 namespace corpuscle::circuit {
 
 /// A piecewise linear waveform with samples every T seconds. Sample k is at time k T. Before the first sample and after the last, the force
@@ -48,10 +50,8 @@ public:
     /// Moves the origin of time by this number of samples: sample number `samples` becomes number 0, at 0 s.
     void shift_origin(std::int64_t samples);
 
-    /// Appends the complete state, except T, to `out` as numbers. restore() reads them and returns false if save() cannot have written
-    /// them.
-    void save(std::vector<double>& out) const;
-    bool restore(std::span<const double> in);
+    /// Writes or reads the complete state, except T. It must be the last of an archive.
+    void archive(StateArchive&);
 };
 
 }  // namespace corpuscle::circuit

@@ -5,7 +5,7 @@
 #include <limits>
 
 #include "circuit/afferent/circuit_afferent.hpp"
-#include "circuit/device/uicm_card.hpp"
+#include "circuit/devices.hpp"
 #include "circuit/output/resolve_probe.hpp"
 #include "circuit/variant/netlist_overrides.hpp"
 
@@ -36,11 +36,11 @@ double number_of(const Circuit& c, std::string_view element, std::string_view na
     if (k < 0) return 0;
     const auto& e = c.elements[static_cast<std::size_t>(k)];
     if (const auto found = e.values.find(name); found != e.values.end()) return found->second;
-    if (name.empty()) return e.letter == 'v' || e.letter == 'i' ? e.waveform.dc : e.value;
-    if (e.letter == 'm')
-        for (const auto& f : UicmInstance::fields)
-            if (f.name == name) return UicmInstance{}.*f.member;
-    return name == "m" || name == "area" ? 1 : name == "temp" ? c.temperature : 0;
+    if (name.empty()) return main_value(e);
+    if (name == "temp") return c.temperature;
+    for (const auto& p : kind_of(e).parameters)
+        if (p.name == name) return p.initial;
+    return 0;
 }
 
 /// Lists in `plan` the .param parameters of a netlist, then the other values that the user has overridden (of devices, temperature and

@@ -1,6 +1,7 @@
 #include "circuit/afferent/streaming_transient.hpp"
 
 #include <fmt/format.h>
+#include <algorithm>
 #include <cmath>
 
 #include "core/text/quantity.hpp"
@@ -11,8 +12,6 @@ namespace {
 constexpr double max_time_before_shift = 100;  // s; after it the time origin is shifted, since doubles resolve small times better
 constexpr double stop_time = 1e3;              // s, end of a transient whose origin can be shifted
 constexpr double stop_time_unshifted = 1e5;    // s, end of a transient with sources that depend on absolute time
-
-void append_values(std::vector<double>& out, std::span<const double> x) { out.insert(out.end(), x.begin(), x.end()); }
 
 }  // namespace
 
@@ -86,14 +85,13 @@ Result<void> StreamingTransient::begin(std::span<const double> force) {
 Result<void> StreamingTransient::step() {
     if (!is_time_dependent_ && transient_->time() > max_time_before_shift) shift_origin();
     if (is_time_dependent_ && transient_->time() >= stop_time_unshifted)
-        return bad_input(fmt::format("a netlist whose sources depend on time runs for at most {:g} s", stop_time_unshifted),
-                         {factory_.circuit->file});
+        return error_at({factory_.circuit->file}, "a netlist whose sources depend on time runs for at most {:g} s", stop_time_unshifted);
     const double from = transient_->time();
     if (!power_now_) power_now_ = meter_->delivered_at(transient_->x(), from);
     const auto stepped = TRY(transient_->step(force_.known_until()));
     if (!stepped)
-        return bad_input("a time step needs force samples that were not given yet",
-                         {factory_.circuit->file});  // cannot happen: delay() is long enough
+        return error_at({factory_.circuit->file},
+                        "a time step needs force samples that were not given yet");  // cannot happen: delay() is long enough
     add_energy(from);
     const auto spike = factory_.spike_output.find_spike(*transient_);
     if (!spike) return {};
@@ -103,13 +101,11 @@ Result<void> StreamingTransient::step() {
     return {};
 }
 
-/// Adds the energy of the step that began at `step_start` and ends now. The power is interpolated linearly.
+/// Adds the energy of the step that began at `step_start` and ends now.
 void StreamingTransient::add_energy(double step_start) {
-    const double t = transient_->time(), half = (t - step_start) / 2;
-    const auto power_before = *power_now_;
-    power_now_ = meter_->delivered_at(transient_->x(), t);
-    energy_use_ +=
-        {t - step_start, half * (power_before.supplies + power_now_->supplies), half * (power_before.sensor + power_now_->sensor)};
+    const double t = transient_->time();
+    const auto before = *std::exchange(power_now_, meter_->delivered_at(transient_->x(), t));
+    energy_use_ += energy_between(before, *power_now_, t - step_start);
 }
 
 /// Moves the origin of time to the last sample before now.
@@ -123,96 +119,56 @@ void StreamingTransient::shift_origin() {
 }
 
 double StreamingTransient::probe_value(const SavedQuantity& saved, std::int64_t sample) const {
-    if (sample <= 0) return saved.value(context_->system, [&](int u) { return u < 0 ? 0 : start_[static_cast<std::size_t>(u)]; });
+    if (sample <= 0) return saved.value(context_->system, [&](int u) { return value_of(start_, u); });
     const double t = time_of(sample);
     return saved.value(context_->system, [&](int u) { return transient_->interpolate(t, u); });
 }
 
-/// Reads the numbers that save() wrote. After a missing or impossible number, all following values are 0.
-class StateReader {
-    std::span<const double> rest_;  // the numbers that are not read yet
-
-public:
-    bool is_valid = true;  ///< no number was missing or impossible so far
-    explicit StateReader(std::span<const double> in) : rest_(in) {}
-
-    double next() {
-        is_valid &= !rest_.empty();
-        if (!is_valid) return 0;
-        const double x = rest_.front();
-        rest_ = rest_.subspan(1);
-        return x;
-    }
-    /// An integer from `low` to `high`.
-    std::int64_t integer(double low, double high) {
-        const double x = next();
-        is_valid &= x >= low && x <= high && x == std::floor(x);
-        return is_valid ? static_cast<std::int64_t>(x) : 0;
-    }
-    std::vector<double> many(std::size_t count) {
-        is_valid &= rest_.size() >= count;
-        if (!is_valid) return std::vector<double>(count);
-        std::vector<double> out(rest_.begin(), rest_.begin() + static_cast<std::ptrdiff_t>(count));
-        rest_ = rest_.subspan(count);
-        return out;
-    }
-    std::span<const double> rest() const { return rest_; }
-};
-
-void StreamingTransient::save(std::vector<double>& out) {
-    const auto s = transient_->save();
-    force_.discard_before(transient_->time());
-    append_values(out,
-                  std::vector<double>{static_cast<double>(origin_sample_), static_cast<double>(pending_spike_.has_value()),
-                                      static_cast<double>(pending_spike_.value_or(Spike{}).step), pending_spike_.value_or(Spike{}).offset});
-    append_values(out, start_);
-    append_values(out, std::vector<double>{static_cast<double>(s.history.size()), static_cast<double>(s.order),
-                                           static_cast<double>(s.steps_since_order_change), static_cast<double>(s.failures),
-                                           static_cast<double>(s.damping_steps), static_cast<double>(s.is_starting),
-                                           static_cast<double>(s.restart_pending), static_cast<double>(s.count),
-                                           static_cast<double>(s.curve_points), static_cast<double>(s.start_phase), s.h, s.quadratic_factor,
-                                           s.recent_max_step, static_cast<double>(s.stats.steps), static_cast<double>(s.stats.rejected),
-                                           static_cast<double>(s.stats.diverged), static_cast<double>(s.stats.iterations)});
-    for (const auto& point : s.history) out.push_back(point.t), append_values(out, point.x), append_values(out, point.q);
-    append_values(out, s.scale), append_values(out, s.rate), append_values(out, s.rate_change), append_values(out, s.max_rate),
-        append_values(out, s.limiting_state);
-    append_values(out, std::vector<double>(s.alternations.begin(), s.alternations.end()));
-    force_.save(out);
+void StreamingTransient::archive(StateArchive& a, TransientState& s) {
+    constexpr double max_count = 1e9;
+    auto spike = pending_spike_.value_or(Spike{});
+    bool has_spike = pending_spike_.has_value();
+    a.integer(origin_sample_, 0, max_exact_integer), a.integer(has_spike, 0, 1);
+    a.integer(spike.step, 0, max_exact_integer), a.number(spike.offset);
+    pending_spike_ = has_spike ? std::optional(spike) : std::nullopt;
+    const auto size = static_cast<std::size_t>(context_->system.size());
+    a.numbers(start_, size);
+    auto points = s.history.size();
+    a.integer(points, 1, History::max_points);
+    const auto last_point = static_cast<double>(points);
+    auto& c = s.control;
+    a.integer(c.order, 1, factory_.plan.max_order), a.integer(c.steps_since_order_change, 0, max_count);
+    a.integer(c.failures, 0, max_count), a.integer(s.damping_steps, 0, 2), a.integer(c.starting, 0, 1), a.integer(s.restart_pending, 0, 1);
+    a.integer(s.count, 1, last_point), a.integer(s.curve_points, 0, last_point), a.integer(s.start_phase, 0, 2);
+    a.number(c.h), a.number(s.quadratic_factor), a.number(c.recent_max_step);
+    for (long* n : {&s.stats.steps, &s.stats.rejected, &s.stats.diverged, &s.stats.iterations}) a.integer(*n, 0, max_exact_integer);
+    s.history.resize(points);
+    for (auto& point : s.history) a.number(point.t), a.numbers(point.x, size), a.numbers(point.q, size);
+    for (auto* values : {&s.scale, &s.rate, &s.rate_change, &s.max_rate}) a.numbers(*values, size);
+    a.numbers(s.limiting_state, context_->system.initial_limiting_state().size());
+    s.alternations.resize(size);
+    for (int& n : s.alternations) a.integer(n, 0, max_count);
+    force_.archive(a);
 }
 
-void StreamingTransient::read_state(StateReader& in, TransientState& s) {
-    constexpr double max_count = 0x1p53;
-    const auto size = start_.size();
-    const auto points = static_cast<std::size_t>(in.integer(1, History::max_points));
-    s.order = static_cast<int>(in.integer(1, factory_.plan.max_order));
-    s.steps_since_order_change = static_cast<int>(in.integer(0, 1e9)), s.failures = static_cast<int>(in.integer(0, 1e9));
-    s.damping_steps = static_cast<int>(in.integer(0, 2)), s.is_starting = in.integer(0, 1) != 0, s.restart_pending = in.integer(0, 1) != 0;
-    s.count = static_cast<int>(in.integer(1, static_cast<double>(points)));
-    s.curve_points = static_cast<int>(in.integer(0, static_cast<double>(points))), s.start_phase = static_cast<int>(in.integer(0, 2));
-    s.h = in.next(), s.quadratic_factor = in.next(), s.recent_max_step = in.next();
-    for (long* n : {&s.stats.steps, &s.stats.rejected, &s.stats.diverged, &s.stats.iterations}) *n = in.integer(0, max_count);
-    for (std::size_t k = 0; k < points; ++k) {
-        s.history.push_back({in.next(), in.many(size), in.many(size)});
-        in.is_valid &= std::abs(s.history[k].t) <= stop_time_unshifted && (k == 0 || s.history[k].t < s.history[k - 1].t);
-    }
-    s.scale = in.many(size), s.rate = in.many(size), s.rate_change = in.many(size), s.max_rate = in.many(size),
-    s.limiting_state = in.many(context_->system.initial_limiting_state().size());
-    for (std::size_t n = 0; n < size; ++n) s.alternations.push_back(static_cast<int>(in.integer(0, 1e9)));
-    in.is_valid &= s.h > 0 && s.quadratic_factor > 0 && s.recent_max_step >= 0;
+void StreamingTransient::save(std::vector<double>& out) {
+    auto state = transient_->save();
+    force_.discard_before(transient_->time());
+    StateArchive writer(out);
+    archive(writer, state);
 }
 
 bool StreamingTransient::restore(std::span<const double> in, std::int64_t samples) {
-    constexpr double max_count = 0x1p53;
-    StateReader reader(in);
-    origin_sample_ = reader.integer(0, max_count);
-    const bool has_spike = reader.integer(0, 1) != 0;
-    const Spike spike{reader.integer(0, max_count), reader.next(), 0};
-    pending_spike_ = has_spike ? std::optional(spike) : std::nullopt;
-    start_ = reader.many(static_cast<std::size_t>(context_->system.size()));
+    StateArchive reader(in);
     TransientState s;
     power_now_.reset(), energy_use_ = {};
-    read_state(reader, s);
-    if (!reader.is_valid || !force_.restore(reader.rest()) || force_.end_sample() + origin_sample_ != samples) return false;
+    archive(reader, s);
+    const auto later = [](const TimePoint& a, const TimePoint& b) { return a.t <= b.t; };
+    const bool is_possible =
+        s.control.h > 0 && s.quadratic_factor > 0 && s.control.recent_max_step >= 0 &&
+        std::adjacent_find(s.history.begin(), s.history.end(), later) == s.history.end() &&
+        std::all_of(s.history.begin(), s.history.end(), [](const auto& p) { return std::abs(p.t) <= stop_time_unshifted; });
+    if (!reader.is_valid || !is_possible || force_.end_sample() + origin_sample_ != samples) return false;
     if (!transient_->begin(start_)) return false;  // required before Transient::restore()
     transient_->restore(s);
     return true;

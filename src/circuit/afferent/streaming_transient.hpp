@@ -3,12 +3,16 @@
 
 #include "circuit/afferent/circuit_afferent.hpp"
 #include "circuit/afferent/force_waveform.hpp"
-#include "circuit/analysis/initial_condition.hpp"
+#include "circuit/analysis/transient_setup.hpp"
 #include "circuit/cost/power.hpp"
 
 namespace corpuscle::circuit {
 
-class StateReader;
+/// The energy of a step of this length, s, by the trapezoidal rule for the power.
+inline EnergyUse energy_between(const PowerMeter::DeliveredPower& a, const PowerMeter::DeliveredPower& b, double length) {
+    const double half = length / 2;
+    return {length, half * (a.supplies + b.supplies), half * (a.sensor + b.sensor)};
+}
 
 /// Bound to one netlist and one sample time T, s. The elimination order of the matrix is chosen at 0 N, so that the results depend on the
 /// force alone and not on earlier simulations. Sample 0 is the first sample given to begin().
@@ -67,7 +71,7 @@ public:
 private:
     /// The time of a sample on the transient's clock, s.
     double time_of(std::int64_t sample) const { return static_cast<double>(sample - origin_sample_) * force_.T(); }
-    void read_state(StateReader&, TransientState&);
+    void archive(StateArchive&, TransientState&);
 };
 
 }  // namespace corpuscle::circuit

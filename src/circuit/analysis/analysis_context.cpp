@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 #include <cmath>
 
+#include "circuit/devices.hpp"
 #include "circuit/expression/spice_number.hpp"
 #include "core/parameter.hpp"
 
@@ -12,7 +13,7 @@ AnalysisContext::AnalysisContext(std::shared_ptr<const Circuit> c, System s, con
     : circuit(std::move(c)), system(std::move(s)), tolerances(t), newton(system, t) {}
 
 Result<std::unique_ptr<AnalysisContext>> AnalysisContext::make(std::shared_ptr<const Circuit> circuit) {
-    auto tolerances = TRY(Tolerances::from_options(*circuit));
+    const auto tolerances = Tolerances::from_options(*circuit);
     auto system = TRY(System::make(circuit));
     return std::unique_ptr<AnalysisContext>(new AnalysisContext(std::move(circuit), std::move(system), tolerances));
 }
@@ -58,32 +59,23 @@ void AnalysisContext::apply_variation(const ChipSample& chip) {
 
 Error interrupted_error() { return {ErrorCode::interrupted, "interrupted"}; }
 
-Error error_at(const Directive& c, std::size_t word, std::string message) {
-    auto location = c.location;
-    if (word < c.columns.size()) location.column = c.columns[word];
-    return bad_input(std::move(message), std::move(location));
-}
-
 Result<double> read_number(const Directive& c, std::size_t word, std::string_view what) {
-    if (word >= c.words.size()) return bad_input(fmt::format(".{}: {} is missing", c.name, what), c.location);
+    if (word >= c.words.size()) return error_at(c.location, ".{}: {} is missing", c.name, what);
     if (const auto x = parse_number(c.words[word])) {
-        if (auto why = ambiguity(*x, c.words[word])) return error_at(c, word, fmt::format(".{}: {}", c.name, *why));
+        if (auto why = ambiguity(*x, c.words[word])) return error_at(c.location_of(word), ".{}: {}", c.name, *why);
         return x->value;
     }
-    return error_at(c, word, fmt::format(".{}: '{}' is not a number; expected {}", c.name, c.words[word], what));
+    return error_at(c.location_of(word), ".{}: '{}' is not a number; expected {}", c.name, c.words[word], what);
 }
 
 Result<std::vector<double>> read_frequencies(const Directive& c, std::size_t word) {
     const std::string kind = word < c.words.size() ? c.words[word] : "";
-    if (kind != "dec" && kind != "oct" && kind != "lin")
-        return bad_input(fmt::format(".{}: '{}' must be dec, oct or lin", c.name, kind), c.location);
+    if (kind != "dec" && kind != "oct" && kind != "lin") return error_at(c.location, ".{}: '{}' must be dec, oct or lin", c.name, kind);
     const double points = TRY(read_number(c, word + 1, "the number of points"));
     const double from = TRY(read_number(c, word + 2, "the first frequency")), to = TRY(read_number(c, word + 3, "the last frequency"));
-    if (!(points >= 1 && points <= 1e7))
-        return bad_input(fmt::format(".{}: {:g} points is outside [1, 10000000]", c.name, points), c.location);
+    if (!(points >= 1 && points <= 1e7)) return error_at(c.location, ".{}: {:g} points is outside [1, 10000000]", c.name, points);
     if (!(to >= from && (from > 0 || (kind == "lin" && from >= 0))))
-        return bad_input(fmt::format(".{}: from {:g} to {:g} Hz: the first must be above 0 and at most the second", c.name, from, to),
-                         c.location);
+        return error_at(c.location, ".{}: from {:g} to {:g} Hz: the first must be above 0 and at most the second", c.name, from, to);
     const auto count = static_cast<long>(points);
     std::vector<double> out;
     if (kind == "lin") {
@@ -94,55 +86,32 @@ Result<std::vector<double>> read_frequencies(const Directive& c, std::size_t wor
     // As in ngspice: points are spaced evenly on a logarithmic scale, `count` per decade or octave. The last is at or below the last
     // frequency.
     const double base = kind == "dec" ? 10 : 2, steps = std::log(to / from) / std::log(base) * static_cast<double>(count);
-    if (steps > 1e7) return bad_input(fmt::format(".{}: {:g} frequencies; the maximum is 10000000", c.name, steps), c.location);
+    if (steps > 1e7) return error_at(c.location, ".{}: {:g} frequencies; the maximum is 10000000", c.name, steps);
     for (double k = 0; k <= std::floor(steps + 1e-9); ++k) out.push_back(from * std::pow(base, k / static_cast<double>(count)));
     return out;
 }
 
-UnknownNames::UnknownNames(const System& system) : system_(system) {
-    const auto& names = system.names();
-    for (std::size_t k = 0; k < names.size(); ++k) at_.try_emplace(names[k], static_cast<int>(k));
-}
-
-int UnknownNames::index_of(std::string_view name) const {
-    const auto at = at_.find(name);
-    return at == at_.end() ? -1 : at->second;
-}
-
 Result<OutputVariable> read_output_variable(const System& system, const Directive& c, std::size_t word) {
-    return read_output_variable(UnknownNames(system), c, word);
-}
-
-Result<OutputVariable> read_output_variable(const UnknownNames& names, const Directive& c, std::size_t word) {
-    if (word >= c.words.size())
-        return bad_input(fmt::format(".{}: an output is missing; write v(node), v(node,node) or i(source)", c.name), c.location);
-    auto location = c.location;
-    if (word < c.columns.size()) location.column = c.columns[word];
+    if (word >= c.words.size()) return error_at(c.location, ".{}: an output is missing; write v(node), v(node,node) or i(source)", c.name);
+    const auto location = c.location_of(word);
     const auto& text = c.words[word];
     const bool voltage = text.starts_with("v("), closed = text.ends_with(")");
     if (!closed || !(voltage || text.starts_with("i(")))
-        return bad_input(fmt::format(".{}: '{}' must be v(node), v(node,node) or i(source)", c.name, text), location);
+        return error_at(location, ".{}: '{}' must be v(node), v(node,node) or i(source)", c.name, text);
     const auto inside = text.substr(2, text.size() - 3);
     const auto unknown = [&](const std::string& name) -> Result<int> {
         if (voltage && (name == "0" || name == "gnd")) return -1;
         const auto full = fmt::format("{}({})", voltage ? 'v' : 'i', name);
-        const int index = names.index_of(full);
+        const int index = system.unknown(full);
         if (index >= 0) return index;
-        const std::vector<std::string_view> known(names.all().begin(), names.all().end());
-        return bad_input(fmt::format(".{}: unknown output {}{}", c.name, full, did_you_mean(full, known)), location);
+        const std::vector<std::string_view> known(system.names().begin(), system.names().end());
+        return error_at(location, ".{}: unknown output {}{}", c.name, full, did_you_mean(full, known));
     };
     const auto comma = inside.find(',');
     const auto plus = TRY(unknown(inside.substr(0, comma)));
     if (comma == std::string::npos) return OutputVariable{plus, -1};
     const auto minus = TRY(unknown(inside.substr(comma + 1)));
     return OutputVariable{plus, minus};
-}
-
-std::complex<double> OutputVariable::value(std::span<const std::complex<double>> x) const {
-    return (plus < 0 ? 0 : x[static_cast<std::size_t>(plus)]) - (minus < 0 ? 0 : x[static_cast<std::size_t>(minus)]);
-}
-double OutputVariable::value(std::span<const double> x) const {
-    return (plus < 0 ? 0 : x[static_cast<std::size_t>(plus)]) - (minus < 0 ? 0 : x[static_cast<std::size_t>(minus)]);
 }
 
 Plot make_plot(const System& system, std::string name, std::string swept, std::string type) {
@@ -153,19 +122,30 @@ Plot make_plot(const System& system, std::string name, std::string swept, std::s
     return plot;
 }
 
-void append(Plot& plot, std::complex<double> swept, std::span<const std::complex<double>> x) {
-    plot.curves[0].values.push_back(swept);
-    for (std::size_t n = 0; n < x.size(); ++n) plot.curves[n + 1].values.push_back(x[n]);
-}
-void append(Plot& plot, std::complex<double> swept, std::span<const double> x) {
-    plot.curves[0].values.push_back(swept);
-    for (std::size_t n = 0; n < x.size(); ++n) plot.curves[n + 1].values.emplace_back(x[n]);
+Result<void> for_each_frequency(const AnalysisContext& context, const Directive& c, const SystemEvaluation& sums,
+                                std::span<const double> frequencies, const FrequencyCallback& use) {
+    const auto& system = context.system;
+    LinearSolver<std::complex<double>> solver(system.pattern());
+    std::vector<std::complex<double>> admittances(system.pattern().entries());
+    for (std::size_t k = 0; k < frequencies.size(); ++k) {
+        if (context.is_stopped(static_cast<double>(k) / static_cast<double>(frequencies.size()))) return interrupted_error();
+        const double f = frequencies[k], omega = 6.283185307179586 * f;
+        for (std::size_t e = 0; e < admittances.size(); ++e) admittances[e] = {sums.G[e], omega * sums.C[e]};
+        if (!solver.factor(admittances)) {
+            const int unknown = solver.singularity().column;
+            return error_at(c.location, ".{} at {:g} Hz: the matrix is singular{}", c.name, f,
+                            unknown < 0 ? "" : " at " + system.names()[static_cast<std::size_t>(unknown)]);
+        }
+        use(f, solver);
+    }
+    return {};
 }
 
-std::vector<std::complex<double>> admittances(const SystemEvaluation& sums, std::size_t entries, double omega) {
-    std::vector<std::complex<double>> out(entries);
-    for (std::size_t k = 0; k < entries; ++k) out[k] = {sums.G[k], omega * sums.C[k]};
-    return out;
+Result<const Device*> read_independent_source(const System& system, const Directive& c, std::size_t word) {
+    const int k = system.circuit().find_element(c.words[word]);
+    if (k < 0 || !is_independent_source(system.circuit().elements[static_cast<std::size_t>(k)]))
+        return error_at(c.location, ".{}: '{}' is not an independent source", c.name, c.words[word]);
+    return system.devices()[static_cast<std::size_t>(k)].get();
 }
 
 SystemEvaluation evaluate_operating_point(const AnalysisContext& context, std::span<const double> x) {

@@ -5,7 +5,6 @@
 #include <memory>
 #include <optional>
 #include <string>
-#include <unordered_map>
 #include <vector>
 
 #include "circuit/output/point_sink.hpp"
@@ -15,12 +14,12 @@ namespace corpuscle::circuit {
 
 /// The result of an analysis.
 struct AnalysisResult {
-    std::vector<Plot> plots;
-    std::vector<std::pair<std::string, double>> numbers;  ///< names and values, printed as "name = value"
-    std::vector<std::pair<std::string, double>> stats;    ///< counters: steps, iterations ...
-    std::string table;                                    ///< text to print, such as the table of .op
-    std::vector<Error> warnings;
-    std::optional<std::vector<double>> spikes;  ///< spike times of .tran, s; nothing if the netlist has no .spike
+    std::vector<Plot> plots = {};
+    std::vector<std::pair<std::string, double>> numbers = {};  ///< names and values, printed as "name = value"
+    std::vector<std::pair<std::string, double>> stats = {};    ///< counters: steps, iterations ...
+    std::string table = {};                                    ///< text to print, such as the table of .op
+    std::vector<Error> warnings = {};
+    std::optional<std::vector<double>> spikes = {};  ///< spike times of .tran, s; nothing if the netlist has no .spike
 };
 
 /// A circuit with everything that its analyses need. apply_variation() turns it into another chip.
@@ -63,11 +62,8 @@ public:
 
 Error interrupted_error();
 
-/// An error with the location of a word of a directive. Here and below, words are counted from 0, without the directive's name.
-Error error_at(const Directive&, std::size_t word, std::string message);
-
-/// Reads a number, with SPICE suffixes, from a word of a directive. Errors contain the directive, `what` (the meaning of the number) and
-/// the word's location.
+/// Reads a number, with SPICE suffixes, from a word of a directive. Words are counted from 0, without the directive's name. Errors contain
+/// the directive, `what` (the meaning of the number) and the word's location.
 Result<double> read_number(const Directive&, std::size_t word, std::string_view what);
 
 /// Reads frequencies (Hz) as "dec 10 1 1k", "oct ..." or "lin ...", starting at the given word.
@@ -76,34 +72,42 @@ Result<std::vector<double>> read_frequencies(const Directive&, std::size_t word)
 /// An output variable v(a), v(a,b) or i(x): the difference of the unknowns `plus` and `minus`. The index -1 stands for the value 0.
 struct OutputVariable {
     int plus = -1, minus = -1;
-    std::complex<double> value(std::span<const std::complex<double>> x) const;
-    double value(std::span<const double> x) const;
+    double value(std::span<const double> x) const { return value_of(x, plus) - value_of(x, minus); }
 };
 Result<OutputVariable> read_output_variable(const System&, const Directive&, std::size_t word);
-
-/// Finds unknowns of a system by name. The system must outlive it.
-class UnknownNames {
-    const System& system_;
-    std::unordered_map<std::string_view, int> at_;  // index of each unknown
-
-public:
-    explicit UnknownNames(const System&);
-    int index_of(std::string_view name) const;  ///< -1: no unknown has this name
-    const std::vector<std::string>& all() const { return system_.names(); }
-};
-Result<OutputVariable> read_output_variable(const UnknownNames&, const Directive&, std::size_t word);
 
 /// A plot with an empty curve for the swept quantity of this name and type, then one for each unknown. If `swept` is empty, there is no
 /// first curve.
 Plot make_plot(const System&, std::string name, std::string swept, std::string type);
 /// Appends a point to such a plot with a swept quantity.
-void append(Plot&, std::complex<double> swept, std::span<const double> x);
-void append(Plot&, std::complex<double> swept, std::span<const std::complex<double>> x);
-
-/// G + j omega C (omega in rad/s), for the `entries` entries of the sparsity pattern.
-std::vector<std::complex<double>> admittances(const SystemEvaluation&, std::size_t entries, double omega);
+template <class Values>
+void append(Plot& plot, double swept, const Values& x) {
+    plot.curves[0].values.emplace_back(swept);
+    for (std::size_t n = 0; n + 1 < plot.curves.size(); ++n) plot.curves[n + 1].values.emplace_back(x[n]);
+}
 
 /// Evaluates all devices at an operating point.
 SystemEvaluation evaluate_operating_point(const AnalysisContext&, std::span<const double> x);
+
+/// Calls use(f, solver) for each frequency f, Hz. The solver has factored G + 2 pi j f C of the evaluation. Errors: a singular matrix, an
+/// interruption.
+using FrequencyCallback = std::function<void(double f, const LinearSolver<std::complex<double>>&)>;
+Result<void> for_each_frequency(const AnalysisContext&, const Directive&, const SystemEvaluation&, std::span<const double> frequencies,
+                                const FrequencyCallback& use);
+
+/// The independent source that a word of a directive names.
+Result<const Device*> read_independent_source(const System&, const Directive&, std::size_t word);
+
+struct Analysis {
+    std::string_view name, usage, description;  ///< name of its directive, without the dot; its syntax; a sentence for help texts
+    Result<AnalysisResult> (*run)(AnalysisContext&, const Directive&);
+    /// The curves that it will produce, without values. The directive may have errors.
+    Plot (*expected_plot)(const System&, const Directive&);
+    std::span<const std::string_view> numbers = {};  ///< the names of numbers that it may produce
+    bool has_number_for_each_curve = false;          ///< true: each curve without a sweep is such a number, too
+    std::size_t plot_count = 1;                      ///< number of plots that it produces
+    /// The position, from 1, at which ngspice runs it among all analyses of a netlist. 0: ngspice has no such directive.
+    int ngspice_order = 0;
+};
 
 }  // namespace corpuscle::circuit

@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "circuit/analyses.hpp"
+#include "circuit/analysis/analysis_context.hpp"
 #include "core/parameter.hpp"
 
 namespace corpuscle::circuit {
@@ -25,34 +25,34 @@ struct Sweep {
 
 /// Reads the four words VARIABLE FROM TO STEP, from this word on.
 Result<Sweep> read_sweep(const AnalysisContext& context, const Directive& c, std::size_t word) {
-    if (word >= c.words.size()) return bad_input(".dc: the sweep variable is missing", c.location);
+    if (word >= c.words.size()) return error_at(c.location, ".dc: the sweep variable is missing");
     Sweep s{c.words[word], 0, 0, 0};
     s.from = TRY(read_number(c, word + 1, "the first value"));
     s.to = TRY(read_number(c, word + 2, "the last value"));
     const double step = s.step = TRY(read_number(c, word + 3, "the step"));
     if (s.step == 0 && s.to == s.from) s.step = 1;  // one point, with any step
     if (s.step == 0 || (s.to - s.from) / s.step < 0)
-        return bad_input(fmt::format(".dc {}: step {:g} does not lead from {:g} to {:g}", s.variable, step, s.from, s.to), c.location);
+        return error_at(c.location, ".dc {}: step {:g} does not lead from {:g} to {:g}", s.variable, step, s.from, s.to);
     if ((s.to - s.from) / s.step > 1e7)
-        return bad_input(fmt::format(".dc {}: {:g} points; the maximum is 10000000", s.variable, (s.to - s.from) / s.step), c.location);
+        return error_at(c.location, ".dc {}: {:g} points; the maximum is 10000000", s.variable, (s.to - s.from) / s.step);
     if (s.variable == "temp") return s;
     const auto* device = context.system.device(s.variable);
     if (device == nullptr || !device->principal_value()) {
         std::vector<std::string_view> known = {"temp"};
         for (const auto& d : context.system.devices())
             if (d->principal_value()) known.push_back(d->name);
-        return bad_input(fmt::format(".dc: '{}' is not a source, a resistor or temp{}", s.variable, did_you_mean(s.variable, known)),
-                         c.location);
+        return error_at(c.location, ".dc: '{}' is not a source, a resistor or temp{}", s.variable, did_you_mean(s.variable, known));
     }
     return s;
 }
 
-// The type and the name of the swept curve, as in ngspice.
-std::string type_of(const std::string& variable) {
-    return variable == "temp" ? "temp-sweep" : variable[0] == 'i' ? "current" : variable[0] == 'v' ? "voltage" : "notype";
-}
-std::string name_of(const std::string& variable) {
-    return variable == "temp" ? "temp-sweep" : variable[0] == 'i' ? "i-sweep" : variable[0] == 'v' ? "v-sweep" : "res-sweep";
+/// The plot of a sweep, without values. Names and types of the swept curve are those of ngspice.
+Plot plot_of_sweep(const System& system, std::string_view variable) {
+    const bool is_temp = variable == "temp";
+    const char letter = variable.empty() ? 'v' : variable[0];
+    const auto name = is_temp ? "temp-sweep" : letter == 'i' ? "i-sweep" : letter == 'v' ? "v-sweep" : "res-sweep";
+    const auto type = is_temp ? "temp-sweep" : letter == 'i' ? "current" : letter == 'v' ? "voltage" : "notype";
+    return make_plot(system, "DC transfer characteristic", name, type);
 }
 
 /// The circuit of a sweep: the original circuit, whose values are restored at the end, or a copy at another temperature.
@@ -92,20 +92,17 @@ private:
             element = elements_.insert(element, {name, original_.system.device(name)->principal_value().value_or(0), value});
         element->present = value;
         if (!context().system.device(name)->set_principal_value(value))
-            return bad_input(fmt::format(".dc: {:g} is not an allowed value of {}", value, name), SourceLocation{original_.circuit->file});
+            return error_at({original_.circuit->file}, ".dc: {:g} is not an allowed value of {}", value, name);
         return {};
     }
 };
-
-}  // namespace
 
 Result<AnalysisResult> analyse_dc(AnalysisContext& original, const Directive& c) {
     auto directive = c;
     const bool up_down = !directive.words.empty() && directive.words.back() == "updown";
     if (up_down) directive.words.pop_back();
     if (directive.words.size() != 4 && directive.words.size() != 8)
-        return bad_input(fmt::format(".dc: {} words; expected .dc SOURCE FROM TO STEP [SOURCE2 FROM TO STEP]", directive.words.size()),
-                         c.location);
+        return error_at(c.location, ".dc: {} words; expected .dc SOURCE FROM TO STEP [SOURCE2 FROM TO STEP]", directive.words.size());
     const auto inner = TRY(read_sweep(original, directive, 0));
     std::optional<Sweep> outer;
     if (directive.words.size() == 8) outer = TRY(read_sweep(original, directive, 4));
@@ -114,9 +111,9 @@ Result<AnalysisResult> analyse_dc(AnalysisContext& original, const Directive& c)
         for (std::size_t k = values.size() - 1; k-- > 0;) values.push_back(values[k]);
     const auto outer_values = outer ? outer->values() : std::vector<double>{0};
     if (static_cast<double>(values.size()) * static_cast<double>(outer_values.size()) > 1e7)
-        return bad_input(fmt::format(".dc: {} times {} points; the maximum is 10000000", values.size(), outer_values.size()), c.location);
+        return error_at(c.location, ".dc: {} times {} points; the maximum is 10000000", values.size(), outer_values.size());
 
-    Plot plot = make_plot(original.system, "DC transfer characteristic", name_of(inner.variable), type_of(inner.variable));
+    Plot plot = plot_of_sweep(original.system, inner.variable);
     SweptCircuit swept(original);
     for (std::size_t k = 0; k < outer_values.size(); ++k) {
         if (outer) TRY(swept.set(outer->variable, outer_values[k]));
@@ -134,12 +131,23 @@ Result<AnalysisResult> analyse_dc(AnalysisContext& original, const Directive& c)
                 return error;
             }
             x = found->x;
-            append(plot, values[j], std::span<const double>(x));
+            append(plot, values[j], x);
         }
     }
     AnalysisResult result;
     result.plots.push_back(std::move(plot));
     return result;
 }
+
+Plot expected_dc_plot(const System& system, const Directive& c) { return plot_of_sweep(system, c.words.empty() ? "" : c.words[0]); }
+
+}  // namespace
+
+extern constexpr Analysis dc_analysis = {.name = "dc",
+                                         .usage = ".dc SOURCE FROM TO STEP [SOURCE2 FROM TO STEP] [updown]",
+                                         .description = "operating points while a source, a resistor or temp is swept",
+                                         .run = analyse_dc,
+                                         .expected_plot = expected_dc_plot,
+                                         .ngspice_order = 2};
 
 }  // namespace corpuscle::circuit

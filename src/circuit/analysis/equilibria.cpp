@@ -6,8 +6,9 @@
 #include <tuple>
 #include <utility>
 
-#include "circuit/analysis/power_on.hpp"
-#include "circuit/solve/stability.hpp"
+#include "circuit/analysis/transient_setup.hpp"
+#include "circuit/devices.hpp"
+#include "circuit/solve/operating_point.hpp"
 #include "core/text/quantity.hpp"
 
 namespace corpuscle::circuit {
@@ -69,12 +70,51 @@ public:
     }
 };
 
+constexpr double settling_time = 1e5;  // s: length of the transient, after which the circuit has settled or oscillates
+
+/// A copy of the circuit without .ic, whose sources rise from 0 to their DC values within `rise` (s).
+std::shared_ptr<const Circuit> with_rising_sources(const AnalysisContext& context, double rise) {
+    auto copy = std::make_shared<Circuit>(*context.circuit);
+    copy->ic.clear();
+    for (std::size_t k = 0; k < copy->elements.size(); ++k) {
+        auto& e = copy->elements[k];
+        if (!is_independent_source(e)) continue;
+        e.waveform = Waveform{};
+        e.waveform.shape = Waveform::Shape::piecewise_linear;
+        e.waveform.numbers = {0, 0, rise, context.system.devices()[k]->principal_value().value_or(0)};
+    }
+    return copy;
+}
+
+/// The unknowns at the end of a transient that starts at 0 V everywhere, without .ic, while all V and I sources rise from 0 within `rise`
+/// (s). Returns nothing if the circuit keeps oscillating.
+Result<std::optional<std::vector<double>>> power_on_state(const AnalysisContext& original, double rise) {
+    auto copy = TRY(AnalysisContext::make(with_rising_sources(original, rise)));
+    auto& context = *copy;
+    if (original.chip_sample()) context.system.apply_variation(&*original.chip_sample());
+    auto plan = TRY(read_transient_plan(*context.circuit));
+    plan.stop = settling_time, plan.max_step = settling_time / 50;
+    context.system.start_transient(rise, settling_time);
+    context.newton.context.time = 0, context.newton.context.with_charges = false;
+    Transient transient(context.system, context.newton, plan);
+    TRY(transient.begin(std::vector<double>(static_cast<std::size_t>(context.system.size())), false));
+    constexpr long max_steps = 200'000;  // exceeded only by an oscillating circuit
+    while (transient.time() < settling_time) {
+        if (transient.stats().steps > max_steps) return std::optional<std::vector<double>>();
+        if (auto stepped = transient.step(settling_time); !stepped)
+            return stepped.error();
+        else if (!*stepped)
+            break;
+    }
+    return std::optional(std::vector<double>(transient.x().begin(), transient.x().end()));
+}
+
 /// The lowest and the highest of 0 V and the DC values of all voltage sources.
 std::pair<double, double> supply_range(const AnalysisContext& context) {
     double low = 0, high = 0;
     const auto& elements = context.circuit->elements;
     for (std::size_t k = 0; k < elements.size(); ++k)
-        if (elements[k].letter == 'v') {
+        if (has_role(elements[k], Role::voltage_source)) {
             const double v = context.system.devices()[k]->principal_value().value_or(0);
             low = std::min(low, v), high = std::max(high, v);
         }

@@ -3,20 +3,12 @@
 #include <fmt/format.h>
 #include <algorithm>
 #include <cmath>
-#include <map>
 
-#include "circuit/analyses.hpp"
+#include "circuit/analysis/analysis_context.hpp"
 #include "core/text/quantity.hpp"
 
 namespace corpuscle::circuit {
 namespace {
-
-/// The noise of one mechanism of one device.
-struct NoiseContribution {
-    std::string name;                // of the device, with the mechanism
-    double total = 0, total_in = 0;  // integrated noise power: at the output, referred to the source
-    double last = 0, last_in = 0;    // noise power densities at the previous frequency, likewise
-};
 
 /// The integral of a density from the frequency f0 (Hz), where it is s0, to f1, where it is s1. In between it is a power of f; if that is
 /// impossible, a straight line.
@@ -27,88 +19,116 @@ double integrated_density(double f0, double s0, double f1, double s1) {
     return (s1 * f1 - s0 * f0) / (exponent + 1);
 }
 
-}  // namespace
+/// The noise of one mechanism of one device.
+struct NoiseContribution {
+    const Device* device;
+    NoiseSource noise;
+    double total = 0, total_in = 0;  // integrated noise power: at the output, referred to the source
+    double last = 0, last_in = 0;    // noise power densities at the previous frequency, likewise
+    std::string name() const { return fmt::format("{} {}", device->name, noise.mechanism); }
+
+    /// Adds the densities at f (Hz). Each contribution is integrated separately, since each is nearly a power of f.
+    void add(double f_last, double f, double power, double in) {
+        if (f_last > 0) total += integrated_density(f_last, last, f, power), total_in += integrated_density(f_last, last_in, f, in);
+        last = power, last_in = in;
+    }
+};
+
+std::vector<NoiseContribution> noise_contributions(const System& system, std::span<const double> x) {
+    std::vector<NoiseContribution> out;
+    for (const auto& d : system.devices())
+        for (const auto& n : d->noise(system.terminal_values(*d, x))) out.push_back({d.get(), n});
+    return out;
+}
+
+Plot expected_noise_plot(const System&, const Directive&) {
+    return {"Noise Spectral Density Curves",
+            false,
+            true,
+            {{"frequency", "frequency", {}}, {"onoise_spectrum", "notype", {}}, {"inoise_spectrum", "notype", {}}}};
+}
+
+/// The contributions, the largest first.
+std::string noise_table(std::vector<NoiseContribution> contributions, double total) {
+    std::sort(contributions.begin(), contributions.end(), [](const NoiseContribution& a, const NoiseContribution& b) {
+        return a.total != b.total ? a.total > b.total : a.name() < b.name();
+    });
+    std::string out = fmt::format("{:32} {:>14} {:>8}\n", "noise at the output", "rms", "fraction");
+    for (const auto& p : contributions)
+        out += fmt::format("{:32} {:>14} {:>7.2f}%\n", p.name(), format_quantity(std::sqrt(p.total), "V"),
+                           total > 0 ? 100 * p.total / total : 0);
+    return out;
+}
+
+/// The integrated noise, after all frequencies.
+void add_totals(const std::vector<NoiseContribution>& contributions, AnalysisResult& out) {
+    double total = 0, total_in = 0;
+    for (const auto& c : contributions) total += c.total, total_in += c.total_in;
+    out.numbers = {{"onoise_total", std::sqrt(total)}, {"inoise_total", std::sqrt(total_in)}};
+    Plot totals{"Integrated Noise", false, false, {}};
+    for (const auto& [name, value] : out.numbers) totals.curves.push_back({name, "notype", {value}});
+    out.plots.push_back(std::move(totals));
+    out.table = noise_table(contributions, total);
+}
+
+/// The transfer from a current into each unknown to the output, at one frequency.
+class NoiseTransfer {
+    std::vector<std::complex<double>> lambda_;
+
+public:
+    NoiseTransfer(const OutputVariable& out, std::size_t unknowns, const LinearSolver<std::complex<double>>& solver) : lambda_(unknowns) {
+        if (out.plus >= 0) lambda_[static_cast<std::size_t>(out.plus)] += 1;
+        if (out.minus >= 0) lambda_[static_cast<std::size_t>(out.minus)] -= 1;
+        solver.solve_transposed(lambda_);
+    }
+    /// From unknown k of a device.
+    std::complex<double> at(const Device& d, std::size_t k) const { return value_of(lambda_, d.unknowns[k]); }
+    /// The gain from a source, except for the sign. A voltage source has three unknowns, a current source two.
+    std::complex<double> gain(const Device& source) const {
+        return source.unknowns.size() == 3 ? at(source, 2) : at(source, 1) - at(source, 0);
+    }
+};
 
 Result<AnalysisResult> analyse_noise(AnalysisContext& context, const Directive& c) {
     const auto& system = context.system;
     const auto out = TRY(read_output_variable(system, c, 0));
-    if (c.words.size() < 6) return bad_input(".noise: expected .noise v(OUT) SOURCE dec|oct|lin POINTS FROM TO", c.location);
-    const auto* source = system.device(c.words[1]);
-    if (source == nullptr || !(source->name[0] == 'v' || source->name[0] == 'i'))
-        return bad_input(fmt::format(".noise: '{}' is not an independent source", c.words[1]), c.location);
+    if (c.words.size() < 6) return error_at(c.location, ".noise: expected .noise v(OUT) SOURCE dec|oct|lin POINTS FROM TO");
+    const auto* source = TRY(read_independent_source(system, c, 1));
     const auto frequencies = TRY(read_frequencies(c, 2));
     const auto operating_point = TRY(context.operating_point());
     const auto evaluation = evaluate_operating_point(context, operating_point.x);
-
-    struct Source {
-        const Device* device;
-        NoiseSource noise;
-        std::size_t contribution;  // index in `contributions`
-    };
-    std::vector<Source> sources;
-    std::vector<NoiseContribution> contributions;
-    for (const auto& d : system.devices())
-        for (const auto& n : d->noise(system.terminal_values(*d, operating_point.x))) {
-            sources.push_back({d.get(), n, contributions.size()});
-            contributions.push_back({fmt::format("{} {}", d->name, n.mechanism)});
-        }
-
-    Plot plot{"Noise Spectral Density Curves",
-              false,
-              true,
-              {{"frequency", "frequency", {}}, {"onoise_spectrum", "notype", {}}, {"inoise_spectrum", "notype", {}}}};
-    LinearSolver<std::complex<double>> solver(system.pattern());
+    auto contributions = noise_contributions(system, operating_point.x);
+    AnalysisResult result{.plots = {expected_noise_plot(system, c)}};
     double f_last = 0;
-    for (const double f : frequencies) {
-        if (context.is_stopped(static_cast<double>(plot.point_count()) / static_cast<double>(frequencies.size())))
-            return interrupted_error();
-        if (!solver.factor(admittances(evaluation, system.pattern().entries(), 6.283185307179586 * f)))
-            return bad_input(fmt::format(".noise at {:g} Hz: the matrix is singular", f), c.location);
-        std::vector<std::complex<double>> lambda(operating_point.x.size());
-        if (out.plus >= 0) lambda[static_cast<std::size_t>(out.plus)] += 1;
-        if (out.minus >= 0) lambda[static_cast<std::size_t>(out.minus)] -= 1;
-        solver.solve_transposed(lambda);
-        // lambda[n] is the output for a unit current into the equation of unknown n.
-        const auto at = [&](const Device& d, std::size_t k) {
-            return d.unknowns[k] < 0 ? std::complex<double>() : lambda[static_cast<std::size_t>(d.unknowns[k])];
-        };
-        // The gain from the source to the output, except for the sign. A voltage source has three unknowns, a current source two.
-        const auto gain = source->unknowns.size() == 3 ? at(*source, 2) : at(*source, 1) - at(*source, 0);
+    TRY(for_each_frequency(context, c, evaluation, frequencies, [&](double f, const auto& solver) {
+        const NoiseTransfer transfer(out, operating_point.x.size(), solver);
+        const double gain = std::norm(transfer.gain(*source));
         double density = 0;
-        for (const auto& s : sources) {
-            const double power =
-                std::norm(at(*s.device, s.noise.from) - at(*s.device, s.noise.to)) * (s.noise.white + (f > 0 ? s.noise.flicker / f : 0));
+        for (auto& k : contributions) {
+            const double power = std::norm(transfer.at(*k.device, k.noise.from) - transfer.at(*k.device, k.noise.to)) *
+                                 (k.noise.white + (f > 0 ? k.noise.flicker / f : 0));
             density += power;
-            auto& contribution = contributions[s.contribution];  // integrated separately, since each is nearly a power of f
-            const double in = power / std::norm(gain);
-            if (f_last > 0)
-                contribution.total += integrated_density(f_last, contribution.last, f, power),
-                    contribution.total_in += integrated_density(f_last, contribution.last_in, f, in);
-            contribution.last = power, contribution.last_in = in;
+            k.add(f_last, f, power, power / gain);
         }
         f_last = f;
-        plot.curves[0].values.emplace_back(f);
-        plot.curves[1].values.emplace_back(std::sqrt(density));
-        plot.curves[2].values.emplace_back(std::sqrt(density / std::norm(gain)));
-    }
-    double total = 0, total_in = 0;
-    for (const auto& contribution : contributions) total += contribution.total, total_in += contribution.total_in;
-    AnalysisResult result;
-    result.plots.push_back(std::move(plot));
-    Plot totals{"Integrated Noise",
-                false,
-                false,
-                {{"onoise_total", "notype", {std::sqrt(total)}}, {"inoise_total", "notype", {std::sqrt(total_in)}}}};
-    result.plots.push_back(std::move(totals));
-    result.numbers = {{"onoise_total", std::sqrt(total)}, {"inoise_total", std::sqrt(total_in)}};
-    std::sort(contributions.begin(), contributions.end(), [](const NoiseContribution& a, const NoiseContribution& b) {
-        return a.total != b.total ? a.total > b.total : a.name < b.name;
-    });
-    result.table = fmt::format("{:32} {:>14} {:>8}\n", "noise at the output", "rms", "fraction");
-    for (const auto& p : contributions)
-        result.table += fmt::format("{:32} {:>14} {:>7.2f}%\n", p.name, format_quantity(std::sqrt(p.total), "V"),
-                                    total > 0 ? 100 * p.total / total : 0);
+        const double row[] = {std::sqrt(density), std::sqrt(density / gain)};
+        append(result.plots[0], f, row);
+    }));
+    add_totals(contributions, result);
     return result;
 }
+
+constexpr std::string_view noise_numbers[] = {"onoise_total", "inoise_total"};
+
+}  // namespace
+
+extern constexpr Analysis noise_analysis = {.name = "noise",
+                                            .usage = ".noise v(OUT[,REF]) SOURCE dec|oct|lin POINTS FROM TO",
+                                            .description = "noise at a node, with the contribution of each device",
+                                            .run = analyse_noise,
+                                            .expected_plot = expected_noise_plot,
+                                            .numbers = noise_numbers,
+                                            .plot_count = 2,
+                                            .ngspice_order = 5};
 
 }  // namespace corpuscle::circuit

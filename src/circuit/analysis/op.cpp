@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "circuit/analyses.hpp"
+#include "circuit/analysis/analysis_context.hpp"
 #include "circuit/analysis/equilibria.hpp"
 #include "core/text/quantity.hpp"
 
@@ -112,13 +112,12 @@ struct OpOptions {
 Result<OpOptions> read_op_options(const Directive& c) {
     OpOptions out;
     if (c.words.empty()) return out;
-    if (c.words[0] != "states") return error_at(c, 0, fmt::format(".op: '{}' is not an option; the only one is 'states'", c.words[0]));
-    if (c.words.size() > 2) return error_at(c, 2, fmt::format(".op: unexpected '{}'; expected .op states [RISE]", c.words[2]));
+    if (c.words[0] != "states") return error_at(c.location_of(0), ".op: '{}' is not an option; the only one is 'states'", c.words[0]);
+    if (c.words.size() > 2) return error_at(c.location_of(2), ".op: unexpected '{}'; expected .op states [RISE]", c.words[2]);
     out.states = true;
     if (c.words.size() == 1) return out;
     const auto rise = TRY(read_number(c, 1, "the rise time of the sources"));
-    if (!(rise > 0 && rise <= 1e3))
-        return error_at(c, 1, fmt::format(".op: the rise time {:g} s must be above 0 and at most 1000 s", rise));
+    if (!(rise > 0 && rise <= 1e3)) return error_at(c.location_of(1), ".op: the rise time {:g} s must be above 0 and at most 1000 s", rise);
     return out.rise = rise, out;
 }
 
@@ -132,8 +131,6 @@ Result<void> report_states(AnalysisContext& context, const OpOptions& options, A
     out.table = describe(context, states);
     return {};
 }
-
-}  // namespace
 
 Result<AnalysisResult> analyse_op(AnalysisContext& context, const Directive& c) {
     const auto options = TRY(read_op_options(c));
@@ -150,5 +147,19 @@ Result<AnalysisResult> analyse_op(AnalysisContext& context, const Directive& c) 
     if (auto other = check_second_state(context, found)) out.warnings.push_back(std::move(*other));
     return out;
 }
+
+Plot expected_op_plot(const System& system, const Directive&) { return make_plot(system, "Operating Point", "", ""); }
+
+constexpr std::string_view op_numbers[] = {"stable_states", "unstable_states", "power_on_elsewhere"};
+
+}  // namespace
+
+extern constexpr Analysis op_analysis = {.name = "op",
+                                         .usage = ".op [states [RISE]]",
+                                         .description = "the operating point, the state of every device, and other stable states",
+                                         .run = analyse_op,
+                                         .expected_plot = expected_op_plot,
+                                         .numbers = op_numbers,
+                                         .ngspice_order = 3};
 
 }  // namespace corpuscle::circuit

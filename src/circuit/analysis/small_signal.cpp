@@ -1,10 +1,9 @@
 // .tf and .sens: transfer function and sensitivities at 0 Hz.
 
-#include <fmt/format.h>
 #include <algorithm>
 #include <cmath>
 
-#include "circuit/analyses.hpp"
+#include "circuit/analysis/analysis_context.hpp"
 #include "core/parameter.hpp"
 
 namespace corpuscle::circuit {
@@ -23,7 +22,7 @@ Result<LinearCircuit> linearize(AnalysisContext& context, const Directive& c) {
     LinearCircuit linear{operating_point.x, evaluate_operating_point(context, operating_point.x),
                          LinearSolver<double>(context.system.pattern())};
     if (!linear.solver.factor(std::span<const double>(linear.evaluation.G).first(context.system.pattern().entries())))
-        return bad_input(fmt::format(".{}: the matrix is singular at the operating point", c.name), c.location);
+        return error_at(c.location, ".{}: the matrix is singular at the operating point", c.name);
     return linear;
 }
 
@@ -32,14 +31,10 @@ void add(std::vector<double>& x, int unknown, double value) {
     if (unknown >= 0) x[static_cast<std::size_t>(unknown)] += value;
 }
 
-}  // namespace
-
 Result<AnalysisResult> analyse_tf(AnalysisContext& context, const Directive& c) {
     const auto out = TRY(read_output_variable(context.system, c, 0));
-    if (c.words.size() != 2) return bad_input(fmt::format(".tf: {} words; expected .tf OUTPUT SOURCE", c.words.size()), c.location);
-    const auto* source = context.system.device(c.words[1]);
-    if (source == nullptr || !(source->name[0] == 'v' || source->name[0] == 'i'))
-        return bad_input(fmt::format(".tf: '{}' is not an independent source", c.words[1]), c.location);
+    if (c.words.size() != 2) return error_at(c.location, ".tf: {} words; expected .tf OUTPUT SOURCE", c.words.size());
+    const auto* source = TRY(read_independent_source(context.system, c, 1));
     auto linear = TRY(linearize(context, c));
     constexpr double infinite = 1e20;  // ohm: printed for an infinite resistance
     const bool is_voltage_source = source->unknowns.size() == 3;
@@ -91,24 +86,21 @@ Result<AnalysisResult> analyse_sens(AnalysisContext& context, const Directive& c
     Plot plot{"Sensitivity Analysis", false, false, {}};
     EvalContext eval_context;
     eval_context.gmin = context.tolerances.gmin;
+    StampBuffer stamp;
     for (const auto& d : context.system.devices()) {
         const auto value = d->principal_value();
         if (!value) continue;
         const auto v = context.system.terminal_values(*d, linear.x);
-        const auto n = v.size();
         const auto currents = [&](double p) {
-            std::vector<double> stamp(2 * n + 2 * n * n);
-            const std::span<double> all(stamp);
             d->set_principal_value(p);
-            d->eval(v, eval_context, {all.first(n), all.subspan(n, n), all.subspan(2 * n, n * n), all.subspan(2 * n + n * n)});
-            stamp.resize(n);
-            return stamp;
+            const auto f = stamp.eval(*d, v, eval_context).f;
+            return std::vector<double>(f.begin(), f.end());
         };
         const double h = std::max(std::abs(*value), *value == 0 ? 1.0 : 0.0) * 1e-5;
         const auto up = currents(*value + h), down = currents(*value - h);
         d->set_principal_value(*value);
         double slope = 0;
-        for (std::size_t k = 0; k < n; ++k)
+        for (std::size_t k = 0; k < v.size(); ++k)
             if (d->unknowns[k] >= 0) slope -= lambda[static_cast<std::size_t>(d->unknowns[k])] * (up[k] - down[k]) / (2 * h);
         result.numbers.emplace_back(d->name, slope);
         plot.curves.push_back({d->name, "notype", {slope}});
@@ -116,5 +108,38 @@ Result<AnalysisResult> analyse_sens(AnalysisContext& context, const Directive& c
     result.plots.push_back(std::move(plot));
     return result;
 }
+
+Plot expected_tf_plot(const System&, const Directive& c) {
+    Plot plot{"Transfer Function", false, false, {{"transfer_function", "notype", {}}}};
+    if (c.words.size() == 2)
+        for (const auto& name : {c.words[1] + "#input_impedance", "output_impedance_at_" + c.words[0]})
+            plot.curves.push_back({name, "notype", {}});
+    return plot;
+}
+
+Plot expected_sens_plot(const System& system, const Directive&) {
+    Plot plot{"Sensitivity Analysis", false, false, {}};
+    for (const auto& d : system.devices())
+        if (d->principal_value()) plot.curves.push_back({d->name, "notype", {}});
+    return plot;
+}
+
+}  // namespace
+
+extern constexpr Analysis tf_analysis = {.name = "tf",
+                                         .usage = ".tf v(OUT[,REF])|i(V) SOURCE",
+                                         .description = "gain, input and output resistance at 0 Hz",
+                                         .run = analyse_tf,
+                                         .expected_plot = expected_tf_plot,
+                                         .has_number_for_each_curve = true,
+                                         .ngspice_order = 7};
+
+extern constexpr Analysis sens_analysis = {.name = "sens",
+                                           .usage = ".sens v(OUT[,REF])|i(V)",
+                                           .description = "sensitivity of the output to each element's value",
+                                           .run = analyse_sens,
+                                           .expected_plot = expected_sens_plot,
+                                           .has_number_for_each_curve = true,
+                                           .ngspice_order = 6};
 
 }  // namespace corpuscle::circuit

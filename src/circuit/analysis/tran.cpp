@@ -6,11 +6,9 @@
 #include <utility>
 
 #include "circuit/afferent/force_directive.hpp"
-#include "circuit/afferent/operating_range.hpp"
-#include "circuit/afferent/spike_output.hpp"
-#include "circuit/analyses.hpp"
-#include "circuit/analysis/initial_condition.hpp"
-#include "circuit/analysis/transient_plan.hpp"
+#include "circuit/afferent/response_directives.hpp"
+#include "circuit/analysis/analysis_context.hpp"
+#include "circuit/analysis/transient_setup.hpp"
 #include "circuit/device/named_values.hpp"
 #include "core/text/quantity.hpp"
 
@@ -116,17 +114,14 @@ Result<void> report_spikes(AnalysisContext& context, const TranSetup& setup, std
             const auto error = TRY(spike_error(context, setup, spikes));
             out.numbers.emplace_back("spike_error", error);
             if (std::isnan(error))
-                out.warnings.push_back(
-                    bad_input(fmt::format("{} spikes, but a different number with a tenth of the tolerances; use .options accuracy=fine",
-                                          spikes.size()),
-                              setup.spike_output->location));
+                out.warnings.push_back(error_at(
+                    setup.spike_output->location,
+                    "{} spikes, but a different number with a tenth of the tolerances; use .options accuracy=fine", spikes.size()));
         }
     }
     out.spikes = std::move(spikes);
     return {};
 }
-
-}  // namespace
 
 Result<AnalysisResult> analyse_tran(AnalysisContext& context, const Directive& c) {
     const auto times = TRY(read_transient_times(c));
@@ -137,8 +132,8 @@ Result<AnalysisResult> analyse_tran(AnalysisContext& context, const Directive& c
     context.hit_iteration_limit = false;
     const auto force = TRY(force_directive(*context.circuit));
     if (force && !context.system.set_force_input(&*force))
-        return bad_input(fmt::format(".force: no source has a force input; add one such as '{}' (60 nA/N)", "iin 0 fin force 60n"),
-                         SourceLocation{context.circuit->file});
+        return error_at({context.circuit->file}, ".force: no source has a force input; add one such as '{}' (60 nA/N)",
+                        "iin 0 fin force 60n");
     TranSetup setup{times, plan, spike_output, {}};
     setup.plan.all_reported = true;
     setup.plan.stop = times.stop, setup.plan.max_step = max_step_of(times);
@@ -158,7 +153,7 @@ Result<AnalysisResult> analyse_tran(AnalysisContext& context, const Directive& c
         range_monitor.add_point(t, x);
         if (t < times.start) return true;
         row.assign(1, t), row.insert(row.end(), x.begin(), x.end());
-        written = points.add_point(row);
+        written = points.add_point(PlotRow(row));
         return static_cast<bool>(written);
     });
     const auto ended = points.end();
@@ -177,5 +172,19 @@ Result<AnalysisResult> analyse_tran(AnalysisContext& context, const Directive& c
     if (!context.points) out.plots.push_back(std::move(recorder.plot));
     return out;
 }
+
+Plot expected_tran_plot(const System& system, const Directive&) { return make_plot(system, "Transient Analysis", "time", "time"); }
+
+constexpr std::string_view tran_numbers[] = {"spikes", "first_spike", "last_spike", "mean_interval", "spike_error"};
+
+}  // namespace
+
+extern constexpr Analysis tran_analysis = {.name = "tran",
+                                           .usage = ".tran STEP STOP [START [LONGEST]] [uic]",
+                                           .description = "the circuit over time, with automatic step size",
+                                           .run = analyse_tran,
+                                           .expected_plot = expected_tran_plot,
+                                           .numbers = tran_numbers,
+                                           .ngspice_order = 4};
 
 }  // namespace corpuscle::circuit

@@ -58,6 +58,13 @@ constexpr double doubtful_lane_residual = 1e-9;  // relative residual at and abo
 bool contains(std::uint8_t set, std::size_t lane) { return (set >> lane & 1) != 0; }
 std::uint8_t bit(std::size_t lane) { return static_cast<std::uint8_t>(1u << lane); }
 
+/// Calls use(lane) for each lane of a set.
+template <class Use>
+void for_each_lane(std::uint8_t set, const Use& use) {
+    for (std::size_t l = 0; l < lanes::chips_per_block; ++l)
+        if (contains(set, l)) use(l);
+}
+
 /// Loads the next chip that has an initial condition into a free lane.
 void Batch::fill(std::size_t lane) {
     while (has_more_chips_ && !lanes_[lane].is_occupied()) {
@@ -114,8 +121,9 @@ void Batch::estimate_errors(std::uint8_t selected, const Needs& needs, const Ord
     call.past_weights = error_weights_.data();
     std::fill(error_weights_.begin(), error_weights_.end(), LaneRow{});
     bool any = false;
-    for (std::size_t l = 0; l < lanes_.size(); ++l)
-        if (contains(selected, l) && needs(lanes_[l])) lanes_[l].set_error_weights(order_of(lanes_[l]), call, error_weights_), any = true;
+    for_each_lane(selected, [&](std::size_t l) {
+        if (needs(lanes_[l])) lanes_[l].set_error_weights(order_of(lanes_[l]), call, error_weights_), any = true;
+    });
     if (!any) return;
     kernels_.estimate_error(memory_.block, call);
     for (std::size_t l = 0; l < lanes_.size(); ++l) out[l] = call.worst.value[l];
@@ -124,14 +132,16 @@ void Batch::estimate_errors(std::uint8_t selected, const Needs& needs, const Ord
 /// The lanes whose solution is not accurate enough.
 std::uint8_t Batch::inaccurate_lanes(std::uint8_t working, const lanes::SolveCall& solve) {
     std::uint8_t doubtful = 0;
-    for (std::size_t l = 0; l < lanes_.size(); ++l)
-        if (contains(working, l) && !lanes_[l].is_restarting() && !(solve.growth.value[l] < doubtful_lane_growth)) doubtful |= bit(l);
+    for_each_lane(working, [&](std::size_t l) {
+        if (!lanes_[l].is_restarting() && !(solve.growth.value[l] < doubtful_lane_growth)) doubtful |= bit(l);
+    });
     if (doubtful == 0) return 0;
     LaneRow residual;
     kernels_.residual(memory_.block, solve, residual);
     std::uint8_t out = 0;
-    for (std::size_t l = 0; l < lanes_.size(); ++l)
-        if (contains(doubtful, l) && !(residual.value[l] < doubtful_lane_residual)) out |= bit(l);
+    for_each_lane(doubtful, [&](std::size_t l) {
+        if (!(residual.value[l] < doubtful_lane_residual)) out |= bit(l);
+    });
     return out;
 }
 
@@ -140,16 +150,12 @@ void Batch::iterate(std::uint8_t working, lanes::SolveCall& solve, lanes::StepCa
     const auto failed = inaccurate_lanes(working, solve);
     kernels_.apply_step(memory_.block, step);
     std::uint8_t needs_error = 0, diverged = 0;
-    for (std::size_t l = 0; l < lanes_.size(); ++l) {
-        if (!contains(working, l)) continue;
-        if (contains(failed, l)) {
-            fail(l);
-            continue;
-        }
+    for_each_lane(working, [&](std::size_t l) {
+        if (contains(failed, l)) return fail(l);
         const auto status = lanes_[l].finish_iteration(step.size.value[l], step.clamped.value[l] > 0, step.non_finite.value[l] == 0);
         if (status == ChipLane::IterationStatus::needs_error) needs_error |= bit(l);
         if (status == ChipLane::IterationStatus::failed) diverged |= bit(l);
-    }
+    });
     decide_steps(needs_error, diverged, solve.a);
 }
 
@@ -161,31 +167,23 @@ void Batch::decide_steps(std::uint8_t needs_error, std::uint8_t diverged, const 
     estimate_errors(needs_error, [](const ChipLane&) { return true; }, [](const ChipLane& s) { return s.order(); }, error_);
     lanes::AcceptCall accept{{}, a};
     std::uint8_t accepted = 0, change_order = 0;
-    for (std::size_t l = 0; l < lanes_.size(); ++l) {
-        if (!contains(needs_error | diverged, l)) continue;
-        switch (lanes_[l].decide_step(contains(diverged, l) ? std::numeric_limits<double>::infinity() : error_[l])) {
-            case ChipLane::StepStatus::accepted:
-                accepted |= bit(l), accept.is_accepted.value[l] = 1;
-                if (lanes_[l].is_order_change_due()) change_order |= bit(l);
-                break;
-            case ChipLane::StepStatus::failed:
-                fail(l);
-                break;
-            default:
-                break;
-        }
-    }
+    for_each_lane(static_cast<std::uint8_t>(needs_error | diverged), [&](std::size_t l) {
+        const auto status = lanes_[l].decide_step(contains(diverged, l) ? std::numeric_limits<double>::infinity() : error_[l]);
+        if (status == ChipLane::StepStatus::failed) return fail(l);
+        if (status != ChipLane::StepStatus::accepted) return;
+        accepted |= bit(l), accept.is_accepted.value[l] = 1;
+        if (lanes_[l].is_order_change_due()) change_order |= bit(l);
+    });
     if (accepted == 0) return;
     estimate_errors(
         change_order, [](const ChipLane& s) { return s.can_lower_order(); }, [](const ChipLane& s) { return s.order() - 1; }, lower_);
     estimate_errors(
         change_order, [](const ChipLane& s) { return s.can_raise_order(); }, [](const ChipLane& s) { return s.order() + 1; }, higher_);
     kernels_.accept(memory_.block, accept);
-    for (std::size_t l = 0; l < lanes_.size(); ++l) {
-        if (!contains(accepted, l)) continue;
+    for_each_lane(accepted, [&](std::size_t l) {
         lanes_[l].choose_step(error_[l], lower_[l], higher_[l]);
         if (!lanes_[l].accept_step()) finish(l);
-    }
+    });
 }
 
 Result<void> Batch::run() {
@@ -197,8 +195,7 @@ Result<void> Batch::run() {
         const auto working = prepare(solve, step);
         if (working == 0) return {};
         memory_.relinearize(kernels_, working, gmin_);
-        for (std::size_t l = 0; l < lanes_.size(); ++l)
-            if (contains(working, l)) lanes_[l].relinearize_nonlinear_devices();
+        for_each_lane(working, [&](std::size_t l) { lanes_[l].relinearize_nonlinear_devices(); });
         kernels_.solve(memory_.block, solve);
         iterate(working, solve, step);
     }

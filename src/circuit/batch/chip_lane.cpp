@@ -3,14 +3,11 @@
 #include <algorithm>
 #include <cmath>
 
-#include "circuit/solve/crossing.hpp"
 #include "circuit/solve/interpolant.hpp"
 
 namespace corpuscle::circuit {
 namespace {
 
-// The same as min_relative_step, large_newton_step and hopeless_error in transient.cpp.
-constexpr double min_lane_step = 1e-15, large_lane_step = 20, hopeless_lane_error = 2;
 constexpr long rounds_between_sums = 256;  // see ChipMemory::sum_again()
 
 }  // namespace
@@ -34,7 +31,8 @@ Result<bool> ChipLane::start(const Chip& chip, const BatchOptions& options) {
     const auto start = simulation_->transient().save();  // the state at the initial condition
     plan_ = simulation_->transient().plan();
     control_ = {}, newton_ = {}, restart_pending_ = false, next_task_ = NextTask::nothing, rounds_ = 0;
-    control_.h = start.h, times_ = {}, points_ = smooth_count_ = 1, newest_slot_ = curve_points_ = 0, breakpoint_ = -1, jumped_ = false;
+    control_.h = start.control.h, times_ = {}, points_ = smooth_count_ = 1, newest_slot_ = curve_points_ = 0, breakpoint_ = -1,
+    jumped_ = false;
     end_time_ = static_cast<double>(chip_->force.size() - 1) * chip_->T;
     const EvalContext eval_context{0, 1, context.tolerances.gmin, true};
     memory_.load_chip(lane_, context.system, eval_context);
@@ -84,12 +82,10 @@ void ChipLane::set_sources(double t) {
             if (u >= 0) memory_.block.source_currents[u].value[lane_] = 0;
     for (const auto k : sources_) {
         const Device& d = *system.devices()[k];
-        const auto n = d.unknowns.size();
-        v_.assign(n, 0), stamp_.assign(2 * n + 2 * n * n, 0);
-        const std::span<double> all(stamp_);
-        d.eval(v_, eval_context, {all.first(n), all.subspan(n, n), all.subspan(2 * n, n * n), all.subspan(2 * n + n * n)});
-        for (std::size_t row = 0; row < n; ++row)
-            if (d.unknowns[row] >= 0) memory_.block.source_currents[d.unknowns[row]].value[lane_] += stamp_[row];
+        v_.assign(d.unknowns.size(), 0);
+        const auto f = stamp_.eval(d, v_, eval_context).f;
+        for (std::size_t row = 0; row < f.size(); ++row)
+            if (d.unknowns[row] >= 0) memory_.block.source_currents[d.unknowns[row]].value[lane_] += f[row];
     }
 }
 
@@ -97,13 +93,10 @@ void ChipLane::set_sources(double t) {
 void ChipLane::start_step() {
     const double now = times_[0];
     if (!(now < breakpoint_)) breakpoint_ = std::min(plan_.stop, simulation_->context().system.next_breakpoint(now));
-    double h = std::min(control_.h, plan_.max_step);
-    ends_at_breakpoint_ = now + 1.01 * h >= breakpoint_;
-    if (!ends_at_breakpoint_ && now + 2 * h > breakpoint_) h = (breakpoint_ - now) / 2;
-    t_ = ends_at_breakpoint_ ? breakpoint_ : now + h;
-    may_jump_ =
-        !simulation_->transient().interpolated_unknowns().empty() && t_ - now <= control_.jump_step_limit(plan_.reltol, plan_.max_step);
-    predictor_weights_ = weights_of_value(times(std::min(control_.order + 1, points_)), t_);
+    step_ = StepControl::plan_step(now, std::min(control_.h, plan_.max_step), breakpoint_);
+    may_jump_ = !simulation_->transient().interpolated_unknowns().empty() &&
+                step_.length() <= control_.jump_step_limit(plan_.reltol, plan_.max_step);
+    predictor_weights_ = weights_of_value(times(std::min(control_.order + 1, points_)), step_.end);
     newton_.begin();
     is_new_step_ = true;
 }
@@ -119,8 +112,8 @@ ChipLane::NextTask ChipLane::prepare(lanes::PredictCall& call, std::span<lanes::
             memory_.block.x[n].value[lane_] = past(memory_.block.past_x, 0, n), memory_.block.history[n].value[lane_] = 0;
     } else if (next_task_ == NextTask::nothing) {
         start_step();
-        set_sources(t_);
-        const auto weights = weights_of_slope(times(control_.order), t_, a_);
+        set_sources(step_.end);
+        const auto weights = weights_of_slope(times(control_.order), step_.end, a_);
         for (int k = 0; k < points_; ++k)
             value_weights[history_slot(k)].value[lane_] = predictor_weights_[static_cast<std::size_t>(k)],
             slope_weights[history_slot(k)].value[lane_] = weights[static_cast<std::size_t>(k)];
@@ -138,7 +131,7 @@ void ChipLane::relinearize_nonlinear_devices() {
     if (++rounds_ % rounds_between_sums == 0) memory_.sum_again(lane_);
     auto& context = simulation_->context();
     is_limited_ = memory_.relinearize_nonlinear_devices(
-        lane_, context.system, {next_task_ == NextTask::restart ? times_[0] : t_, 1, context.tolerances.gmin, true},
+        lane_, context.system, {next_task_ == NextTask::restart ? times_[0] : step_.end, 1, context.tolerances.gmin, true},
         context.newton.limiting_state);
 }
 
@@ -152,33 +145,30 @@ ChipLane::IterationStatus ChipLane::finish_iteration(double size, bool is_clampe
         return IterationStatus::iterating;
     }
     ++response_.stats.iterations;
-    if (!is_finite || !std::isfinite(size)) {
-        is_iterating_ = false;
-        return IterationStatus::failed;
-    }
-    auto status = newton_.update(size, is_limited_ || is_clamped);
-    if (status == NewtonControl::Status::converged && !may_jump_) {
+    status_ = NewtonControl::Status::diverged;
+    if (!is_finite || !std::isfinite(size)) return IterationStatus::failed;
+    status_ = newton_.update(size, is_limited_ || is_clamped);
+    if (status_ == NewtonControl::Status::converged && !may_jump_) {
         auto& context = simulation_->context();
-        if (!memory_.expressions_match(lane_, context.system, {t_, 1, context.tolerances.gmin, true},
+        if (!memory_.expressions_match(lane_, context.system, {step_.end, 1, context.tolerances.gmin, true},
                                        {plan_.reltol, plan_.vntol, plan_.abstol}))
-            status = newton_.continue_iterating();
+            status_ = newton_.continue_iterating();
     }
-    if (status == NewtonControl::Status::diverged) return IterationStatus::failed;
-    is_iterating_ = status == NewtonControl::Status::iterating;
-    return !is_iterating_ || newton_.last_size > large_lane_step ? IterationStatus::needs_error : IterationStatus::iterating;
+    if (status_ == NewtonControl::Status::diverged) return IterationStatus::failed;
+    return newton_.needs_error(status_) ? IterationStatus::needs_error : IterationStatus::iterating;
 }
 
 void ChipLane::set_error_weights(int order, lanes::ErrorCall& call, std::span<lanes::LaneRow> past_weights) const {
     for (auto& row : past_weights) row.value[lane_] = 0;
     if (points_ == 1) {
-        const double per_step = 1 / (t_ - times_[0]);  // 1/s
+        const double per_step = 1 / (step_.end - times_[0]);  // 1/s
         call.charge_weight.value[lane_] = per_step, past_weights[history_slot(0)].value[lane_] = -per_step;
         call.rate_weight.value[lane_] = -1;
         return;
     }
     const int points = std::min(order + 1, points_);
-    const auto weights = order == control_.order ? predictor_weights_ : weights_of_value(times(points), t_);
-    const double per_history = 1 / (t_ - times_[static_cast<std::size_t>(points) - 1]);  // 1/s
+    const auto weights = order == control_.order ? predictor_weights_ : weights_of_value(times(points), step_.end);
+    const double per_history = 1 / (step_.end - times_[static_cast<std::size_t>(points) - 1]);  // 1/s
     call.charge_weight.value[lane_] = per_history, call.rate_weight.value[lane_] = 0;
     for (int k = 0; k < points; ++k) past_weights[history_slot(k)].value[lane_] = -per_history * weights[static_cast<std::size_t>(k)];
 }
@@ -189,7 +179,7 @@ double ChipLane::interpolation_error() {
     curve_points_ = 0;
     if (interpolated_unknowns.empty()) return 0;
     auto& b = memory_.block;
-    std::array<double, 9> times{t_};
+    std::array<double, 9> times{step_.end};
     std::copy(times_.begin(), times_.end(), times.begin() + 1);
     std::array<const lanes::LaneRow*, StepControl::max_curve_points + 1> rows{b.x};
     for (int k = 0; k < StepControl::max_curve_points; ++k) rows[static_cast<std::size_t>(k) + 1] = b.past_x + history_slot(k) * b.unknowns;
@@ -209,7 +199,7 @@ double ChipLane::interpolation_error() {
 
 ChipLane::StepStatus ChipLane::decide_step(double error) {
     const bool diverged = std::isinf(error);
-    if (!diverged && is_iterating_ && !(error > hopeless_lane_error)) return StepStatus::iterating;
+    if (!diverged && NewtonControl::must_continue(status_, error)) return StepStatus::iterating;
     interpolation_error_ = diverged ? 0 : interpolation_error();
     const double worst = may_jump_ ? error : std::max(error, interpolation_error_);
     jumped_ = !diverged && worst <= 1 && interpolation_error_ > 1;
@@ -217,36 +207,35 @@ ChipLane::StepStatus ChipLane::decide_step(double error) {
     ++response_.stats.rejected;
     if (diverged) ++response_.stats.diverged;
     next_task_ = NextTask::nothing, restart_pending_ = false;
-    if (control_.shorten(t_ - times_[0], diverged ? 0 : worst, points_ > 1 ? times_[0] - times_[1] : 0)) next_task_ = NextTask::restart;
-    return control_.h >= min_lane_step * plan_.stop ? StepStatus::rejected : StepStatus::failed;
+    if (control_.shorten(step_.length(), diverged ? 0 : worst, points_ > 1 ? times_[0] - times_[1] : 0)) next_task_ = NextTask::restart;
+    return control_.h >= StepControl::min_step(plan_.stop) ? StepStatus::rejected : StepStatus::failed;
 }
 
 void ChipLane::choose_step(double error, double lower, double higher) {
-    const double now = times_[0], planned = control_.h;
+    const double planned = control_.h;
     const int order = control_.order;
-    control_.choose(t_ - now, error, points_, std::min(plan_.max_order, points_ - 1),
+    control_.choose(step_.length(), error, points_, std::min(plan_.max_order, points_ - 1),
                     [&](int other) { return other < order ? lower : higher; });
-    if (!may_jump_) control_.limit_by_curve(t_ - now, interpolation_error_, curve_points_);
+    control_.limit_next_step(step_, planned, plan_.max_step, may_jump_, interpolation_error_, curve_points_);
     if (jumped_) curve_points_ = 2;
-    if (ends_at_breakpoint_ && t_ - now < planned) control_.h = std::max(control_.h, std::min(planned, plan_.max_step));
 }
 
 /// Makes the end of the step the newest point.
 void ChipLane::advance() {
     auto& b = memory_.block;
     const int capacity = static_cast<int>(b.points);
-    control_.record_step(t_ - times_[0]);
+    control_.record_step(step_.length());
     newest_slot_ = (newest_slot_ + capacity - 1) % capacity, points_ = std::min(points_ + 1, capacity),
     smooth_count_ = std::min(smooth_count_ + 1, capacity);
     std::copy_backward(times_.begin(), times_.end() - 1, times_.end());
-    times_[0] = t_;
+    times_[0] = step_.end;
     const auto first = static_cast<std::size_t>(newest_slot_) * b.unknowns;
     for (std::size_t n = 0; n < b.unknowns; ++n) {
         x_[n] = b.past_x[first + n].value[lane_] = b.x[n].value[lane_];
         b.past_q[first + n].value[lane_] = b.q[n].value[lane_];
     }
-    restart_pending_ = ends_at_breakpoint_ || jumped_;
-    ++response_.stats.steps, ++control_.steps_since_order_change, control_.failures = 0;
+    restart_pending_ = step_.ends_at_breakpoint || jumped_;
+    ++response_.stats.steps;
     next_task_ = restart_pending_ ? NextTask::restart : NextTask::nothing;
 }
 
@@ -266,7 +255,7 @@ bool ChipLane::accept_step() {
 double ChipLane::interpolate(double t, int unknown) const {
     if (unknown < 0) return 0;
     if (const auto source = simulation_->transient().source_voltage(t, unknown)) return *source;
-    const int points = curve_points_ > 0 ? curve_points_ : std::min(std::max(control_.order + 1, 4), points_);
+    const int points = control_.interpolation_points(curve_points_, points_);
     const auto w = weights_of_value(times(points), t);
     double sum = 0;
     for (int k = 0; k < points; ++k)
@@ -295,10 +284,8 @@ void ChipLane::record_samples() {
         const auto value = [&](int u) {
             return next_sample_ > 0 ? interpolate(t, u) : u < 0 ? 0 : past(memory_.block.past_x, 0, static_cast<std::size_t>(u));
         };
-        for (std::size_t k = 0; k < design.operating_ranges.size(); ++k)
-            if (auto& o = response_.range_violations[k];
-                !design.operating_ranges[k].contains(design.operating_ranges[k].quantity.value(system, value)))
-                o = {o.samples + 1, o.first_sample < 0 ? next_sample_ : o.first_sample};
+        check_ranges(design.operating_ranges, response_.range_violations, next_sample_,
+                     [&](const SavedQuantity& quantity) { return quantity.value(system, value); });
         for (std::size_t p = 0; every > 0 && next_sample_ % every == 0 && p < design.probes.size(); ++p)
             response_.probes[p].push_back(static_cast<float>(design.probes[p].value(system, value)));
     }
@@ -306,10 +293,8 @@ void ChipLane::record_samples() {
 
 /// Adds the energy of the last step, by the trapezoidal rule for the power.
 void ChipLane::add_energy(double step_start) {
-    const double half = (times_[0] - step_start) / 2;
-    const auto power_before = power_;
-    power_ = simulation_->meter().delivered_at(x_, times_[0]);
-    response_.energy_use += {2 * half, half * (power_before.supplies + power_.supplies), half * (power_before.sensor + power_.sensor)};
+    const auto before = std::exchange(power_, simulation_->meter().delivered_at(x_, times_[0]));
+    response_.energy_use += energy_between(before, power_, times_[0] - step_start);
 }
 
 }  // namespace corpuscle::circuit

@@ -38,19 +38,21 @@ private:
     int smooth_count_ = 0, curve_points_ = 0;  // points on one smooth curve; points of the last interpolation
     double breakpoint_ = 0;                    // next breakpoint of the sources, or the end; the following one is found when it is reached
     bool restart_pending_ = false, may_jump_ = false;
-    bool ends_at_breakpoint_ = false, jumped_ = false;  // of the current step; jumped_: accepted although the solution may have jumped
-    double end_time_ = 0;                               // of the last sample of the force
+    bool jumped_ = false;  // the current step was accepted although the solution may have jumped
+    double end_time_ = 0;  // of the last sample of the force
 
     // the current step
     NextTask next_task_ = NextTask::nothing;
-    bool is_new_step_ = false;        // the step begins in this round
-    bool is_limited_ = false;         // some device was evaluated at limited voltages
-    bool is_iterating_ = false;       // not converged yet, but the error is estimated early
-    double t_ = 0, a_ = 0;            // end of the step; dq/dt = a_ q + history
+    bool is_new_step_ = false;  // the step begins in this round
+    bool is_limited_ = false;   // some device was evaluated at limited voltages
+    StepControl::Step step_{};
+    NewtonControl::Status status_{};  // of the last iteration
+    double a_ = 0;                    // dq/dt = a_ q + history
     double interpolation_error_ = 0;  // relative to the allowed error
     HistoryWeights predictor_weights_{};
     std::vector<std::size_t> sources_;  // indices of the time-dependent sources
-    std::vector<double> v_, stamp_;     // buffers of set_sources()
+    std::vector<double> v_;             // buffers of set_sources()
+    StampBuffer stamp_;
     std::vector<double> x_;             // unknowns at the newest point
     PowerMeter::DeliveredPower power_;  // at the newest point
     std::int64_t next_sample_ = 0;      // next sample to record

@@ -50,9 +50,7 @@ ChipMemory::ChipMemory(const System& system, const Elimination& elimination, std
     std::iota(order.begin(), order.end(), std::size_t{0});
     std::sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) { return list.entry_slot[a] < list.entry_slot[b]; });
     std::vector<int> columns(entries);  // of each entry
-    for (int column = 0; column < p.size(); ++column)
-        for (int e = p.column_begin()[static_cast<std::size_t>(column)]; e < p.column_begin()[static_cast<std::size_t>(column) + 1]; ++e)
-            columns[static_cast<std::size_t>(e)] = column;
+    p.for_each_entry([&](std::size_t e, std::size_t, std::size_t column) { columns[e] = static_cast<int>(column); });
     entry_.resize(entries + 1, entries);
     for (const auto k : order) {
         entry_[k] = row_.size();
@@ -93,30 +91,17 @@ bool ChipMemory::is_compatible(const System& system) const {
 /// Sums the linear devices of a chip, and lists its nonlinear devices that are not transistors.
 void ChipMemory::sum_linear_devices(const System& system, std::size_t chip, const EvalContext& context) {
     lanes::LaneRow *const I = linear_sums_.data(), *const G = I + block.unknowns, *const C = G + block.entries;
-    for (auto& row : linear_sums_) row.value[chip] = 0;
     nonlinear_devices_[chip].clear();
     for (const auto k : system.scalar_devices()) {
         const Device& d = *system.devices()[k];
-        const auto n = d.unknowns.size();
-        NonlinearDevice other{k, d.unknowns, {}, std::vector<double>(n), {}, std::vector<double>(2 * n + 2 * n * n), {}};
+        if (d.is_linear()) continue;
+        NonlinearDevice other{k, d.unknowns, {}, std::vector<double>(d.unknowns.size()), {}, {}, {}, {}};
         for (const auto pattern_entry : system.entries(k)) other.entries.push_back(entry_[pattern_entry]);
-        if (!d.is_linear()) {
-            other.last_linearization = other.linearization;
-            nonlinear_devices_[chip].push_back(std::move(other));
-            continue;
-        }
-        const std::span<double> all(other.linearization);
-        d.eval(other.v, context, {all.first(n), all.subspan(n, n), all.subspan(2 * n, n * n), all.subspan(2 * n + n * n)});
-        for (std::size_t row = 0; row < n; ++row) {
-            if (!d.is_time_dependent() && d.unknowns[row] >= 0) I[d.unknowns[row]].value[chip] += all[row];
-            for (std::size_t column = 0; column < n; ++column) {
-                const auto entry = other.entries[row * n + column];
-                if (entry >= block.entries) continue;
-                G[entry].value[chip] += all[2 * n + row * n + column];
-                C[entry].value[chip] += all[2 * n + n * n + row * n + column];
-            }
-        }
+        nonlinear_devices_[chip].push_back(std::move(other));
     }
+    const auto sums = circuit::sum_linear_devices(system, context);
+    for (std::size_t n = 0; n < block.unknowns; ++n) I[n].value[chip] = sums.currents[n];
+    for (std::size_t e = 0; e < block.entries; ++e) G[entry_[e]].value[chip] = sums.G[e], C[entry_[e]].value[chip] = sums.C[e];
 }
 
 void ChipMemory::load_chip(std::size_t chip, const System& system, const EvalContext& context) {
@@ -143,7 +128,7 @@ void ChipMemory::sum_again(std::size_t chip) {
             if (const auto entry = entries_[16 * d + e]; entry < block.entries)
                 block.G[entry].value[chip] += line.g[e], block.C[entry].value[chip] += line.c[e];
     }
-    for (auto& other : nonlinear_devices_[chip]) std::fill(other.last_linearization.begin(), other.last_linearization.end(), 0.0);
+    for (auto& other : nonlinear_devices_[chip]) other.last = other.last_buffer.zeros(other.unknowns.size());
 }
 
 /// Adds the change of a linearization to the sums of the block.
@@ -209,23 +194,21 @@ bool ChipMemory::relinearize_nonlinear_devices(std::size_t chip, const System& s
         for (std::size_t j = 0; j < n; ++j) o.v[j] = o.unknowns[j] < 0 ? 0 : block.x[o.unknowns[j]].value[chip];
         o.limited_v = o.v;
         limited |= d.limiting_state_size() > 0 && d.limit(o.limited_v, system.limiting_state_of(o.index, limiting_state));
-        std::fill(o.linearization.begin(), o.linearization.end(), 0.0);
-        const std::span<double> all(o.linearization);
-        const auto i = all.first(n), q = all.subspan(n, n), g = all.subspan(2 * n, n * n), c = all.subspan(2 * n + n * n);
-        d.eval(o.limited_v, context, {i, q, g, c});
+        const auto stamp = o.buffer.eval(d, o.limited_v, context);
+        const auto& [i, q, g, c] = stamp;
         for (std::size_t row = 0; row < n; ++row) {
             for (std::size_t column = 0; column < n; ++column) {
                 const auto e = row * n + column;
                 i[row] -= g[e] * o.limited_v[column], q[row] -= c[e] * o.limited_v[column];
                 if (o.entries[e] >= block.entries) continue;
-                block.G[o.entries[e]].value[chip] += g[e] - o.last_linearization[2 * n + e];
-                block.C[o.entries[e]].value[chip] += c[e] - o.last_linearization[2 * n + n * n + e];
+                block.G[o.entries[e]].value[chip] += g[e] - o.last.df[e];
+                block.C[o.entries[e]].value[chip] += c[e] - o.last.dq[e];
             }
             if (o.unknowns[row] < 0) continue;
-            block.I[o.unknowns[row]].value[chip] += i[row] - o.last_linearization[row];
-            block.Q[o.unknowns[row]].value[chip] += q[row] - o.last_linearization[n + row];
+            block.I[o.unknowns[row]].value[chip] += i[row] - o.last.f[row];
+            block.Q[o.unknowns[row]].value[chip] += q[row] - o.last.q[row];
         }
-        std::swap(o.last_linearization, o.linearization);
+        std::swap(o.last_buffer, o.buffer), o.last = stamp;
     }
     return limited;
 }
@@ -237,17 +220,12 @@ bool ChipMemory::expressions_match(std::size_t chip, const System& system, const
         if (!d.has_jumps()) continue;
         const auto n = o.unknowns.size();
         for (std::size_t j = 0; j < n; ++j) o.v[j] = o.unknowns[j] < 0 ? 0 : block.x[o.unknowns[j]].value[chip];
-        std::fill(o.linearization.begin(), o.linearization.end(), 0.0);
-        const std::span<double> all(o.linearization);
-        const auto f = all.first(n);
-        d.eval(o.v, context, {f, all.subspan(n, n), all.subspan(2 * n, n * n), all.subspan(2 * n + n * n)});
+        const auto f = o.buffer.eval(d, o.v, context).f;
         for (std::size_t row = 0; row < n; ++row) {
-            double linear = o.last_linearization[row];
-            for (std::size_t column = 0; column < n; ++column) linear += o.last_linearization[2 * n + row * n + column] * o.v[column];
-            // As in StepEquations: the equation of a branch current is a sum of voltages.
+            double linear = o.last.f[row];
+            for (std::size_t column = 0; column < n; ++column) linear += o.last.slope(row, column) * o.v[column];
             const bool is_voltage = o.unknowns[row] >= 0 && !system.is_voltage(o.unknowns[row]);
-            const double scale = is_voltage ? std::abs(o.v[0] - o.v[1]) : std::max(std::abs(f[row]), std::abs(linear));
-            if (!tolerance.accepts(is_voltage, f[row] - linear, scale)) return false;
+            if (!tolerance.accepts(is_voltage, f[row], linear, o.v)) return false;
         }
     }
     return true;

@@ -17,10 +17,10 @@ using lanes::Linearization;
 struct NonlinearDevice {
     std::size_t index;  ///< in the system
     std::vector<int> unknowns;
-    std::vector<std::size_t> entries;        ///< matrix entry of each derivative; for ground the number of entries
-    std::vector<double> v, limited_v;        ///< values of its unknowns, before and after limiting
-    std::vector<double> linearization;       ///< i, q, g, c, as in Linearization
-    std::vector<double> last_linearization;  ///< the one that the sums of the block contain
+    std::vector<std::size_t> entries;  ///< matrix entry of each derivative; for ground the number of entries
+    std::vector<double> v, limited_v;  ///< values of its unknowns, before and after limiting
+    StampBuffer buffer, last_buffer;
+    Stamp last;  ///< i, q, g, c, as in Linearization, that the sums of the block contain; in last_buffer
 };
 
 /// The parameter `chip` of the functions is the column of a chip in the block, from 0.

@@ -1,8 +1,6 @@
 #pragma once
 // Silicon area of elements.
 
-#include "circuit/netlist/netlist.hpp"
-
 namespace corpuscle::circuit {
 
 /// Areas in m^2, without wells, bulk contacts, wires, guard rings and pads.
@@ -37,8 +35,5 @@ struct RectangleRule {
 double rectangle_area(double W, double L, double rows, double columns);
 /// The area, m^2, of the smallest rectangle that contains this number of unit transistors.
 double array_area(double W, double L, double unit_transistors);
-
-/// The area of a transistor or a linear capacitor. It is 0 for other elements and for a capacitor with an expression.
-Area area_of(const Element&);
 
 }  // namespace corpuscle::circuit

@@ -1,6 +1,8 @@
-#include "circuit/cost/circuit_cost_document.hpp"
+// The cost of a circuit (power, area, leakage) as a JSON document.
 
 #include <nlohmann/json.hpp>
+
+#include "circuit/cost/cost.hpp"
 
 namespace corpuscle::circuit {
 namespace {
@@ -33,10 +35,11 @@ Json document_of(const Cost& cost) {
     for (const auto& b : cost.blocks) {
         blocks.push_back(
             {{"block", b.name}, {"arrays", b.transistors}, {"unit_transistors", b.unit_transistors}, {"area", document_of(b.area)}});
-        if (!b.worst_name.empty()) blocks.back()["worst_leak"] = {{"transistor", b.worst_name}, {"current_A", b.worst_leak.current}};
+        if (!b.worst_leak.name.empty())
+            blocks.back()["worst_leak"] = {{"transistor", b.worst_leak.name}, {"current_A", b.worst_leak.current}};
     }
     for (std::size_t k = 0; k < cost.leaks.size(); ++k) {
-        leaks.push_back({{"transistor", cost.leaking_names[k]}, {"current_A", cost.leaks[k].current}});
+        leaks.push_back({{"transistor", cost.leaks[k].name}, {"current_A", cost.leaks[k].current}});
         if (!cost.leaks[k].capacitor_node.empty()) leaks.back()["capacitor_node"] = cost.leaks[k].capacitor_node;
     }
     Json out = {{"supply_V", cost.supply}, {"power", power}, {"area", document_of(cost.area())}, {"blocks", blocks}};

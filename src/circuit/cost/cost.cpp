@@ -2,9 +2,14 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
+#include <numeric>
 #include <tuple>
 
+#include "circuit/afferent/force_directive.hpp"
 #include "circuit/device/named_values.hpp"
+#include "circuit/device/physical_constants.hpp"
+#include "circuit/devices.hpp"
 
 namespace corpuscle::circuit {
 namespace {
@@ -17,37 +22,78 @@ bool is_afferent(const Circuit& circuit) {
            std::any_of(circuit.directives.begin(), circuit.directives.end(), [](const auto& c) { return c.name == "spike"; });
 }
 
-bool has_unknown_area(const Element& e) {
-    return e.letter == 'r' || e.letter == 'l' || e.letter == 'd' || (e.letter == 'c' && e.expression);
-}
-
 void add_areas(const Circuit& circuit, const Blocks& blocks, Cost& out) {
     for (const auto& name : blocks.names) out.blocks.emplace_back().name = name;
     for (std::size_t k = 0; k < circuit.elements.size(); ++k) {
         const auto& e = circuit.elements[k];
         auto& block = out.blocks[blocks.block_of_element[k]];
-        block.area += area_of(e);
-        out.unknown_areas += has_unknown_area(e);
-        if (e.letter != 'm') continue;
+        if (const auto area = kind_of(e).area(e))
+            block.area += *area;
+        else
+            ++out.unknown_areas;
+        if (!has_role(e, Role::transistor)) continue;
         ++block.transistors;
         block.unit_transistors += static_cast<std::size_t>(std::ceil(value_or(e.values, "m", 1) * value_or(e.values, "stack", 1)));
     }
 }
 
 void add_leakage(const AnalysisContext& context, std::span<const double> x, const Blocks& blocks, Cost& out) {
-    const auto& circuit = *context.circuit;
-    out.smallest_bias = smallest_bias(circuit);
+    out.smallest_bias = smallest_bias(*context.circuit);
     for (auto& leak : leakage_of(context.system, x, out.supply)) {
         auto& block = out.blocks[blocks.block_of_element[leak.element]];
-        if (block.worst_name.empty() || leak.current > block.worst_leak.current)
-            block.worst_leak = leak, block.worst_name = circuit.elements[leak.element].name;
+        if (block.worst_leak.name.empty() || leak.current > block.worst_leak.current) block.worst_leak = leak;
         if (leak.is_off && out.smallest_bias > 0 && leak.current > min_reported_leak * out.smallest_bias)
             out.leaks.push_back(std::move(leak));
     }
     std::sort(out.leaks.begin(), out.leaks.end(), [](const Leakage& a, const Leakage& b) {
         return std::tuple(a.capacitor_node.empty(), -a.current, a.element) < std::tuple(b.capacitor_node.empty(), -b.current, b.element);
     });
-    for (const auto& leak : out.leaks) out.leaking_names.push_back(circuit.elements[leak.element].name);
+}
+
+enum Terminal { D, G, S, B };
+
+/// Merges nodes that are connected by 0 V sources, which only measure a current.
+class MergedNodes {
+    std::vector<int> representative_;  // by node: the lowest number of the nodes merged with it
+
+public:
+    explicit MergedNodes(const Circuit& circuit) : representative_(circuit.nodes.size()) {
+        std::iota(representative_.begin(), representative_.end(), 0);
+        for (const auto& e : circuit.elements) {
+            if (!is_wire(e)) continue;
+            const int first = representative(e.nodes[0]), second = representative(e.nodes[1]);
+            std::replace(representative_.begin(), representative_.end(), std::max(first, second), std::min(first, second));
+        }
+    }
+    static bool is_wire(const Element& e) {
+        return has_role(e, Role::voltage_source) && e.waveform.dc == 0 && e.waveform.shape == Waveform::Shape::none &&
+               e.waveform.ac_magnitude == 0;
+    }
+    int representative(int node) const { return representative_[static_cast<std::size_t>(node)]; }
+};
+
+/// Nodes whose voltage is held by a capacitor and not by a voltage source. Maps the representative of the merged nodes to the node of the
+/// capacitor.
+std::map<int, int> capacitor_nodes(const Circuit& circuit, const MergedNodes& merged) {
+    std::map<int, int> out;
+    for (const auto& e : circuit.elements)
+        if (has_role(e, Role::capacitor))
+            for (int k = 0; k < 2; ++k)
+                out.emplace(merged.representative(e.nodes[static_cast<std::size_t>(k)]), e.nodes[static_cast<std::size_t>(k)]);
+    out.erase(0);  // ground
+    for (const auto& e : circuit.elements)
+        if (has_role(e, Role::voltage_source) && !MergedNodes::is_wire(e))
+            for (const int node : e.nodes) out.erase(merged.representative(node));
+    return out;
+}
+
+/// The magnitude of the drain current, A, with the gate at the source voltage and `supply` (V) between drain and source. `forward` (V) is
+/// the voltage of the bulk above the source, with the signs of an NMOS. `polarity`: 1 for NMOS, -1 for PMOS.
+double drain_current(const Device& d, double polarity, double supply, double forward) {
+    const double v[4] = {polarity * supply, 0, 0, polarity * forward};
+    EvalContext context;
+    context.with_charges = false;
+    return std::abs(StampBuffer().eval(d, v, context).f[D]);
 }
 
 }  // namespace
@@ -76,6 +122,48 @@ Result<Cost> cost_of(AnalysisContext& context, const PowerOverTime* over) {
     if (over)
         for (auto& named_power : over->averages()) out.power.push_back(std::move(named_power));
     return out;
+}
+
+Result<void> CostMeter::attach(RunOptions& options) {
+    const auto operating_point = TRY(context_.operating_point());
+    auto phases = TRY(force_phases(*context_.circuit));
+    meter_.emplace(context_.system, operating_point.x, context_.tolerances.gmin);
+    options.unknowns_sink = &power_over_time_.emplace(*meter_, std::move(phases));
+    return {};
+}
+
+std::vector<Leakage> leakage_of(const System& system, std::span<const double> x, double supply) {
+    std::vector<Leakage> out;
+    const auto& circuit = system.circuit();
+    const MergedNodes merged(circuit);
+    const auto capacitor_node_of = capacitor_nodes(circuit, merged);
+    for (std::size_t k = 0; k < circuit.elements.size(); ++k) {
+        const auto& e = circuit.elements[k];
+        if (!has_role(e, Role::transistor)) continue;
+        const auto& d = *system.devices()[k];
+        const double polarity = circuit.models[static_cast<std::size_t>(e.model)].type == "pmos" ? -1 : 1;
+        const auto v = system.terminal_values(d, x);
+        const double source = std::min(polarity * v[D], polarity * v[S]);
+        Leakage leak{k,     e.name, drain_current(d, polarity, supply, std::max(polarity * v[B] - source, 0.0)), polarity * v[G] - source,
+                     false, ""};
+        leak.is_off = leak.V_GS < thermal_voltage(circuit.temperature + zero_celsius);
+        for (const auto end : {D, S})
+            if (const auto node = capacitor_node_of.find(merged.representative(e.nodes[end]));
+                leak.capacitor_node.empty() && node != capacitor_node_of.end())
+                leak.capacitor_node = circuit.nodes[static_cast<std::size_t>(node->second)];
+        out.push_back(std::move(leak));
+    }
+    return out;
+}
+
+double smallest_bias(const Circuit& circuit) {
+    double smallest = 0;
+    for (const auto& e : circuit.elements) {
+        if (!has_role(e, Role::current_source) || e.waveform.shape == Waveform::Shape::force) continue;
+        const double i = std::abs(e.waveform.dc * value_or(e.values, "m", 1));
+        if (i > 0 && (smallest == 0 || i < smallest)) smallest = i;
+    }
+    return smallest;
 }
 
 }  // namespace corpuscle::circuit

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "circuit/devices.hpp"
+
 namespace corpuscle::circuit {
 namespace {
 
@@ -10,18 +12,17 @@ namespace {
 std::string block_of(const Element& e) {
     const auto dot = e.name.find('.');
     if (dot != std::string::npos) return e.name.substr(1, dot - 1);
-    return e.letter == 'i' ? "ideal currents" : "top level";
+    return has_role(e, Role::current_source) ? "ideal currents" : "top level";
 }
 
 bool is_force_source(const Element& e) { return e.waveform.shape == Waveform::Shape::force; }
-bool is_independent(const Element& e) { return e.letter == 'v' || e.letter == 'i'; }
 
 /// Unknowns of the nodes of FORCE voltage sources.
 std::vector<int> force_nodes(const System& system) {
     std::vector<int> out;
     const auto& elements = system.circuit().elements;
     for (std::size_t k = 0; k < elements.size(); ++k)
-        if (elements[k].letter == 'v' && is_force_source(elements[k]))
+        if (has_role(elements[k], Role::voltage_source) && is_force_source(elements[k]))
             for (const int node : std::span(system.devices()[k]->unknowns).first(2))
                 if (node >= 0) out.push_back(node);
     return out;
@@ -29,7 +30,7 @@ std::vector<int> force_nodes(const System& system) {
 
 /// True for a current source with an expression that reads one of these nodes.
 bool is_sensor(const Element& e, const Device& d, std::span<const int> nodes) {
-    if (!e.expression || e.expression_is_voltage || (e.letter != 'b' && e.letter != 'g')) return false;
+    if (!is_current_expression(e)) return false;
     // The first two unknowns are the nodes of the source itself; the others are read by the expression.
     return std::any_of(d.unknowns.begin() + 2, d.unknowns.end(),
                        [&](int u) { return std::find(nodes.begin(), nodes.end(), u) != nodes.end(); });
@@ -64,13 +65,13 @@ PowerMeter::PowerMeter(const System& system, std::span<const double> x, double g
         const auto& e = elements[k];
         role_.push_back(-1 - static_cast<int>(blocks_.block_of_element[k]));
         if (is_sensor(e, *system.devices()[k], force)) sensors_.push_back(k);
-        if (!is_independent(e)) continue;
+        if (!is_independent_source(e)) continue;
         double dissipated = 0;
         current(k, x, 0, dissipated);
-        if (e.letter == 'i' && !is_force_source(e) && dissipated >= 0) continue;
+        if (has_role(e, Role::current_source) && !is_force_source(e) && dissipated >= 0) continue;
         role_.back() = static_cast<int>(sources_.size());
         sources_.push_back(k);
-        if (e.letter != 'v' || is_force_source(e) || -dissipated <= max_delivered) continue;
+        if (!has_role(e, Role::voltage_source) || is_force_source(e) || -dissipated <= max_delivered) continue;
         max_delivered = -dissipated;
         const auto v = system.terminal_values(*system.devices()[k], x);
         supply_ = std::abs(v[0] - v[1]);
@@ -80,18 +81,15 @@ PowerMeter::PowerMeter(const System& system, std::span<const double> x, double g
 /// The current (A) into the first node of device k; `power` receives the sum of v i over all its nodes, W.
 double PowerMeter::current(std::size_t k, std::span<const double> x, double t, double& power) const {
     const auto& d = *system_.devices()[k];
-    const auto n = d.unknowns.size();
-    v_.resize(n);
-    for (std::size_t u = 0; u < n; ++u) v_[u] = d.unknowns[u] < 0 ? 0 : x[static_cast<std::size_t>(d.unknowns[u])];
-    for (auto* currents : {&f_, &q_}) currents->assign(n, 0);
-    for (auto* derivatives : {&df_, &dq_}) derivatives->assign(n * n, 0);
+    v_.resize(d.unknowns.size());
+    for (std::size_t u = 0; u < v_.size(); ++u) v_[u] = value_of(x, d.unknowns[u]);
     EvalContext context;
     context.time = t, context.gmin = gmin_, context.with_charges = false;
-    d.eval(v_, context, {f_, q_, df_, dq_});
+    const auto f = stamp_.eval(d, v_, context).f;
     power = 0;
-    for (std::size_t u = 0; u < n; ++u)
-        if (d.unknowns[u] >= 0 && system_.is_voltage(d.unknowns[u])) power += v_[u] * f_[u];
-    return f_[0];
+    for (std::size_t u = 0; u < f.size(); ++u)
+        if (d.unknowns[u] >= 0 && system_.is_voltage(d.unknowns[u])) power += v_[u] * f[u];
+    return f[0];
 }
 
 PowerBreakdown PowerMeter::power_at(std::span<const double> x, double t) const {
@@ -99,7 +97,7 @@ PowerBreakdown PowerMeter::power_at(std::span<const double> x, double t) const {
     out.sources.resize(sources_.size()), out.blocks.resize(blocks_.names.size());
     double power = 0;
     for (std::size_t k = 0; k < role_.size(); ++k) {
-        if (system_.circuit().elements[k].letter == 'l') continue;  // inductors store energy, they do not dissipate it
+        if (has_role(system_.circuit().elements[k], Role::inductor)) continue;  // inductors store energy, they do not dissipate it
         current(k, x, t, power);
         if (role_[k] >= 0)
             out.sources[static_cast<std::size_t>(role_[k])] = -power;
@@ -115,11 +113,10 @@ PowerBreakdown PowerMeter::power_at(std::span<const double> x, double t) const {
 PowerMeter::DeliveredPower PowerMeter::delivered_at(std::span<const double> x, double t) const {
     DeliveredPower out;
     double power = 0;
-    const auto at = [&](int unknown) { return unknown < 0 ? 0 : x[static_cast<std::size_t>(unknown)]; };
     for (const auto k : sources_) {
         const auto& u = system_.devices()[k]->unknowns;
         if (u.size() == 3)  // a voltage source; its current is an unknown
-            power = (at(u[0]) - at(u[1])) * at(u[2]);
+            power = (value_of(x, u[0]) - value_of(x, u[1])) * value_of(x, u[2]);
         else
             current(k, x, t, power);
         out.supplies -= power;
@@ -141,9 +138,9 @@ Result<void> PowerOverTime::begin(const Plot&) {
     return {};
 }
 
-Result<void> PowerOverTime::add_point(std::span<const double> row) {
-    const double t = row[0];
-    auto now = meter_.power_at(row.subspan(1), t);
+Result<void> PowerOverTime::add_point(const PlotRow& row) {
+    const double t = row.real[0];
+    auto now = meter_.power_at(row.real.subspan(1), t);
     if (!std::exchange(has_points_, true)) {
         peak_ = now;
     } else {

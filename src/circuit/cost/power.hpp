@@ -35,10 +35,11 @@ class PowerMeter {
     const System& system_;
     double gmin_;  // S
     Blocks blocks_;
-    std::vector<std::size_t> sources_, sensors_;       // indices of devices
-    std::vector<int> role_;                            // by device: its index in sources_, or -1 - the index of its block
-    double supply_ = 0;                                // V
-    mutable std::vector<double> v_, f_, q_, df_, dq_;  // buffers of current()
+    std::vector<std::size_t> sources_, sensors_;  // indices of devices
+    std::vector<int> role_;                       // by device: its index in sources_, or -1 - the index of its block
+    double supply_ = 0;                           // V
+    mutable std::vector<double> v_;               // buffers of current()
+    mutable StampBuffer stamp_;
 
     double current(std::size_t device, std::span<const double> x, double t, double& power) const;
 
@@ -74,8 +75,7 @@ class PowerOverTime final : public PointSink {
 public:
     PowerOverTime(const PowerMeter& meter, std::vector<Phase> phases) : meter_(meter), phases_(std::move(phases)) {}
     Result<void> begin(const Plot&) override;
-    Result<void> add_point(std::span<const double> row) override;
-    Result<void> end() override { return {}; }
+    Result<void> add_point(const PlotRow& row) override;
 
     /// "mean", "peak" (the largest value of each number), then the mean in each phase by its name; empty if there was no transient.
     std::vector<std::pair<std::string, PowerBreakdown>> averages() const;

@@ -11,12 +11,20 @@
 #include <string_view>
 #include <vector>
 
+#include "circuit/lanes/transistor_kernels.hpp"
 #include "circuit/netlist/netlist.hpp"
 #include "core/error.hpp"
 
 namespace corpuscle::circuit {
 
 class ForceWaveform;
+
+/// The value of an unknown; 0 for ground (-1).
+template <class Values>
+auto value_of(const Values& values, int unknown) {
+    using Value = std::decay_t<decltype(values[0])>;
+    return unknown < 0 ? Value{} : values[static_cast<std::size_t>(unknown)];
+}
 
 /// The conditions under which a device is evaluated.
 struct EvalContext {
@@ -28,13 +36,43 @@ struct EvalContext {
 
 /// The contribution of a device to the equations. The unknowns are the terminals, then the device's own unknowns. For a node, f is the
 /// current (A) out of the node into the device without the displacement current dq/dt of the charge q (C). An own unknown that is not a
-/// node has the equation f + dq/dt = 0. The derivatives df and dq are stored row by row. With n unknowns, f and q have n elements, df and
-/// dq have n^2; most callers allocate them in this order in one buffer.
+/// node has the equation f + dq/dt = 0. The derivatives df and dq are stored row by row.
 struct Stamp {
     std::span<double> f, q, df, dq;
+    /// Adds a current i, A, through the device from one unknown to another, or a charge.
+    static void add_between(std::span<double> values, std::size_t from, std::size_t to, double i) { values[from] += i, values[to] -= i; }
+    /// Adds a conductance g, S, between two unknowns to df, or a capacitance to dq.
+    static void add_between_slopes(std::span<double> slopes, std::size_t n, std::size_t a, std::size_t b, double g) {
+        slopes[a * n + a] += g, slopes[a * n + b] -= g, slopes[b * n + a] -= g, slopes[b * n + b] += g;
+    }
+    void add_conductance(std::size_t a, std::size_t b, double g) const { add_between_slopes(df, f.size(), a, b, g); }
+    void add_capacitance(std::size_t a, std::size_t b, double c) const { add_between_slopes(dq, f.size(), a, b, c); }
+    /// The current v[2] through the device from unknown 0 to unknown 1, and the equation v[0] - v[1] = 0, to which the caller adds.
+    void add_branch(std::span<const double> v) const {
+        f[0] += v[2], f[1] -= v[2], f[2] += v[0] - v[1];
+        slope(0, 2) += 1, slope(1, 2) -= 1, slope(2, 0) += 1, slope(2, 1) -= 1;
+    }
     // The derivatives of f[row] and q[row] with respect to the unknown `column`.
     double& slope(std::size_t row, std::size_t column) const { return df[row * f.size() + column]; }
     double& capacitance(std::size_t row, std::size_t column) const { return dq[row * f.size() + column]; }
+};
+
+class Device;
+
+/// The memory of the stamp of one device at a time.
+class StampBuffer {
+    std::vector<double> numbers_;
+
+public:
+    // The stamps are valid until the next call.
+    Stamp zeros(std::size_t unknowns) {
+        const auto n = unknowns;
+        numbers_.assign(2 * n + 2 * n * n, 0);
+        const std::span all(numbers_);
+        return {all.first(n), all.subspan(n, n), all.subspan(2 * n, n * n), all.last(n * n)};
+    }
+    /// The stamp of a device at v.
+    Stamp eval(const Device&, std::span<const double> v, const EvalContext&);
 };
 
 /// A noise current between two unknowns of a device: its spectral density, A^2/Hz, at the frequency f in Hz is white + flicker / f.
@@ -106,16 +144,13 @@ public:
     virtual std::string operating_region(std::span<const double>) const { return {}; }  ///< "saturation", "weak" ...
 };
 
-/// The stamps of several devices of one kind. The elements have the order of Stamp, but each element is a row of `stride` numbers, one for
-/// each device, aligned to 64 bytes.
-struct BatchStamp {
-    std::size_t stride;
-    const double* v;  ///< values of the unknowns
-    double *f, *df;
-    double* max_term;  ///< largest term of each f, the scale of its rounding error; null: not needed
-    double *q, *dq;    ///< null: not needed
-    double rate = 0;   ///< 1/s: rate q is added to f, and rate dq to df
-};
+inline Stamp StampBuffer::eval(const Device& device, std::span<const double> v, const EvalContext& context) {
+    const auto out = zeros(v.size());
+    device.eval(v, context, out);
+    return out;
+}
+
+using lanes::BatchStamp;
 
 /// Devices of one kind, evaluated together on SIMD lanes. The stride is a multiple of 8. Elements of a row beyond the last device belong to
 /// copies of it.
@@ -138,6 +173,21 @@ public:
     virtual int add_unknown(std::string_view name) = 0;    ///< adds the voltage of an inner node, such as "x1.d1#junction"
     virtual double temperature(const Element&) const = 0;  ///< K
     virtual const Circuit& circuit() const = 0;
+
+    /// The unknowns of the first two nodes, then of the current through the element if it has one.
+    std::vector<int> ends(const Element& e) const {
+        std::vector<int> out = {node_unknown(e.nodes[0]), node_unknown(e.nodes[1])};
+        if (const int branch = branch_unknown(circuit().find_element(e.name)); branch >= 0) out.push_back(branch);
+        return out;
+    }
 };
+
+/// Makes a device of type D with these unknowns.
+template <class D, class... Arguments>
+std::unique_ptr<Device> make_device(std::vector<int> unknowns, Arguments&&... arguments) {
+    auto device = std::make_unique<D>(std::forward<Arguments>(arguments)...);
+    device->unknowns = std::move(unknowns);
+    return device;
+}
 
 }  // namespace corpuscle::circuit

@@ -1,9 +1,12 @@
-#include "circuit/device/diode.hpp"
+// The junction diode of SPICE, level 1.
 
 #include <cmath>
 
+#include "circuit/device/device_kind.hpp"
 #include "circuit/device/named_values.hpp"
 #include "circuit/device/physical_constants.hpp"
+#include "circuit/export/element_text.hpp"
+#include "circuit/netlist/element_reader.hpp"
 #include "core/number/elementary.hpp"
 
 namespace corpuscle::circuit {
@@ -51,6 +54,22 @@ void adjust_to_temperature(DiodeCard& c, double kelvin) {
     const double vj = base * kelvin / reference + pb(kelvin);
     c.cjo = c.cjo / nominal_part * (1 + c.m * (4e-4 * (kelvin - reference) - (vj - base) / base));
     c.vj = vj;
+}
+
+/// Limits a Newton step that ends at the junction voltage v (V), after Nagel's SPICE2. A large forward step is shortened to the voltage at
+/// which the exponential reaches the current that the linearization predicts. v_before: voltage of the last evaluation; n_vt: n kT/q;
+/// v_crit: voltage at which the curve of the current over the voltage bends most (all in V). Returns true if the step was shortened.
+bool limit_junction(double& v, double v_before, double n_vt, double v_crit) {
+    const double unlimited = v;
+    if (v > v_crit && std::abs(v - v_before) > 2 * n_vt) {
+        if (v_before > 0) {
+            const double arg = 1 + (v - v_before) / n_vt;
+            v = arg > 0 ? v_before + n_vt * std::log(arg) : v_crit;
+        } else {
+            v = n_vt * std::log(v / n_vt);
+        }
+    }
+    return v != unlimited;
 }
 
 /// Current from anode to cathode: i = is (exp(v / (n V_t)) - 1), nearly constant below -3 n V_t as in SPICE, breakdown at -bv.
@@ -124,13 +143,12 @@ public:
         auto [q, c] = depletion(u);
         q += c_.tt * i, c += c_.tt * g;
         i += context.gmin * u, g += context.gmin;
-        out.f[a] += i, out.f[1] -= i, out.q[a] += q, out.q[1] -= q;
-        out.slope(a, a) += g, out.slope(a, 1) -= g, out.slope(1, a) -= g, out.slope(1, 1) += g;
-        out.capacitance(a, a) += c, out.capacitance(a, 1) -= c, out.capacitance(1, a) -= c, out.capacitance(1, 1) += c;
+        Stamp::add_between(out.f, a, 1, i), Stamp::add_between(out.q, a, 1, q);
+        out.add_conductance(a, 1, g), out.add_capacitance(a, 1, c);
         if (a == 0) return;
-        const double series = area_ / c_.rs, current_rs = series * (v[0] - v[2]);
-        out.f[0] += current_rs, out.f[2] -= current_rs;
-        out.slope(0, 0) += series, out.slope(0, 2) -= series, out.slope(2, 0) -= series, out.slope(2, 2) += series;
+        const double series = area_ / c_.rs;
+        Stamp::add_between(out.f, 0, 2, series * (v[0] - v[2]));
+        out.add_conductance(0, 2, series);
     }
     std::vector<NoiseSource> noise(std::span<const double> v) const override {
         const double i = std::abs(current(v[junction_anode()] - v[1]).i);
@@ -146,41 +164,56 @@ public:
     }
 };
 
-}  // namespace
-
-bool limit_junction(double& v, double v_before, double n_vt, double v_crit) {
-    const double unlimited = v;
-    if (v > v_crit && std::abs(v - v_before) > 2 * n_vt) {
-        if (v_before > 0) {
-            const double arg = 1 + (v - v_before) / n_vt;
-            v = arg > 0 ? v_before + n_vt * std::log(arg) : v_crit;
-        } else {
-            v = n_vt * std::log(v / n_vt);
-        }
-    }
-    return v != unlimited;
-}
-
 Result<std::unique_ptr<Device>> make_diode(const Element& e, DeviceSetup& setup) {
-    static constexpr std::string_view known[] = {"area", "m", "pj", "temp", "dtemp", "ic", "off", "level"};
-    TRY(check_value_names(e.name, e.values, known, e.location));
     const auto& model = setup.circuit().models[static_cast<std::size_t>(e.model)];
     if (value_or(e.values, "pj", 0) != 0)
-        return bad_input(fmt::format("{}: pj is not supported (this level 1 diode has no sidewalls); remove it", e.name), e.location);
+        return error_at(e.location, "{}: pj is not supported (this level 1 diode has no sidewalls); remove it", e.name);
     if (const double level = value_or(model.values, "level", 1); level != 1)
-        return bad_input(fmt::format("{}: diode level {:g} is not supported; use level=1", model.name, level), model.location);
-    const auto card = TRY(read_model_card<DiodeCard>(fields, model, {"level", "cj0", "jsw", "ikf", "trs", "rsw"}));
-    DiodeCard c = card;
+        return error_at(model.location, "{}: diode level {:g} is not supported; use level=1", model.name, level);
+    auto c = TRY(read_model_card<DiodeCard>(fields, model, {"level", "cj0", "jsw", "ikf", "trs", "rsw"}));
     if (const auto alias = model.values.find("cj0"); alias != model.values.end()) c.cjo = alias->second;
     for (const std::string_view name : {"jsw", "ikf", "trs", "rsw"})
         if (value_or(model.values, name, 0) != 0)
-            return bad_input(fmt::format("{}: {} is not supported (this level 1 diode has no sidewalls and no high injection); remove it",
-                                         model.name, name),
-                             model.location);
-    auto device = std::make_unique<Diode>(c, value_or(e.values, "area", 1) * value_or(e.values, "m", 1), setup.temperature(e));
-    device->unknowns = {setup.node_unknown(e.nodes[0]), setup.node_unknown(e.nodes[1])};
-    if (c.rs > 0) device->unknowns.push_back(setup.add_unknown(e.name + "#junction"));
-    return std::unique_ptr<Device>(std::move(device));
+            return error_at(model.location,
+                            "{}: {} is not supported (this level 1 diode has no sidewalls and no high injection); remove it", model.name,
+                            name);
+    auto unknowns = setup.ends(e);
+    if (c.rs > 0) unknowns.push_back(setup.add_unknown(e.name + "#junction"));
+    return make_device<Diode>(std::move(unknowns), c, value_or(e.values, "area", 1) * value_or(e.values, "m", 1), setup.temperature(e));
 }
+
+Result<void> read_diode(ElementReader& line) {
+    TRY(line.nodes(2, "anode, cathode, then the model"));
+    if (line.word_count() < 4) return line.error_at(3, "its model is missing");
+    TRY(line.model(3, {"d"}));
+    for (std::size_t k = 4; k < line.word_count(); ++k) {
+        if (line.text(k) == "off") {
+            line.element.values["off"] = 1;
+            continue;
+        }
+        if (k > 4 || line.find("area")) return line.too_many(k);
+        const auto area = TRY(line.number(k));
+        line.element.values["area"] = area;
+    }
+    return {};
+}
+
+Result<std::string> write_diode(const ElementExport& e) {
+    return fmt::format("{} {} area={}{}\n", e.head, e.names.model(e.element.model), e.value("area", 1) * e.value("m", 1), e.temperature());
+}
+
+constexpr ElementParameter diode_parameters[] = {{"area", "", above_zero, unlimited, 1}, parameter_m, parameter_temp, parameter_dtemp};
+constexpr std::string_view diode_names[] = {"pj", "ic", "off"};
+
+}  // namespace
+
+extern constexpr DeviceKind diode_kind = {.letter = 'd',
+                                          .description = "junction diode",
+                                          .read = read_diode,
+                                          .make = make_diode,
+                                          .parameters = diode_parameters,
+                                          .other_names = diode_names,
+                                          .saves_terminal_current = true,
+                                          .write_spice = write_diode};
 
 }  // namespace corpuscle::circuit

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "circuit/device/fast_log.hpp"
+#include "circuit/device/inversion_charge.hpp"
 
 namespace corpuscle::circuit {
 

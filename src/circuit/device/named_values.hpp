@@ -1,7 +1,6 @@
 #pragma once
 // Named parameter values of an element or a model.
 
-#include <fmt/format.h>
 #include <algorithm>
 
 #include "circuit/netlist/netlist.hpp"
@@ -21,7 +20,16 @@ inline Result<void> check_value_names(std::string_view owner, const Values& valu
                                       const SourceLocation& location) {
     for (const auto& [name, value] : values)
         if (std::find(known.begin(), known.end(), name) == known.end())
-            return bad_input(fmt::format("{}: unknown parameter '{}'{}", owner, name, did_you_mean(name, known)), location);
+            return error_at(location, "{}: unknown parameter '{}'{}", owner, name, did_you_mean(name, known));
+    return {};
+}
+
+/// Sets a field of a card to a value, which must be in its range. `owner`: name of the element or model.
+template <class P>
+Result<void> read_field(const ParameterDef<P>& f, P& card, std::string_view owner, double value, const SourceLocation& location) {
+    const ParameterInfo info{f.name, f.unit, card.*f.member, f.low, f.high, f.description, {}};
+    if (const auto ok = check_range(owner, info, value); !ok) return bad_input(ok.error().message, location);
+    card.*f.member = value;
     return {};
 }
 
@@ -34,14 +42,9 @@ Result<P> read_model_card(const ParameterDef<P> (&fields)[N], const Model& model
     for (const auto& f : fields) names.push_back(lower(f.name));
     known.insert(known.end(), names.begin(), names.end());
     TRY(check_value_names(model.name, model.values, known, model.location));
-    for (std::size_t k = 0; k < N; ++k) {
-        const auto given = model.values.find(names[k]);
-        if (given == model.values.end()) continue;
-        const ParameterInfo info{
-            fields[k].name, fields[k].unit, card.*fields[k].member, fields[k].low, fields[k].high, fields[k].description, {}};
-        if (auto ok = check_range(model.name, info, given->second); !ok) return bad_input(ok.error().message, model.location);
-        card.*fields[k].member = given->second;
-    }
+    for (std::size_t k = 0; k < N; ++k)
+        if (const auto given = model.values.find(names[k]); given != model.values.end())
+            TRY(read_field(fields[k], card, model.name, given->second, model.location));
     return card;
 }
 

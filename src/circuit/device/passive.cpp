@@ -1,10 +1,14 @@
-#include "circuit/device/passive.hpp"
+// Resistor, capacitor, inductor.
 
-#include <array>
+#include <algorithm>
 
-#include "circuit/device/expression_binding.hpp"
+#include "circuit/device/device_kind.hpp"
+#include "circuit/device/expression_device.hpp"
 #include "circuit/device/named_values.hpp"
 #include "circuit/device/physical_constants.hpp"
+#include "circuit/export/element_text.hpp"
+#include "circuit/expression/spice_number.hpp"
+#include "circuit/netlist/element_reader.hpp"
 
 namespace corpuscle::circuit {
 namespace {
@@ -20,13 +24,10 @@ double at_temperature(double value, const Element& e, const DeviceSetup& setup) 
     return value * value_or(e.values, "scale", 1) * (1 + parameter("tc1", 0) * dT + parameter("tc2", 0) * dT * dT);
 }
 
-constexpr std::string_view passive_values[] = {"m", "tc1", "tc2", "temp", "dtemp", "ic", "tnom", "scale"};
-constexpr std::string_view model_values[] = {"tc1", "tc2", "tnom"};
-
-/// Rejects parameters that a resistor, capacitor or inductor, or its model, does not have.
+/// Rejects a scale of 0, and parameters that the model of a resistor, capacitor or inductor does not have.
 Result<void> check_parameters(const Element& e, const DeviceSetup& setup) {
-    TRY(check_value_names(e.name, e.values, passive_values, e.location));
-    if (value_or(e.values, "scale", 1) == 0) return bad_input(fmt::format("{}: scale must not be 0", e.name), e.location);
+    static constexpr std::string_view model_values[] = {"tc1", "tc2", "tnom"};
+    if (value_or(e.values, "scale", 1) == 0) return error_at(e.location, "{}: scale must not be 0", e.name);
     if (e.model < 0) return {};
     const Model& model = setup.circuit().models[static_cast<std::size_t>(e.model)];
     return check_value_names(model.name, model.values, model_values, model.location);
@@ -39,9 +40,8 @@ class Resistor final : public Device {
 public:
     Resistor(double r, double m, double kelvin) : g_(m / r), r_(r / m), kelvin_(kelvin) {}
     void eval(std::span<const double> v, const EvalContext&, const Stamp& out) const override {
-        const double i = g_ * (v[0] - v[1]);
-        out.f[0] += i, out.f[1] -= i;
-        out.slope(0, 0) += g_, out.slope(0, 1) -= g_, out.slope(1, 0) -= g_, out.slope(1, 1) += g_;
+        Stamp::add_between(out.f, 0, 1, g_ * (v[0] - v[1]));
+        out.add_conductance(0, 1, g_);
     }
     bool set_principal_value(double r) override { return r != 0 && (g_ = 1 / r, r_ = r, true); }
     std::optional<double> principal_value() const override { return r_; }
@@ -58,30 +58,11 @@ class Capacitor final : public Device {
 public:
     explicit Capacitor(double c) : c_(c) {}
     void eval(std::span<const double> v, const EvalContext&, const Stamp& out) const override {
-        const double q = c_ * (v[0] - v[1]);
-        out.q[0] += q, out.q[1] -= q;
-        out.capacitance(0, 0) += c_, out.capacitance(0, 1) -= c_, out.capacitance(1, 0) -= c_, out.capacitance(1, 1) += c_;
+        Stamp::add_between(out.q, 0, 1, c_ * (v[0] - v[1]));
+        out.add_capacitance(0, 1, c_);
     }
     bool set_principal_value(double c) override { return c_ = c, true; }
     std::optional<double> principal_value() const override { return c_; }
-};
-
-/// q = m times an expression. Unknowns: two nodes, then those that only the expression uses.
-class ChargeExpression final : public Device {
-    Expression expression_;
-    ExpressionBinding binding_;
-    double m_;
-
-public:
-    ChargeExpression(Expression expression, ExpressionBinding binding, double m)
-        : expression_(std::move(expression)), binding_(std::move(binding)), m_(m) {}
-    bool is_linear() const override { return false; }
-    void eval(std::span<const double> v, const EvalContext& context, const Stamp& out) const override {
-        binding_.eval(expression_, v, context, [&](double q, std::span<const ExpressionBinding::Slope> slopes) {
-            out.q[0] += m_ * q, out.q[1] -= m_ * q;
-            for (const auto& s : slopes) out.capacitance(0, s.unknown) += m_ * s.value, out.capacitance(1, s.unknown) -= m_ * s.value;
-        });
-    }
 };
 
 /// v = L di/dt. Unknowns: two nodes, and the current; the equation of the current is v - d(L i)/dt = 0.
@@ -91,10 +72,7 @@ class Inductor final : public Device {
 public:
     explicit Inductor(double l) : l_(l) {}
     void eval(std::span<const double> v, const EvalContext&, const Stamp& out) const override {
-        out.f[0] += v[2], out.f[1] -= v[2];
-        out.slope(0, 2) += 1, out.slope(1, 2) -= 1;
-        out.f[2] += v[0] - v[1];
-        out.slope(2, 0) += 1, out.slope(2, 1) -= 1;
+        out.add_branch(v);
         out.q[2] -= l_ * v[2];
         out.capacitance(2, 2) -= l_;
     }
@@ -102,42 +80,155 @@ public:
     std::optional<double> principal_value() const override { return l_; }
 };
 
-}  // namespace
-
 Result<std::unique_ptr<Device>> make_resistor(const Element& e, DeviceSetup& setup) {
     TRY(check_parameters(e, setup));
     const double r = at_temperature(e.value, e, setup), m = value_or(e.values, "m", 1);
-    if (r == 0) return bad_input(fmt::format("{}: 0 ohm is not allowed; use a voltage source of 0 V as a wire", e.name), e.location);
-    auto device = std::make_unique<Resistor>(r, m, setup.temperature(e));
-    device->unknowns = {setup.node_unknown(e.nodes[0]), setup.node_unknown(e.nodes[1])};
-    return std::unique_ptr<Device>(std::move(device));
+    if (r == 0) return error_at(e.location, "{}: 0 ohm is not allowed; use a voltage source of 0 V as a wire", e.name);
+    return make_device<Resistor>(setup.ends(e), r, m, setup.temperature(e));
 }
 
 Result<std::unique_ptr<Device>> make_capacitor(const Element& e, DeviceSetup& setup) {
     TRY(check_parameters(e, setup));
-    const double m = value_or(e.values, "m", 1);
     for (const std::string_view name : {"scale", "tc1", "tc2"})
         if (e.expression && e.values.contains(name))
-            return bad_input(fmt::format("{}: {} has no effect on a charge expression; put it into q=", e.name, name), e.location);
-    const std::vector<int> ends = {setup.node_unknown(e.nodes[0]), setup.node_unknown(e.nodes[1])};
-    if (e.expression) {
-        auto binding = TRY(ExpressionBinding::make(*e.expression, e, setup, ends));
-        const auto unknowns = binding.unknowns();
-        auto device = std::make_unique<ChargeExpression>(*e.expression, std::move(binding), m);
-        device->unknowns = unknowns;
-        return std::unique_ptr<Device>(std::move(device));
-    }
-    auto device = std::make_unique<Capacitor>(at_temperature(e.value, e, setup) * m);
-    device->unknowns = ends;
-    return std::unique_ptr<Device>(std::move(device));
+            return error_at(e.location, "{}: {} has no effect on a charge expression; put it into q=", e.name, name);
+    if (e.expression) return make_expression_device(e, setup, ExpressionQuantity::charge);
+    return make_device<Capacitor>(setup.ends(e), at_temperature(e.value, e, setup) * value_or(e.values, "m", 1));
 }
 
 Result<std::unique_ptr<Device>> make_inductor(const Element& e, DeviceSetup& setup) {
     TRY(check_parameters(e, setup));
-    auto device = std::make_unique<Inductor>(at_temperature(e.value, e, setup) / value_or(e.values, "m", 1));
-    device->unknowns = {setup.node_unknown(e.nodes[0]), setup.node_unknown(e.nodes[1]),
-                        setup.branch_unknown(setup.circuit().find_element(e.name))};
-    return std::unique_ptr<Device>(std::move(device));
+    return make_device<Inductor>(setup.ends(e), at_temperature(e.value, e, setup) / value_or(e.values, "m", 1));
 }
+
+// ---- netlist ----
+
+/// True if a word after the nodes names a model; otherwise it is the value. A word that is neither a number, an expression nor the name of
+/// a parameter names a model. After the value, the name of a parameter does, too.
+bool names_model(const ElementReader& line, std::size_t word, bool has_value) {
+    const auto text = line.text(word);
+    if (!line.is_plain(word) || parse_number(text)) return false;
+    if (line.is_model(word)) return true;
+    const bool begins_with_letter = text[0] >= 'a' && text[0] <= 'z';
+    return begins_with_letter && (has_value || (!line.is_parameter(word) && text.find_first_of("*/+-") == std::string_view::npos));
+}
+
+/// Reads nodes, then a model or a value or both. The value may be given as r=, c= or l=, and that of a capacitor as a charge q=.
+Result<void> read_passive(ElementReader& line) {
+    TRY(line.nodes(2, "plus, minus, then a value or a model"));
+    Element& e = line.element;
+    const std::string_view letter(&e.letter, 1);
+    bool has_value = false;
+    for (std::size_t k = 3; k < line.word_count(); ++k) {
+        const bool is_name = names_model(line, k, has_value);
+        if (is_name ? e.model >= 0 : has_value) return line.too_many(k);
+        TRY(is_name ? line.model(k, {letter}) : line.value(k));
+        has_value = has_value || !is_name;
+    }
+    if (const auto* pair = e.letter == 'l' || e.model < 0 || !has_value ? line.find(letter) : nullptr) {
+        if (has_value) return line.error_at(pair->name, "its value is given twice");
+        TRY(line.value(*pair));
+        has_value = true;
+    }
+    if (has_value && e.value == 0 && e.letter == 'r')
+        return line.error_at(3, "a resistor must not be 0 ohm; use a 0 V source to connect two nodes");
+    if (const auto* q = e.letter == 'c' ? line.find("q") : nullptr) {
+        if (has_value) return line.error_at(q->name, "has both a capacitance and a charge");
+        return line.expression(*q);
+    }
+    if (!has_value && e.model < 0) return line.error_at(line.word_count(), "its value is missing");
+    return {};
+}
+
+// ---- export ----
+
+/// True if .dc sweeps the element.
+bool is_swept(const ElementExport& e) {
+    return std::any_of(e.circuit.directives.begin(), e.circuit.directives.end(), [&](const Directive& c) {
+        return c.name == "dc" && std::find(c.words.begin(), c.words.end(), e.element.name) != c.words.end();
+    });
+}
+
+/// An R, C or L; m parallel ones are merged into one. An element that .dc sweeps is written with its value at its temperature and without
+/// temperature coefficients, because ngspice would apply these to each value of the sweep.
+Result<std::string> write_passive(const ElementExport& e) {
+    if (e.element.expression) {
+        const auto charge = TRY(e.expression());
+        return fmt::format("{} q='{}'\n", e.head, charge);
+    }
+    const double m = e.value("m", 1), scaled = e.element.value * e.value("scale", 1),
+                 total = e.element.letter == 'c' ? scaled * m : scaled / m;
+    const double tc1 = e.value_or_of_model("tc1", 0), tc2 = e.value_or_of_model("tc2", 0),
+                 dT = e.celsius() - e.value_or_of_model("tnom", value_or(e.circuit.options, "tnom", 27));
+    if (is_swept(e)) return fmt::format("{} {}{}\n", e.head, total * (1 + tc1 * dT + tc2 * dT * dT), e.temperature());
+    std::string out = fmt::format("{} {}", e.head, total);
+    if (e.model() && e.model()->values.contains("tnom")) out += ' ' + e.names.model(e.element.model);
+    if (tc1 != 0 || tc2 != 0) out += fmt::format(" tc1={} tc2={}", tc1, tc2);
+    if (e.element.values.contains("ic")) out += fmt::format(" ic={}", e.value("ic", 0));
+    return out + e.temperature() + '\n';
+}
+
+// ---- rows ----
+
+/// The plates of a linear capacitor. The area of an expression is not known.
+std::optional<Area> capacitor_area(const Element& e) {
+    if (e.expression) return {};
+    Area out;
+    out.capacitors = std::abs(e.value) * value_or(e.values, "m", 1) / capacitor_density;
+    return out;
+}
+
+constexpr ElementParameter parameter_tc1{"tc1", ""}, parameter_tc2{"tc2", ""};
+constexpr ElementParameter parallel_capacitors{"m", "", above_zero, unlimited, 1, false, true};
+
+constexpr ElementParameter resistor_parameters[] = {{.name = "r", .unit = "ohm", .is_value = true, .excludes_zero = true},
+                                                    parameter_m,
+                                                    parameter_tc1,
+                                                    parameter_tc2,
+                                                    parameter_temp,
+                                                    parameter_dtemp};
+constexpr ElementParameter capacitor_parameters[] = {{.name = "c", .unit = "F", .low = 0, .is_value = true},
+                                                     parallel_capacitors,
+                                                     parameter_tc1,
+                                                     parameter_tc2,
+                                                     parameter_temp,
+                                                     parameter_dtemp};
+constexpr ElementParameter inductor_parameters[] = {
+    {.name = "l", .unit = "", .low = 0, .is_value = true}, parameter_m, parameter_tc1, parameter_tc2, parameter_temp, parameter_dtemp};
+constexpr std::string_view resistor_names[] = {"scale"}, capacitor_names[] = {"q", "ic", "scale"}, inductor_names[] = {"ic", "scale"},
+                           charge_names[] = {"q"};
+
+}  // namespace
+
+extern constexpr DeviceKind resistor_kind = {.letter = 'r',
+                                             .description = "resistor",
+                                             .read = read_passive,
+                                             .make = make_resistor,
+                                             .parameters = resistor_parameters,
+                                             .other_names = resistor_names,
+                                             .saves_terminal_current = true,
+                                             .write_spice = write_passive};
+
+extern constexpr DeviceKind capacitor_kind = {.letter = 'c',
+                                              .description = "capacitor, linear or with an expression for its charge",
+                                              .role = Role::capacitor,
+                                              .read = read_passive,
+                                              .make = make_capacitor,
+                                              .parameters = capacitor_parameters,
+                                              .other_names = capacitor_names,
+                                              .expression_names = charge_names,
+                                              .conducting_nodes = no_nodes,
+                                              .area = capacitor_area,
+                                              .write_spice = write_passive};
+
+extern constexpr DeviceKind inductor_kind = {.letter = 'l',
+                                             .description = "inductor",
+                                             .role = Role::inductor,
+                                             .read = read_passive,
+                                             .make = make_inductor,
+                                             .parameters = inductor_parameters,
+                                             .other_names = inductor_names,
+                                             .has_branch_current = always,
+                                             .write_spice = write_passive};
 
 }  // namespace corpuscle::circuit

@@ -9,7 +9,7 @@
 namespace corpuscle::circuit {
 namespace {
 
-constexpr double never = std::numeric_limits<double>::infinity();
+constexpr double no_time = std::numeric_limits<double>::infinity();
 using Shape = Waveform::Shape;
 
 }  // namespace
@@ -25,25 +25,22 @@ SourceWaveform::SourceWaveform(Waveform wave, double step, double stop) : wave_(
 }
 
 double SourceWaveform::at(double t) const {
-    switch (wave_.shape) {
-        case Shape::pulse:
-            return pulse(t);
-        case Shape::sine:
-            return sine(t);
-        case Shape::exponential:
-            return exponential(t);
-        case Shape::piecewise_linear:
-            return piecewise_linear(t);
-        default:
-            return wave_.dc;
-    }
+    if (wave_.shape == Shape::pulse) return pulse(t);
+    if (wave_.shape == Shape::sine) return sine(t);
+    if (wave_.shape == Shape::exponential) return exponential(t);
+    return wave_.shape == Shape::piecewise_linear ? piecewise_linear(t) : wave_.dc;
 }
 
 /// The arguments of PULSE are v1 v2 td tr tf pw per np; np is the number of pulses; 0: no limit.
+SourceWaveform::PulseTimes SourceWaveform::pulse_times() const {
+    PulseTimes out{positive_or(3, step_), positive_or(4, step_), number(5, stop_), 0};
+    out.period = positive_or(6, std::max(stop_, out.rise + out.width + out.fall));
+    return out;
+}
+
 double SourceWaveform::pulse(double t) const {
-    const auto positive_or = [&](std::size_t k, double fallback) { return number(k, 0) > 0 ? number(k, 0) : fallback; };
-    const double v1 = number(0, 0), v2 = number(1, 0), rise = positive_or(3, step_), fall = positive_or(4, step_), width = number(5, stop_);
-    const double period = positive_or(6, std::max(stop_, rise + width + fall));
+    const auto [rise, fall, width, period] = pulse_times();
+    const double v1 = number(0, 0), v2 = number(1, 0);
     if (t < number(2, 0)) return v1;
     const double cycle = std::floor((t - number(2, 0)) / period);
     if (const double cycles = number(7, 0); cycles > 0 && cycle >= cycles) return v1;
@@ -65,11 +62,10 @@ double SourceWaveform::sine(double t) const {
 /// The arguments of EXP are v1 v2 td1 tau1 td2 tau2.
 double SourceWaveform::exponential(double t) const {
     const double v1 = number(0, 0), v2 = number(1, 0), up = number(2, 0), down = number(4, up + step_);
-    const auto positive_or = [&](std::size_t k) { return number(k, 0) > 0 ? number(k, 0) : step_; };
     const auto approach = [](double s) { return s * num::exprel(-s); };  // 1 - e^-s, accurate also for small s
     double v = v1;
-    if (t > up) v += (v2 - v1) * approach((t - up) / positive_or(3));
-    if (t > down) v += (v1 - v2) * approach((t - down) / positive_or(5));
+    if (t > up) v += (v2 - v1) * approach((t - up) / positive_or(3, step_));
+    if (t > down) v += (v1 - v2) * approach((t - down) / positive_or(5, step_));
     return v;
 }
 
@@ -83,20 +79,19 @@ double SourceWaveform::piecewise_linear(double t) const {
     return v0 + (v1 - v0) * ((t - t0) / (t1 - t0));
 }
 
-double SourceWaveform::max_step() const { return wave_.shape == Shape::sine ? 0.1 / frequency() : never; }
+double SourceWaveform::max_step() const { return wave_.shape == Shape::sine ? 0.1 / frequency() : no_time; }
 
 double SourceWaveform::next_breakpoint(double t) const {
     if (wave_.shape != Shape::pulse) {
         const auto next = std::upper_bound(breakpoints_.begin(), breakpoints_.end(), t);
-        return next == breakpoints_.end() ? never : *next;
+        return next == breakpoints_.end() ? no_time : *next;
     }
-    const auto positive_or = [&](std::size_t k, double fallback) { return number(k, 0) > 0 ? number(k, 0) : fallback; };
-    const double delay = number(2, 0), rise = positive_or(3, step_), fall = positive_or(4, step_), width = number(5, stop_);
-    const double period = positive_or(6, std::max(stop_, rise + width + fall)), cycles = number(7, 0);
+    const auto [rise, fall, width, period] = pulse_times();
+    const double delay = number(2, 0), cycles = number(7, 0);
     if (t < delay) return delay;
     // From one cycle earlier, since the quotient is rounded.
     for (double cycle = std::max(0.0, std::floor((t - delay) / period) - 1);; ++cycle) {
-        if (cycles > 0 && cycle > cycles) return never;
+        if (cycles > 0 && cycle > cycles) return no_time;
         for (const double offset : {0.0, rise, rise + width, rise + width + fall})
             if (const double breakpoint = delay + cycle * period + offset; breakpoint > t) return breakpoint;
     }

@@ -7,6 +7,25 @@
 
 namespace corpuscle::circuit {
 
+/// A waveform as the line of a source gives it: its name, then numbers.
+struct WaveformSyntax {
+    std::string_view name;
+    Waveform::Shape shape;
+    std::size_t min_numbers, max_numbers;  ///< allowed counts of numbers after the name
+    std::string_view usage;
+};
+inline constexpr WaveformSyntax waveform_syntaxes[] = {
+    {"pulse", Waveform::Shape::pulse, 2, 8, "pulse(v1 v2 td tr tf pw per np)"},
+    {"sin", Waveform::Shape::sine, 2, 6, "sin(vo va freq td theta phase)"},
+    {"exp", Waveform::Shape::exponential, 2, 6, "exp(v1 v2 td1 tau1 td2 tau2)"},
+    {"pwl", Waveform::Shape::piecewise_linear, 2, 2000000, "pwl(t1 v1 t2 v2 ...)"},
+    {"force", Waveform::Shape::force, 0, 1, "force [scale]"},
+};
+
+class ElementReader;
+/// Reads the DC value, AC value and waveform of a V or I source, which follow the nodes in its line.
+Result<void> read_waveform(ElementReader&);
+
 /// PULSE, SIN, EXP and PWL as in SPICE. Defaults depend on the step and the end time of .tran (s). Rise and fall times and the time
 /// constants of EXP are `step`. The pulse width is `stop`, and the period is `stop` or one complete pulse if that is longer. The frequency
 /// of a sine is 1 / `stop`.
@@ -17,6 +36,11 @@ class SourceWaveform {
 
     /// Argument k of the waveform; `fallback` if it is missing.
     double number(std::size_t k, double fallback) const { return k < wave_.numbers.size() ? wave_.numbers[k] : fallback; }
+    double positive_or(std::size_t k, double fallback) const { return number(k, 0) > 0 ? number(k, 0) : fallback; }
+    struct PulseTimes {
+        double rise, fall, width, period;  // s
+    };
+    PulseTimes pulse_times() const;
     double pulse(double t) const;
     double sine(double t) const;
     /// The frequency of SIN, Hz.

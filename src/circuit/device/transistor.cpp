@@ -1,12 +1,15 @@
 #include "circuit/device/transistor.hpp"
 
+#include <array>
 #include <cmath>
 
+#include "circuit/device/device_kind.hpp"
 #include "circuit/device/named_values.hpp"
 #include "circuit/device/physical_constants.hpp"
 #include "circuit/device/uicm_card.hpp"
-#include "circuit/device/uicm_operating_point.hpp"
+#include "circuit/export/element_text.hpp"
 #include "circuit/lanes/chip_kernels_impl.hpp"
+#include "circuit/netlist/element_reader.hpp"
 #include "core/number/instruction_set.hpp"
 
 namespace corpuscle::circuit {
@@ -40,8 +43,11 @@ public:
         const Uicm<double> model(constants_);
         double max_term[4];  // not used
         // With one transistor and a stride of 1, the arrays are those of the stamp.
-        lanes::scalar_transistor_kernels.eval({reinterpret_cast<const std::byte*>(&model), 1, 1, v.data(), context.gmin, out.f.data(),
-                                               out.df.data(), max_term, context.with_charges ? out.q.data() : nullptr, out.dq.data(), 0});
+        lanes::scalar_transistor_kernels.eval(
+            {{1, v.data(), out.f.data(), out.df.data(), max_term, context.with_charges ? out.q.data() : nullptr, out.dq.data()},
+             reinterpret_cast<const std::byte*>(&model),
+             1,
+             context.gmin});
     }
 
     bool apply_variation(const ChipSample* chip, std::uint32_t index) override {
@@ -117,47 +123,33 @@ public:
     }
 
     void eval(const EvalContext& context, const BatchStamp& s) const override {
-        kernels_.eval({models_.data()->bytes, count_, s.stride, s.v, context.gmin, s.f, s.df, s.max_term, s.q, s.dq, s.rate});
+        kernels_.eval({s, models_.data()->bytes, count_, context.gmin});
     }
     void extrapolate(std::size_t stride, const double* dv, const double* dq, double* q) const override {
         kernels_.extrapolate(stride, dv, dq, q);
     }
 };
 
-/// The instance parameters of an M line. temp and dtemp are read by DeviceSetup; ic and off are accepted without effect here.
+/// The size in an M line.
 Result<UicmInstance> read_instance(const Element& e) {
     UicmInstance instance;
-    std::vector<std::string_view> known = {"temp", "dtemp", "ic", "off"};
-    for (const auto& f : UicmInstance::fields) known.push_back(f.name);
-    TRY(check_value_names(e.name, e.values, known, e.location));
-    for (const auto& f : UicmInstance::fields) {
-        const auto given = e.values.find(f.name);
-        if (given == e.values.end()) continue;
-        const ParameterInfo info{f.name, f.unit, instance.*f.member, f.low, f.high, f.description, {}};
-        if (auto ok = check_range(e.name, info, given->second); !ok) return bad_input(ok.error().message, e.location);
-        instance.*f.member = given->second;
-    }
+    for (const auto& f : UicmInstance::fields)
+        if (const auto given = e.values.find(f.name); given != e.values.end())
+            TRY(read_field(f, instance, e.name, given->second, e.location));
     return instance;
 }
-
-}  // namespace
 
 Result<std::unique_ptr<Device>> make_transistor(const Element& e, DeviceSetup& setup) {
     const auto& model = setup.circuit().models[static_cast<std::size_t>(e.model)];
     if (value_or(model.values, "level", 1) != UicmCard::level)
-        return bad_input(fmt::format("{}: MOS model level {:g} is not supported; use level={:g}, UICM, as in process/tsmc180.lib",
-                                     model.name, value_or(model.values, "level", 1), UicmCard::level),
-                         model.location);
+        return error_at(model.location, "{}: MOS model level {:g} is not supported; use level={:g}, UICM, as in process/tsmc180.lib",
+                        model.name, value_or(model.values, "level", 1), UicmCard::level);
     const auto card = TRY(read_model_card<UicmCard>(UicmCard::fields, model, {"level"}));
     const auto instance = TRY(read_instance(e));
-    auto device = std::make_unique<Transistor>(card, instance, setup.temperature(e) - zero_celsius, model.type == "pmos");
-    for (const int node : e.nodes) device->unknowns.push_back(setup.node_unknown(node));
-    return std::unique_ptr<Device>(std::move(device));
+    std::vector<int> unknowns;
+    for (const int node : e.nodes) unknowns.push_back(setup.node_unknown(node));
+    return make_device<Transistor>(std::move(unknowns), card, instance, setup.temperature(e) - zero_celsius, model.type == "pmos");
 }
-
-const UicmConstants& transistor_constants(const Device& device) { return static_cast<const Transistor&>(device).constants(); }
-
-namespace {
 
 /// Selects the table of kernels for the instruction set that instruction_set() returns.
 template <class Table>
@@ -176,8 +168,6 @@ Result<const Table*> select_table(const Table& scalar, [[maybe_unused]] const Ta
     }
 }
 
-}  // namespace
-
 #ifdef __x86_64__
 #define CORPUSCLE_SELECT_TABLE(scalar, table) select_table(scalar, lanes::avx2::table, lanes::avx512::table, lanes::baseline::table)
 #else
@@ -189,6 +179,71 @@ Result<std::unique_ptr<DeviceBatch>> make_transistor_batch() {
     return std::unique_ptr<DeviceBatch>(std::make_unique<TransistorBatch>(*kernels));
 }
 
+Result<void> read_transistor(ElementReader& line) {
+    constexpr std::string_view expected = "drain, gate, source, bulk, then the model";
+    if (line.word_count() == 5 && line.is_model(4)) return line.error_at(4, "3 nodes, but expected 4: {}", expected);
+    TRY(line.nodes(4, expected));
+    if (line.word_count() < 6) return line.error_at(5, "its model is missing");
+    if (line.word_count() > 6 && !line.is_model(5) && line.is_model(6)) return line.error_at(5, "5 nodes, but expected 4: {}", expected);
+    TRY(line.model(5, {"nmos", "pmos"}));
+    for (std::size_t k = 6; k < line.word_count(); ++k) {
+        if (line.text(k) != "off") return line.too_many(k);
+        line.element.values["off"] = 1;
+    }
+    return {};
+}
+
+/// An instance of the subcircuit uicm_n or uicm_p.
+Result<std::string> write_transistor(const ElementExport& e) {
+    const auto card = TRY(read_model_card<UicmCard>(UicmCard::fields, *e.model(), {"level"}));
+    UicmInstance size;
+    for (const auto& f : UicmInstance::fields) size.*f.member = e.value(f.name, size.*f.member);
+    const bool pmos = e.model()->type == "pmos";
+    return fmt::format("{} {} {}", e.head, pmos ? "uicm_p" : "uicm_n", uicm_parameters(card, size, e.celsius(), pmos));
+}
+
+/// Drain, source and bulk.
+std::vector<int> channel_nodes(const Element& e) { return {e.nodes[0], e.nodes[2], e.nodes[3]}; }
+
+std::optional<Area> transistor_area(const Element& e) {
+    const UicmInstance defaults;
+    const double W = value_or(e.values, "w", defaults.W), L = value_or(e.values, "l", defaults.L);
+    const double units = value_or(e.values, "m", 1) * value_or(e.values, "stack", 1);
+    Area out;
+    out.gates = units * W * L, out.arrays = array_area(W, L, units), out.islands = units * rectangle_area(W, L, 1, 1);
+    return out;
+}
+
+/// The fields of UicmInstance, then the temperatures.
+constexpr auto transistor_parameters = [] {
+    std::array<ElementParameter, std::size(UicmInstance::fields) + 2> out{};
+    for (std::size_t k = 0; k + 2 < out.size(); ++k) {
+        const auto& f = UicmInstance::fields[k];
+        out[k] = {f.name, f.unit, f.low, f.high, UicmInstance{}.*f.member};
+    }
+    out[out.size() - 2] = parameter_temp, out[out.size() - 1] = parameter_dtemp;
+    return out;
+}();
+constexpr std::string_view transistor_names[] = {"off"};
+
+}  // namespace
+
+const UicmConstants& transistor_constants(const Device& device) { return static_cast<const Transistor&>(device).constants(); }
+
 Result<const lanes::ChipKernels*> chip_kernels() { return CORPUSCLE_SELECT_TABLE(lanes::scalar_chip_kernels, chip_kernel_table); }
+
+extern constexpr DeviceKind transistor_kind = {.letter = 'm',
+                                               .description = "MOS transistor, UICM",
+                                               .role = Role::transistor,
+                                               .read = read_transistor,
+                                               .make = make_transistor,
+                                               .parameters = transistor_parameters,
+                                               .other_names = transistor_names,
+                                               .conducting_nodes = channel_nodes,
+                                               .saves_terminal_current = true,
+                                               .area = transistor_area,
+                                               .write_spice = write_transistor,
+                                               .export_prefix = "x",
+                                               .make_batch = make_transistor_batch};
 
 }  // namespace corpuscle::circuit

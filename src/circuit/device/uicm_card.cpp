@@ -1,6 +1,7 @@
 #include "circuit/device/uicm_card.hpp"
 
 #include <algorithm>
+#include <cmath>
 
 #include "circuit/device/physical_constants.hpp"
 #include "core/number/elementary.hpp"
@@ -31,6 +32,15 @@ double junction_growth(const UicmCard& card, double T, double T_nom, double phi_
 double exp_limit_of(double I_sat) { return I_sat > 0 ? std::clamp(num::log(junction_current_limit / I_sat), 0.0, 600.0) : 0; }
 
 enum RandomPurpose : std::uint32_t { mismatch_purpose = 0x75690001, process_purpose };  // each is a random stream of its own
+
+constexpr double off_below = 1e-7;  // of the inversion coefficient; corresponds to about 10 fA per square
+
+std::string_view inversion_name(double i) { return i < off_below ? "off" : i < 1 ? "weak" : i > 100 ? "strong" : "moderate"; }
+
+std::string_view region_name(double i, double V_DS, double phi_t) {
+    if (i < off_below) return "off";
+    return std::abs(V_DS) < phi_t * (std::sqrt(1 + i) + 3) ? "triode" : "saturation";
+}
 
 }  // namespace
 
@@ -70,12 +80,6 @@ UicmShift sample_mismatch(const UicmCard& card, const UicmInstance& instance, st
     return {card.A_VT * per_root_area * deviates.first, num::exp(card.A_IS * per_root_area * deviates.second)};
 }
 
-UicmInstance with_mismatch(UicmInstance instance, const UicmCard& card, std::uint64_t seed, std::uint32_t device, std::uint64_t chip) {
-    const UicmShift shift = sample_mismatch(card, instance, seed, device, chip);
-    instance.delvto += shift.V_T, instance.mulu0 *= shift.factor;
-    return instance;
-}
-
 ProcessDeviates sample_process(std::uint64_t seed, std::uint64_t chip) {
     const auto n = normal_pair(seed, 0, process_purpose, chip), p = normal_pair(seed, 1, process_purpose, chip);
     return {n.first, p.first, n.second, p.second};
@@ -85,18 +89,35 @@ UicmShift process_shift(const UicmCard& card, bool pmos, const double (&deviates
     return {card.S_VT0 * deviates[pmos ? 1 : 0], num::exp(card.S_IS * deviates[pmos ? 3 : 2])};
 }
 
-UicmCard with_process(UicmCard card, bool pmos, std::uint64_t seed, std::uint64_t chip) {
-    const UicmShift shift = process_shift(card, pmos, sample_process(seed, chip).values);
-    card.V_T0 += shift.V_T, card.I_SQ *= shift.factor;
-    return card;
-}
-
 UicmConstants with_shifts(UicmConstants c, const UicmShift& mismatch, const UicmShift& process) {
     const double factor = mismatch.factor * process.factor;
     c.V_T += mismatch.V_T + process.V_T;
     c.I_S *= factor, c.thermal *= factor, c.flicker *= factor;
     c.zeta *= mismatch.factor;
     return c;
+}
+
+UicmOperatingPoint uicm_operating_point(const UicmConstants& c, const double (&v)[4]) {
+    using Terminal = Terminals;
+    const Uicm<double> device(c);
+    const auto inside = device.internals(v);
+    UicmEvaluation<double> evaluation;
+    device.eval(v, evaluation);
+
+    const double i_f = inside.q_S * (inside.q_S + 2), i_r = inside.q_D * (inside.q_D + 2), larger = std::max(i_f, i_r);
+    const double V_ends = c.polarity * (v[Terminal::D] + v[Terminal::S] - 2 * v[Terminal::B]);  // V_DB + V_SB
+    UicmOperatingPoint p{};
+    p.inversion_level = inversion_name(larger), p.region = region_name(larger, v[Terminal::D] - v[Terminal::S], 1 / c.per_phi_t);
+    p.i_f = i_f, p.i_r = i_r;
+    p.I_D = c.polarity * inside.I, p.I_bs = c.polarity * inside.I_s, p.I_bd = c.polarity * inside.I_d;
+    p.V_T = c.V_T - c.sigma_n / c.per_n * V_ends;
+    const double g_bd = -evaluation.di[Terminal::B][Terminal::D];  // of the drain junction, which di[D] contains
+    p.g_mg = evaluation.di[Terminal::D][Terminal::G], p.g_ms = -evaluation.di[Terminal::D][Terminal::S],
+    p.g_md = evaluation.di[Terminal::D][Terminal::D] - g_bd, p.g_mb = evaluation.di[Terminal::D][Terminal::B] + g_bd;
+    p.C_gs = -evaluation.dq[Terminal::G][Terminal::S], p.C_gd = -evaluation.dq[Terminal::G][Terminal::D],
+    p.C_gb = -evaluation.dq[Terminal::G][Terminal::B];
+    p.C_bs = -evaluation.dq[Terminal::B][Terminal::S], p.C_bd = -evaluation.dq[Terminal::B][Terminal::D];
+    return p;
 }
 
 }  // namespace corpuscle::circuit

@@ -2,7 +2,9 @@
 // The parameters of a transistor: its model card (.model) and its instance (M line); and the constants computed from both.
 
 #include <cstdint>
+#include <string_view>
 
+#include "circuit/device/uicm.hpp"
 #include "circuit/device/uicm_constants.hpp"
 #include "core/parameter.hpp"
 
@@ -97,9 +99,6 @@ struct UicmShift {
 /// factor exp(A_IS / sqrt(area) times another one). The area is the gate area of the whole array. `device`: number of the transistor, from
 /// 0, among the transistors of the flat circuit.
 UicmShift sample_mismatch(const UicmCard&, const UicmInstance&, std::uint64_t seed, std::uint32_t device, std::uint64_t chip);
-/// The instance with the same mismatch as changes of delvto and mulu0.
-UicmInstance with_mismatch(UicmInstance, const UicmCard&, std::uint64_t seed, std::uint32_t device, std::uint64_t chip);
-
 /// Standard normal deviates common to all transistors of a chip: V_T0 of NMOS and PMOS, then I_SQ of NMOS and PMOS.
 struct ProcessDeviates {
     double values[4];
@@ -108,11 +107,22 @@ struct ProcessDeviates {
 ProcessDeviates sample_process(std::uint64_t seed, std::uint64_t chip);
 /// The deviation of a transistor of this card and polarity. `deviates`: those of ProcessDeviates.
 UicmShift process_shift(const UicmCard&, bool pmos, const double (&deviates)[4]);
-/// The card with the process variation of one chip.
-UicmCard with_process(UicmCard, bool pmos, std::uint64_t seed, std::uint64_t chip);
-
 /// Applies mismatch and process shifts to the constants. The mismatch of I_SQ comes from the mobility and changes zeta as well; that of the
-/// process does not. The result equals that of with_mismatch() and with_process() except for rounding.
+/// process does not.
 UicmConstants with_shifts(UicmConstants, const UicmShift& mismatch, const UicmShift& process);
+
+/// Currents have their real sign: positive into the drain and out of the bulk. All other quantities are those of the equivalent NMOS.
+struct UicmOperatingPoint {
+    // i is the larger of i_f and i_r.
+    std::string_view inversion_level;     ///< off (i < 1e-7), weak (i < 1), moderate or strong (i > 100)
+    std::string_view region;              ///< off, triode, or saturation: |V_DS| >= phi_t (sqrt(1 + i) + 3)
+    double i_f, i_r;                      ///< inversion coefficients q (q + 2) at source and drain
+    double I_D, I_bs, I_bd;               ///< A: channel, drain to source; junctions, bulk to source and bulk to drain
+    double V_T;                           ///< V: threshold with DIBL at these voltages
+    double g_mg, g_ms, g_md, g_mb;        ///< S, channel only: g_mx = dI_D/dV_x, but g_ms = -dI_D/dV_S, so that g_mg + g_md + g_mb = g_ms
+    double C_gs, C_gd, C_gb, C_bs, C_bd;  ///< F: C_ab = -dq_a/dv_b, with overlaps and junctions
+};
+
+UicmOperatingPoint uicm_operating_point(const UicmConstants&, const double (&v)[4]);
 
 }  // namespace corpuscle::circuit

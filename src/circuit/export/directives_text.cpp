@@ -1,8 +1,11 @@
-#include "circuit/export/directives_text.hpp"
+#include "circuit/export/element_text.hpp"
 
 #include <fmt/format.h>
 #include <algorithm>
 #include <iterator>
+
+#include "circuit/analyses.hpp"
+#include "circuit/devices.hpp"
 
 namespace corpuscle::circuit {
 namespace {
@@ -26,12 +29,15 @@ public:
             if (c.name == name)
                 return comment_out(c, name == "step" || name == "mc" ? "ngspice has no such directive; the nominal values are exported"
                                                                      : "ngspice has no such directive");
+        if (const auto* analysis = find_analysis(c.name); analysis != nullptr && analysis->ngspice_order == 0)
+            return comment_out(c, "ngspice has no such directive");
         return line(c.name, renamed(c));
     }
 
 private:
-    bool has_element(char letter) const {
-        return std::any_of(circuit_.elements.begin(), circuit_.elements.end(), [&](const Element& e) { return e.letter == letter; });
+    bool has_transistors() const {
+        return std::any_of(circuit_.elements.begin(), circuit_.elements.end(),
+                           [](const Element& e) { return has_role(e, Role::transistor); });
     }
     static std::string line(std::string_view name, const std::vector<std::string>& words) {
         return fmt::format(".{}{}{}\n", name, words.empty() ? "" : " ", fmt::join(words, " "));
@@ -39,7 +45,7 @@ private:
     std::string comment_out(const Directive& c, std::string_view why) const {
         auto text = line(c.name, c.words);
         text.pop_back();
-        warnings_.push_back(bad_input(fmt::format("left out: {} ({})", text, why), c.location));
+        warnings_.push_back(error_at(c.location, "left out: {} ({})", text, why));
         return fmt::format("* left out: {} ({})\n", text, why);
     }
     /// The words with the exported names of nodes and elements.
@@ -61,14 +67,14 @@ private:
         if (is_updown) words.pop_back();
         for (std::size_t k = 0; k < words.size(); k += 4) {
             if (words[k] == "temp") {
-                if (has_element('m')) return comment_out(c, "the parameters of the transistors below are valid at one temperature only");
+                if (has_transistors()) return comment_out(c, "the parameters of the transistors below are valid at one temperature only");
                 continue;
             }
             if (words[k].find_first_of("vir") != 0) return comment_out(c, "ngspice sweeps only sources, resistors and temp");
             words[k] = element(words[k]);
         }
         std::string out = is_updown ? "* left out: updown; ngspice sweeps in one direction only\n" : "";
-        if (is_updown) warnings_.push_back(bad_input("left out: updown of .dc (ngspice sweeps in one direction only)", c.location));
+        if (is_updown) warnings_.push_back(error_at(c.location, "left out: updown of .dc (ngspice sweeps in one direction only)"));
         return out + line("dc", words);
     }
 
@@ -76,9 +82,9 @@ private:
         auto words = c.words;
         if (!words.empty()) words[0] = names_.word(words[0]);
         if (words.size() > 1) words[1] = element(words[1]);
-        if (!has_element('m')) return line("noise", words);
+        if (!has_transistors()) return line("noise", words);
         const std::string why = "ngspice's result lacks the noise of the transistors, because its expressions have none";
-        warnings_.push_back(bad_input(".noise: " + why, c.location));
+        warnings_.push_back(error_at(c.location, ".noise: {}", why));
         return fmt::format("* {}\n{}", why, line("noise", words));
     }
 
@@ -102,26 +108,25 @@ private:
     }
 };
 
-/// The order in which ngspice runs analyses, which does not depend on the order of their lines. It runs several lines of one analysis in
-/// reverse order.
-constexpr std::string_view run_order[] = {"ac", "dc", "op", "tran", "noise", "sens", "tf"};
-/// The position of an analysis in run_order, from 0; the length of run_order for any other directive.
-std::ptrdiff_t run_rank(std::string_view kind) {
-    return std::find(std::begin(run_order), std::end(run_order), kind) - std::begin(run_order);
+/// The position at which ngspice runs an analysis, which does not depend on the order of the lines; 0 for any other directive. It runs
+/// several lines of one analysis in reverse order.
+int run_rank(std::string_view kind) {
+    const auto* analysis = find_analysis(kind);
+    return analysis == nullptr ? 0 : analysis->ngspice_order;
 }
-bool is_analysis(const Directive& c) { return run_rank(c.name) < std::ssize(run_order); }
+bool is_analysis(const Directive& c) { return run_rank(c.name) > 0; }
 
 }  // namespace
 
 std::string directives_text(const Circuit& circuit, const ExportNames& names, std::vector<Error>& warnings) {
     const DirectiveExporter exporter(circuit, names, warnings);
-    std::string analyses, others;
-    std::string_view last_analysis = run_order[0];  // that ngspice runs
+    std::string analysis_lines, others;
+    std::string_view last_analysis = ac_analysis.name;  // that ngspice runs
     for (const auto& c : circuit.directives)
         if (is_analysis(c) && run_rank(c.name) > run_rank(last_analysis)) last_analysis = c.name;
     for (const auto& c : circuit.directives) {
         if (is_analysis(c)) {
-            analyses.insert(0, exporter.text(c));  // in reverse order, so that ngspice runs them in that of the netlist
+            analysis_lines.insert(0, exporter.text(c));  // in reverse order, so that ngspice runs them in that of the netlist
             continue;
         }
         if (c.name.starts_with("meas") && !c.words.empty() && c.words[0] != last_analysis) {
@@ -132,7 +137,7 @@ std::string directives_text(const Circuit& circuit, const ExportNames& names, st
         }
         others += exporter.text(c);
     }
-    return analyses + others;
+    return analysis_lines + others;
 }
 
 }  // namespace corpuscle::circuit

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 #include <algorithm>
 
+#include "circuit/devices.hpp"
 #include "core/text/ascii_text.hpp"
 
 namespace corpuscle::circuit {
@@ -33,9 +34,8 @@ std::vector<std::string> unique_names(const std::vector<std::string>& wanted, st
 
 /// The name that an element has in the export, before illegal characters are replaced.
 std::string exported_name(const Element& e) {
-    const std::string letters = e.letter == 'm' ? "xm" : std::string(1, e.letter);
-    if (e.name.find('.') != std::string::npos) return letters + "_" + e.name;
-    return e.letter == 'm' ? "x" + e.name : e.name;
+    const auto prefix = kind_of(e).export_prefix;
+    return e.name.find('.') != std::string::npos ? fmt::format("{}{}_{}", prefix, e.letter, e.name) : fmt::format("{}{}", prefix, e.name);
 }
 
 bool is_in_name(char c) { return is_letter_or_digit(c) || c == '_' || c == '.' || c == '#' || c == '@'; }

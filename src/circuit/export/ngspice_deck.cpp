@@ -4,9 +4,8 @@
 #include <algorithm>
 
 #include "circuit/analysis/analysis_context.hpp"
-#include "circuit/export/directives_text.hpp"
+#include "circuit/devices.hpp"
 #include "circuit/export/element_text.hpp"
-#include "circuit/export/transistor_text.hpp"
 
 namespace corpuscle::circuit {
 namespace {
@@ -20,7 +19,7 @@ std::string one_line(std::string text) {
 /// True if the circuit has transistors of this polarity.
 bool has_transistors(const Circuit& c, std::string_view type) {
     return std::any_of(c.elements.begin(), c.elements.end(), [&](const Element& e) {
-        return e.letter == 'm' && e.model >= 0 && c.models[static_cast<std::size_t>(e.model)].type == type;
+        return has_role(e, Role::transistor) && e.model >= 0 && c.models[static_cast<std::size_t>(e.model)].type == type;
     });
 }
 

@@ -1,4 +1,4 @@
-#include "circuit/export/transistor_text.hpp"
+#include "circuit/export/element_text.hpp"
 
 #include <fmt/format.h>
 

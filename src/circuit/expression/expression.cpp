@@ -1,5 +1,6 @@
 #include "circuit/expression/expression.hpp"
 
+#include <algorithm>
 #include <memory>
 
 #include "circuit/expression/expression_operations.hpp"
@@ -28,15 +29,16 @@ template <class Values>
 double Expression::evaluate(std::span<const double> inputs, Values& values) const {
     for (std::size_t k = 0; k < steps_.size(); ++k) {
         const Step& s = steps_[k];
-        const auto operation = static_cast<Operation>(s.operation);
-        if (operation == Operation::number)
-            values[k] = s.number;
-        else if (operation == Operation::input)
-            values[k] = inputs[static_cast<std::size_t>(s.a)];
+        if (s.operation)
+            values[k] = s.operation->value({values[s.a], values[s.b], values[s.c]});
         else
-            values[k] = evaluate_operation(operation, values[s.a], values[s.b], values[s.c]);
+            values[k] = s.is_number() ? s.number : inputs[static_cast<std::size_t>(s.input)];
     }
     return steps_.empty() ? 0 : values[steps_.size() - 1];
+}
+
+bool Expression::has_jumps() const {
+    return std::any_of(steps_.begin(), steps_.end(), [](const Step& s) { return s.operation && s.operation->has_jumps(); });
 }
 
 double Expression::value(std::span<const double> inputs) const {
@@ -55,18 +57,14 @@ double Expression::value(std::span<const double> inputs, std::span<double> slope
     if (!steps_.empty()) weight[steps_.size() - 1] = 1;
     for (std::size_t k = steps_.size(); k-- > 0;) {
         const Step& s = steps_[k];
-        const auto operation = static_cast<Operation>(s.operation);
         const double w = weight[k];
-        if (w == 0 || operation == Operation::number) continue;
-        if (operation == Operation::input) {
-            slopes[static_cast<std::size_t>(s.a)] += w;
-            continue;
-        }
-        const Slopes d = evaluate_slopes(operation, values[s.a], values[s.b], values[s.c], values[k]);
-        const int n = operand_count(operation);
+        if (w == 0) continue;
+        if (s.input >= 0) slopes[static_cast<std::size_t>(s.input)] += w;
+        if (!s.operation || !s.operation->slopes) continue;
+        const Slopes d = s.operation->slopes({values[s.a], values[s.b], values[s.c], values[k]});
         if (d.a != 0) weight[s.a] += w * d.a;
-        if (n > 1 && d.b != 0) weight[s.b] += w * d.b;
-        if (n > 2 && d.c != 0) weight[s.c] += w * d.c;
+        if (d.b != 0) weight[s.b] += w * d.b;
+        if (d.c != 0) weight[s.c] += w * d.c;
     }
     return value;
 }

@@ -13,6 +13,8 @@
 
 namespace corpuscle::circuit {
 
+struct Operation;
+
 /// An input of an expression: v(a), v(a,b), i(vx), time (s) or temper (the temperature in degrees Celsius).
 struct ExpressionInput {
     enum class Kind { voltage, current, time, temperature } kind;
@@ -60,6 +62,8 @@ public:
     std::span<const ExpressionInput> inputs() const { return inputs_; }
     bool is_constant() const { return inputs_.empty(); }
 
+    bool has_jumps() const;  ///< true if it contains a comparison, a condition or a rounding function
+
     /// The value for these values of the inputs.
     double value(std::span<const double> inputs = {}) const;
     /// The same value; `slopes` receives its derivative with respect to each input.
@@ -74,9 +78,11 @@ private:
     template <class Values>
     double evaluate(std::span<const double> inputs, Values& values) const;
     struct Step {
-        std::int16_t operation;            // an Operation, as a number
-        std::int32_t a = 0, b = 0, c = 0;  // the operands, as indices of earlier steps; for Operation::input, a is an index in inputs_
-        double number = 0;                 // for Operation::number
+        const Operation* operation = nullptr;  // null: a number or an input
+        std::int32_t a = 0, b = 0, c = 0;      // the operands, as indices of earlier steps
+        std::int32_t input = -1;               // index in inputs_; -1: not an input
+        double number = 0;
+        bool is_number() const { return operation == nullptr && input < 0; }
     };
     std::vector<Step> steps_;  // the last step gives the value of the expression
     std::vector<ExpressionInput> inputs_;

@@ -19,26 +19,6 @@ constexpr std::size_t max_steps = 1000000;   // of one expression, after the exp
 bool starts_name(char c) { return (lower(c) >= 'a' && lower(c) <= 'z') || c == '_'; }
 bool in_name(char c) { return starts_name(c) || (c >= '0' && c <= '9') || c == '.' || c == '#' || c == '@'; }
 
-/// A binary operator. In the table, an operator such as "<=" that begins with another one ("<") must precede it. A higher level binds more
-/// tightly.
-struct BinaryOperator {
-    std::string_view text;
-    Operation operation;
-    int level;
-};
-constexpr BinaryOperator binary_operators[] = {
-    {"||", Operation::logical_or, 1},     {"&&", Operation::logical_and, 2},
-    {"==", Operation::equal, 3},          {"!=", Operation::unequal, 3},
-    {"<>", Operation::unequal, 3},        {"<=", Operation::less_equal, 4},
-    {">=", Operation::greater_equal, 4},  {"<", Operation::less, 4},
-    {">", Operation::greater, 4},         {"|", Operation::logical_or, 1},
-    {"&", Operation::logical_and, 2},     {"+", Operation::add, 5},
-    {"-", Operation::subtract, 5},        {"**", Operation::magnitude_power, 7},
-    {"*", Operation::multiply, 6},        {"/", Operation::divide, 6},
-    {"^", Operation::magnitude_power, 7},
-};
-constexpr int power_level = 7;
-
 }  // namespace
 
 /// Each function of the grammar parses a part of the text and returns the index of the step that gives its value, or no_index after an
@@ -75,15 +55,17 @@ public:
 private:
     // ---- errors ----
 
-    Index fail(std::string message, std::size_t at) {
+    /// `at`: offset in text_
+    template <class... Arguments>
+    Index fail(std::size_t at, fmt::format_string<Arguments...> text, Arguments&&... arguments) {
         if (error_) return no_index;
+        auto message = fmt::format(text, std::forward<Arguments>(arguments)...);
         if (!calls_.empty()) message = fmt::format("in {}(): {}", calls_.back(), message);
         SourceLocation location = location_;
         location.column = std::max(1L, location.column) + static_cast<long>(calls_.empty() ? at : call_at_);
         error_ = bad_input(std::move(message), std::move(location));
         return no_index;
     }
-    Index fail(std::string message) { return fail(std::move(message), at_); }
 
     std::string text_here() const {
         return at_ >= text_.size() ? "the end" : fmt::format("'{}'", text_.substr(at_, std::min<std::size_t>(12, text_.size() - at_)));
@@ -91,8 +73,8 @@ private:
     Index expect_end(Index last) {
         skip_blanks();
         if (at_ == text_.size()) return last;
-        if (text_[at_] == '=') return fail("'=' is an assignment; compare two values with '=='");
-        return fail(fmt::format("expected an operator such as + or the end of the expression, not {}", text_here()));
+        if (text_[at_] == '=') return fail(at_, "'=' is an assignment; compare two values with '=='");
+        return fail(at_, "expected an operator such as + or the end of the expression, not {}", text_here());
     }
 
     // ---- steps ----
@@ -101,28 +83,29 @@ private:
         out_.steps_.push_back(step);
         return static_cast<Index>(out_.steps_.size() - 1);
     }
-    Index number(double value) { return push({static_cast<std::int16_t>(Operation::number), 0, 0, 0, value}); }
-    bool is_number(Index k) const { return step(k).operation == static_cast<std::int16_t>(Operation::number); }
+    Index number(double value) { return push({.number = value}); }
+    bool is_number(Index k) const { return step(k).is_number(); }
     const Expression::Step& step(Index k) const { return out_.steps_[static_cast<std::size_t>(k)]; }
 
     /// Adds a step. If all operands are numbers, the step is the number that results.
-    Index apply(Operation operation, Index a, Index b, Index c) {
-        if (a == no_index || b == no_index || c == no_index) return no_index;
-        const int n = operand_count(operation);
-        if (is_number(a) && (n < 2 || is_number(b)) && (n < 3 || is_number(c)))
-            return number(evaluate_operation(operation, step(a).number, step(b).number, step(c).number));
-        return push({static_cast<std::int16_t>(operation), a, n < 2 ? a : b, n < 3 ? a : c, 0});
+    Index apply(const Operation& operation, const std::vector<Index>& operands) {
+        if (std::find(operands.begin(), operands.end(), no_index) != operands.end()) return no_index;
+        const auto operand = [&](std::size_t k) { return k < operands.size() ? operands[k] : operands[0]; };
+        const Index a = operand(0), b = operand(1), c = operand(2);
+        if (is_number(a) && is_number(b) && is_number(c)) return number(operation.value({step(a).number, step(b).number, step(c).number}));
+        return push({.operation = &operation, .a = a, .b = b, .c = c});
     }
-    Index apply(Operation operation, Index a, Index b) { return apply(operation, a, b, a); }
-    Index apply(Operation operation, Index a) { return apply(operation, a, a, a); }
+    Index apply(std::string_view name, const std::vector<Index>& operands) {
+        return apply(*find_operation(name, static_cast<int>(operands.size())), operands);
+    }
 
     Index input(ExpressionInput::Kind kind, std::string name = "", std::string minus = "") {
         ExpressionInput new_input{kind, std::move(name), std::move(minus)};
         const auto found = std::find(out_.inputs_.begin(), out_.inputs_.end(), new_input);
         const auto k = found - out_.inputs_.begin();
-        if (k >= max_inputs) return fail(fmt::format("the expression uses more than {} voltages and currents", max_inputs));
+        if (k >= max_inputs) return fail(at_, "the expression uses more than {} voltages and currents", max_inputs);
         if (found == out_.inputs_.end()) out_.inputs_.push_back(std::move(new_input));
-        return push({static_cast<std::int16_t>(Operation::input), static_cast<Index>(k), 0, 0, 0});
+        return push({.input = static_cast<Index>(k)});
     }
 
     /// Removes the steps and inputs that do not contribute to the value.
@@ -133,18 +116,16 @@ private:
         mark_used(last);
         for (std::size_t k = static_cast<std::size_t>(last) + 1; k-- > 0;) {
             if (new_index[k] == no_index) continue;
-            const auto operation = static_cast<Operation>(steps[k].operation);
-            if (operation == Operation::input) new_input_index[static_cast<std::size_t>(steps[k].a)] = 0;
-            if (operand_count(operation) > 0) mark_used(steps[k].a), mark_used(steps[k].b), mark_used(steps[k].c);
+            if (steps[k].input >= 0) new_input_index[static_cast<std::size_t>(steps[k].input)] = 0;
+            if (steps[k].operation) mark_used(steps[k].a), mark_used(steps[k].b), mark_used(steps[k].c);
         }
         renumber_inputs(new_input_index);
         std::size_t kept = 0;
         for (std::size_t k = 0; k <= static_cast<std::size_t>(last); ++k) {
             if (new_index[k] == no_index) continue;
             Expression::Step s = steps[k];
-            if (static_cast<Operation>(s.operation) == Operation::input)
-                s.a = new_input_index[static_cast<std::size_t>(s.a)];
-            else if (operand_count(static_cast<Operation>(s.operation)) > 0)
+            if (s.input >= 0) s.input = new_input_index[static_cast<std::size_t>(s.input)];
+            if (s.operation)
                 for (Index* operand : {&s.a, &s.b, &s.c}) *operand = new_index[static_cast<std::size_t>(*operand)];
             new_index[k] = static_cast<Index>(kept);
             steps[kept++] = s;
@@ -178,19 +159,19 @@ private:
         while (at_ < text_.size() && in_name(text_[at_])) ++at_;
         return text_.substr(from, at_ - from);
     }
-    const BinaryOperator* peek_operator() {
+    /// Takes a binary operator of this level or a higher one; null if there is none here.
+    const Operation* take_operator(int level) {
         skip_blanks();
-        const auto rest = text_.substr(at_);
-        for (const BinaryOperator& candidate : binary_operators)
-            if (rest.starts_with(candidate.text)) return &candidate;
-        return nullptr;
+        const auto [operation, length] = leading_operator(text_.substr(at_));
+        if (!operation || operation->level < level) return nullptr;
+        at_ += length;
+        return operation;
     }
 
     // ---- grammar, from low to high precedence ----
 
     Index nested(Index (FormulaReader::*read)()) {
-        if (depth_ >= max_expression_depth)
-            return fail(fmt::format("the expression is nested deeper than the limit of {}", max_expression_depth));
+        if (depth_ >= max_expression_depth) return fail(at_, "the expression is nested deeper than the limit of {}", max_expression_depth);
         ++depth_;
         const Index k = (this->*read)();
         --depth_;
@@ -203,20 +184,18 @@ private:
         if (condition == no_index || !take('?')) return condition;
         const Index yes = nested(&FormulaReader::choice);
         if (yes == no_index) return no_index;
-        if (!take(':')) return fail(fmt::format("expected ':', as in c ? a : b, not {}", text_here()));
+        if (!take(':')) return fail(at_, "expected ':', as in c ? a : b, not {}", text_here());
         const Index no = nested(&FormulaReader::choice);
-        return no == no_index ? no_index : apply(Operation::conditional, condition, yes, no);
+        return no == no_index ? no_index : apply("?:", {condition, yes, no});
     }
 
     /// Binary operators of this level and higher ones, from left to right. power() has read those of power_level.
     Index chain(int level) {
         Index left = signed_value(&FormulaReader::power);
         while (left != no_index) {
-            const BinaryOperator* found = peek_operator();
-            if (!found || found->level < level) break;
-            at_ += found->text.size();
-            const Index right = chain(found->level + 1);
-            left = right == no_index ? no_index : apply(found->operation, left, right);
+            const auto* found = take_operator(level);
+            if (!found) break;
+            left = apply(*found, {left, chain(found->level + 1)});
         }
         return left;
     }
@@ -225,11 +204,9 @@ private:
     Index power() {
         Index left = operand();
         while (left != no_index) {
-            const BinaryOperator* found = peek_operator();
-            if (!found || found->level != power_level) break;
-            at_ += found->text.size();
-            const Index right = signed_value(&FormulaReader::operand);
-            left = right == no_index ? no_index : apply(found->operation, left, right);
+            const auto* found = take_operator(power_level);
+            if (!found) break;
+            left = apply(*found, {left, signed_value(&FormulaReader::operand)});
         }
         return left;
     }
@@ -240,8 +217,7 @@ private:
         auto prefix = text_.substr(from, at_ - from);
         Index k = (this->*read)();
         for (; !prefix.empty() && k != no_index; prefix.remove_suffix(1)) {
-            if (prefix.back() == '-') k = apply(Operation::negate, k);
-            if (prefix.back() == '!') k = apply(Operation::logical_not, k);
+            if (prefix.back() == '-' || prefix.back() == '!') k = apply(prefix.substr(prefix.size() - 1), {k});
             if (!count_step()) return no_index;
         }
         return k;
@@ -249,7 +225,7 @@ private:
 
     bool count_step() {
         if (++step_count_ <= max_steps) return true;
-        fail(fmt::format("the expression has more than {} steps", max_steps));
+        fail(at_, "the expression has more than {} steps", max_steps);
         return false;
     }
 
@@ -260,15 +236,15 @@ private:
         if (c == '(' || c == '{') return group(c == '(' ? ')' : '}');
         if (starts_name(c)) return named();
         if ((c >= '0' && c <= '9') || c == '.') return literal();
-        return fail(fmt::format("expected a number, a name or '(', not {}", text_here()));
+        return fail(at_, "expected a number, a name or '(', not {}", text_here());
     }
 
     Index group(char close) {
         const auto open = at_++;
         const Index k = nested(&FormulaReader::choice);
         if (k == no_index || take(close)) return k;
-        if (at_ >= text_.size()) return fail(fmt::format("this '{}' is not closed", text_[open]), open);
-        return fail(fmt::format("expected '{}', not {}", close, text_here()));
+        if (at_ >= text_.size()) return fail(open, "this '{}' is not closed", text_[open]);
+        return fail(at_, "expected '{}', not {}", close, text_here());
     }
 
     Index literal() {
@@ -277,9 +253,9 @@ private:
         const auto end = at_ + (read ? read->length : 1);
         if (!read || (end < text_.size() && (in_name(text_[end])))) {
             name_here();
-            return fail(fmt::format("'{}' is not a number", text_.substr(from, std::max<std::size_t>(1, at_ - from))), from);
+            return fail(from, "'{}' is not a number", text_.substr(from, std::max<std::size_t>(1, at_ - from)));
         }
-        if (auto why = ambiguity(*read, text_.substr(from, end - from))) return fail(std::move(*why), from);
+        if (auto why = ambiguity(*read, text_.substr(from, end - from))) return fail(from, "{}", *why);
         at_ = end;
         return number(read->value);
     }
@@ -297,14 +273,14 @@ private:
         if (scope_.parameter)
             if (const auto value = scope_.parameter(name)) return number(*value);
         if (name == "time" || name == "temper") return time_or_temperature(name, from);
-        if (name == "hertz") return fail("an expression must not depend on the frequency (hertz)", from);
-        if (const double* value = find_constant(name)) return number(*value);
-        return fail(fmt::format("unknown name '{}'{}", name, suggestion(name)), from);
+        if (name == "hertz") return fail(from, "an expression must not depend on the frequency (hertz)");
+        for (const auto& constant : all_constants())
+            if (constant.name == name) return number(constant.value);
+        return fail(from, "unknown name '{}'{}", name, suggestion(name));
     }
 
     Index time_or_temperature(std::string_view name, std::size_t from) {
-        if (!scope_.allows_inputs)
-            return fail(fmt::format("'{}' is not available in a parameter, only in an expression of the circuit", name), from);
+        if (!scope_.allows_inputs) return fail(from, "'{}' is not available in a parameter, only in an expression of the circuit", name);
         return input(name == "time" ? ExpressionInput::Kind::time : ExpressionInput::Kind::temperature);
     }
 
@@ -312,13 +288,13 @@ private:
         std::vector<std::string_view> names(scope_.suggestions.begin(), scope_.suggestions.end());
         if (arguments_)
             for (const auto& argument : *arguments_) names.push_back(argument.first);
-        for (std::size_t k = 0; !constant_name(k).empty(); ++k)
-            if (constant_name(k).size() > 1) names.push_back(constant_name(k));
+        for (const auto& constant : all_constants())
+            if (constant.name.size() > 1) names.push_back(constant.name);
         return did_you_mean(name, names);
     }
     static std::string function_suggestion(std::string_view name) {
         std::vector<std::string_view> names;
-        for (std::size_t k = 0; !function_name(k).empty(); ++k) names.push_back(function_name(k));
+        for (const auto& operation : all_operations()) names.push_back(operation.name);
         return did_you_mean(name, names);
     }
 
@@ -326,25 +302,23 @@ private:
         const auto* user_function = scope_.function ? scope_.function(name) : nullptr;
         if (!user_function && (name == "v" || name == "i")) return voltage_or_current(name[0], from);
         if (!user_function && (name == "ddt" || name == "idt" || name == "sdt"))
-            return fail(fmt::format("{}() is not supported; for a charge, use a capacitor with q='...'", name), from);
-        const auto* row = user_function ? nullptr : find_function(name, scope_.allows_inputs);
-        if (!user_function && !row) return fail(fmt::format("unknown function '{}'{}", name, function_suggestion(name)), from);
+            return fail(from, "{}() is not supported; for a charge, use a capacitor with q='...'", name);
+        const auto* row = find_function(name, scope_.allows_inputs);
+        const auto* random = find_random_function(name);
+        if (!user_function && !row && !random) return fail(from, "unknown function '{}'{}", name, function_suggestion(name));
         std::vector<Index> values;
         if (!read_arguments(values)) return no_index;
         if (user_function) return expand_function(name, *user_function, values, from);
-        const int argument_count = static_cast<int>(values.size());
-        if (argument_count < row->min_arguments || argument_count > row->max_arguments)
-            return fail(argument_count_message(*row, argument_count), from);
-        // limit(x,d) is a random function in ngspice; limit(x,a,b) is not.
-        const bool is_nominal = row->operation == Operation::limit && argument_count == 2;
-        values.resize(3, values[0]);  // every function has at least one argument
-        return apply(is_nominal ? Operation::nominal : row->operation, values[0], values[1], values[2]);
+        const int count = static_cast<int>(values.size());
+        if (random && count == random->arguments) return values[0];
+        if (row && count == row->operands) return apply(*row, values);
+        const auto expected = row && random ? fmt::format("{} or {}", random->arguments, row->operands)
+                                            : fmt::format("{}", row ? row->operands : random->arguments);
+        return fail(from, "{}", argument_count_message(name, expected, values.size()));
     }
 
-    static std::string argument_count_message(const FunctionInfo& row, int argument_count) {
-        const auto expected = row.min_arguments == row.max_arguments ? fmt::format("{}", row.max_arguments)
-                                                                     : fmt::format("{} or {}", row.min_arguments, row.max_arguments);
-        return fmt::format("{}() takes {} argument{}, not {}", row.name, expected, row.max_arguments == 1 ? "" : "s", argument_count);
+    static std::string argument_count_message(std::string_view name, std::string_view expected, std::size_t count) {
+        return fmt::format("{}() takes {} argument{}, not {}", name, expected, expected == "1" ? "" : "s", count);
     }
 
     bool read_arguments(std::vector<Index>& values) {
@@ -356,9 +330,9 @@ private:
         } while (take(','));
         if (take(')')) return true;
         if (at_ >= text_.size())
-            fail("this '(' is not closed", open);
+            fail(open, "this '(' is not closed");
         else
-            fail(fmt::format("expected ',' or ')', not {}", text_here()));
+            fail(at_, "expected ',' or ')', not {}", text_here());
         return false;
     }
 
@@ -366,11 +340,9 @@ private:
     Index expand_function(const std::string& name, const ExpressionScope::Function& function, const std::vector<Index>& values,
                           std::size_t from) {
         const std::size_t expected = function.arguments.size();
-        if (values.size() != expected)
-            return fail(fmt::format("{}() takes {} argument{}, not {}", name, expected, expected == 1 ? "" : "s", values.size()), from);
-        if (std::find(calls_.begin(), calls_.end(), name) != calls_.end()) return fail(fmt::format("{}() calls itself", name), from);
-        if (depth_ >= max_expression_depth)
-            return fail(fmt::format("the expression is nested deeper than the limit of {}", max_expression_depth), from);
+        if (values.size() != expected) return fail(from, "{}", argument_count_message(name, fmt::format("{}", expected), values.size()));
+        if (std::find(calls_.begin(), calls_.end(), name) != calls_.end()) return fail(from, "{}() calls itself", name);
+        if (depth_ >= max_expression_depth) return fail(from, "the expression is nested deeper than the limit of {}", max_expression_depth);
         Arguments bound;
         for (std::size_t k = 0; k < values.size(); ++k) bound.emplace_back(function.arguments[k], values[k]);
         const auto text = std::exchange(text_, function.text);
@@ -389,19 +361,17 @@ private:
 
     /// Reads the names in parentheses after v or i (`kind`), which is at offset `from`.
     Index voltage_or_current(char kind, std::size_t from) {
-        if (!scope_.allows_inputs)
-            return fail(fmt::format("{}(...) is not available in a parameter, only in an expression of the circuit", kind), from);
+        if (!scope_.allows_inputs) return fail(from, "{}(...) is not available in a parameter, only in an expression of the circuit", kind);
         const auto close = text_.find(')', at_);
-        if (close == std::string_view::npos) return fail("this '(' is not closed");
+        if (close == std::string_view::npos) return fail(at_, "this '(' is not closed");
         const auto inside = text_.substr(at_ + 1, close - at_ - 1);
         const auto comma = inside.find(',');
         const std::string first = lower(trimmed(inside.substr(0, comma)));
         const std::string second = comma == std::string_view::npos ? "" : lower(trimmed(inside.substr(comma + 1)));
         const bool is_difference = comma != std::string_view::npos;
         if (!is_one_name(first) || (is_difference && (kind == 'i' || !is_one_name(second))))
-            return fail(fmt::format("'{}' is not a {}", text_.substr(from, close + 1 - from),
-                                    kind == 'v' ? "voltage; write v(node) or v(node,node)" : "current; write i(element)"),
-                        from);
+            return fail(from, "'{}' is not a {}", text_.substr(from, close + 1 - from),
+                        kind == 'v' ? "voltage; write v(node) or v(node,node)" : "current; write i(element)");
         at_ = close + 1;
         if (kind == 'i') return input(ExpressionInput::Kind::current, scope_.element ? scope_.element(first) : first);
         return voltage(node(first), is_difference ? node(second) : "");
@@ -416,7 +386,7 @@ private:
     Index voltage(const std::string& plus, const std::string& minus) {
         if (plus == minus) return number(0);
         if (!plus.empty()) return input(ExpressionInput::Kind::voltage, plus, minus);
-        return apply(Operation::negate, input(ExpressionInput::Kind::voltage, minus));
+        return apply("-", {input(ExpressionInput::Kind::voltage, minus)});
     }
 };
 

@@ -10,17 +10,22 @@ namespace corpuscle::circuit::lanes {
 
 inline constexpr std::size_t max_lanes = 8;  ///< a multiple of the number of lanes of every instruction set
 
-/// A batch of transistors. Every array has rows of `stride` numbers, one for each transistor, and is aligned to 64 bytes. The unknowns are
-/// drain, gate, source, bulk.
-struct TransistorCall {
-    const std::byte* models;    ///< from build(), one for each register of transistors
-    std::size_t count, stride;  ///< number of transistors; the stride is at least this, rounded up to the number of lanes
-    const double* v;            ///< [4][stride], V
-    double gmin;                ///< S, in parallel with every junction
-    double *f, *df;             ///< [4][stride], A; [4 * 4][stride], S
-    double* max_term;           ///< [4][stride], A: for each terminal's current i, the largest |di/dv| max(|v|, phi_t); null: not needed
-    double *q, *dq;             ///< charges and capacitances, same shapes; null: not needed
-    double rate;                ///< 1/s: f and df are returned with rate times q and dq added
+/// The stamps of several devices of one kind. The elements have the order of Stamp, but each element is a row of `stride` numbers, one for
+/// each device, aligned to 64 bytes.
+struct BatchStamp {
+    std::size_t stride;  ///< at least the number of devices, rounded up to the number of lanes
+    const double* v;     ///< values of the unknowns
+    double *f, *df;
+    double* max_term;  ///< for each f, the largest |df/dv| max(|v|, phi_t), the scale of its rounding error; null: not needed
+    double *q, *dq;    ///< null: not needed
+    double rate = 0;   ///< 1/s: rate q is added to f, and rate dq to df
+};
+
+/// A batch of transistors. The unknowns are drain, gate, source, bulk.
+struct TransistorCall : BatchStamp {
+    const std::byte* models;  ///< from build(), one for each register of transistors
+    std::size_t count;        ///< number of transistors
+    double gmin;              ///< S, in parallel with every junction
 };
 
 /// The transistor kernels of one instruction set.

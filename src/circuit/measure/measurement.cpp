@@ -5,8 +5,7 @@ namespace corpuscle::circuit {
 bool CrossingCounter::add_point(double x, const PlotRow& row) {
     if (!follower_.add_point(x, row)) return false;
     const auto& segment = *follower_.segment();
-    if (!((segment.rises() && edges_.kind != EdgeSelection::Kind::fall) || (segment.falls() && edges_.kind != EdgeSelection::Kind::rise)))
-        return false;
+    if (!(segment.rises() && edges_.rising) && !(segment.falls() && edges_.falling)) return false;
     const double position = segment.zero();
     if (!edges_.interval.contains(position)) return false;
     ++count_;
@@ -36,45 +35,25 @@ double ValueMeasurement::value() const {
     return not_found;
 }
 
-void SummaryMeasurement::update_extremes(double x, double y) {
-    if (!any_ || y < low_) low_ = y, low_at_ = x;
-    if (!any_ || y > high_) high_ = y, high_at_ = x;
-    any_ = true;
+void CurveSummary::add_extreme(double x, double y) {
+    if (!any || y < low) low = y, low_at = x;
+    if (!any || y > high) high = y, high_at = x;
+    any = true;
+}
+
+void CurveSummary::add(const LineSegment& segment) {
+    if (!any) first_value = segment.y0;
+    add_extreme(segment.x0, segment.y0);
+    add_extreme(segment.x1, segment.y1);
+    const double over_x = segment.integral();
+    length += segment.length(), integral += over_x, area += segment.x1 < segment.x0 ? -over_x : over_x;
+    squares += segment.integral_of_square();
 }
 
 void SummaryMeasurement::add_point(double x, const PlotRow& row) {
     curve_.add_point(x, row);
     auto segment = *curve_.segment();  // at the first point a segment of length 0
-    if (!segment.cut(interval_.from, interval_.to)) return;
-    if (!any_) first_value_ = segment.y0;
-    update_extremes(segment.x0, segment.y0);
-    update_extremes(segment.x1, segment.y1);
-    const double integral = segment.integral();
-    length_ += segment.length(), integral_ += integral, area_ += segment.x1 < segment.x0 ? -integral : integral,
-        squares_ += segment.integral_of_square();
-}
-
-double SummaryMeasurement::value() const {
-    if (!any_) return not_found;
-    switch (statistic_) {
-        case Statistic::min:
-            return low_;
-        case Statistic::max:
-            return high_;
-        case Statistic::pp:
-            return high_ - low_;
-        case Statistic::min_at:
-            return low_at_;
-        case Statistic::max_at:
-            return high_at_;
-        case Statistic::avg:
-            return length_ == 0 ? first_value_ : area_ / length_;
-        case Statistic::rms:
-            return length_ == 0 ? std::abs(first_value_) : std::sqrt(squares_ / length_);
-        case Statistic::integ:
-            return integral_;
-    }
-    return not_found;
+    if (segment.cut(interval_.from, interval_.to)) summary_.add(segment);
 }
 
 }  // namespace corpuscle::circuit

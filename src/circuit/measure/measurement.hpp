@@ -1,13 +1,48 @@
 #pragma once
 // Measurements for .meas: each computes one number from curves, point by point and in constant memory.
 
+#include <algorithm>
+#include <cmath>
 #include <limits>
+#include <memory>
 #include <optional>
 
-#include "circuit/measure/line_segment.hpp"
+#include "circuit/netlist/netlist.hpp"
 #include "circuit/output/curve_view.hpp"
 
 namespace corpuscle::circuit {
+
+/// From (x0, y0) to (x1, y1). x1 may be below x0, since .dc can sweep downwards.
+struct LineSegment {
+    double x0, y0, x1, y1;
+
+    /// Along x.
+    double length() const { return std::abs(x1 - x0); }
+    bool contains(double x) const { return (x0 <= x && x <= x1) || (x1 <= x && x <= x0); }
+    double at(double x) const { return x1 == x0 || x == x1 ? y1 : y0 + (y1 - y0) * (x - x0) / (x1 - x0); }
+    double slope() const { return (y1 - y0) / (x1 - x0); }
+
+    // Crossings of y = 0.
+    bool rises() const { return y0 < 0 && y1 >= 0; }
+    bool falls() const { return y0 > 0 && y1 <= 0; }
+    /// The x at which y = 0, if the segment rises or falls.
+    double zero() const { return x0 + (x1 - x0) * (y0 / (y0 - y1)); }
+
+    /// Over dx, so the sign is that of x1 - x0.
+    double integral() const { return 0.5 * (y0 + y1) * (x1 - x0); }
+    /// The integral of y^2 over |dx|.
+    double integral_of_square() const { return (y0 * y0 + y0 * y1 + y1 * y1) / 3 * length(); }
+
+    /// Cuts the segment to from <= x <= to. Returns false if no part of it lies there.
+    bool cut(double from, double to) {
+        const double low = std::max(from, std::min(x0, x1)), high = std::min(to, std::max(x0, x1));
+        if (!(low <= high)) return false;
+        const bool is_backward = x1 < x0;
+        const double a = is_backward ? high : low, b = is_backward ? low : high;
+        *this = {a, a == x0 ? y0 : at(a), b, at(b)};
+        return true;
+    }
+};
 
 inline constexpr double not_found = std::numeric_limits<double>::quiet_NaN();
 inline constexpr double unbounded = std::numeric_limits<double>::infinity();
@@ -52,7 +87,7 @@ public:
 
 /// Selects some zero crossings of a curve.
 struct EdgeSelection {
-    enum class Kind { rise, fall, cross } kind = Kind::cross;
+    bool rising = true, falling = true;
     double number = 1;  ///< of the crossing among those that count: 1 is the first; 0 is the last
     Interval interval;  ///< only crossings in this interval count
 };
@@ -82,24 +117,18 @@ struct EventPoint {
     double position() const { return crossing ? crossing->position() : at; }
 };
 
-/// when ...: the position of a crossing.
-class PositionMeasurement final : public Measurement {
-    EventPoint event_;
-
-public:
-    explicit PositionMeasurement(EventPoint event) : event_(std::move(event)) {}
-    void add_point(double x, const PlotRow& row) override { event_.add_point(x, row); }
-    double value() const override { return event_.position(); }
-};
-
-/// trig ... targ ...: the distance from the first position to the second.
+/// when ...: the position of a crossing. trig ... targ ...: the distance from the trigger to the target.
 class DistanceMeasurement final : public Measurement {
-    EventPoint trigger_, target_;
+    std::optional<EventPoint> trigger_;
+    EventPoint target_;
 
 public:
-    DistanceMeasurement(EventPoint trigger, EventPoint target) : trigger_(std::move(trigger)), target_(std::move(target)) {}
-    void add_point(double x, const PlotRow& row) override { trigger_.add_point(x, row), target_.add_point(x, row); }
-    double value() const override { return target_.position() - trigger_.position(); }
+    DistanceMeasurement(std::optional<EventPoint> trigger, EventPoint target) : trigger_(std::move(trigger)), target_(std::move(target)) {}
+    void add_point(double x, const PlotRow& row) override {
+        if (trigger_) trigger_->add_point(x, row);
+        target_.add_point(x, row);
+    }
+    double value() const override { return trigger_ ? target_.position() - trigger_->position() : target_.position(); }
 };
 
 /// count ...: the number of crossings.
@@ -129,31 +158,39 @@ public:
     double value() const override;
 };
 
+/// A summary of a curve over an interval.
+struct CurveSummary {
+    bool any = false;                // true if a point of the curve was in the interval
+    double low = 0, high = 0;        // minimum and maximum so far
+    double low_at = 0, high_at = 0;  // x of these
+    double length = 0;               // of x inside the interval
+    double area = 0;                 // integral over |dx|
+    double integral = 0;             // integral over dx
+    double squares = 0;              // integral of the square over |dx|
+    double first_value = 0;          // first value in the interval, the result of avg and rms if length is 0
+
+    void add(const LineSegment&);
+
+private:
+    void add_extreme(double x, double y);
+};
+
 /// min max pp avg rms integ min_at max_at of a curve over an interval. pp is max - min; min_at and max_at are positions x.
 class SummaryMeasurement final : public Measurement {
 public:
-    enum class Statistic { min, max, pp, min_at, max_at, avg, rms, integ };
+    using Statistic = double (*)(const CurveSummary&);
 
 private:
     Statistic statistic_;
     CurveFollower curve_;
     Interval interval_;
-    bool any_ = false;                 // true if a point of the curve was in the interval
-    double low_ = 0, high_ = 0;        // minimum and maximum so far
-    double low_at_ = 0, high_at_ = 0;  // x of these
-    double length_ = 0;                // of x inside the interval
-    double area_ = 0;                  // integral over |dx|
-    double integral_ = 0;              // integral over dx
-    double squares_ = 0;               // integral of the square over |dx|
-    double first_value_ = 0;           // first value in the interval, the result of avg and rms if length_ is 0
-
-    void update_extremes(double x, double y);
+    CurveSummary summary_;
 
 public:
     SummaryMeasurement(Statistic statistic, CurveFollower curve, Interval interval)
         : statistic_(statistic), curve_(std::move(curve)), interval_(interval) {}
     void add_point(double x, const PlotRow&) override;
-    double value() const override;
+    double value() const override { return summary_.any ? statistic_(summary_) : not_found; }
 };
 
 /// The value of a curve at an operating point, which has no sweep.
@@ -166,5 +203,17 @@ public:
     void add_point(double, const PlotRow& row) override { value_ = curve_.value(row).real(); }
     double value() const override { return value_; }
 };
+
+/// Parses the words of a .meas line that follow NAME, for a plot with the curves of `head`, which needs no values:
+///
+///     find CURVE at=X | find CURVE when EDGE | deriv CURVE at=X | deriv CURVE when EDGE | when EDGE | count EDGE [rise|fall|cross]
+///
+///     min|max|pp|min_at|max_at|avg|rms|integ CURVE [from=A] [to=B]
+///
+///     trig POSITION targ POSITION
+///
+/// EDGE is CURVE=VALUE or CURVE=CURVE, then SELECTION: [rise=N|last] [fall=N|last] [cross=N|last] [td=T] [from=A] [to=B]. POSITION is at=X,
+/// CURVE val=V SELECTION, or EDGE. For an operating point, only `find CURVE` is possible.
+Result<std::unique_ptr<Measurement>> parse_measurement(const Directive&, const Plot& head);
 
 }  // namespace corpuscle::circuit

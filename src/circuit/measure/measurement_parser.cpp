@@ -1,4 +1,4 @@
-#include "circuit/measure/measurement_parser.hpp"
+#include "circuit/measure/measurement.hpp"
 
 #include <fmt/format.h>
 
@@ -7,22 +7,29 @@
 namespace corpuscle::circuit {
 namespace {
 
+double integral_of(const CurveSummary& s) { return s.integral; }
+
 struct SummaryWord {
     std::string_view word;
     SummaryMeasurement::Statistic statistic;
 };
-constexpr SummaryWord summaries[] = {{"min", SummaryMeasurement::Statistic::min},       {"max", SummaryMeasurement::Statistic::max},
-                                     {"pp", SummaryMeasurement::Statistic::pp},         {"min_at", SummaryMeasurement::Statistic::min_at},
-                                     {"max_at", SummaryMeasurement::Statistic::max_at}, {"avg", SummaryMeasurement::Statistic::avg},
-                                     {"rms", SummaryMeasurement::Statistic::rms},       {"integ", SummaryMeasurement::Statistic::integ},
-                                     {"integral", SummaryMeasurement::Statistic::integ}};
+constexpr SummaryWord summaries[] = {
+    {"min", [](const CurveSummary& s) { return s.low; }},
+    {"max", [](const CurveSummary& s) { return s.high; }},
+    {"pp", [](const CurveSummary& s) { return s.high - s.low; }},
+    {"min_at", [](const CurveSummary& s) { return s.low_at; }},
+    {"max_at", [](const CurveSummary& s) { return s.high_at; }},
+    {"avg", [](const CurveSummary& s) { return s.length == 0 ? s.first_value : s.area / s.length; }},
+    {"rms", [](const CurveSummary& s) { return s.length == 0 ? std::abs(s.first_value) : std::sqrt(s.squares / s.length); }},
+    {"integ", integral_of},
+    {"integral", integral_of},
+};
 
 struct EdgeWord {
     std::string_view word;
-    EdgeSelection::Kind kind;
+    bool rising, falling;
 };
-constexpr EdgeWord edge_words[] = {
-    {"rise", EdgeSelection::Kind::rise}, {"fall", EdgeSelection::Kind::fall}, {"cross", EdgeSelection::Kind::cross}};
+constexpr EdgeWord edge_words[] = {{"rise", true, false}, {"fall", false, true}, {"cross", true, true}};
 
 /// The position of '=' in CURVE=VALUE. An '=' inside par('...') does not count.
 std::size_t equals_in(const std::string& word) {
@@ -41,7 +48,7 @@ public:
 
     Result<std::unique_ptr<Measurement>> parse() {
         auto out = head_.has_sweep ? swept() : operating_point();
-        if (out && !done()) return error_here(fmt::format("unexpected '{}'", peek()));
+        if (out && !done()) return error_here("unexpected '{}'", peek());
         return out;
     }
 
@@ -52,10 +59,9 @@ private:
     std::string peek() const { return done() ? "" : directive_.words[at_]; }
     std::string next() { return done() ? "" : directive_.words[at_++]; }
     /// An error with the location of the next word.
-    Error error_here(std::string_view message) const {
-        auto location = directive_.location;
-        if (at_ < directive_.columns.size()) location.column = directive_.columns[at_];
-        return bad_input(fmt::format(".meas: {}", message), location);
+    template <class... Arguments>
+    Error error_here(fmt::format_string<Arguments...> message, Arguments&&... arguments) const {
+        return error_at(directive_.location_of(at_), ".meas: {}", fmt::format(message, std::forward<Arguments>(arguments)...));
     }
 
     ParseResult swept() {
@@ -68,12 +74,12 @@ private:
             ++at_;
             auto crossings = TRY(edge(kind == "count"));
             if (kind == "count") return ParseResult(std::make_unique<CountMeasurement>(std::move(crossings)));
-            return ParseResult(std::make_unique<PositionMeasurement>(EventPoint{not_found, std::move(crossings)}));
+            return ParseResult(std::make_unique<DistanceMeasurement>(std::nullopt, EventPoint{not_found, std::move(crossings)}));
         }
         return error_here(
-            fmt::format("unknown measurement '{}'; expected one of find, when, deriv, min, max, pp, avg, rms, integ, min_at, max_at, trig, "
-                        "count, param=",
-                        kind));
+            "unknown measurement '{}'; expected one of find, when, deriv, min, max, pp, avg, rms, integ, min_at, max_at, trig, "
+            "count, param=",
+            kind);
     }
 
     ParseResult operating_point() {
@@ -81,7 +87,7 @@ private:
         ++at_;
         const auto name = peek();
         const auto view = CurveView::find(head_, name);
-        if (!view) return error_here(fmt::format("there is no curve {}", name));
+        if (!view) return error_here("there is no curve {}", name);
         ++at_;
         return ParseResult(std::make_unique<OperatingPointMeasurement>(*view));
     }
@@ -93,8 +99,8 @@ private:
             return error_here("par() does not work on the complex curves of .ac; use param= instead");
         if (name.starts_with("par("))
             if (const auto expression = parse_par_expression(name, directive_.location); !expression)
-                return error_here(expression.error().message);
-        return error_here(fmt::format("there is no curve '{}' in '{}'", name, head_.name));
+                return error_here("{}", expression.error().message);
+        return error_here("there is no curve '{}' in '{}'", name, head_.name);
     }
 
     /// Reads the next word as a curve.
@@ -109,8 +115,8 @@ private:
         const auto word = peek();
         if (!word.starts_with(name) || word.size() <= name.size() || word[name.size()] != '=') return std::optional<double>();
         const auto number = parse_number(std::string_view(word).substr(name.size() + 1));
-        if (!number) return error_here(fmt::format("'{}': expected a number after '{}='", word, name));
-        if (const auto why = ambiguity(*number, std::string_view(word).substr(name.size() + 1))) return error_here(*why);
+        if (!number) return error_here("'{}': expected a number after '{}='", word, name);
+        if (const auto why = ambiguity(*number, std::string_view(word).substr(name.size() + 1))) return error_here("{}", *why);
         ++at_;
         return std::optional<double>(number->value);
     }
@@ -132,8 +138,8 @@ private:
             const auto number = TRY(last ? Result<std::optional<double>>(0.0) : option(e.word));
             if (!number) continue;
             if (!last && !(*number >= 1 && *number == std::floor(*number)))
-                return --at_, error_here(fmt::format("'{}' must be 1, 2 ... or last", peek()));
-            edges.kind = e.kind, edges.number = *number;
+                return --at_, error_here("'{}' must be 1, 2 ... or last", peek());
+            edges.rising = e.rising, edges.falling = e.falling, edges.number = *number;
             return true;
         }
         return false;
@@ -146,7 +152,7 @@ private:
         for (bool more = true; more;) {
             more = false;
             for (const auto& e : edge_words)
-                if (is_count && peek() == e.word) out.kind = e.kind, more = true, ++at_;
+                if (is_count && peek() == e.word) out.rising = e.rising, out.falling = e.falling, more = true, ++at_;
             const auto chosen = TRY(is_count ? Result<bool>(false) : numbered_edge(out));
             const auto bounded = TRY(bounds(out.interval));
             const auto delay = TRY(option("td"));
@@ -162,7 +168,7 @@ private:
     Result<CrossingCounter> edge(bool is_count = false) {
         const auto word = peek();
         const auto equals = equals_in(word);
-        if (equals == std::string::npos) return error_here(fmt::format("'{}' must be CURVE=VALUE", word));
+        if (equals == std::string::npos) return error_here("'{}' must be CURVE=VALUE", word);
         const auto left = curve(std::string_view(word).substr(0, equals));
         if (!left) return left.error();
         const auto right = std::string_view(word).substr(equals + 1);
@@ -184,7 +190,7 @@ private:
         const auto view = TRY(curve());
         const auto at = TRY(option("at"));
         if (at) return ParseResult(std::make_unique<ValueMeasurement>(CurveFollower(view), is_slope, EventPoint{*at, {}}));
-        if (peek() != "when") return error_here(fmt::format("'{}': expected at=VALUE or when CURVE=VALUE", peek()));
+        if (peek() != "when") return error_here("'{}': expected at=VALUE or when CURVE=VALUE", peek());
         ++at_;
         auto crossings = TRY(edge());
         return ParseResult(std::make_unique<ValueMeasurement>(CurveFollower(view), is_slope, EventPoint{not_found, std::move(crossings)}));
@@ -210,7 +216,7 @@ private:
         const auto view = TRY(curve());
         std::optional<double> level;
         const auto selection = TRY(edges(false, &level));
-        if (!level) return error_here(fmt::format("expected val= after '{}'", name));
+        if (!level) return error_here("expected val= after '{}'", name);
         return EventPoint{not_found, CrossingCounter(CurveFollower(view, *level), selection)};
     }
 };

@@ -1,4 +1,4 @@
-#include "circuit/netlist/circuit_builder.hpp"
+#include "circuit/netlist/scope.hpp"
 
 #include <fmt/format.h>
 #include <algorithm>
@@ -33,7 +33,7 @@ Error unknown_model(const Scope& scope, const WordRef& name, std::string_view us
                                           "meg", "mh", "uh", "nh", "fF", "p",  "n",  "u",   "m"};
     const bool is_unit = std::find(std::begin(units), std::end(units), name.view()) != std::end(units);
     const auto hint = is_unit ? "; write a unit directly after its number, without a blank" : did_you_mean(name.view(), known);
-    return bad_input(fmt::format("{}: unknown model '{}'{}", user, name.view(), hint), name.location());
+    return error_at(name.location(), "{}: unknown model '{}'{}", user, name.view(), hint);
 }
 
 }  // namespace
@@ -70,8 +70,7 @@ Result<int> CircuitBuilder::find_or_add_model(Scope& scope, const WordRef& name,
     const Statement& s = *f->definition->models.find(name.view())->second;
     const auto type = short_type(s.text(2));
     if (std::find(types.begin(), types.end(), type) == types.end())
-        return bad_input(fmt::format("{}: model '{}' has type {}; expected {}", user, name.view(), s.text(2), alternatives(types)),
-                         name.location());
+        return error_at(name.location(), "{}: model '{}' has type {}; expected {}", user, name.view(), s.text(2), alternatives(types));
     if (const auto existing = f->models.find(name.view()); existing != f->models.end()) return existing->second;
     Model model{f->path + std::string(name.view()), std::string(type), s.line.location(), {}, {}};
     for (const auto& pair : s.pairs) {
@@ -93,7 +92,7 @@ Result<void> CircuitBuilder::add_element(Element e) {
     const auto [at, is_new] = circuit.element_numbers.try_emplace(e.name, static_cast<int>(circuit.elements.size()));
     if (!is_new) {
         const SourceLocation& first = circuit.elements[static_cast<std::size_t>(at->second)].location;
-        return bad_input(fmt::format("element '{}' is already defined at {}:{}", e.name, first.file, first.line), e.location);
+        return error_at(e.location, "element '{}' is already defined at {}:{}", e.name, first.file, first.line);
     }
     circuit.elements.push_back(std::move(e));
     return {};
@@ -101,11 +100,10 @@ Result<void> CircuitBuilder::add_element(Element e) {
 
 Result<void> CircuitBuilder::count_statement(const Scope& scope, const Statement& s) {
     if (++statement_count_ > max_elements)
-        return bad_input(fmt::format("the circuit has more elements than the limit of {}", max_elements), s.line.location());
+        return error_at(s.line.location(), "the circuit has more elements than the limit of {}", max_elements);
     name_bytes_ += 2 * (scope.path.size() + s.text(std::size_t{0}).size()) + s.line.file->size();
     if (name_bytes_ > max_name_bytes)
-        return bad_input(fmt::format("the names of all elements and nodes exceed the limit of {} MB", max_name_bytes >> 20),
-                         s.line.location());
+        return error_at(s.line.location(), "the names of all elements and nodes exceed the limit of {} MB", max_name_bytes >> 20);
     return {};
 }
 

@@ -37,9 +37,8 @@ std::string CornerSelector::select_section(const std::string& section, std::stri
 
 Result<void> CornerSelector::check_found(const std::string& netlist) const {
     if (corner_.empty() || is_found_) return {};
-    if (libraries_.empty())
-        return bad_input(fmt::format("there is no corner '{}': the netlist has no line .lib 'file' section", corner_), {netlist});
-    return bad_input(fmt::format("no corner '{}': library {}", corner_, fmt::join(libraries_, "; ")), {netlist});
+    if (libraries_.empty()) return error_at({netlist}, "there is no corner '{}': the netlist has no line .lib 'file' section", corner_);
+    return error_at({netlist}, "no corner '{}': library {}", corner_, fmt::join(libraries_, "; "));
 }
 
 }  // namespace corpuscle::circuit

@@ -3,10 +3,10 @@
 #include <fmt/format.h>
 #include <algorithm>
 
+#include "circuit/devices.hpp"
 #include "circuit/expression/spice_number.hpp"
-#include "circuit/netlist/circuit_builder.hpp"
-#include "circuit/netlist/netlist_impl.hpp"
-#include "circuit/netlist/netlist_options.hpp"
+#include "circuit/netlist/parsed_netlist.hpp"
+#include "circuit/netlist/scope.hpp"
 #include "core/parameter.hpp"
 #include "core/text/ascii_text.hpp"
 
@@ -56,8 +56,7 @@ private:
         all.insert(builder_.overrides.parameters.begin(), builder_.overrides.parameters.end());  // does not replace given values
         for (const auto& [name, value] : all)
             if (!parsed_.top.parameters.contains(name))
-                return bad_input(fmt::format("there is no .param {}{}", name, did_you_mean(name, keys_of(parsed_.top.parameters))),
-                                 {parsed_.file});
+                return error_at({parsed_.file}, "there is no .param {}{}", name, did_you_mean(name, keys_of(parsed_.top.parameters)));
         return top_.define(all);
     }
 
@@ -81,8 +80,7 @@ private:
     Result<void> elaborate_instance(Scope& scope, const Statement& s) {
         const auto name = s.text(std::size_t{0});
         auto words = instance_words(s);
-        if (words.size() < 1)
-            return bad_input(fmt::format("{}: expected nodes and the name of a subcircuit", name), s.location(std::size_t{1}));
+        if (words.size() < 1) return error_at(s.location(std::size_t{1}), "{}: expected nodes and the name of a subcircuit", name);
         const Word subcircuit_name = words.back();
         words.pop_back();
         Scope inner;
@@ -90,8 +88,7 @@ private:
         TRY(connect(scope, s, words, inner));
         inner.caller = &scope, inner.depth = scope.depth + 1, inner.path = fmt::format("{}{}.", scope.path, name);
         if (inner.depth > max_subcircuit_depth)
-            return bad_input(fmt::format("{}: subcircuits are nested deeper than the limit of {}", name, max_subcircuit_depth),
-                             s.line.location());
+            return error_at(s.line.location(), "{}: subcircuits are nested deeper than the limit of {}", name, max_subcircuit_depth);
         TRY(check_recursion(inner, s));
         Values given;
         TRY(read_instance_parameters(scope, s, inner, given));
@@ -117,9 +114,8 @@ private:
             }
             for (const auto n : keys_of(f->definition->subcircuits)) known.push_back(n);
         }
-        return bad_input(
-            fmt::format("{}: unknown subcircuit '{}'{}", s.text(std::size_t{0}), s.text(name), did_you_mean(s.text(name), known)),
-            s.location(name));
+        return error_at(s.location(name), "{}: unknown subcircuit '{}'{}", s.text(std::size_t{0}), s.text(name),
+                        did_you_mean(s.text(name), known));
     }
 
     /// Connects the ports of the subcircuit to the nodes that the X line names.
@@ -128,9 +124,8 @@ private:
         if (words.size() != ports.size()) {
             std::string expected;
             for (const auto& port : ports) expected += expected.size() < 100 ? ' ' + port : std::string();
-            return bad_input(fmt::format("{}: {} node{}, but subcircuit '{}' has {}:{}", s.text(std::size_t{0}), words.size(),
-                                         words.size() == 1 ? "" : "s", inner.definition->name, ports.size(), expected),
-                             s.line.location());
+            return error_at(s.line.location(), "{}: {} node{}, but subcircuit '{}' has {}:{}", s.text(std::size_t{0}), words.size(),
+                            words.size() == 1 ? "" : "s", inner.definition->name, ports.size(), expected);
         }
         for (std::size_t k = 0; k < words.size(); ++k) inner.ports.emplace(ports[k], builder_.find_or_add_node(scope, s.text(words[k])));
         return {};
@@ -142,7 +137,7 @@ private:
             if (f->definition != inner.definition) continue;
             std::string chain = inner.definition->name;
             for (const Scope* g = inner.caller; g != f->caller; g = g->caller) chain = fmt::format("{} -> {}", g->definition->name, chain);
-            return bad_input(fmt::format("subcircuit '{}' contains itself: {}", inner.definition->name, chain), s.line.location());
+            return error_at(s.line.location(), "subcircuit '{}' contains itself: {}", inner.definition->name, chain);
         }
         return {};
     }
@@ -159,16 +154,15 @@ private:
             else if (name != "m")
                 return unknown_parameter(s, pair, name, *inner.definition);
             else if (!(value > 0))
-                return bad_input(fmt::format("{}: m = {:g} must be positive", s.text(std::size_t{0}), value), s.location(pair.value));
+                return error_at(s.location(pair.value), "{}: m = {:g} must be positive", s.text(std::size_t{0}), value);
             else
                 inner.m *= value;
         }
         return {};
     }
     static Error unknown_parameter(const Statement& s, const NameValue& pair, std::string_view name, const SubcktDef& body) {
-        return bad_input(fmt::format("{}: subcircuit '{}' has no parameter '{}'{}", s.text(std::size_t{0}), body.name, name,
-                                     did_you_mean(name, keys_of(body.defaults))),
-                         s.location(pair.name));
+        return error_at(s.location(pair.name), "{}: subcircuit '{}' has no parameter '{}'{}", s.text(std::size_t{0}), body.name, name,
+                        did_you_mean(name, keys_of(body.defaults)));
     }
 
     /// Checks that all nodes and elements that expressions, F and H lines name exist.
@@ -178,27 +172,22 @@ private:
             if (p.target == ForwardRef::Target::node) {
                 if (c.node_numbers.contains(p.name)) continue;
                 const std::vector<std::string_view> known(c.nodes.begin() + 1, c.nodes.end());
-                return bad_input(fmt::format("{}: unknown node '{}'{}", p.user, p.name, did_you_mean(p.name, known)), p.location);
+                return error_at(p.location, "{}: unknown node '{}'{}", p.user, p.name, did_you_mean(p.name, known));
             }
             const int k = c.find_element(p.name);
-            if (k < 0)
-                return bad_input(fmt::format("{}: unknown element '{}'{}", p.user, p.name, did_you_mean(p.name, voltage_sources())),
-                                 p.location);
+            if (k < 0) return error_at(p.location, "{}: unknown element '{}'{}", p.user, p.name, did_you_mean(p.name, voltage_sources()));
             const Element& e = c.elements[static_cast<std::size_t>(k)];
-            const bool has_current =
-                e.letter == 'v' || (p.target == ForwardRef::Target::current && (e.letter == 'l' || e.letter == 'e' || e.letter == 'h' ||
-                                                                                (e.letter == 'b' && e.expression_is_voltage)));
+            const bool has_current = p.target == ForwardRef::Target::current ? has_branch_current(e) : has_role(e, Role::voltage_source);
             if (!has_current)
-                return bad_input(
-                    fmt::format("{}: '{}' is not a voltage source; put a 0 V source in series to measure its current", p.user, p.name),
-                    p.location);
+                return error_at(p.location, "{}: '{}' is not a voltage source; put a 0 V source in series to measure its current", p.user,
+                                p.name);
         }
         return {};
     }
     std::vector<std::string_view> voltage_sources() const {
         std::vector<std::string_view> names;
         for (const auto& e : builder_.circuit.elements)
-            if (e.letter == 'v') names.push_back(e.name);
+            if (has_role(e, Role::voltage_source)) names.push_back(e.name);
         return names;
     }
 
@@ -211,7 +200,7 @@ private:
         if (const auto at = c.options.find("temp"); at != c.options.end()) c.temperature = at->second;
         for (const auto* s : parsed_.temperatures) {
             if (s->words.size() != 2)
-                return bad_input(".temp: expected one temperature, in Celsius", s->location(std::min<std::size_t>(2, s->words.size())));
+                return error_at(s->location(std::min<std::size_t>(2, s->words.size())), ".temp: expected one temperature, in Celsius");
             c.temperature = TRY(top_.evaluate(without_braces(*s, s->words[1], 0)));
         }
         c.temperature = builder_.overrides.temperature.value_or(c.temperature);
@@ -257,11 +246,11 @@ private:
             const auto text = s.text(k);
             const auto close = text.find(')'), equals = text.find_first_not_of(" \t", std::min(close, text.size() - 1) + 1);
             if (!text.starts_with("v(") || close == std::string_view::npos || equals == std::string_view::npos || text[equals] != '=')
-                return bad_input(fmt::format("expected v(node)=value, not '{}'", text), s.location(k));
+                return error_at(s.location(k), "expected v(node)=value, not '{}'", text);
             auto from = text.find_first_not_of(" \t", equals + 1);
             const auto value = TRY(scope.evaluate(without_braces(s, s.words[k], static_cast<std::uint32_t>(std::min(from, text.size())))));
             const auto node = trimmed(text.substr(2, close - 2));
-            if (is_ground(node)) return bad_input("ground is always at 0 V", s.location(k));
+            if (is_ground(node)) return error_at(s.location(k), "ground is always at 0 V");
             node_voltages_.push_back({builder_.node_name(scope, node), value, s.location(k), s.text(std::size_t{0}) == ".ic"});
         }
         return {};
@@ -272,7 +261,7 @@ private:
             const int k = c.find_node(voltage.node);
             if (k < 0) {
                 const std::vector<std::string_view> known(c.nodes.begin() + 1, c.nodes.end());
-                return bad_input(fmt::format("unknown node '{}'{}", voltage.node, did_you_mean(voltage.node, known)), voltage.location);
+                return error_at(voltage.location, "unknown node '{}'{}", voltage.node, did_you_mean(voltage.node, known));
             }
             (voltage.is_ic ? c.ic : c.nodesets).emplace_back(k, voltage.value);
         }
@@ -296,7 +285,7 @@ private:
         const auto expectation =
             std::find_if(c.directives.begin(), c.directives.end(), [](const Directive& directive) { return directive.name == "expect"; });
         if (overrides.changes_values() && expectation != c.directives.end()) {
-            c.warnings.push_back(bad_input("values of the netlist are overridden, so .expect is ignored", expectation->location));
+            c.warnings.push_back(error_at(expectation->location, "values of the netlist are overridden, so .expect is ignored"));
             std::erase_if(c.directives, [](const Directive& directive) { return directive.name == "expect"; });
         }
         std::erase_if(c.directives, [&](const Directive& directive) {

@@ -1,6 +1,5 @@
-#include "circuit/netlist/logical_lines.hpp"
+#include "circuit/netlist/statement.hpp"
 
-#include <fmt/format.h>
 #include <algorithm>
 
 #include "core/text/ascii_text.hpp"
@@ -42,7 +41,7 @@ Error invalid_byte(std::string_view line, std::size_t at, SourceLocation locatio
     const char* hint = is_micro    ? "write u for micro"
                        : byte == 0 ? "a netlist is text; is this UTF-16? Save it as UTF-8"
                                    : "a netlist must be plain ASCII outside comments";
-    return bad_input(fmt::format("byte 0x{:02X}: {}", byte, hint), std::move(location));
+    return error_at(location, "byte 0x{:02X}: {}", byte, hint);
 }
 
 /// True if a comment begins at character k of a line, which must be outside quotes. A $ begins a comment only after a blank or comma and
@@ -113,8 +112,8 @@ Result<bool> LogicalLineReader::next(LogicalLine& out) {
         if (first == line.size() || line[first] == '*') continue;
         const bool is_continuation = line[first] == '+';
         if (is_continuation && !has_next_)
-            return bad_input("'+' continues the previous line, but there is none",
-                             {*file_, static_cast<long>(number_), static_cast<long>(first) + 1});
+            return error_at({*file_, static_cast<long>(number_), static_cast<long>(first) + 1},
+                            "'+' continues the previous line, but there is none");
         if (!is_continuation && has_next_) {  // the previous line is complete; this one begins the next
             put_back();
             if (auto complete = finish_line(out); !complete || *complete) return complete;
@@ -152,7 +151,7 @@ Result<bool> LogicalLineReader::finish_line(LogicalLine& out) {
     out = std::exchange(next_, {});
     out.file = file_;
     if (std::exchange(quote_, '\0') != 0)
-        return bad_input(fmt::format("this {} is not closed", out.text[quote_at_] == '"' ? "\"" : "'"), out.location(quote_at_));
+        return error_at(out.location(quote_at_), "this {} is not closed", out.text[quote_at_] == '"' ? "\"" : "'");
     while (!out.text.empty() && is_blank(out.text.back())) out.text.pop_back();
     return !out.text.empty();
 }

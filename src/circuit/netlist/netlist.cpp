@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <memory>
 
-#include "circuit/netlist/netlist_impl.hpp"
+#include "circuit/netlist/parsed_netlist.hpp"
 #include "core/text/input_files.hpp"
 
 namespace corpuscle::circuit {
@@ -17,6 +17,12 @@ int index_of_name(const std::unordered_map<std::string, int>& numbers, std::stri
 }
 
 }  // namespace
+
+SourceLocation Directive::location_of(std::size_t word) const {
+    auto out = location;
+    if (word < columns.size()) out.column = columns[word];
+    return out;
+}
 
 int Circuit::find_node(std::string_view name) const {
     if (is_ground(name)) return 0;

@@ -11,6 +11,7 @@
 #include <unordered_map>
 #include <vector>
 
+#include "circuit/error_at.hpp"
 #include "circuit/expression/expression.hpp"
 #include "core/error.hpp"
 
@@ -58,6 +59,8 @@ struct Directive {
     std::vector<std::string> words;
     std::vector<int> columns;  ///< of each word in its line of the file, from 1; empty for a directive of an override
     SourceLocation location;
+    /// The location of a word, counted from 0. Without a column if the directive has no such word.
+    SourceLocation location_of(std::size_t word) const;
 };
 
 /// A flat netlist: subcircuits are expanded and parameters are evaluated.

@@ -1,6 +1,5 @@
-#include "circuit/netlist/netlist_options.hpp"
+#include "circuit/netlist/parsed_netlist.hpp"
 
-#include <fmt/format.h>
 #include <algorithm>
 #include <limits>
 #include <vector>
@@ -19,16 +18,11 @@ struct OptionRow {
     std::string_view example;  // of a value, for messages
 };
 constexpr OptionRow option_rows[] = {
-    {"reltol", false, 1e-15, 0.5, "1e-6"},
-    {"vntol", false, 1e-300, unlimited, "1n"},
-    {"abstol", false, 1e-300, unlimited, "1e-16"},
-    {"gmin", false, 0, 1, "1e-15"},
-    {"itl1", false, 1, 1e6, "500"},
-    {"temp", false, -273.15, 1000, "27"},
-    {"tnom", false, -273.15, 1000, "27"},
-    {"maxord", false, -unlimited, unlimited, "4"},
-    {"spikecheck", false, 0, 1, "0"},
-    {"accuracy", true, 0, 0, "fine"},
+    {"reltol", false, 1e-15, 0.5, "1e-6"}, {"vntol", false, 1e-300, 1, "1n"},
+    {"abstol", false, 1e-300, 1, "1e-16"}, {"gmin", false, 0, 1, "1e-15"},
+    {"itl1", false, 1, 1e6, "500"},        {"temp", false, -273.15, 1000, "27"},
+    {"tnom", false, -273.15, 1000, "27"},  {"maxord", false, -unlimited, unlimited, "4"},
+    {"spikecheck", false, 0, 1, "0"},      {"accuracy", true, 0, 0, "fine"},
     {"method", true, 0, 0, "gear"},
 };
 
@@ -61,22 +55,20 @@ Result<void> check_option(std::string_view name, std::optional<double> number, s
     if (row == std::end(option_rows)) {
         if (contains_name(without_effect, name)) return {};
         if (contains_name(unsupported, name))
-            return bad_input(
-                fmt::format(".options {}: not supported, because it changes the circuit; set it at the elements instead", name), location);
+            return error_at(location, ".options {}: not supported, because it changes the circuit; set it at the elements instead", name);
         std::vector<std::string_view> known;
         for (const auto& r : option_rows) known.push_back(r.name);
         const auto hint = did_you_mean(name, known);
-        return bad_input(fmt::format("unknown option '{}'{}", name,
-                                     hint.empty() ? "; known are reltol, vntol, abstol, gmin, itl1, temp, tnom, accuracy, method, maxord, "
-                                                    "spikecheck"
-                                                  : hint),
-                         location);
+        return error_at(location, "unknown option '{}'{}", name,
+                        hint.empty() ? "; known are reltol, vntol, abstol, gmin, itl1, temp, tnom, accuracy, method, maxord, "
+                                       "spikecheck"
+                                     : hint);
     }
     if (row->takes_word && word) return {};
-    if (row->takes_word) return bad_input(fmt::format(".options {0}: expected a word, such as {0}={1}", name, row->example), location);
-    if (!number) return bad_input(fmt::format(".options {0}: expected a number, such as {0}={1}", name, row->example), location);
+    if (row->takes_word) return error_at(location, ".options {0}: expected a word, such as {0}={1}", name, row->example);
+    if (!number) return error_at(location, ".options {0}: expected a number, such as {0}={1}", name, row->example);
     if (!(*number >= row->min && *number <= row->max))
-        return bad_input(fmt::format(".options {}={:g} is outside [{:g}, {:g}]", name, *number, row->min, row->max), location);
+        return error_at(location, ".options {}={:g} is outside [{:g}, {:g}]", name, *number, row->min, row->max);
     return {};
 }
 

@@ -4,10 +4,11 @@
 #include <algorithm>
 #include <filesystem>
 
+#include "circuit/analyses.hpp"
+#include "circuit/devices.hpp"
 #include "circuit/expression/spice_number.hpp"
 #include "circuit/netlist/corner_selector.hpp"
 #include "circuit/netlist/parsed_netlist.hpp"
-#include "circuit/netlist/renamed_directives.hpp"
 #include "core/parameter.hpp"
 #include "core/text/ascii_text.hpp"
 
@@ -15,22 +16,35 @@ namespace corpuscle::circuit {
 namespace {
 
 constexpr std::size_t max_include_depth = 50, max_definition_depth = 200;  // of files; of nested .subckt
-constexpr std::string_view element_letters = "rclveifghbdmx";
 
 // Directives that determine the circuit; they do not appear in Circuit::directives.
 constexpr std::string_view structural_directives[] = {".subckt", ".ends",    ".param",  ".func",    ".include", ".inc",    ".lib",
                                                       ".endl",   ".model",   ".global", ".temp",    ".options", ".option", ".opt",
                                                       ".ic",     ".nodeset", ".end",    ".control", ".endc",    ".title"};
-// Directives for the analyses, which become Circuit::directives; .four is refused.
-constexpr std::string_view circuit_directives[] = {".op",   ".dc",      ".ac",    ".noise", ".tf",     ".sens", ".tran",
-                                                   ".meas", ".measure", ".print", ".plot",  ".probe",  ".save", ".step",
+// Directives that become Circuit::directives, as those of the analyses do; .four is refused.
+constexpr std::string_view circuit_directives[] = {".meas", ".measure", ".print", ".plot",  ".probe",  ".save", ".step",
                                                    ".mc",   ".expect",  ".force", ".spike", ".assert", ".four"};
+
+/// The names of all directives, with the dot.
+std::vector<std::string> directive_names() {
+    std::vector<std::string> out(std::begin(structural_directives), std::end(structural_directives));
+    for (const auto* a : analyses) out.push_back("." + std::string(a->name));
+    out.insert(out.end(), std::begin(circuit_directives), std::end(circuit_directives));
+    return out;
+}
+
+bool is_directive(std::string_view word) {
+    return std::find(std::begin(structural_directives), std::end(structural_directives), word) != std::end(structural_directives) ||
+           std::find(std::begin(circuit_directives), std::end(circuit_directives), word) != std::end(circuit_directives) ||
+           find_analysis(word.substr(1)) != nullptr;
+}
+
+bool is_element_letter(char letter) { return letter == 'x' || find_device_kind(letter) != nullptr; }
 
 /// True for the values that may contain blanks: the expressions of sources and of a capacitor's charge. See split_element().
 bool is_long_value(char letter, std::string_view name) {
-    if (letter == 'b') return name == "v" || name == "i";
-    if (letter == 'c') return name == "q";
-    return (letter == 'e' || letter == 'g') && (name == "value" || name == "vol" || name == "cur");
+    const auto* kind = find_device_kind(letter);
+    return kind != nullptr && std::find(kind->expression_names.begin(), kind->expression_names.end(), name) != kind->expression_names.end();
 }
 
 /// The path of a file that the file `includer` calls `name`.
@@ -70,7 +84,7 @@ public:
     Result<void> read(std::string_view text, const std::string& path, const std::string& section) {
         bytes_read_ += text.size();
         if (bytes_read_ > max_text_bytes)
-            return bad_input(fmt::format("the netlist and its included files exceed the limit of {} MB", max_text_bytes >> 20), {path});
+            return error_at({path}, "the netlist and its included files exceed the limit of {} MB", max_text_bytes >> 20);
         LogicalLineReader lines(text, std::make_shared<const std::string>(path));
         if (open_files_.empty()) TRY(take_title(lines));
         open_files_.push_back({path, section});
@@ -78,7 +92,7 @@ public:
         SubcktDef* const outer_body = std::exchange(file_body_, body_);
         auto ok = section.empty() ? statements(lines) : read_section(lines, section);
         if (ok && body_ != file_body_)
-            ok = bad_input(fmt::format(".subckt {} is not closed by .ends", body_->name), body_->head->location(std::size_t{0}));
+            ok = error_at(body_->head->location(std::size_t{0}), ".subckt {} is not closed by .ends", body_->name);
         file_body_ = outer_body;
         open_files_.pop_back();
         ended_ = false;
@@ -90,9 +104,8 @@ private:
         auto title = TRY(lines.title());
         out_.title = std::string(trimmed(title));
         if (looks_like_statement(out_.title))
-            out_.warnings.push_back(bad_input(
-                fmt::format("the first line is the title, so '{}' is not read as a statement", std::string_view(out_.title).substr(0, 40)),
-                {out_.file, 1, 1}));
+            out_.warnings.push_back(error_at({out_.file, 1, 1}, "the first line is the title, so '{}' is not read as a statement",
+                                             std::string_view(out_.title).substr(0, 40)));
         return {};
     }
 
@@ -106,7 +119,7 @@ private:
         }
         if (words.empty()) return false;
         if (words[0][0] == '.') return true;
-        if (words.size() < 4 || words[0].size() < 2 || element_letters.find(words[0][0]) == std::string_view::npos) return false;
+        if (words.size() < 4 || words[0].size() < 2 || !is_element_letter(words[0][0])) return false;
         if (!std::any_of(words[0].begin(), words[0].end(), [](char c) { return c >= '0' && c <= '9'; })) return false;
         return words.size() == 5 || parse_number(words[3]) || words[3].find_first_of("{'=") != std::string::npos;
     }
@@ -123,7 +136,7 @@ private:
 
     Result<void> statement(LogicalLineReader& lines, LogicalLine line) {
         if (out_.statements.size() >= max_elements)
-            return bad_input(fmt::format("the netlist exceeds the limit of {} statements", max_elements), line.location());
+            return error_at(line.location(), "the netlist exceeds the limit of {} statements", max_elements);
         if (line.text[0] != '.') return element(std::move(line));
         const std::string word = lower(std::string_view(line.text).substr(0, line.text.find_first_of(" \t('\"{")));
         if (word == ".end") return ended_ = true, Result<void>();
@@ -136,16 +149,13 @@ private:
         if (word == ".include" || word == ".inc") return include(std::move(line));
         if (word == ".lib") return library(lines, std::move(line));
         if (word == ".endl" || word == ".endc")
-            return bad_input(fmt::format("{} without {}", word, word == ".endl" ? ".lib" : ".control"), line.location());
+            return error_at(line.location(), "{} without {}", word, word == ".endl" ? ".lib" : ".control");
         if (word == ".ic" || word == ".nodeset") return store_directive(std::move(line), body_->ics);
-        if (std::find(std::begin(structural_directives), std::end(structural_directives), word) == std::end(structural_directives) &&
-            std::find(std::begin(circuit_directives), std::end(circuit_directives), word) == std::end(circuit_directives))
-            return unknown(word, line.location());
+        if (!is_directive(word)) return unknown(word, line.location());
         if (word == ".four")
-            return bad_input(".four: spectra of a transient are not supported; --out x.csv writes the curve for another program",
-                             line.location());
-        if (body_->head)
-            return bad_input(fmt::format("{} is not allowed inside .subckt {}; move it outside", word, body_->name), line.location());
+            return error_at(line.location(),
+                            ".four: spectra of a transient are not supported; --out x.csv writes the curve for another program");
+        if (body_->head) return error_at(line.location(), "{} is not allowed inside .subckt {}; move it outside", word, body_->name);
         return top_level_directive(word, std::move(line));
     }
 
@@ -162,13 +172,13 @@ private:
     }
 
     static Error unknown(std::string_view word, SourceLocation location) {
-        std::vector<std::string_view> known(std::begin(structural_directives), std::end(structural_directives));
-        known.insert(known.end(), std::begin(circuit_directives), std::end(circuit_directives));
+        const auto names = directive_names();
+        const std::vector<std::string_view> known(names.begin(), names.end());
         if (word == ".if" || word == ".elseif" || word == ".else" || word == ".endif")
-            return bad_input(fmt::format("{}: conditional parts of a netlist are not supported", word), std::move(location));
+            return error_at(location, "{}: conditional parts of a netlist are not supported", word);
         for (const auto& [old_name, new_name] : renamed_directives)
-            if (word == old_name) return bad_input(fmt::format("{} is now {}", old_name, new_name), std::move(location));
-        return bad_input(fmt::format("unknown statement '{}'{}", word, did_you_mean(word, known)), std::move(location));
+            if (word == old_name) return error_at(location, "{} is now {}", old_name, new_name);
+        return error_at(location, "unknown statement '{}'{}", word, did_you_mean(word, known));
     }
 
     Statement& store(Statement s) { return out_.statements.emplace_back(std::move(s)); }
@@ -180,11 +190,10 @@ private:
     }
 
     Result<void> element(LogicalLine line) {
-        if (element_letters.find(line.text[0]) == std::string_view::npos)
-            return bad_input(
-                fmt::format("'{}': unknown element letter {}; known are R C L V I E F G H B D M X",
-                            std::string_view(line.text).substr(0, std::min<std::size_t>(line.text.find_first_of(" \t"), 20)), line.text[0]),
-                line.location());
+        if (!is_element_letter(line.text[0]))
+            return error_at(line.location(), "'{}': unknown element letter {}; known are {}",
+                            std::string_view(line.text).substr(0, std::min<std::size_t>(line.text.find_first_of(" \t"), 20)), line.text[0],
+                            element_letters());
         auto read = TRY(split_element(std::move(line), is_long_value));
         TRY(check_duplicates(read));
         body_->elements.push_back(&store(std::move(read)));
@@ -193,7 +202,7 @@ private:
     }
 
     static Result<void> check_duplicates(const Statement& s) {
-        if (s.words.empty()) return bad_input("the name before '=' is missing", s.line.location());
+        if (s.words.empty()) return error_at(s.line.location(), "the name before '=' is missing");
         std::vector<std::string_view> names;
         for (const auto& pair : s.pairs) names.push_back(s.text(pair.name));
         std::sort(names.begin(), names.end());
@@ -202,7 +211,7 @@ private:
         SourceLocation location;
         for (const auto& pair : s.pairs)
             if (s.text(pair.name) == *twice) location = s.location(pair.name);
-        return bad_input(fmt::format("{}: {} is given twice", s.text(std::size_t{0}), *twice), std::move(location));
+        return error_at(location, "{}: {} is given twice", s.text(std::size_t{0}), *twice);
     }
 
     // ---- .param, .func, .model, .global ----
@@ -210,7 +219,7 @@ private:
     Result<void> parameters(LogicalLine line) {
         auto read = TRY(split_assignments(std::move(line)));
         const Statement& s = store(std::move(read));
-        if (s.pairs.empty()) return bad_input(".param: expected name=value", s.line.location());
+        if (s.pairs.empty()) return error_at(s.line.location(), ".param: expected name=value");
         for (const auto& pair : s.pairs) {
             const std::string name(s.text(pair.name));
             if (const auto open = name.find('('); open != std::string::npos) {
@@ -218,9 +227,7 @@ private:
                 continue;
             }
             const auto [at, is_new] = body_->parameters.insert_or_assign(name, WordRef{&s, pair.value});
-            if (!is_new)
-                out_.warnings.push_back(
-                    bad_input(fmt::format(".param {} is given twice; this value is used", name), s.location(pair.name)));
+            if (!is_new) out_.warnings.push_back(error_at(s.location(pair.name), ".param {} is given twice; this value is used", name));
         }
         return {};
     }
@@ -244,14 +251,14 @@ private:
         const auto open = head.find('(');
         const std::string name(trimmed(head.substr(0, open)));
         if (open == std::string_view::npos || name.empty() || head.back() != ')')
-            return bad_input(fmt::format("'{}' is not a function with arguments; write f(x,y)", head), std::move(location));
+            return error_at(location, "'{}' is not a function with arguments; write f(x,y)", head);
         ExpressionScope::Function f{{}, std::move(text)};
         for (auto rest = trimmed(head.substr(open + 1, head.size() - open - 2)); !rest.empty();) {
             const auto comma = std::min(rest.find(','), rest.size());
             f.arguments.emplace_back(trimmed(rest.substr(0, comma)));
             rest.remove_prefix(std::min(comma + 1, rest.size()));
         }
-        if (f.arguments.size() > 100) return bad_input(fmt::format("{}() has more than 100 arguments", name), std::move(location));
+        if (f.arguments.size() > 100) return error_at(location, "{}() has more than 100 arguments", name);
         body_->functions.insert_or_assign(name, std::move(f));
         return {};
     }
@@ -259,14 +266,12 @@ private:
     Result<void> model(LogicalLine line) {
         auto read = TRY(split_element(std::move(line), nullptr));
         if (read.words.size() < 3)
-            return bad_input(".model: expected a name and a type, such as .model nm nmos (vto=0.5)", read.location(read.words.size()));
-        if (read.words.size() > 3)
-            return bad_input(fmt::format("expected name=value, not '{}'", read.text(3)), read.location(std::size_t{3}));
+            return error_at(read.location(read.words.size()), ".model: expected a name and a type, such as .model nm nmos (vto=0.5)");
+        if (read.words.size() > 3) return error_at(read.location(std::size_t{3}), "expected name=value, not '{}'", read.text(3));
         TRY(check_duplicates(read));
         const std::string name(read.text(1));
         if (const auto known = body_->models.find(name); known != body_->models.end())
-            return bad_input(fmt::format("model '{}' is already defined at {}", name, location_text(*known->second)),
-                             read.location(std::size_t{1}));
+            return error_at(read.location(std::size_t{1}), "model '{}' is already defined at {}", name, location_text(*known->second));
         body_->models.emplace(name, &store(std::move(read)));
         return {};
     }
@@ -286,16 +291,15 @@ private:
     /// Reads a .subckt line. The following lines belong to its body until .ends.
     Result<void> subcircuit(LogicalLine line) {
         auto read = TRY(split_element(std::move(line), nullptr));
-        if (read.words.size() < 2) return bad_input(".subckt: expected a name and nodes", read.location(std::size_t{1}));
+        if (read.words.size() < 2) return error_at(read.location(std::size_t{1}), ".subckt: expected a name and nodes");
         TRY(check_duplicates(read));
         if (++subcircuit_depth_ > max_definition_depth)
-            return bad_input(fmt::format("definitions of subcircuits are nested deeper than the limit of {}", max_definition_depth),
-                             read.line.location());
+            return error_at(read.line.location(), "definitions of subcircuits are nested deeper than the limit of {}",
+                            max_definition_depth);
         const std::string name(read.text(1));
         auto& body = body_->subcircuits[name];
         if (body)
-            return bad_input(fmt::format("subcircuit '{}' is already defined at {}", name, location_text(*body->head)),
-                             read.location(std::size_t{1}));
+            return error_at(read.location(std::size_t{1}), "subcircuit '{}' is already defined at {}", name, location_text(*body->head));
         body = std::make_unique<SubcktDef>();
         body->name = name, body->outer = body_, body->head = &store(std::move(read));
         body_ = body.get();
@@ -309,9 +313,8 @@ private:
         for (std::size_t k = 2; k < s.words.size(); ++k) {
             const auto port = s.text(k);
             if (port == "params:") continue;
-            if (is_ground(port)) return bad_input(fmt::format(".subckt {}: ground must not be one of its nodes", body.name), s.location(k));
-            if (!seen.insert(port).second)
-                return bad_input(fmt::format(".subckt {}: node '{}' is given twice", body.name, port), s.location(k));
+            if (is_ground(port)) return error_at(s.location(k), ".subckt {}: ground must not be one of its nodes", body.name);
+            if (!seen.insert(port).second) return error_at(s.location(k), ".subckt {}: node '{}' is given twice", body.name, port);
             body.ports.emplace_back(port);
         }
         for (const auto& pair : s.pairs) {
@@ -324,9 +327,9 @@ private:
 
     Result<void> end_of_subcircuit(LogicalLine line) {
         auto read = TRY(split_directive(std::move(line)));
-        if (body_ == file_body_) return bad_input(".ends without .subckt", read.line.location());
+        if (body_ == file_body_) return error_at(read.line.location(), ".ends without .subckt");
         if (read.words.size() > 1 && read.text(1) != body_->name)
-            return bad_input(fmt::format(".ends {} does not match .subckt {}", read.text(1), body_->name), read.location(std::size_t{1}));
+            return error_at(read.location(std::size_t{1}), ".ends {} does not match .subckt {}", read.text(1), body_->name);
         body_ = body_->outer;
         --subcircuit_depth_;
         return {};
@@ -335,15 +338,15 @@ private:
     // ---- .control, .include, .lib ----
 
     Result<void> skip_control(LogicalLineReader& lines, const LogicalLine& from) {
-        out_.warnings.push_back(bad_input(".control ... .endc is an ngspice script and is ignored", from.location()));
-        if (!lines.skip_past(".endc")) return bad_input(".control is not closed by .endc", from.location());
+        out_.warnings.push_back(error_at(from.location(), ".control ... .endc is an ngspice script and is ignored"));
+        if (!lines.skip_past(".endc")) return error_at(from.location(), ".control is not closed by .endc");
         return {};
     }
 
     Result<void> include(LogicalLine line) {
         auto read = TRY(split_directive(std::move(line)));
         if (read.words.size() != 2)
-            return bad_input(".include: expected one file; put a name with blanks in quotes", read.location(read.words.size() < 2 ? 1 : 2));
+            return error_at(read.location(read.words.size() < 2 ? 1 : 2), ".include: expected one file; put a name with blanks in quotes");
         return open(unquoted(read.text(1)), "", read.location(std::size_t{1}));
     }
 
@@ -353,7 +356,7 @@ private:
         if (read.words.size() == 3) return open(unquoted(read.text(1)), lower(unquoted(read.text(2))), read.location(std::size_t{1}));
         const bool is_file = read.words.size() == 2 && unquoted(read.text(1)) != read.text(1);
         if (read.words.size() != 2 || is_file)
-            return bad_input(".lib: expected a file and a section; to read a complete file, use .include", read.location(std::size_t{1}));
+            return error_at(read.location(std::size_t{1}), ".lib: expected a file and a section; to read a complete file, use .include");
         return skip_section(lines, read.line.location());
     }
 
@@ -362,7 +365,7 @@ private:
         LogicalLine line;
         while (true) {
             const auto more = TRY(lines.next(line));
-            if (!more) return bad_input(".lib with one word begins a section, but .endl is missing; to read a file, use .include", from);
+            if (!more) return error_at(from, ".lib with one word begins a section, but .endl is missing; to read a file, use .include");
             if (lower(std::string_view(line.text).substr(0, 5)) == ".endl") return {};
         }
     }
@@ -372,13 +375,12 @@ private:
         ++files_opened_;
         const std::string path = resolved_path(open_files_.back().path, name);
         if (open_files_.size() > max_include_depth)
-            return bad_input(fmt::format("included files are nested deeper than the limit of {}", max_include_depth), std::move(location));
-        if (files_opened_ > max_elements)
-            return bad_input(fmt::format("more than {} files are included", max_elements), std::move(location));
+            return error_at(location, "included files are nested deeper than the limit of {}", max_include_depth);
+        if (files_opened_ > max_elements) return error_at(location, "more than {} files are included", max_elements);
         auto& text = texts_[path];
         if (!text) {
             auto opened = open_(path);
-            if (!opened) return bad_input(fmt::format("'{}': {}", name, opened.error().message), std::move(location));
+            if (!opened) return error_at(location, "'{}': {}", name, opened.error().message);
             text = std::make_shared<const std::string>(std::move(*opened));
         }
         const auto shared_text = text;
@@ -387,7 +389,7 @@ private:
         // The corner does not replace sections that are named inside a library.
         if (is_outside_library && !section.empty()) section = corner_.select_section(section, name, *shared_text);
         if (std::find(open_files_.begin(), open_files_.end(), Source{path, section}) != open_files_.end())
-            return bad_input(fmt::format("'{}' includes itself", name), std::move(location));
+            return error_at(location, "'{}' includes itself", name);
         auto ok = read(*shared_text, path, section);
         if (!ok && ok.error().location.file.empty()) return bad_input(ok.error().message, std::move(location));
         return ok;
@@ -421,7 +423,7 @@ private:
             if (line.text.starts_with(".endl")) return {};
             TRY(statement(lines, std::move(line)));
         }
-        return bad_input(".lib is not closed by .endl", from);
+        return error_at(from, ".lib is not closed by .endl");
     }
 };
 

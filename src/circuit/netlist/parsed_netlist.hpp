@@ -4,6 +4,7 @@
 #include <deque>
 #include <map>
 #include <memory>
+#include <optional>
 #include <set>
 #include <string>
 #include <string_view>
@@ -53,6 +54,8 @@ struct ParsedNetlist {
     std::vector<Error> warnings;
 };
 
+struct Netlist::Impl : ParsedNetlist {};
+
 /// Reads the text and all files that it includes. For `corner`, see Netlist::parse().
 Result<void> read_netlist(const std::string& text, const std::string& file, const Netlist::FileOpener&, const std::string& corner,
                           ParsedNetlist&);
@@ -69,5 +72,14 @@ std::vector<std::string_view> keys_of(const Map& map) {
     for (const auto& entry : map) names.push_back(entry.first);
     return names;
 }
+
+/// Returns an error if the name of an option or its value is invalid. The value is `number` or `word`; an option without both is a flag.
+Result<void> check_option(std::string_view name, std::optional<double> number, std::optional<std::string_view> word,
+                          const SourceLocation& location);
+
+struct RenamedDirective {
+    std::string_view old_name, new_name;
+};
+inline constexpr RenamedDirective renamed_directives[] = {{".within", ".assert"}};
 
 }  // namespace corpuscle::circuit

@@ -1,6 +1,5 @@
 #include "circuit/netlist/scope.hpp"
 
-#include <fmt/format.h>
 #include <algorithm>
 #include <cmath>
 
@@ -96,9 +95,8 @@ Result<double> Scope::evaluate(const WordRef& text) const {
         const auto expression = TRY(parse_expression(text, expression_scope()));
         value = expression.value();
     }
-    if (std::isnan(value)) return bad_input(fmt::format("'{}' is not a number", text.view().substr(0, 60)), text.location());
-    if (!std::isfinite(value))
-        return bad_input(fmt::format("'{}' is {}, not a finite number", text.view().substr(0, 60), value), text.location());
+    if (std::isnan(value)) return error_at(text.location(), "'{}' is not a number", text.view().substr(0, 60));
+    if (!std::isfinite(value)) return error_at(text.location(), "'{}' is {}, not a finite number", text.view().substr(0, 60), value);
     return value;
 }
 
@@ -130,7 +128,7 @@ Result<void> Scope::define(const std::string& first, ByName<WordRef>& pending) {
         std::string chain;
         auto at = std::find_if(stack.begin(), stack.end(), [&](const Pending& b) { return b.name == name; });
         for (int shown = 0; at != stack.end() && shown < 20; ++at, ++shown) chain += at->name + " -> ";
-        return bad_input(fmt::format("parameter {} depends on itself: {}{}", name, chain, name), pending.find(name)->second.location());
+        return error_at(pending.find(name)->second.location(), "parameter {} depends on itself: {}{}", name, chain, name);
     };
     for (push(first); !stack.empty();) {
         auto& top = stack.back();

@@ -1,6 +1,5 @@
 #include "circuit/netlist/statement.hpp"
 
-#include <fmt/format.h>
 
 namespace corpuscle::circuit {
 namespace {
@@ -21,7 +20,10 @@ public:
     char here() const { return done() ? '\0' : s_[at]; }
     std::string_view text() const { return s_; }
     void skip(std::string_view characters) { at = std::min(s_.find_first_not_of(characters, at), s_.size()); }
-    Error error_at(std::string message, std::size_t offset) const { return bad_input(std::move(message), line_.location(offset)); }
+    template <class... Arguments>
+    Error error_at(std::size_t offset, fmt::format_string<Arguments...> message, Arguments&&... arguments) const {
+        return circuit::error_at(line_.location(offset), message, std::forward<Arguments>(arguments)...);
+    }
 
     /// True if character k is an '=' that assigns, not a part of == <= >= !=.
     bool is_assignment(std::size_t k) const {
@@ -40,56 +42,43 @@ public:
             else if (c == '(' || c == '{')
                 open += c;
             else if (c == ')' || c == '}') {
-                if (open.empty() || (open.back() == '(') != (c == ')')) return error_at(fmt::format("unmatched '{}'", c), k);
+                if (open.empty() || (open.back() == '(') != (c == ')')) return error_at(k, "unmatched '{}'", c);
                 open.pop_back();
             }
             if (open.empty()) return k + 1;
         }
-        return error_at(fmt::format("this '{}' is not closed", s_[at]), at);
+        return error_at(at, "this '{}' is not closed", s_[at]);
     }
     bool opens_group() const { return here() == '(' || here() == '{' || here() == '\'' || here() == '"'; }
 
-    /// The offset after a value that begins here and ends at a blank, a comma, an unmatched parenthesis or an assignment.
-    Result<std::size_t> past_value() const {
-        Cursor c = *this;
-        while (!c.done() && !is_blank_char(c.here()) && c.here() != ',' && c.here() != ')' && !c.is_assignment(c.at)) {
-            if (!c.opens_group()) {
-                ++c.at;
-                continue;
-            }
-            auto end = c.past_group();
-            if (!end) return end;
-            c.at = *end;
-        }
-        return c.at;
+    /// Moves over characters and groups until stops() is true, or to the end.
+    template <class Stops>
+    Result<void> move_until(const Stops& stops) {
+        while (!done() && !stops()) at = opens_group() ? TRY(past_group()) : at + 1;
+        return {};
     }
-
-    /// The offset after a value that begins here and ends where the next pair begins.
-    Result<std::size_t> past_long_value() const {
-        Cursor c = *this;
-        while (!c.done()) {
-            if (c.is_assignment(c.at)) return name_before(c.at);
-            if (!c.opens_group()) {
-                ++c.at;
-                continue;
-            }
-            auto end = c.past_group();
-            if (!end) return end;
-            c.at = *end;
-        }
-        return c.at;
+    /// Moves over a value that ends at a blank, a comma, an unmatched parenthesis or an assignment.
+    Result<void> move_over_value() {
+        return move_until([this] { return is_blank_char(here()) || here() == ',' || here() == ')' || is_assignment(at); });
+    }
+    /// Moves over a value that ends where the next pair begins.
+    Result<void> move_over_long_value() {
+        const auto from = at;
+        TRY(move_until([this] { return is_assignment(at); }));
+        if (!done()) at = name_before(at, from);
+        return {};
     }
 
 private:
-    /// The offset of the name before the '=' at offset k: "a" or "f(x, y)".
-    std::size_t name_before(std::size_t k) const {
+    /// The offset of the name before the '=' at offset k, at `from` or later: "a" or "f(x, y)".
+    std::size_t name_before(std::size_t k, std::size_t from) const {
         const auto skip_back = [&](auto&& is) {
-            while (k > at && is(s_[k - 1])) --k;
+            while (k > from && is(s_[k - 1])) --k;
         };
         skip_back(is_blank_char);
-        if (k > at && s_[k - 1] == ')') {
+        if (k > from && s_[k - 1] == ')') {
             skip_back([](char c) { return c != '('; });
-            if (k > at) --k;
+            if (k > from) --k;
         }
         skip_back(is_in_name);
         return k;
@@ -115,9 +104,9 @@ Word value_word(std::string_view s, std::size_t from, std::size_t to) {
 Result<Word> read_value(Cursor& c, bool is_long) {
     c.skip(" \t");
     const auto from = c.at;
-    c.at = TRY(is_long ? c.past_long_value() : c.past_value());
+    TRY(is_long ? c.move_over_long_value() : c.move_over_value());
     const Word value = value_word(c.text(), from, c.at);
-    if (value.size == 0) return c.error_at("'=' without a value after it", from > 0 ? from - 1 : 0);
+    if (value.size == 0) return c.error_at(from > 0 ? from - 1 : 0, "'=' without a value after it");
     return value;
 }
 
@@ -126,7 +115,7 @@ Result<void> skip_separators(Cursor& c, std::vector<std::size_t>& open) {
     for (; !c.done() && (is_blank_char(c.here()) || c.here() == ',' || c.here() == '(' || c.here() == ')'); ++c.at) {
         if (c.here() == '(') open.push_back(c.at);
         if (c.here() != ')') continue;
-        if (open.empty()) return c.error_at("unmatched ')'", c.at);
+        if (open.empty()) return c.error_at(c.at, "unmatched ')'");
         open.pop_back();
     }
     return {};
@@ -159,7 +148,7 @@ Result<Statement> split_element(LogicalLine line, bool (*is_long_value)(char, st
     while (true) {
         TRY(skip_separators(c, open));
         if (c.done()) break;
-        if (c.is_assignment(c.at)) return c.error_at("'=' without a name before it", c.at);
+        if (c.is_assignment(c.at)) return c.error_at(c.at, "'=' without a name before it");
         const auto first = TRY(plain_or_group(c));
         const auto after = c.at;
         c.skip(" \t");
@@ -172,7 +161,7 @@ Result<Statement> split_element(LogicalLine line, bool (*is_long_value)(char, st
         const auto value = TRY(read_value(c, is_long_value && is_long_value(s.line.text[0], s.text(first))));
         s.pairs.push_back({first, value});
     }
-    if (!open.empty()) return c.error_at("this '(' is not closed", open.back());
+    if (!open.empty()) return c.error_at(open.back(), "this '(' is not closed");
     return s;
 }
 
@@ -191,7 +180,7 @@ Result<Statement> split_assignments(LogicalLine line) {
             to = c.at = end;
             c.skip(" \t");
         }
-        if (!c.is_assignment(c.at) || to == from) return c.error_at("expected name=value here", from);
+        if (!c.is_assignment(c.at) || to == from) return c.error_at(from, "expected name=value here");
         ++c.at;
         const auto value = TRY(read_value(c, true));
         s.pairs.push_back({word(from, to), value});

@@ -97,27 +97,51 @@ std::optional<CurveView> CurveView::find(const Plot& plot, std::string_view name
     return out;
 }
 
-std::vector<std::complex<double>> CurveView::all_values(const Plot& plot) const {
-    std::vector<std::complex<double>> out(plot.point_count());
-    if (!expression_) {
-        const auto value = [&](int curve, std::size_t k) { return curve < 0 ? 0 : plot.curves[static_cast<std::size_t>(curve)].values[k]; };
-        for (std::size_t k = 0; k < out.size(); ++k) out[k] = part_of_value(value(plus_, k) - value(minus_, k));
-        return out;
-    }
-    std::vector<std::vector<std::complex<double>>> inputs;
-    for (const auto& input : inputs_) inputs.push_back(input.all_values(plot));
-    std::vector<double> values(inputs.size());
-    for (std::size_t k = 0; k < out.size(); ++k) {
-        for (std::size_t n = 0; n < values.size(); ++n) values[n] = inputs[n][k].real();
-        out[k] = expression_->value(values);
-    }
-    return out;
-}
-
 std::optional<std::vector<std::complex<double>>> find_curve_values(const Plot& plot, std::string_view name) {
     const auto view = CurveView::find(plot, name);
     if (!view) return {};
-    return view->all_values(plot);
+    std::vector<std::complex<double>> out;
+    PlotPoints points(plot);
+    for (std::size_t k = 0; k < plot.point_count(); ++k) out.push_back(view->value(points[k]));
+    return out;
+}
+
+Result<void> PlotPoints::send_to(PointSink& sink) {
+    Plot head = plot_;
+    for (auto& c : head.curves) c.values.clear();
+    TRY(sink.begin(head));
+    for (std::size_t k = 0; k < plot_.point_count(); ++k) TRY(sink.add_point((*this)[k]));
+    return sink.end();
+}
+
+Result<void> CurveSelector::begin(const Plot& plot) {
+    Plot head{plot.name, plot.is_complex, plot.has_sweep, {}};
+    has_sweep_ = plot.has_sweep && !plot.curves.empty();
+    if (has_sweep_) head.curves.push_back({plot.curves[0].name, plot.curves[0].type, {}});
+    const CurveIndex index(plot);
+    views_.clear();
+    for (const auto& name : names_)
+        if (const auto view = CurveView::find(plot, name, &index)) {
+            views_.push_back(*view);
+            head.curves.push_back({name, name[0] == 'v' ? "voltage" : "current", {}});
+        }
+    return sink_.begin(views_.empty() ? plot : head);
+}
+
+Result<void> CurveSelector::add_point(const PlotRow& row) {
+    if (views_.empty()) return sink_.add_point(row);
+    row_.clear(), complex_row_.clear();
+    const auto add = [&](std::complex<double> x) { row.is_complex() ? complex_row_.push_back(x) : row_.push_back(x.real()); };
+    if (has_sweep_) add(row[0]);
+    for (const auto& view : views_) add(view.value(row));
+    return sink_.add_point(row.is_complex() ? PlotRow(complex_row_) : PlotRow(row_));
+}
+
+Plot select_curves(const Plot& plot, const std::vector<std::string>& names) {
+    PlotRecorder recorder;
+    CurveSelector selector(names, recorder);
+    (void)PlotPoints(plot).send_to(selector);  // a recorder does not fail
+    return std::move(recorder.plot);
 }
 
 }  // namespace corpuscle::circuit

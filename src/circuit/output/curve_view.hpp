@@ -6,6 +6,7 @@
 #include <string_view>
 #include <unordered_map>
 
+#include "circuit/device/device.hpp"
 #include "circuit/expression/expression.hpp"
 #include "circuit/output/point_sink.hpp"
 
@@ -41,15 +42,13 @@ public:
 
     std::complex<double> value(const PlotRow& row) const {
         if (expression_) return evaluate_expression(row);
-        return part_of_value((plus_ < 0 ? 0 : row[static_cast<std::size_t>(plus_)]) -
-                             (minus_ < 0 ? 0 : row[static_cast<std::size_t>(minus_)]));
+        return part_of_value(value_of(row, plus_) - value_of(row, minus_));
     }
     /// The value for .meas. It is the magnitude if the name does not select a part of a complex curve, as in ngspice.
     double measured_value(const PlotRow& row) const {
         const auto x = value(row);
-        return row.is_complex && is_complex_value_ ? std::abs(x) : x.real();
+        return row.is_complex() && is_complex_value_ ? std::abs(x) : x.real();
     }
-    std::vector<std::complex<double>> all_values(const Plot&) const;
 };
 
 /// Parses the expression in "par('...')"; an error is reported at `location`.
@@ -57,5 +56,25 @@ Result<Expression> parse_par_expression(std::string_view name, const SourceLocat
 
 /// The values of the named curve (as in CurveView) at all points of a plot; nothing if the plot has no such curve.
 std::optional<std::vector<std::complex<double>>> find_curve_values(const Plot&, std::string_view name);
+
+/// Passes the swept quantity and the named curves of a plot to a sink. If `names` is empty, or the plot has none of them (noise, transfer
+/// function), all curves.
+class CurveSelector final : public PointSink {
+    const std::vector<std::string>& names_;
+    PointSink& sink_;
+    std::vector<CurveView> views_;  // empty: all curves
+    bool has_sweep_ = true;
+    std::vector<double> row_;
+    std::vector<std::complex<double>> complex_row_;
+
+public:
+    CurveSelector(const std::vector<std::string>& names, PointSink& sink) : names_(names), sink_(sink) {}
+    Result<void> begin(const Plot& head) override;
+    Result<void> add_point(const PlotRow&) override;
+    Result<void> end() override { return sink_.end(); }
+};
+
+/// The plot with only the named curves.
+Plot select_curves(const Plot&, const std::vector<std::string>& names);
 
 }  // namespace corpuscle::circuit

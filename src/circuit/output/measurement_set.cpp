@@ -1,10 +1,9 @@
 #include "circuit/output/measurement_set.hpp"
 
-#include <fmt/format.h>
 #include <algorithm>
 
 #include "circuit/expression/expression.hpp"
-#include "circuit/measure/measurement_parser.hpp"
+#include "circuit/measure/measurement.hpp"
 
 namespace corpuscle::circuit {
 namespace {
@@ -28,11 +27,9 @@ Result<Expression> parse_expression(const Directive& c, const KnownNumbers& numb
     return Expression::parse(inside, c.location, scope);
 }
 
-Error without_analysis(const Directive& c) {
-    return bad_input(fmt::format(".meas: the netlist has no .{} to measure", c.words[0]), c.location);
-}
+Error without_analysis(const Directive& c) { return error_at(c.location, ".meas: the netlist has no .{} to measure", c.words[0]); }
 Error incomplete_measure(const Directive& c) {
-    return bad_input(".meas: expected .meas op|dc|ac|noise|tran NAME MEASUREMENT ...", c.location);
+    return error_at(c.location, ".meas: expected .meas op|dc|ac|noise|tran NAME MEASUREMENT ...");
 }
 
 }  // namespace
@@ -43,7 +40,7 @@ MeasurementSet::MeasurementSet(const Circuit& circuit) {
 }
 
 Result<void> MeasurementSet::begin(std::string_view analysis, const Plot& head) {
-    active_.clear();
+    active_.clear(), has_sweep_ = head.has_sweep;
     for (auto& entry : entries_) {
         // A line that has a measurement already measured an earlier analysis of this kind.
         const auto& c = *entry.directive;
@@ -54,30 +51,11 @@ Result<void> MeasurementSet::begin(std::string_view analysis, const Plot& head) 
     return {};
 }
 
-Result<void> MeasurementSet::add_plot(std::string_view analysis, const Plot& plot) {
-    if (auto ok = begin(analysis, plot); !ok || active_.empty()) return ok;
-    std::vector<std::complex<double>> row(plot.curves.size());
-    for (std::size_t k = 0; k < plot.point_count(); ++k) {
-        for (std::size_t n = 0; n < row.size(); ++n) row[n] = plot.curves[n].values[k];
-        add_point(plot.has_sweep ? row[0].real() : 0, {row, plot.is_complex});
-    }
-    return {};
-}
-
 Result<void> MeasurementSet::check(const std::vector<std::string>& number_names) const {
     KnownNumbers known;  // the values are arbitrary, since only the names matter
     for (const auto& name : number_names) known.emplace_back(name, 1.0);
-    for (const auto& [directive, measurement] : entries_) {
-        const auto& c = *directive;
-        if (c.words.size() < 3) return incomplete_measure(c);
-        if (is_expression(c)) {
-            TRY(parse_expression(c, known));
-        } else if (!measurement) {
-            return without_analysis(c);
-        }
-        known.emplace_back(c.words[1], 1.0);
-    }
-    return {};
+    std::vector<Error> warnings;
+    return finish(known, warnings);
 }
 
 Result<void> MeasurementSet::finish(std::vector<std::pair<std::string, double>>& numbers, std::vector<Error>& warnings) const {
@@ -91,7 +69,7 @@ Result<void> MeasurementSet::finish(std::vector<std::pair<std::string, double>>&
         }
         if (!measurement) return without_analysis(c);
         const double value = measurement->value();
-        if (std::isnan(value)) warnings.push_back(bad_input(fmt::format(".meas {}: nothing was found", c.words[1]), c.location));
+        if (std::isnan(value)) warnings.push_back(error_at(c.location, ".meas {}: nothing was found", c.words[1]));
         numbers.emplace_back(c.words[1], value);
     }
     return {};

@@ -16,6 +16,7 @@ class MeasurementSet {
     };
     std::vector<Entry> entries_;
     std::vector<Measurement*> active_;  // measurements of the plot that was begun last
+    bool has_sweep_ = true;             // of that plot
 
 public:
     explicit MeasurementSet(const Circuit&);
@@ -26,12 +27,10 @@ public:
     /// Call this after begin() for every analysis. Reports the errors of finish() that depend on names only. `number_names` are the names
     /// of the numbers that the analyses may produce.
     Result<void> check(const std::vector<std::string>& number_names) const;
-    /// Adds a point of the plot; x is the value of its swept quantity.
-    void add_point(double x, const PlotRow& row) {
-        for (auto* measurement : active_) measurement->add_point(x, row);
+    /// Adds a point of the plot.
+    void add_point(const PlotRow& row) {
+        for (auto* measurement : active_) measurement->add_point(has_sweep_ ? row[0].real() : 0, row);
     }
-    /// Calls begin(), then add_point() for all points of a complete plot.
-    Result<void> add_plot(std::string_view analysis, const Plot&);
 
     /// Call this after all analyses. `numbers` contains the numbers of the analyses, which param= expressions may use. Appends the results
     /// in the order of the .meas lines. A measurement that found nothing is NaN and adds a warning.

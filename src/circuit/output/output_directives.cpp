@@ -1,4 +1,4 @@
-#include "circuit/output/output_directives.hpp"
+#include "circuit/output/print_directive.hpp"
 
 #include <fmt/format.h>
 #include <algorithm>
@@ -14,53 +14,9 @@ namespace {
 /// The directive of an analysis, and the curves that it will produce, without values.
 struct Head {
     const Directive* directive;
+    const Analysis* analysis;
     Plot plot;
 };
-
-/// The curves that the analysis will produce, without values.
-Plot expected_curves(const System& system, const DeviceCurrents& currents, const Directive& c) {
-    if (c.name == "noise")
-        return {"Noise Spectral Density Curves",
-                false,
-                true,
-                {{"frequency", "frequency", {}}, {"onoise_spectrum", "notype", {}}, {"inoise_spectrum", "notype", {}}}};
-    if (c.name == "tf") {
-        Plot plot{"Transfer Function", false, false, {{"transfer_function", "notype", {}}}};
-        if (c.words.size() == 2)
-            for (const auto& name : {c.words[1] + "#input_impedance", "output_impedance_at_" + c.words[0]})
-                plot.curves.push_back({name, "notype", {}});
-        return plot;
-    }
-    if (c.name == "sens") {
-        Plot plot{"Sensitivity Analysis", false, false, {}};
-        for (const auto& d : system.devices())
-            if (d->principal_value()) plot.curves.push_back({d->name, "notype", {}});
-        return plot;
-    }
-    if (c.name == "op") {
-        auto plot = make_plot(system, "Operating Point", "", "");
-        return currents.extend_head(plot), plot;
-    }
-    if (c.name == "ac") {
-        auto plot = make_plot(system, "AC Analysis", "frequency", "frequency");
-        return plot.is_complex = true, plot;
-    }
-    if (c.name == "tran") {
-        auto plot = make_plot(system, "Transient Analysis", "time", "time");
-        return currents.extend_head(plot), plot;
-    }
-    // .dc
-    const std::string swept = c.words.empty() ? "v" : c.words[0];
-    const bool is_temperature = swept == "temp";
-    auto plot = make_plot(system, "DC transfer characteristic",
-                          is_temperature    ? "temp-sweep"
-                          : swept[0] == 'i' ? "i-sweep"
-                          : swept[0] == 'v' ? "v-sweep"
-                                            : "res-sweep",
-                          "");
-    if (!is_temperature) currents.extend_head(plot);
-    return plot;
-}
 
 class OutputDirectives {
     const Circuit& circuit_;
@@ -70,10 +26,13 @@ class OutputDirectives {
     std::vector<Error>& warnings_;
 
 public:
-    OutputDirectives(const System& system, const DeviceCurrents& currents, std::vector<Error>& warnings)
+    OutputDirectives(const System& system, DeviceCurrents currents, std::vector<Error>& warnings)
         : circuit_(system.circuit()), warnings_(warnings) {
         for (const auto& c : circuit_.directives)
-            if (find_analysis(c.name) != nullptr) heads_.push_back({&c, expected_curves(system, currents, c)});
+            if (const auto* analysis = find_analysis(c.name); analysis != nullptr) {
+                heads_.push_back({&c, analysis, analysis->expected_plot(system, c)});
+                currents.begin(heads_.back().plot);
+            }
         for (const auto& head : heads_) indices_.emplace_back(head.plot);
     }
 
@@ -85,7 +44,7 @@ public:
             } else if (c.name == "probe") {
                 for (std::size_t k = 0; k < c.words.size(); ++k)
                     if (is_unsupported_probe(circuit_, c, c.words[k]))
-                        warnings_.push_back(error_at(c, k, fmt::format(".probe: '{}' is not supported and is ignored", c.words[k])));
+                        warnings_.push_back(error_at(c.location_of(k), ".probe: '{}' is not supported and is ignored", c.words[k]));
             }
         MeasurementSet measures(circuit_);
         for (const auto& head : heads_) TRY(measures.begin(head.directive->name, head.plot));
@@ -102,18 +61,16 @@ private:
     Result<void> check_columns(const Directive& c) {
         if (c.name == "plot")
             warnings_.push_back(
-                bad_input(".plot has no effect here; --out x.csv or x.raw writes the curves, .print prints columns", c.location));
+                error_at(c.location, ".plot has no effect here; --out x.csv or x.raw writes the curves, .print prints columns"));
         const bool names_analysis = !c.words.empty() && find_analysis(c.words[0]) != nullptr;
-        if (c.words.size() == (names_analysis ? 1U : 0U))
-            return bad_input(fmt::format(".{}: expected .{} tran v(NODE) ...", c.name, c.name), c.location);
+        if (c.words.size() == (names_analysis ? 1U : 0U)) return error_at(c.location, ".{}: expected .{} tran v(NODE) ...", c.name, c.name);
         if (names_analysis && std::none_of(heads_.begin(), heads_.end(), [&](const Head& h) { return h.directive->name == c.words[0]; })) {
-            warnings_.push_back(
-                bad_input(fmt::format(".{}: the netlist has no .{}, so nothing is printed", c.name, c.words[0]), c.location));
+            warnings_.push_back(error_at(c.location, ".{}: the netlist has no .{}, so nothing is printed", c.name, c.words[0]));
             return {};
         }
         for (std::size_t k = names_analysis ? 1 : 0; k < c.words.size(); ++k)
             if (c.words[k].find('=') != std::string::npos && !c.words[k].starts_with("par("))
-                warnings_.push_back(error_at(c, k, fmt::format(".{}: '{}' has no effect here", c.name, c.words[k])));
+                warnings_.push_back(error_at(c.location_of(k), ".{}: '{}' has no effect here", c.name, c.words[k]));
             else if (c.words[k] == "all")
                 continue;
             else if (auto ok = check_curve(c, k, names_analysis); !ok)
@@ -132,7 +89,7 @@ private:
                 for (const auto& curve : head.plot.curves) known.push_back(curve.name);
         if (word.starts_with("par("))
             if (const auto expression = parse_par_expression(word, c.location); !expression)
-                return error_at(c, k, expression.error().message);
+                return error_at(c.location_of(k), "{}", expression.error().message);
         const bool is_axis_limit = c.name == "plot" && word.starts_with("(");  // (0,5)
         if (is_axis_limit) return {};
         const bool is_device_current =
@@ -141,7 +98,7 @@ private:
             is_device_current
                 ? fmt::format("; '.save {}' records the current of an M, D or R; for any other element, put a 0 V source in series", word)
                 : did_you_mean(word, known);
-        return error_at(c, k, fmt::format(".{}: there is no curve '{}'{}", c.name, word, hint));
+        return error_at(c.location_of(k), ".{}: there is no curve '{}'{}", c.name, word, hint);
     }
 
     /// Returns an error if the name in an .expect is neither a measurement, a number of an analysis nor a curve.
@@ -154,22 +111,15 @@ private:
         if (std::find(known.begin(), known.end(), name) != known.end()) return {};
         for (std::size_t h = 0; h < heads_.size(); ++h)
             if (CurveView::find(heads_[h].plot, name, &indices_[h])) return {};
-        return bad_input(fmt::format(".expect: there is no measurement, number or curve '{}'{}", name, did_you_mean(name, known)),
-                         c.location);
+        return error_at(c.location, ".expect: there is no measurement, number or curve '{}'{}", name, did_you_mean(name, known));
     }
 
     /// Names of the numbers that the analyses may produce.
     std::vector<std::string> number_names() const {
         std::vector<std::string> out;
         for (const auto& head : heads_) {
-            const auto& word = head.directive->name;
-            if (word == "tran")
-                for (const auto* name : {"spikes", "first_spike", "last_spike", "mean_interval", "spike_error"}) out.emplace_back(name);
-            if (word == "noise")
-                for (const auto* name : {"onoise_total", "inoise_total"}) out.emplace_back(name);
-            if (word == "op")
-                for (const auto* name : {"stable_states", "unstable_states", "power_on_elsewhere"}) out.emplace_back(name);
-            if (word == "tf" || word == "sens")
+            out.insert(out.end(), head.analysis->numbers.begin(), head.analysis->numbers.end());
+            if (head.analysis->has_number_for_each_curve)
                 for (const auto& curve : head.plot.curves) out.push_back(curve.name);
         }
         return out;
@@ -178,8 +128,8 @@ private:
 
 }  // namespace
 
-Result<void> check_output_directives(const System& system, const DeviceCurrents& currents, std::vector<Error>& warnings) {
-    return OutputDirectives(system, currents, warnings).check();
+Result<void> check_output_directives(const System& system, DeviceCurrents currents, std::vector<Error>& warnings) {
+    return OutputDirectives(system, std::move(currents), warnings).check();
 }
 
 }  // namespace corpuscle::circuit

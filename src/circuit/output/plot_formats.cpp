@@ -13,17 +13,7 @@ void append_bytes(std::string& out, double x) {
     for (int k = 0; k < 8; ++k) out += static_cast<char>(bits >> (8 * k));
 }
 
-void append_plot(std::string& out, std::string_view title, const Plot& plot, bool binary) {
-    auto head = raw_header(title, plot, binary);
-    const auto count = raw_count(plot.point_count());
-    out += head.text.replace(head.count_offset, count.size(), count);
-    std::vector<std::complex<double>> row(plot.curves.size());
-    for (std::size_t point = 0; point < plot.point_count(); ++point) {
-        for (std::size_t k = 0; k < row.size(); ++k) row[k] = plot.curves[k].values[point];
-        append_raw_point(out, point, {row, plot.is_complex}, binary);
-    }
-    out += raw_footer(binary);
-}
+bool has_two_columns(const Plot& plot, const Curve& c) { return plot.is_complex && c.type != "frequency"; }
 
 }  // namespace
 
@@ -48,8 +38,8 @@ void append_raw_point(std::string& out, std::size_t number, const PlotRow& row, 
         const auto x = row[k];
         if (binary) {
             append_bytes(out, x.real());
-            if (row.is_complex) append_bytes(out, x.imag());
-        } else if (row.is_complex) {
+            if (row.is_complex()) append_bytes(out, x.imag());
+        } else if (row.is_complex()) {
             fmt::format_to(to, "\t{:.15e},{:.15e}\n", x.real(), x.imag());
         } else {
             fmt::format_to(to, "\t{:.15e}\n", x.real());
@@ -58,16 +48,6 @@ void append_raw_point(std::string& out, std::size_t number, const PlotRow& row, 
 }
 
 std::string_view raw_footer(bool binary) { return binary ? "" : "\n"; }
-
-std::string raw_text(std::string_view title, std::span<const Plot> plots, bool binary) {
-    std::string out;
-    for (const auto& plot : plots) append_plot(out, title, plot, binary);
-    return out;
-}
-
-namespace {
-bool has_two_columns(const Plot& plot, const Curve& c) { return plot.is_complex && c.type != "frequency"; }
-}  // namespace
 
 std::string csv_header(const Plot& plot) {
     std::string out;
@@ -79,23 +59,13 @@ std::string csv_header(const Plot& plot) {
     return out + '\n';
 }
 
-std::string csv_rows(const Plot& plot, std::string_view prefix) {
-    std::string out;
+void append_csv_row(std::string& out, const Plot& head, const PlotRow& row) {
     const auto to = std::back_inserter(out);
-    for (std::size_t point = 0; point < plot.point_count(); ++point) {
-        out += prefix;
-        for (const auto& c : plot.curves) {
-            if (&c != &plot.curves[0]) out += ',';
-            const auto x = c.values[point];
-            has_two_columns(plot, c) ? fmt::format_to(to, "{},{}", x.real(), x.imag()) : fmt::format_to(to, "{}", x.real());
-        }
-        out += '\n';
+    for (std::size_t k = 0; k < row.size(); ++k) {
+        if (k > 0) out += ',';
+        const auto x = row[k];
+        has_two_columns(head, head.curves[k]) ? fmt::format_to(to, "{},{}", x.real(), x.imag()) : fmt::format_to(to, "{}", x.real());
     }
-    return out;
-}
-
-void append_csv_row(std::string& out, std::span<const double> row) {
-    for (const double& x : row) fmt::format_to(std::back_inserter(out), "{}{}", &x == row.data() ? "" : ",", x);
     out += '\n';
 }
 

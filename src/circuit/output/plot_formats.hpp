@@ -8,11 +8,9 @@
 
 namespace corpuscle::circuit {
 
-/// All plots one after another, as ngspice's `write` does. `binary` selects the binary format, with little-endian doubles, or ASCII.
-std::string raw_text(std::string_view title, std::span<const Plot>, bool binary);
-
-/// The parts of such a file for a plot that arrives point by point: header, points (numbered from 0), footer. The header contains a point
-/// count of 0. At the end of the plot it must be overwritten by raw_count(), which has the same width.
+// ngspice's .raw file, as its `write` makes it: for each plot a header, its points (numbered from 0), a footer. `binary` selects the binary
+// format, with little-endian doubles, or ASCII. The header contains a point count of 0. At the end of the plot it must be overwritten by
+// raw_count(), which has the same width.
 struct RawHeader {
     std::string text;
     std::size_t count_offset;  ///< offset of the point count in the text, bytes
@@ -22,10 +20,10 @@ std::string raw_count(std::size_t points);
 void append_raw_point(std::string&, std::size_t number, const PlotRow&, bool binary);
 std::string_view raw_footer(bool binary);
 
-/// One plot as CSV: a header of names, then one row per point. In a complex plot each curve but the frequency has two columns, name.re and
-/// name.im.
+// A plot as CSV: a header of names, then one row per point. In a complex plot each curve but the frequency has two columns, name.re and
+// name.im.
 std::string csv_header(const Plot&);
-std::string csv_rows(const Plot&, std::string_view prefix = {});  ///< each row begins with `prefix`
-void append_csv_row(std::string&, std::span<const double> row);   ///< appends one point of a real plot
+/// `head`: the plot without values.
+void append_csv_row(std::string&, const Plot& head, const PlotRow&);
 
 }  // namespace corpuscle::circuit

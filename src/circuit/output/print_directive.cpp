@@ -5,7 +5,7 @@
 #include <iterator>
 
 #include "circuit/analyses.hpp"
-#include "circuit/measure/line_segment.hpp"
+#include "circuit/measure/measurement.hpp"
 
 namespace corpuscle::circuit {
 namespace {
@@ -47,40 +47,24 @@ void append_number(std::string& out, std::complex<double> x) {
 
 }  // namespace
 
-std::string print_tables(const Circuit& circuit, std::string_view analysis, const Plot& plot) {
-    std::string out;
-    for (const auto& c : circuit.directives) {
-        const auto columns = columns_of(c, analysis, plot);
-        if (columns.empty()) continue;
-        out += column_heads(columns);
-        std::vector<std::vector<std::complex<double>>> values;
-        for (const auto& column : columns) values.push_back(column.view.all_values(plot));
-        for (std::size_t point = 0; point < plot.point_count(); ++point) {
-            for (const auto& v : values) append_number(out, v[point]);
-            out += '\n';
-        }
-    }
-    return out;
-}
-
-Result<void> TransientPrinter::begin(const Plot& plot) {
+Result<void> TablePrinter::begin(const Plot& plot) {
     for (const auto& c : circuit_.directives) {
-        const auto columns = columns_of(c, "tran", plot);
+        const auto columns = columns_of(c, analysis_, plot);
         if (columns.empty()) continue;
-        if (const double rows = std::floor((stop_ - start_) / step_) + 1; rows > max_rows)
-            return bad_input(
-                fmt::format(
-                    ".print tran: {:g} rows (one every {:g} s over {:g} s) exceed the limit of {:g}; use a longer STEP of .tran, or --out",
-                    rows, step_, stop_ - start_, max_rows),
-                c.location);
+        if (const double rows = std::floor((times_.stop - times_.start) / times_.step) + 1; times_.step > 0 && rows > max_rows)
+            return error_at(
+                c.location,
+                ".print tran: {:g} rows (one every {:g} s over {:g} s) exceed the limit of {:g}; use a longer STEP of .tran, or --out",
+                rows, times_.step, times_.stop - times_.start, max_rows);
         tables_.push_back({{}, column_heads(columns)});
         for (const auto& column : columns) tables_.back().views.push_back(column.view);
     }
     return {};
 }
 
-/// Appends a row to each table, at time t between the previous point and the point `row`.
-void TransientPrinter::print(std::span<const double> row, double t) {
+/// Appends a row to each table, at a time between the previous point and the point `row`.
+void TablePrinter::print_at_next_time(std::span<const double> row) {
+    const double t = next_time();
     for (auto& table : tables_) {
         for (const auto& view : table.views) {
             const double before = view.value(PlotRow(previous_)).real(), now = view.value(PlotRow(row)).real();
@@ -92,23 +76,35 @@ void TransientPrinter::print(std::span<const double> row, double t) {
     ++rows_;
 }
 
-void TransientPrinter::add_point(std::span<const double> row) {
-    if (tables_.empty()) return;
-    if (previous_.empty()) {
-        previous_.assign(row.begin(), row.end());
-        // Skips rows before the first point. The tolerance keeps a row that is at this point up to rounding.
-        while (is_row_due(row[0] - 1e-9 * step_)) ++rows_;
+Result<void> TablePrinter::add_point(const PlotRow& row) {
+    if (times_.step == 0) {
+        for (auto& table : tables_) {
+            for (const auto& view : table.views) append_number(table.text, view.value(row));
+            table.text += '\n';
+        }
+        return {};
     }
-    while (is_row_due(row[0])) print(row, start_ + rows_ * step_);
-    previous_.assign(row.begin(), row.end());
+    if (tables_.empty()) return {};
+    const double t = row.real[0];
+    if (previous_.empty()) {
+        previous_.assign(row.real.begin(), row.real.end());
+        // Skips rows before the first point. The tolerance keeps a row that is at this point up to rounding.
+        while (next_time() <= t - 1e-9 * times_.step) ++rows_;
+    }
+    while (next_time() <= t) print_at_next_time(row.real);
+    previous_.assign(row.real.begin(), row.real.end());
+    return {};
 }
 
-// The time of the last row may exceed the end of the analysis by a rounding error.
-std::string TransientPrinter::end() {
-    if (!previous_.empty() && is_row_due(previous_[0] + 1e-9 * step_)) print(std::vector(previous_), start_ + rows_ * step_);
+/// The time of the last row may exceed the end of the analysis by a rounding error.
+Result<void> TablePrinter::end() {
+    if (!previous_.empty() && next_time() <= previous_[0] + 1e-9 * times_.step) print_at_next_time(std::vector(previous_));
+    return {};
+}
+
+std::string TablePrinter::text() const {
     std::string out;
-    for (auto& table : tables_) out += table.text;
-    tables_.clear();
+    for (const auto& table : tables_) out += table.text;
     return out;
 }
 

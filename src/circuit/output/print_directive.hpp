@@ -6,35 +6,43 @@
 
 #include "circuit/netlist/netlist.hpp"
 #include "circuit/output/curve_view.hpp"
+#include "circuit/output/saved_quantities.hpp"
 
 namespace corpuscle::circuit {
 
-/// The tables of all .print lines that apply to the analysis of this name, with a row for each point of its plot; "" if no line applies.
-std::string print_tables(const Circuit&, std::string_view analysis, const Plot&);
+/// The times of the rows for a .tran, s. Rows are at START and every STEP after it, linearly interpolated between time points. No row is
+/// before the first time point. (ngspice's batch mode prints every time point, and these rows only with `.options interp`.)
+struct PrintedTimes {
+    double start = 0, step = 0, stop = 0;  ///< step 0: a row for each point, as for the other analyses
+};
 
-/// The tables of the .print lines for a .tran. Rows are at START and every STEP after it, linearly interpolated between time points. No row
-/// is before the first time point. (ngspice's batch mode prints every time point, and these rows only with `.options interp`.)
-class TransientPrinter {
+/// Makes the tables of the .print lines that apply to a plot of one analysis, while its points arrive.
+class TablePrinter final : public PointSink {
     struct Table {
         std::vector<CurveView> views;  // one for each column
         std::string text;
     };
     const Circuit& circuit_;
-    double start_, step_, stop_;    // START, STEP and STOP of .tran, s
+    std::string_view analysis_;
+    PrintedTimes times_;
     std::vector<Table> tables_;     // one for each .print line
-    std::vector<double> previous_;  // the point of the last call of add_point()
+    std::vector<double> previous_;  // the point of the last call of add_point(), of a .tran
     double rows_ = 0;               // number of rows printed or skipped so far
 
-    void print(std::span<const double> row, double t);
-    /// True if time t (s) has reached the time of the next row.
-    bool is_row_due(double t) const { return start_ + rows_ * step_ <= t; }
+    double next_time() const { return times_.start + rows_ * times_.step; }
+    void print_at_next_time(std::span<const double> row);
 
 public:
-    TransientPrinter(const Circuit& circuit, double start, double step, double stop)
-        : circuit_(circuit), start_(start), step_(step), stop_(stop) {}
-    Result<void> begin(const Plot& head);
-    void add_point(std::span<const double> row);
-    std::string end();  ///< returns the tables
+    TablePrinter(const Circuit& circuit, std::string_view analysis, const PrintedTimes& times)
+        : circuit_(circuit), analysis_(analysis), times_(times) {}
+    Result<void> begin(const Plot& head) override;
+    Result<void> add_point(const PlotRow& row) override;
+    Result<void> end() override;
+    std::string text() const;  ///< the tables
 };
+
+/// Returns an error if a directive names a curve or number that no analysis has, or if a .meas is ill-formed. Appends a warning for each
+/// line or word that has no effect here.
+Result<void> check_output_directives(const System&, DeviceCurrents, std::vector<Error>& warnings);
 
 }  // namespace corpuscle::circuit

@@ -57,6 +57,15 @@ Result<std::optional<std::string>> resolve_node(const Circuit& c, std::string_vi
     return found.empty() ? std::optional<std::string>() : std::string(names[found[0]]);
 }
 
+/// "M, D, R ": the devices whose current follows from their voltages.
+std::string recordable_letters() {
+    std::string out;
+    for (const auto* kind : device_kinds)
+        if (kind->saves_terminal_current)
+            out = fmt::format("{}{}{}", static_cast<char>(kind->letter - 'a' + 'A'), out.empty() ? " " : ", ", out);
+    return out;
+}
+
 Result<std::optional<std::string>> resolve_current(const Circuit& c, std::string_view probe_text, std::string_view name) {
     const auto names = elements_of(c);
     const auto found = find_matching_names(names, name, LastPiece::element);
@@ -64,8 +73,8 @@ Result<std::optional<std::string>> resolve_current(const Circuit& c, std::string
     if (found.empty()) return std::optional<std::string>();
     const auto& e = c.elements[found[0]];
     if (!has_branch_current(e) && !has_device_current(e))
-        return bad_input(fmt::format("--probe {}: the current of {} cannot be recorded; record that of an M, D, R or voltage source",
-                                     probe_text, e.name));
+        return bad_input(fmt::format("--probe {}: the current of {} cannot be recorded; record that of an {}or voltage source", probe_text,
+                                     e.name, recordable_letters()));
     return std::optional(fmt::format("i({})", e.name));
 }
 

@@ -2,6 +2,7 @@
 // .save and .probe: the curves to keep.
 
 #include "circuit/analysis/analysis_context.hpp"
+#include "circuit/devices.hpp"
 
 namespace corpuscle::circuit {
 
@@ -30,7 +31,7 @@ private:
 };
 
 /// True if the current of the element is not an unknown but follows from its terminal voltages.
-inline bool has_device_current(const Element& e) { return e.letter == 'm' || e.letter == 'd' || e.letter == 'r'; }
+inline bool has_device_current(const Element& e) { return kind_of(e).saves_terminal_current; }
 
 /// The quantities that .save and .probe name; "out" means v(out). An empty list means all unknowns: the netlist has `.save all`, or neither
 /// .save nor .probe.
@@ -38,5 +39,21 @@ Result<std::vector<SavedQuantity>> resolve_saved_quantities(const System&);
 
 /// True if the directive is a .probe and this word of it is not supported: the current of a capacitor, vd(r2), p(x1).
 bool is_unsupported_probe(const Circuit&, const Directive&, std::string_view word);
+
+/// Computes those of the saved quantities that are device currents. The system must outlive it.
+class DeviceCurrents {
+    const System& system_;
+    std::vector<SavedQuantity> currents_;
+    std::vector<double> row_;
+    bool extends_ = false, has_sweep_ = true;  // of the plot that was begun last
+
+public:
+    DeviceCurrents(const System&, std::span<const SavedQuantity>);
+    /// Begins a plot, and appends a curve for each current to its head. Currents cannot be computed if the plot is complex, is swept over
+    /// temperature, or has other curves than the unknowns.
+    void begin(Plot& head);
+    /// A point of the plot with the currents appended; valid until the next call.
+    PlotRow extend(const PlotRow& row);
+};
 
 }  // namespace corpuscle::circuit

@@ -22,10 +22,9 @@ std::vector<std::vector<int>> pattern_with_fill(const SparsityPattern& p, std::s
                                                 std::span<const int> step_of_column) {
     const auto n = static_cast<std::size_t>(p.size());
     std::vector<std::vector<char>> occupied(n, std::vector<char>(n));
-    for (std::size_t column = 0; column < n; ++column)
-        for (int e = p.column_begin()[column]; e < p.column_begin()[column + 1]; ++e)
-            occupied[static_cast<std::size_t>(step_of_row[static_cast<std::size_t>(p.rows()[static_cast<std::size_t>(e)])])]
-                    [static_cast<std::size_t>(step_of_column[column])] = 1;
+    p.for_each_entry([&](std::size_t, std::size_t row, std::size_t column) {
+        occupied[static_cast<std::size_t>(step_of_row[row])][static_cast<std::size_t>(step_of_column[column])] = 1;
+    });
     for (std::size_t k = 0; k < n; ++k) {
         occupied[k][k] = 1;
         for (std::size_t i = k + 1; i < n; ++i)
@@ -79,14 +78,11 @@ Elimination::Elimination(const SparsityPattern& p, std::span<const int> rows, st
                     slot.at({l_rows_[static_cast<std::size_t>(l - l_first_slot_)], u_columns_[static_cast<std::size_t>(u)]}));
     }
     scale_.assign(n, 0);
-    for (std::size_t column = 0; column < n; ++column)
-        for (int e = p.column_begin()[column]; e < p.column_begin()[column + 1]; ++e) {
-            const auto entry = static_cast<std::size_t>(e);
-            const auto row = static_cast<std::size_t>(p.rows()[entry]);
-            entry_slot_.push_back(slot.at({step_of_row[row], step_of_column[column]}));
-            entry_row_.push_back(p.rows()[entry]);
-            scale_[row] = std::max(scale_[row], std::abs(values[entry]));
-        }
+    p.for_each_entry([&](std::size_t entry, std::size_t row, std::size_t column) {
+        entry_slot_.push_back(slot.at({step_of_row[row], step_of_column[column]}));
+        entry_row_.push_back(p.rows()[entry]);
+        scale_[row] = std::max(scale_[row], std::abs(values[entry]));
+    });
     for (double& s : scale_) s = s > 0 ? 1 / s : 1;
     slots_.resize(slot.size()), inverse_pivot_.resize(n), work_.resize(n);
 }

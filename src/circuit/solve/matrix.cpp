@@ -24,6 +24,15 @@ std::size_t SparsityPattern::entry_index(int row, int column) const {
     return static_cast<std::size_t>(std::lower_bound(from, to, row) - rows_.begin());
 }
 
+/// One of two functions of KLU: for matrices of real or of complex numbers.
+template <class T, class Real, class Complex>
+static constexpr auto of_type(Real real, [[maybe_unused]] Complex complex) {
+    if constexpr (std::is_same_v<T, double>)
+        return real;
+    else
+        return complex;
+}
+
 template <class T>
 struct LinearSolver<T>::Impl {
     static constexpr bool is_complex = !std::is_same_v<T, double>;
@@ -47,27 +56,17 @@ struct LinearSolver<T>::Impl {
         klu_free_symbolic(&symbolic, &common);
     }
     void free_numeric() {
-        if (numeric == nullptr) return;
-        if constexpr (is_complex)
-            klu_z_free_numeric(&numeric, &common);
-        else
-            klu_free_numeric(&numeric, &common);
+        if (numeric != nullptr) of_type<T>(klu_free_numeric, klu_z_free_numeric)(&numeric, &common);
         numeric = nullptr;
     }
     bool refactor(double* values) {
-        int ok = 0;
-        if constexpr (is_complex)
-            ok = klu_z_refactor(begin.data(), rows.data(), values, symbolic, numeric, &common) && klu_z_rcond(symbolic, numeric, &common);
-        else
-            ok = klu_refactor(begin.data(), rows.data(), values, symbolic, numeric, &common) && klu_rcond(symbolic, numeric, &common);
-        return ok && common.status == KLU_OK && common.rcond > 1e-13;  // otherwise new pivots may be better
+        return of_type<T>(klu_refactor, klu_z_refactor)(begin.data(), rows.data(), values, symbolic, numeric, &common) &&
+               of_type<T>(klu_rcond, klu_z_rcond)(symbolic, numeric, &common) && common.status == KLU_OK &&
+               common.rcond > 1e-13;  // otherwise new pivots may be better
     }
     bool factor(double* values) {
         free_numeric();
-        if constexpr (is_complex)
-            numeric = klu_z_factor(begin.data(), rows.data(), values, symbolic, &common);
-        else
-            numeric = klu_factor(begin.data(), rows.data(), values, symbolic, &common);
+        numeric = of_type<T>(klu_factor, klu_z_factor)(begin.data(), rows.data(), values, symbolic, &common);
         return numeric != nullptr && common.status == KLU_OK;
     }
 };
@@ -139,10 +138,7 @@ void LinearSolver<T>::solve(std::span<T> b) const {
     auto* numbers = reinterpret_cast<double*>(b.data());
     if constexpr (!Impl::is_complex)
         if (impl_->by_list) return impl_->list->solve(b);
-    if constexpr (Impl::is_complex)
-        klu_z_solve(impl_->symbolic, impl_->numeric, impl_->size, 1, numbers, &impl_->common);
-    else
-        klu_solve(impl_->symbolic, impl_->numeric, impl_->size, 1, numbers, &impl_->common);
+    of_type<T>(klu_solve, klu_z_solve)(impl_->symbolic, impl_->numeric, impl_->size, 1, numbers, &impl_->common);
 }
 
 template <class T>

@@ -24,6 +24,13 @@ public:
     std::size_t entry_index(int row, int column) const;
     std::span<const int> column_begin() const { return begin_; }
     std::span<const int> rows() const { return rows_; }  ///< of each entry
+    /// Calls use(entry, row, column) for each entry, column by column.
+    template <class Use>
+    void for_each_entry(const Use& use) const {
+        for (std::size_t column = 0; column + 1 < begin_.size(); ++column)
+            for (auto e = static_cast<std::size_t>(begin_[column]); e < static_cast<std::size_t>(begin_[column + 1]); ++e)
+                use(e, static_cast<std::size_t>(rows_[e]), column);
+    }
 };
 
 /// Why a factorization failed: this column depends linearly on others. -1: not known.

@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "circuit/devices.hpp"
 #include "circuit/solve/operating_point.hpp"
 #include "core/text/quantity.hpp"
 
@@ -13,7 +14,8 @@ double max_voltage_step(const System& system) {
     double limit = 0.3;
     const auto& elements = system.circuit().elements;
     for (std::size_t k = 0; k < elements.size(); ++k)
-        if (elements[k].letter == 'v') limit = std::max(limit, std::abs(system.devices()[k]->principal_value().value_or(0)) / 2);
+        if (has_role(elements[k], Role::voltage_source))
+            limit = std::max(limit, std::abs(system.devices()[k]->principal_value().value_or(0)) / 2);
     return limit;
 }
 
@@ -83,16 +85,13 @@ std::string NewtonSolver::describe_residual(std::span<const double> x) {
         if (relative_residual > largest) largest = relative_residual, worst = n;
     }
     const Device* device = nullptr;
+    StampBuffer buffer;
     double contribution = -1;
     for (const auto& d : system.devices()) {
         const auto at = std::find(d->unknowns.begin(), d->unknowns.end(), static_cast<int>(worst));
         if (at == d->unknowns.end()) continue;
-        const auto v = system.terminal_values(*d, x);
-        const auto n = v.size();
-        std::vector<double> stamp(2 * n + 2 * n * n);
-        const std::span<double> all(stamp);
-        d->eval(v, context, {all.first(n), all.subspan(n, n), all.subspan(2 * n, n * n), all.subspan(2 * n + n * n)});
-        const double f = std::abs(stamp[static_cast<std::size_t>(at - d->unknowns.begin())]);
+        const auto stamp = buffer.eval(*d, system.terminal_values(*d, x), context);
+        const double f = std::abs(stamp.f[static_cast<std::size_t>(at - d->unknowns.begin())]);
         if (!(f <= contribution)) contribution = f, device = d.get();
     }
     const bool is_current = worst < static_cast<std::size_t>(system.nodes());

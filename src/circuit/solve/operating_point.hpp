@@ -1,6 +1,7 @@
 #pragma once
 // The DC operating point of a circuit: f(x) = 0, by Newton's method, or by continuation methods if Newton's method diverges.
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -17,8 +18,8 @@ struct Tolerances {
     double gmin = 1e-15;    ///< S, in parallel with every junction
     int itl1 = 100;         ///< maximum number of Newton iterations in one attempt
 
-    /// From .options. Errors: a value out of range.
-    static Result<Tolerances> from_options(const Circuit&);
+    /// From .options.
+    static Tolerances from_options(const Circuit&);
 };
 
 struct OperatingPoint {
@@ -56,5 +57,15 @@ struct NewtonSolver {
 /// Finds an operating point. The search starts from the unknowns in `start`; if it is empty, from 0 with the voltages of .nodeset. The
 /// solution includes the effect of `clamps`.
 Result<OperatingPoint> find_operating_point(NewtonSolver&, std::vector<double> start = {}, NodeClamps clamps = {});
+
+/// The fastest growing disturbance of an unstable operating point.
+struct UnstableMode {
+    std::vector<double> direction;  ///< by unknown; the largest voltage is 1
+    double rate;                    ///< 1/s; 0: it oscillates while it grows, and the rate is not known
+};
+
+/// Examines a circuit at x, where f(x) = 0. Returns nothing if all disturbances decay. Growth with a time constant above about 100 s, or of
+/// an oscillation by less than about 1 % per cycle, is not detected.
+std::optional<UnstableMode> find_unstable_mode(NewtonSolver&, std::span<const double> x);
 
 }  // namespace corpuscle::circuit

@@ -1,4 +1,4 @@
-#include "circuit/solve/stability.hpp"
+#include "circuit/solve/operating_point.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -23,14 +23,9 @@ class Disturbance {
     }
     /// next = (c C - g G) v
     void multiply(double c, double g) {
-        const auto& p = system_.pattern();
         std::fill(next_.begin(), next_.end(), 0.0);
-        for (int column = 0; column < p.size(); ++column)
-            for (int e = p.column_begin()[static_cast<std::size_t>(column)]; e < p.column_begin()[static_cast<std::size_t>(column) + 1];
-                 ++e) {
-                const auto k = static_cast<std::size_t>(e);
-                next_[static_cast<std::size_t>(p.rows()[k])] += (c * C_[k] - g * G_[k]) * v_[static_cast<std::size_t>(column)];
-            }
+        system_.pattern().for_each_entry(
+            [&](std::size_t e, std::size_t row, std::size_t column) { next_[row] += (c * C_[e] - g * G_[e]) * v_[column]; });
     }
     /// v = next, normalized so that the largest voltage is 1. Returns the largest voltage before; 0 if it is zero or not finite.
     double normalize() {

@@ -56,13 +56,36 @@ struct StepControl {
         }
         scale_step(length, factor, points);
     }
-    /// Call after choose(). Limits the next step so that its interpolation error is allowed. `error` is the interpolation error of the last
-    /// step, relative to the allowed error. `points` is the number of points of the interpolating polynomial.
-    void limit_by_curve(double length, double error, int points) {
-        h = std::min(h, length * std::clamp(growth_factor(error, points - 1), 0.3, max_growth));
+    /// A step that begins at `from` (s) with length h, or ends at the next breakpoint of the sources. Just before a breakpoint the rest is
+    /// divided in two.
+    struct Step {
+        double from, end;
+        bool ends_at_breakpoint;
+        double length() const { return end - from; }
+    };
+    static Step plan_step(double from, double h, double breakpoint) {
+        const bool ends_at_breakpoint = from + 1.01 * h >= breakpoint;
+        if (!ends_at_breakpoint && from + 2 * h > breakpoint) h = (breakpoint - from) / 2;
+        return {from, ends_at_breakpoint ? breakpoint : from + h, ends_at_breakpoint};
+    }
+    /// Call after choose() for an accepted step that was planned with the length `planned`. Limits the next step so that its interpolation
+    /// error is allowed, unless the step may contain a jump. `error` is the interpolation error of the step, relative to the allowed error;
+    /// `points` is the number of points of the interpolating polynomial. A step that only a breakpoint has shortened does not shorten the
+    /// next one.
+    void limit_next_step(const Step& step, double planned, double max_step, bool may_jump, double error, int points) {
+        if (!may_jump) h = std::min(h, step.length() * std::clamp(growth_factor(error, points - 1), 0.3, max_growth));
+        if (step.ends_at_breakpoint && step.length() < planned) h = std::max(h, std::min(planned, max_step));
     }
     /// Call after an accepted step of this length (s).
-    void record_step(double length) { recent_max_step = std::max(length, 0.7 * recent_max_step); }
+    void record_step(double length) {
+        recent_max_step = std::max(length, 0.7 * recent_max_step);
+        ++steps_since_order_change, failures = 0;
+    }
+    /// The number of points of the interpolation in the last step. If the step did not determine it (`found` is 0), it is at least 4 where
+    /// there are as many.
+    int interpolation_points(int found, int count) const { return found > 0 ? found : std::min(std::max(order + 1, 4), count); }
+    /// The shortest step, s, of a transient that ends at `stop`.
+    static double min_step(double stop) { return 1e-15 * stop; }
     /// Within a step of up to this length (s) the solution may jump. The error of unknowns without charge and of the interpolation then
     /// does not lead to a rejection, and interpolation within the step is linear.
     double jump_step_limit(double reltol, double max_step) const { return std::max(reltol * recent_max_step, 1e-9 * max_step); }
@@ -84,6 +107,9 @@ struct NewtonControl {
     enum class Status { iterating, converged, diverged };
     static constexpr int max_iterations = 12;
     static constexpr double convergence_limit = 0.03;  ///< error that the iteration may leave, relative to the allowed error
+    // After a Newton step larger than large_step, the error of the time step is estimated. If the estimate exceeds hopeless_error, the time
+    // step is rejected without further iterations. Both are relative to the allowed error.
+    static constexpr double large_step = 20, hopeless_error = 2;
 
     int iterations = 0;    ///< of this time step
     double last_size = 0;  ///< size of the last Newton step, relative to the allowed error; 0: it was limited, or there was none
@@ -91,6 +117,10 @@ struct NewtonControl {
     double quadratic_factor = 1;
 
     void begin() { iterations = 0, last_size = 0; }
+    /// True if the error of the time step is needed after an iteration with this status.
+    bool needs_error(Status status) const { return status == Status::converged || last_size > large_step; }
+    /// True if the iterations continue although the time step has this error.
+    static bool must_continue(Status status, double error) { return status == Status::iterating && !(error > hopeless_error); }
     /// Call this if the iteration has not converged although the last Newton step was small.
     Status continue_iterating() const { return iterations < max_iterations ? Status::iterating : Status::diverged; }
     /// Call this after a Newton step of this size for nonlinear equations. is_limited: the step was limited, or a device was evaluated at

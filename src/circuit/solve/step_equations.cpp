@@ -15,34 +15,22 @@ constexpr double doubtful_residual = 1e-9;  // relative residual at and above wh
 StepEquations::StepEquations(const System& system, NewtonSolver& newton)
     : system_(system), newton_(newton), batched_devices_(system), solver_(system.pattern()) {
     const auto count = static_cast<std::size_t>(system.size());
-    x_.resize(count + 1), constant_currents_.resize(count + 1), base_.resize(count + 1), r_.resize(count + 1), step_.resize(count + 1);
+    x_.resize(count + 1), base_.resize(count + 1), r_.resize(count + 1), step_.resize(count + 1);
     J_.resize(system.pattern().entries() + 1), J_0_.resize(J_.size());
     for (int n = 0; n < system.size(); ++n) is_voltage_.push_back(system.is_voltage(n));
-    std::vector<LinearEntry> sums(J_.size(), LinearEntry{0, -1, -1, 0, 0});
     for (const auto k : system.scalar_devices()) {
         const Device& d = *system.devices()[k];
+        if (d.is_linear() && d.is_time_dependent()) time_dependent_.push_back(k);
+        if (d.is_linear()) continue;
         const auto n = d.unknowns.size();
-        ScalarDevice scalar{k, n, d.unknowns, std::vector<double>(n), std::vector<double>(n), std::vector<double>(2 * n + 2 * n * n)};
-        for (int& u : scalar.unknowns) u = u < 0 ? static_cast<int>(count) : u;
-        if (!d.is_linear()) {
-            scalar_devices_.push_back(std::move(scalar));
-            continue;
-        }
-        if (d.is_time_dependent()) time_dependent_.push_back(k);
-        const std::span<double> all(scalar.stamp);
-        // At v = 0 the currents are those at x = 0; the derivatives do not depend on v.
-        d.eval(scalar.v, newton.context, {all.first(n), all.subspan(n, n), all.subspan(2 * n, n * n), all.subspan(2 * n + n * n)});
-        for (std::size_t row = 0; row < n; ++row) {
-            if (!d.is_time_dependent()) constant_currents_[static_cast<std::size_t>(scalar.unknowns[row])] += all[row];
-            for (std::size_t column = 0; column < n; ++column) {
-                auto& sum = sums[system.entries(k)[row * n + column]];
-                sum.row = scalar.unknowns[row], sum.column = scalar.unknowns[column];
-                sum.g += all[2 * n + row * n + column], sum.c += all[2 * n + n * n + row * n + column];
-            }
-        }
+        scalar_devices_.push_back({k, n, d.unknowns, std::vector<double>(n), std::vector<double>(n), {}, {}});
+        for (int& u : scalar_devices_.back().unknowns) u = u < 0 ? static_cast<int>(count) : u;
     }
-    for (std::size_t entry = 0; entry + 1 < sums.size(); ++entry)
-        if (sums[entry].g != 0 || sums[entry].c != 0) linear_.push_back(sums[entry]), linear_.back().entry = entry;
+    auto sums = sum_linear_devices(system, newton.context);
+    constant_currents_ = std::move(sums.currents);
+    system.pattern().for_each_entry([&](std::size_t e, std::size_t row, std::size_t column) {
+        if (sums.G[e] != 0 || sums.C[e] != 0) linear_.push_back({e, row, column, sums.G[e], sums.C[e]});
+    });
 }
 
 void StepEquations::prepare(double t, double a, std::span<const double> history) {
@@ -52,13 +40,10 @@ void StepEquations::prepare(double t, double a, std::span<const double> history)
     for (std::size_t n = 0; n < history.size(); ++n) base_[n] += history[n];
     for (const auto k : time_dependent_) {
         const Device& d = *system_.devices()[k];
-        const auto n = d.unknowns.size();
-        scratch_.assign(3 * n + 2 * n * n, 0.0);  // f, q, df, dq, v = 0
-        const std::span<double> all(scratch_);
-        d.eval(all.last(n), newton_.context,
-               {all.first(n), all.subspan(n, n), all.subspan(2 * n, n * n), all.subspan(2 * n + n * n, n * n)});
-        for (std::size_t row = 0; row < n; ++row)
-            if (d.unknowns[row] >= 0) base_[static_cast<std::size_t>(d.unknowns[row])] += all[row];
+        scratch_.assign(d.unknowns.size(), 0.0);
+        const auto f = stamp_.eval(d, scratch_, newton_.context).f;
+        for (std::size_t row = 0; row < f.size(); ++row)
+            if (d.unknowns[row] >= 0) base_[static_cast<std::size_t>(d.unknowns[row])] += f[row];
     }
     std::fill(J_0_.begin(), J_0_.end(), 0.0);
     for (const auto& l : linear_) J_0_[l.entry] = l.g + a * l.c;
@@ -73,10 +58,7 @@ void StepEquations::linearize_device(ScalarDevice& scalar) {
     scalar.limited =
         d.limiting_state_size() > 0 && d.limit(scalar.linearized_at, system_.limiting_state_of(scalar.device, newton_.limiting_state));
     limited_ |= scalar.limited;
-    std::fill(scalar.stamp.begin(), scalar.stamp.end(), 0.0);
-    const std::span<double> all(scalar.stamp);
-    const Stamp stamp{all.first(n), all.subspan(n, n), all.subspan(2 * n, n * n), all.subspan(2 * n + n * n)};
-    d.eval(scalar.linearized_at, newton_.context, stamp);
+    const Stamp stamp = scalar.stamp = scalar.buffer.eval(d, scalar.linearized_at, newton_.context);
     const auto entries = system_.entries(scalar.device);
     for (std::size_t row = 0; row < n; ++row) {
         for (std::size_t column = 0; column < n; ++column) {
@@ -94,7 +76,7 @@ void StepEquations::linearize_device(ScalarDevice& scalar) {
 void StepEquations::linearize(std::span<const double> x) {
     std::copy(x.begin(), x.end(), x_.begin());
     J_ = J_0_, r_ = base_;
-    for (const auto& l : linear_) r_[static_cast<std::size_t>(l.row)] += J_0_[l.entry] * x_[static_cast<std::size_t>(l.column)];
+    for (const auto& l : linear_) r_[l.row] += J_0_[l.entry] * x_[l.column];
     limited_ = false;
     for (auto& scalar : scalar_devices_) linearize_device(scalar);
     batched_devices_.evaluate(newton_.context, a_, x_, J_, r_);
@@ -130,15 +112,12 @@ bool StepEquations::solve_for_step() {
 
 /// The largest residual of J step + r, relative to the largest term of its row.
 double StepEquations::relative_residual() {
-    const auto& p = system_.pattern();
     scratch_.assign(r_.begin(), r_.end());
     std::vector<double> largest(r_.size());
-    for (std::size_t column = 0; column + 1 < step_.size(); ++column)
-        for (int e = p.column_begin()[column]; e < p.column_begin()[column + 1]; ++e) {
-            const auto row = static_cast<std::size_t>(p.rows()[static_cast<std::size_t>(e)]);
-            const double term = J_[static_cast<std::size_t>(e)] * step_[column];
-            scratch_[row] += term, largest[row] = std::max(largest[row], std::abs(term));
-        }
+    system_.pattern().for_each_entry([&](std::size_t e, std::size_t row, std::size_t column) {
+        const double term = J_[e] * step_[column];
+        scratch_[row] += term, largest[row] = std::max(largest[row], std::abs(term));
+    });
     double largest_residual = 0;
     for (std::size_t n = 0; n + 1 < r_.size(); ++n)
         if (largest[n] > 0) largest_residual = std::max(largest_residual, std::abs(scratch_[n]) / std::max(largest[n], std::abs(r_[n])));
@@ -164,22 +143,15 @@ bool StepEquations::expressions_match() {
         const Device& d = *system_.devices()[scalar.device];
         if (!d.has_jumps()) continue;
         const auto n = scalar.terminals;
-        scratch_.assign(3 * n + 2 * n * n, 0.0);  // f, q, df, dq, v
-        const std::span<double> all(scratch_);
-        const auto v = all.last(n), f = all.first(n);
-        for (std::size_t j = 0; j < n; ++j) {
-            const auto u = static_cast<std::size_t>(scalar.unknowns[j]);
-            v[j] = x_[u] + step_[u];
-        }
-        d.eval(v, newton_.context, {f, all.subspan(n, n), all.subspan(2 * n, n * n), all.subspan(2 * n + n * n, n * n)});
+        auto& v = scratch_;
+        v.clear();
+        for (const int u : scalar.unknowns) v.push_back(x_[static_cast<std::size_t>(u)] + step_[static_cast<std::size_t>(u)]);
+        const auto f = stamp_.eval(d, v, newton_.context).f;
         for (std::size_t row = 0; row < n; ++row) {
-            double linear = scalar.stamp[row];
-            for (std::size_t column = 0; column < n; ++column)
-                linear += scalar.stamp[2 * n + row * n + column] * (v[column] - scalar.v[column]);
-            // The equation of a branch current is a sum of voltages, that of a node a sum of currents.
+            double linear = scalar.stamp.f[row];
+            for (std::size_t column = 0; column < n; ++column) linear += scalar.stamp.slope(row, column) * (v[column] - scalar.v[column]);
             const bool is_voltage = scalar.unknowns[row] < system_.size() && !is_voltage_[static_cast<std::size_t>(scalar.unknowns[row])];
-            const double scale = is_voltage ? std::abs(v[0] - v[1]) : std::max(std::abs(f[row]), std::abs(linear));
-            if (!expression_tolerance_.accepts(is_voltage, f[row] - linear, scale)) return false;
+            if (!expression_tolerance_.accepts(is_voltage, f[row], linear, v)) return false;
         }
     }
     return true;
@@ -189,13 +161,13 @@ void StepEquations::read_charges(std::span<double> q) {
     const auto count = q.size();
     for (std::size_t n = 0; n < count; ++n) x_[n] += step_[n];  // last evaluation plus the Newton step
     std::fill(r_.begin(), r_.end(), 0.0);
-    for (const auto& l : linear_) r_[static_cast<std::size_t>(l.row)] += l.c * x_[static_cast<std::size_t>(l.column)];
+    for (const auto& l : linear_) r_[l.row] += l.c * x_[l.column];
     for (const auto& scalar : scalar_devices_) {
         const auto n = scalar.terminals;
         for (std::size_t row = 0; row < n; ++row) {
-            double sum = scalar.stamp[n + row];
+            double sum = scalar.stamp.q[row];
             for (std::size_t column = 0; column < n; ++column)
-                sum += scalar.stamp[2 * n + n * n + row * n + column] * step_[static_cast<std::size_t>(scalar.unknowns[column])];
+                sum += scalar.stamp.capacitance(row, column) * step_[static_cast<std::size_t>(scalar.unknowns[column])];
             r_[static_cast<std::size_t>(scalar.unknowns[row])] += sum;
         }
     }

@@ -11,10 +11,13 @@ namespace corpuscle::circuit {
 /// The largest difference allowed between an expression and its linearization when a Newton iteration ends.
 struct ExpressionTolerance {
     double reltol = 0, vntol = 0, abstol = 0;
-    /// `difference`, `scale`: V or A; scale is the magnitude of the values compared.
-    bool accepts(bool is_voltage, double difference, double scale) const {
+    /// Compares the value f of an equation with its linearization. The equation of a branch current is a sum of voltages (is_voltage),
+    /// that of a node a sum of currents. v: values of the device's unknowns.
+    bool accepts(bool is_voltage, double f, double linear, std::span<const double> v) const {
         constexpr double factor = 10;
-        return std::abs(difference) <= factor * (reltol * scale + (is_voltage ? vntol : abstol));
+        const double scale =
+            is_voltage ? std::abs(v[0] - v[1]) : std::max(std::abs(f), std::abs(linear));  // of the values compared, V or A
+        return std::abs(f - linear) <= factor * (reltol * scale + (is_voltage ? vntol : abstol));
     }
 };
 
@@ -26,8 +29,7 @@ class StepEquations {
     const System& system_;
     NewtonSolver& newton_;
     struct LinearEntry {  // a matrix entry to which linear devices contribute
-        std::size_t entry;
-        int row, column;
+        std::size_t entry, row, column;
         double g, c;  // S and F: sums of their df and dq
     };
     std::vector<LinearEntry> linear_;
@@ -37,8 +39,9 @@ class StepEquations {
         std::size_t device, terminals;         // its index; number of its unknowns
         std::vector<int> unknowns;             // ground is the index after the last unknown
         std::vector<double> v, linearized_at;  // its unknowns at the last x, and after limiting
-        std::vector<double> stamp;             // f, q, df, dq one after another; f and q are extrapolated to v
-        bool limited = false;                  // linearized_at differs from v
+        StampBuffer buffer;
+        Stamp stamp;           // in the buffer; f and q are extrapolated to v
+        bool limited = false;  // linearized_at differs from v
     };
     std::vector<ScalarDevice> scalar_devices_;
     BatchedDevices batched_devices_;
@@ -46,6 +49,7 @@ class StepEquations {
     // x_ is the x of the last evaluation, step_ the Newton step from it. base_ is the residual at x = 0 without the nonlinear devices, J_0_
     // the Jacobian of the linear devices. The last element of each vector except scratch_ is for ground.
     std::vector<double> x_, base_, J_0_, J_, r_, step_, scratch_;
+    StampBuffer stamp_;
     std::vector<char> is_voltage_;
     NewtonControl newton_control_;
     double a_ = 0;                     // 1/s: dq/dt = a q + history
@@ -76,8 +80,7 @@ public:
     /// Takes one Newton step from x. The status is `converged` if the remaining error of every unknown with allowed[n] > 0 is a small part
     /// of allowed[n] (V or A).
     Status iterate(std::vector<double>& x, std::span<const double> allowed);
-    /// The largest component of the last Newton step, relative to the allowed error; 0 if the step was limited.
-    double step_size() const { return newton_control_.last_size; }
+    const NewtonControl& newton_control() const { return newton_control_; }
     /// The charges at the result of iterate(). Call at most once after iterate().
     void read_charges(std::span<double> q);
     /// Solves (G + a C) e = r in place, with the last matrix: the effect e of a perturbation r of the equations on the unknowns.

@@ -7,7 +7,6 @@
 #include "circuit/device/named_values.hpp"
 #include "circuit/device/physical_constants.hpp"
 #include "circuit/devices.hpp"
-#include "circuit/solve/topology.hpp"
 
 namespace corpuscle::circuit {
 
@@ -44,16 +43,15 @@ Result<System> System::make(std::shared_ptr<const Circuit> circuit) {
     system.circuit_ = std::move(circuit);
     Builder builder(system);
     for (const auto& e : system.circuit_->elements) {
-        const auto* kind = find_device_kind(e.letter);
-        if (kind == nullptr) return bad_input(fmt::format("{}: no device has the letter '{}'", e.name, e.letter), e.location);
-        auto device = TRY(kind->make(e, builder));
+        auto device = TRY(kind_of(e).make(e, builder));
         device->name = e.name, device->location = e.location;
         system.limiting_state_offset_.push_back(system.limiting_state_size_);
         system.limiting_state_size_ += device->limiting_state_size();
         system.devices_.push_back(std::move(device));
     }
     std::vector<std::pair<int, int>> entries;
-    for (int k = 0; k < system.size(); ++k) entries.emplace_back(k, k);
+    for (int k = 0; k < system.size(); ++k)
+        entries.emplace_back(k, k), system.numbers_.try_emplace(system.names_[static_cast<std::size_t>(k)], k);
     for (const auto& d : system.devices_)
         for (const int row : d->unknowns)
             for (const int column : d->unknowns)
@@ -71,16 +69,16 @@ Result<System> System::make(std::shared_ptr<const Circuit> circuit) {
 }
 
 Result<void> System::make_groups() {
-    for (const auto& kind : circuit::devices) {
+    for (const auto* kind : device_kinds) {
         std::vector<std::size_t> members;
         for (std::size_t k = 0; k < devices_.size(); ++k)
-            if (circuit_->elements[k].letter == kind.letter) members.push_back(k);
+            if (circuit_->elements[k].letter == kind->letter) members.push_back(k);
         if (members.empty()) continue;
-        if (kind.make_batch == nullptr) {
+        if (kind->make_batch == nullptr) {
             scalar_devices_.insert(scalar_devices_.end(), members.begin(), members.end());
             continue;
         }
-        auto batch = TRY(kind.make_batch());
+        auto batch = TRY(kind->make_batch());
         // All devices of a kind with batches have the same number of unknowns.
         DeviceGroup group{std::move(batch), {}, devices_[members[0]]->unknowns.size(), (members.size() + 7) / 8 * 8, {}, {}};
         for (const auto k : members) {
@@ -123,8 +121,8 @@ void System::apply_variation(const ChipSample* chip) {
 }
 
 int System::unknown(std::string_view name) const {
-    const auto at = std::find(names_.begin(), names_.end(), name);
-    return at == names_.end() ? -1 : static_cast<int>(at - names_.begin());
+    const auto at = numbers_.find(name);
+    return at == numbers_.end() ? -1 : at->second;
 }
 
 Device* System::device(std::string_view name) const {
@@ -134,7 +132,7 @@ Device* System::device(std::string_view name) const {
 
 std::vector<double> System::terminal_values(const Device& d, std::span<const double> x) const {
     std::vector<double> v;
-    for (const int u : d.unknowns) v.push_back(u < 0 ? 0 : x[static_cast<std::size_t>(u)]);
+    for (const int u : d.unknowns) v.push_back(value_of(x, u));
     return v;
 }
 
@@ -152,17 +150,13 @@ void System::add_device(std::size_t k, std::span<const double> x, const EvalCont
                         SystemEvaluation& sums) const {
     const Device& d = *devices_[k];
     const auto n = d.unknowns.size();
-    if (sums.v_.size() < n) sums.v_.resize(n), sums.limited_v_.resize(n), sums.stamp_.resize(2 * n + 2 * n * n);
-    const auto v = std::span(sums.v_).first(n), limited_v = std::span(sums.limited_v_).first(n),
-               stamp_buffer = std::span(sums.stamp_).first(2 * n + 2 * n * n);
-    for (std::size_t j = 0; j < n; ++j) v[j] = d.unknowns[j] < 0 ? 0 : x[static_cast<std::size_t>(d.unknowns[j])];
-    std::copy(v.begin(), v.end(), limited_v.begin());
+    auto &v = sums.v_, &limited_v = sums.limited_v_;
+    v.resize(n);
+    for (std::size_t j = 0; j < n; ++j) v[j] = value_of(x, d.unknowns[j]);
+    limited_v = v;
     const bool limited = d.limiting_state_size() > 0 && d.limit(limited_v, limiting_state_of(k, limiting_state));
     sums.is_limited |= limited;
-    std::fill(stamp_buffer.begin(), stamp_buffer.end(), 0.0);
-    const Stamp stamp{stamp_buffer.first(n), stamp_buffer.subspan(n, n), stamp_buffer.subspan(2 * n, n * n),
-                      stamp_buffer.subspan(2 * n + n * n)};
-    d.eval(limited_v, context, stamp);
+    const Stamp stamp = sums.stamp_.eval(d, limited_v, context);
     const auto& device_entries = entries_[k];
     for (std::size_t row = 0; row < n; ++row) {
         double f = stamp.f[row], q = stamp.q[row], roundoff = 0;
@@ -192,7 +186,7 @@ void System::add_group(const DeviceGroup& group, std::span<const double> x, cons
     double *const q = df + n * n * stride, *const dq = q + n * stride;
     for (std::size_t k = 0; k < stride; ++k) {
         const auto* unknowns = group.unknowns.data() + std::min(k, count - 1) * n;
-        for (std::size_t j = 0; j < n; ++j) v[j * stride + k] = unknowns[j] < 0 ? 0 : x[static_cast<std::size_t>(unknowns[j])];
+        for (std::size_t j = 0; j < n; ++j) v[j * stride + k] = value_of(x, unknowns[j]);
     }
     group.batch->eval(context, {stride, v, f, df, max_term, context.with_charges ? q : nullptr, dq});
     for (std::size_t k = 0; k < count; ++k) {
@@ -212,6 +206,26 @@ void System::add_group(const DeviceGroup& group, std::span<const double> x, cons
         for (std::size_t row = 0; row < n; ++row)
             if (unknowns[row] >= 0) sums.q[static_cast<std::size_t>(unknowns[row])] += q[row * stride + k];
     }
+}
+
+/// Devices are evaluated at v = 0, where the currents are those at x = 0; the derivatives do not depend on v.
+LinearSums sum_linear_devices(const System& system, const EvalContext& context) {
+    const auto count = static_cast<std::size_t>(system.size()), entries = system.pattern().entries();
+    LinearSums out{std::vector<double>(count + 1), std::vector<double>(entries + 1), std::vector<double>(entries + 1)};
+    StampBuffer buffer;
+    for (const auto k : system.scalar_devices()) {
+        const Device& d = *system.devices()[k];
+        if (!d.is_linear()) continue;
+        const std::vector<double> zeros(d.unknowns.size());
+        const auto stamp = buffer.eval(d, zeros, context);
+        for (std::size_t e = 0; e < stamp.df.size(); ++e) {
+            const auto entry = system.entries(k)[e];
+            out.G[entry] += stamp.df[e], out.C[entry] += stamp.dq[e];
+        }
+        for (std::size_t row = 0; row < zeros.size() && !d.is_time_dependent(); ++row)
+            out.currents[d.unknowns[row] < 0 ? count : static_cast<std::size_t>(d.unknowns[row])] += stamp.f[row];
+    }
+    return out;
 }
 
 }  // namespace corpuscle::circuit

@@ -2,10 +2,13 @@
 // The equations of a circuit: f(x) + dq(x)/dt = 0, where x holds the unknowns: node voltages (V) and branch currents (A).
 
 #include <memory>
+#include <optional>
 #include <string>
+#include <unordered_map>
 #include <vector>
 
 #include "circuit/device/device.hpp"
+#include "circuit/netlist/netlist.hpp"
 #include "circuit/solve/matrix.hpp"
 
 namespace corpuscle::circuit {
@@ -23,8 +26,15 @@ private:
     struct alignas(64) CacheLine {
         double values[8];
     };
-    std::vector<double> v_, limited_v_, stamp_;  // buffers of add_device()
-    std::vector<CacheLine> batch_buffer_;        // buffer of add_group()
+    std::vector<double> v_, limited_v_;  // buffers of add_device()
+    StampBuffer stamp_;
+    std::vector<CacheLine> batch_buffer_;  // buffer of add_group()
+};
+
+/// The sums of the linear devices that do not depend on time, and of the derivatives of all linear devices.
+struct LinearSums {
+    std::vector<double> currents;  ///< f at x = 0, by equation; the last element is for ground
+    std::vector<double> G, C;      ///< as in SystemEvaluation
 };
 
 /// Devices of one kind that are evaluated together.
@@ -40,9 +50,10 @@ struct DeviceGroup {
 /// The unknowns, devices and sparsity pattern of a circuit.
 class System {
     std::shared_ptr<const Circuit> circuit_;
-    std::vector<std::string> names_;                  // of the unknowns
-    std::vector<std::unique_ptr<Device>> devices_;    // one for each element of the circuit, in the same order
-    std::vector<std::size_t> limiting_state_offset_;  // by device
+    std::vector<std::string> names_;                     // of the unknowns
+    std::unordered_map<std::string_view, int> numbers_;  // of the unknowns, by name
+    std::vector<std::unique_ptr<Device>> devices_;       // one for each element of the circuit, in the same order
+    std::vector<std::size_t> limiting_state_offset_;     // by device
     std::size_t limiting_state_size_ = 0;
     std::unique_ptr<SparsityPattern> pattern_;
     std::vector<std::vector<std::size_t>> entries_;  // by device, matrix entry of each derivative; for ground the number of entries
@@ -95,5 +106,13 @@ public:
     /// The values of a device's unknowns at x.
     std::vector<double> terminal_values(const Device&, std::span<const double> x) const;
 };
+
+LinearSums sum_linear_devices(const System&, const EvalContext&);
+
+/// Rejects nodes without a DC path to ground (floating, or connected by current sources only) and loops of elements that fix voltages.
+Result<void> check_solvable(const Circuit&);
+
+/// Warnings for nodes that only one terminal of one element is connected to. The circuit can be solved, but this is often a typing error.
+std::vector<Error> find_dangling_nodes(const Circuit&);
 
 }  // namespace corpuscle::circuit

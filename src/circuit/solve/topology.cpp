@@ -1,4 +1,4 @@
-#include "circuit/solve/topology.hpp"
+#include "circuit/solve/system.hpp"
 
 #include <fmt/format.h>
 #include <algorithm>
@@ -30,27 +30,6 @@ public:
     }
 };
 
-/// True if the element can determine the voltage of an otherwise floating node. A controlled current source can, if its current depends on
-/// that voltage.
-bool conducts(const Element& e) {
-    if (e.letter == 'b') return has_branch_current(e) || !e.expression->is_constant();
-    const auto* kind = find_device_kind(e.letter);
-    return kind != nullptr && kind->conducts_dc;
-}
-
-/// True if the element fixes the voltage between its first two nodes.
-bool fixes_voltage(const Element& e) {
-    if (e.letter == 'b' || e.letter == 'g') return has_branch_current(e);
-    const auto* kind = find_device_kind(e.letter);
-    return kind != nullptr && kind->fixes_voltage && has_branch_current(e);
-}
-
-/// The nodes between which an element conducts: for a transistor drain, source and bulk, not the gate.
-std::vector<int> conducting_nodes(const Element& e) {
-    if (e.letter == 'm' && e.nodes.size() == 4) return {e.nodes[0], e.nodes[2], e.nodes[3]};
-    return {e.nodes[0], e.nodes[1]};
-}
-
 /// The names of up to three elements at a node, and the number of the others.
 std::string elements_at(const Circuit& c, int node) {
     std::vector<std::string> names;
@@ -64,8 +43,7 @@ std::string elements_at(const Circuit& c, int node) {
 Result<void> check_floating_nodes(const Circuit& c) {
     NodeSets sets(c.nodes.size());
     for (const auto& e : c.elements)
-        if (conducts(e))
-            for (const int end : conducting_nodes(e)) sets.join(end, e.nodes[0]);
+        for (const int end : kind_of(e).conducting_nodes(e)) sets.join(end, e.nodes[0]);
     std::vector<int> floating;
     for (std::size_t n = 1; n < c.nodes.size(); ++n)
         if (sets.root(static_cast<int>(n)) != sets.root(0)) floating.push_back(static_cast<int>(n));
@@ -80,38 +58,36 @@ Result<void> check_floating_nodes(const Circuit& c) {
         const bool touches = std::any_of(e.nodes.begin(), e.nodes.end(), [&](int n) { return sets.root(n) == sets.root(first); });
         if (!touches) continue;
         if (first_element == nullptr) first_element = &e;
-        sources |= e.letter == 'i' || (e.letter == 'b' && !has_branch_current(e));
+        sources |= has_role(e, Role::current_source) || is_current_expression(e);
     }
     const auto what = names.size() == 1 ? fmt::format("node '{}' has", names[0]) : fmt::format("nodes '{}' have", fmt::join(names, "', '"));
     const auto why = sources ? "is connected to ground only through current sources, so nothing sets its voltage"
                              : "is connected to ground through capacitors and gates at most, so nothing sets its voltage";
     const auto subject = names.size() == 1 ? "it" : "their part of the circuit";
-    return bad_input(fmt::format("{} no path to ground for direct current: {} {} (connected: {}). Add a large resistor to ground", what,
-                                 subject, why, elements_at(c, first)),
-                     first_element != nullptr ? first_element->location : SourceLocation{c.file});
+    return error_at(first_element != nullptr ? first_element->location : SourceLocation{c.file},
+                    "{} no path to ground for direct current: {} {} (connected: {}). Add a large resistor to ground", what, subject, why,
+                    elements_at(c, first));
 }
 
 Result<void> check_voltage_loops(const Circuit& c) {
     NodeSets sets(c.nodes.size());
     std::vector<const Element*> joined;  // elements that fix a voltage and close no loop
     for (const auto& e : c.elements) {
-        if (!fixes_voltage(e)) continue;
+        if (!has_branch_current(e)) continue;  // see DeviceKind
         if (sets.join(e.nodes[0], e.nodes[1])) {
             joined.push_back(&e);
             continue;
         }
         if (e.nodes[0] == e.nodes[1])
-            return bad_input(fmt::format("{}: both ends are connected to node '{}', so its voltage can only be 0", e.name,
-                                         c.nodes[static_cast<std::size_t>(e.nodes[0])]),
-                             e.location);
+            return error_at(e.location, "{}: both ends are connected to node '{}', so its voltage can only be 0", e.name,
+                            c.nodes[static_cast<std::size_t>(e.nodes[0])]);
         std::vector<std::string> names;
         for (const auto* other : joined)
             if (sets.root(other->nodes[0]) == sets.root(e.nodes[0]) && names.size() < 5) names.push_back(other->name);
-        return bad_input(
-            fmt::format("{}: closes a loop of elements that each fix a voltage ({}), so the loop current is not determined; add "
+        return error_at(e.location,
+                        "{}: closes a loop of elements that each fix a voltage ({}), so the loop current is not determined; add "
                         "a small series resistor",
-                        e.name, fmt::join(names, ", ")),
-            e.location);
+                        e.name, fmt::join(names, ", "));
     }
     return {};
 }
@@ -119,10 +95,10 @@ Result<void> check_voltage_loops(const Circuit& c) {
 }  // namespace
 
 Result<void> check_solvable(const Circuit& c) {
-    if (c.elements.empty()) return bad_input("the circuit has no elements", SourceLocation{c.file});
+    if (c.elements.empty()) return error_at({c.file}, "the circuit has no elements");
     if (std::none_of(c.elements.begin(), c.elements.end(),
                      [](const Element& e) { return std::find(e.nodes.begin(), e.nodes.end(), 0) != e.nodes.end(); }))
-        return bad_input("no element is connected to ground (node 0)", c.elements[0].location);
+        return error_at(c.elements[0].location, "no element is connected to ground (node 0)");
     TRY(check_voltage_loops(c));
     return check_floating_nodes(c);
 }
@@ -144,9 +120,8 @@ std::vector<Error> find_dangling_nodes(const Circuit& c) {
     std::vector<Error> out;
     for (std::size_t n = 1; n < c.nodes.size(); ++n)
         if (terminals[n] == 1 && c.nodes[n].find('.') == std::string::npos)  // not inside a subcircuit
-            out.push_back(bad_input(
-                fmt::format("node '{}' is connected only to {}{}", c.nodes[n], element[n]->name, did_you_mean(c.nodes[n], connected)),
-                element[n]->location));
+            out.push_back(error_at(element[n]->location, "node '{}' is connected only to {}{}", c.nodes[n], element[n]->name,
+                                   did_you_mean(c.nodes[n], connected)));
     return out;
 }
 

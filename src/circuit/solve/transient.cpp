@@ -11,11 +11,7 @@
 namespace corpuscle::circuit {
 namespace {
 
-constexpr double min_relative_gap = 1e-12;   // minimum distance of the first point after a breakpoint, relative to the breakpoint's time
-constexpr double min_relative_step = 1e-15;  // minimum step, relative to the end time
-// Both are relative to the allowed error. After a Newton step larger than large_newton_step, the error of the time step is estimated. If
-// the estimate exceeds hopeless_error, the time step is rejected without further iterations.
-constexpr double large_newton_step = 20, hopeless_error = 2;
+constexpr double min_relative_gap = 1e-12;  // minimum distance of the first point after a breakpoint, relative to the breakpoint's time
 
 }  // namespace
 
@@ -32,11 +28,8 @@ Result<void> Transient::begin(std::vector<double> x, bool settled, std::span<con
     for (std::size_t n = 0; n < count; ++n)
         has_charge_[n] = newton_.evaluation.C[system_.pattern().entry_index(static_cast<int>(n), static_cast<int>(n))] != 0;
     capacitance_.assign(count, 0);  // sum of the magnitudes in each row of C
-    const auto& pattern = system_.pattern();
-    for (std::size_t column = 0; column < count; ++column)
-        for (int e = pattern.column_begin()[column]; e < pattern.column_begin()[column + 1]; ++e)
-            capacitance_[static_cast<std::size_t>(pattern.rows()[static_cast<std::size_t>(e)])] +=
-                std::abs(newton_.evaluation.C[static_cast<std::size_t>(e)]);
+    system_.pattern().for_each_entry(
+        [&](std::size_t e, std::size_t row, std::size_t) { capacitance_[row] += std::abs(newton_.evaluation.C[e]); });
     find_source_nodes();
     history_points_.clear();
     auto& first = history_points_.next_point();
@@ -143,12 +136,11 @@ bool Transient::attempt(double t, double& error) {
         using Status = StepEquations::Status;
         const auto status = equations_.iterate(next.x, allowed_error_);
         if (status == Status::diverged) return false;
-        const bool may_stop_early = status == Status::iterating && equations_.step_size() > large_newton_step && !must_converge;
-        if (status == Status::iterating && !may_stop_early) continue;
+        if (must_converge ? status == Status::iterating : !equations_.newton_control().needs_error(status)) continue;
         equations_.read_charges(next.q);
         converged_ = status == Status::converged;
         error = error_of(control_.order);
-        if (status == Status::converged || error > hopeless_error) return true;
+        if (!NewtonControl::must_continue(status, error)) return true;
     }
 }
 
@@ -263,7 +255,7 @@ Result<void> Transient::reject_step(double h, double error) {
     if (control_.shorten(h, error, history_points_.count() > 1 ? history_points_[0].t - history_points_[1].t : 0,
                          plan_.all_reported ? max_failures : 1))
         restart(false, plan_.all_reported);
-    if (control_.h >= min_relative_step * plan_.stop) return {};
+    if (control_.h >= StepControl::min_step(plan_.stop)) return {};
     return step_too_short(control_.h);
 }
 
@@ -301,7 +293,7 @@ void Transient::accept_step() {
     control_.record_step(next.t - history_points_[0].t);
     history_points_.accept();
     update_tolerances();
-    ++stats_.steps, ++control_.steps_since_order_change, control_.failures = 0;
+    ++stats_.steps;
 }
 
 /// If t0 is a breakpoint and all unknowns are reported, takes a step so short that no charge changes. It gives the values of unknowns
@@ -337,12 +329,10 @@ Result<bool> Transient::step(double until) {
         if (take_breakpoint_step(t0, breakpoint)) return true;
         if (std::exchange(start_phase_, StartPhase::none) == StartPhase::first_step)
             h = std::max(first_part * std::min(h, breakpoint - t0), min_relative_gap * t0);
-        const bool ends_at_breakpoint = t0 + 1.01 * h >= breakpoint;
-        if (!ends_at_breakpoint && t0 + 2 * h > breakpoint) h = (breakpoint - t0) / 2;
-        const double t = ends_at_breakpoint ? breakpoint : t0 + h;
+        const auto next = StepControl::plan_step(t0, h, breakpoint);
         double error = 0;
-        may_jump_ = !interpolated_unknowns_.empty() && t - t0 <= control_.jump_step_limit(plan_.reltol, plan_.max_step);
-        const bool solved = attempt(t, error);
+        may_jump_ = !interpolated_unknowns_.empty() && next.length() <= control_.jump_step_limit(plan_.reltol, plan_.max_step);
+        const bool solved = attempt(next.end, error);
         stats_.iterations = equations_.iterations;
         double curve_error = solved ? interpolation_error() : 0;
         if (solved) measure_rounding(error, curve_error);
@@ -351,19 +341,17 @@ Result<bool> Transient::step(double until) {
         not_reduced = solved && is_first_step && worst > min_reduction * rejected && rejected > 0 ? not_reduced + 1 : 0;
         rejected = solved ? worst : 0;
         if (!solved || (!(worst <= 1) && not_reduced < max_not_reduced)) {
-            TRY(reject_step(t - t0, solved ? worst : 0));
+            TRY(reject_step(next.length(), solved ? worst : 0));
             continue;
         }
         const bool jumped = may_jump_ && (uncharged_error_ > 1 || curve_error > 1);
         const double planned = control_.h;
-        choose_step(t - t0, error);
-        if (!may_jump_) control_.limit_by_curve(t - t0, curve_error, curve_points_);
-        // A step that only the breakpoint has shortened does not shorten the next one.
-        if (ends_at_breakpoint && t - t0 < planned) control_.h = std::max(control_.h, std::min(planned, plan_.max_step));
+        choose_step(next.length(), error);
+        control_.limit_next_step(next, planned, plan_.max_step, may_jump_, curve_error, curve_points_);
         if (jumped) curve_points_ = 2;
         accept_step();
-        restart_pending_ = ends_at_breakpoint || jumped;
-        if (ends_at_breakpoint && plan_.all_reported) start_phase_ = StartPhase::breakpoint;
+        restart_pending_ = next.ends_at_breakpoint || jumped;
+        if (next.ends_at_breakpoint && plan_.all_reported) start_phase_ = StartPhase::breakpoint;
         return true;
     }
 }
@@ -371,11 +359,9 @@ Result<bool> Transient::step(double until) {
 TransientState Transient::save() const {
     TransientState s;
     for (int k = 0; k < history_points_.smooth_count(); ++k) s.history.push_back(history_points_[k]);
-    s.order = control_.order, s.steps_since_order_change = control_.steps_since_order_change, s.failures = control_.failures,
-    s.damping_steps = damping_steps_, s.is_starting = control_.starting, s.restart_pending = restart_pending_;
-    s.count = history_points_.count(), s.curve_points = curve_points_, s.start_phase = static_cast<int>(start_phase_),
-    s.recent_max_step = control_.recent_max_step;
-    s.h = control_.h, s.quadratic_factor = equations_.quadratic_factor(), s.stats = stats_;
+    s.control = control_, s.restart_pending = restart_pending_, s.damping_steps = damping_steps_;
+    s.count = history_points_.count(), s.curve_points = curve_points_, s.start_phase = static_cast<int>(start_phase_);
+    s.quadratic_factor = equations_.quadratic_factor(), s.stats = stats_;
     s.scale = scale_, s.rate = rate_, s.rate_change = rate_change_, s.max_rate = max_rate_, s.alternations = alternations_,
     s.limiting_state = newton_.limiting_state;
     return s;
@@ -386,10 +372,9 @@ void Transient::restore(const TransientState& s) {
     for (auto point = s.history.rbegin(); point != s.history.rend(); ++point)
         history_points_.next_point() = *point, history_points_.accept();
     history_points_.set_count(s.count);
-    curve_points_ = s.curve_points, start_phase_ = static_cast<StartPhase>(s.start_phase), control_.recent_max_step = s.recent_max_step;
-    control_.order = s.order, control_.steps_since_order_change = s.steps_since_order_change, control_.failures = s.failures,
-    damping_steps_ = s.damping_steps, control_.starting = s.is_starting, restart_pending_ = s.restart_pending;
-    control_.h = s.h, equations_.set_quadratic_factor(s.quadratic_factor), stats_ = s.stats, equations_.iterations = s.stats.iterations;
+    control_ = s.control, restart_pending_ = s.restart_pending, damping_steps_ = s.damping_steps;
+    curve_points_ = s.curve_points, start_phase_ = static_cast<StartPhase>(s.start_phase);
+    equations_.set_quadratic_factor(s.quadratic_factor), stats_ = s.stats, equations_.iterations = s.stats.iterations;
     scale_ = s.scale, rate_ = s.rate, rate_change_ = s.rate_change, max_rate_ = s.max_rate, alternations_ = s.alternations,
     newton_.limiting_state = s.limiting_state;
     update_tolerances();

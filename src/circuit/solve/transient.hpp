@@ -34,12 +34,12 @@ struct TransientStats {
 };
 
 /// The complete state of a transient. The next steps depend only on this, the circuit and the x passed to begin(). Members have the names
-/// and meanings of those of Transient, StepControl and NewtonControl.
+/// and meanings of those of Transient and NewtonControl.
 struct TransientState {
     std::vector<TimePoint> history;  ///< newest first
-    int order = 1, steps_since_order_change = 0, failures = 0;
-    bool is_starting = true, restart_pending = false;
-    double h = 0, quadratic_factor = 1, recent_max_step = 0;
+    StepControl control;
+    bool restart_pending = false;
+    double quadratic_factor = 1;
     int damping_steps = 0;
     int count = 1;  ///< History::count()
     int curve_points = 0;
@@ -103,10 +103,7 @@ private:
 
     bool uses_trapezoidal() const { return plan_.method == Integration::trapezoidal && damping_steps_ == 0; }
     void detect_ringing();
-    /// Number of points of the interpolation in the last step; if the step did not determine it, at least 4 where there are as many.
-    int interpolation_points() const {
-        return curve_points_ > 0 ? curve_points_ : std::min(std::max(control_.order + 1, 4), history_points_.count());
-    }
+    int interpolation_points() const { return control_.interpolation_points(curve_points_, history_points_.count()); }
     void find_source_nodes();
     double source_node_voltage(const SourceNode&, double t) const;
     double rounding_error(int unknown) const;

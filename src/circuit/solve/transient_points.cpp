@@ -4,7 +4,8 @@
 #include <cmath>
 #include <utility>
 
-#include "circuit/solve/crossing.hpp"
+#include "circuit/devices.hpp"
+#include "circuit/solve/interpolant.hpp"
 #include "circuit/solve/transient.hpp"
 
 namespace corpuscle::circuit {
@@ -19,7 +20,7 @@ void Transient::find_source_nodes() {
     const auto& elements = system_.circuit().elements;
     for (bool more = true; std::exchange(more, false);)
         for (std::size_t k = 0; k < elements.size(); ++k) {
-            if (elements[k].letter != 'v' || elements[k].waveform.shape == Waveform::Shape::force) continue;
+            if (!has_role(elements[k], Role::voltage_source) || elements[k].waveform.shape == Waveform::Shape::force) continue;
             const Device& d = *system_.devices()[k];
             const auto at = [&](int u) { return u < 0 ? count : static_cast<std::size_t>(u); };
             const bool plus = known[at(d.unknowns[0])] != 0, minus = known[at(d.unknowns[1])] != 0;
@@ -45,8 +46,7 @@ double Transient::source_node_voltage(const SourceNode& node, double t) const {
     const double zero[3] = {};
     double f[3] = {}, q[3] = {}, df[9] = {}, dq[9] = {};
     node.source->eval(zero, {t, 1, newton_.context.gmin, false}, {f, q, df, dq});
-    const double base =
-        node.base < 0 ? 0 : source_voltage(t, node.base).value_or(history_points_[0].x[static_cast<std::size_t>(node.base)]);
+    const double base = source_voltage(t, node.base).value_or(value_of(history_points_[0].x, node.base));
     return base - node.sign * f[2];  // with all unknowns 0, f[2] of a voltage source is minus its voltage
 }
 
@@ -99,7 +99,7 @@ bool Transient::emit_points(const PointCallback& each) {
 std::optional<double> Transient::crossing(int plus, int minus, double level, bool upwards) const {
     if (history_points_.count() < 2) return {};
     const double sign = upwards ? 1 : -1;
-    const auto at = [&](int k, int u) { return u < 0 ? 0 : history_points_[k].x[static_cast<std::size_t>(u)]; };
+    const auto at = [&](int k, int u) { return value_of(history_points_[k].x, u); };
     const auto end = [&](int k) { return sign * (at(k, plus) - at(k, minus) - level); };
     const auto above = [&](double t) { return sign * (interpolate(t, plus) - interpolate(t, minus) - level); };
     return find_crossing(history_points_[1].t, history_points_[0].t, end(1), end(0), above);

@@ -5,9 +5,10 @@
 #include <cmath>
 #include <optional>
 
-#include "circuit/device/uicm_card.hpp"
+#include "circuit/devices.hpp"
 #include "circuit/variant/hierarchical_names.hpp"
 #include "core/text/ascii_text.hpp"
+#include "core/text/embedded_files.hpp"
 #include "core/text/quantity.hpp"
 
 namespace corpuscle::circuit {
@@ -15,53 +16,27 @@ namespace {
 
 constexpr std::string_view reserved_names[] = {"corner", "temp", "mismatch"};
 
-Error error_of(const ParameterOverride& setting, std::string_view why) {
-    return bad_input(fmt::format("{}: {}", setting.typed, why), setting.location);
+template <class... Arguments>
+Error error_of(const ParameterOverride& setting, fmt::format_string<Arguments...> why, Arguments&&... arguments) {
+    return error_at(setting.location, "{}: {}", setting.typed, fmt::format(why, std::forward<Arguments>(arguments)...));
 }
 
-/// A parameter of an element that can be set: w of an M, dtemp of an R; "" is the element's value. `low` and `high` are allowed, too.
-struct ElementParameter {
-    std::string_view name, unit;
-    double low, high;
-};
-
-constexpr double huge = std::numeric_limits<double>::max();  // as `high`: no limit
-
+/// The parameters of an element that can be set.
 std::vector<ElementParameter> parameters_of(const Element& e) {
-    if (e.letter == 'm') {
-        std::vector<ElementParameter> out;
-        for (const auto& f : UicmInstance::fields) out.push_back({f.name, f.unit, f.low, f.high});
-        out.push_back({"temp", "", -273, 500}), out.push_back({"dtemp", "", -500, 500});
-        return out;
-    }
-    constexpr double above_zero = std::numeric_limits<double>::min();
-    const ElementParameter m{"m", "", above_zero, huge}, tc1{"tc1", "", -huge, huge}, tc2{"tc2", "", -huge, huge},
-        temp{"temp", "", -273, 500}, dtemp{"dtemp", "", -500, 500};
-    switch (e.letter) {
-        case 'r':
-            return {{"", "ohm", -huge, huge}, {"r", "ohm", -huge, huge}, m, tc1, tc2, temp, dtemp};
-        case 'c':
-            if (e.expression) return {m};
-            return {{"", "F", 0, huge}, {"c", "F", 0, huge}, m, tc1, tc2, temp, dtemp};
-        case 'l':
-            return {{"", "", 0, huge}, {"l", "", 0, huge}, m, tc1, tc2, temp, dtemp};
-        case 'v':
-            return {{"", "V", -huge, huge}, {"dc", "V", -huge, huge}};
-        case 'i':
-            return {{"", "A", -huge, huge}, {"dc", "A", -huge, huge}};
-        case 'd':
-            return {{"area", "", above_zero, huge}, m, temp, dtemp};
-        case 'b':
-            return {};
-        default:
-            if (e.expression) return {};
-            return {{"", "", -huge, huge}};
-    }
+    std::vector<ElementParameter> out;
+    for (const auto& p : kind_of(e).parameters)
+        if (!e.expression || p.works_with_expression) out.push_back(p);
+    return out;
+}
+
+/// The parameter with this name; "" is the element's value. The end of `all` if there is none.
+auto find_parameter(const std::vector<ElementParameter>& all, std::string_view name) {
+    return std::find_if(all.begin(), all.end(), [&](const ElementParameter& p) { return p.name == name || (name.empty() && p.is_value); });
 }
 
 bool has_parameter(const Element& e, std::string_view name) {
     const auto all = parameters_of(e);
-    return std::any_of(all.begin(), all.end(), [&](const ElementParameter& n) { return n.name == name; });
+    return find_parameter(all, name) != all.end();
 }
 
 /// Reads "8x4", an array of 8 columns of 4 units in series, as (8, 4); nothing if the text has another form.
@@ -106,7 +81,7 @@ private:
     Error ambiguous_name(const ParameterOverride& setting, std::string_view typed, const std::vector<std::size_t>& found) const {
         std::vector<std::string_view> names;
         for (const auto k : found) names.push_back(names_[k]);
-        return error_of(setting, fmt::format("'{}' is ambiguous: {}; write more of its path", typed, abbreviated_list(names)));
+        return error_of(setting, "'{}' is ambiguous: {}; write more of its path", typed, abbreviated_list(names));
     }
 
     /// The error for a name that is neither a parameter nor a device.
@@ -123,24 +98,23 @@ private:
         }
         const std::vector<std::string_view> views(known.begin(), known.end());
         const std::vector<std::string_view> params(parameters_.begin(), parameters_.end());
-        return error_of(setting,
-                        fmt::format("{} has no parameter or device '{}'{} (it has {}corner, temp, mismatch, and {} devices, such as {})",
-                                    circuit_.file, setting.parameter, did_you_mean(typed, views),
-                                    params.empty() ? "" : fmt::format("{}, ", fmt::join(params, ", ")), names_.size(),
-                                    names_.empty() ? "none" : short_name(names_.back(), piece_count(names_.back()), LastPiece::element)));
+        return error_of(setting, "{} has no parameter or device '{}'{} (it has {}corner, temp, mismatch, and {} devices, such as {})",
+                        circuit_.file, setting.parameter, did_you_mean(typed, views),
+                        params.empty() ? "" : fmt::format("{}, ", fmt::join(params, ", ")), names_.size(),
+                        names_.empty() ? "none" : short_name(names_.back(), piece_count(names_.back()), LastPiece::element));
     }
 
     /// Overrides a parameter of a device; "" is the device's value, for a transistor its array.
     Result<void> override_device(const ParameterOverride& setting, const Element& e, std::string_view parameter) {
-        if (parameter.empty() && e.letter == 'm') return override_array(setting, e);
+        if (parameter.empty() && has_role(e, Role::transistor)) return override_array(setting, e);
         const auto known = parameters_of(e);
-        const auto at = std::find_if(known.begin(), known.end(), [&](const ElementParameter& n) { return n.name == parameter; });
+        const auto at = find_parameter(known, parameter);
         if (at == known.end()) return unknown_parameter(setting, e, parameter, known);
-        if (at->name.empty() || at->name == "dc")
+        if (at->is_value)
             if (const auto shape = e.waveform.shape; shape != Waveform::Shape::none && shape != Waveform::Shape::force)
-                return error_of(setting, fmt::format("{} is a source with a time waveform; its value is not a single number", e.name));
+                return error_of(setting, "{} is a source with a time waveform; its value is not a single number", e.name);
         auto value = parse_quantity(setting.value, at->unit);
-        if (!value) return error_of(setting, value.error().message);
+        if (!value) return error_of(setting, "{}", value.error().message);
         return add_change(setting, e, *at, *value);
     }
 
@@ -149,46 +123,40 @@ private:
         std::vector<std::string_view> names;
         for (const auto& n : known)
             if (!n.name.empty()) names.push_back(n.name);
-        if (names.empty()) return error_of(setting, fmt::format("{} has an expression; its value is not a single number", e.name));
+        if (names.empty()) return error_of(setting, "{} has an expression; its value is not a single number", e.name);
         if (parameter.empty())
-            return error_of(setting, fmt::format("{} has no single value; set one of its parameters ({})", e.name, fmt::join(names, ", ")));
-        return error_of(setting, fmt::format("{} has no '{}'{} (it has {})", e.name, parameter, did_you_mean(parameter, names),
-                                             fmt::join(names, ", ")));
+            return error_of(setting, "{} has no single value; set one of its parameters ({})", e.name, fmt::join(names, ", "));
+        return error_of(setting, "{} has no '{}'{} (it has {})", e.name, parameter, did_you_mean(parameter, names), fmt::join(names, ", "));
     }
 
     Result<void> override_array(const ParameterOverride& setting, const Element& e) {
         const auto size = array_of(setting.value);
         if (!size || size->first != std::floor(size->first) || size->second != std::floor(size->second))
             return error_of(
-                setting,
-                fmt::format(
-                    "'{}' is not an array; write COLUMNSxSERIES, such as 8x4 (8 columns of 4 units in series), or set {}.w, {}.l ...",
-                    setting.value, setting.parameter, setting.parameter));
+                setting, "'{}' is not an array; write COLUMNSxSERIES, such as 8x4 (8 columns of 4 units in series), or set {}.w, {}.l ...",
+                setting.value, setting.parameter, setting.parameter);
         for (const auto& n : parameters_of(e)) {
-            if (n.name == "m" && !(size->first >= 1))
-                return error_of(setting, fmt::format("{} columns; at least 1 is required", size->first));
+            if (n.name == "m" && !(size->first >= 1)) return error_of(setting, "{} columns; at least 1 is required", size->first);
             if (n.name == "stack" && !(size->second >= 1))
-                return error_of(setting, fmt::format("{} units in series; at least 1 is required", size->second));
+                return error_of(setting, "{} units in series; at least 1 is required", size->second);
             if (n.name != "m" && n.name != "stack") continue;
             TRY(add_change(setting, e, n, n.name == "m" ? size->first : size->second));
         }
         return {};
     }
 
-    /// Adds one value to the changes. The names r of an R, c of a C, l of an L and dc of a source mean the element's value. The m of an M
-    /// does not: it is the number of its columns.
+    /// Adds one value to the changes.
     Result<void> add_change(const ParameterOverride& setting, const Element& e, const ElementParameter& parameter, double value) {
-        const bool means_value = parameter.name == "dc" || parameter.name == std::string_view(&e.letter, 1);
         if (!(value >= parameter.low && value <= parameter.high))
             return error_of(
-                setting,
-                parameter.high == huge && parameter.low >= 0
+                setting, "{}",
+                parameter.high == unlimited && parameter.low >= 0
                     ? fmt::format("{} must {}", format_quantity(value, parameter.unit), parameter.low > 0 ? "be above 0" : "not be below 0")
                     : fmt::format("{} is outside [{}, {}]", format_quantity(value, parameter.unit),
                                   format_quantity(parameter.low, parameter.unit), format_quantity(parameter.high, parameter.unit)));
-        if (e.letter == 'r' && (means_value || parameter.name.empty()) && value == 0)
-            return error_of(setting, "a resistor must not be 0 ohm");
-        changes_.numbers[e.name].insert_or_assign(means_value && e.letter != 'm' ? "" : std::string(parameter.name), value);
+        if (parameter.excludes_zero && value == 0)
+            return error_of(setting, "a {} must not be {}", kind_of(e).description, format_quantity(0, parameter.unit));
+        changes_.numbers[e.name].insert_or_assign(parameter.is_value ? "" : std::string(parameter.name), value);
         return {};
     }
 };
@@ -201,8 +169,8 @@ Result<double> temperature_of(const ParameterOverride& setting) {
             break;
         }
     const auto value = parse_quantity(text, "");
-    if (!value) return error_of(setting, fmt::format("'{}' is not a temperature; write degrees Celsius, such as 85", setting.value));
-    if (!(*value > -273.15 && *value <= 500)) return error_of(setting, fmt::format("{:g} C is outside (-273.15, 500]", *value));
+    if (!value) return error_of(setting, "'{}' is not a temperature; write degrees Celsius, such as 85", setting.value);
+    if (!(*value > -273.15 && *value <= 500)) return error_of(setting, "{:g} C is outside (-273.15, 500]", *value);
     return *value;
 }
 
@@ -214,7 +182,7 @@ Result<std::pair<std::uint64_t, std::uint64_t>> chip_of(const ParameterOverride&
     for (std::size_t k = 0; k < (slash == text.npos ? 1u : 2u); ++k) {
         const auto value = parse_quantity(k == 0 ? text.substr(0, slash) : text.substr(slash + 1), "");
         if (!value || !(*value >= 0 && *value < 0x1p53) || *value != std::floor(*value))
-            return error_of(setting, fmt::format("'{}' is not a seed; write an integer from 0 to 2^53, or SEED/CHIP", setting.value));
+            return error_of(setting, "'{}' is not a seed; write an integer from 0 to 2^53, or SEED/CHIP", setting.value);
         out[k] = static_cast<std::uint64_t>(*value);
     }
     return std::pair(out[0], out[1]);
@@ -233,7 +201,7 @@ Error with_corner_override(std::span<const ParameterOverride> overrides, const s
 
 Result<void> set_parameter(const ParameterOverride& setting, const std::string& name, ResolvedOverrides& changes) {
     const auto value = parse_number_with_unit(setting.value);
-    if (!value) return error_of(setting, value.error().message);
+    if (!value) return error_of(setting, "{}", value.error().message);
     changes.parameters.insert_or_assign(name, value->value);
     return {};
 }
@@ -305,7 +273,7 @@ Result<Applied<Netlist>> apply_overrides(const NetlistOpener& open, const std::s
             TRY(set_parameter(setting, lower_name, changes));
         } else if (setting.target.empty()) {
             const std::vector<std::string_view> known(parameters.begin(), parameters.end());
-            return error_of(setting, fmt::format("{} has no .param {}{}", name, lower_name, did_you_mean(lower_name, known)));
+            return error_of(setting, "{} has no .param {}{}", name, lower_name, did_you_mean(lower_name, known));
         } else {
             device_overrides.push_back(&setting);
         }
@@ -316,6 +284,23 @@ Result<Applied<Netlist>> apply_overrides(const NetlistOpener& open, const std::s
     OverrideResolver resolver(circuit, parameters, changes);
     for (const auto* setting : device_overrides) TRY(resolver.apply(*setting));
     return Applied<Netlist>{netlist->with_overrides(std::move(changes)), unused};
+}
+
+const EmbeddedNetlist* find_embedded_netlist(std::string_view name) {
+    for (const auto& c : embedded_netlists)
+        if (equal_ignoring_case(c.name, name)) return &c;
+    return nullptr;
+}
+
+Result<Netlist> open_netlist(const std::string& name_or_path, const std::string& corner) {
+    const auto* embedded = find_embedded_netlist(name_or_path);
+    if (embedded == nullptr) return Netlist::read(name_or_path, corner);
+    auto text = TRY(embedded_text(std::string(embedded->file)));
+    return parse_embedded(std::move(text), std::string(embedded->file), corner);
+}
+
+Result<Netlist> parse_embedded(std::string text, std::string file, const std::string& corner) {
+    return Netlist::parse(std::move(text), std::move(file), embedded_text, corner);
 }
 
 }  // namespace corpuscle::circuit

@@ -14,14 +14,14 @@ namespace {
 constexpr double max_variants = 1e6;
 
 Error too_many(const Directive& c, double count) {
-    return bad_input(fmt::format(".{}: {:g} variants exceed the limit of {:g}", c.name, count, max_variants), c.location);
+    return error_at(c.location, ".{}: {:g} variants exceed the limit of {:g}", c.name, count, max_variants);
 }
 
 Result<std::vector<double>> linear_values(const Directive& c, std::size_t word) {
     const double from = TRY(read_number(c, word, "the first value")), to = TRY(read_number(c, word + 1, "the last value"));
     const double step = TRY(read_number(c, word + 2, "a step"));
     const double steps = std::floor((to - from) / step + 1e-9);
-    if (!(steps >= 0)) return bad_input(fmt::format(".step: a step of {:g} does not lead from {:g} to {:g}", step, from, to), c.location);
+    if (!(steps >= 0)) return error_at(c.location, ".step: a step of {:g} does not lead from {:g} to {:g}", step, from, to);
     if (!(steps < max_variants)) return too_many(c, steps + 1);
     std::vector<double> out;
     for (double k = 0; k <= steps; ++k) out.push_back(from + k * step);
@@ -33,14 +33,32 @@ Result<std::vector<double>> log_values(const Directive& c, std::size_t word, dou
     const double from = TRY(read_number(c, word, "the first value")), to = TRY(read_number(c, word + 1, "the last value"));
     const double points = TRY(read_number(c, word + 2, "the number of points"));
     if (!(from > 0 && to >= from && points >= 1))
-        return bad_input(fmt::format(".step: {:g} points from {:g} to {:g}; POINTS must be at least 1, FROM above 0, and TO not below FROM",
-                                     points, from, to),
-                         c.location);
+        return error_at(c.location, ".step: {:g} points from {:g} to {:g}; POINTS must be at least 1, FROM above 0, and TO not below FROM",
+                        points, from, to);
     const double steps = std::floor(std::log(to / from) / std::log(base) * points + 1e-9);
     if (!(steps < max_variants)) return too_many(c, steps + 1);
     std::vector<double> out;
     for (double k = 0; k <= steps; ++k) out.push_back(from * std::pow(base, k / points));
     return out;
+}
+
+/// Reads .step [dec|oct] [param] NAME, then the values.
+Result<NetlistVariants::Axis> read_axis(const Directive& c) {
+    std::size_t at = 0;  // index of the word to read next
+    const auto word = [&] { return at < c.words.size() ? c.words[at] : std::string(); };
+    const double base = word() == "dec" ? 10 : word() == "oct" ? 2 : 0;  // 0: linear
+    at += base > 0;
+    at += word() == "param";
+    NetlistVariants::Axis axis{word(), {}};
+    if (axis.name.empty()) return error_at(c.location, ".step: the name of the parameter is missing");
+    ++at;
+    if (word() != "list") {
+        axis.values = TRY(base > 0 ? log_values(c, at, base) : linear_values(c, at));
+        return axis;
+    }
+    for (++at; at < c.words.size(); ++at) axis.values.push_back(TRY(read_number(c, at, "a value")));
+    if (axis.values.empty()) return error_at(c.location, ".step: the list is empty");
+    return axis;
 }
 
 }  // namespace
@@ -54,10 +72,10 @@ Result<ChipSpec> parse_chip_spec(const Directive& c) {
         const auto name = c.words[k].substr(0, equals);
         const auto value = equals == std::string::npos ? std::nullopt : parse_number(std::string_view(c.words[k]).substr(equals + 1));
         if (!value || (name != "seed" && name != "process" && name != "mismatch"))
-            return bad_input(fmt::format(".mc: '{}' must be seed=NUMBER, process=0|1 or mismatch=0|1", c.words[k]), c.location);
+            return error_at(c.location, ".mc: '{}' must be seed=NUMBER, process=0|1 or mismatch=0|1", c.words[k]);
         if (name == "seed") {
             if (!(value->value >= 0 && value->value < 0x1p53))
-                return bad_input(fmt::format(".mc: seed={:g} must be from 0 to 2^53", value->value), c.location);
+                return error_at(c.location, ".mc: seed={:g} must be from 0 to 2^53", value->value);
             out.seed = static_cast<std::uint64_t>(value->value);
         }
         if (name == "process") out.has_process = value->value != 0;
@@ -85,35 +103,15 @@ Result<NetlistVariants> NetlistVariants::create(const Netlist& netlist) {
     double count = 1;  // of the variants so far
     for (const auto& c : out.nominal_->directives) {
         if (c.name == "step") {
-            // [dec|oct] [param] NAME, then the values
-            std::size_t at = 0;  // index of the word to read next
-            const auto word = [&] { return at < c.words.size() ? c.words[at] : std::string(); };
-            const bool is_log = word() == "dec" || word() == "oct";
-            const double base = word() == "dec" ? 10 : 2;
-            at += is_log;
-            at += word() == "param";
-            Axis axis{word(), {}};
-            if (axis.name.empty()) return bad_input(".step: the name of the parameter is missing", c.location);
-            ++at;
-            if (word() == "list") {
-                for (++at; at < c.words.size(); ++at) axis.values.push_back(TRY(read_number(c, at, "a value")));
-                if (axis.values.empty()) return bad_input(".step: the list is empty", c.location);
-            } else {
-                auto values = TRY(is_log ? log_values(c, at, base) : linear_values(c, at));
-                axis.values = std::move(values);
-            }
-            count *= static_cast<double>(axis.values.size());
-            if (count > max_variants) return too_many(c, count);
-            out.axes_.push_back(std::move(axis));
+            out.axes_.push_back(TRY(read_axis(c)));
+            count *= static_cast<double>(out.axes_.back().values.size());
+        } else if (c.name == "mc") {
+            out.chips_ = TRY(parse_chip_spec(c));
+            if (!(out.chips_.count >= 1)) return error_at(c.location, ".mc: the number of chips must be at least 1");
+            count *= out.chips_.count;
+            out.chips_.count = std::floor(out.chips_.count);
         }
-        if (c.name == "mc") {
-            const auto chips = TRY(parse_chip_spec(c));
-            count *= chips.count;
-            if (!(chips.count >= 1)) return bad_input(".mc: the number of chips must be at least 1", c.location);
-            if (!(count <= max_variants)) return too_many(c, count);
-            out.chips_ = chips;
-            out.chips_.count = std::floor(chips.count);
-        }
+        if (!(count <= max_variants)) return too_many(c, count);
     }
     return out;
 }

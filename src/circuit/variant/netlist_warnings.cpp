@@ -5,6 +5,7 @@
 
 #include "circuit/device/named_values.hpp"
 #include "circuit/device/uicm_card.hpp"
+#include "circuit/devices.hpp"
 #include "circuit/expression/spice_number.hpp"
 #include "core/text/quantity.hpp"
 
@@ -22,7 +23,7 @@ void warn(std::vector<Error>& out, const Circuit& c, Holds&& holds, Message&& me
         if (holds(e) && ++count == 1) first = &e;
     if (first == nullptr) return;
     const auto others = count == 1 ? std::string() : fmt::format(" (and {} other element{})", count - 1, count == 2 ? "" : "s");
-    out.push_back(bad_input(fmt::format("{}: {}{}", first->name, message(*first), others), first->location));
+    out.push_back(error_at(first->location, "{}: {}{}", first->name, message(*first), others));
 }
 
 bool has_value(const Element& e, std::string_view name) { return e.values.contains(name); }
@@ -30,7 +31,7 @@ bool has_value(const Element& e, std::string_view name) { return e.values.contai
 void warn_about_sizes(std::vector<Error>& out, const Circuit& c) {
     const auto too_long = [](const Element& e, std::string_view name) { return value_or(e.values, name, 0) > max_gate_size; };
     warn(
-        out, c, [&](const Element& e) { return e.letter == 'm' && (too_long(e, "w") || too_long(e, "l")); },
+        out, c, [&](const Element& e) { return has_role(e, Role::transistor) && (too_long(e, "w") || too_long(e, "l")); },
         [&](const Element& e) {
             const auto name = too_long(e, "w") ? "w" : "l";
             const double size = value_or(e.values, name, 0);
@@ -39,13 +40,15 @@ void warn_about_sizes(std::vector<Error>& out, const Circuit& c) {
         });
     for (const std::string_view name : {"w", "l"})
         warn(
-            out, c, [&](const Element& e) { return e.letter == 'm' && !has_value(e, name); },
+            out, c, [&](const Element& e) { return has_role(e, Role::transistor) && !has_value(e, name); },
             [&](const Element&) {
                 const UicmInstance defaults;
                 return fmt::format("{}= is not given; the default is {}", name,
                                    format_quantity(name == "w" ? defaults.W : defaults.L, "m"));
             });
 }
+
+bool has_initial_value(const Element& e) { return has_role(e, Role::capacitor) || has_role(e, Role::inductor); }
 
 bool has_directive(const Circuit& c, std::string_view name) {
     return std::any_of(c.directives.begin(), c.directives.end(), [&](const Directive& directive) { return directive.name == name; });
@@ -57,13 +60,13 @@ void warn_about_initial_conditions(std::vector<Error>& out, const Circuit& c) {
     });
     if (without_uic)
         warn(
-            out, c, [](const Element& e) { return has_value(e, "ic") && e.letter != 'd'; },
+            out, c, [](const Element& e) { return has_value(e, "ic") && has_initial_value(e); },
             [](const Element&) {
                 return "ic= has an effect only with 'uic' at the end of the .tran line; without it, .ic v(node)=... sets the initial "
                        "voltage of a node";
             });
     warn(
-        out, c, [](const Element& e) { return has_value(e, "ic") && e.letter == 'd'; },
+        out, c, [](const Element& e) { return has_value(e, "ic") && !has_initial_value(e); },
         [](const Element&) { return "ic= of a diode has no effect; use ic= of a parallel capacitor, or .ic v(node)=... with uic"; });
     warn(
         out, c, [](const Element& e) { return has_value(e, "off"); },
@@ -74,8 +77,8 @@ void warn_about_missing_ac(std::vector<Error>& out, const Circuit& c) {
     if (std::any_of(c.elements.begin(), c.elements.end(), [](const Element& e) { return e.waveform.ac_magnitude != 0; })) return;
     for (const auto& directive : c.directives)
         if (directive.name == "ac") {
-            out.push_back(bad_input(".ac: no source has an AC value, so every response is 0; add one, such as 'v1 in 0 dc 0 ac 1'",
-                                    directive.location));
+            out.push_back(error_at(directive.location,
+                                   ".ac: no source has an AC value, so every response is 0; add one, such as 'v1 in 0 dc 0 ac 1'"));
             return;
         }
 }
@@ -101,9 +104,8 @@ void warn_about_tran_times(std::vector<Error>& out, const Circuit& c) {
         if (directive.name != "tran" || directive.words.size() < 2) continue;
         const auto step = parse_number(directive.words[0]), stop = parse_number(directive.words[1]);
         if (step && stop && stop->value > 0 && step->value > stop->value)
-            out.push_back(bad_input(
-                fmt::format(".tran: STEP {} is longer than STOP {}; the order is .tran STEP STOP", directive.words[0], directive.words[1]),
-                directive.location));
+            out.push_back(error_at(directive.location, ".tran: STEP {} is longer than STOP {}; the order is .tran STEP STOP",
+                                   directive.words[0], directive.words[1]));
     }
 }
 

@@ -18,11 +18,10 @@ void send_spikes(Ranks& ranks, const std::vector<Spike>& spikes) {
 Result<void> simulate_rank_afferents(Ranks& ranks, SkinForce& force, Skin& skin, ThreadPool& pool) {
     std::vector<Spike> spikes;
     for (;; spikes.clear()) {
-        const auto block = force.next();
-        if (!block) return block.error();
-        const auto steps = block->total_force.size();
+        const auto block = TRY(force.next());
+        const auto steps = block.total_force.size();
         if (steps == 0) break;
-        if (auto ok = skin.respond(block->force, steps, spikes, pool); !ok) return ok;
+        TRY(skin.respond(block.force, steps, spikes, pool));
         send_spikes(ranks, spikes);
     }
     skin.finish(spikes);
@@ -36,11 +35,10 @@ Result<void> simulate_rank_afferents(Ranks& ranks, SkinForce& force, Skin& skin,
 
 Result<void> gather_spikes(Ranks& ranks, std::vector<Spike>& spikes) {
     for (int rank = 1; rank < ranks.size(); ++rank) {
-        const auto message = ranks.receive(rank);
-        if (!message) return message.error();
+        const auto message = TRY(ranks.receive(rank));
         const auto before = spikes.size();
-        spikes.resize(before + message->size() / sizeof(Spike));
-        std::copy_n(message->data(), (spikes.size() - before) * sizeof(Spike), reinterpret_cast<char*>(spikes.data() + before));
+        spikes.resize(before + message.size() / sizeof(Spike));
+        std::copy_n(message.data(), (spikes.size() - before) * sizeof(Spike), reinterpret_cast<char*>(spikes.data() + before));
     }
     std::sort(spikes.begin(), spikes.end());
     return {};
@@ -48,10 +46,9 @@ Result<void> gather_spikes(Ranks& ranks, std::vector<Spike>& spikes) {
 
 Result<void> gather_stats(Ranks& ranks, SkinStats& stats) {
     for (int rank = 1; rank < ranks.size(); ++rank) {
-        const auto message = ranks.receive(rank);
-        if (!message) return message.error();
+        const auto message = TRY(ranks.receive(rank));
         SkinStats worker;  // its `steps` are the same for all ranks
-        std::memcpy(&worker, message->data(), std::min(sizeof worker, message->size()));
+        std::memcpy(&worker, message.data(), std::min(sizeof worker, message.size()));
         stats.afferent_steps += worker.afferent_steps, stats.skipped_steps += worker.skipped_steps;
         stats.spikes += worker.spikes, stats.truncated_steps += worker.truncated_steps;
     }

@@ -12,9 +12,7 @@ constexpr std::chrono::seconds save_interval{10};
 
 Result<void> SkinSimulator::start(const RespondOptions& options, bool wants_probes) {
     if (!wants_probes) return {};
-    auto probes = SkinProbes::make(skin_.innervation(), options.for_clock(input_.clock));
-    if (!probes) return probes.error();
-    probes_ = std::move(*probes);
+    probes_ = TRY(SkinProbes::make(skin_.innervation(), options.for_clock(input_.clock)));
     population_.set_probes(probes_->class_probes());
     return {};
 }
@@ -24,27 +22,23 @@ Result<void> SkinSimulator::simulate(const SkinForce::Block& block, ThreadPool& 
     spikes_.clear();
     const auto steps = block.total_force.size();
     auto* const checkpoint = parts_.checkpoint;
-    if (checkpoint)
-        if (auto ok = checkpoint->add_force(block, samples_); !ok) return ok;
+    if (checkpoint) TRY(checkpoint->add_force(block, samples_));
     if (checkpoint && samples_ < checkpoint->resumed_samples())
         return checkpoint->replay(samples_ + static_cast<std::int64_t>(steps), spikes_);
-    if (auto ok = skin_.respond(block.force, steps, spikes_, pool); !ok) return ok;
-    if (parts_.ranks)
-        if (auto ok = gather_spikes(*parts_.ranks, spikes_); !ok) return ok;
+    TRY(skin_.respond(block.force, steps, spikes_, pool));
+    if (parts_.ranks) TRY(gather_spikes(*parts_.ranks, spikes_));
     return checkpoint ? checkpoint->append(spikes_) : Result<void>{};
 }
 
 Result<RunBlock> SkinSimulator::next(ThreadPool& pool, RunStats&) {
-    const auto block = force_.next();
-    if (!block) return block.error();
-    const auto steps = block->total_force.size();
+    const auto block = TRY(force_.next());
+    const auto steps = block.total_force.size();
     if (steps == 0) return RunBlock{};
-    if (auto ok = simulate(*block, pool); !ok) return ok.error();
-    if (probes_)
-        if (auto ok = probes_->respond(block->force, steps, pool); !ok) return ok.error();
-    total_force_ = block->total_force;
+    TRY(simulate(block, pool));
+    if (probes_) TRY(probes_->respond(block.force, steps, pool));
+    total_force_ = block.total_force;
     const auto first = std::exchange(samples_, samples_ + static_cast<std::int64_t>(steps));
-    RunBlock response{first, steps, {&total_force_, 1}, block->force, spikes_};
+    RunBlock response{first, steps, {&total_force_, 1}, block.force, spikes_};
     if (probes_) response.probes = probes_->values();
     return response;
 }
@@ -59,13 +53,12 @@ Result<void> SkinSimulator::save(bool stops) {
 }
 
 Result<void> SkinSimulator::finish(std::vector<Spike>& last, RunStats& stats) {
-    if (parts_.checkpoint)
-        if (auto ok = parts_.checkpoint->finish(samples_); !ok) return ok;
+    if (parts_.checkpoint) TRY(parts_.checkpoint->finish(samples_));
     skin_.finish(last);
     auto work = skin_.stats();
     if (parts_.ranks) {
-        if (auto ok = gather_spikes(*parts_.ranks, last); !ok) return ok;
-        if (auto ok = gather_stats(*parts_.ranks, work); !ok) return ok;
+        TRY(gather_spikes(*parts_.ranks, last));
+        TRY(gather_stats(*parts_.ranks, work));
     }
     stats.samples += work.steps, stats.afferent_steps += work.afferent_steps, stats.skipped_steps += work.skipped_steps;
     stats.spikes += work.spikes, stats.truncated_steps += work.truncated_steps;

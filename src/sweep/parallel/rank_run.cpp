@@ -70,17 +70,16 @@ public:
 }  // namespace
 
 Result<void> run_coordinator(Ranks& ranks, const Sweep& sweep, SweepResults& results, const SweepRunOptions& run, SweepProgress& progress) {
-    const auto missing = results.missing_ranges();
-    if (!missing) return missing.error();
-    progress = {.planned = ItemQueue(*missing, run.shard).remaining()};
+    const auto missing = TRY(results.missing_ranges());
+    progress = {.planned = ItemQueue(missing, run.shard).remaining()};
     results.announce_run(progress.planned);
-    SweepWorkers workers(ranks, start_message(sweep, *missing));
+    SweepWorkers workers(ranks, start_message(sweep, missing));
     const auto write = [&](std::vector<ItemOutcome>&& outcomes) {
         const auto gathered = workers.gather(outcomes);
         const auto written = write_outcomes(sweep, results, run, progress, std::move(outcomes));
         return gathered ? written : gathered;
     };
-    auto ok = compute_items(sweep, items_of_rank(ranks, *missing, run), run, write);
+    auto ok = compute_items(sweep, items_of_rank(ranks, missing, run), run, write);
     while (ok && !workers.have_finished()) {
         std::this_thread::sleep_for(std::chrono::milliseconds(20));
         ok = write({});
@@ -91,12 +90,10 @@ Result<void> run_coordinator(Ranks& ranks, const Sweep& sweep, SweepResults& res
 
 void run_worker(Ranks& ranks, const Result<std::unique_ptr<Sweep>>& sweep, const SweepRunOptions& run) {
     const auto ok = [&]() -> Result<void> {
-        auto start = ranks.receive(0);  // also if there is no sweep: rank 0 receives nothing before it has sent this
-        if (!start) return start.error();
+        auto start = TRY(ranks.receive(0));
         if (!sweep) return sweep.error();
-        auto missing = read_start(**sweep, *std::move(start));
-        if (!missing) return missing.error();
-        return compute_items(**sweep, items_of_rank(ranks, *std::move(missing), run), run, [&](std::vector<ItemOutcome>&& outcomes) {
+        auto missing = TRY(read_start(**sweep, std::move(start)));
+        return compute_items(**sweep, items_of_rank(ranks, std::move(missing), run), run, [&](std::vector<ItemOutcome>&& outcomes) {
             if (!outcomes.empty()) ranks.send(0, pack_outcomes(outcomes));
             return Result<void>();
         });

@@ -20,7 +20,7 @@ void SweepProgress::add(const ItemOutcome& o) {
 Result<void> write_outcomes(const Sweep& sweep, SweepResults& results, const SweepRunOptions& run, SweepProgress& progress,
                             std::vector<ItemOutcome>&& outcomes) {
     for (const auto& o : outcomes) progress.add(o);
-    if (auto ok = results.add(sweep, std::move(outcomes)); !ok) return ok;
+    TRY(results.add(sweep, std::move(outcomes)));
     run.on_progress(progress);
     return {};
 }
@@ -31,19 +31,18 @@ Result<void> compute_items(const Sweep& sweep, ItemQueue queue, const SweepRunOp
     bool stopped = false;
     for (;;) {
         if (!stopped && pool.queued() < queue_length / 2) pool.add(queue.take(queue_length));
-        if (auto ok = write(pool.collect(run.write_interval)); !ok) return ok;
+        TRY(write(pool.collect(run.write_interval)));
         if (!stopped && run.should_stop()) stopped = true, pool.stop();
         if (pool.is_done() && (stopped || queue.remaining() == 0 || !pool.sweep_error())) break;  // the last term: there was an error
     }
-    if (auto ok = pool.sweep_error(); !ok) return ok;
+    TRY(pool.sweep_error());
     if (stopped) return Error{ErrorCode::interrupted, "interrupted"};
     return {};
 }
 
 Result<void> run_sweep(const Sweep& sweep, SweepResults& results, const SweepRunOptions& run, SweepProgress& progress) {
-    auto missing = results.missing_ranges();
-    if (!missing) return missing.error();
-    ItemQueue queue(std::move(*missing), run.shard);
+    auto missing = TRY(results.missing_ranges());
+    ItemQueue queue(std::move(missing), run.shard);
     progress = {.planned = queue.remaining()};
     if (progress.planned == 0) return {};
     results.announce_run(progress.planned);

@@ -54,12 +54,11 @@ Result<sql::Handle> open_new_file(const std::string& path) {
 
 /// Copies all pages of a database, including those in its -wal, to a new file.
 Result<void> copy_pages(sqlite3* from, const std::string& path) {
-    const auto to = open_new_file(path);
-    if (!to) return to.error();
-    auto* backup = sqlite3_backup_init(to->get(), "main", from, "main");
-    if (!backup) return sql::error_of(to->get(), path);
+    const auto to = TRY(open_new_file(path));
+    auto* backup = sqlite3_backup_init(to.get(), "main", from, "main");
+    if (!backup) return sql::error_of(to.get(), path);
     sqlite3_backup_step(backup, -1);
-    if (sqlite3_backup_finish(backup) != SQLITE_OK) return sql::error_of(to->get(), path);
+    if (sqlite3_backup_finish(backup) != SQLITE_OK) return sql::error_of(to.get(), path);
     return {};
 }
 
@@ -107,7 +106,7 @@ void SweepResults::Impl::set_next_checkpoint_size() {
 Result<void> SweepResults::Impl::checkpoint() {
     if (std::error_code status; !fs::exists(wal_path(), status) && !is_writing) return {};  // no new rows
     auto ok = replace_file([&](const std::string& new_path) -> Result<void> {
-        if (auto copied = copy_pages(file.get(), new_path); !copied) return copied;
+        TRY(copy_pages(file.get(), new_path));
         const auto ended_wal_mode = open_new_file(new_path);
         return ended_wal_mode ? Result<void>() : ended_wal_mode.error();
     });

@@ -43,11 +43,9 @@ std::vector<T> numbers(std::span<const std::byte> bytes) {
 /// The numbers in the blob that a query selects by item and index; empty if there is no row.
 template <class T>
 Result<std::vector<T>> read_blob(sqlite3* file, const std::string& path, const char* query, std::int64_t item, std::size_t index) {
-    auto row = sql::Statement::make(file, path, query);
-    if (!row) return row.error();
-    const auto found = row->set(1, item).set(2, static_cast<std::int64_t>(index)).step();
-    if (!found) return found.error();
-    return *found ? numbers<T>(row->bytes(0)) : std::vector<T>{};
+    auto row = TRY(sql::Statement::make(file, path, query));
+    const auto found = TRY(row.set(1, item).set(2, static_cast<std::int64_t>(index)).step());
+    return found ? numbers<T>(row.bytes(0)) : std::vector<T>{};
 }
 
 /// Creates the folder of a file.
@@ -71,9 +69,7 @@ Error needs_writable_folder(const std::string& path) {
 std::string_view end_name(ItemEnd end) { return item_ends[static_cast<std::size_t>(end)]; }
 
 Result<void> SweepResults::Impl::open_file(int flags) {
-    auto opened = sql::open(path, flags);
-    if (!opened) return opened.error();
-    file = std::move(*opened);
+    file = TRY(sql::open(path, flags));
     return {};
 }
 
@@ -86,14 +82,12 @@ Result<void> SweepResults::Impl::begin_writing() {
         !ok)
         return ok;
     const auto prepare = [&](const std::string& text, sql::Statement& out) -> Result<void> {
-        auto statement = sql::Statement::make(file.get(), path, text);
-        if (!statement) return statement.error();
-        out = std::move(*statement);
+        out = TRY(sql::Statement::make(file.get(), path, text));
         return {};
     };
-    if (auto ok = prepare(insert_statement(layout.stored_column_names), insert_item); !ok) return ok;
-    if (auto ok = prepare("INSERT INTO spikes(item, train, times) VALUES(?, ?, ?)", insert_spikes); !ok) return ok;
-    if (auto ok = prepare("INSERT INTO traces(item, trace, samples) VALUES(?, ?, ?)", insert_probe); !ok) return ok;
+    TRY(prepare(insert_statement(layout.stored_column_names), insert_item));
+    TRY(prepare("INSERT INTO spikes(item, train, times) VALUES(?, ?, ?)", insert_spikes));
+    TRY(prepare("INSERT INTO traces(item, trace, samples) VALUES(?, ?, ?)", insert_probe));
     set_next_checkpoint_size();
     is_writing = true;
     return {};
@@ -113,7 +107,7 @@ Result<void> SweepResults::Impl::insert(const Sweep& sweep, const ItemOutcome& o
     for (const double x : values) insert_item.set(position++, x);
     for (std::size_t k = 0; k < layout.measures.size(); ++k, ++position)
         k < o.measures.size() ? insert_item.set(position, o.measures[k]) : insert_item.set_null(position);
-    if (auto ok = insert_item.finish(); !ok) return ok;
+    TRY(insert_item.finish());
     if (sqlite3_changes(file.get()) == 0) return {};  // the item has a row already
     ++finished;
     for (std::size_t k = 0; k < o.spikes.size(); ++k)
@@ -143,28 +137,23 @@ Result<SweepResults> SweepResults::open(const std::string& path, const SweepResu
 Result<SweepResults> SweepResults::open_with_layout(const std::string& path, const ResultsLayout& expected) {
     auto impl = std::make_unique<Impl>();
     impl->path = path;
-    if (auto ok = make_folder(path); !ok) return ok.error();
-    auto lock = WriterLock::take(path);
-    if (!lock) return lock.error();
-    impl->lock = std::move(*lock);
+    TRY(make_folder(path));
+    auto lock = TRY(WriterLock::take(path));
+    impl->lock = std::move(lock);
     impl->remove_new_file();
     if (std::error_code status; !fs::exists(path, status)) {
         impl->layout = expected;  // create_file() writes it
-        if (auto ok = impl->create_file(); !ok) return ok.error();
+        TRY(impl->create_file());
     }
-    if (auto ok = impl->open_file(SQLITE_OPEN_READWRITE); !ok) return ok.error();
-    auto stored = ResultsLayout::read(impl->file.get(), path);
-    if (!stored) return stored.error();
-    impl->layout = std::move(*stored);
+    TRY(impl->open_file(SQLITE_OPEN_READWRITE));
+    impl->layout = TRY(ResultsLayout::read(impl->file.get(), path));
     if (!impl->layout.is_current_format()) return impl->layout.read_only_format(path);
     if (const auto difference = expected.difference_from(impl->layout); !difference.empty())
         return bad_input(fmt::format("holds results of another sweep: {}. Give another file with --out, undo the change, or "
                                      "remove this file",
                                      difference),
                          {path});
-    const auto rows = sql::query_integer(impl->file.get(), path, "SELECT count(*) FROM items");
-    if (!rows) return rows.error();
-    impl->finished = *rows;
+    impl->finished = TRY(sql::query_integer(impl->file.get(), path, "SELECT count(*) FROM items"));
     return SweepResults(std::move(impl));
 }
 
@@ -173,7 +162,7 @@ Result<SweepResults> SweepResults::open_read_only(const std::string& path) {
     if (!fs::exists(path, status)) return bad_input("does not exist; 'corpuscle sweep FILE --out RESULTS' creates it", {path});
     auto impl = std::make_unique<Impl>();
     impl->path = path;
-    if (auto ok = impl->open_file(SQLITE_OPEN_READWRITE | SQLITE_OPEN_NOMUTEX); !ok) return ok.error();
+    TRY(impl->open_file(SQLITE_OPEN_READWRITE | SQLITE_OPEN_NOMUTEX));
     auto stored = ResultsLayout::read(impl->file.get(), path);
     if (!stored && (sqlite3_errcode(impl->file.get()) & 0xff) == SQLITE_CANTOPEN) {
         // SQLite needs a -shm file beside the results, which cannot be created in a read-only folder. Without rows in the -wal, the file
@@ -187,10 +176,8 @@ Result<SweepResults> SweepResults::open_read_only(const std::string& path) {
     }
     if (!stored) return stored.error();
     impl->layout = std::move(*stored);
-    if (auto ok = sql::run(impl->file.get(), path, "PRAGMA query_only = 1"); !ok) return ok.error();
-    const auto rows = sql::query_integer(impl->file.get(), path, "SELECT count(*) FROM items");
-    if (!rows) return rows.error();
-    impl->finished = *rows;
+    TRY(sql::run(impl->file.get(), path, "PRAGMA query_only = 1"));
+    impl->finished = TRY(sql::query_integer(impl->file.get(), path, "SELECT count(*) FROM items"));
     return SweepResults(std::move(impl));
 }
 
@@ -241,16 +228,14 @@ std::string SweepResults::about(const std::string& key) const {
 }
 
 Result<std::vector<std::pair<std::int64_t, std::int64_t>>> SweepResults::missing_ranges() const {
-    auto rows = sql::Statement::make(handle(), path(), "SELECT item FROM items ORDER BY item");
-    if (!rows) return rows.error();
+    auto rows = TRY(sql::Statement::make(handle(), path(), "SELECT item FROM items ORDER BY item"));
     std::vector<std::pair<std::int64_t, std::int64_t>> out;
     std::int64_t from = 0;
     for (;;) {
-        const auto more = rows->step();
-        if (!more) return more.error();
-        const auto to = *more ? rows->integer(0) : item_count();
+        const auto more = TRY(rows.step());
+        const auto to = more ? rows.integer(0) : item_count();
         if (to > from) out.emplace_back(from, to);
-        if (!*more) return out;
+        if (!more) return out;
         from = to + 1;
     }
 }
@@ -262,19 +247,17 @@ Result<std::int64_t> SweepResults::count_ended(ItemEnd end) const {
 Result<void> SweepResults::for_each_row(const std::function<bool(const Row&)>& on_row) const {
     std::string text = "SELECT item, ended, steps, iterations, alone, why";
     for (const auto& column : stored_column_names()) text += ", " + sql::quoted_name(column);
-    auto rows = sql::Statement::make(handle(), path(), text + " FROM items ORDER BY item");
-    if (!rows) return rows.error();
+    auto rows = TRY(sql::Statement::make(handle(), path(), text + " FROM items ORDER BY item"));
     Row row;
     row.axes.resize(axes().size()), row.measures.resize(measures().size());
     for (;;) {
-        const auto more = rows->step();
-        if (!more) return more.error();
-        if (!*more) return {};
-        row.item = rows->integer(0), row.end = end_of(rows->text(1)), row.steps = rows->integer(2), row.iterations = rows->integer(3);
-        row.ran_alone = rows->integer(4) != 0, row.reason = rows->text(5);
+        const auto more = TRY(rows.step());
+        if (!more) return {};
+        row.item = rows.integer(0), row.end = end_of(rows.text(1)), row.steps = rows.integer(2), row.iterations = rows.integer(3);
+        row.ran_alone = rows.integer(4) != 0, row.reason = rows.text(5);
         int column = 6;
         for (auto* into : {&row.axes, &row.measures})
-            for (double& x : *into) x = rows->number(column++);
+            for (double& x : *into) x = rows.number(column++);
         if (!on_row(row)) return {};
     }
 }

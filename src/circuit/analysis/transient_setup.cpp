@@ -1,0 +1,133 @@
+#include "circuit/analysis/transient_setup.hpp"
+
+#include <fmt/format.h>
+#include <algorithm>
+#include <cmath>
+
+#include "circuit/device/named_values.hpp"
+#include "circuit/devices.hpp"
+#include "circuit/solve/operating_point.hpp"
+#include "core/text/quantity.hpp"
+
+namespace corpuscle::circuit {
+namespace {
+
+struct Accuracy {
+    std::string_view word;  // of .options accuracy=word
+    double reltol, vntol;   // vntol: V
+};
+constexpr Accuracy accuracies[] = {{"rough", 1e-3, 1e-5}, {"normal", 1e-5, 1e-6}, {"fine", 1e-6, 1e-7}, {"finest", 1e-8, 1e-9}};
+
+Error invalid_option(const Circuit& c, std::string_view option, std::string_view value, std::string_view known) {
+    return error_at({c.file}, ".options {}={}: expected one of {}", option, value, known);
+}
+
+constexpr double start_offset = 10e-3;  // V, from an unstable operating point
+
+Error unstable_warning(const AnalysisContext& context, const UnstableMode& mode) {
+    const auto& d = mode.direction;
+    const auto largest =
+        std::max_element(d.begin(), d.begin() + context.system.nodes(), [](double a, double b) { return std::abs(a) < std::abs(b); });
+    const auto node = static_cast<std::size_t>(largest - d.begin());
+    return error_at({context.circuit->file},
+                    "the operating point is unstable: a disturbance grows{}. The transient starts {} from it, at {}. Set .ic to choose the "
+                    "start",
+                    mode.rate > 0 ? fmt::format(" by a factor of {:.3g} in {}", std::exp(1.0), format_quantity(1 / mode.rate, "s"))
+                                  : std::string(" while it oscillates"),
+                    format_quantity(start_offset, "V"), context.system.names()[node]);
+}
+
+/// By equation, the sum of the charges that capacitors have at their ic= voltages minus those at x. An ic= current of an inductor is an
+/// unknown and is written to x.
+std::vector<double> charge_of_ics(const AnalysisContext& context, std::vector<double>& x) {
+    std::vector<double> out;
+    StampBuffer at_x, requested;
+    EvalContext eval_context;
+    eval_context.gmin = context.tolerances.gmin;
+    for (std::size_t k = 0; k < context.circuit->elements.size(); ++k) {
+        const auto& e = context.circuit->elements[k];
+        const auto ic = e.values.find("ic");
+        const bool is_current = has_role(e, Role::inductor);
+        if (ic == e.values.end() || !(is_current || has_role(e, Role::capacitor))) continue;
+        const auto& device = *context.system.devices()[k];
+        if (is_current) {
+            x[static_cast<std::size_t>(device.unknowns[2])] = ic->second;
+            continue;
+        }
+        out.resize(x.size());
+        const auto v = context.system.terminal_values(device, x);
+        auto charged = v;
+        charged[0] = v[1] + ic->second;
+        const auto before = at_x.eval(device, v, eval_context).q, after = requested.eval(device, charged, eval_context).q;
+        for (std::size_t n = 0; n < v.size(); ++n)
+            if (const int unknown = device.unknowns[n]; unknown >= 0) out[static_cast<std::size_t>(unknown)] += after[n] - before[n];
+    }
+    return out;
+}
+
+}  // namespace
+
+Result<TransientPlan> read_transient_plan(const Circuit& c) {
+    TransientPlan plan;
+    if (const auto given = c.option_words.find("accuracy"); given != c.option_words.end()) {
+        const Accuracy* found = nullptr;
+        for (const auto& a : accuracies)
+            if (a.word == given->second) found = &a;
+        if (found == nullptr) return invalid_option(c, "accuracy", given->second, "rough, normal, fine, finest");
+        plan.reltol = found->reltol, plan.vntol = found->vntol;
+    }
+    plan.reltol = value_or(c.options, "reltol", plan.reltol);
+    plan.vntol = value_or(c.options, "vntol", plan.vntol);
+    plan.abstol = value_or(c.options, "abstol", plan.abstol);
+    if (const auto given = c.option_words.find("method"); given != c.option_words.end()) {
+        const std::string_view word = given->second;
+        if (word != "gear" && word != "bdf" && !word.starts_with("trap")) return invalid_option(c, "method", word, "gear, trap");
+        if (word.starts_with("trap")) plan.method = Integration::trapezoidal;
+    }
+    const double order = value_or(c.options, "maxord", plan.max_order);
+    if (!(order >= 1 && order <= 5 && order == static_cast<int>(order)))
+        return error_at({c.file}, ".options maxord={:g}: expected an integer from 1 to 5", order);
+    plan.max_order = static_cast<int>(order);
+    return plan;
+}
+
+Result<TransientTimes> read_transient_times(const Directive& directive) {
+    auto c = directive;
+    TransientTimes out;
+    out.uic = !c.words.empty() && c.words.back() == "uic";
+    if (out.uic) c.words.pop_back();
+    if (c.words.size() < 2 || c.words.size() > 4) return error_at(c.location, ".tran: expected .tran STEP STOP [START [LONGEST]] [uic]");
+    out.step = TRY(read_number(c, 0, "the step"));
+    out.stop = TRY(read_number(c, 1, "the stop time"));
+    if (c.words.size() > 2) out.start = TRY(read_number(c, 2, "the start time"));
+    if (c.words.size() > 3) out.max_step = TRY(read_number(c, 3, "the maximum step"));
+    if (!(out.step > 0 && out.stop > 0 && out.start >= 0 && out.start < out.stop && out.max_step.value_or(1) > 0))
+        return error_at(c.location,
+                        ".tran: step {:g}, stop {:g}, start {:g}{} s: step, stop and maximum step must be above 0, the start "
+                        "at least 0 and below the stop",
+                        out.step, out.stop, out.start, out.max_step ? fmt::format(", maximum step {:g}", *out.max_step) : "");
+    return out;
+}
+
+Result<InitialCondition> find_initial_condition(AnalysisContext& context, bool uic, std::vector<double> guess) {
+    context.newton.context.time = 0, context.newton.context.with_charges = false;
+    const bool has_ic = !context.circuit->ic.empty();
+    auto clamps = context.initial_clamps();
+    clamps.voltage.resize(static_cast<std::size_t>(context.system.size()));
+    if (uic) {
+        InitialCondition out{std::move(clamps.voltage), false};
+        out.charge = charge_of_ics(context, out.x);
+        return out;
+    }
+    auto rest = TRY(guess.empty() ? context.initial_operating_point()
+                                  : find_operating_point(context.newton, std::move(guess), has_ic ? clamps : NodeClamps{}));
+    InitialCondition out{std::move(rest.x)};
+    if (has_ic || context.system.is_linear()) return out;
+    const auto mode = find_unstable_mode(context.newton, out.x);
+    if (!mode) return out;
+    for (std::size_t n = 0; n < out.x.size(); ++n) out.x[n] += start_offset * mode->direction[n];
+    out.warning = unstable_warning(context, *mode);
+    return out;
+}
+
+}  // namespace corpuscle::circuit

@@ -1,0 +1,201 @@
+// Controlled sources (E F G H) and sources with an expression (B, E, G).
+
+#include "circuit/device/device_kind.hpp"
+#include "circuit/device/expression_device.hpp"
+#include "circuit/device/named_values.hpp"
+#include "circuit/devices.hpp"
+#include "circuit/export/element_text.hpp"
+#include "circuit/netlist/element_reader.hpp"
+
+namespace corpuscle::circuit {
+namespace {
+
+/// v(+) - v(-) = gain times a voltage (E) or a current (H). Unknowns: two nodes and the current through the source, then from index 3 the
+/// two controlling nodes or the controlling current.
+class ControlledVoltageSource final : public Device {
+    double gain_;
+
+public:
+    explicit ControlledVoltageSource(double gain) : gain_(gain) {}
+    void eval(std::span<const double> v, const EvalContext&, const Stamp& out) const override {
+        out.add_branch(v);
+        out.f[2] -= gain_ * (v[3] - (v.size() > 4 ? v[4] : 0));
+        out.slope(2, 3) -= gain_;
+        if (v.size() > 4) out.slope(2, 4) += gain_;
+    }
+    bool set_principal_value(double gain) override { return gain_ = gain, true; }
+    std::optional<double> principal_value() const override { return gain_; }
+};
+
+/// i = gain times a voltage (G) or a current (F). Unknowns: two nodes, then from index 2 the two controlling nodes or the controlling
+/// current.
+class ControlledCurrentSource final : public Device {
+    double gain_;
+
+public:
+    explicit ControlledCurrentSource(double gain) : gain_(gain) {}
+    void eval(std::span<const double> v, const EvalContext&, const Stamp& out) const override {
+        Stamp::add_between(out.f, 0, 1, gain_ * (v[2] - (v.size() > 3 ? v[3] : 0)));
+        out.slope(0, 2) += gain_, out.slope(1, 2) -= gain_;
+        if (v.size() > 3) out.slope(0, 3) -= gain_, out.slope(1, 3) += gain_;
+    }
+    bool set_principal_value(double gain) override { return gain_ = gain, true; }
+    std::optional<double> principal_value() const override { return gain_; }
+};
+
+Result<std::unique_ptr<Device>> make_expression_source(const Element& e, DeviceSetup& setup) {
+    return make_expression_device(e, setup, e.expression_is_voltage ? ExpressionQuantity::voltage : ExpressionQuantity::current);
+}
+
+/// The gain of a current source is multiplied by m.
+Result<std::unique_ptr<Device>> make_controlled_source(const Element& e, DeviceSetup& setup) {
+    if (e.expression) return make_expression_source(e, setup);
+    auto unknowns = setup.ends(e);
+    const bool is_voltage = unknowns.size() > 2;
+    if (e.control_source.empty()) {
+        for (const auto k : {2, 3}) unknowns.push_back(setup.node_unknown(e.nodes[static_cast<std::size_t>(k)]));
+    } else {
+        unknowns.push_back(setup.branch_unknown(setup.circuit().find_element(e.control_source)));
+        if (unknowns.back() < 0) return error_at(e.location, "{}: unknown controlling voltage source '{}'", e.name, e.control_source);
+    }
+    if (is_voltage) return make_device<ControlledVoltageSource>(std::move(unknowns), e.value);
+    return make_device<ControlledCurrentSource>(std::move(unknowns), e.value * value_or(e.values, "m", 1));
+}
+
+// ---- netlist ----
+
+/// Reads the word, which must be the last, as the gain.
+Result<void> read_gain(ElementReader& line, std::size_t word) {
+    if (word >= line.word_count()) return line.error_at(word, "its gain is missing");
+    if (line.word_count() > word + 1) return line.too_many(word + 1);
+    return line.value(word);
+}
+
+Result<void> read_voltage_controlled(ElementReader& line) {
+    constexpr std::string_view expected = "plus, minus, the two controlling nodes, then the gain";
+    TRY(line.nodes(2, expected));
+    for (const auto name : {"value", "vol", "cur"})  // vol= and cur= are other names of value=
+        if (const auto* pair = line.find(name)) {
+            line.element.expression_is_voltage = line.element.letter == 'e';
+            if (line.word_count() > 3) return line.too_many(3);
+            return line.expression(*pair);
+        }
+    const auto word = line.text(3);
+    if (word == "poly" || word == "table" || word == "laplace" || word == "freq")
+        return line.error_at(3, "{} is not supported; write value={{...}}", word);
+    line.element.nodes.clear();
+    TRY(line.nodes(4, expected));
+    return read_gain(line, 5);
+}
+
+Result<void> read_current_controlled(ElementReader& line) {
+    TRY(line.nodes(2, "plus, minus, then the controlling voltage source and the gain"));
+    if (line.text(3) == "poly") return line.error_at(3, "poly is not supported; use a B source instead");
+    if (line.word_count() < 4) return line.error_at(3, "the controlling voltage source is missing");
+    line.control_source(3);
+    return read_gain(line, 4);
+}
+
+Result<void> read_expression_source(ElementReader& line) {
+    TRY(line.nodes(2, "plus and minus, then v=... or i=..."));
+    if (line.word_count() > 3) return line.too_many(3);
+    const auto *v = line.find("v"), *i = line.find("i");
+    if (v && i) return line.error_at(i->name, "has both v=... and i=...");
+    if (!v && !i) return line.error_at(line.word_count(), "expected v=... or i=...");
+    line.element.expression_is_voltage = v != nullptr;
+    return line.expression(v ? *v : *i);
+}
+
+// ---- export ----
+
+Result<std::string> write_controlled_source(const ElementExport& e) {
+    if (!e.element.expression) {
+        const auto control = e.element.control_source.empty() ? "" : ' ' + e.names.element(e.element.control_source);
+        return fmt::format("{}{} {}\n", e.head, control, e.element.value * (has_branch_current(e.element) ? 1 : e.value("m", 1)));
+    }
+    const auto text = TRY(e.expression());
+    return fmt::format("{} {}='{}'\n", e.head, has_branch_current(e.element) ? "vol" : "cur", text);
+}
+
+Result<std::string> write_expression_source(const ElementExport& e) {
+    const auto text = TRY(e.expression());
+    return fmt::format("{} {}={}\n", e.head, has_branch_current(e.element) ? "v" : "i", text);
+}
+
+// ---- rows ----
+
+bool gives_voltage(const Element& e) { return e.expression_is_voltage; }
+
+/// A constant current, unlike one that depends on a voltage, cannot set the voltage of an otherwise floating node.
+std::vector<int> nodes_of_expression_source(const Element& e) {
+    return gives_voltage(e) || !e.expression->is_constant() ? first_two_nodes(e) : no_nodes(e);
+}
+
+/// The controlling current is that of all copies.
+void divide_gain(Element& e, double m) { e.value /= m; }
+void multiply_expression_source(Element& e, double m) {
+    if (!gives_voltage(e)) multiply_m(e, m);
+}
+
+constexpr ElementParameter gain[] = {{.name = "", .unit = "", .is_value = true}};
+constexpr std::string_view voltage_expression_names[] = {"value", "vol"}, current_expression_names[] = {"value", "cur", "m"},
+                           controlled_current_names[] = {"m"}, expression_source_names[] = {"v", "i", "temp", "dtemp", "m"},
+                           value_names[] = {"value", "vol", "cur"}, v_and_i[] = {"v", "i"};
+
+}  // namespace
+
+extern constexpr DeviceKind voltage_controlled_voltage_kind = {.letter = 'e',
+                                                               .description = "voltage source controlled by a voltage or an expression",
+                                                               .read = read_voltage_controlled,
+                                                               .make = make_controlled_source,
+                                                               .parameters = gain,
+                                                               .other_names = voltage_expression_names,
+                                                               .expression_names = value_names,
+                                                               .has_branch_current = always,
+                                                               .multiply = keep_value,
+                                                               .area = no_area,
+                                                               .write_spice = write_controlled_source};
+
+extern constexpr DeviceKind current_controlled_current_kind = {.letter = 'f',
+                                                               .description = "current source controlled by a current",
+                                                               .read = read_current_controlled,
+                                                               .make = make_controlled_source,
+                                                               .parameters = gain,
+                                                               .other_names = controlled_current_names,
+                                                               .multiply = keep_value,
+                                                               .area = no_area,
+                                                               .write_spice = write_controlled_source};
+
+extern constexpr DeviceKind voltage_controlled_current_kind = {.letter = 'g',
+                                                               .description = "current source controlled by a voltage or an expression",
+                                                               .read = read_voltage_controlled,
+                                                               .make = make_controlled_source,
+                                                               .parameters = gain,
+                                                               .other_names = current_expression_names,
+                                                               .expression_names = value_names,
+                                                               .area = no_area,
+                                                               .write_spice = write_controlled_source};
+
+extern constexpr DeviceKind current_controlled_voltage_kind = {.letter = 'h',
+                                                               .description = "voltage source controlled by a current",
+                                                               .read = read_current_controlled,
+                                                               .make = make_controlled_source,
+                                                               .parameters = gain,
+                                                               .has_branch_current = always,
+                                                               .multiply = divide_gain,
+                                                               .area = no_area,
+                                                               .write_spice = write_controlled_source};
+
+extern constexpr DeviceKind expression_source_kind = {.letter = 'b',
+                                                      .description = "voltage or current source with an expression",
+                                                      .read = read_expression_source,
+                                                      .make = make_expression_source,
+                                                      .other_names = expression_source_names,
+                                                      .expression_names = v_and_i,
+                                                      .has_branch_current = gives_voltage,
+                                                      .conducting_nodes = nodes_of_expression_source,
+                                                      .multiply = multiply_expression_source,
+                                                      .area = no_area,
+                                                      .write_spice = write_expression_source};
+
+}  // namespace corpuscle::circuit

@@ -1,0 +1,72 @@
+#pragma once
+// One element line of a netlist, as the read functions of devices see it.
+
+#include "circuit/netlist/netlist.hpp"
+#include "circuit/netlist/statement.hpp"
+
+namespace corpuscle::circuit {
+
+class CircuitBuilder;
+struct Scope;
+struct DeviceKind;
+
+/// Reads a line into `element`. Word 0 is the name of the element; the words after it are its nodes, models and values. Errors have the
+/// location of the word.
+class ElementReader {
+    CircuitBuilder& builder_;
+    Scope& scope_;
+    const Statement& s_;
+    const DeviceKind& kind_;
+    std::string_view name_;                     // as in the line, without path
+    std::vector<std::string_view> read_names_;  // names of the pairs that are read already
+
+public:
+    Element element;
+
+    ElementReader(CircuitBuilder&, Scope&, const Statement&);
+    /// Reads the complete line and adds the element to the circuit.
+    Result<void> read();
+
+    std::size_t word_count() const { return s_.words.size(); }
+    std::string_view text(std::size_t word) const { return s_.text(word); }  ///< "" after the last word
+    bool is_plain(std::size_t word) const { return s_.words[word].kind == Word::Kind::plain; }
+    bool is_model(std::size_t word) const;      ///< true if the word names a model of the netlist
+    bool is_parameter(std::size_t word) const;  ///< true if the word names a .param of the netlist
+    const NameValue* find(std::string_view name) const { return s_.find(name); }
+
+    /// Reads the first n words after the name as nodes. `expected` describes all words, for the error message.
+    Result<void> nodes(std::size_t n, std::string_view expected);
+    /// Reads the word as the name of a model, which must have one of these types.
+    Result<void> model(std::size_t word, std::initializer_list<std::string_view> types);
+    Result<double> number(std::size_t word) const;
+    Result<double> number(const NameValue&);
+    /// Reads the word as the element's value.
+    Result<void> value(std::size_t word);
+    Result<void> value(const NameValue&);
+    /// Reads the value of a pair as the expression of the element.
+    Result<void> expression(const NameValue&);
+    /// Reads the word as the name of the voltage source whose current controls the element.
+    void control_source(std::size_t word);
+
+    /// An error at a word, given by its number or as a Word.
+    template <class... Arguments>
+    Error error_at(std::size_t word, fmt::format_string<Arguments...> message, Arguments&&... arguments) const {
+        return error_in(s_.location(word), fmt::format(message, std::forward<Arguments>(arguments)...));
+    }
+    template <class... Arguments>
+    Error error_at(const Word& word, fmt::format_string<Arguments...> message, Arguments&&... arguments) const {
+        return error_in(s_.location(word), fmt::format(message, std::forward<Arguments>(arguments)...));
+    }
+    Error too_many(std::size_t word) const;  ///< the error for a word after the last one that the element can have
+
+private:
+    Error error_in(SourceLocation location, std::string_view message) const {
+        return circuit::error_at(std::move(location), "{}: {}", name_, message);
+    }
+    void add_forward_reference(const ExpressionInput&, const SourceLocation&);
+    Result<void> named_parameters();
+    void override_values();
+    Result<void> apply_multiplicity();
+};
+
+}  // namespace corpuscle::circuit
