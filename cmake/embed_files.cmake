@@ -34,5 +34,5 @@ namespace corpuscle {\nnamespace {\nstruct EmbeddedFile {\n    std::string_view 
     std::string_view text() const { return {begin, end}; }\n};\nconst EmbeddedFile embedded_file_table[] = {\n${rows}};\n}\n}\n" @ONLY)
   set_source_files_properties(${generated}/embedded_files.S PROPERTIES OBJECT_DEPENDS "${embedded}" SKIP_PRECOMPILE_HEADERS ON)
   target_sources(${target} PRIVATE ${generated}/embedded_files.S)
-  set_source_files_properties(${source} PROPERTIES INCLUDE_DIRECTORIES ${generated})
+  set_source_files_properties(${source} PROPERTIES INCLUDE_DIRECTORIES ${generated} SKIP_UNITY_BUILD_INCLUSION ON)
 endfunction()

@@ -9,7 +9,7 @@
 namespace corpuscle::circuit {
 namespace {
 
-constexpr double unlimited = std::numeric_limits<double>::infinity();
+constexpr double no_limit = std::numeric_limits<double>::infinity();
 
 struct OptionRow {
     std::string_view name;
@@ -21,7 +21,7 @@ constexpr OptionRow option_rows[] = {
     {"reltol", false, 1e-15, 0.5, "1e-6"}, {"vntol", false, 1e-300, 1, "1n"},
     {"abstol", false, 1e-300, 1, "1e-16"}, {"gmin", false, 0, 1, "1e-15"},
     {"itl1", false, 1, 1e6, "500"},        {"temp", false, -273.15, 1000, "27"},
-    {"tnom", false, -273.15, 1000, "27"},  {"maxord", false, -unlimited, unlimited, "4"},
+    {"tnom", false, -273.15, 1000, "27"},  {"maxord", false, -no_limit, no_limit, "4"},
     {"spikecheck", false, 0, 1, "0"},      {"accuracy", true, 0, 0, "fine"},
     {"method", true, 0, 0, "gear"},
 };
