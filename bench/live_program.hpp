@@ -124,7 +124,7 @@ inline Descriptor connect_to(const Program& child) {
     std::string message(200, '\0');
     message.resize(static_cast<std::size_t>(std::max<ssize_t>(0, ::read(child.err.get(), message.data(), message.size()))));
     const auto at = message.find("127.");
-    auto to = at < message.size() ? connect_socket(*parse_endpoint(message.substr(at, message.find('\n') - at)), 5000)
+    auto to = at < message.size() ? connect_socket(*resolve(*parse_endpoint(message.substr(at, message.find('\n') - at))), 5000)
                                   : Result<Descriptor>(bad_input("the program does not listen: " + message));
     if (!to) fmt::print("{}\n", to.error().text()), std::exit(1);
     ::fcntl(to->get(), F_SETFL, 0);

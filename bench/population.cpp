@@ -49,7 +49,7 @@ double now() { return std::chrono::duration<double>(std::chrono::steady_clock::n
 
 // The compiler vectorizes the code that measures the two limits, for each instruction set. It does not use the lanes, which are the code
 // under test.
-#ifdef __x86_64__
+#ifdef CORPUSCLE_AVX
 #define EACH_SET __attribute__((target_clones("default", "arch=x86-64-v3", "arch=x86-64-v4"), optimize("O3,unroll-loops")))
 #else
 #define EACH_SET
@@ -80,12 +80,12 @@ template <class V>
 }
 typedef double Two __attribute__((vector_size(16)));
 typedef double Four __attribute__((vector_size(32)));
-#ifdef __x86_64__
+#ifdef CORPUSCLE_AVX
 [[gnu::target("arch=x86-64-v4")]] double additions_avx512(long count) { return additions<Vector>(count); }
 [[gnu::target("arch=x86-64-v3")]] double additions_avx2(long count) { return additions<Four>(count); }
 #endif
 double additions(long count) {
-#ifdef __x86_64__
+#ifdef CORPUSCLE_AVX
     if (instruction_sets().back() == InstructionSet::avx512) return additions_avx512(count);
     if (instruction_sets().back() == InstructionSet::avx2) return additions_avx2(count);
 #endif

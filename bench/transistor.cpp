@@ -73,7 +73,7 @@ int main() {
     const double* const points[4] = {v[0], v[1], v[2], v[3]};
     measure("scalar", scalar_rounds, constants, points);
     measure("baseline", test::baseline::uicm_evaluate_rounds, constants, points);
-#ifdef __x86_64__
+#ifdef CORPUSCLE_AVX
     if (__builtin_cpu_supports("avx2") && __builtin_cpu_supports("fma"))
         measure("avx2", test::avx2::uicm_evaluate_rounds, constants, points);
     if (__builtin_cpu_supports("avx512dq") && __builtin_cpu_supports("avx512vl"))

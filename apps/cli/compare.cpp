@@ -94,18 +94,9 @@ std::string document(const CompareOptions& options, const std::vector<TrainDiffe
 
 std::vector<std::string> line_of(const TrainDifference& d, const std::string& a, const std::string& b) {
     const auto milliseconds = [&](double x) { return d.matched > 0 ? fmt::format("{:.3f}", 1e3 * x) : "-"; };
-    return {a,
-            b,
-            fmt::format("{}", d.spikes_a),
-            fmt::format("{}", d.spikes_b),
-            fmt::format("{}", d.matched),
-            fmt::format("{}", d.missing()),
-            fmt::format("{}", d.extra()),
-            milliseconds(d.max_shift),
-            milliseconds(d.rms()),
-            fmt::format("{:.2f}", d.victor_purpura),
-            fmt::format("{:.3f}", d.victor_purpura_per_spike()),
-            fmt::format("{:.2f}", d.van_rossum())};
+    return table_row(a, b, d.spikes_a, d.spikes_b, d.matched, d.missing(), d.extra(), milliseconds(d.max_shift), milliseconds(d.rms()),
+                     fmt::format("{:.2f}", d.victor_purpura), fmt::format("{:.3f}", d.victor_purpura_per_spike()),
+                     fmt::format("{:.2f}", d.van_rossum()));
 }
 
 std::string text(const CompareOptions& options, const std::vector<TrainDifference>& all, const TrainDifference& total) {

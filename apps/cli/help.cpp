@@ -13,23 +13,16 @@ namespace {
 constexpr std::size_t max_width = 100;     // columns
 constexpr std::size_t short_examples = 3;  // number of examples that --help of a verb prints
 
-/// Breaks a line at blanks so that it fits max_width. Continuation lines begin with `indent` blanks.
-std::string wrapped(std::string_view line, std::size_t indent) {
-    std::string out;
-    while (columns_of(line) > max_width) {
-        auto end = line.rfind(' ', max_width);
-        const auto first = line.find_first_not_of(' ');
-        if (end == line.npos || end <= first) end = line.find(' ', max_width);
-        if (end == line.npos) break;
-        auto part = line.substr(0, end);
-        part = part.substr(0, part.find_last_not_of(' ') + 1);
-        out += std::string(part) + "\n";
-        line = line.substr(std::min(line.find_first_not_of(' ', end), line.size()));
-        if (line.empty()) return out;
-        const std::string rest = std::string(indent, ' ') + std::string(line);
-        return out + wrapped(rest, indent);
-    }
-    return out + std::string(line) + "\n";
+/// Breaks a line at blanks so that it fits max_width. Continuation lines begin with `indent` blanks; the lines before them end in `mark`.
+std::string wrapped(std::string_view line, std::size_t indent, std::string_view mark = "") {
+    const bool fits = columns_of(line) <= max_width;
+    auto end = fits ? line.npos : line.rfind(' ', max_width - mark.size());
+    if (!fits && (end == line.npos || end <= line.find_first_not_of(' '))) end = line.find(' ', max_width);
+    if (end == line.npos) return std::string(line) + "\n";
+    const auto part = line.substr(0, end);
+    const auto first = fmt::format("{}{}\n", part.substr(0, part.find_last_not_of(' ') + 1), mark);
+    const auto rest = line.substr(std::min(line.find_first_not_of(' ', end), line.size()));
+    return rest.empty() ? first : first + wrapped(std::string(indent, ' ') + std::string(rest), indent, mark);
 }
 
 /// A name and its description, which begins in column `width`. After a long name the description begins on the next line.
@@ -40,23 +33,8 @@ std::string entry(const std::string& name, const std::string& description, std::
     return wrapped(head, 4) + wrapped(std::string(width, ' ') + description, width);
 }
 
-/// Breaks a command into lines that end with a backslash, as a shell accepts them. Quoted text is not broken.
-std::string continued(std::string_view command) {
-    std::string out;
-    constexpr std::size_t max_command = max_width - 2;  // leaves two columns for the backslash
-    for (std::string indent = "  "; columns_of(command) + indent.size() > max_width; indent = "      ") {
-        std::size_t end = command.npos;
-        bool quoted = false;
-        for (std::size_t k = 0; k < command.size() && k + indent.size() <= max_command; ++k) {
-            quoted ^= command[k] == '\'' || command[k] == '"';
-            if (command[k] == ' ' && !quoted) end = k;
-        }
-        if (end == command.npos) break;
-        out += fmt::format("{}{} \\\n", indent, command.substr(0, end));
-        command.remove_prefix(end + 1);
-    }
-    return fmt::format("{}{}{}\n", out, out.empty() ? "  " : "      ", command);
-}
+/// A command in lines that end with a backslash, as a shell accepts them.
+std::string continued(std::string_view command) { return wrapped(fmt::format("  {}", command), 6, " \\"); }
 
 /// Formats a line of the footer with an example: a command, three or more blanks and its explanation. The explanation follows on a new line
 /// if the command is long.

@@ -20,6 +20,12 @@ namespace corpuscle {
 CORPUSCLE_VERBS(CORPUSCLE_DECLARE_VERB)
 #undef CORPUSCLE_DECLARE_VERB
 
+// The verbs that may follow "sweep".
+Verb make_sweep_merge_verb();
+Verb make_sweep_dump_verb();
+Verb make_sweep_show_verb();
+Verb make_sweep_calibrate_verb();
+
 /// Makes all verbs of the program.
 inline std::vector<Verb> make_verbs() {
     std::vector<Verb> verbs;

@@ -1,4 +1,7 @@
-#include "hdf5_driver.hpp"
+// HDF5 file driver that reads the one file that the helper program has open, through its descriptor. Other files, to which an HDF5 file may
+// link, cannot be opened.
+
+#include "hdf5_file.hpp"
 
 #if __has_include(<H5FDdevelop.h>)
 #include <H5FDdevelop.h>

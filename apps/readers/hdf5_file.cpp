@@ -6,8 +6,6 @@
 #include <array>
 #include <memory>
 
-#include "hdf5_driver.hpp"
-
 namespace corpuscle::hdf5 {
 namespace {
 

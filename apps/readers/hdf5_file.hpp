@@ -29,6 +29,11 @@ public:
     explicit operator bool() const { return id_ >= 0; }
 };
 
+inline constexpr const char* only_file_name = "file";  ///< the only name that H5Fopen accepts with descriptor_access()
+/// A file access property list with which H5Fopen reads `descriptor`; negative on failure. The caller closes the list. Only one descriptor
+/// can be used at a time.
+hid_t descriptor_access(int descriptor);
+
 /// Opens the HDF5 file that is open as `descriptor`; `path` is for messages.
 Result<Handle> open_file(int descriptor, const std::string& path);
 

@@ -1,4 +1,4 @@
-#include "hdf5_samples.hpp"
+// Reads a dataset of an HDF5 file as samples.
 
 #include <fmt/format.h>
 #include <algorithm>
@@ -6,6 +6,7 @@
 #include <limits>
 
 #include "hdf5_storage.hpp"
+#include "helper_main.hpp"
 #include "io/table/foreign_format.hpp"
 #include "io/text/text_table.hpp"
 

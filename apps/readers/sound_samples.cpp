@@ -1,8 +1,10 @@
-#include "sound_samples.hpp"
+// Reads sound files as samples with libsndfile.
 
 #include <fmt/format.h>
 #include <sndfile.h>
 #include <algorithm>
+
+#include "helper_main.hpp"
 
 namespace corpuscle {
 namespace {

@@ -12,16 +12,16 @@ using namespace corpuscle;
 
 /// The interval (s) between spikes under a constant current (A): C_m du/dt is a parabola in u, and the integral of its reciprocal is an arc
 /// tangent.
-double closed_form_interval(const QifTraits::Params& p, double current) {
-    const double a = p.g / (p.V_T - p.E_L) / p.C_m, middle = (p.E_L + p.V_T) / 2;
-    const double b = current / p.C_m - a * (p.V_T - p.E_L) * (p.V_T - p.E_L) / 4;
+double closed_form_interval(const ParameterValues<Qif<double>>& p, double current) {
+    const double a = p("g") / (p("V_T") - p("E_L")) / p("C_m"), middle = (p("E_L") + p("V_T")) / 2;
+    const double b = current / p("C_m") - a * (p("V_T") - p("E_L")) * (p("V_T") - p("E_L")) / 4;
     const auto angle = [&](double u) { return std::atan((u - middle) * std::sqrt(a / b)); };
-    return (angle(p.V_peak) - angle(p.V_reset)) / std::sqrt(a * b);
+    return (angle(p("V_peak")) - angle(p("V_reset"))) / std::sqrt(a * b);
 }
 
 /// The last interval (s) between spikes in a simulation of 2 s under a constant current (A), in steps of dt (s).
-double interval(const QifTraits::Params& p, double current, double dt) {
-    const Qif<double> neuron(UniformParams<QifTraits::Params>{p}, dt, Method::exact);
+double interval(const ParameterValues<Qif<double>>& p, double current, double dt) {
+    const Qif<double> neuron(p, dt, Method::exact);
     auto state = neuron.start();
     double last = 0, between = 0;
     for (int k = 1; k * dt < 2; ++k)
@@ -33,12 +33,12 @@ double interval(const QifTraits::Params& p, double current, double dt) {
 }
 
 int main() {
-    const QifTraits::Params params;
+    const ParameterValues<Qif<double>> params;
     const double found = interval(params, 1e-6, 1e-4), expected = closed_form_interval(params, 1e-6);
     std::printf("interval at 1 uA: %.6f s, closed form %.6f s\n", found, expected);
     if (!(std::abs(found - expected) < 1e-6)) return 1;
 
-    const Chain<Sa1b, Qif> afferent(Sa1bTraits::Params{}, params, {.dt = 1e-4});
+    const Chain<Sa1b, Qif> afferent({}, params, {.dt = 1e-4});
     const auto press = make_stimulus("press", 10e3, 0);
     auto state = afferent.start({});
     std::vector<Spike> spikes;

@@ -12,24 +12,21 @@ namespace corpuscle {
 /// Latham et al. 2000, J Neurophysiol 83:808. The
 /// integration method has no effect, because the substeps are always the same. There is no refractory time.
 struct QifTraits {
-    struct Params {
-        double C_m = 500e-9, g = 5e-6, E_L = 0, V_T = 0.25, V_peak = 0.5, V_reset = 0, substep = 20e-6;
-    };
     static constexpr std::string_view name = "qif", description = "quadratic integrate-and-fire";
     static constexpr std::string_view source = "Latham et al. 2000, J Neurophysiol 83:808; values are our choice";
-    static constexpr ParameterDef<Params> fields[] = {
-        {"C_m", &Params::C_m, "F", 1e-18, 1, "membrane capacitance"},
-        {"g", &Params::g, "S", 1e-15, 1, "conductance at rest"},
-        {"E_L", &Params::E_L, "V", -10, 10, "resting potential"},
-        {"V_T", &Params::V_T, "V", -10, 10, "unstable equilibrium without current"},
-        {"V_peak", &Params::V_peak, "V", -10, 10, "top of a spike"},
-        {"V_reset", &Params::V_reset, "V", -10, 10, "membrane after a spike"},
-        {"substep", &Params::substep, "s", 1e-8, 1e-3, "longest substep", "choice", true},
+    static constexpr ParameterInfo parameters[] = {
+        {"C_m", "F", 500e-9, 1e-18, 1, "membrane capacitance"},
+        {"g", "S", 5e-6, 1e-15, 1, "conductance at rest"},
+        {"E_L", "V", 0, -10, 10, "resting potential"},
+        {"V_T", "V", 0.25, -10, 10, "unstable equilibrium without current"},
+        {"V_peak", "V", 0.5, -10, 10, "top of a spike"},
+        {"V_reset", "V", 0, -10, 10, "membrane after a spike"},
+        {"substep", "s", 20e-6, 1e-8, 1e-3, "longest substep", "choice", true},
     };
-    static constexpr OrderConstraint<Params> order_constraints[] = {
-        {"E_L", &Params::E_L, "V_T", &Params::V_T},
-        {"V_T", &Params::V_T, "V_peak", &Params::V_peak},
-        {"V_reset", &Params::V_reset, "V_peak", &Params::V_peak},
+    static constexpr ParameterOrder order_constraints[] = {
+        {"E_L", "V_T"},
+        {"V_T", "V_peak"},
+        {"V_reset", "V_peak"},
     };
     static constexpr Probe recordables[] = {{"u", "V"}};
 };
@@ -42,9 +39,8 @@ struct Qif : QifTraits {
 
     template <class Values>
     Qif(const Values& value, double dt, Method)
-        : E_L(value(&Params::E_L)), V_T(value(&Params::V_T)), V_peak(value(&Params::V_peak)), V_reset(value(&Params::V_reset)),
-          gain(T(1.0) / value(&Params::C_m)), bend(value(&Params::g) * gain / (V_T - E_L)), dt(dt),
-          count(substep_count(dt, value.uniform(&Params::substep))) {}
+        : E_L(value("E_L")), V_T(value("V_T")), V_peak(value("V_peak")), V_reset(value("V_reset")), gain(T(1.0) / value("C_m")),
+          bend(value("g") * gain / (V_T - E_L)), dt(dt), count(substep_count(dt, value.uniform("substep"))) {}
 
     State start() const { return {E_L}; }
     void record(const State& s, T (&out)[1]) const { out[0] = s.u; }

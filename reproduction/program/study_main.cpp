@@ -2,7 +2,7 @@
 
 #include <fmt/format.h>
 
-#include "cli/arguments/report_page.hpp"
+#include "cli/output/output_files.hpp"
 #include "cli/program.hpp"
 #include "reproduction/claims/studies.hpp"
 #include "reproduction/program/study_command.hpp"

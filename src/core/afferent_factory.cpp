@@ -22,13 +22,6 @@ std::vector<ParameterInfo> parameter_infos(const AfferentPlan& plan) {
     return out;
 }
 
-std::vector<Setting> settings_of(const AfferentPlan& plan) {
-    std::vector<Setting> settings;
-    settings.reserve(plan.values.size());
-    for (std::size_t k = 0; k < plan.values.size(); ++k) settings.push_back({(*plan.parameters)[k].info.name, plan.values[k]});
-    return settings;
-}
-
 void set_values(AfferentPlan& plan, std::span<const Setting> settings) {
     for (const auto& s : settings)
         for (std::size_t k = 0; k < plan.values.size(); ++k)

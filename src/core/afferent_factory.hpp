@@ -80,16 +80,13 @@ struct AfferentPlan {
 /// The declarations of a plan's parameters.
 std::vector<ParameterInfo> parameter_infos(const AfferentPlan&);
 
-/// The names and values of a plan's parameters, as with_settings() takes them.
-std::vector<Setting> settings_of(const AfferentPlan&);
-
 /// Sets values of a plan. The parameters must exist.
 void set_values(AfferentPlan&, std::span<const Setting>);
 
 /// A probe that the user requests, and what became of it.
 struct RequestedProbe {
     std::optional<std::string> name;  ///< its name among Afferent::probes(); no value: the afferent has no such probe
-    std::string hint;                 ///< in that case: a similar name, "; did you mean 'vf'?", or ""
+    std::string hint;                 ///< in that case: a similar name, "; did you mean 'vf'?", or the first names
 };
 
 /// A plan with the overrides that are for it.

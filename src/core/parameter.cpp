@@ -31,11 +31,10 @@ Result<void> check_range(std::string_view owner, const ParameterInfo& row, doubl
                                  row.low, row.high));
 }
 
-Result<void> check_order(std::string_view owner, std::string_view lower_name, double lower, std::string_view upper_name, double upper,
-                         bool or_equal) {
-    if (or_equal ? lower <= upper : lower < upper) return {};
-    return bad_input(fmt::format("{}: {} = {:g} must {} {} = {:g}", owner, lower_name, lower, or_equal ? "not be above" : "be below",
-                                 upper_name, upper));
+Result<void> check_order(std::string_view owner, const ParameterOrder& order, double lower, double upper) {
+    if (order.or_equal ? lower <= upper : lower < upper) return {};
+    return bad_input(fmt::format("{}: {} = {:g} must {} {} = {:g}", owner, order.lower, lower, order.or_equal ? "not be above" : "be below",
+                                 order.upper, upper));
 }
 
 std::string did_you_mean(std::string_view typed, std::span<const std::string_view> names) {

@@ -1,6 +1,7 @@
 #pragma once
 // Each parameter is declared once, in a row of a table. Command line, JSON, reference pages and checks are generated from these rows.
 
+#include <iterator>
 #include <optional>
 #include <span>
 #include <string>
@@ -23,24 +24,29 @@ struct ParameterDef {
     bool is_shared_by_copies = false;  ///< true if all copies of an afferent must have the same value, as for numerical options
 };
 
-/// Requires that one parameter is below another parameter of the struct P.
-template <class P>
-struct OrderConstraint {
-    std::string_view lower_name;
-    double P::* lower_member;
-    std::string_view upper_name;
-    double P::* upper_member;
-    bool or_equal = false;  ///< true: equal values are allowed
-};
-
-/// The declaration of a parameter without the type of its struct. The members are those of ParameterDef.
+/// The declaration of a parameter. The members are those of ParameterDef.
 struct ParameterInfo {
     std::string_view name, unit;
     double default_value;
     double low, high;
     std::string_view description;
-    std::string_view source;  ///< publication of the default; "": the source of the catalogue entry
+    std::string_view source = {};  ///< publication of the default; "": the source of the catalogue entry
     bool is_shared_by_copies = false;
+};
+
+/// A parameter of M, a component of a model, by its name. The compiler refuses a name that M::parameters does not contain.
+template <class M>
+struct ParameterName {
+    std::size_t index = 0;  ///< in M::parameters
+    consteval ParameterName(const char* name) {
+        while (M::parameters[index].name != name) ++index;
+    }
+};
+
+/// A constraint on the parameters of a model: the value of `lower` must be below the value of `upper`.
+struct ParameterOrder {
+    std::string_view lower, upper;  ///< names of parameters
+    bool or_equal = false;          ///< true: the two values may also be equal
 };
 
 /// An entry of a catalogue, for example of the stimuli.
@@ -64,25 +70,22 @@ std::vector<ParameterInfo> parameters_of(std::span<const ParameterDef<P>> fields
     return rows;
 }
 
-template <class M>  // M: a component of a model, or a stimulus, with the members name, description, source, Params and fields
+/// M: a component of a model, with the members name, description, source and parameters; or a stimulus, with Params and fields instead of
+/// the last.
+template <class M>
 CatalogEntry catalog_entry_of() {
-    return {M::name, M::description, M::source, parameters_of<typename M::Params>(M::fields)};
+    if constexpr (requires { M::parameters; })
+        return {M::name, M::description, M::source, {std::begin(M::parameters), std::end(M::parameters)}};
+    else
+        return {M::name, M::description, M::source, parameters_of<typename M::Params>(M::fields)};
 }
 
 /// Returns an error if the value is outside the parameter's range: "lif-b: C_m = -1 F is outside [1e-15, 1]". `owner` is the component or
 /// stimulus that has the parameter.
 Result<void> check_range(std::string_view owner, const ParameterInfo&, double value);
 
-/// Returns an error if the value `lower` is not below `upper` (with `or_equal`: if it is above `upper`): "lif-b: V_reset = 0.6 must be
-/// below V_th = 0.5".
-Result<void> check_order(std::string_view owner, std::string_view lower_name, double lower, std::string_view upper_name, double upper,
-                         bool or_equal);
-
-template <class P>
-Result<void> check_order(std::string_view owner, std::span<const OrderConstraint<P>> constraints, const P& p) {
-    for (const auto& c : constraints) TRY(check_order(owner, c.lower_name, p.*c.lower_member, c.upper_name, p.*c.upper_member, c.or_equal));
-    return {};
-}
+/// Returns an error if the values of two parameters violate a constraint: "lif-b: V_reset = 0.6 must be below V_th = 0.5".
+Result<void> check_order(std::string_view owner, const ParameterOrder&, double lower, double upper);
 
 /// The end of an error message that suggests the one of `names` that is most similar to the mistyped name: "; did you mean 'out'?". "" if
 /// none is similar.

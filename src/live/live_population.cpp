@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include "core/text/ascii_text.hpp"
 #include "model/catalog.hpp"
 #include "skin/plan/class_overrides.hpp"
 #include "skin/plan/sites.hpp"
@@ -9,19 +10,8 @@
 namespace corpuscle {
 namespace {
 
-/// The items of a comma-separated list.
-std::vector<std::string> names_in(std::string_view list) {
-    std::vector<std::string> names;
-    for (std::size_t at = 0; at <= list.size();) {
-        const auto end = std::min(list.find(',', at), list.size());
-        names.emplace_back(list.substr(at, end - at));
-        at = end + 1;
-    }
-    return names;
-}
-
 /// A class with one afferent of this name at each site.
-Result<Applied<SkinClass>> class_at_each_site(const std::string& name, std::span<const ParameterOverride> overrides) {
+Result<Applied<SkinClass>> class_at_each_site(std::string_view name, std::span<const ParameterOverride> overrides) {
     auto planned = TRY(plan_afferent(name, overrides));
     SkinClass added{.name = planned.result.name, .afferent = planned.result};
     added.per_site = 1;
@@ -31,7 +21,7 @@ Result<Applied<SkinClass>> class_at_each_site(const std::string& name, std::span
 }  // namespace
 
 bool is_afferent_list(std::string_view list) {
-    for (const auto& name : names_in(list))
+    for (const auto name : split(list, ','))
         if (!plan_afferent(name)) return false;
     return true;
 }
@@ -45,7 +35,7 @@ Result<Applied<SkinPlan>> make_channel_plan(std::string_view afferents, std::siz
     plan.sites = std::move(sites);
     for (std::size_t c = 0; c < channels; ++c) plan.sites.names[c] = fmt::format("ch{}", c + 1);
     std::vector<ParameterOverride> unused(overrides.begin(), overrides.end());
-    for (const auto& name : names_in(afferents)) {
+    for (const auto name : split(afferents, ',')) {
         auto added = TRY(class_at_each_site(name, overrides));
         for (const auto& other : plan.classes)
             if (other.name == added.result.name) return bad_usage(fmt::format("'{}' is given twice", name));

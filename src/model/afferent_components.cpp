@@ -41,17 +41,6 @@ std::string order() {
     return text + "then the afferent";
 }
 
-/// The parts of a text between its plus signs.
-std::vector<std::string_view> split(std::string_view text) {
-    std::vector<std::string_view> names;
-    for (std::size_t at = 0; at <= text.size();) {
-        const auto end = std::min(text.find('+', at), text.size());
-        names.push_back(text.substr(at, end - at));
-        at = end + 1;
-    }
-    return names;
-}
-
 Error unknown_afferent(std::string_view text) {
     std::vector<std::string_view> names;
     for (const auto& a : named_afferents()) names.push_back(a.name);
@@ -121,16 +110,16 @@ Result<void> read_afferent(std::string_view text, std::span<const std::string_vi
 
 }  // namespace
 
-std::string AfferentComponents::front_end() const {
+std::string join_components(std::initializer_list<std::string_view> names) {
     std::string text;
-    for (const auto part : {sensor, transducer, converter})
-        if (!part.empty()) text += (text.empty() ? "" : "+") + std::string(part);
+    for (const auto name : names)
+        if (!name.empty()) text += (text.empty() ? "" : "+") + std::string(name);
     return text;
 }
 
 Result<AfferentComponents> parse_components(std::string_view text) {
     AfferentComponents parts;
-    const auto words = split(text);
+    const auto words = split(text, '+');
     const auto taken = read_front_end(words, parts);
     TRY(read_afferent(text, std::span(words).subspan(taken), parts));
     if (parts.named) {
@@ -138,7 +127,7 @@ Result<AfferentComponents> parse_components(std::string_view text) {
         if (taken > 0 && !parts.named->front_end.empty())
             return bad_input(fmt::format("{}: {} has its own front end ({}); put '{}' before {}+{} instead", text, parts.named->name,
                                          parts.named->front_end, parts.front_end(), parts.receptor, parts.neuron));
-        if (taken == 0 && !parts.named->front_end.empty()) read_front_end(split(parts.named->front_end), parts);
+        if (taken == 0 && !parts.named->front_end.empty()) read_front_end(split(parts.named->front_end, '+'), parts);
     }
     if (parts.sensor.empty() && !parts.transducer.empty())
         return bad_input(fmt::format("{}: {} needs the conductance of a sensor before it, such as 'fsr+{}'", text, parts.transducer, text));

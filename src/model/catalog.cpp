@@ -23,84 +23,68 @@ std::vector<CatalogEntry> entries_of_list(ComponentList<M...>) {
     return {catalog_entry_of<M>()...};
 }
 
-/// Calls f with the tag of the component that has this name. Does nothing if the name is "" or not in the list.
-template <class List, class F>
-void visit_component(List list, std::string_view name, const F& f) {
-    for_each_type(list, [&]<class M>(ComponentTag<M> m) {
-        if (M::name == name) f(m);
-    });
+/// Calls f with the type of each component of a plan, in the order in which the signal passes them.
+template <class F>
+void for_each_component(const AfferentPlan& plan, const F& f) {
+    const auto named = [&](std::string_view name) {
+        return [&f, name]<class M>(ComponentTag<M>) {
+            if (M::name == name) f.template operator()<M>();
+        };
+    };
+    for_each_type(Sensors{}, named(plan.sensor)), for_each_type(Transducers{}, named(plan.transducer));
+    for_each_type(Converters{}, named(plan.converter));
+    const auto model = [&]<template <class> class M>(ModelTag<M>) { f.template operator()<M<double>>(); };
+    visit_named(Receptors{}, plan.receptor, model), visit_named(Neurons{}, plan.neuron, model);
 }
 
-/// The catalogue entries of an afferent's components, in the order in which the signal passes them: the receptor and the neuron are last.
-std::vector<CatalogEntry> entries_of_components(const AfferentComponents& parts) {
+/// The catalogue entries of a plan's components, in the same order: the receptor and the neuron are last.
+std::vector<CatalogEntry> entries_of_components(const AfferentPlan& plan) {
     std::vector<CatalogEntry> all;
-    const auto add = [&](std::vector<CatalogEntry> entries, std::string_view name) {
-        for (auto& c : entries)
-            if (c.name == name) all.push_back(std::move(c));
-    };
-    add(sensor_entries(), parts.sensor), add(transducer_entries(), parts.transducer), add(converter_entries(), parts.converter);
-    add(receptor_entries(), parts.receptor), add(neuron_entries(), parts.neuron);
+    for_each_component(plan, [&]<class M>() {
+        all.push_back(catalog_entry_of<M>());
+        if (M::name == plan.sensor) all.back().parameters.push_back(calibration_parameter);
+    });
     return all;
 }
 
-template <class M>
-Result<void> check_model_order(const AfferentPlan& plan) {
-    if constexpr (requires { M::order_constraints; })
-        return check_order<typename M::Params>(plan.name, M::order_constraints,
-                                               with_settings<typename M::Params>(M::fields, settings_of(plan)));
-    return {};
-}
-
-template <class M>
+/// Returns an error if a value that must be an integer is not one.
 Result<void> check_integers(const AfferentPlan& plan) {
-    if constexpr (requires { M::integers; })
-        for (const auto at : M::integers)
-            for (const auto& f : M::fields)
-                if (const double x = *plan.value(f.name); f.member == at && x != std::floor(x))
-                    return bad_input(fmt::format("{}: {} = {:g} must be an integer", plan.name, f.name, x));
-    return {};
+    Result<void> ok;
+    for_each_component(plan, [&]<class M>() {
+        if constexpr (requires { M::integers; })
+            for (const auto name : M::integers)
+                if (const double x = *plan.value(name); ok && x != std::floor(x))
+                    ok = bad_input(fmt::format("{}: {} = {:g} must be an integer", plan.name, name, x));
+    });
+    return ok;
 }
 
 }  // namespace
 
 std::vector<ParameterOrder> order_constraints_of(const AfferentPlan& plan) {
     std::vector<ParameterOrder> all;
-    const auto add = [&]<class M>() {
+    for_each_component(plan, [&]<class M>() {
         if constexpr (requires { M::order_constraints; })
-            for (const auto& o : M::order_constraints) all.push_back({o.lower_name, o.upper_name, o.or_equal});
-    };
-    const auto model = [&]<template <class> class M>(ModelTag<M>) { add.template operator()<M<double>>(); };
-    const auto part = [&]<class M>(ComponentTag<M>) { add.template operator()<M>(); };
-    visit_component(Sensors{}, plan.sensor, part), visit_component(Transducers{}, plan.transducer, part),
-        visit_component(Converters{}, plan.converter, part);
-    visit_named(Receptors{}, plan.receptor, model), visit_named(Neurons{}, plan.neuron, model);
+            all.insert(all.end(), std::begin(M::order_constraints), std::end(M::order_constraints));
+    });
     return all;
 }
 
 Result<void> check_plan(const AfferentPlan& plan) {
-    Result<void> ok;
-    const auto model = [&]<template <class> class M>(ModelTag<M>) {
-        if (ok) ok = check_model_order<M<double>>(plan);
-    };
-    const auto part = [&]<class M>(ComponentTag<M>) {
-        if (ok) ok = check_model_order<M>(plan);
-        if (ok) ok = check_integers<M>(plan);
-    };
-    visit_component(Sensors{}, plan.sensor, part), visit_component(Transducers{}, plan.transducer, part),
-        visit_component(Converters{}, plan.converter, part);
-    visit_named(Receptors{}, plan.receptor, model), visit_named(Neurons{}, plan.neuron, model);
+    for (const auto& order : order_constraints_of(plan))
+        TRY(check_order(plan.name, order, *plan.value(order.lower), *plan.value(order.upper)));
+    TRY(check_integers(plan));
     const auto front = make_front_end(plan);
-    if (ok && !plan.sensor.empty()) ok = front.check_range(plan.name, 0, "F_cal", *plan.value("F_cal"));
-    if (ok && !plan.converter.empty()) ok = front.check_range(plan.name, *plan.value("F_low"), "F_high", *plan.value("F_high"));
-    if (ok && !plan.converter.empty())
-        if (const auto chain = make_fixed_chain(plan); !chain) ok = chain.error();
-    return ok;
+    if (!plan.sensor.empty()) TRY(front.check_range(plan.name, 0, "F_cal", *plan.value("F_cal")));
+    if (plan.converter.empty()) return {};
+    TRY(front.check_range(plan.name, *plan.value("F_low"), "F_high", *plan.value("F_high")));
+    TRY(make_fixed_chain(plan));
+    return {};
 }
 
 std::vector<CatalogEntry> sensor_entries() {
     auto all = entries_of_list(Sensors{});
-    for (auto& entry : all)
-        for (const auto& parameter : parameters_of<Calibration::Params>(Calibration::fields)) entry.parameters.push_back(parameter);
+    for (auto& entry : all) entry.parameters.push_back(calibration_parameter);
     return all;
 }
 std::vector<CatalogEntry> transducer_entries() { return entries_of_list(Transducers{}); }
@@ -120,13 +104,13 @@ std::string name_of(std::string_view text, const AfferentComponents& parts) {
 /// The plan of an afferent with the values of its name, before overrides.
 AfferentPlan plan_of_components(std::string_view text, const AfferentComponents& parts) {
     const auto* named = parts.named;
-    const auto entries = entries_of_components(parts);
-    const auto& receptor = entries[entries.size() - 2];  // the neuron is last
     AfferentPlan plan;
     plan.name = name_of(text, parts);
-    plan.receptor = parts.receptor, plan.neuron = parts.neuron;
-    plan.description = named ? named->description : receptor.description, plan.source = named ? named->source : receptor.source;
     plan.sensor = parts.sensor, plan.transducer = parts.transducer, plan.converter = parts.converter;
+    plan.receptor = parts.receptor, plan.neuron = parts.neuron;
+    const auto entries = entries_of_components(plan);
+    const auto& receptor = entries[entries.size() - 2];  // the neuron is last
+    plan.description = named ? named->description : receptor.description, plan.source = named ? named->source : receptor.source;
     plan.factory = model_factory();
     visit_named(Receptors{}, plan.receptor, [&]<template <class> class R>(ModelTag<R>) {
         if constexpr (requires { R<double>::min_rate; }) plan.min_rate = R<double>::min_rate;

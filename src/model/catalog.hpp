@@ -26,12 +26,6 @@ std::vector<CatalogEntry> converter_entries();
 std::vector<CatalogEntry> receptor_entries();
 std::vector<CatalogEntry> neuron_entries();
 
-/// A constraint on an afferent's parameters: the value of `lower` must be below the value of `upper`.
-struct ParameterOrder {
-    std::string_view lower, upper;  ///< names of parameters
-    bool or_equal = false;          ///< true: the two values may also be equal
-};
-
 /// True if `name`, the target of an override, means this plan: if it is the plan's name, or a text that specifies the same afferent.
 bool matches_name(const AfferentPlan&, std::string_view name);
 

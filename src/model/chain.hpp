@@ -11,10 +11,18 @@
 #include "core/random.hpp"
 #include "core/simulation_options.hpp"
 #include "model/current.hpp"
+#include "model/parameter_values.hpp"
 
 namespace corpuscle {
 
 inline constexpr double noise_band = 1e3;  ///< Hz
+
+/// The end of the names of current k of receptor R and of the quantities of its neuron: "_+"; "" if there is only one current.
+template <class R>
+std::string sign_suffix([[maybe_unused]] int k) {
+    if constexpr (requires { R::signs; }) return "_" + std::string(R::signs[k]);
+    return "";
+}
 
 /// An afferent with receptor R and neuron N. A receptor with two currents (`outputs` is 2) drives two neurons with the same parameters;
 /// their spikes form one train.
@@ -33,7 +41,6 @@ class Chain final : public Afferent {
             return std::size_t{0};
     }();
     static constexpr std::size_t neuron_recordables = std::size(Neuron::recordables);
-    static constexpr std::size_t all_recordables = receptor_recordables + outputs * (1 + neuron_recordables);
 
     /// The state of the receptor and its neurons; the values of a State are its bytes.
     struct Values {
@@ -61,21 +68,15 @@ class Chain final : public Afferent {
     std::vector<std::string> probe_names_;  // probes_ refers to them
     std::vector<Probe> probes_;
 
-    /// Names the probes in the order of record(). If there are two currents, the names of current k and of its neuron end in their sign.
+    /// Names the probes in the order of record().
     void name_probes() {
-        const auto sign = [](int k) {
-            if constexpr (requires { Receptor::signs; })
-                return "_" + std::string(Receptor::signs[k]);
-            else
-                return (void)k, std::string();
-        };
         std::vector<std::string_view> units;
         const auto add = [&](std::string name, std::string_view unit) { probe_names_.push_back(std::move(name)), units.push_back(unit); };
         if constexpr (receptor_recordables > 0)
             for (const auto& p : Receptor::recordables) add(std::string(p.name), p.unit);
-        for (int k = 0; k < outputs; ++k) add("I" + sign(k), "A");
+        for (int k = 0; k < outputs; ++k) add("I" + sign_suffix<Receptor>(k), "A");
         for (int k = 0; k < outputs; ++k)
-            for (const auto& p : Neuron::recordables) add(std::string(p.name) + sign(k), p.unit);
+            for (const auto& p : Neuron::recordables) add(std::string(p.name) + sign_suffix<Receptor>(k), p.unit);
         for (std::size_t k = 0; k < probe_names_.size(); ++k) probes_.push_back({probe_names_[k], units[k]});
     }
 
@@ -88,31 +89,24 @@ class Chain final : public Afferent {
         }
     }
 
-    /// Writes all recordable quantities in the order of the probes: the components of the receptor's current, its currents at the end of
-    /// the step, then the quantities of each neuron.
-    void record(const Values& s, const Currents& i, double (&out)[all_recordables]) const {
+    /// Writes the recordable quantities of sample k of the block, if probes are requested: the components of the receptor's current, its
+    /// currents at the end of the step, then the quantities of each neuron.
+    void record(const Values& s, const Currents& i, std::size_t k, ResponseBlock& response) const {
+        if (response.probes.empty()) return;
         std::size_t at = 0;
         const auto add = [&](const auto& model, const auto& state, auto& quantities) {
             model.record(state, quantities);
-            for (const double q : quantities) out[at++] = q;
+            for (const double q : quantities) response.probes[at++][k] = q;
         };
         if constexpr (receptor_recordables > 0) {
             double quantities[receptor_recordables];
             add(receptor_, s.receptor, quantities);
         }
-        for (const auto& c : i) out[at++] = c.to;
+        for (const auto& c : i) response.probes[at++][k] = c.to;
         for (const auto& n : s.neuron) {
             double quantities[neuron_recordables];
             add(neuron_, n, quantities);
         }
-    }
-
-    /// Writes the recordable quantities of sample k of the block, if probes are requested.
-    void record(const Values& s, const Currents& i, std::size_t k, ResponseBlock& response) const {
-        if (response.probes.empty()) return;
-        double shown[all_recordables];
-        record(s, i, shown);
-        for (std::size_t p = 0; p < all_recordables; ++p) response.probes[p][k] = shown[p];
     }
 
     /// Simulates one step of all neurons; the spikes of two neurons are sorted by time. Returns true if a neuron reached the limit of
@@ -172,10 +166,9 @@ class Chain final : public Afferent {
     }
 
 public:
-    template <class RP, class NP>
-    Chain(const RP& r, const NP& n, const SimulationOptions& run)
-        : receptor_(UniformParams<RP>{r}, run.dt, run.method), neuron_(UniformParams<NP>{n}, run.dt, run.method), method_(run.method),
-          spikes_on_samples_(run.spikes_on_samples), noise_(run.noise * std::sqrt(0.5 / run.dt / noise_band)), seed_(run.seed),
+    Chain(const ParameterValues<Receptor>& r, const ParameterValues<Neuron>& n, const SimulationOptions& run)
+        : receptor_(r, run.dt, run.method), neuron_(n, run.dt, run.method), method_(run.method), spikes_on_samples_(run.spikes_on_samples),
+          noise_(run.noise * std::sqrt(0.5 / run.dt / noise_band)), seed_(run.seed),
           name_(fmt::format("{}+{}", Receptor::name, Neuron::name)),
           format_(fmt::format("{}/2, T = {} s", name_, run.dt)) {  // 2: version of the state's format
         name_probes();

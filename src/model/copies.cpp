@@ -59,12 +59,6 @@ class CopySampler {
     std::vector<OrderBound> bounds_;
     std::vector<std::size_t> group_of_;  // group of each of the plan's parameters, sampled or not
 
-    /// Merges the group of parameter b into that of parameter a.
-    void join(std::size_t a, std::size_t b) {
-        const auto from = group_of_[b], to = group_of_[a];
-        std::replace(group_of_.begin(), group_of_.end(), from, to);
-    }
-
     /// True if the parameter with index `at` is sampled.
     bool is_sampled(std::size_t at) const {
         return std::any_of(sampled_.begin(), sampled_.end(), [&](const SampledParameter& d) { return d.at == at; });
@@ -130,7 +124,8 @@ public:
         }
         for (const auto& o : order_constraints_of(plan)) bounds_.push_back({index_of(plan, o.lower), index_of(plan, o.upper), o.or_equal});
         for (const auto& b : bounds_)
-            if (is_sampled(b.lower) && is_sampled(b.upper)) join(b.lower, b.upper);
+            if (is_sampled(b.lower) && is_sampled(b.upper))  // merges their groups
+                std::replace(group_of_.begin(), group_of_.end(), std::size_t{group_of_[b.upper]}, std::size_t{group_of_[b.lower]});
         for (auto& d : sampled_) d.group = group_of_[d.at];
     }
 

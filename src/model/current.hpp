@@ -59,24 +59,4 @@ T snap_to_level(T x, double tolerance, T level = T(0.0)) {
     return num::select(num::abs(x - level) < T(tolerance), level, x);
 }
 
-/// Passes the parameters `p` of a model to its constructor, which reads each one by its member pointer. Here all lanes have the same value.
-/// lanes/tile_vectors.hpp has the version with one value for each lane.
-template <class P>
-struct UniformParams {
-    const P& p;
-    double operator()(double P::* parameter) const { return p.*parameter; }
-    /// The value of a parameter that must be the same on all lanes.
-    double uniform(double P::* parameter) const { return p.*parameter; }
-};
-
-/// Passes the parameters as dual numbers: the slope of `variable` is 1, and all others are 0. All results then carry their derivative with
-/// respect to that parameter.
-template <class P>
-struct DualParams {
-    const P& p;
-    double P::* variable;
-    num::Dual operator()(double P::* parameter) const { return {p.*parameter, parameter == variable ? 1.0 : 0.0}; }
-    double uniform(double P::* parameter) const { return p.*parameter; }
-};
-
 }  // namespace corpuscle

@@ -3,30 +3,11 @@
 #include <fmt/format.h>
 
 #include "model/lanes/tiled_population.hpp"
-#include "model/models.hpp"
 
 namespace corpuscle {
 namespace {
 
 using namespace lanes;
-
-/// The kernels for an instruction set, in precision V.
-template <class V>
-const KernelTable<V>& table_of(InstructionSet set) {
-    constexpr bool in_double = std::is_same_v<V, double>;
-    const auto pick = [](const auto& doubles, const auto& floats) -> const KernelTable<V>& {
-        if constexpr (in_double)
-            return (void)floats, doubles;
-        else
-            return (void)doubles, floats;
-    };
-#ifdef __x86_64__
-    if (set == InstructionSet::avx512) return pick(avx512::doubles, avx512::floats);
-    if (set == InstructionSet::avx2) return pick(avx2::doubles, avx2::floats);
-#endif
-    (void)set;
-    return pick(baseline::doubles, baseline::floats);
-}
 
 template <class Kernel>
 const Kernel* find_by_name(std::span<const Kernel> all, std::string_view name) {
@@ -34,13 +15,10 @@ const Kernel* find_by_name(std::span<const Kernel> all, std::string_view name) {
     return at == all.end() ? nullptr : &*at;
 }
 
-/// True if the parameters of one component have the same values in all plans.
-bool same_for_all(std::span<const AfferentPlan* const> plans, std::string_view component) {
-    const auto& first = *plans[0];
-    for (const auto* plan : plans)
-        for (std::size_t k = 0; k < first.values.size(); ++k)
-            if ((*first.parameters)[k].component == component && plan->values[k] != first.values[k]) return false;
-    return true;
+/// Appends the values of one component's parameters.
+void append_values(const AfferentPlan& plan, std::string_view component, std::vector<double>& to) {
+    for (std::size_t k = 0; k < plan.values.size(); ++k)
+        if ((*plan.parameters)[k].component == component) to.push_back(plan.values[k]);
 }
 
 /// Returns an error for plans that cannot share lanes.
@@ -58,33 +36,37 @@ Result<void> check_same_models(std::span<const AfferentPlan* const> plans) {
 }
 
 /// Builds the lane models of one component, the receptor or the neuron: a single model if its parameters are the same for all `size`
-/// afferents, otherwise those of all tiles, one model for each vector of `width` lanes. `list` are the models in double.
-template <class V, class Kernel, class List>
-AlignedBuffer<std::byte> models_of(List list, const Kernel& kernel, int width, std::span<const AfferentPlan* const> plans, std::size_t size,
+/// afferents, otherwise those of all tiles, one model for each vector of `width` lanes.
+template <class Kernel>
+AlignedBuffer<std::byte> models_of(const Kernel& kernel, int width, std::span<const AfferentPlan* const> plans, std::size_t size,
                                    const SimulationOptions& run) {
-    AlignedBuffer<std::byte> models;
-    visit_named(list, kernel.name, [&]<template <class> class M>(ModelTag<M>) {
-        using P = typename M<double>::Params;
-        std::vector<P> params;
-        const bool shared = plans.size() == 1 || same_for_all(plans, kernel.name);
-        for (const auto* plan : shared ? plans.first(1) : plans) params.push_back(with_settings<P>(M<double>::fields, settings_of(*plan)));
-        if (shared) {
-            models = AlignedBuffer<std::byte>(kernel.model_bytes);
-            kernel.build(models.data(), params.data(), 1, run.dt, run.method);
-            return;
-        }
-        params.resize((size + tile_size - 1) / tile_size * tile_size, params.back());  // the padding of the last tile repeats an afferent
-        const std::size_t tile_bytes = tile_size / static_cast<std::size_t>(width) * kernel.model_bytes;
-        models = AlignedBuffer<std::byte>(params.size() / tile_size * tile_bytes);
-        for (std::size_t tile = 0; tile * tile_size < params.size(); ++tile)
-            kernel.build(models.data() + tile * tile_bytes, params.data() + tile * tile_size, tile_size, run.dt, run.method);
-    });
+    std::vector<double> values, first;
+    append_values(*plans[0], kernel.name, first);
+    for (const auto* plan : plans) append_values(*plan, kernel.name, values);
+    const std::size_t parameters = first.size();
+    if (std::equal(values.begin() + static_cast<std::ptrdiff_t>(parameters), values.end(), values.begin())) {
+        AlignedBuffer<std::byte> model(kernel.model_bytes);
+        kernel.build(model.data(), first.data(), 1, run.dt, run.method);
+        return model;
+    }
+    const std::size_t tiles = (size + tile_size - 1) / tile_size,
+                      tile_bytes = tile_size / static_cast<std::size_t>(width) * kernel.model_bytes;
+    while (values.size() < tiles * tile_size * parameters)  // the padding of the last tile repeats an afferent
+        values.push_back(values[values.size() - parameters]);
+    AlignedBuffer<std::byte> models(tiles * tile_bytes);
+    for (std::size_t tile = 0; tile < tiles; ++tile)
+        kernel.build(models.data() + tile * tile_bytes, values.data() + tile * tile_size * parameters, tile_size, run.dt, run.method);
     return models;
 }
 
 template <class V>
 std::unique_ptr<LanePopulation> make_tiled(const PopulationPlan& p, const SimulationOptions& run, InstructionSet set) {
-    const auto& table = table_of<V>(set);
+    const auto& table = [set]() -> const KernelTable<V>& {
+        if constexpr (std::is_same_v<V, double>)
+            return kernels_in_double(set);
+        else
+            return kernels_in_float(set);
+    }();
     const auto& plan = *p.plans[0];
     // Every catalogue name has a kernel, because both come from the lists in models.hpp.
     PopulationLayout<V> layout{find_by_name(table.receptors, plan.receptor),
@@ -98,8 +80,8 @@ std::unique_ptr<LanePopulation> make_tiled(const PopulationPlan& p, const Simula
                                scales_with_force(plan),
                                {p.afferent_numbers.begin(), p.afferent_numbers.end()},
                                fmt::format("{}+{}", plan.receptor, plan.neuron)};
-    layout.receptors = models_of<V>(Receptors{}, *layout.receptor, table.lanes, p.plans, p.size, run);
-    layout.neurons = models_of<V>(Neurons{}, *layout.neuron, table.lanes, p.plans, p.size, run);
+    layout.receptors = models_of(*layout.receptor, table.lanes, p.plans, p.size, run);
+    layout.neurons = models_of(*layout.neuron, table.lanes, p.plans, p.size, run);
     // `fused` has one kernel for each neuron of the table, in the same order.
     const auto& fused = layout.receptor->fused[static_cast<std::size_t>(layout.neuron - table.neurons.data())];
     if (fused.run && fused.is_usable(layout.neurons.data(), layout.neurons.size() / layout.neuron->model_bytes)) layout.fused = &fused;

@@ -1,6 +1,6 @@
 #include "model/model_factory.hpp"
 
-#include "model/catalog.hpp"
+#include "model/afferent_components.hpp"
 #include "model/chain.hpp"
 #include "model/models.hpp"
 #include "model/sensor/front_end_afferent.hpp"
@@ -13,13 +13,10 @@ class ModelFactory final : public AfferentFactory {
 public:
     std::unique_ptr<Afferent> make(const AfferentPlan& plan, const SimulationOptions& run) const override {
         if (!plan.converter.empty()) return make_digital(plan, run);
-        const auto settings = settings_of(plan);
         std::unique_ptr<Afferent> afferent;
         visit_named(Receptors{}, plan.receptor, [&]<template <class> class R>(ModelTag<R>) {
             visit_named(Neurons{}, plan.neuron, [&]<template <class> class N>(ModelTag<N>) {
-                const auto r = with_settings<typename R<double>::Params>(R<double>::fields, settings);
-                const auto n = with_settings<typename N<double>::Params>(N<double>::fields, settings);
-                afferent = std::make_unique<Chain<R, N>>(r, n, run);
+                afferent = std::make_unique<Chain<R, N>>(ParameterValues<R<double>>(plan), ParameterValues<N<double>>(plan), run);
             });
         });
         // A plan with a transducer also has a sensor.
@@ -32,10 +29,7 @@ public:
                 .reason_no_noise = plan.converter.empty() ? "" : "behind a converter the membrane is digital"};
     }
     std::string composition(const AfferentPlan& plan) const override {
-        std::string text;
-        for (const auto part : {plan.sensor, plan.transducer, plan.converter, plan.receptor, plan.neuron})
-            if (!part.empty()) text += (text.empty() ? "" : "+") + std::string(part);
-        return text;
+        return join_components({plan.sensor, plan.transducer, plan.converter, plan.receptor, plan.neuron});
     }
     std::vector<std::pair<std::string, std::string>> labels(const AfferentPlan& plan) const override {
         return {{"receptor", std::string(plan.receptor)}, {"neuron", std::string(plan.neuron)}};

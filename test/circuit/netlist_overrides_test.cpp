@@ -268,6 +268,7 @@ TEST(ProbeNames, NodesAndCurrentsAreFoundByPartialNames) {
     refused("i(b.co)", "the current of xb.co cannot be recorded");
     for (const auto* wrong : {"", "v()", "i(a,b)", "v(a", "p(a)", "a b"}) refused(wrong, "write a node, v(NODE), v(NODE,NODE), i(SOURCE)");
     EXPECT_EQ(suggest_probe(c, "vg"), "; did you mean 'vf'?");
+    EXPECT_EQ(suggest_probe(c, "membrane_potential"), "; there are the nodes vf, xb.o, xc.o, u") << "no name is similar";
     EXPECT_EQ(suggest_probe(c, "c.n1"), "; a device's current is i(c.n1)");
     EXPECT_EQ(split_probes("vf,v(a,b),i(N3B)"), (std::vector<std::string>{"vf", "v(a,b)", "i(N3B)"}));
 }

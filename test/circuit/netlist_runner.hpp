@@ -67,7 +67,7 @@ inline Result<std::string> read_text_file(const std::string& path) {
 
 /// Parses a netlist as if it were a file in process/, where the process cards are.
 inline Result<Netlist> parse_netlist_text(const std::string& text) {
-    return Netlist::parse(text, test::source_root() + "/process/test.cir", read_text_file);
+    return Netlist::parse(text, corpuscle::test::source_root() + "/process/test.cir", read_text_file);
 }
 
 /// The circuit of a netlist's text; an error fails the test and returns null.
@@ -122,7 +122,7 @@ inline std::vector<NetlistRun> run_variants(const std::string& text) {
 
 /// Runs a netlist of circuits/. `parameters` override its .param.
 inline NetlistRun run_netlist_file(const std::string& name, const Values& parameters = {}) {
-    const auto netlist = Netlist::read(test::source_root() + "/circuits/" + name);
+    const auto netlist = Netlist::read(corpuscle::test::source_root() + "/circuits/" + name);
     if (!netlist) return ADD_FAILURE() << netlist.error().text(), NetlistRun();
     auto circuit = netlist->elaborate(parameters);
     if (!circuit) return ADD_FAILURE() << circuit.error().text(), NetlistRun();

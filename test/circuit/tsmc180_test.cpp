@@ -29,7 +29,7 @@ UicmCard model(const std::string& section, const std::string& name) {
         return std::string(std::istreambuf_iterator<char>(file), {});
     };
     const auto netlist = Netlist::parse("a card\n.lib 'tsmc180.lib' " + section + "\nm1 d g s b " + name + " w=1u l=1u\n.end\n",
-                                        test::source_root() + "/process/x.cir", open);
+                                        corpuscle::test::source_root() + "/process/x.cir", open);
     if (!netlist) return ADD_FAILURE() << netlist.error().text(), UicmCard{};
     const auto circuit = netlist->elaborate();
     if (!circuit) return ADD_FAILURE() << circuit.error().text(), UicmCard{};

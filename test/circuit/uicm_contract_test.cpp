@@ -172,7 +172,7 @@ TEST(UicmContract, LanesGiveTheSameBitsAsScalars) {
     const double* const points[4] = {v[0].data(), v[1].data(), v[2].data(), v[3].data()};
     for (const auto set : instruction_sets().subspan(1)) {
         test::UicmBatchFunction evaluate_batch = test::baseline::uicm_evaluate_batch;
-#ifdef __x86_64__
+#ifdef CORPUSCLE_AVX
         if (set == InstructionSet::avx2) evaluate_batch = test::avx2::uicm_evaluate_batch;
         if (set == InstructionSet::avx512) evaluate_batch = test::avx512::uicm_evaluate_batch;
 #endif

@@ -13,7 +13,7 @@
 #include <vector>
 
 #include "hdf5_file.hpp"
-#include "hdf5_samples.hpp"
+#include "helper_main.hpp"
 
 namespace corpuscle::fuzz {
 namespace {

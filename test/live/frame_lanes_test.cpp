@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <cstdint>
 #include <cstring>
 #include <limits>
@@ -34,9 +35,10 @@ template <class V>
 std::size_t convert_scalar(const std::vector<V>& from, const ForceScaling& f, std::vector<double>& force) {
     std::size_t bad = 0;
     for (std::size_t k = 0; k < force.size(); ++k) {
-        const double x = (static_cast<double>(from[k]) - f.offset) * f.scale;
-        if (x >= -f.limit && x <= f.limit)
-            force[k] = x;
+        const double x = f.absolute ? std::abs(static_cast<double>(from[k])) : static_cast<double>(from[k]);
+        const double newtons = (x - f.offset) * f.scale;
+        if (newtons >= -f.limit && newtons <= f.limit && x >= f.low && x <= f.high)
+            force[k] = newtons;
         else
             ++bad;
     }
@@ -45,7 +47,8 @@ std::size_t convert_scalar(const std::vector<V>& from, const ForceScaling& f, st
 
 template <class V>
 void expect_same_on_every_instruction_set(FrameKernels::Convert FrameKernels::* convert) {
-    for (const ForceScaling& f : {ForceScaling{0, 1, 1e6}, ForceScaling{0.25, -2e-3, 1e4}})
+    for (const ForceScaling& f : {ForceScaling{0, 1, 1e6}, ForceScaling{0.25, -2e-3, 1e4}, ForceScaling{1, 2, 1e4, true},
+                                  ForceScaling{0, 1, 1e6, false, -5, 12}, ForceScaling{3, 1, 1e6, true, 2, 9}})
         for (const std::size_t count : {1U, 3U, 4U, 7U, 8U, 16U, 17U, 333U}) {
             const auto from = readings<V>(count);
             std::vector<double> expected(count, -0.0);

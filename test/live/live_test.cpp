@@ -15,7 +15,7 @@
 #include "live/input/byte_ring.hpp"
 #include "live/input/frame_decoder.hpp"
 #include "live/input/frame_sequence.hpp"
-#include "live/input/site_frames.hpp"
+#include "live/input/frame_source.hpp"
 #include "live/latency_histogram.hpp"
 #include "live/live_population.hpp"
 #include "live/output/event_sink.hpp"
@@ -424,7 +424,7 @@ public:
     Result<bool> receive() override { return true; }
     FrameCounts counts() const override { return {.frames = frame_count_}; }
     std::string description() const override { return "counted"; }
-    Next next(std::span<double> force) override {
+    Next read_frame(std::span<double> force) override {
         if (++frame_count_ == 3) return Next::filled;  // repeats the last frame
         force[0] = frame_count_, force[1] = 10.0 * frame_count_;
         return Next::frame;
@@ -432,19 +432,31 @@ public:
 };
 
 TEST(SiteFrames, AssignEachForceToItsSiteAndNoForceToOthers) {
-    const auto frames = assign_sites(std::make_unique<CountedFrames>(), {4, 1}, 6);
+    CountedFrames frames;
+    frames.assign_sites({4, 1}, 6);
     std::vector<double> force(6);
-    EXPECT_EQ(frames->next(force), FrameSource::Next::frame);
+    EXPECT_EQ(frames.next(force), FrameSource::Next::frame);
     EXPECT_EQ(force, (std::vector<double>{0, 10, 0, 0, 1, 0}));
-    EXPECT_EQ(frames->next(force), FrameSource::Next::frame);
-    EXPECT_EQ(frames->next(force), FrameSource::Next::filled);
+    EXPECT_EQ(frames.next(force), FrameSource::Next::frame);
+    EXPECT_EQ(frames.next(force), FrameSource::Next::filled);
     EXPECT_EQ(force, (std::vector<double>{0, 20, 0, 0, 2, 0}));
 }
 
-TEST(SiteFrames, AreNotWrappedIfAllSitesAreInOrder) {
-    auto numbered = std::make_unique<CountedFrames>();
-    const auto* const same = numbered.get();
-    EXPECT_EQ(assign_sites(std::move(numbered), {0, 1}, 2).get(), same);
+TEST(SiteFrames, AreFilteredAlsoIfAllSitesAreInOrder) {
+    const auto clock = value_or_throw(make_clock(1000.0));
+    CountedFrames frames;
+    const Biquad filter = value_or_throw(Biquad::lowpass(100, clock));
+    frames.assign_sites({0, 1}, 2, {&filter, 1});
+    auto first = filter, second = filter;
+    std::vector<double> force(2), expected(2);
+    for (int k = 1; k <= 5; ++k) {
+        EXPECT_NE(frames.next(force), FrameSource::Next::nothing);
+        if (k == 3)
+            expected = {2, 20};  // the last frame is repeated, and filtered, too
+        else
+            expected = {1.0 * k, 10.0 * k};
+        EXPECT_EQ(force, (std::vector<double>{first.next(expected[0]), second.next(expected[1])})) << k;
+    }
 }
 
 TEST(SiteMap, AssignsASiteToEachValueOfAFrame) {

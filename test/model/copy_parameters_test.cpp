@@ -160,8 +160,8 @@ TEST(Contract, EveryParameterThatCopiesDoNotShareCanDifferInEveryAfferent) {
 }
 
 TEST(Contract, CopiesShareIntegerParametersAndEverySubstep) {
-    for (const auto at : Adc::integers)
-        for (const auto& f : Adc::fields) EXPECT_TRUE(f.member != at || f.is_shared_by_copies) << f.name;
+    for (const auto name : Adc::integers)
+        for (const auto& p : Adc::parameters) EXPECT_TRUE(p.name != name || p.is_shared_by_copies) << name;
     int substeps = 0;
     for (const auto& entry : neuron_entries())
         for (const auto& row : entry.parameters) {

@@ -1,8 +1,10 @@
 // Every neuron without a receptor, under currents with known responses.
 
+#include <algorithm>
 #include <cmath>
 
 #include "model/models.hpp"
+#include "model/parameter_values.hpp"
 #include "support/support.hpp"
 
 namespace corpuscle {
@@ -16,9 +18,9 @@ struct NeuronRun {
 
 /// Runs a neuron under current(t) (A) for `seconds` in steps of dt (s).
 template <template <class> class N>
-NeuronRun run(typename N<double>::Params p, const std::function<double(double)>& current, double seconds, double dt,
+NeuronRun run(ParameterValues<N<double>> p, const std::function<double(double)>& current, double seconds, double dt,
               Method method = Method::exact) {
-    const N<double> neuron(UniformParams<typename N<double>::Params>{p}, dt, method);
+    const N<double> neuron(p, dt, method);
     auto state = neuron.start();
     NeuronRun out;
     for (long k = 1; k <= std::lround(seconds / dt); ++k) {
@@ -40,7 +42,8 @@ double strong_current() {
 }
 
 template <template <class> class N>
-constexpr bool has_refractory_time = requires(typename N<double>::Params p) { p.t_ref; };
+constexpr bool has_refractory_time =
+    std::any_of(std::begin(N<double>::parameters), std::end(N<double>::parameters), [](const auto& p) { return p.name == "t_ref"; });
 
 TEST(Neuron, EachIsSilentAndConstantAtRest) {
     for_each_type(Neurons{}, []<template <class> class N>(ModelTag<N>) {
@@ -67,8 +70,7 @@ TEST(Neuron, EachStaysAtTheResetVoltageForItsRefractoryTime) {
         } else {
             for (const double t_ref : {0.4e-3, 5e-3, 20e-3})
                 for (const auto method : {Method::exact, Method::backward_euler}) {
-                    typename N<double>::Params p;
-                    p.t_ref = t_ref;
+                    const ParameterValues<N<double>> p{{"t_ref", t_ref}};
                     const auto result = run<N>(p, [](double) { return 1e-3; }, 0.5, 1e-3, method);  // far above any threshold
                     ASSERT_GT(result.times.size(), 5U) << N<double>::name;
                     for (std::size_t k = 1; k < result.times.size(); ++k)
@@ -76,7 +78,7 @@ TEST(Neuron, EachStaysAtTheResetVoltageForItsRefractoryTime) {
                     if (t_ref < 5e-3) continue;
                     const auto sample =
                         static_cast<std::size_t>(result.times[0] / 1e-3);  // the step of the first spike ends in its refractory time
-                    EXPECT_NEAR(result.membrane[sample], p.V_reset, 1e-12) << N<double>::name;
+                    EXPECT_NEAR(result.membrane[sample], p("V_reset"), 1e-12) << N<double>::name;
                 }
         }
     });
@@ -90,7 +92,7 @@ TEST(Neuron, LifBsIntervalsAreTheChargeOverTheNetCurrent) {
 }
 
 TEST(Neuron, LifAsFiringRateMatchesTheClosedForm) {  // errata B5b
-    const LifA<double>::Params p{.C_m = 1e-6, .R_m = 1e6, .E_L = 0, .V_th = 1, .V_reset = 0.5};
+    const ParameterValues<LifA<double>> p{{"C_m", 1e-6}, {"R_m", 1e6}, {"E_L", 0}, {"V_th", 1}, {"V_reset", 0.5}};
     for (const double dt : {1e-4, 1e-2, 1.0}) {  // exact for any step, because the current is linear in each step
         const auto result = run<LifA>(p, [](double) { return 2e-6; }, 10, dt);
         ASSERT_GT(result.times.size(), 10U);
@@ -143,9 +145,9 @@ TEST(Neuron, AdaptiveFiresAllSpikesWhileTheCurrentIsPositiveWithinAStep) {
 }
 
 TEST(Neuron, AdexWithoutARestingStateStartsAtTheRestingPotential) {
-    const Adex<double>::Params p{.Delta_T = 0.1};
-    const Adex<double> neuron(UniformParams<Adex<double>::Params>{p}, 1e-4, Method::exact);
-    EXPECT_EQ(neuron.start().v, p.E_L);
+    const ParameterValues<Adex<double>> p{{"Delta_T", 0.1}};
+    const Adex<double> neuron(p, 1e-4, Method::exact);
+    EXPECT_EQ(neuron.start().v, p("E_L"));
 }
 
 TEST(Neuron, IzhikevichFiresAsPublished) {
@@ -180,10 +182,10 @@ TEST(Neuron, AdexMatchesAFineEulerIntegration) {
 
 TEST(Neuron, SlopesByDualsMatchFiniteDifferencesForEveryParameter) {
     for_each_type(Neurons{}, []<template <class> class N>(ModelTag<N>) {
-        using Params = typename N<double>::Params;
         constexpr double dt = 1e-4;
         constexpr int steps = 400;
-        for (const auto& field : N<double>::fields) {
+        for (std::size_t parameter = 0; parameter < std::size(N<double>::parameters); ++parameter) {
+            const auto& field = N<double>::parameters[parameter];
             if (field.name == "substep") continue;                      // it determines the number of substeps, an integer
             const auto spike_and_end = [&](auto neuron, auto number) {  // time of the last spike, in steps; membrane at the end
                 using T = decltype(number);
@@ -197,17 +199,14 @@ TEST(Neuron, SlopesByDualsMatchFiniteDifferencesForEveryParameter) {
                 neuron.record(state, parts);
                 return std::pair(last, parts[0]);
             };
-            Params p;
-            if constexpr (has_refractory_time<N>) p.t_ref = 1.3e-3;  // at 0 the derivative is one-sided
-            const auto dual = spike_and_end(N<num::Dual>(DualParams<Params>{p, field.member}, dt, Method::exact), num::Dual{});
-            const double scale = p.*field.member != 0 ? std::abs(p.*field.member)
-                                 : field.unit == "V"  ? 1e-2
-                                 : field.unit == "s"  ? 1e-3
-                                                      : 1e-6;
+            ParameterValues<N<double>> p;
+            if constexpr (has_refractory_time<N>) p = {{"t_ref", 1.3e-3}};  // at 0 the derivative is one-sided
+            const auto dual = spike_and_end(N<num::Dual>(DualValues<N<double>>{p, parameter}, dt, Method::exact), num::Dual{});
+            const double scale = p[parameter] != 0 ? std::abs(p[parameter]) : field.unit == "V" ? 1e-2 : field.unit == "s" ? 1e-3 : 1e-6;
             const auto moved = [&](double by) {
-                Params q = p;
-                q.*field.member += by;
-                return spike_and_end(N<double>(UniformParams<Params>{q}, dt, Method::exact), 0.0);
+                auto q = p;
+                q[parameter] += by;
+                return spike_and_end(N<double>(q, dt, Method::exact), 0.0);
             };
             const double h = 1e-6 * scale;
             const auto up = moved(h), down = moved(-h);

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "model/models.hpp"
+#include "model/parameter_values.hpp"
 #include "support/support.hpp"
 
 namespace corpuscle {
@@ -25,7 +26,7 @@ TEST(Receptor, HighPassUnderARampIsExactAtAnyStep) {
 TEST(Receptor, CurrentsAreContinuousUnlessTheyDependOnTheSlopeOfForce) {
     for_each_type(Receptors{}, []<template <class> class R>(ModelTag<R>) {
         const std::string name(R<double>::name);
-        const R<double> receptor(UniformParams<typename R<double>::Params>{{}}, 1e-3, Method::exact);
+        const R<double> receptor(ParameterValues<R<double>>(), 1e-3, Method::exact);
         const auto f = test::force("press", {.rate = 1e3});
         auto s = receptor.start(f[0]);
         Current<double> i[R<double>::outputs], before[R<double>::outputs] = {};
@@ -45,27 +46,26 @@ TEST(Receptor, CurrentsAreContinuousUnlessTheyDependOnTheSlopeOfForce) {
 
 TEST(Receptor, SlopesByDualsMatchFiniteDifferencesForEveryParameter) {
     for_each_type(Receptors{}, []<template <class> class R>(ModelTag<R>) {
-        using Params = typename R<double>::Params;
         const auto f = test::force("press", {.rate = 1e3});
         for (const auto method : {Method::exact, Method::backward_euler})
-            for (const auto& field : R<double>::fields) {
+            for (std::size_t k = 0; k < std::size(R<double>::parameters); ++k) {
                 const auto current = [&](auto receptor, auto number) {  // A; at 330 ms, during protraction
                     using T = decltype(number);
                     auto s = receptor.start(T(f[0]));
                     Current<T> i[R<double>::outputs];
-                    for (std::size_t k = 1; k <= 330; ++k) receptor.step(s, T(f[k]), i);
+                    for (std::size_t t = 1; t <= 330; ++t) receptor.step(s, T(f[t]), i);
                     return i[0].to;
                 };
-                const Params p;
-                const double scale = p.*field.member != 0 ? p.*field.member : 1e-6, h = 1e-5 * scale;
+                const ParameterValues<R<double>> p;
+                const double scale = p[k] != 0 ? p[k] : 1e-6, h = 1e-5 * scale;
                 const auto moved = [&](double by) {
-                    Params q = p;
-                    q.*field.member += by;
-                    return current(R<double>(UniformParams<Params>{q}, 1e-3, method), 0.0);
+                    auto q = p;
+                    q[k] += by;
+                    return current(R<double>(q, 1e-3, method), 0.0);
                 };
                 const double slope = (moved(h) - moved(-h)) / (2 * h) * scale,
-                             dual_slope = current(R<num::Dual>(DualParams<Params>{p, field.member}, 1e-3, method), num::Dual{}).d * scale;
-                EXPECT_NEAR(dual_slope, slope, 1e-7 * std::abs(slope) + 1e-17) << R<double>::name << '.' << field.name;
+                             dual_slope = current(R<num::Dual>(DualValues<R<double>>{p, k}, 1e-3, method), num::Dual{}).d * scale;
+                EXPECT_NEAR(dual_slope, slope, 1e-7 * std::abs(slope) + 1e-17) << R<double>::name << '.' << R<double>::parameters[k].name;
             }
     });
 }

@@ -270,7 +270,8 @@ TEST(SkinRun, SpikesOfASkinAreWrittenAsNumPyArraysToo) {
 
 TEST(SkinRun, OptionsForAfferentsOnChannelsAreRefused) {
     const TemporaryFolder folder;
-    for (const char* arguments : {"--afferent fa2", "--copies 3", "--noise 10nA", "--vectors --out x", "--corner ss"}) {
+    for (const char* arguments :
+         {"--afferent fa2", "--afferent nothing", "--copies 3", "--noise 10nA", "--vectors --out x", "--corner ss"}) {
         const auto ran = test::run_program(folder, std::string("respond press --population fingertip ") + arguments);
         EXPECT_EQ(ran.status, 2) << arguments << ran.err;
         EXPECT_NE(ran.err.find("cannot be used with --population"), std::string::npos) << ran.err;

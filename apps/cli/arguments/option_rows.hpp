@@ -68,15 +68,25 @@ inline OptionRow repeatable(OptionRow row) { return row.is_repeatable = true, ro
 inline OptionRow with_default(const char* text, OptionRow row) { return row.shown_default = text, row; }
 inline OptionRow split_at_commas(OptionRow row) { return row.is_repeatable = row.splits_at_commas = true, row; }
 
-/// Reads a quantity, in SI, into a variable. `unit`: as for parse_quantity().
+/// Reads a value into a variable. `read` turns the text into the value or an error.
+template <class T, class Read>
+OptionReader value_reader(T& to, Read read) {
+    return [&to, read](const std::string& text) -> Result<void> {
+        auto value = read(text);
+        if (!value) return value.error();
+        return to = std::move(*value), Result<void>();
+    };
+}
+/// Reads a quantity, in SI. `unit`: as for parse_quantity().
+inline auto quantity_of(std::string_view unit) {
+    return [unit](const std::string& text) -> Result<double> {
+        auto value = parse_quantity(text, unit);
+        return value ? std::move(value) : bad_usage(value.error().message);
+    };
+}
 template <class T>
 OptionReader quantity_reader(T& to, std::string_view unit) {
-    return [&to, unit](const std::string& text) -> Result<void> {
-        const auto value = parse_quantity(text, unit);
-        if (!value) return bad_usage(value.error().message);
-        to = *value;
-        return {};
-    };
+    return value_reader(to, quantity_of(unit));
 }
 /// A reader that refuses a text after reading it if `is_invalid()`: "TEXT: MESSAGE".
 OptionReader refuse_if(std::function<bool()> is_invalid, std::string_view message, OptionReader);

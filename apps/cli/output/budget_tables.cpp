@@ -61,8 +61,8 @@ std::string area_table(const Cost& cost) {
     Rows rows = {
         {"area, um2", "transistors", "elements", "gates", "arrays", "capacitors", "total", "isolated", "leakage, pA", "largest leak"}};
     const auto row = [&](const std::string& name, std::size_t transistors, std::size_t elements, const Area& a) {
-        rows.push_back({name, fmt::format("{}", transistors), fmt::format("{}", elements), um2(a.gates), um2(a.arrays), um2(a.capacitors),
-                        um2(a.total()), um2(a.islands)});
+        rows.push_back(
+            table_row(name, transistors, elements, um2(a.gates), um2(a.arrays), um2(a.capacitors), um2(a.total()), um2(a.islands)));
     };
     std::size_t transistors = 0, elements = 0;
     for (const auto& b : cost.blocks) {

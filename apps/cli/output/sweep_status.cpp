@@ -43,31 +43,11 @@ std::string next_step(const SweepStatus& s) {
     return fmt::format("Analyse:  corpuscle sweep show {0}\nAll rows: corpuscle sweep dump {0}\n", s.results);
 }
 
-}  // namespace
-
-Result<SweepStatus> read_sweep_status(const SweepResults& results, const Shard& shard) {
-    SweepStatus out;
-    out.results = results.path(), out.shard = shard, out.items = shard.count(0, results.item_count());
-    auto* file = results.handle();
-    auto counts = TRY(sql::Statement::make(
-        file, results.path(), "SELECT count(*), total(ended = 'truncated'), total(ended = 'diverged'), total(iterations) FROM items"));
-    TRY(counts.step());
-    out.finished = counts.integer(0), out.truncated = counts.integer(1), out.diverged = counts.integer(2),
-    out.iterations = counts.integer(3);
-    if (out.truncated + out.diverged == 0) return out;
-    auto reasons = TRY(sql::Statement::make(
-        file, results.path(), "SELECT why, count(*) FROM items WHERE ended <> 'done' GROUP BY why ORDER BY 2 DESC, 1 LIMIT 3"));
-    for (;;) {
-        const auto more = TRY(reasons.step());
-        if (!more) return out;
-        out.reasons.emplace_back(reasons.text(0), reasons.integer(1));
-    }
-}
-
+/// The status as a table, with the next command.
 std::string sweep_status_text(const SweepStatus& s) {
     const auto completed = s.finished - s.truncated - s.diverged;
-    std::vector<std::vector<std::string>> rows = {{"items", "ended", "missing", "completed", "truncated", "diverged"}, {}};
-    for (const auto n : {s.items, s.finished, s.missing(), completed, s.truncated, s.diverged}) rows[1].push_back(fmt::format("{}", n));
+    std::vector<std::vector<std::string>> rows = {{"items", "ended", "missing", "completed", "truncated", "diverged"},
+                                                  table_row(s.items, s.finished, s.missing(), completed, s.truncated, s.diverged)};
     if (s.finished_now)
         rows[0].insert(rows[0].begin() + 2, "this run"), rows[1].insert(rows[1].begin() + 2, fmt::format("{}", *s.finished_now));
     if (s.iterations > 0) rows[0].push_back("iterations"), rows[1].push_back(fmt::format("{}", s.iterations));
@@ -89,6 +69,27 @@ nlohmann::ordered_json document_of(const SweepStatus& s) {
     auto& writer = out["writer"] = {{"process", s.writer->process}, {"host", s.writer->host}};
     if (const auto rate = rate_of(s); rate > 0) writer["items_per_second"] = rate, writer["seconds_left"] = seconds_left(s);
     return out;
+}
+
+}  // namespace
+
+Result<SweepStatus> read_sweep_status(const SweepResults& results, const Shard& shard) {
+    SweepStatus out;
+    out.results = results.path(), out.shard = shard, out.items = shard.count(0, results.item_count());
+    auto* file = results.handle();
+    auto counts = TRY(sql::Statement::make(
+        file, results.path(), "SELECT count(*), total(ended = 'truncated'), total(ended = 'diverged'), total(iterations) FROM items"));
+    TRY(counts.step());
+    out.finished = counts.integer(0), out.truncated = counts.integer(1), out.diverged = counts.integer(2),
+    out.iterations = counts.integer(3);
+    if (out.truncated + out.diverged == 0) return out;
+    auto reasons = TRY(sql::Statement::make(
+        file, results.path(), "SELECT why, count(*) FROM items WHERE ended <> 'done' GROUP BY why ORDER BY 2 DESC, 1 LIMIT 3"));
+    for (;;) {
+        const auto more = TRY(reasons.step());
+        if (!more) return out;
+        out.reasons.emplace_back(reasons.text(0), reasons.integer(1));
+    }
 }
 
 void print_sweep_status(const CommonArguments& common, const SweepStatus& state) {

@@ -1,8 +1,6 @@
 #pragma once
 // The progress of a sweep, as text and JSON.
 
-#include <nlohmann/json_fwd.hpp>
-
 #include "cli/verb.hpp"
 #include "sweep/parallel/item_queue.hpp"
 #include "sweep/store/sweep_results.hpp"
@@ -28,10 +26,7 @@ struct SweepStatus {
 
 /// Reads the counts from a results file, which has the items of this shard. Sets neither the sweep file nor the writer.
 Result<SweepStatus> read_sweep_status(const SweepResults&, const Shard&);
-/// The status as a table, with the next command.
-std::string sweep_status_text(const SweepStatus&);
-nlohmann::ordered_json document_of(const SweepStatus&);
-/// Prints the status as text or JSON, unless --quiet was given.
+/// Prints the status as a table with the next command, or as JSON, unless --quiet was given.
 void print_sweep_status(const CommonArguments&, const SweepStatus&);
 
 }  // namespace corpuscle

@@ -136,6 +136,10 @@ std::string without_directories(const std::string& argument) {
 
 void print_message(const std::string& message) { fmt::print(stderr, "corpuscle: {}\n", printable(message)); }
 void print_warning(const std::string& message) { print_message("warning: " + message); }
+void print_notes(const std::string& name, const std::vector<std::string>& notes, bool quiet) {
+    for (const auto& note : notes)
+        if (!quiet) print_message(fmt::format("{}: {}", name, note));
+}
 void print_text(const std::string& text) { fmt::print("{}", printable_lines(text)); }
 
 Result<void> finish_output() {

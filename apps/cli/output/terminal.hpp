@@ -1,6 +1,7 @@
 #pragma once
 // Terminal input and output: messages, tables, a progress bar, and Ctrl-C.
 
+#include <fmt/format.h>
 #include <chrono>
 #include <string>
 #include <vector>
@@ -18,6 +19,8 @@ int exit_status(const Result<void>& done);
 /// escaped.
 void print_message(const std::string& message);
 void print_warning(const std::string& message);
+/// Prints a message for each note about `name`, unless `quiet`.
+void print_notes(const std::string& name, const std::vector<std::string>& notes, bool quiet);
 
 /// Prints text of several lines on standard output. Control characters are escaped.
 void print_text(const std::string& text);
@@ -37,6 +40,12 @@ std::string time_text(double seconds);
 /// the first row is the heading. In a table wider than 100 columns the heading is wrapped; if it is still too wide, the table is split into
 /// blocks.
 std::string format_table(const std::vector<std::vector<std::string>>& rows, bool has_heading = true);
+
+/// A row of a table.
+template <class... T>
+std::vector<std::string> table_row(const T&... cells) {
+    return {fmt::format("{}", cells)...};
+}
 
 /// A progress bar with the remaining time, on standard error. It appears only if this is a terminal, and after one second.
 class Progress {

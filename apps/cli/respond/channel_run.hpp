@@ -8,37 +8,32 @@
 
 namespace corpuscle {
 
-/// The parts of a run on channels, planned from the arguments.
-struct ChannelJob : RespondJob {
-    std::vector<ParameterOverride> spreads;  // of --spread; those that no afferent so far has used
-    std::vector<AfferentPlan> afferents;     // the afferents of --afferent
-    CopySpec copy_spec;
-    std::vector<AfferentPlan> copies;  // the simulated afferents: all copies, or without --copies the afferents themselves
-    std::vector<std::unique_ptr<ForceSource>> sources;
-    std::vector<std::string> warnings;
-};
-
-/// Reads the options, plans the afferents and opens the sources.
-Result<ChannelJob> plan_channel_job(const RespondArguments&, bool quiet);
-
 class ChannelRun final : public PlannedRun {
-    ChannelJob job_;
-    std::string command_;
-    bool quiet_;
+    std::vector<ParameterOverride> spreads_;  // of --spread; those that no afferent so far has used
+    std::vector<AfferentPlan> afferents_;     // the afferents of --afferent
+    CopySpec copy_spec_;
+    std::vector<AfferentPlan> copies_;  // the simulated afferents: all copies, or without --copies the afferents themselves
+    std::vector<std::unique_ptr<ForceSource>> sources_;
+    std::vector<std::string> warnings_;
     RunSummary summary_;
     SilenceDetector silence_;
     std::optional<RespondReport> report_;
 
+    Result<void> plan_afferents();
+    Result<void> add_copies();
+    Result<void> check_overrides() const;
+    Result<void> check_afferent_count() const;
     void warn(std::string message);
     void warn_of_rates();
+    std::size_t netlist_count() const;
 
 public:
-    ChannelRun(ChannelJob job, const CommonArguments& common) : job_(std::move(job)), command_(common.command), quiet_(common.quiet) {}
+    using PlannedRun::PlannedRun;
+    Result<void> plan() override;
     OutputRequest output_request() const override;
     Sink& start_report() override;
     Result<std::vector<std::unique_ptr<BlockSimulator>>> simulators() override;
     std::vector<Sink*> summaries() override { return {&summary_, &silence_}; }
-    const RespondOptions& options() const override { return job_.options; }
     nlohmann::ordered_json summarize(const RunStats&) override;
     std::string page(const nlohmann::ordered_json& document) const override;
     std::string table() const override;

@@ -4,12 +4,12 @@
 
 namespace corpuscle {
 
-Result<std::unique_ptr<ForceSource>> open_source(RespondJob& job, const ForceArgument& force, RecordingOptions recording, double rate,
-                                                 bool quiet) {
-    Progress progress(quiet);
+Result<std::unique_ptr<ForceSource>> PlannedRun::open_source(const ForceArgument& force, double rate) {
+    auto recording = args_.recording;
+    Progress progress(common_.quiet);
     recording.should_continue = [&](double fraction) { return progress.update(fraction), !interrupted(); };
-    auto source = TRY(force.open(recording, job.overrides, rate, job.options.seed));
-    keep_unused(job.unused, source.unused);
+    auto source = TRY(force.open(recording, overrides_, rate, options_.seed));
+    keep_unused(unused_, source.unused);
     return std::move(source.result);
 }
 

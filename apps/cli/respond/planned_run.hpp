@@ -1,5 +1,5 @@
 #pragma once
-// A run of respond, planned from the arguments but not started: afferents on channels (channel_run.hpp) or a skin (skin_run.hpp).
+// A run of respond: afferents on channels (channel_run.hpp) or a skin (skin_run.hpp).
 
 #include <nlohmann/json_fwd.hpp>
 
@@ -11,8 +11,23 @@
 namespace corpuscle {
 
 class PlannedRun {
+protected:
+    const RespondArguments& args_;
+    const CommonArguments& common_;
+    std::vector<ParameterOverride> overrides_, unused_;  // unused_: those of the user that no part of the run so far has used
+    RespondOptions options_;
+
+    /// Opens a force with the overrides, and with a progress bar unless --quiet was given. `rate`: default sampling rate of stimuli, Hz.
+    Result<std::unique_ptr<ForceSource>> open_source(const ForceArgument&, double rate);
+
 public:
+    /// The arguments outlive the run.
+    PlannedRun(const RespondArguments& args, const CommonArguments& common) : args_(args), common_(common), options_(args.simulation) {}
+    PlannedRun(const PlannedRun&) = delete;
+    PlannedRun& operator=(const PlannedRun&) = delete;
     virtual ~PlannedRun() = default;
+    /// Plans the afferents and opens the force. Call it first.
+    virtual Result<void> plan() = 0;
     /// The properties of the run for the output formats. `directory` and `options` are set by the caller.
     virtual OutputRequest output_request() const = 0;
     /// The sink of the report page. From then on, the page is part of the run.
@@ -21,7 +36,7 @@ public:
     virtual Result<std::vector<std::unique_ptr<BlockSimulator>>> simulators() = 0;
     /// The summaries, which precede all other sinks.
     virtual std::vector<Sink*> summaries() = 0;
-    virtual const RespondOptions& options() const = 0;
+    const RespondOptions& options() const { return options_; }
     /// Explains how to continue after an interruption.
     virtual Error interruption(Error error) const { return error; }
 
@@ -37,14 +52,5 @@ public:
     /// Success, or the error of a run that is complete but not correct.
     virtual Result<void> verdict(const RunStats&) const { return {}; }
 };
-
-/// The parts of a run of afferents on channels and of a skin that are planned in the same way.
-struct RespondJob {
-    std::vector<ParameterOverride> overrides, unused;  ///< unused: those of the user that no part of the run so far has used
-    RespondOptions options;
-};
-
-/// Opens a force with the overrides of the job, and with a progress bar unless `quiet`. `rate`: default sampling rate of stimuli, Hz.
-Result<std::unique_ptr<ForceSource>> open_source(RespondJob&, const ForceArgument&, RecordingOptions, double rate, bool quiet);
 
 }  // namespace corpuscle

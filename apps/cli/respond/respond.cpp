@@ -10,11 +10,60 @@
 #include "cli/respond/channel_run.hpp"
 #include "cli/respond/run_outputs.hpp"
 #include "cli/respond/skin_run.hpp"
-#include "cli/respond/spike_times.hpp"
 #include "run/population_exceptions.hpp"
+#include "run/sink.hpp"
 
 namespace corpuscle {
 namespace {
+
+/// Collects the spikes of every afferent for the JSON document on standard output.
+class SpikeTimes final : public Sink {
+    struct Train {
+        std::string afferent, channel;
+        std::vector<double> times = {};  // s, on the clock of the input
+    };
+    std::vector<Train> trains_;  // of all afferents of all inputs
+    std::string input_name_;
+    bool is_skin_ = false;
+    std::size_t count_ = 0;  // spikes of all afferents
+
+    void add(const Input&, std::span<const Spike>);
+
+public:
+    static constexpr std::size_t max_spikes = 10'000'000;  ///< of a skin; if there are more, document() is null
+
+    Result<void> begin(const Input&) override;
+    Result<void> block(const Input& input, const RunBlock& block) override { return add(input, block.spikes), Result<void>(); }
+    Result<void> end(const Input& input, std::int64_t, std::span<const Spike> last) override { return add(input, last), Result<void>(); }
+    /// True if a skin had more spikes than max_spikes.
+    bool is_over_limit() const { return is_skin_ && count_ > max_spikes; }
+    const std::string& input_name() const { return input_name_; }  ///< of the last input
+    /// An array with afferent, channel and times_s of each afferent, of a skin only those that fired, named as in spikes.csv. null if there
+    /// are too many spikes.
+    nlohmann::ordered_json document() const;
+};
+
+Result<void> SpikeTimes::begin(const Input& input) {
+    input_name_ = input.name, is_skin_ = input.population.skin() != nullptr;
+    for (std::size_t u = 0; u < input.population.size(); ++u)
+        trains_.push_back({input.population.afferent_name(u), input.population.channel_name(u)});
+    return {};
+}
+
+void SpikeTimes::add(const Input& input, std::span<const Spike> spikes) {
+    count_ += spikes.size();
+    if (is_over_limit()) return trains_.clear();
+    for (const auto& s : spikes) trains_[s.afferent_index].times.push_back(input.clock.time(s.step, s.offset));
+}
+
+nlohmann::ordered_json SpikeTimes::document() const {
+    if (is_over_limit()) return nullptr;
+    auto out = nlohmann::ordered_json::array();
+    for (const auto& train : trains_)
+        if (!is_skin_ || !train.times.empty())
+            out.push_back({{"afferent", train.afferent}, {"channel", train.channel}, {"times_s", train.times}});
+    return out;
+}
 
 /// Returns an error, with the reason and a remedy, for an option that does not apply to this kind of population.
 Result<void> check_population_options(const RespondArguments& args, const CommonArguments& common) {
@@ -25,12 +74,13 @@ Result<void> check_population_options(const RespondArguments& args, const Common
 }
 
 Result<std::unique_ptr<PlannedRun>> plan_run(const RespondArguments& args, const CommonArguments& common, Ranks* ranks) {
-    if (!args.population.empty()) {
-        auto job = TRY(plan_skin_job(args, common.quiet));
-        return std::unique_ptr<PlannedRun>(std::make_unique<SkinRun>(std::move(job), args, common, ranks));
-    }
-    auto job = TRY(plan_channel_job(args, common.quiet));
-    return std::unique_ptr<PlannedRun>(std::make_unique<ChannelRun>(std::move(job), common));
+    std::unique_ptr<PlannedRun> run;
+    if (args.population.empty())
+        run = std::make_unique<ChannelRun>(args, common);
+    else
+        run = std::make_unique<SkinRun>(args, common, ranks);
+    TRY(run->plan());
+    return run;
 }
 
 /// Simulates the run with a progress bar.
@@ -98,7 +148,11 @@ int respond(const RespondArguments& given, const CommonArguments& common) {
     auto ranks = args.population.empty() ? Result<std::unique_ptr<Ranks>>(nullptr) : Ranks::join();
     if (!ranks) return report_once(ranks.error());
     auto* const group = ranks->get();
-    if (group && group->rank() > 0) return work_for_skin_run(args, *group), 0;
+    if (group && group->rank() > 0) {
+        auto quiet = common;
+        quiet.quiet = true;
+        return SkinRun(args, quiet, group).work(), 0;
+    }
     const auto run = plan_run(args, common, group);
     const auto threads = group ? std::max(1U, args.threads) : args.threads;
     const auto done = run ? respond_with(**run, args.outputs, threads, common) : run.error();

@@ -5,7 +5,6 @@
 
 #include "cli/arguments/netlist_arguments.hpp"
 #include "cli/arguments/recording_arguments.hpp"
-#include "core/afferent_spec.hpp"
 #include "run/run_inputs.hpp"
 
 namespace corpuscle {
@@ -20,7 +19,7 @@ struct OutputArguments {
 
 struct RespondArguments {
     std::vector<ForceArgument> forces;
-    std::vector<std::shared_ptr<const AfferentSpec>> afferents;  ///< of --afferent; default: sa1, fa1
+    std::vector<std::string> afferents;  ///< of --afferent; default: sa1, fa1. They are read only if there is no --population
     std::vector<ParameterOverride> settings, spreads;
     NetlistArguments netlists;
     RecordingOptions recording;  ///< `rate` also applies to stimuli

@@ -5,7 +5,7 @@
 #include <utility>
 
 #include "cli/arguments/force_argument.hpp"
-#include "cli/arguments/report_page.hpp"
+#include "cli/output/output_files.hpp"
 #include "cli/respond/respond_arguments.hpp"
 #include "cli/verbs.hpp"
 #include "io/table/foreign_format.hpp"
@@ -50,19 +50,12 @@ The unit of a recording is read from its header (fz_N, "fz [mN]"). If the header
 (--time names it) or from --rate.)";
 
 /// The method; its texts are those that the row accepts.
-OptionReader method_reader(RespondOptions& options) {
-    return [&options](const std::string& text) {
-        options.method = text == "exact" ? Method::exact : Method::backward_euler;
-        return Result<void>();
-    };
-}
+Result<Method> parse_method(const std::string& text) { return text == "exact" ? Method::exact : Method::backward_euler; }
 
-OptionReader noise_reader(RespondOptions& options) {
-    return [&options](const std::string& text) -> Result<void> {
-        TRY(quantity_reader(options.noise, "A")(text));
-        if (options.noise >= 0) return {};
-        return bad_usage(fmt::format("'{}' is negative; write a standard deviation, such as '50 nA'", text));
-    };
+Result<double> parse_noise(const std::string& text) {
+    const auto noise = TRY(quantity_of("A")(text));
+    if (noise >= 0) return noise;
+    return bad_usage(fmt::format("'{}' is negative; write a standard deviation, such as '50 nA'", text));
 }
 
 OptionReader spread_reader(std::vector<ParameterOverride>& spreads) {
@@ -76,8 +69,10 @@ OptionGroup afferent_options(RespondArguments& args) {
     return {
         "",
         {repeatable({"FORCE", list_reader(args.forces, read_force), "TEXT", "recordings and stimuli"}),
-         with_default("sa1,fa1", split_at_commas({"--afferent,-a", list_reader(args.afferents, read_afferent_spec), "NAME",
-                                                  "the afferents to simulate (repeat the option, or separate by commas)"})),
+         with_default("sa1,fa1",
+                      split_at_commas({"--afferent,-a",
+                                       list_reader(args.afferents, [](const std::string& name) { return Result<std::string>(name); }),
+                                       "NAME", "the afferents to simulate (repeat the option, or separate by commas)"})),
          repeatable({"--set,-s", override_reader(args.settings, "--set"), "NAME.PARAMETER=VALUE",
                      "set a parameter of an afferent or a stimulus, such as sa1.f_B=25Hz"}),
          {"--copies", &args.copies, "N", "simulate N copies of each afferent on every channel: sa1#1 ... sa1#N", std::pair(1U, max_copies)},
@@ -102,11 +97,11 @@ OptionGroup simulation_options(RespondArguments& args) {
     };
     return {
         "",
-        {with_default("exact", {"--method", method_reader(args.simulation), "METHOD",
+        {with_default("exact", {"--method", value_reader(args.simulation.method, parse_method), "METHOD",
                                 "time stepping: exact, or backward-euler as in the thesis", one_of("exact", "backward-euler")}),
          {"--sampled", &args.simulation.sampled, "",
           "put spikes on the sampling times, as in the thesis (default: interpolate within the step)"},
-         {"--noise", noise_reader(args.simulation), "CURRENT",
+         {"--noise", value_reader(args.simulation.noise, parse_noise), "CURRENT",
           "add white noise current to every membrane: its standard deviation in a bandwidth of 1 kHz, such as 100nA"},
          {"--seed", &args.simulation.seed, "N", "seed of all random numbers", OptionSign::not_negative},
          {"--threads,-j", &args.threads, "N", "number of threads (0: one per core, under mpirun one per rank); results do not depend on it",
@@ -142,8 +137,7 @@ Error force_as_page(const RespondArguments& args, const Error& error) {
 }
 
 Result<void> complete_arguments(RespondArguments& args, const CommonArguments& common) {
-    if (args.afferents.empty())
-        for (const auto* name : {"sa1", "fa1"}) args.afferents.push_back(*read_afferent_spec(name));
+    if (args.afferents.empty()) args.afferents = {"sa1", "fa1"};
     if (const auto ok = check_page_name(args.report_file); !ok) {
         if (!is_force(args.report_file)) return ok;
         if (!args.forces.empty()) return force_as_page(args, ok.error());

@@ -41,14 +41,14 @@ std::string sites_checksum(const Sites& sites) {
 
 }  // namespace
 
-Result<RunFingerprint> fingerprint_of(const SkinJob& job, const RespondArguments& args, const CommonArguments& common) {
-    RunFingerprint all = {{"the program", fmt::format("version {}", version)}, {"FORCE", args.forces[0].text}};
-    for (const auto& [name, values] : common.typed)
+Result<RunFingerprint> SkinRun::fingerprint() const {
+    RunFingerprint all = {{"the program", fmt::format("version {}", version)}, {"FORCE", args_.forces[0].text}};
+    for (const auto& [name, values] : common_.typed)
         if (name != "FORCE" && !is_output_option(name)) all.emplace_back(name, fmt::format("{}", fmt::join(values, " ")));
-    if (const auto& force = args.forces[0]; !force.is_stimulus && !force.touch) TRY(add_contents(all, "recording", force.text));
-    TRY(add_contents(all, "population file", args.population));
-    TRY(add_contents(all, "layout file", args.recording.layout));
-    all.emplace_back("contents of the table of sites", sites_checksum(job.skin->plan.sites));
+    if (const auto& force = args_.forces[0]; !force.is_stimulus && !force.touch) TRY(add_contents(all, "recording", force.text));
+    TRY(add_contents(all, "population file", args_.population));
+    TRY(add_contents(all, "layout file", args_.recording.layout));
+    all.emplace_back("contents of the table of sites", sites_checksum(innervation_->plan.sites));
     return all;
 }
 

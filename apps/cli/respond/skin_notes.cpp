@@ -10,26 +10,25 @@
 #include "skin/plan/indented_array.hpp"
 
 namespace corpuscle {
-namespace {
 
 /// Collects metadata and notes of force and contact, and warnings about the force and the steps of the run. Call it after the run.
-void add_force_notes(SkinJob& job) {
-    auto& notes = job.notes;
-    notes.metadata = job.source->metadata();
-    notes.notes = job.source->notes();
-    const auto quality = job.source->quality();
+void SkinRun::add_force_notes() {
+    auto& notes = notes_;
+    notes.metadata = source_->metadata();
+    notes.notes = source_->notes();
+    const auto quality = source_->quality();
     notes.notes.insert(notes.notes.end(), quality.descriptions.begin(), quality.descriptions.end());
     notes.warnings.insert(notes.warnings.end(), quality.warnings.begin(), quality.warnings.end());
-    if (!job.skin_note.empty()) notes.notes.push_back(job.skin_note);
-    if (job.contact) {
-        notes.contact = job.contact->description();
-        for (auto& f : job.contact->metadata()) notes.metadata.push_back(std::move(f));
-        for (auto& r : job.contact->notes()) notes.notes.push_back(std::move(r));
+    if (!skin_note_.empty()) notes.notes.push_back(skin_note_);
+    if (contact_) {
+        notes.contact = contact_->description();
+        for (auto& f : contact_->metadata()) notes.metadata.push_back(std::move(f));
+        for (auto& r : contact_->notes()) notes.notes.push_back(std::move(r));
     }
-    for (const auto& c : job.skin->plan.classes)
-        if (job.source->clock().rate() < c.afferent.min_rate * (1 - 1e-9))
+    for (const auto& c : innervation_->plan.classes)
+        if (source_->clock().rate() < c.afferent.min_rate * (1 - 1e-9))
             notes.warnings.push_back(fmt::format("{}: the sampling rate of the force is {:g} Hz; {:g} Hz or more is needed", c.name,
-                                                 job.source->clock().rate(), c.afferent.min_rate));
+                                                 source_->clock().rate(), c.afferent.min_rate));
     if (notes.stats.truncated_steps > 0)
         notes.warnings.push_back(
             fmt::format("{} time steps reached the spike limit of one step and were truncated; increase the sampling rate or the "
@@ -38,19 +37,19 @@ void add_force_notes(SkinJob& job) {
 }
 
 /// A remedy for a force that is too weak: the setting or option that multiplies it by `factor`; "" if there is none.
-std::string stronger_stimulus_advice(const SkinJob& job, const RespondArguments& args, double factor) {
-    const auto& plan = job.skin->plan;
-    if (job.contact && plan.sites.area > 0 && !(plan.felt_area > 0)) {
+std::string SkinRun::stronger_stimulus_advice(double factor) const {
+    const auto& plan = innervation_->plan;
+    if (contact_ && plan.sites.area > 0 && !(plan.felt_area > 0)) {
         const auto area = std::max(factor * plan.sites.area, default_felt_area);
         return fmt::format("set felt_area = \"{} cm2\" in {}: without it an afferent receives the mean force of its sites",
-                           format_rounded_up(1e4 * area), args.population);
+                           format_rounded_up(1e4 * area), args_.population);
     }
-    const auto metadata = job.source->metadata();
-    if (!is_stimulus(job.source->name())) {
+    const auto metadata = source_->metadata();
+    if (!is_stimulus(source_->name())) {
         // The metadata of a recording begins with the scale of its first channel.
         const bool has_gain = !metadata.empty() && metadata[0].name.ends_with("newtons per unit");
         return has_gain ? fmt::format("try --scale {}{}", format_rounded_up(factor * metadata[0].value),
-                                      args.recording.unit ? " instead of --unit" : "")
+                                      args_.recording.unit ? " instead of --unit" : "")
                         : "";
     }
     // The parameter of the stimulus with the largest force is assumed to be its amplitude.
@@ -61,12 +60,13 @@ std::string stronger_stimulus_advice(const SkinJob& job, const RespondArguments&
 }
 
 /// Reports the silent classes: as a warning if all classes are silent, else as a note.
-void add_silence_notes(SkinJob& job, const RespondArguments& args, const std::vector<SilentClass>& silent) {
+void SkinRun::add_silence_notes() {
+    const auto silent = silence_.silent_classes(options_);
     constexpr double margin = 1.25;  // on the factor, because the afferents of a class vary and receive different forces
     std::vector<std::string> messages;
     std::optional<double> min_factor;  // of the class that needs the least additional force
     for (const auto& s : silent) {
-        auto text = job.skin->plan.classes[s.class_index].name;
+        auto text = innervation_->plan.classes[s.class_index].name;
         if (!(s.max_force > 0))
             text += " received no force";
         else if (!s.factor)
@@ -79,36 +79,28 @@ void add_silence_notes(SkinJob& job, const RespondArguments& args, const std::ve
     }
     if (silent.empty()) return;
     const bool any_force = std::any_of(silent.begin(), silent.end(), [](const SilentClass& s) { return s.max_force > 0; });
-    const bool all = silent.size() == job.skin->plan.classes.size();
+    const bool all = silent.size() == innervation_->plan.classes.size();
     auto text = fmt::format("{}: {}", all ? "no afferent fired" : "never fired", fmt::join(messages, "; "));
     if (all && min_factor)
-        if (const auto remedy = stronger_stimulus_advice(job, args, margin * *min_factor); !remedy.empty()) text += "; " + remedy;
-    if (all && !any_force && job.contact)
+        if (const auto remedy = stronger_stimulus_advice(margin * *min_factor); !remedy.empty()) text += "; " + remedy;
+    if (all && !any_force && contact_)
         text += fmt::format(
             "; --set contact.x=... and --set contact.y=... place the indenter (for positions see afferents.csv, or type: corpuscle list {} "
             "--sites)",
-            quote_shell_word(args.population));
-    (all ? job.notes.warnings : job.notes.notes).push_back(std::move(text));
+            quote_shell_word(args_.population));
+    (all ? notes_.warnings : notes_.notes).push_back(std::move(text));
 }
 
 /// Warns of classes in which afferents fire faster than a nerve fibre can.
-void add_rate_warnings(SkinJob& job, const SkinSummary& summary) {
-    for (std::size_t c = 0; c < job.skin->plan.classes.size(); ++c) {
-        const auto& plan = job.skin->plan.classes[c].afferent;
-        const auto [count, rate] = summary.count_faster_than(c, max_nerve_rate);
+void SkinRun::add_rate_warnings() {
+    for (std::size_t c = 0; c < innervation_->plan.classes.size(); ++c) {
+        const auto& plan = innervation_->plan.classes[c].afferent;
+        const auto [count, rate] = summary_.count_faster_than(c, max_nerve_rate);
         if (count > 0)
-            job.notes.warnings.push_back(
-                fmt::format("{} of {} {} afferents: {}", count, job.skin->class_begin[c + 1] - job.skin->class_begin[c],
-                            job.skin->plan.classes[c].name, excessive_rate_warning(rate, plan, job.skin->plan.classes[c].name)));
+            notes_.warnings.push_back(
+                fmt::format("{} of {} {} afferents: {}", count, innervation_->class_begin[c + 1] - innervation_->class_begin[c],
+                            innervation_->plan.classes[c].name, excessive_rate_warning(rate, plan, innervation_->plan.classes[c].name)));
     }
-}
-
-}  // namespace
-
-void collect_notes(SkinJob& job, const RespondArguments& args, const SkinSummary& summary, const SilenceDetector& silence) {
-    add_force_notes(job);
-    add_silence_notes(job, args, silence.silent_classes(job.options));
-    add_rate_warnings(job, summary);
 }
 
 }  // namespace corpuscle

@@ -7,45 +7,39 @@
 #include "cli/output/terminal.hpp"
 
 namespace corpuscle {
-namespace {
 
-/// The afferents of a skin that this process simulates.
-Result<std::unique_ptr<Skin>> make_skin(const SkinJob& job, const Ranks* ranks) {
+Result<void> SkinRun::make_skin() {
     const auto set = TRY(instruction_set());
-    const auto part = ranks ? SkinPart{static_cast<std::uint32_t>(ranks->rank()), static_cast<std::uint32_t>(ranks->size())} : SkinPart{};
-    return Skin::make(job.skin, job.options.for_clock(job.source->clock()), set, part);
+    const auto part =
+        ranks_ ? SkinPart{static_cast<std::uint32_t>(ranks_->rank()), static_cast<std::uint32_t>(ranks_->size())} : SkinPart{};
+    skin_ = TRY(Skin::make(innervation_, options_.for_clock(source_->clock()), set, part));
+    return {};
 }
 
-}  // namespace
-
-void work_for_skin_run(const RespondArguments& args, Ranks& ranks) {
-    ThreadPool pool(std::max(1U, args.threads));
-    auto job = plan_skin_job(args, true);
-    if (!job) return run_skin_worker(ranks, job.error(), nullptr, pool);
-    auto skin = make_skin(*job, &ranks);
-    if (!skin) return run_skin_worker(ranks, skin.error(), nullptr, pool);
-    run_skin_worker(ranks, job->force.get(), skin->get(), pool);
+void SkinRun::work() {
+    ThreadPool pool(std::max(1U, args_.threads));
+    auto ready = plan();
+    if (ready) ready = make_skin();
+    ready ? run_skin_worker(*ranks_, force_.get(), skin_.get(), pool) : run_skin_worker(*ranks_, ready.error(), nullptr, pool);
 }
 
 Result<void> SkinRun::open_checkpoint() {
     if (args_.outputs.checkpoint.empty()) return {};
     if (ranks_) return bad_usage("--checkpoint works with one process only, not under mpirun");
-    auto fingerprint = TRY(fingerprint_of(job_, args_, common_));
-    checkpoint_ = TRY(SkinCheckpoint::open(args_.outputs.checkpoint, *skin_, std::move(fingerprint)));
+    auto current = TRY(fingerprint());
+    checkpoint_ = TRY(SkinCheckpoint::open(args_.outputs.checkpoint, *skin_, std::move(current)));
     if (checkpoint_->resumed_samples() > 0 && !common_.quiet)
         print_message(fmt::format("resuming after {:.3f} s, from {}",
-                                  job_.source->clock().T() * static_cast<double>(checkpoint_->resumed_samples()),
-                                  args_.outputs.checkpoint));
+                                  source_->clock().T() * static_cast<double>(checkpoint_->resumed_samples()), args_.outputs.checkpoint));
     return {};
 }
 
 Result<std::vector<std::unique_ptr<BlockSimulator>>> SkinRun::simulators() {
-    skin_ = TRY(make_skin(job_, ranks_));
+    TRY(make_skin());
     TRY(open_checkpoint());
     const SkinRunParts parts{ranks_, checkpoint_.get()};
     std::vector<std::unique_ptr<BlockSimulator>> inputs;
-    inputs.push_back(
-        std::make_unique<SkinSimulator>(population_, make_input(population_, job_.name, *job_.source), *job_.force, *skin_, parts));
+    inputs.push_back(std::make_unique<SkinSimulator>(*population_, make_input(*population_, name_, *source_), *force_, *skin_, parts));
     return inputs;
 }
 
@@ -55,16 +49,16 @@ Error SkinRun::interruption(Error error) const {
 }
 
 nlohmann::ordered_json SkinRun::summarize(const RunStats& stats) {
-    job_.notes.stats = stats;
-    collect_notes(job_, args_, summary_, silence_);
-    for (const auto& r : common_.quiet ? std::vector<std::string>{} : job_.notes.notes) print_message(fmt::format("{}: {}", job_.name, r));
-    for (const auto& warning : job_.notes.warnings) print_warning(warning);
-    return summary_.document(job_.options, job_.notes);
+    notes_.stats = stats;
+    add_force_notes();
+    add_silence_notes();
+    add_rate_warnings();
+    print_notes(name_, notes_.notes, common_.quiet);
+    for (const auto& warning : notes_.warnings) print_warning(warning);
+    return summary_.document(options_, notes_);
 }
 
-std::string SkinRun::page(const nlohmann::ordered_json&) const {
-    return skin_page(summary_, *report_, job_.options, job_.notes, common_.command);
-}
+std::string SkinRun::page(const nlohmann::ordered_json&) const { return skin_page(summary_, *report_, options_, notes_, common_.command); }
 
 void SkinRun::remove_checkpoint() {
     if (checkpoint_) checkpoint_->remove_files();

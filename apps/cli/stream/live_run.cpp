@@ -1,10 +1,9 @@
-#include "cli/stream/live_run.hpp"
-
 #include <fmt/format.h>
 #include <poll.h>
 #include <unistd.h>
 #include <cmath>
 #include <nlohmann/json.hpp>
+#include <numeric>
 #include <utility>
 
 #include "circuit/variant/embedded_netlists.hpp"
@@ -13,9 +12,9 @@
 #include "cli/output/stream_report.hpp"
 #include "cli/output/terminal.hpp"
 #include "cli/stream/stream_input.hpp"
+#include "core/text/ascii_text.hpp"
 #include "core/text/input_files.hpp"
 #include "io/output/output_check.hpp"
-#include "live/input/site_frames.hpp"
 #include "live/live_population.hpp"
 #include "live/stream_state.hpp"
 #include "run/skin/skin_force.hpp"
@@ -40,11 +39,7 @@ Result<void> check_no_netlist(const StreamArguments& args) {
         return bad_usage(fmt::format("{}: a stream simulates models, not netlists; for a netlist type: corpuscle respond {} --afferent {}",
                                      option, is_live_input(args.in) ? "FORCE" : args.in, name));
     };
-    for (std::string_view rest = args.population; !rest.empty();) {
-        const auto comma = std::min(rest.find(','), rest.size());
-        TRY(check(rest.substr(0, comma), "--population " + args.population));
-        rest.remove_prefix(std::min(comma + 1, rest.size()));
-    }
+    for (const auto name : split(args.population, ',')) TRY(check(name, "--population " + args.population));
     for (const auto& o : args.settings) TRY(check(o.target, "--set " + o.text()));
     return {};
 }
@@ -73,7 +68,8 @@ class LiveRun {
         TRY(open_skin(source->channels(), source->clock()));
         auto sites = TRY(match_sites(skin_->innervation().plan, *source));
         source_ = source.get();
-        frames_ = assign_sites(make_frame_source(std::move(source), args_.pace == "real"), std::move(sites), skin_->sites());
+        frames_ = make_frame_source(std::move(source), args_.pace == "real");
+        frames_->assign_sites(std::move(sites), skin_->sites());
         return {};
     }
 
@@ -111,8 +107,9 @@ class LiveRun {
         const auto in_frames = [&](double seconds) { return static_cast<std::int64_t>(std::min(seconds * clock.rate(), 2e9)); };
         frames_ = make_frame_source(std::move(bytes), layout_, in_frames(args_.hold), in_frames(args_.max_gap), args_.batch_frames,
                                     header_reader(sites));
-        frames_ = TRY(filter_live_frames(std::move(frames_), args_.recording, layout_.sites, clock));
-        if (!sites.empty()) frames_ = assign_sites(std::move(frames_), std::move(sites), skin_->sites());
+        const auto filters = TRY(live_filters(args_.recording, clock));
+        if (sites.empty()) sites.resize(layout_.sites), std::iota(sites.begin(), sites.end(), 0U);
+        frames_->assign_sites(std::move(sites), skin_->sites(), filters);
         return {};
     }
 
@@ -164,8 +161,7 @@ class LiveRun {
 
     /// Prints how a recording was read, and warns if the frame rate is too low.
     void print_notes() {
-        const auto notes = source_ && !common_.quiet ? source_->notes() : std::vector<std::string>{};
-        for (const auto& r : notes) print(fmt::format("{}: {}", source_->name(), r));
+        if (source_) corpuscle::print_notes(source_->name(), source_->notes(), common_.quiet);
         const double rate = skin_->clock().rate();
         for (const auto& c : skin_->innervation().plan.classes)
             if (rate < c.afferent.min_rate * (1 - 1e-9))
@@ -177,9 +173,9 @@ class LiveRun {
     void print_quality() {
         if (!source_) return;
         const auto quality = source_->quality();
-        for (const auto& s : common_.quiet ? std::vector<std::string>{} : quality.descriptions)
-            print(fmt::format("{}: {}", source_->name(), s));
-        for (const auto& s : quality.warnings) clear_status(), print_warning(fmt::format("{}: {}", source_->name(), s));
+        clear_status();
+        corpuscle::print_notes(source_->name(), quality.descriptions, common_.quiet);
+        for (const auto& s : quality.warnings) print_warning(fmt::format("{}: {}", source_->name(), s));
     }
 
     /// Describes the error of a frame. If the width of a frame is wrong, adds the option that would make it right.

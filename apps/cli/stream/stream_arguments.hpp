@@ -1,5 +1,5 @@
 #pragma once
-// The arguments of `corpuscle stream`.
+// The arguments of `corpuscle stream`, and the function that runs it.
 
 #include <cstdint>
 #include <string>
@@ -23,5 +23,9 @@ struct StreamArguments {
     std::int64_t baud = 115200;
     bool sampled = false, busy_poll = false, allow_drops = false;
 };
+
+/// Runs one live stream until its input ends: opens input, skin and output, simulates, and prints a summary. If it is interrupted, which is
+/// an error, the summary has been printed.
+Result<void> run_live(const StreamArguments&, const CommonArguments&);
 
 }  // namespace corpuscle

@@ -8,7 +8,6 @@
 #include "cli/output/terminal.hpp"
 #include "cli/stream/live_options.hpp"
 #include "io/recording/column_selection.hpp"
-#include "live/input/filtered_frames.hpp"
 
 namespace corpuscle {
 namespace {
@@ -76,13 +75,11 @@ Result<FrameLayout> live_layout(const StreamArguments& args, std::size_t sites, 
     return layout;
 }
 
-Result<std::unique_ptr<FrameSource>> filter_live_frames(std::unique_ptr<FrameSource> frames, const RecordingOptions& options,
-                                                        std::size_t sites, const Clock& clock) {
+Result<std::vector<Biquad>> live_filters(const RecordingOptions& options, const Clock& clock) {
     std::vector<Biquad> filters;
-    const auto add = [&](const Result<Biquad>& filter) { return filter ? (filters.push_back(*filter), Result<void>()) : filter.error(); };
-    for (const double f : options.notch) TRY(add(Biquad::notch(f, clock)));
-    if (options.lowpass) TRY(add(Biquad::lowpass(*options.lowpass, clock)));
-    return filter_frames(std::move(frames), sites, filters);
+    for (const double f : options.notch) filters.push_back(TRY(Biquad::notch(f, clock)));
+    if (options.lowpass) filters.push_back(TRY(Biquad::lowpass(*options.lowpass, clock)));
+    return filters;
 }
 
 Result<std::unique_ptr<ByteSource>> open_live_input(const StreamArguments& args, const FrameLayout& layout) {

@@ -7,6 +7,7 @@
 
 #include "cli/stream/stream_arguments.hpp"
 #include "core/parameter_override.hpp"
+#include "io/quality/biquad.hpp"
 #include "io/recording/recording.hpp"
 #include "live/input/byte_source.hpp"
 #include "live/input/frame_layout.hpp"
@@ -28,9 +29,8 @@ Result<void> check_live_options(const StreamArguments&, const CommonArguments&);
 Result<Clock> live_clock(const StreamArguments&);
 /// The layout of live frames. `sites`: number of forces in a frame.
 Result<FrameLayout> live_layout(const StreamArguments&, std::size_t sites, const Clock&);
-/// The frames with the filters of --notch and --lowpass. `sites`: number of forces in a frame.
-Result<std::unique_ptr<FrameSource>> filter_live_frames(std::unique_ptr<FrameSource>, const RecordingOptions&, std::size_t sites,
-                                                        const Clock&);
+/// The filters of --notch and --lowpass.
+Result<std::vector<Biquad>> live_filters(const RecordingOptions&, const Clock&);
 /// Opens a live input: standard input, a port or a serial device.
 Result<std::unique_ptr<ByteSource>> open_live_input(const StreamArguments&, const FrameLayout&);
 

@@ -7,7 +7,6 @@
 
 #include "cli/output/sweep_status.hpp"
 #include "cli/output/terminal.hpp"
-#include "cli/sweep/sweep_verbs.hpp"
 #include "cli/verbs.hpp"
 #include "sweep/parallel/rank_run.hpp"
 #include "sweep/store/writer_lock.hpp"

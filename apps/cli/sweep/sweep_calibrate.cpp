@@ -6,8 +6,9 @@
 
 #include "circuit/variant/netlist_variants.hpp"
 #include "cli/output/terminal.hpp"
-#include "cli/sweep/sweep_verbs.hpp"
+#include "cli/verbs.hpp"
 #include "core/stimulus/stimuli.hpp"
+#include "core/text/ascii_text.hpp"
 #include "run/afferent_plan.hpp"
 #include "run/simulate.hpp"
 #include "sweep/calibrate/calibration_report.hpp"
@@ -52,13 +53,9 @@ Result<Trim> parse_trim(const std::string& text, const ChipCalibration& calibrat
     if (!range || end == range->c_str() || std::string(end) != "%" || !(percent > 0 && percent <= 1000))
         return bad_usage(
             fmt::format("--trim {}: write NAME=RANGE, such as i_leak=50%: the highest code increases the value by 50 %", text));
-    std::vector<std::string> names;
-    for (std::size_t from = 0; from < equals;) {
-        const auto to = std::min(text.find('+', from), equals);
-        names.push_back(text.substr(from, to - from));
-        from = to + 1;
-    }
-    if (names.empty() || names[0].empty()) return bad_usage(fmt::format("--trim {}: the name before = is missing", text));
+    const auto parts = split(std::string_view(text).substr(0, equals), '+');
+    std::vector<std::string> names(parts.begin(), parts.end());
+    if (names[0].empty()) return bad_usage(fmt::format("--trim {}: the name before = is missing", text));
     const bool is_integer = names[0].ends_with(".m");
     return trim_of(calibration.netlist, calibration.overrides, std::move(names), percent / 100, is_integer);
 }

@@ -3,7 +3,7 @@
 #include <cstdio>
 
 #include "cli/output/terminal.hpp"
-#include "cli/sweep/sweep_verbs.hpp"
+#include "cli/verbs.hpp"
 #include "sweep/store/dump.hpp"
 
 namespace corpuscle {

@@ -4,7 +4,7 @@
 
 #include "cli/output/sweep_status.hpp"
 #include "cli/output/terminal.hpp"
-#include "cli/sweep/sweep_verbs.hpp"
+#include "cli/verbs.hpp"
 
 namespace corpuscle {
 namespace {

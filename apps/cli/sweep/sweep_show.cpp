@@ -5,12 +5,11 @@
 #include <filesystem>
 #include <nlohmann/json.hpp>
 
-#include "cli/arguments/report_page.hpp"
 #include "cli/output/output_files.hpp"
 #include "cli/output/printable.hpp"
 #include "cli/output/sweep_tables.hpp"
 #include "cli/output/terminal.hpp"
-#include "cli/sweep/sweep_verbs.hpp"
+#include "cli/verbs.hpp"
 #include "core/text/input_files.hpp"
 #include "io/output/output_check.hpp"
 #include "report/sweep/sweep_page.hpp"

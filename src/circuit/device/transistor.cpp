@@ -151,31 +151,15 @@ Result<std::unique_ptr<Device>> make_transistor(const Element& e, DeviceSetup& s
     return make_device<Transistor>(std::move(unknowns), card, instance, setup.temperature(e) - zero_celsius, model.type == "pmos");
 }
 
-/// Selects the table of kernels for the instruction set that instruction_set() returns.
+/// The kernels for the instruction set that instruction_set() returns.
 template <class Table>
-Result<const Table*> select_table(const Table& scalar, [[maybe_unused]] const Table& avx2, [[maybe_unused]] const Table& avx512,
-                                  const Table& baseline) {
+Result<const Table*> select_table(const Table& scalar, const Table& (*of_set)(InstructionSet)) {
     const auto set = TRY(instruction_set());
-    switch (set) {
-        case InstructionSet::scalar:
-            return &scalar;
-        case InstructionSet::avx2:
-            return &avx2;
-        case InstructionSet::avx512:
-            return &avx512;
-        default:
-            return &baseline;
-    }
+    return set == InstructionSet::scalar ? &scalar : &of_set(set);
 }
 
-#ifdef __x86_64__
-#define CORPUSCLE_SELECT_TABLE(scalar, table) select_table(scalar, lanes::avx2::table, lanes::avx512::table, lanes::baseline::table)
-#else
-#define CORPUSCLE_SELECT_TABLE(scalar, table) select_table(scalar, lanes::baseline::table, lanes::baseline::table, lanes::baseline::table)
-#endif
-
 Result<std::unique_ptr<DeviceBatch>> make_transistor_batch() {
-    const auto kernels = TRY(CORPUSCLE_SELECT_TABLE(lanes::scalar_transistor_kernels, transistor_kernel_table));
+    const auto kernels = TRY(select_table(lanes::scalar_transistor_kernels, lanes::transistor_kernel_table));
     return std::unique_ptr<DeviceBatch>(std::make_unique<TransistorBatch>(*kernels));
 }
 
@@ -230,7 +214,7 @@ constexpr std::string_view transistor_names[] = {"off"};
 
 const UicmConstants& transistor_constants(const Device& device) { return static_cast<const Transistor&>(device).constants(); }
 
-Result<const lanes::ChipKernels*> chip_kernels() { return CORPUSCLE_SELECT_TABLE(lanes::scalar_chip_kernels, chip_kernel_table); }
+Result<const lanes::ChipKernels*> chip_kernels() { return select_table(lanes::scalar_chip_kernels, lanes::chip_kernel_table); }
 
 extern constexpr DeviceKind transistor_kind = {.letter = 'm',
                                                .description = "MOS transistor, UICM",

@@ -6,6 +6,7 @@
 #include <cstdint>
 
 #include "circuit/device/uicm_constants.hpp"
+#include "core/number/instruction_set.hpp"
 
 namespace corpuscle::circuit::lanes {
 
@@ -119,14 +120,6 @@ struct ChipKernels {
 };
 
 extern const ChipKernels scalar_chip_kernels;
-namespace baseline {
-extern const ChipKernels chip_kernel_table;
-}
-namespace avx2 {
-extern const ChipKernels chip_kernel_table;
-}
-namespace avx512 {
-extern const ChipKernels chip_kernel_table;
-}
+CORPUSCLE_KERNELS(ChipKernels, chip_kernel_table)
 
 }  // namespace corpuscle::circuit::lanes

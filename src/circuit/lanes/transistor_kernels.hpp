@@ -5,6 +5,7 @@
 #include <cstddef>
 
 #include "circuit/device/uicm_constants.hpp"
+#include "core/number/instruction_set.hpp"
 
 namespace corpuscle::circuit::lanes {
 
@@ -37,14 +38,6 @@ struct TransistorKernels {
 };
 
 extern const TransistorKernels scalar_transistor_kernels;
-namespace baseline {
-extern const TransistorKernels transistor_kernel_table;
-}
-namespace avx2 {
-extern const TransistorKernels transistor_kernel_table;
-}
-namespace avx512 {
-extern const TransistorKernels transistor_kernel_table;
-}
+CORPUSCLE_KERNELS(TransistorKernels, transistor_kernel_table)
 
 }  // namespace corpuscle::circuit::lanes

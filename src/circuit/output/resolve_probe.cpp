@@ -110,10 +110,13 @@ std::string suggest_probe(const Circuit& c, std::string_view probe_text) {
     const auto kind = probe->is_current ? LastPiece::element : LastPiece::node;
     if (!probe->is_current && find_matching_names(elements_of(c), probe->first, LastPiece::element).size() == 1)
         return fmt::format("; a device's current is i({})", probe->first);
+    const auto names = probe->is_current ? elements_of(c) : nodes_of(c);
     std::vector<std::string> known;
-    for (const auto name : probe->is_current ? elements_of(c) : nodes_of(c))
-        known.push_back(short_name(name, piece_count(probe->first), kind));
-    return did_you_mean(lower(probe->first), std::vector<std::string_view>(known.begin(), known.end()));
+    for (const auto name : names) known.push_back(short_name(name, piece_count(probe->first), kind));
+    const auto similar = did_you_mean(lower(probe->first), std::vector<std::string_view>(known.begin(), known.end()));
+    return !similar.empty() || names.empty()
+               ? similar
+               : fmt::format("; there are the {} {}", probe->is_current ? "devices" : "nodes", abbreviated_list(names));
 }
 
 }  // namespace corpuscle::circuit

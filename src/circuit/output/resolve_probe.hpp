@@ -15,7 +15,8 @@ std::vector<std::string> split_probes(std::string_view text);
 /// a device whose current cannot be recorded are errors.
 Result<std::optional<std::string>> resolve_probe(const Circuit&, std::string_view probe_text);
 
-/// A suggestion for a probe that resolve_probe() does not find: "; did you mean 'hpb'?". "" if no name is similar.
+/// A suggestion for a probe that resolve_probe() does not find: "; did you mean 'hpb'?". If no name is similar, the first names:
+/// "; there are the nodes in, out".
 std::string suggest_probe(const Circuit&, std::string_view probe_text);
 
 }  // namespace corpuscle::circuit

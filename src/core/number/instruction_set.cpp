@@ -2,7 +2,6 @@
 
 #include <fmt/format.h>
 #include <cstdlib>
-#include <vector>
 
 namespace corpuscle {
 
@@ -11,14 +10,23 @@ std::string_view name_of(InstructionSet set) {
     return names[static_cast<int>(set)];
 }
 
-std::span<const InstructionSet> instruction_sets() {
-    static const auto all = [] {
-        std::vector<InstructionSet> sets = {InstructionSet::scalar, InstructionSet::baseline};
-#ifdef __x86_64__
-        if (__builtin_cpu_supports("x86-64-v3")) sets.push_back(InstructionSet::avx2);
-        if (__builtin_cpu_supports("x86-64-v4")) sets.push_back(InstructionSet::avx512);
+std::span<const InstructionSet> compiled_instruction_sets() {
+    static constexpr InstructionSet all[] = {InstructionSet::scalar, InstructionSet::baseline,
+#ifdef CORPUSCLE_AVX
+                                             InstructionSet::avx2, InstructionSet::avx512
 #endif
-        return sets;
+    };
+    return all;
+}
+
+std::span<const InstructionSet> instruction_sets() {
+    // Each set contains those before it, so the supported ones are the first.
+    static const auto all = [] {
+        std::size_t count = 2;
+#ifdef CORPUSCLE_AVX
+        count += __builtin_cpu_supports("x86-64-v4") ? 2 : __builtin_cpu_supports("x86-64-v3") ? 1 : 0;
+#endif
+        return compiled_instruction_sets().first(count);
     }();
     return all;
 }

@@ -1,9 +1,10 @@
 #pragma once
-// Functions for text that the user typed: removal of blanks around it, and comparison without regard to case.
+// Functions for text that the user typed: removal of blanks around it, comparison without regard to case, and splitting.
 
 #include <algorithm>
 #include <string>
 #include <string_view>
+#include <vector>
 
 namespace corpuscle {
 
@@ -23,5 +24,16 @@ inline std::string lower(std::string_view s) {
 }
 
 inline bool equal_ignoring_case(std::string_view a, std::string_view b) { return lower(a) == lower(b); }
+
+/// The parts of a text between its separators, at least one.
+inline std::vector<std::string_view> split(std::string_view text, char separator) {
+    std::vector<std::string_view> parts;
+    for (std::size_t at = 0; at <= text.size();) {
+        const auto end = std::min(text.find(separator, at), text.size());
+        parts.push_back(text.substr(at, end - at));
+        at = end + 1;
+    }
+    return parts;
+}
 
 }  // namespace corpuscle

@@ -83,7 +83,7 @@ public:
         return received.status != ReadResult::end;
     }
 
-    Next next(std::span<double> force) override {
+    Next read_frame(std::span<double> force) override {
         for (;;) {
             if (unnumbered_errors_ > 0) return --unnumbered_errors_, Next::filled;
             if (hold_ > 0) return --hold_, Next::filled;

@@ -18,20 +18,28 @@ namespace {
 
 bool is_temporary(int error_number) { return error_number == EAGAIN || error_number == EWOULDBLOCK || error_number == EINTR; }
 
-class StandardInput final : public ByteSource {
+/// Standard input or a serial device.
+class DeviceInput final : public ByteSource {
+    Descriptor own_;  // closes fd_; empty: fd_ stays open
+    int fd_;
+    std::string name_;
+    bool can_fail_;  // false: a failure is the end, as of a device that is unplugged
+
 public:
-    int poll_fd() const override { return STDIN_FILENO; }
-    std::string description() const override { return "standard input"; }
+    DeviceInput(Descriptor own, int fd, std::string name, bool can_fail)
+        : own_(std::move(own)), fd_(fd), name_(std::move(name)), can_fail_(can_fail) {}
+    int poll_fd() const override { return fd_; }
+    std::string description() const override { return name_; }
     bool is_live() const override {
         struct ::stat info = {};
-        return ::fstat(STDIN_FILENO, &info) != 0 || !S_ISREG(info.st_mode);
+        return ::fstat(fd_, &info) != 0 || !S_ISREG(info.st_mode);
     }
     Result<ReadResult> read(std::span<char> out) override {
-        const auto count = ::read(STDIN_FILENO, out.data(), out.size());
+        const auto count = ::read(fd_, out.data(), out.size());
         if (count > 0) return ReadResult{ReadResult::bytes, static_cast<std::size_t>(count)};
-        if (count == 0) return ReadResult{ReadResult::end};
-        if (is_temporary(errno)) return ReadResult{ReadResult::nothing};
-        return bad_input(fmt::format("standard input cannot be read: {}", std::strerror(errno)));
+        if (count < 0 && is_temporary(errno)) return ReadResult{ReadResult::nothing};
+        if (count == 0 || !can_fail_) return ReadResult{ReadResult::end};
+        return bad_input(fmt::format("{} cannot be read: {}", name_, std::strerror(errno)));
     }
 };
 
@@ -104,29 +112,15 @@ public:
     }
 };
 
-class Serial final : public ByteSource {
-    std::string path_;
-    Descriptor line_;
-
-public:
-    Serial(std::string path, Descriptor line) : path_(std::move(path)), line_(std::move(line)) {}
-    int poll_fd() const override { return line_.get(); }
-    std::string description() const override { return "serial line " + path_; }
-    Result<ReadResult> read(std::span<char> out) override {
-        const auto count = ::read(line_.get(), out.data(), out.size());
-        if (count > 0) return ReadResult{ReadResult::bytes, static_cast<std::size_t>(count)};
-        if (count < 0 && is_temporary(errno)) return ReadResult{ReadResult::nothing};
-        return ReadResult{ReadResult::end};  // disconnected or unplugged
-    }
-};
-
 constexpr std::pair<long, speed_t> bauds[] = {{9600, B9600},       {19200, B19200},     {38400, B38400},     {57600, B57600},
                                               {115200, B115200},   {230400, B230400},   {460800, B460800},   {921600, B921600},
                                               {1000000, B1000000}, {2000000, B2000000}, {3000000, B3000000}, {4000000, B4000000}};
 
 }  // namespace
 
-Result<std::unique_ptr<ByteSource>> open_standard_input() { return std::unique_ptr<ByteSource>(std::make_unique<StandardInput>()); }
+Result<std::unique_ptr<ByteSource>> open_standard_input() {
+    return std::unique_ptr<ByteSource>(std::make_unique<DeviceInput>(Descriptor(), STDIN_FILENO, "standard input", true));
+}
 
 std::size_t ByteSource::unread_bytes() const {
     int bytes = 0;
@@ -159,7 +153,8 @@ Result<std::unique_ptr<ByteSource>> open_serial(const std::string& path, long ba
     if (::tcsetattr(line.get(), TCSANOW, &settings) != 0)
         return bad_input(fmt::format("cannot be set to {} baud: {}", baud, std::strerror(errno)), {path});
     ::tcflush(line.get(), TCIFLUSH);
-    return std::unique_ptr<ByteSource>(std::make_unique<Serial>(path, std::move(line)));
+    const int fd = line.get();
+    return std::unique_ptr<ByteSource>(std::make_unique<DeviceInput>(std::move(line), fd, "serial line " + path, false));
 }
 
 }  // namespace corpuscle

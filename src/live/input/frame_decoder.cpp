@@ -37,19 +37,12 @@ std::size_t fields_in(std::string_view line) {
     return fields;
 }
 
-bool is_number(std::string_view field) {
+/// The number in a field, which may be NaN; no value if it is not a number.
+std::optional<double> number_in(std::string_view field) {
     double x = 0;
     if (field.starts_with('+')) field.remove_prefix(1);  // from_chars() does not accept it
     const auto [end, status] = std::from_chars(field.data(), field.data() + field.size(), x);
-    return status == std::errc{} && end == field.data() + field.size();
-}
-
-/// The number in a field; NaN if it is not a number.
-double number_of(std::string_view field) {
-    double x = 0;
-    if (field.starts_with('+')) field.remove_prefix(1);
-    const auto [end, status] = std::from_chars(field.data(), field.data() + field.size(), x);
-    return status == std::errc{} && end == field.data() + field.size() ? x : not_a_number;
+    return status == std::errc{} && end == field.data() + field.size() ? std::optional(x) : std::nullopt;
 }
 
 /// The functions for this machine's instruction set.
@@ -135,7 +128,7 @@ bool FrameDecoder::add_datagram(std::size_t bytes) {
 bool FrameDecoder::is_header(std::string_view line) const {
     std::size_t fields = 0;
     for (; !line.empty(); ++fields)
-        if (is_number(next_field(line))) return false;
+        if (number_in(next_field(line))) return false;
     return fields == layout_.sites + (layout_.stamp == FrameStamp::none ? 0 : 1);
 }
 
@@ -164,7 +157,7 @@ bool FrameDecoder::read_stamp(double seconds) {
 }
 
 bool FrameDecoder::read_stamp(std::string_view text) {
-    if (layout_.stamp == FrameStamp::time) return read_stamp(number_of(text));
+    if (layout_.stamp == FrameStamp::time) return read_stamp(number_in(text).value_or(not_a_number));
     std::int64_t number = 0;
     const auto [end, status] = std::from_chars(text.data(), text.data() + text.size(), number);
     number_ = static_cast<std::uint32_t>(number);
@@ -177,59 +170,18 @@ FrameDecoder::Status FrameDecoder::read_line(const std::string_view line) {
     const bool has_valid_stamp = layout_.stamp == FrameStamp::none || read_stamp(next_field(rest));
     for (std::size_t k = 0; k < values_.size(); ++k) {
         if (rest.empty()) return unreadable(FrameError::width, fields_in(line));
-        values_[value_index_.empty() ? k : value_index_[k]] = number_of(next_field(rest));
+        values_[value_index_.empty() ? k : value_index_[k]] = number_in(next_field(rest)).value_or(not_a_number);
     }
     if (!rest.empty()) return unreadable(FrameError::width, fields_in(line));
     return has_valid_stamp ? Status::frame : unreadable(FrameError::stamp);
 }
 
-/// Value k of the found frame.
-double FrameDecoder::value(std::size_t k) const {
-    const auto load = [&]<class V>(V x) {
-        std::memcpy(&x, found_ + k * sizeof x, sizeof x);
-        return static_cast<double>(x);
-    };
-    switch (layout_.kind) {
-        case FrameKind::f32:
-            return load(float{});
-        case FrameKind::i16:
-            return load(std::int16_t{});
-        case FrameKind::f64:
-            return load(double{});
-        case FrameKind::csv:
-            break;
-    }
-    return values_[k];
-}
-
-/// read_forces() for the options that the lanes do not have.
-std::size_t FrameDecoder::read_forces_one_by_one(std::span<double> force) const {
-    std::size_t invalid = 0;
-    for (std::size_t k = 0; k < force.size(); ++k) {
-        const double x = layout_.absolute ? std::abs(value(k)) : value(k), newtons = (x - layout_.offset) * layout_.scale;
-        const bool is_in_range = !layout_.range || (x >= layout_.range->first && x <= layout_.range->second);
-        if (is_in_range && std::abs(newtons) <= layout_.limit)
-            force[k] = newtons;
-        else
-            ++invalid;
-    }
-    return invalid;
-}
-
 std::size_t FrameDecoder::read_forces(std::span<double> force) const {
-    if (layout_.absolute || layout_.range) return read_forces_one_by_one(force);
-    const lanes::ForceScaling scaling{layout_.offset, layout_.scale, layout_.limit};
-    switch (layout_.kind) {
-        case FrameKind::f32:
-            return lanes_.f32(found_, scaling, force.data(), force.size());
-        case FrameKind::i16:
-            return lanes_.i16(found_, scaling, force.data(), force.size());
-        case FrameKind::f64:
-        case FrameKind::csv:
-            break;
-    }
+    lanes::ForceScaling scaling{layout_.offset, layout_.scale, layout_.limit, layout_.absolute};
+    if (layout_.range) scaling.low = layout_.range->first, scaling.high = layout_.range->second;
+    const auto convert = layout_.kind == FrameKind::f32 ? lanes_.f32 : layout_.kind == FrameKind::i16 ? lanes_.i16 : lanes_.f64;
     const char* const from = layout_.kind == FrameKind::csv ? reinterpret_cast<const char*>(values_.data()) : found_;
-    return lanes_.f64(from, scaling, force.data(), force.size());
+    return convert(from, scaling, force.data(), force.size());
 }
 
 }  // namespace corpuscle

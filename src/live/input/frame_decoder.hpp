@@ -9,7 +9,6 @@
 
 #include "live/input/frame_error.hpp"
 #include "live/input/frame_layout.hpp"
-#include "live/input/header_reader.hpp"
 #include "live/lanes/kernel.hpp"
 
 namespace corpuscle {
@@ -43,8 +42,6 @@ private:
     Status read_line(std::string_view line);
     bool read_stamp(double seconds);
     bool read_stamp(std::string_view text);
-    double value(std::size_t k) const;
-    std::size_t read_forces_one_by_one(std::span<double> force) const;
 
 public:
     /// The size of the buffer follows from `frames`, the number of frames that are read at once.

@@ -3,8 +3,14 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <optional>
+#include <span>
+#include <string>
 #include <utility>
+#include <vector>
+
+#include "core/error.hpp"
 
 namespace corpuscle {
 
@@ -28,5 +34,10 @@ struct FrameLayout {
     std::size_t value_bytes() const { return kind == FrameKind::i16 ? 2 : kind == FrameKind::f32 ? 4 : 8; }
     std::size_t bytes() const { return stamp_bytes() + sites * value_bytes(); }  ///< size of a binary frame
 };
+
+/// Interprets the header of CSV frames, a first line that contains names instead of numbers. For each name, without that of the stamp,
+/// returns the index of the force in the frame to which the numbers of this column belong. An empty result means that the columns are in
+/// the order of the frame. Names that are refused are an error.
+using HeaderReader = std::function<Result<std::vector<std::uint32_t>>(std::span<const std::string> names)>;
 
 }  // namespace corpuscle

@@ -6,11 +6,11 @@
 #include <span>
 
 #include "core/force_source.hpp"
+#include "io/quality/biquad.hpp"
 #include "live/input/byte_source.hpp"
 #include "live/input/frame_error.hpp"
 #include "live/input/frame_layout.hpp"
 #include "live/input/frame_sequence.hpp"
-#include "live/input/header_reader.hpp"
 #include "live/steady_clock.hpp"
 
 namespace corpuscle {
@@ -47,7 +47,11 @@ public:
     virtual Result<bool> receive() = 0;  ///< reads what has arrived; false: the source has ended
     virtual void disable_batching() {}   ///< poll() then reports bytes as soon as any have arrived, not only a batch of frames
     /// Overwrites `force` (N), which must contain the last frame, with the next frame that has been read, if there is one.
-    virtual Next next(std::span<double> force) = 0;
+    Next next(std::span<double> force);
+    /// For frames with fewer forces than a skin has sites, and for filters as those of a recording: from now on, force k of a frame is
+    /// filtered by all `filters`, in order, and assigned to site sites[k] of `all_sites`. The force at other sites is not changed. Frames
+    /// that are inserted for missing ones are filtered, too.
+    void assign_sites(std::vector<std::uint32_t> sites, std::size_t all_sites, std::span<const Biquad> filters = {});
     virtual FrameCounts counts() const = 0;
     virtual std::string description() const = 0;
     /// True if frames arrive at their own pace. False: they can wait until a slow reader has accepted the spikes.
@@ -55,6 +59,13 @@ public:
     virtual std::size_t unread_bytes() const { return 0; }                ///< bytes that have arrived but have not been read
     virtual std::optional<FrameError> first_error() const { return {}; }  ///< the first frame that could not be read
     virtual FrameSequence* sequence() { return nullptr; }                 ///< the order of numbered frames; null if frames are not numbered
+
+private:
+    virtual Next read_frame(std::span<double> force) = 0;  ///< as next(), before sites are assigned
+
+    std::vector<std::uint32_t> sites_;          // the site of each force of a frame; empty: all sites in order, without filters
+    std::vector<std::vector<Biquad>> filters_;  // of each force; empty: none
+    std::vector<double> frame_;                 // the last frame before the filters, N; only if sites_ is not empty
 };
 
 /// A source that decodes frames from bytes. `hold` and `max_gap` are numbers of frames (see FrameSequence), `batch_frames` is the number of

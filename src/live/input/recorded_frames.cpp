@@ -44,7 +44,7 @@ public:
         return frames_.count > 0;
     }
 
-    Next next(std::span<double> force) override {
+    Next read_frame(std::span<double> force) override {
         if (at_ == frames_.count || in_batch_ == max_batch || (paced_ && steady_now() < due_of(count_))) return Next::nothing;
         for (std::size_t s = 0; s < force.size(); ++s) force[s] = frames_.force[s][at_];
         ++at_, ++count_, ++in_batch_;

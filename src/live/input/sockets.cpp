@@ -133,11 +133,6 @@ Result<Descriptor> connect_socket(const ResolvedEndpoint& to, int timeout_ms) {
     return at_endpoint("cannot connect to", to.at, error_number);
 }
 
-Result<Descriptor> connect_socket(const Endpoint& at, int timeout_ms) {
-    const auto to = resolve(at);
-    return to ? connect_socket(*to, timeout_ms) : Result<Descriptor>(to.error());
-}
-
 int connection_state(const Descriptor& fd) {
     pollfd wait = {fd.get(), POLLOUT, 0};
     if (::poll(&wait, 1, 0) == 0) return 0;

@@ -41,7 +41,6 @@ Result<Descriptor> open_listening_socket(Endpoint&);
 Result<Descriptor> open_datagram_socket(Endpoint&);
 /// Connects a non-blocking TCP socket. Tries one address after another, each for at most `timeout_ms`.
 Result<Descriptor> connect_socket(const ResolvedEndpoint&, int timeout_ms);
-Result<Descriptor> connect_socket(const Endpoint&, int timeout_ms);
 /// Starts a connection and returns at once. Returns an empty descriptor if it failed immediately.
 Descriptor begin_connection(const SocketAddress&);
 /// State of a connection started by begin_connection(): connected (1), failed (-1, the reason is in errno), or still

@@ -12,6 +12,8 @@ namespace corpuscle::lanes {
 /// not valid.
 struct ForceScaling {
     double offset, scale, limit;
+    bool absolute = false;                                  ///< true: x is the absolute value of the reading
+    double low = -__builtin_inf(), high = __builtin_inf();  ///< lowest and highest valid x
 };
 
 /// The functions of one instruction set, one for each type of value: float, double, 16-bit integer. They convert the `count` values at
@@ -22,24 +24,6 @@ struct FrameKernels {
     Convert f32, f64, i16;
 };
 
-namespace baseline {
-extern const FrameKernels frames;
-}
-namespace avx2 {
-extern const FrameKernels frames;
-}
-namespace avx512 {
-extern const FrameKernels frames;
-}
-
-/// The functions for an instruction set.
-inline const FrameKernels& frame_kernels(InstructionSet set) {
-#ifdef __x86_64__
-    if (set == InstructionSet::avx512) return avx512::frames;
-    if (set == InstructionSet::avx2) return avx2::frames;
-#endif
-    (void)set;
-    return baseline::frames;
-}
+CORPUSCLE_KERNELS(FrameKernels, frame_kernels)
 
 }  // namespace corpuscle::lanes

@@ -1,4 +1,4 @@
-#include "live/output/event_file_sink.hpp"
+// Writes events to a file in a separate thread, because a write to a disk may take long, and the stream must not wait for it.
 
 #include <fcntl.h>
 #include <fmt/format.h>
@@ -13,7 +13,7 @@
 #include <thread>
 
 #include "io/output/output_file.hpp"
-#include "live/input/descriptor.hpp"
+#include "live/output/event_sink.hpp"
 
 namespace corpuscle {
 namespace {

@@ -11,7 +11,6 @@
 #include <cerrno>
 #include <cstring>
 
-#include "live/output/event_file_sink.hpp"
 #include "live/steady_clock.hpp"
 
 namespace corpuscle {
@@ -53,12 +52,31 @@ WriteResult write_out(ByteRing& ring, int fd, bool socket, const FinishPolicy& p
     }
 }
 
-class PipeSink final : public EventSink {
+/// A sink that writes without blocking.
+class PollingSink : public EventSink {
+protected:
+    bool waiting_ = false;  // true: data are left because the reader is slow
+    virtual int descriptor() const = 0;
+
+public:
+    using EventSink::EventSink;
+    int poll_fd() const override { return waiting_ ? descriptor() : -1; }
+    Result<bool> wait_for_space(std::size_t bytes, int ms) override {
+        TRY(flush());
+        if (ring_.has_space(bytes)) return true;
+        poll_for_writing(descriptor(), ms);
+        TRY(flush());
+        return ring_.has_space(bytes);
+    }
+};
+
+class PipeSink final : public PollingSink {
     Descriptor own_;  // closes fd_; empty: fd_ stays open
     int fd_;
-    bool socket_;           // true: fd_ is a socket
-    bool waiting_ = false;  // true: data are left because the reader is slow
+    bool socket_;  // true: fd_ is a socket
     std::string name_;
+
+    int descriptor() const override { return fd_; }
 
     /// Returns an error, and empties the ring, if the reader has closed its end or writing has failed.
     Result<void> check(WriteResult result) {
@@ -73,19 +91,11 @@ class PipeSink final : public EventSink {
 
 public:
     PipeSink(const EventFormat& format, std::size_t ring, Descriptor own, int fd, bool socket, std::string name)
-        : EventSink(format, ring), own_(std::move(own)), fd_(fd), socket_(socket), name_(std::move(name)) {
+        : PollingSink(format, ring), own_(std::move(own)), fd_(fd), socket_(socket), name_(std::move(name)) {
         put_header();
     }
     std::string description() const override { return name_; }
-    int poll_fd() const override { return waiting_ ? fd_ : -1; }
     Result<void> flush() override { return check(write_some(ring_, fd_, socket_)); }
-    Result<bool> wait_for_space(std::size_t bytes, int ms) override {
-        TRY(flush());
-        if (ring_.has_space(bytes)) return true;
-        poll_for_writing(fd_, ms);
-        TRY(flush());
-        return ring_.has_space(bytes);
-    }
     Result<void> finish(const FinishPolicy& policy) override {
         auto done = check(write_out(ring_, fd_, socket_, policy));
         drop_all();
@@ -93,13 +103,15 @@ public:
     }
 };
 
-class TcpClientSink final : public EventSink {
+class TcpClientSink final : public PollingSink {
     static constexpr std::int64_t retry_interval = 1'000'000'000;  // ns
     ResolvedEndpoint to_;  // resolved only once: the name service may not be available when the reader reconnects
     Descriptor fd_;
-    std::size_t next_address_ = 0;             // index of the address to try next, modulo their number
-    bool connected_ = true, waiting_ = false;  // waiting_: true: data are left because the reader is slow
-    std::int64_t next_attempt_ = 0;            // steady_now() from which the next connection may be started
+    std::size_t next_address_ = 0;  // index of the address to try next, modulo their number
+    bool connected_ = true;
+    std::int64_t next_attempt_ = 0;  // steady_now() from which the next connection may be started
+
+    int descriptor() const override { return fd_.get(); }
 
     void disconnect() {
         fd_.close();
@@ -127,11 +139,10 @@ class TcpClientSink final : public EventSink {
 
 public:
     TcpClientSink(const EventFormat& format, std::size_t ring, ResolvedEndpoint to, Descriptor fd)
-        : EventSink(format, ring), to_(std::move(to)), fd_(std::move(fd)) {
+        : PollingSink(format, ring), to_(std::move(to)), fd_(std::move(fd)) {
         put_header();
     }
     std::string description() const override { return to_.at.text(); }
-    int poll_fd() const override { return waiting_ ? fd_.get() : -1; }
     Result<void> flush() override {
         if (!connected_) reconnect();
         if (!connected_) return {};
@@ -139,13 +150,6 @@ public:
         waiting_ = result == WriteResult::some;
         if (result == WriteResult::closed) disconnect();
         return {};
-    }
-    Result<bool> wait_for_space(std::size_t bytes, int ms) override {
-        (void)flush();
-        if (ring_.has_space(bytes)) return true;
-        poll_for_writing(fd_.get(), ms);
-        (void)flush();
-        return ring_.has_space(bytes);
     }
     Result<void> finish(const FinishPolicy& policy) override {
         if (connected_) write_out(ring_, fd_.get(), true, policy);

@@ -60,6 +60,9 @@ Result<std::unique_ptr<EventSink>> open_standard_output(const EventFormat&, std:
 /// A sink that writes to `fd`, an open pipe, terminal or socket. `own` is the same descriptor if the sink shall close it, otherwise empty.
 std::unique_ptr<EventSink> make_pipe_sink(Descriptor own, int fd, std::string name, const EventFormat&, std::size_t ring);
 
+/// A sink that writes to the open descriptor `fd` of a file, and does not close it. `name` is for messages.
+Result<std::unique_ptr<EventSink>> make_file_sink(int fd, const std::string& name, const EventFormat&, std::size_t ring);
+
 /// A sink that creates a file. It is written as PATH.part and renamed when it is complete; a named pipe is written directly.
 Result<std::unique_ptr<EventSink>> create_event_file(const std::string& path, const EventFormat&, std::size_t ring);
 

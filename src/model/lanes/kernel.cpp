@@ -65,8 +65,8 @@ struct AllKernels {
 }  // namespace
 
 namespace CORPUSCLE_ISA {
-const KernelTable<double> doubles{width<double>, AllKernels<double>::receptors, AllKernels<double>::neurons};
-const KernelTable<float> floats{width<float>, AllKernels<float>::receptors, AllKernels<float>::neurons};
+const KernelTable<double> kernels_in_double{width<double>, AllKernels<double>::receptors, AllKernels<double>::neurons};
+const KernelTable<float> kernels_in_float{width<float>, AllKernels<float>::receptors, AllKernels<float>::neurons};
 }  // namespace CORPUSCLE_ISA
 
 }  // namespace corpuscle::lanes

@@ -9,6 +9,7 @@
 #include <span>
 #include <string_view>
 
+#include "core/number/instruction_set.hpp"
 #include "model/current.hpp"
 
 namespace corpuscle::lanes {
@@ -101,8 +102,9 @@ struct ReceptorKernel {
     int outputs;                            ///< number of currents
     bool continuous;                        ///< true if the current at the beginning of a step is that at the end of the step before
     std::size_t model_bytes, state_values;  ///< bytes of the model of one vector; number of state values of one afferent
-    /// Builds the models of the `count` afferents of a tile, or one model for all if `count` is 1, from an array of the receptor's Params.
-    void (*build)(std::byte* at, const void* params, int count, double dt, Method);
+    /// Builds the models of the `count` afferents of a tile, or one model for all if `count` is 1, from the values of
+    /// all parameters, afferent by afferent.
+    void (*build)(std::byte* at, const double* values, int count, double dt, Method);
     void (*start)(const ReceptorCall<V>&);          ///< sets the state before the first step
     void (*flush_decayed)(const ReceptorCall<V>&);  ///< as the models' flush_decayed(); reads only models and state
     void (*run)(ReceptorCall<V>&);
@@ -114,7 +116,7 @@ template <class V>
 struct NeuronKernel {
     std::string_view name;
     std::size_t model_bytes, state_values;
-    void (*build)(std::byte* at, const void* params, int count, double dt, Method);
+    void (*build)(std::byte* at, const double* values, int count, double dt, Method);
     void (*start)(const NeuronCall<V>&);
     void (*flush_decayed)(const NeuronCall<V>&);
     void (*run)(const NeuronCall<V>&);
@@ -128,17 +130,7 @@ struct KernelTable {
     std::span<const NeuronKernel<V>> neurons;
 };
 
-namespace baseline {
-extern const KernelTable<double> doubles;
-extern const KernelTable<float> floats;
-}  // namespace baseline
-namespace avx2 {
-extern const KernelTable<double> doubles;
-extern const KernelTable<float> floats;
-}  // namespace avx2
-namespace avx512 {
-extern const KernelTable<double> doubles;
-extern const KernelTable<float> floats;
-}  // namespace avx512
+CORPUSCLE_KERNELS(KernelTable<double>, kernels_in_double)
+CORPUSCLE_KERNELS(KernelTable<float>, kernels_in_float)
 
 }  // namespace corpuscle::lanes

@@ -6,6 +6,7 @@
 
 #include "core/simulation_options.hpp"
 #include "model/models.hpp"
+#include "model/parameter_values.hpp"
 
 namespace corpuscle::lanes {
 namespace {
@@ -52,9 +53,7 @@ public:
 std::unique_ptr<SharedReceptor> make_shared_receptor(const AfferentPlan& plan, const SimulationOptions& run) {
     std::unique_ptr<SharedReceptor> receptor;
     visit_named(Receptors{}, plan.receptor, [&]<template <class> class R>(ModelTag<R>) {
-        const auto params = with_settings<typename R<double>::Params>(R<double>::fields, settings_of(plan));
-        receptor =
-            std::make_unique<ReceptorRun<R<double>>>(R<double>(UniformParams<typename R<double>::Params>{params}, run.dt, run.method));
+        receptor = std::make_unique<ReceptorRun<R<double>>>(R<double>(ParameterValues<R<double>>(plan), run.dt, run.method));
     });
     return receptor;
 }

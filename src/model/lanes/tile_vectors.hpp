@@ -5,6 +5,7 @@
 #include <type_traits>
 #include <utility>
 
+#include "core/parameter.hpp"
 #include "model/lanes/kernel.hpp"
 
 namespace corpuscle::lanes {
@@ -28,28 +29,29 @@ Batch<V> load(const V* at) {
     return Batch<V>::load_aligned(at);
 }
 
-/// Passes the parameters of a model to its constructor: lane l gets those of afferent l in `params`.
-template <class V, class P>
-struct PerLaneParams {
-    const P* params;
-    int count;  ///< number of afferents in `params`; further lanes get the values of the last one
-    Batch<V> operator()(double P::* parameter) const {
+/// Passes the parameters of model M to its constructor: lane l gets those of afferent l.
+template <class V, class M>
+struct PerLaneValues {
+    static constexpr int parameters = static_cast<int>(sizeof M::parameters / sizeof M::parameters[0]);
+    const double* values;  ///< those of all parameters, afferent by afferent
+    int count;             ///< number of afferents in `values`; further lanes get the values of the last one
+    Batch<V> operator()(ParameterName<M> name) const {
         alignas(64) V lanes[width<V>];
-        for (int l = 0; l < width<V>; ++l) lanes[l] = static_cast<V>(params[l < count ? l : count - 1].*parameter);
+        for (int l = 0; l < width<V>; ++l)
+            lanes[l] = static_cast<V>(values[(l < count ? l : count - 1) * parameters + static_cast<int>(name.index)]);
         return load(lanes);
     }
     /// The value of a parameter that must be the same on all lanes.
-    double uniform(double P::* parameter) const { return params[0].*parameter; }
+    double uniform(ParameterName<M> name) const { return values[name.index]; }
 };
 
 /// Builds the models of a tile; see ReceptorKernel::build.
 template <class V, class M>
-void build(std::byte* at, const void* params, int count, double dt, Method method) {
-    using P = typename M::Params;
-    const auto* all = static_cast<const P*>(params);
+void build(std::byte* at, const double* values, int count, double dt, Method method) {
+    using Values = PerLaneValues<V, M>;
     for (int l = 0; l < (count == 1 ? 1 : tile_size); l += width<V>, at += sizeof(M)) {
         const int from = l < count ? l : count - 1;
-        new (at) M(PerLaneParams<V, P>{all + from, count - from}, dt, method);
+        new (at) M(Values{values + from * Values::parameters, count - from}, dt, method);
     }
 }
 

@@ -17,23 +17,20 @@ namespace corpuscle {
 /// equation and no value, so the equations above and all defaults are our choice. Method has no effect: the equations are integrated
 /// exactly for the receptor's current.
 struct AdaptiveTraits {
-    struct Params {
-        double C_m = 500e-9, E_L = 0, V_th = 0.5, V_reset = 0.25, dV_th = 0.1, tau_th = 50e-3, t_ref = 0;
-    };
     static constexpr std::string_view name = "adaptive", description = "no leak, and a threshold that rises with each spike and decays";
     static constexpr std::string_view source = "choice, after Lee et al. 2016 as described in thesis 3.1";
-    static constexpr ParameterDef<Params> fields[] = {
-        {"C_m", &Params::C_m, "F", 1e-18, 1, "membrane capacitance"},
-        {"E_L", &Params::E_L, "V", -10, 10, "resting potential, the lower limit of u"},
-        {"V_th", &Params::V_th, "V", -10, 10, "threshold at rest"},
-        {"V_reset", &Params::V_reset, "V", -10, 10, "potential after a spike"},
-        {"dV_th", &Params::dV_th, "V", 0, 10, "rise of the threshold at a spike"},
-        {"tau_th", &Params::tau_th, "s", 1e-6, 1e3, "time constant of the threshold's decay"},
-        {"t_ref", &Params::t_ref, "s", 0, 10, "refractory time"},
+    static constexpr ParameterInfo parameters[] = {
+        {"C_m", "F", 500e-9, 1e-18, 1, "membrane capacitance"},
+        {"E_L", "V", 0, -10, 10, "resting potential, the lower limit of u"},
+        {"V_th", "V", 0.5, -10, 10, "threshold at rest"},
+        {"V_reset", "V", 0.25, -10, 10, "potential after a spike"},
+        {"dV_th", "V", 0.1, 0, 10, "rise of the threshold at a spike"},
+        {"tau_th", "s", 50e-3, 1e-6, 1e3, "time constant of the threshold's decay"},
+        {"t_ref", "s", 0, 0, 10, "refractory time"},
     };
-    static constexpr OrderConstraint<Params> order_constraints[] = {
-        {"V_reset", &Params::V_reset, "V_th", &Params::V_th},
-        {"E_L", &Params::E_L, "V_reset", &Params::V_reset, true},
+    static constexpr ParameterOrder order_constraints[] = {
+        {"V_reset", "V_th"},
+        {"E_L", "V_reset", true},
     };
     static constexpr Probe recordables[] = {{"u", "V"}, {"theta", "V"}};
 };
@@ -46,8 +43,8 @@ struct Adaptive : AdaptiveTraits {
 
     template <class Values>
     Adaptive(const Values& value, double dt, Method)
-        : k(T(dt) / value(&Params::C_m)), E_L(value(&Params::E_L)), V_th(value(&Params::V_th)), V_reset(value(&Params::V_reset)),
-          dV_th(value(&Params::dV_th)), ref(value(&Params::t_ref) / dt), fall(T(dt) / value(&Params::tau_th)), decay(num::exp(-fall)) {}
+        : k(T(dt) / value("C_m")), E_L(value("E_L")), V_th(value("V_th")), V_reset(value("V_reset")), dV_th(value("dV_th")),
+          ref(value("t_ref") / dt), fall(T(dt) / value("tau_th")), decay(num::exp(-fall)) {}
 
     State start() const { return {E_L, T(0.0), T(0.0)}; }
     void record(const State& s, T (&out)[2]) const { out[0] = s.u, out[1] = V_th + s.a; }

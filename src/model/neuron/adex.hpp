@@ -15,31 +15,27 @@ namespace corpuscle {
 /// v is the membrane potential, w the adaptation current and I the receptor's current. The exponential is limited to its value at V_peak.
 /// Method has no effect: the substeps are always the same. There is no refractory time; adaptation limits the rate instead.
 struct AdexTraits {
-    struct Params {
-        double C_m = 281e-12, g_L = 30e-9, E_L = -70.6e-3, V_T = -50.4e-3, Delta_T = 2e-3, a = 4e-9, b = 80.5e-12, tau_w = 144e-3;
-        double V_peak = -40.4e-3, V_reset = -70.6e-3, gain = 3e-4, substep = 20e-6;
-    };
     static constexpr std::string_view name = "adex", description = "adaptive exponential integrate-and-fire";
     static constexpr std::string_view source = "Brette and Gerstner 2005, J Neurophysiol 94:3637; thesis 3.2";
-    static constexpr ParameterDef<Params> fields[] = {
-        {"C_m", &Params::C_m, "F", 1e-15, 1, "membrane capacitance"},
-        {"g_L", &Params::g_L, "S", 1e-15, 1, "leak conductance"},
-        {"E_L", &Params::E_L, "V", -0.2, 0.1, "resting potential"},
-        {"V_T", &Params::V_T, "V", -0.2, 0.1, "threshold of the exponential"},
-        {"Delta_T", &Params::Delta_T, "V", 1e-4, 0.1, "width of the exponential"},
-        {"a", &Params::a, "S", -1e-3, 1e-3, "adaptation conductance"},
-        {"b", &Params::b, "A", 0, 1, "increase of the adaptation current w at a spike"},
-        {"tau_w", &Params::tau_w, "s", 1e-4, 1e3, "time constant of adaptation"},
-        {"V_peak", &Params::V_peak, "V", -0.2, 0.1, "potential at which a spike is counted",
+    static constexpr ParameterInfo parameters[] = {
+        {"C_m", "F", 281e-12, 1e-15, 1, "membrane capacitance"},
+        {"g_L", "S", 30e-9, 1e-15, 1, "leak conductance"},
+        {"E_L", "V", -70.6e-3, -0.2, 0.1, "resting potential"},
+        {"V_T", "V", -50.4e-3, -0.2, 0.1, "threshold of the exponential"},
+        {"Delta_T", "V", 2e-3, 1e-4, 0.1, "width of the exponential"},
+        {"a", "S", 4e-9, -1e-3, 1e-3, "adaptation conductance"},
+        {"b", "A", 80.5e-12, 0, 1, "increase of the adaptation current w at a spike"},
+        {"tau_w", "s", 144e-3, 1e-4, 1e3, "time constant of adaptation"},
+        {"V_peak", "V", -40.4e-3, -0.2, 0.1, "potential at which a spike is counted",
          "choice: V_T + 5 Delta_T; from there to the paper's 20 mV takes under 0.1 ms"},
-        {"V_reset", &Params::V_reset, "V", -0.2, 0.1, "potential after a spike"},
-        {"gain", &Params::gain, "", 0, 1e6, "gain from the receptor's current to the membrane current",
+        {"V_reset", "V", -70.6e-3, -0.2, 0.1, "potential after a spike"},
+        {"gain", "", 3e-4, 0, 1e6, "gain from the receptor's current to the membrane current",
          "choice: firing rates of tens of hertz for currents of microamperes"},
-        {"substep", &Params::substep, "s", 1e-8, 1e-3, "longest substep (at most a million substeps per sample)", "choice", true},
+        {"substep", "s", 20e-6, 1e-8, 1e-3, "longest substep (at most a million substeps per sample)", "choice", true},
     };
-    static constexpr OrderConstraint<Params> order_constraints[] = {
-        {"V_reset", &Params::V_reset, "V_peak", &Params::V_peak},
-        {"E_L", &Params::E_L, "V_T", &Params::V_T},
+    static constexpr ParameterOrder order_constraints[] = {
+        {"V_reset", "V_peak"},
+        {"E_L", "V_T"},
     };
     static constexpr Probe recordables[] = {{"v", "V"}, {"w", "A"}};
 };
@@ -52,10 +48,9 @@ struct Adex : AdexTraits {
 
     template <class Values>
     Adex(const Values& value, double dt, Method)
-        : C_m(value(&Params::C_m)), g_L(value(&Params::g_L)), E_L(value(&Params::E_L)), V_T(value(&Params::V_T)),
-          Delta_T(value(&Params::Delta_T)), a(value(&Params::a)), b(value(&Params::b)), tau_w(value(&Params::tau_w)),
-          V_peak(value(&Params::V_peak)), V_reset(value(&Params::V_reset)), gain(value(&Params::gain)), dt(dt),
-          count(substep_count(dt, value.uniform(&Params::substep))) {}
+        : C_m(value("C_m")), g_L(value("g_L")), E_L(value("E_L")), V_T(value("V_T")), Delta_T(value("Delta_T")), a(value("a")),
+          b(value("b")), tau_w(value("tau_w")), V_peak(value("V_peak")), V_reset(value("V_reset")), gain(value("gain")), dt(dt),
+          count(substep_count(dt, value.uniform("substep"))) {}
 
     /// The resting state. The exponential raises its v slightly above E_L; v is found by Newton's method.
     State start() const {

@@ -15,23 +15,20 @@ namespace corpuscle {
 /// no effect: the substeps are always the same. There is no refractory time; the recovery w takes its role. Thesis 3.2 mentions the model
 /// because it adapts.
 struct IzhikevichTraits {
-    struct Params {
-        double a = 20, b = 200, c = -65e-3, d = 8, V_peak = 30e-3, gain = 2.5e6, substep = 20e-6;
-    };
     static constexpr std::string_view name = "izhikevich", description = "Izhikevich 2003: quadratic membrane with recovery";
     static constexpr std::string_view source = "Izhikevich 2003, IEEE Trans Neural Netw 14:1569 (regular spiking); thesis 3.2";
-    static constexpr ParameterDef<Params> fields[] = {
-        {"a", &Params::a, "1/s", 1e-3, 1e5, "rate at which w approaches b v"},
-        {"b", &Params::b, "1/s", -1e5, 1e5, "ratio of w to v in the steady state of w"},
-        {"c", &Params::c, "V", -0.2, 0.02, "potential after a spike"},
-        {"d", &Params::d, "V/s", -1e3, 1e3, "increase of w at a spike"},
-        {"V_peak", &Params::V_peak, "V", -0.03, 0.2, "potential at which a spike is counted"},
-        {"gain", &Params::gain, "V/s/A", 0, 1e15, "gain from the receptor's current to dv/dt",
+    static constexpr ParameterInfo parameters[] = {
+        {"a", "1/s", 20, 1e-3, 1e5, "rate at which w approaches b v"},
+        {"b", "1/s", 200, -1e5, 1e5, "ratio of w to v in the steady state of w"},
+        {"c", "V", -65e-3, -0.2, 0.02, "potential after a spike"},
+        {"d", "V/s", 8, -1e3, 1e3, "increase of w at a spike"},
+        {"V_peak", "V", 30e-3, -0.03, 0.2, "potential at which a spike is counted"},
+        {"gain", "V/s/A", 2.5e6, 0, 1e15, "gain from the receptor's current to dv/dt",
          "choice: firing rates of tens of hertz for currents of microamperes"},
-        {"substep", &Params::substep, "s", 1e-8, 1e-3, "longest substep (at most a million substeps per sample)", "choice", true},
+        {"substep", "s", 20e-6, 1e-8, 1e-3, "longest substep (at most a million substeps per sample)", "choice", true},
     };
-    static constexpr OrderConstraint<Params> order_constraints[] = {
-        {"c", &Params::c, "V_peak", &Params::V_peak},
+    static constexpr ParameterOrder order_constraints[] = {
+        {"c", "V_peak"},
     };
     static constexpr Probe recordables[] = {{"v", "V"}, {"w", "V/s"}};
 };
@@ -44,8 +41,8 @@ struct Izhikevich : IzhikevichTraits {
 
     template <class Values>
     Izhikevich(const Values& value, double dt, Method)
-        : a(value(&Params::a)), b(value(&Params::b)), c(value(&Params::c)), d(value(&Params::d)), V_peak(value(&Params::V_peak)),
-          gain(value(&Params::gain)), dt(dt), count(substep_count(dt, value.uniform(&Params::substep))) {}
+        : a(value("a")), b(value("b")), c(value("c")), d(value("d")), V_peak(value("V_peak")), gain(value("gain")), dt(dt),
+          count(substep_count(dt, value.uniform("substep"))) {}
 
     /// The stable resting state without current, at which dv/dt = dw/dt = 0. If there is none, v = c.
     State start() const {

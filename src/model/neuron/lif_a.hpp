@@ -14,22 +14,19 @@ namespace corpuscle {
 /// from u. With t_ref above 0 it sets u to V_reset instead, and the refractory time ends on a sample. The thesis writes R, C, theta, u_rst,
 /// u_rest. Limitation: if u exceeds V_th within a step and is below it again at the end, no spike is detected.
 struct LifATraits {
-    struct Params {
-        double C_m = 500e-9, R_m = 1e6, E_L = 0, V_th = 0.5, V_reset = 0.25, t_ref = 0;
-    };
     static constexpr std::string_view name = "lif-a", description = "LIF-A: integrate and fire with a leak resistor";
     static constexpr std::string_view source = "thesis 3.2, eq. 5, Alg. 3";
-    static constexpr ParameterDef<Params> fields[] = {
-        {"C_m", &Params::C_m, "F", 1e-18, 1, "membrane capacitance (C)", "choice: as lif-b"},
-        {"R_m", &Params::R_m, "ohm", 1, 1e18, "membrane resistance (R)", "thesis fig. 16"},
-        {"E_L", &Params::E_L, "V", -10, 10, "resting potential (u_rest)", "thesis fig. 16"},
-        {"V_th", &Params::V_th, "V", -10, 10, "threshold (theta)", "choice: as lif-b"},
-        {"V_reset", &Params::V_reset, "V", -10, 10, "potential after a spike (u_rst)", "choice: as lif-b"},
-        {"t_ref", &Params::t_ref, "s", 0, 10, "refractory time", "thesis: none"},
+    static constexpr ParameterInfo parameters[] = {
+        {"C_m", "F", 500e-9, 1e-18, 1, "membrane capacitance (C)", "choice: as lif-b"},
+        {"R_m", "ohm", 1e6, 1, 1e18, "membrane resistance (R)", "thesis fig. 16"},
+        {"E_L", "V", 0, -10, 10, "resting potential (u_rest)", "thesis fig. 16"},
+        {"V_th", "V", 0.5, -10, 10, "threshold (theta)", "choice: as lif-b"},
+        {"V_reset", "V", 0.25, -10, 10, "potential after a spike (u_rst)", "choice: as lif-b"},
+        {"t_ref", "s", 0, 0, 10, "refractory time", "thesis: none"},
     };
-    static constexpr OrderConstraint<Params> order_constraints[] = {
-        {"V_reset", &Params::V_reset, "V_th", &Params::V_th},
-        {"E_L", &Params::E_L, "V_th", &Params::V_th},
+    static constexpr ParameterOrder order_constraints[] = {
+        {"V_reset", "V_th"},
+        {"E_L", "V_th"},
     };
     static constexpr Probe recordables[] = {{"u", "V"}};
 };
@@ -42,9 +39,9 @@ struct LifA : LifATraits {
 
     template <class Values>
     LifA(const Values& value, double dt, Method method)
-        : R_m(value(&Params::R_m)), E_L(value(&Params::E_L)), V_th(value(&Params::V_th)), V_reset(value(&Params::V_reset)),
-          ref(value(&Params::t_ref) / dt), dt_by_tau(T(dt) / (R_m * value(&Params::C_m))), decay(num::exp(-dt_by_tau)),
-          mean(num::exprel(-dt_by_tau)), exact(method == Method::exact) {}
+        : R_m(value("R_m")), E_L(value("E_L")), V_th(value("V_th")), V_reset(value("V_reset")), ref(value("t_ref") / dt),
+          dt_by_tau(T(dt) / (R_m * value("C_m"))), decay(num::exp(-dt_by_tau)), mean(num::exprel(-dt_by_tau)),
+          exact(method == Method::exact) {}
 
     State start() const { return {E_L, T(0.0)}; }
     void flush_decayed(State& s) const { s.u = snap_to_level(s.u, negligible_voltage, E_L); }

@@ -15,22 +15,19 @@ namespace corpuscle {
 /// u_rst, u_rest.) Method has no effect. Limitation: if u exceeds V_th within a step and is below it again at the end, no spike is
 /// detected.
 struct LifBTraits {
-    struct Params {
-        double C_m = 500e-9, I_leak0 = 500e-9, E_L = 0, V_th = 0.5, V_reset = 0.25, t_ref = 0;
-    };
     static constexpr std::string_view name = "lif-b", description = "LIF-B: integrate and fire with a constant leak current";
     static constexpr std::string_view source = "thesis 3.2, eq. 6, 7, Alg. 4";
-    static constexpr ParameterDef<Params> fields[] = {
-        {"C_m", &Params::C_m, "F", 1e-18, 1, "membrane capacitance (C)", "thesis 3.3"},
-        {"I_leak0", &Params::I_leak0, "A", 0, 1, "leak current above E_L, which is the rheobase", "thesis 3.3"},
-        {"E_L", &Params::E_L, "V", -10, 10, "resting potential (u_rest)", "thesis fig. 16"},
-        {"V_th", &Params::V_th, "V", -10, 10, "threshold (theta)", "choice: not given in the thesis"},
-        {"V_reset", &Params::V_reset, "V", -10, 10, "potential after a spike (u_rst)", "choice: not given in the thesis"},
-        {"t_ref", &Params::t_ref, "s", 0, 10, "refractory time", "thesis: none"},
+    static constexpr ParameterInfo parameters[] = {
+        {"C_m", "F", 500e-9, 1e-18, 1, "membrane capacitance (C)", "thesis 3.3"},
+        {"I_leak0", "A", 500e-9, 0, 1, "leak current above E_L, which is the rheobase", "thesis 3.3"},
+        {"E_L", "V", 0, -10, 10, "resting potential (u_rest)", "thesis fig. 16"},
+        {"V_th", "V", 0.5, -10, 10, "threshold (theta)", "choice: not given in the thesis"},
+        {"V_reset", "V", 0.25, -10, 10, "potential after a spike (u_rst)", "choice: not given in the thesis"},
+        {"t_ref", "s", 0, 0, 10, "refractory time", "thesis: none"},
     };
-    static constexpr OrderConstraint<Params> order_constraints[] = {
-        {"V_reset", &Params::V_reset, "V_th", &Params::V_th},
-        {"E_L", &Params::E_L, "V_reset", &Params::V_reset, true},
+    static constexpr ParameterOrder order_constraints[] = {
+        {"V_reset", "V_th"},
+        {"E_L", "V_reset", true},
     };
     static constexpr Probe recordables[] = {{"u", "V"}};
 };
@@ -47,8 +44,8 @@ struct LifB : LifBTraits {
 
     template <class Values>
     LifB(const Values& value, double dt, Method)
-        : C(T(2.0) * value(&Params::C_m) / dt), I_leak0(value(&Params::I_leak0)), leak(T(2.0) * I_leak0), rest(C * value(&Params::E_L)),
-          theta(C * value(&Params::V_th)), reset(C * value(&Params::V_reset)), drop(theta - reset), ref(value(&Params::t_ref) / dt),
+        : C(T(2.0) * value("C_m") / dt), I_leak0(value("I_leak0")), leak(T(2.0) * I_leak0), rest(C * value("E_L")),
+          theta(C * value("V_th")), reset(C * value("V_reset")), drop(theta - reset), ref(value("t_ref") / dt),
           refractory(num::any(ref > T(0.0))) {}
 
     State start() const { return {rest, T(0.0)}; }

@@ -11,13 +11,10 @@ namespace corpuscle {
 /// (thesis eq. 2 to 4, Alg. 2, with two corrections of its errata: the test is on F[n] - F[n-1], and a gain k turns N/s into A.)
 /// The slope F' is known only as a difference over a step, so the currents are constant within a step. Method has no effect.
 struct Fa1aTraits {
-    struct Params {
-        double k = 100e-9;
-    };
     static constexpr std::string_view name = "fa1a", description = "FA-IA: one neuron for rising and one for falling force";
     static constexpr std::string_view source = "Lee et al. 2016; thesis eq. 2 to 4, Alg. 2; the value is a choice";
-    static constexpr ParameterDef<Params> fields[] = {
-        {"k", &Params::k, "A s/N", 0, 1, "gain from the slope of the force to the current"},
+    static constexpr ParameterInfo parameters[] = {
+        {"k", "A s/N", 100e-9, 0, 1, "gain from the slope of the force to the current"},
     };
     static constexpr int outputs = 2;                        ///< number of currents, each into a neuron of its own
     static constexpr bool scales_with_force = true;          ///< twice the force gives twice the current
@@ -31,7 +28,7 @@ struct Fa1a : Fa1aTraits {
     };
 
     template <class Values>
-    Fa1a(const Values& value, double dt, Method) : k_by_dt(value(&Params::k) / dt) {}
+    Fa1a(const Values& value, double dt, Method) : k_by_dt(value("k") / dt) {}
 
     State start(T F) const { return {F}; }
     void step(State& s, T F, Current<T> (&i)[outputs]) const {

@@ -10,15 +10,12 @@ namespace corpuscle {
 /// (thesis 3.4, Alg. 6, with a correction of its errata: falling force excites too, although the printed sign would suppress it. I_0 is the
 /// high-passed force, in newtons.)
 struct Fa1bTraits {
-    struct Params {
-        double k_A = 3.5e-6, k_B = 2.75e-6, f = 2;
-    };
     static constexpr std::string_view name = "fa1b", description = "FA-IB: a slow high-pass, rectified with a gain for each direction";
     static constexpr std::string_view source = "thesis 3.4, Alg. 6";
-    static constexpr ParameterDef<Params> fields[] = {
-        {"k_A", &Params::k_A, "A/N", 0, 1, "gain for rising force (protraction)"},
-        {"k_B", &Params::k_B, "A/N", 0, 1, "gain for falling force (retraction)"},
-        {"f", &Params::f, "Hz", 1e-6, 1e6, "cutoff frequency of the high-pass"},
+    static constexpr ParameterInfo parameters[] = {
+        {"k_A", "A/N", 3.5e-6, 0, 1, "gain for rising force (protraction)"},
+        {"k_B", "A/N", 2.75e-6, 0, 1, "gain for falling force (retraction)"},
+        {"f", "Hz", 2, 1e-6, 1e6, "cutoff frequency of the high-pass"},
     };
     static constexpr int outputs = 1;
     /// Exact method: the current at the beginning of a step equals the current at the end of the step before. Backward Euler: it is
@@ -38,8 +35,7 @@ struct Fa1b : Fa1bTraits {
 
     template <class Values>
     Fa1b(const Values& value, double dt, Method method)
-        : k_A(value(&Params::k_A)), k_B(value(&Params::k_B)), filter(value(&Params::f), dt, method),
-          first_order_hold(method == Method::exact) {}
+        : k_A(value("k_A")), k_B(value("k_B")), filter(value("f"), dt, method), first_order_hold(method == Method::exact) {}
 
     State start(T F) const { return {F, T(0.0), T(0.0)}; }
     void step(State& s, T F, Current<T> (&i)[outputs]) const {

@@ -10,15 +10,12 @@ namespace corpuscle {
 /// (thesis eq. 1, Alg. 1, with a correction of its errata: differences of the force are divided by the step.) The slope F' is known only as
 /// a difference over a step, so the dynamic part I_d is constant within a step.
 struct Sa1aTraits {
-    struct Params {
-        double beta = 0, k_s = 1e-6, k_d = 100e-9;
-    };
     static constexpr std::string_view name = "sa1a", description = "SA-IA: static part plus the absolute slope of the force";
     static constexpr std::string_view source = "Kim et al. 2012, doi 10.1186/1743-0003-9-45; thesis eq. 1, Alg. 1; values are a choice";
-    static constexpr ParameterDef<Params> fields[] = {
-        {"beta", &Params::beta, "A", -1e-3, 1e-3, "current without force"},
-        {"k_s", &Params::k_s, "A/N", 0, 1, "static gain"},
-        {"k_d", &Params::k_d, "A s/N", 0, 1, "dynamic gain, the same for rising and falling force"},
+    static constexpr ParameterInfo parameters[] = {
+        {"beta", "A", 0, -1e-3, 1e-3, "current without force"},
+        {"k_s", "A/N", 1e-6, 0, 1, "static gain"},
+        {"k_d", "A s/N", 100e-9, 0, 1, "dynamic gain, the same for rising and falling force"},
     };
     static constexpr int outputs = 1;
     static constexpr Probe recordables[] = {{"I_s", "A"}, {"I_d", "A"}};
@@ -32,8 +29,7 @@ struct Sa1a : Sa1aTraits {
 
     template <class Values>
     Sa1a(const Values& value, double dt, Method method)
-        : beta(value(&Params::beta)), k_s(value(&Params::k_s)), k_d_by_dt(value(&Params::k_d) / dt),
-          first_order_hold(method == Method::exact) {}
+        : beta(value("beta")), k_s(value("k_s")), k_d_by_dt(value("k_d") / dt), first_order_hold(method == Method::exact) {}
 
     State start(T F) const { return {F, T(0.0)}; }
     void step(State& s, T F, Current<T> (&i)[outputs]) const {

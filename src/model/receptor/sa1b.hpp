@@ -11,19 +11,16 @@ namespace corpuscle {
 /// k_x2 = 1 / (1 + 2 pi f_x dt).)
 /// Between samples the current is approximated by a straight line: the error of a spike time decreases with dt^2.
 struct Sa1bTraits {
-    struct Params {
-        double k_A = 1e-6, K_B = 8e-6, f_B = 20, K_C = 2e-6, f_C = 2;
-    };
     static constexpr std::string_view name = "sa1b", description = "SA-IB: static part plus two rectified high-passes, one fast, one slow";
     static constexpr std::string_view source = "thesis 3.3, eq. 8 to 12, Alg. 5";
-    static constexpr ParameterDef<Params> fields[] = {
-        {"k_A", &Params::k_A, "A/N", 0, 1, "gain of the static part I_A"},
-        {"K_B", &Params::K_B, "A/N", 0, 1, "gain of the fast part I_B, active in protraction",
+    static constexpr ParameterInfo parameters[] = {
+        {"k_A", "A/N", 1e-6, 0, 1, "gain of the static part I_A"},
+        {"K_B", "A/N", 8e-6, 0, 1, "gain of the fast part I_B, active in protraction",
          "thesis 3.3, which prints 8 A/A; here the gain from force to current"},
-        {"f_B", &Params::f_B, "Hz", 1e-6, 1e6, "cutoff frequency of the fast part"},
-        {"K_C", &Params::K_C, "A/N", 0, 1, "gain of the slow part I_C, which decays during the plateau",
+        {"f_B", "Hz", 20, 1e-6, 1e6, "cutoff frequency of the fast part"},
+        {"K_C", "A/N", 2e-6, 0, 1, "gain of the slow part I_C, which decays during the plateau",
          "thesis 3.3, which prints 2 A/A; here the gain from force to current"},
-        {"f_C", &Params::f_C, "Hz", 1e-6, 1e6, "cutoff frequency of the slow part"},
+        {"f_C", "Hz", 2, 1e-6, 1e6, "cutoff frequency of the slow part"},
     };
     static constexpr int outputs = 1;
     /// Exact method: the current at the beginning of a step equals the current at the end of the step before. Backward Euler: it is
@@ -43,8 +40,8 @@ struct Sa1b : Sa1bTraits {
 
     template <class Values>
     Sa1b(const Values& value, double dt, Method method)
-        : k_A(value(&Params::k_A)), B(value(&Params::f_B), dt, method, value(&Params::K_B)),
-          C(value(&Params::f_C), dt, method, value(&Params::K_C)), first_order_hold(method == Method::exact) {}
+        : k_A(value("k_A")), B(value("f_B"), dt, method, value("K_B")), C(value("f_C"), dt, method, value("K_C")),
+          first_order_hold(method == Method::exact) {}
 
     State start(T F) const { return {F, T(0.0), T(0.0), k_A * F}; }
     void step(State& s, T F, Current<T> (&i)[outputs]) const {

@@ -17,16 +17,13 @@ namespace corpuscle {
 /// (best at 200 to 300 Hz, no response to slow force), not their mechanics. Each filter treats the output of the filter before it as a
 /// straight line between samples.
 struct VibrationTraits {
-    struct Params {
-        double k = 400e-6, f_hp = 180, f_lp = 180;
-    };
     static constexpr std::string_view name = "vibration", description = "a band of vibration: two high-passes and a low-pass, rectified";
     static constexpr std::string_view source = "choice, after the tuning of PC afferents in PMC2657072, table 1";
     static constexpr double min_rate = 1000;  ///< Hz; below this sampling rate part of the band is lost
-    static constexpr ParameterDef<Params> fields[] = {
-        {"k", &Params::k, "A/N", 0, 1, "gain from the filtered force to the current"},
-        {"f_hp", &Params::f_hp, "Hz", 1e-6, 1e6, "cutoff frequency of the two high-passes"},
-        {"f_lp", &Params::f_lp, "Hz", 1e-6, 1e6, "cutoff frequency of the low-pass"},
+    static constexpr ParameterInfo parameters[] = {
+        {"k", "A/N", 400e-6, 0, 1, "gain from the filtered force to the current"},
+        {"f_hp", "Hz", 180, 1e-6, 1e6, "cutoff frequency of the two high-passes"},
+        {"f_lp", "Hz", 180, 1e-6, 1e6, "cutoff frequency of the low-pass"},
     };
     static constexpr int outputs = 1;
     /// Exact method: the current at the beginning of a step equals the current at the end of the step before. Backward Euler: it is
@@ -46,8 +43,7 @@ struct Vibration : VibrationTraits {
 
     template <class Values>
     Vibration(const Values& value, double dt, Method method)
-        : k(value(&Params::k)), high(value(&Params::f_hp), dt, method), low(value(&Params::f_lp), dt, method),
-          first_order_hold(method == Method::exact) {}
+        : k(value("k")), high(value("f_hp"), dt, method), low(value("f_lp"), dt, method), first_order_hold(method == Method::exact) {}
 
     State start(T F) const { return {F, T(0.0), T(0.0), T(0.0), T(0.0)}; }
     void step(State& s, T F, Current<T> (&i)[outputs]) const {

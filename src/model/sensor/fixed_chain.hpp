@@ -3,16 +3,14 @@
 // values are arrays of words.
 
 #include <array>
-#include <cstring>
 #include <memory>
 #include <span>
 
-#include "model/sensor/fixed_neuron.hpp"
-#include "model/sensor/fixed_receptor.hpp"
+#include "model/sensor/fixed_point.hpp"
 
 namespace corpuscle {
 
-/// A chain whose types of receptor and neuron are known only to FixedModelChain.
+/// A chain whose types of receptor and neuron are known only to front_end_factory.cpp.
 class FixedChain {
 public:
     /// Result of one step.
@@ -37,61 +35,6 @@ public:
 protected:
     Constants constants_;
     std::vector<std::pair<std::string, std::string_view>> recordables_;  // name, unit
-};
-
-template <class R, class N>
-class FixedModelChain final : public FixedChain {
-    static constexpr int outputs_ = R::Traits::outputs;
-    struct State {
-        typename R::State receptor;
-        typename N::State neuron[outputs_];
-    };
-    static constexpr std::size_t words_ = sizeof(State) / sizeof(Word);
-    static_assert(std::is_trivially_copyable_v<State> && words_ <= max_words &&
-                  outputs_ * (1 + std::size(N::recordables)) <= max_recordables);
-
-    R receptor_;
-    N neuron_;
-
-public:
-    FixedModelChain(const typename R::Traits::Params& r, const typename N::Traits::Params& n, double f_s, WordFormat format)
-        : FixedChain(Constants(format)), receptor_(r, f_s, constants_), neuron_(n, f_s, constants_) {
-        const auto sign = [](int k) -> std::string {
-            if constexpr (requires { R::Traits::signs; }) return "_" + std::string(R::Traits::signs[k]);
-            return k == 0 ? "" : std::to_string(k);
-        };
-        for (int k = 0; k < outputs_; ++k) recordables_.push_back({"I" + sign(k), "A"});
-        for (int k = 0; k < outputs_; ++k)
-            for (const auto& p : N::recordables) recordables_.push_back({std::string(p.name) + sign(k), p.unit});
-    }
-
-    int outputs() const override { return outputs_; }
-    std::size_t words() const override { return words_; }
-
-    void start(Word F, std::span<Word> state) const override {
-        State s{};
-        s.receptor.F = F;
-        for (auto& n : s.neuron) n = neuron_.start();
-        std::memcpy(state.data(), &s, sizeof s);
-    }
-
-    StepResult step(std::span<Word> state, Word F, std::span<Word> shown, Arithmetic& a) const override {
-        State s;
-        std::memcpy(&s, state.data(), sizeof s);
-        Word I[outputs_];
-        receptor_.step(s.receptor, F, I, a);
-        StepResult out;
-        for (int k = 0; k < outputs_; ++k) {
-            const auto fired = neuron_.step(s.neuron[k], I[k], a);
-            out.fired[static_cast<std::size_t>(k)] = fired.spike;
-            out.truncated_neurons += fired.truncated;
-            shown[static_cast<std::size_t>(k)] = I[k];
-            neuron_.record(s.neuron[k],
-                           &shown[static_cast<std::size_t>(outputs_) + static_cast<std::size_t>(k) * std::size(N::recordables)]);
-        }
-        std::memcpy(state.data(), &s, sizeof s);
-        return out;
-    }
 };
 
 }  // namespace corpuscle

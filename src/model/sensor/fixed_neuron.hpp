@@ -6,6 +6,7 @@
 #include "model/neuron/adaptive.hpp"
 #include "model/neuron/lif_a.hpp"
 #include "model/neuron/lif_b.hpp"
+#include "model/parameter_values.hpp"
 #include "model/sensor/fixed_point.hpp"
 
 namespace corpuscle {
@@ -20,8 +21,9 @@ struct NeuronStep {
 struct FixedReset {
     Word V_reset, ref;  // ref: refractory time t_ref, in steps
 
-    template <class P>
-    FixedReset(const P& p, double f_s, Constants& c) : V_reset(c.level("V_reset", p.V_reset)), ref(c.count("ref", p.t_ref * f_s)) {}
+    template <class Values>
+    FixedReset(const Values& value, double f_s, Constants& c)
+        : V_reset(c.level("V_reset", value("V_reset"))), ref(c.count("ref", value("t_ref") * f_s)) {}
 
     /// Counts down one refractory step; false if the neuron is not refractory.
     static bool count_refractory_step(Word& wait) {
@@ -50,10 +52,10 @@ struct FixedLifA {
     Factor k_a, k_b;  // u[n] = k_a I[n] + k_b u[n-1] + k_c: backward Euler
     Word k_c, E_L;
 
-    FixedLifA(const Traits::Params& p, double f_s, Constants& c)
-        : V_th(c.level("V_th", p.V_th)), reset(p, f_s, c), inertia(p.R_m * p.C_m * f_s),
-          k_a(c.factor("k_a", p.R_m / uA_per_A / (1 + inertia))), k_b(c.factor("k_b", inertia / (1 + inertia))),
-          k_c(c.level("k_c", p.E_L / (1 + inertia))), E_L(c.level("E_L", p.E_L)) {}
+    FixedLifA(const ParameterValues<Traits>& value, double f_s, Constants& c)
+        : V_th(c.level("V_th", value("V_th"))), reset(value, f_s, c), inertia(value("R_m") * value("C_m") * f_s),
+          k_a(c.factor("k_a", value("R_m") / uA_per_A / (1 + inertia))), k_b(c.factor("k_b", inertia / (1 + inertia))),
+          k_c(c.level("k_c", value("E_L") / (1 + inertia))), E_L(c.level("E_L", value("E_L"))) {}
 
     State start() const { return {E_L, 0}; }
     void record(const State& s, Word* out) const { out[0] = s.u; }
@@ -76,9 +78,9 @@ struct FixedLifB {
     Factor k;  // k_m = T / C_m, V per uA
     Word I_leak0, E_L;
 
-    FixedLifB(const Traits::Params& p, double f_s, Constants& c)
-        : V_th(c.level("V_th", p.V_th)), reset(p, f_s, c), k(c.factor("k_m", 1 / (p.C_m * f_s * uA_per_A))),
-          I_leak0(c.level("I_leak0", p.I_leak0 * uA_per_A)), E_L(c.level("E_L", p.E_L)) {}
+    FixedLifB(const ParameterValues<Traits>& value, double f_s, Constants& c)
+        : V_th(c.level("V_th", value("V_th"))), reset(value, f_s, c), k(c.factor("k_m", 1 / (value("C_m") * f_s * uA_per_A))),
+          I_leak0(c.level("I_leak0", value("I_leak0") * uA_per_A)), E_L(c.level("E_L", value("E_L"))) {}
 
     State start() const { return {E_L, 0}; }
     void record(const State& s, Word* out) const { out[0] = s.u; }
@@ -103,9 +105,10 @@ struct FixedAdaptive {
     Factor k, k_th;  // k_m = T / C_m, V per uA; decay factor of a in one step
     Word dV_th, E_L;
 
-    FixedAdaptive(const Traits::Params& p, double f_s, Constants& c)
-        : V_th(c.level("V_th", p.V_th)), reset(p, f_s, c), k(c.factor("k_m", 1 / (p.C_m * f_s * uA_per_A))),
-          k_th(c.factor("k_th", num::exp(-1 / (p.tau_th * f_s)))), dV_th(c.level("dV_th", p.dV_th)), E_L(c.level("E_L", p.E_L)) {}
+    FixedAdaptive(const ParameterValues<Traits>& value, double f_s, Constants& c)
+        : V_th(c.level("V_th", value("V_th"))), reset(value, f_s, c), k(c.factor("k_m", 1 / (value("C_m") * f_s * uA_per_A))),
+          k_th(c.factor("k_th", num::exp(-1 / (value("tau_th") * f_s)))), dV_th(c.level("dV_th", value("dV_th"))),
+          E_L(c.level("E_L", value("E_L"))) {}
 
     State start() const { return {E_L, 0, 0}; }
     void record(const State& s, Word* out) const { out[0] = s.u, out[1] = s.a; }

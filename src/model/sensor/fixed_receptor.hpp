@@ -2,6 +2,7 @@
 // The thesis's receptors, Algorithms 1, 2, 5 and 6 as corrected, in fixed-point words: force in N, currents in uA. One step per conversion,
 // f_s steps per second. F in a state is the force of the previous step. doc/fixed-point.md lists the algorithms line by line.
 
+#include "model/parameter_values.hpp"
 #include "model/receptor/fa1a.hpp"
 #include "model/receptor/fa1b.hpp"
 #include "model/receptor/sa1a.hpp"
@@ -17,10 +18,11 @@ struct FixedSa1a {
         Word F;
     };
     Word beta;
-    Factor k_s, k_d;  // uA/N; k_d is Params::k_d f_s
+    Factor k_s, k_d;  // uA/N; k_d is the parameter k_d times f_s
 
-    FixedSa1a(const Traits::Params& p, double f_s, Constants& c)
-        : beta(c.level("beta", p.beta * uA_per_A)), k_s(c.factor("k_s", p.k_s * uA_per_A)), k_d(c.factor("k_d", p.k_d * uA_per_A * f_s)) {}
+    FixedSa1a(const ParameterValues<Traits>& value, double f_s, Constants& c)
+        : beta(c.level("beta", value("beta") * uA_per_A)), k_s(c.factor("k_s", value("k_s") * uA_per_A)),
+          k_d(c.factor("k_d", value("k_d") * uA_per_A * f_s)) {}
 
     void step(State& s, Word F, Word (&I)[1], Arithmetic& a) const {
         const Word change = a.magnitude(a.saturate(F - s.F));
@@ -35,9 +37,9 @@ struct FixedFa1a {
     struct State {
         Word F;
     };
-    Factor k;  // uA/N: Params::k f_s
+    Factor k;  // uA/N: the parameter k times f_s
 
-    FixedFa1a(const Traits::Params& p, double f_s, Constants& c) : k(c.factor("k", p.k * uA_per_A * f_s)) {}
+    FixedFa1a(const ParameterValues<Traits>& value, double f_s, Constants& c) : k(c.factor("k", value("k") * uA_per_A * f_s)) {}
 
     void step(State& s, Word F, Word (&I)[2], Arithmetic& a) const {
         const Word dF = a.saturate(F - s.F), current = a.times(k, a.magnitude(dF));
@@ -58,10 +60,12 @@ struct FixedSa1b {
     };
     Factor k_A, k_B1, k_B2, k_C1, k_C2;  // k_B2, k_C2: decay factors; k_B1 = K_B k_B2 and k_C1 = K_C k_C2, uA/N
 
-    FixedSa1b(const Traits::Params& p, double f_s, Constants& c)
-        : k_A(c.factor("k_A", p.k_A * uA_per_A)), k_B1(c.factor("k_B1", p.K_B * uA_per_A * high_pass_decay(p.f_B, f_s))),
-          k_B2(c.factor("k_B2", high_pass_decay(p.f_B, f_s))), k_C1(c.factor("k_C1", p.K_C * uA_per_A * high_pass_decay(p.f_C, f_s))),
-          k_C2(c.factor("k_C2", high_pass_decay(p.f_C, f_s))) {}
+    FixedSa1b(const ParameterValues<Traits>& value, double f_s, Constants& c)
+        : k_A(c.factor("k_A", value("k_A") * uA_per_A)),
+          k_B1(c.factor("k_B1", value("K_B") * uA_per_A * high_pass_decay(value("f_B"), f_s))),
+          k_B2(c.factor("k_B2", high_pass_decay(value("f_B"), f_s))),
+          k_C1(c.factor("k_C1", value("K_C") * uA_per_A * high_pass_decay(value("f_C"), f_s))),
+          k_C2(c.factor("k_C2", high_pass_decay(value("f_C"), f_s))) {}
 
     void step(State& s, Word F, Word (&I)[1], Arithmetic& a) const {
         const Word dF = a.saturate(F - s.F);
@@ -80,8 +84,9 @@ struct FixedFa1b {
     };
     Factor k, k_A, k_B;  // k: decay factor; k_A, k_B: uA/N
 
-    FixedFa1b(const Traits::Params& p, double f_s, Constants& c)
-        : k(c.factor("k", high_pass_decay(p.f, f_s))), k_A(c.factor("k_A", p.k_A * uA_per_A)), k_B(c.factor("k_B", p.k_B * uA_per_A)) {}
+    FixedFa1b(const ParameterValues<Traits>& value, double f_s, Constants& c)
+        : k(c.factor("k", high_pass_decay(value("f"), f_s))), k_A(c.factor("k_A", value("k_A") * uA_per_A)),
+          k_B(c.factor("k_B", value("k_B") * uA_per_A)) {}
 
     void step(State& s, Word F, Word (&I)[1], Arithmetic& a) const {
         s.I_0 = a.times(k, a.saturate(a.saturate(F - s.F) + s.I_0));

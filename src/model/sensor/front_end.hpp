@@ -4,21 +4,21 @@
 
 #include <vector>
 
-#include "core/parameter.hpp"
 #include "model/sensor/front_end_stage.hpp"
 
 namespace corpuscle {
 
-/// The calibration: measured values are converted to newtons by a straight line that is exact at zero force and at F_cal.
-struct Calibration {
-    struct Params {
-        double F_cal = 4;
-    };
-    static constexpr ParameterDef<Params> fields[] = {
-        {"F_cal", &Params::F_cal, "N", 1e-6, 1e6, "force of the calibration, a straight line that is exact at zero force and at F_cal",
-         "choice: the top of the press", true},
-    };
-};
+/// The parameter of every sensor for the calibration: measured values are converted to newtons by a straight line that is exact at zero
+/// force and at F_cal.
+inline constexpr ParameterInfo calibration_parameter = {
+    "F_cal",
+    "N",
+    4,
+    1e-6,
+    1e6,
+    "force of the calibration, a straight line that is exact at zero force and at F_cal",
+    "choice: the top of the press",
+    true};
 
 /// Without stages the measured value is the force itself.
 class FrontEnd {

@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "core/afferent.hpp"
+#include "model/parameter_values.hpp"
 
 namespace corpuscle {
 

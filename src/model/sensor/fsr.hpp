@@ -1,7 +1,6 @@
 #pragma once
 
 #include "core/number/elementary.hpp"
-#include "core/parameter.hpp"
 #include "model/sensor/front_end_stage.hpp"
 
 namespace corpuscle {
@@ -13,30 +12,29 @@ namespace corpuscle {
 /// falling force is read too high by up to the fraction `hysteresis`, and rising force correctly. Creep and drift are not modelled;
 /// variation between sensors is set by --spread.
 struct Fsr {
-    struct Params {
-        double R_0 = 10e6, R_1gf = 170e3, m = 0.72, hysteresis = 0;
-    };
     static constexpr std::string_view name = "fsr", description = "force sensing resistor FSR 400: conductance of force";
     static constexpr std::string_view source = "thesis 4.1, eq. 13";
-    static constexpr ParameterDef<Params> fields[] = {
-        {"R_0", &Params::R_0, "ohm", 1, 1e12, "resistance without force"},
-        {"R_1gf", &Params::R_1gf, "ohm", 1, 1e12, "resistance of the film alone at 1 gf (a in the formula, in ohm gf^m)",
+    static constexpr ParameterInfo parameters[] = {
+        {"R_0", "ohm", 10e6, 1, 1e12, "resistance without force"},
+        {"R_1gf", "ohm", 170e3, 1, 1e12, "resistance of the film alone at 1 gf (a in the formula, in ohm gf^m)",
          "thesis 4.1, printed 170 ohm gf; the data sheet's curve needs kilohms"},
-        {"m", &Params::m, "", 0.1, 2, "exponent of the film's conductance"},
-        {"hysteresis", &Params::hysteresis, "", 0, 1, "fraction by which falling force is read too high", "choice: none"},
+        {"m", "", 0.72, 0.1, 2, "exponent of the film's conductance"},
+        {"hysteresis", "", 0, 0, 1, "fraction by which falling force is read too high", "choice: none"},
     };
 
-    static FrontEndStage stage(const Params& p) {
-        return {
-            .component = name, .output = {"G_FSR", "S"}, .curve = [p](double F) { return conductance(p, F); }, .hysteresis = p.hysteresis};
+    static FrontEndStage stage(const ParameterValues<Fsr>& value) {
+        return {.component = name,
+                .output = {"G_FSR", "S"},
+                .curve = [value](double F) { return conductance(value, F); },
+                .hysteresis = value("hysteresis")};
     }
 
     /// The conductance in S at force F in N.
-    static double conductance(const Params& p, double F) {
+    static double conductance(const ParameterValues<Fsr>& value, double F) {
         constexpr double newtons_per_gf = 9.80665e-3,
                          smallest_gf = 1e-300;  // a smaller force may be denormal, which num::log() does not accept
         const double gf = F / newtons_per_gf;
-        return 1 / p.R_0 + (gf > smallest_gf ? num::exp(p.m * num::log(num::min(gf, 1e300))) / p.R_1gf : 0);
+        return 1 / value("R_0") + (gf > smallest_gf ? num::exp(value("m") * num::log(num::min(gf, 1e300))) / value("R_1gf") : 0);
     }
 };
 

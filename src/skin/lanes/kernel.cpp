@@ -68,7 +68,7 @@ void sum_afferent(const std::uint32_t* site, const double* weight, std::size_t c
 }  // namespace
 
 namespace CORPUSCLE_ISA {
-const FieldKernels fields{sum_rows, add_site, sum_afferent};
+const FieldKernels field_kernels{sum_rows, add_site, sum_afferent};
 }
 
 }  // namespace corpuscle::lanes

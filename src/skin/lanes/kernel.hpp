@@ -27,24 +27,6 @@ struct FieldKernels {
                          double* column, std::size_t stride);
 };
 
-namespace baseline {
-extern const FieldKernels fields;
-}
-namespace avx2 {
-extern const FieldKernels fields;
-}
-namespace avx512 {
-extern const FieldKernels fields;
-}
-
-/// The functions for an instruction set.
-inline const FieldKernels& field_kernels(InstructionSet set) {
-#ifdef __x86_64__
-    if (set == InstructionSet::avx512) return avx512::fields;
-    if (set == InstructionSet::avx2) return avx2::fields;
-#endif
-    (void)set;
-    return baseline::fields;
-}
+CORPUSCLE_KERNELS(FieldKernels, field_kernels)
 
 }  // namespace corpuscle::lanes

@@ -11,7 +11,7 @@ namespace corpuscle {
 namespace {
 
 TEST(Converter, RoundsToTheNearestLevelAndSaturatesAtBothEnds) {
-    const Converter adc(FrontEnd({}, 1), {.bits = 3, .F_low = 0, .F_high = 7});
+    const Converter adc(FrontEnd({}, 1), {{"bits", 3}, {"F_low", 0}, {"F_high", 7}});
     for (const double F : {0.0, 0.49, 0.5, 3.49, 3.5, 6.9, 7.0, 7.49}) {
         EXPECT_EQ(adc.convert(F).code, static_cast<std::int64_t>(F + 0.5)) << F;
         EXPECT_FALSE(adc.convert(F).saturated) << F;
@@ -24,7 +24,7 @@ TEST(Converter, RoundsToTheNearestLevelAndSaturatesAtBothEnds) {
 
 TEST(Converter, TheTableInvertsTheCurveToWithinOneCode) {
     const FrontEnd front({Fsr::stage({}), F2v::stage({})}, 4);
-    const Converter adc(front, {.bits = 10});
+    const Converter adc(front, {{"bits", 10}});
     for (double F = 0; F < 5; F += 0.0137) {
         const auto [code, clipped] = adc.convert(F);
         EXPECT_FALSE(clipped);
@@ -38,7 +38,7 @@ TEST(Converter, TheTableInvertsTheCurveToWithinOneCode) {
 
 TEST(Converter, WithoutTheTableItUsesTheCalibrationLine) {
     const FrontEnd front({Fsr::stage({}), F2v::stage({})}, 4);
-    const Converter line(front, {.bits = 16, .linearise = 0});
+    const Converter line(front, {{"bits", 16}, {"linearise", 0}});
     for (const double F : {0.0, 0.5, 1.0, 3.0, 4.0, 4.5})
         EXPECT_NEAR(line.force(line.convert(F).code), front.calibrated_force(front.read(F).value), 1e-4) << F;
 }

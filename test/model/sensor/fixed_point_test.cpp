@@ -3,7 +3,8 @@
 #include <cmath>
 #include <random>
 
-#include "model/sensor/fixed_chain.hpp"
+#include "model/sensor/fixed_neuron.hpp"
+#include "model/sensor/fixed_receptor.hpp"
 #include "support/support.hpp"
 
 namespace corpuscle {

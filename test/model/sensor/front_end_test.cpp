@@ -31,17 +31,17 @@ TEST(Sensor, FsrAndTransducersGiveTheGoldenCurve) {
         near("R_ohm", k, 1 / G);
         near("V_Z", k, F2v_at(G));
         near("I_F", k, current.curve(G));
-        near("I_F0", k, F2i::stage({.S_2 = 0}).curve(G));
+        near("I_F0", k, F2i::stage({{"S_2", 0}}).curve(G));
     }
 }
 
 TEST(Sensor, HasItsRestingConductanceAtZeroAndNegativeForce) {
     for (const double F : {0.0, -1.0, -1e300, 1e-320}) EXPECT_EQ(Fsr::stage({}).curve(F), 1e-7) << F;
-    EXPECT_TRUE(std::isfinite(Fsr::stage({.m = 2}).curve(1e300)));
+    EXPECT_TRUE(std::isfinite(Fsr::stage({{"m", 2}}).curve(1e300)));
 }
 
 TEST(Sensor, HysteresisReadsFallingForceHighByItsFractionAndRisingForceExactly) {
-    const FrontEnd front({Fsr::stage({.hysteresis = 0.1})}, 4);
+    const FrontEnd front({Fsr::stage({{"hysteresis", 0.1}})}, 4);
     double last = 0;
     const auto apply_hysteresis = [&](double F) { return last = front.apply_hysteresis(last, F); };
     EXPECT_EQ(apply_hysteresis(2), 2);
@@ -57,7 +57,7 @@ TEST(Sensor, HysteresisDoesNotDependOnTheSamplingRate) {
     EXPECT_TRUE(rc::check("a monotone ramp, sampled ten times or only at its end", [] {
         const double h = *rc::gen::inRange(0, 100) / 100.0, last = *rc::gen::inRange(0, 1000) / 100.0,
                      from = last / (1 + *rc::gen::inRange(0, 100) / 100.0 * h), to = *rc::gen::inRange(0, 1000) / 100.0;
-        const FrontEnd front({Fsr::stage({.hysteresis = h})}, 4);
+        const FrontEnd front({Fsr::stage({{"hysteresis", h}})}, 4);
         double sampled_often = last;
         for (int k = 1; k <= 10; ++k) sampled_often = front.apply_hysteresis(sampled_often, k == 10 ? to : from + (to - from) * k / 10);
         RC_ASSERT(std::abs(sampled_often - front.apply_hysteresis(last, to)) < 1e-12);
@@ -97,7 +97,7 @@ TEST(FrontEndAfferent, RespondsToTheCalibratedForceAndRecordsTheStagesBefore) {
     const auto direct_probes = probe_values(*test::afferent("sa1"), inside.at("F_read"), direct);
     EXPECT_EQ(behind_front_end, without_front_end);
     EXPECT_EQ(inside.at("u"), direct_probes.at("u"));
-    const Fsr::Params fsr;
+    const ParameterValues<Fsr> fsr;
     for (std::size_t k = 0; k < f.size(); k += 100) {
         EXPECT_EQ(inside.at("G_FSR")[k], Fsr::conductance(fsr, f[k]));
         EXPECT_EQ(inside.at("V_Z")[k], F2v_at(inside.at("G_FSR")[k]));

@@ -8,11 +8,8 @@ namespace corpuscle {
 
 /// I = k F
 struct ProportionalTraits {
-    struct Params {
-        double k = 1e-6;
-    };
     static constexpr std::string_view name = "proportional", description = "a current proportional to the force", source = "choice";
-    static constexpr ParameterDef<Params> fields[] = {{"k", &Params::k, "A/N", 0, 1, "gain"}};
+    static constexpr ParameterInfo parameters[] = {{"k", "A/N", 1e-6, 0, 1, "gain"}};
     static constexpr int outputs = 1;
     static constexpr Probe recordables[] = {{"I_k", "A"}};
 };
@@ -23,7 +20,7 @@ struct Proportional : ProportionalTraits {
         T I;  // A
     };
     template <class Values>
-    Proportional(const Values& value, double, Method method) : k(value(&Params::k)), first_order_hold(method == Method::exact) {}
+    Proportional(const Values& value, double, Method method) : k(value("k")), first_order_hold(method == Method::exact) {}
 
     State start(T F) const { return {k * F}; }
     void step(State& s, T F, Current<T> (&i)[outputs]) const {
