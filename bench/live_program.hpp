@@ -14,8 +14,8 @@
 #include <thread>
 
 #include "core/random.hpp"
+#include "io/output/descriptor.hpp"
 #include "io/spikes/address_events.hpp"
-#include "live/input/descriptor.hpp"
 #include "live/input/frame_source.hpp"
 #include "live/input/sockets.hpp"
 #include "skin/innervation.hpp"

@@ -19,7 +19,7 @@
 #include <functional>
 
 #include "io/recording/recording.hpp"
-#include "io/text/text_table.hpp"
+#include "io/recording/recording_formats.hpp"
 
 namespace {
 

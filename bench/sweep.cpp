@@ -14,7 +14,7 @@
 #include <random>
 
 #include "run/ranks.hpp"
-#include "sweep/parallel/outcome_message.hpp"
+#include "sweep/parallel/rank_run.hpp"
 #include "sweep/store/sqlite.hpp"
 #include "sweep/store/sweep_results.hpp"
 

@@ -8,7 +8,7 @@
 #include "hdf5_storage.hpp"
 #include "helper_main.hpp"
 #include "io/table/foreign_format.hpp"
-#include "io/text/text_table.hpp"
+#include "io/table/heading.hpp"
 
 namespace corpuscle {
 namespace {
@@ -31,7 +31,6 @@ class Hdf5Samples final : public Samples {
     std::size_t rank_ = 1;              // number of dimensions of the dataset
     std::vector<std::string> members_;  // the numeric members of a compound type, which are its columns; else empty
     double factor_ = 1, offset_ = 0;    // value = factor * stored number + offset, from attributes of NWB (Neurodata Without Borders)
-    SamplesInfo info_;
     hdf5::StorageInfo storage_;
 
     // The rows in memory are a band: one or several complete chunks, so that each chunk is decompressed only once (or a part of a chunk
@@ -187,9 +186,6 @@ public:
         read_unit();
         return {};
     }
-
-    void set_rate(std::optional<double> rate) { info_.rate = rate; }
-    const SamplesInfo& info() const override { return info_; }
 
     Result<void> fetch(std::int64_t start, std::size_t rows, std::span<const std::size_t> columns,
                        std::vector<std::vector<double>>& out) override {

@@ -1,23 +1,41 @@
 #pragma once
-// A checksum that detects damage. It is not secure against forgery.
+// Hashes of bytes and texts. They detect damage, but are not secure against forgery.
 
 #include <cstddef>
 #include <cstdint>
 #include <cstring>
 #include <span>
 #include <string_view>
+#include <type_traits>
 
 namespace corpuscle {
+
+/// FNV-1a, 64 bits.
+struct Fnv1a {
+    std::uint64_t value = 0xcbf29ce484222325U;
+
+    /// Adds a byte, or a number of 64 bits as if it were one.
+    constexpr void add_word(std::uint64_t x) { value = (value ^ x) * 0x100000001b3U; }
+    constexpr void add(std::string_view text) {
+        for (const char c : text) add_word(static_cast<unsigned char>(c));
+    }
+    /// Adds the bytes of a number.
+    template <class T>
+        requires std::is_arithmetic_v<T>
+    void add(T x) {
+        add(std::string_view(reinterpret_cast<const char*>(&x), sizeof x));
+    }
+};
 
 /// A 64-bit checksum of a byte sequence, computed in words of eight bytes. Each step is a bijection of the checksum so far, so sequences of
 /// equal length that differ in a single word never have the same checksum. Bytes after the last complete word are words of their own. The
 /// bytes can therefore be added in several calls only if all calls but the last add a multiple of eight bytes.
 class Checksum {
-    std::uint64_t value_ = 0xcbf29ce484222325U;
+    Fnv1a hash_;
 
     void add_word(std::uint64_t w) {
-        value_ = (value_ ^ w) * 0x100000001b3U;
-        value_ ^= value_ >> 32;
+        hash_.add_word(w);
+        hash_.value ^= hash_.value >> 32;
     }
 
 public:
@@ -36,7 +54,7 @@ public:
     }
     void add(std::uint64_t x) { add_word(x); }
     void add(double x) { add(&x, sizeof x); }
-    std::uint64_t value() const { return value_; }
+    std::uint64_t value() const { return hash_.value; }
 };
 
 inline std::uint64_t checksum_of(std::span<const std::byte> bytes) {

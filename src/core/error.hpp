@@ -96,7 +96,7 @@ inline void value_of(Result<void>&&) {}
 }  // namespace corpuscle
 
 /// TRY(call) is the value of the Result that the call returns. If it holds an error, TRY returns this error from the surrounding function.
-/// Write it as a statement, as the value of a variable or an assignment, or as the only argument of a call:
+/// Write it as a statement, as a condition, as the value of a variable or an assignment, or as the only argument of a call:
 /// `const auto plan = TRY(read_plan(text));`, `files.push_back(TRY(open(path)));`
 #define TRY(...) CORPUSCLE_TRY_NUMBERED(__COUNTER__, __VA_ARGS__)
 #define CORPUSCLE_TRY_NUMBERED(number, ...) CORPUSCLE_TRY_NAMED(number, __VA_ARGS__)

@@ -7,6 +7,7 @@
 #include <cstdint>
 #include <string_view>
 
+#include "core/checksum.hpp"
 #include "core/number/elementary.hpp"
 
 namespace corpuscle {
@@ -28,9 +29,9 @@ constexpr PhiloxCounter philox(PhiloxCounter counter, std::uint64_t key) {
 /// A hash of a name (FNV-1a, 64 bits). Its lower 32 bits serve as the `purpose` of normal(), so that quantities of different names have
 /// independent random numbers.
 constexpr std::uint64_t stream_id(std::string_view name) {
-    std::uint64_t hash = 0xcbf29ce484222325;
-    for (const char c : name) hash = (hash ^ static_cast<unsigned char>(c)) * 0x100000001b3;
-    return hash;
+    Fnv1a hash;
+    hash.add(name);
+    return hash.value;
 }
 
 /// Maps the upper 53 of 64 random bits to a number in (0, 1); neither 0 nor 1 occurs.

@@ -3,9 +3,9 @@
 #include <fmt/format.h>
 #include <cstring>
 
-#include "core/checksum.hpp"
+#include "core/bytes.hpp"
+#include "core/text/input_files.hpp"
 #include "io/output/output_file.hpp"
-#include "io/table/seekable_bytes.hpp"
 
 namespace corpuscle {
 namespace {
@@ -31,45 +31,37 @@ std::vector<std::byte> pack_stream(const StreamState& state) {
                       static_cast<std::uint32_t>(state.force.size()),
                       state.skin.size()};
     std::memcpy(head.magic, state_magic.data(), sizeof head.magic);
-    std::vector<std::byte> out(sizeof head + state.force.size() * sizeof(double));
-    std::memcpy(out.data(), &head, sizeof head);
-    if (!state.force.empty()) std::memcpy(out.data() + sizeof head, state.force.data(), state.force.size() * sizeof(double));
-    out.insert(out.end(), state.skin.begin(), state.skin.end());
-    const auto sum = checksum_of(out);
-    const auto* const bytes = reinterpret_cast<const std::byte*>(&sum);
-    out.insert(out.end(), bytes, bytes + sizeof sum);
-    return out;
+    ByteWriter<std::vector<std::byte>> out;
+    out.put(head);
+    out.put_raw(state.force.data(), state.force.size() * sizeof(double));
+    out.put_raw(state.skin.data(), state.skin.size());
+    out.put_checksum();
+    return out.take();
 }
 
 Result<StreamState> unpack_stream(std::span<const std::byte> bytes, const std::string& file) {
     StateHead head;
-    if (bytes.size() < sizeof head || std::memcmp(bytes.data(), state_magic.data(), sizeof head.magic) != 0)
+    ByteReader in(bytes);
+    if (!in.get(head) || std::string_view(head.magic, sizeof head.magic) != state_magic)
         return bad_input("not a saved state of a stream: it does not begin with 'corplive'", {file});
-    std::memcpy(&head, bytes.data(), sizeof head);
     if (head.version < 1 || head.version > state_version)
         return bad_input(fmt::format("a saved state of version {}; this program reads versions 1 to {}. Start without --resume, or use the "
                                      "program that saved it",
                                      head.version, state_version),
                          {file});
-    auto body = bytes.subspan(sizeof head);
-    if (head.version >= 2) {
-        std::uint64_t sum = 0;
-        if (body.size() < sizeof sum) return bad_input("this saved state is truncated; start without --resume", {file});
-        std::memcpy(&sum, bytes.data() + bytes.size() - sizeof sum, sizeof sum);
-        if (sum != checksum_of(bytes.first(bytes.size() - sizeof sum)))
-            return bad_input("this saved state is damaged: its checksum is wrong; start without --resume", {file});
-        body = body.first(body.size() - sizeof sum);
-    }
+    if (head.version >= 2 && in.rest().size() < sizeof(std::uint64_t))
+        return bad_input("this saved state is truncated; start without --resume", {file});
+    if (head.version >= 2 && !in.check_checksum(bytes))
+        return bad_input("this saved state is damaged: its checksum is wrong; start without --resume", {file});
     const auto forces = head.sites * std::uint64_t{sizeof(double)};
-    if (body.size() < forces || body.size() - forces != head.skin)
+    if (in.rest().size() < forces || in.rest().size() - forces != head.skin)
         return bad_input("this saved state is truncated or too long; start without --resume", {file});
     StreamState state;
-    state.force.resize(head.sites);
-    if (forces > 0) std::memcpy(state.force.data(), body.data(), forces);
+    state.force.resize(head.sites), state.skin.resize(head.skin);
+    in.get_raw(state.force.data(), forces), in.get_raw(state.skin.data(), head.skin);  // cannot fail: the sizes were checked above
     if (first_non_finite(state.force) < state.force.size())
         return bad_input("this saved state is damaged: a force is not a finite number", {file});
     if (head.numbered != 0) state.number = head.number;
-    state.skin.assign(body.begin() + static_cast<std::ptrdiff_t>(forces), body.end());
     return state;
 }
 
@@ -79,12 +71,8 @@ Result<void> save_stream(const std::string& path, const StreamState& state) {
 }
 
 Result<StreamState> load_stream(const std::string& path) {
-    auto file = TRY(open_bytes(path));
-    constexpr std::uint64_t max_size = std::uint64_t{1} << 34;  // bytes
-    if (file->size() > max_size) return bad_input("this file is too large to be a saved state", {path});
-    std::vector<std::byte> bytes(file->size());
-    TRY(file->read(bytes));
-    return unpack_stream(bytes, path);
+    const auto bytes = TRY(read_entire_input(path, std::size_t{1} << 34, "saved state"));
+    return unpack_stream(std::as_bytes(std::span(bytes)), path);
 }
 
 }  // namespace corpuscle

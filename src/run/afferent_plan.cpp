@@ -32,8 +32,7 @@ Result<std::shared_ptr<const AfferentSpec>> read_afferent_spec(std::string_view 
 
 Result<PlannedAfferent> plan_any_afferent(std::string_view text, std::span<const ParameterOverride> overrides,
                                           std::span<const std::string> probes) {
-    const auto spec = TRY(read_afferent_spec(text));
-    return spec->plan(overrides, probes);
+    return TRY(read_afferent_spec(text))->plan(overrides, probes);
 }
 
 }  // namespace corpuscle

@@ -52,7 +52,7 @@ std::vector<std::string> earlier_outputs(const std::string& directory) {
         if (!entry.is_string()) continue;
         auto name = entry.get<std::string>();
         if (!is_output_name(name) || name == "summary.json" || !is_plain_file(folder / name)) continue;
-        if (name.ends_with(".html") && !is_own_page(read_beginning((folder / name).string()))) continue;
+        if (name.ends_with(".html") && !is_own_page(peek_input((folder / name).string()))) continue;
         all.push_back(std::move(name));
     }
     return all;

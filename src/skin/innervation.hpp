@@ -2,7 +2,9 @@
 // A skin with its afferents placed: the position and class of each, and the sites in its receptive field.
 
 #include <memory>
+#include <string_view>
 
+#include "core/error.hpp"
 #include "skin/plan/skin_plan.hpp"
 
 namespace corpuscle {
@@ -41,5 +43,9 @@ std::vector<std::uint64_t> afferents_by_region(const SkinPlan&, std::uint32_t cl
 /// Places the afferents of a plan and computes their receptive fields. The result for a plan is the same on every machine. A skin without
 /// afferents or with more than 2^24 is an error.
 Result<std::shared_ptr<const Innervation>> innervate(SkinPlan);
+
+/// Returns an error if a skin needs more memory than this machine has or this process may use (ulimit -v). `sites`, `afferents` and
+/// `weights` are (estimated) numbers; a weight is one site in the receptive field of one afferent.
+Result<void> check_available_memory(std::string_view name, double sites, double afferents, double weights);
 
 }  // namespace corpuscle

@@ -41,16 +41,15 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
         return check(text.error()), 0;
     }
     // This fuzzer tests the keys and values of the file. Netlists and recordings have other fuzzers, and forces may be long.
-    const bool known = text->afferent ? text->afferent->text == "sa1" || text->afferent->text == "sa1-macro"
-                                      : text->netlist && text->netlist->text == "circuits/bias.cir";
-    if (!known || text->force || text->rate || (text->afferent && text->netlist)) return 0;
-    for (const auto& s : text->settings)
+    const auto *afferent = text->get("afferent"), *netlist = text->get("netlist");
+    const bool known =
+        afferent ? afferent->text == "sa1" || afferent->text == "sa1-macro" : netlist && netlist->text == "circuits/bias.cir";
+    if (!known || text->get("force") || text->get("rate") || (afferent && netlist)) return 0;
+    for (const auto& s : text->top.settings("set"))
         if (s.name.find(".t_") != std::string::npos) return 0;
-    for (const auto& a : text->axes)
-        if (a.count && a.count->text.size() > 3) return 0;
-    const auto sweep = text->netlist                   ? make_analysis_sweep(*text, "/nowhere")
-                       : text->afferent->text == "sa1" ? make_model_sweep(*text, "/nowhere")
-                                                       : make_chip_sweep(*text, "/nowhere");
+    for (const auto& a : text->axes())
+        if (a.has("count") && a.get("count")->text.size() > 3) return 0;
+    const auto sweep = make_sweep(*text, "/nowhere");
     sweep ? check(**sweep) : check(sweep.error());
     return 0;
 }

@@ -5,7 +5,7 @@
 
 #include <complex>
 
-#include "io/table/hdf5_table.hpp"
+#include "io/recording/recording_formats.hpp"
 #include "support/file_writers.hpp"
 #include "support/loaded_recording.hpp"
 #include "support/property.hpp"

@@ -115,7 +115,7 @@ std::string framed(const Message& m) {
 
 TEST(HelperProcess, ACrashDuringReadingIsAnErrorInEveryLaterRead) {
     const TemporaryFolder folder;
-    folder.write("answers", framed(encode(SamplesInfo{{{"fz", "N"}}, 10, 100.0, {}, {"a remark"}})) +
+    folder.write("answers", framed(encode(SamplesInfo{.columns = {{"fz", "N"}}, .rows = 10, .rate = 100.0, .notes = {"a remark"}})) +
                                 framed(encode(std::vector<std::vector<double>>{{7.0}})));
     const auto program = script(folder, "cat '" + folder / "answers" + "' >&3; kill -BUS $$");
     auto samples = test::value_or_throw(open_remote_samples_with(program, folder.write("x.h5", ""), {"", "it"}));
@@ -133,7 +133,7 @@ TEST(HelperProcess, ACrashDuringReadingIsAnErrorInEveryLaterRead) {
 
 TEST(HelperProcess, ADamagedMessageIsAnError) {
     const TemporaryFolder folder;
-    SamplesInfo info{{{"fz", "N"}}, 10, 100.0, 5, {}};
+    SamplesInfo info{{{"fz", "N"}}, 10, 100.0, 5};
     std::vector<std::string> messages = {framed(encode(info)), framed(Message("xx")), framed(Message(std::string(8, '\x7f')))};
     info.time_column.reset();
     const auto complete = encode(info).bytes();

@@ -1,6 +1,6 @@
 // Versions (implementations) of one afferent type: how they are grouped and compared.
 
-#include "run/compare/implementation_group.hpp"
+#include "run/compare/implementation_comparison.hpp"
 
 #include <nlohmann/json.hpp>
 

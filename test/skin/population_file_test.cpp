@@ -224,7 +224,7 @@ TEST(PopulationFile, SitesComeFromAListATableOrARecording) {
     EXPECT_EQ((*innervate(*listed))->afferent_name(3), "quick#4");
 
     const auto folder = ::testing::TempDir();
-    std::ofstream(folder + "places.csv") << "name,x_mm,y_mm,region\na,1,2,skin\nb,3,4,top\n";
+    std::ofstream(folder + "places.csv") << "name,x_mm,y_mm,region\n# a comment\n% another\na,1,2,skin\nb,3,4,top\n";
     std::ofstream(folder + "bad.csv") << "name,x_mm,y_mm\na,1,2\nb,here,4\n";
     const auto table = parse_skin_plan("[sites]\nlist = \"places.csv\"\n" + classes, folder + "t.toml");
     ASSERT_TRUE(table) << table.error().text();

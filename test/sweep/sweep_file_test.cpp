@@ -12,8 +12,8 @@
 #include "circuit/run_directives.hpp"
 #include "circuit/variant/netlist_variants.hpp"
 #include "support/support.hpp"
+#include "sweep/spec/probability.hpp"
 #include "sweep/spec/sampling.hpp"
-#include "sweep/spec/sobol.hpp"
 #include "sweep/spec/sweep.hpp"
 #include "sweep/spec/sweep_text.hpp"
 
@@ -134,14 +134,14 @@ TEST(Sampling, SobolPointsAreThoseOfJoeAndKuo) {
 }
 
 TEST(Sampling, NormalDeviatesHaveTheRightMomentsAndQuantiles) {
-    EXPECT_NEAR(sweeps::normal_quantile(0.975), 1.959963984540054, 1e-14);
-    EXPECT_NEAR(sweeps::normal_quantile(1e-10), -6.361340902404056, 1e-13);
-    EXPECT_NEAR(sweeps::normal_probability(-1), 0.15865525393145707, 1e-15);
+    EXPECT_NEAR(normal_quantile(0.975), 1.959963984540054, 1e-14);
+    EXPECT_NEAR(normal_quantile(1e-10), -6.361340902404056, 1e-13);
+    EXPECT_NEAR(normal_probability(-1), 0.15865525393145707, 1e-15);
     for (const auto sampling : {Sampling::random, Sampling::latin, Sampling::sobol}) {
         const UniformNumbers u(sampling, 3, "f_B", 4, 20000);
         double sum = 0, squares = 0, fourth = 0;
         for (std::uint64_t k = 0; k < 20000; ++k) {
-            const double x = sweeps::normal_quantile(u.at(k));
+            const double x = normal_quantile(u.at(k));
             sum += x / 20000, squares += x * x / 20000, fourth += x * x * x * x / 20000;
         }
         // In units of the standard error of the mean of 20000 random samples, 0.0071; the other sequences are more even.

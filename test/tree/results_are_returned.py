@@ -11,8 +11,8 @@ MAY_BE_MUTABLE = {
     "src/circuit/cost/power.hpp": "buffers of one function",
     "src/circuit/solve/elimination.hpp": "buffer of one function",
     "src/sweep/parallel/worker_pool.hpp": "a lock",
-    "src/sweep/subject/analysis_sweep.cpp": "a limit that is computed when it is first needed, and its lock",
-    "src/sweep/subject/chip_sweep.cpp": "recent designs, and a limit that is computed when it is first needed, and their locks",
+    "src/sweep/subject/chip_sweep.cpp": "recent designs",
+    "src/sweep/subject/subject.hpp": "a limit that is computed when it is first needed, and its lock",
 }
 
 

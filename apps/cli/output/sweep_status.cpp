@@ -85,11 +85,8 @@ Result<SweepStatus> read_sweep_status(const SweepResults& results, const Shard& 
     if (out.truncated + out.diverged == 0) return out;
     auto reasons = TRY(sql::Statement::make(
         file, results.path(), "SELECT why, count(*) FROM items WHERE ended <> 'done' GROUP BY why ORDER BY 2 DESC, 1 LIMIT 3"));
-    for (;;) {
-        const auto more = TRY(reasons.step());
-        if (!more) return out;
-        out.reasons.emplace_back(reasons.text(0), reasons.integer(1));
-    }
+    while (TRY(reasons.step())) out.reasons.emplace_back(reasons.text(0), reasons.integer(1));
+    return out;
 }
 
 void print_sweep_status(const CommonArguments& common, const SweepStatus& state) {

@@ -6,7 +6,6 @@
 #include "cli/output/terminal.hpp"
 #include "run/channels/channel_simulator.hpp"
 #include "run/channels/channel_warnings.hpp"
-#include "run/summary/nerve_limit.hpp"
 
 namespace corpuscle {
 OutputRequest ChannelRun::output_request() const {

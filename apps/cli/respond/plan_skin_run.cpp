@@ -6,7 +6,6 @@
 #include "cli/respond/skin_run.hpp"
 #include "core/text/ascii_text.hpp"
 #include "skin/plan/class_overrides.hpp"
-#include "skin/plan/indented_array.hpp"
 
 namespace corpuscle {
 namespace {

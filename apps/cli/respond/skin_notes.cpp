@@ -6,8 +6,8 @@
 #include "cli/respond/skin_run.hpp"
 #include "core/stimulus/stimuli.hpp"
 #include "io/table/foreign_format.hpp"
-#include "run/summary/nerve_limit.hpp"
-#include "skin/plan/indented_array.hpp"
+#include "run/channels/channel_warnings.hpp"
+#include "skin/plan/class_overrides.hpp"
 
 namespace corpuscle {
 

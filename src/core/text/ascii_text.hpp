@@ -1,7 +1,9 @@
 #pragma once
-// Functions for text that the user typed: removal of blanks around it, comparison without regard to case, and splitting.
+// Functions for text that the user typed: removal of blanks around it, numbers, comparison without regard to case, and splitting.
 
 #include <algorithm>
+#include <charconv>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -21,6 +23,14 @@ inline std::string lower(std::string_view s) {
     std::string out(s);
     std::transform(out.begin(), out.end(), out.begin(), [](char c) { return lower(c); });
     return out;
+}
+
+/// The value of a text that is only a number, without blanks or a plus sign; nullopt for any other text.
+template <class T>
+std::optional<T> parse_bare_number(std::string_view text) {
+    T value = 0;
+    const auto [end, status] = std::from_chars(text.data(), text.data() + text.size(), value);
+    return status == std::errc{} && end == text.data() + text.size() ? std::optional(value) : std::nullopt;
 }
 
 inline bool equal_ignoring_case(std::string_view a, std::string_view b) { return lower(a) == lower(b); }

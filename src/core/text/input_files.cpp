@@ -9,7 +9,6 @@
 #include <cerrno>
 #include <cstring>
 #include <map>
-#include <memory>
 #include <mutex>
 #include <utility>
 #include <vector>
@@ -79,12 +78,12 @@ std::optional<std::string> known_input_path(const std::string& path) {
 
 void set_interruption_check(bool (*is_interrupted)()) { interruption_check = is_interrupted; }
 
-std::FILE* open_input(const std::string& path) {
+FileHandle open_input(const std::string& path) {
     const int file = ::open(path.c_str(), O_RDONLY | O_NONBLOCK | O_NOCTTY | O_CLOEXEC);
-    if (file < 0) return nullptr;
+    if (file < 0) return {};
     ::fcntl(file, F_SETFL, ::fcntl(file, F_GETFL) & ~O_NONBLOCK);  // only open() must not wait; reads do
     remember_input(path);
-    return ::fdopen(file, "rb");
+    return FileHandle(::fdopen(file, "rb"));
 }
 
 Result<std::size_t> read_input(std::FILE* file, std::span<char> to, const std::string& name) {
@@ -110,7 +109,7 @@ Result<std::string> read_entire_input(const std::string& path, std::size_t max_b
     struct ::stat file_status = {};
     if (::stat(path.c_str(), &file_status) == 0 && S_ISDIR(file_status.st_mode))
         return bad_input(fmt::format("this is a directory, not a {}", kind), {path});
-    const std::unique_ptr<std::FILE, int (*)(std::FILE*)> file(open_input(path), std::fclose);
+    const auto file = open_input(path);
     if (!file)
         return bad_input(fmt::format("cannot be read: {}", errno == ENOENT ? "there is no such file" : std::strerror(errno)), {path});
     std::string text;
@@ -125,7 +124,7 @@ Result<std::string> read_entire_input(const std::string& path, std::size_t max_b
 std::string peek_input(const std::string& path, std::size_t count) {
     struct ::stat file_status = {};
     if (::stat(path.c_str(), &file_status) != 0 || !S_ISREG(file_status.st_mode)) return {};
-    const std::unique_ptr<std::FILE, int (*)(std::FILE*)> file(open_input(path), std::fclose);
+    const FileHandle file(std::fopen(path.c_str(), "rbe"));
     std::string first(count, '\0');
     first.resize(file ? std::fread(first.data(), 1, count, file.get()) : 0);
     return first;

@@ -14,6 +14,11 @@ struct LocatedText {
 
     /// An error at the location of this value.
     Error error_here(std::string message) const { return bad_input(std::move(message), location); }
+    /// The same result, but with its error, if it is one, at the location of this value. `context` begins the message.
+    template <class T>
+    Result<T> located(Result<T> result, const std::string& context = "") const {
+        return result ? std::move(result) : Result<T>(error_here(context + result.error().message));
+    }
 };
 using OptionalLocatedText = std::optional<LocatedText>;
 

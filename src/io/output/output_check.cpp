@@ -11,6 +11,7 @@
 #include <memory>
 
 #include "core/text/input_files.hpp"
+#include "io/output/descriptor.hpp"
 
 namespace corpuscle {
 namespace {
@@ -40,12 +41,9 @@ bool may_be_foreign(FileKind kind) { return kind == FileKind::regular || kind ==
 
 /// True for a regular file that no process has locked, so that the process that created it has ended.
 bool is_abandoned(const std::string& path) {
-    const int file = ::open(path.c_str(), O_RDONLY | O_NOFOLLOW | O_NONBLOCK | O_CLOEXEC);
-    if (file < 0) return false;
+    const Descriptor file(::open(path.c_str(), O_RDONLY | O_NOFOLLOW | O_NONBLOCK | O_CLOEXEC));
     struct ::stat file_status = {};
-    const bool abandoned = ::fstat(file, &file_status) == 0 && S_ISREG(file_status.st_mode) && ::flock(file, LOCK_EX | LOCK_NB) == 0;
-    ::close(file);
-    return abandoned;
+    return ::fstat(file.get(), &file_status) == 0 && S_ISREG(file_status.st_mode) && ::flock(file.get(), LOCK_EX | LOCK_NB) == 0;
 }
 
 /// The output to which a temporary file belongs: "spikes.csv" for "spikes.csv.part-123" and "spikes.csv.part-123-2". "" for other files.
@@ -74,17 +72,6 @@ void remove_stale_parts_in(const std::string& directory, const std::function<boo
 
 }  // namespace
 
-std::string read_beginning(const std::string& path) {
-    std::string text(4096, '\0');
-    const int file = ::open(path.c_str(), O_RDONLY | O_NONBLOCK | O_CLOEXEC);
-    if (file < 0) return "";
-    struct ::stat file_status = {};
-    const auto count = ::fstat(file, &file_status) == 0 && S_ISREG(file_status.st_mode) ? ::read(file, text.data(), text.size()) : 0;
-    ::close(file);
-    text.resize(static_cast<std::size_t>(std::max<ssize_t>(0, count)));
-    return text;
-}
-
 void remove_stale_parts(const std::string& path) {
     const std::filesystem::path output(path);
     remove_stale_parts_in(output.parent_path().string(), [&](std::string_view name) { return name == output.filename().string(); });
@@ -106,10 +93,16 @@ Result<void> OutputCheck::add_output(const std::string& path) {
 Result<void> OutputCheck::check_file(const std::string& path, Signature is_ours) {
     TRY(add_output(path));
     const auto kind = TRY(check_not_input(path));
-    if (may_be_foreign(kind) && !overwrite_ && !is_ours(read_beginning(path)))
+    if (may_be_foreign(kind) && !overwrite_ && !is_ours(peek_input(path)))
         return bad_input("this file was not written by corpuscle; name another, or add --overwrite to replace it", {path});
     if (kind != FileKind::device) remove_stale_parts(path);
     return {};
+}
+
+bool is_file_at(int file, const std::string& path) {
+    struct ::stat open_file = {}, file_at_path = {};
+    return ::fstat(file, &open_file) == 0 && ::stat(path.c_str(), &file_at_path) == 0 && open_file.st_ino == file_at_path.st_ino &&
+           open_file.st_dev == file_at_path.st_dev;
 }
 
 Result<void> OutputCheck::check_growing_file(const std::string& path, Signature is_ours) {
@@ -127,7 +120,7 @@ Result<void> OutputCheck::check_directory(const std::string& path, std::span<con
     for (const auto& name : names) {
         const auto output = path + "/" + name;
         if (!may_be_foreign(kind_of_file(output)) || overwrite_ || is_listed(name)) continue;
-        if (name.ends_with(".html") && page(read_beginning(output))) continue;
+        if (name.ends_with(".html") && page(peek_input(output))) continue;
         return bad_input(
             "this file was not written by corpuscle (it is not listed in a summary.json in its directory); name another directory with "
             "--out, or add --overwrite to replace it",

@@ -38,8 +38,8 @@ public:
                                  Signature page);
 };
 
-/// The first 4096 bytes of a regular file, following links. "" if it cannot be read.
-std::string read_beginning(const std::string& path);
+/// True if the open file with this descriptor is still the file at this path: another process may have removed or replaced it.
+bool is_file_at(int file, const std::string& path);
 
 /// Removes the temporary files of the output `path` that killed runs have left: each path.part-PID that no process has locked.
 void remove_stale_parts(const std::string& path);

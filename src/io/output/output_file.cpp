@@ -10,6 +10,8 @@
 #include <filesystem>
 #include <utility>
 
+#include "io/output/descriptor.hpp"
+
 namespace corpuscle {
 
 OutputFile::OutputFile(OutputFile&& o) noexcept
@@ -111,12 +113,9 @@ void start_writing_back(int file) { (void)::sync_file_range(file, 0, 0, SYNC_FIL
 
 Result<void> sync_directory_of(const std::string& path) {
     const auto parent = std::filesystem::path(path).parent_path().string();
-    const int directory = ::open(parent.empty() ? "." : parent.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
-    if (directory < 0) return {};  // no permission to open it, so it cannot be synchronised
-    const bool done = sync_to_disk(directory);
-    const int error_number = errno;
-    ::close(directory);
-    return done ? Result<void>() : bad_input(fmt::format("cannot be synchronised to disk: {}", std::strerror(error_number)), {path});
+    const Descriptor directory(::open(parent.empty() ? "." : parent.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC));
+    if (!directory || sync_to_disk(directory.get())) return {};  // without permission to open it, it cannot be synchronised
+    return bad_input(fmt::format("cannot be synchronised to disk: {}", std::strerror(errno)), {path});
 }
 
 Result<OutputFile> OutputFile::create(const std::string& path) {

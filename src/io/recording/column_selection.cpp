@@ -2,7 +2,6 @@
 
 #include <fmt/format.h>
 #include <algorithm>
-#include <charconv>
 #include <span>
 
 #include "core/parameter.hpp"
@@ -12,13 +11,6 @@
 
 namespace corpuscle {
 namespace {
-
-std::optional<std::size_t> parse_integer(std::string_view text) {
-    std::size_t n = 0;
-    const auto [end, status] = std::from_chars(text.data(), text.data() + text.size(), n);
-    if (status != std::errc{} || end != text.data() + text.size()) return {};
-    return n;
-}
 
 /// True if `name` is the column's name, its name and unit, or its heading as written, such as "Zeit [s]".
 bool matches_name(const Column& column, std::string_view name) {
@@ -107,8 +99,8 @@ struct ChannelSelector {
             if (const auto k = named(name)) return chosen.push_back(data[*k]), Result<void>{};
         if (add_named_range(wanted, chosen)) return {};
         const auto dash = wanted.find('-');
-        const auto from = parse_integer(wanted.substr(0, dash)),
-                   to = dash == std::string_view::npos ? from : parse_integer(wanted.substr(dash + 1));
+        const auto from = parse_bare_number<std::size_t>(wanted.substr(0, dash)),
+                   to = dash == std::string_view::npos ? from : parse_bare_number<std::size_t>(wanted.substr(dash + 1));
         if (!from || !to || *from < 1 || *to > data.size() || *from > *to) return unknown(wanted);
         add_range(*from - 1, *to - 1, chosen);
         if (notes)
@@ -194,12 +186,13 @@ Result<std::vector<std::size_t>> select_columns(const Table& table, std::optiona
 
 Result<std::optional<std::size_t>> select_time_column(const Table& table, const std::optional<std::string>& wanted,
                                                       const std::string& path) {
-    if (!wanted) return table.time_column();
+    if (!wanted) return table.info().time_column;
     if (*wanted == "none") return std::optional<std::size_t>();
     const auto& columns = table.columns();
     const auto named = std::find_if(columns.begin(), columns.end(), [&](const Column& c) { return matches_name(c, *wanted); });
     if (named != columns.end()) return std::optional(static_cast<std::size_t>(named - columns.begin()));
-    if (const auto number = parse_integer(*wanted); number && *number >= 1 && *number <= columns.size()) return std::optional(*number - 1);
+    if (const auto number = parse_bare_number<std::size_t>(*wanted); number && *number >= 1 && *number <= columns.size())
+        return std::optional(*number - 1);
     std::vector<std::string_view> names;
     for (const auto& c : columns) names.push_back(c.name);
     const auto shown = std::span(names).first(std::min<std::size_t>(names.size(), 12));

@@ -14,9 +14,9 @@
 #include "io/recording/force_rows.hpp"
 #include "io/recording/recording_formats.hpp"
 #include "io/recording/row_clock.hpp"
+#include "io/recording/samples.hpp"
 #include "io/recording/sensor_layout.hpp"
 #include "io/table/foreign_format.hpp"
-#include "io/text/transposed_table.hpp"
 
 namespace corpuscle {
 namespace {
@@ -102,11 +102,11 @@ class Recording final : public ForceSource {
         const auto samples = samples_;
         if (options_.table.transpose || options_.resample || static_cast<std::int64_t>(columns.size()) <= samples || samples == 0) return;
         const auto is_numbered = [this](const Column& c) {  // ch1, ch2 ... or 1, 2 ...
-            if (table_->is_time_guessed() && c.name == "time") return true;
+            if (table_->info().is_time_guessed && c.name == "time") return true;
             const std::string_view digits = std::string_view(c.name).substr(c.name.starts_with("ch") ? 2 : 0);
             return !digits.empty() && digits.find_first_not_of("0123456789") == std::string_view::npos;
         };
-        if (table_->is_orientation_known() || !std::all_of(columns.begin(), columns.end(), is_numbered)) return;
+        if (table_->info().is_orientation_known || !std::all_of(columns.begin(), columns.end(), is_numbered)) return;
         quality.warnings.push_back(
             fmt::format("{} columns, but only {} rows. Use --transpose if each row is a channel, or --no-transpose if each row is "
                         "a sample",
@@ -196,9 +196,9 @@ public:
     /// Selects the columns, determines the clock and prepares reading.
     Result<void> open() {
         const auto time = TRY(select_time_column(*table_, options_.time, path_));
-        notes_ = table_->notes();
-        if (time && time == table_->time_column())
-            for (auto& note : table_->time_notes()) notes_.push_back(std::move(note));
+        notes_ = table_->info().notes;
+        if (const auto& notes = table_->info().time_notes; time && time == table_->info().time_column)
+            notes_.insert(notes_.end(), notes.begin(), notes.end());
         if (holds_spikes(time)) return bad_input("this file holds spikes, not force; 'corpuscle compare' reads it", {path_});
         const auto chosen = TRY(choose_sensors(time));
         if (chosen.size() > max_channels)
@@ -295,7 +295,7 @@ Result<std::unique_ptr<ForceSource>> open_recording(const std::string& path, con
     table_options.should_continue = [&] { return options.should_continue(0); };
     auto table = format.open(path, table_options);
     if (!table) return table.error();
-    if (options.table.transpose == true && !(*table)->is_orientation_known()) table = transpose_table(std::move(*table), path);
+    if (options.table.transpose == true && !(*table)->info().is_orientation_known) table = transpose_table(std::move(*table), path);
     if (!table) return table.error();
     remember_input(path);
     auto recording = std::make_unique<Recording>(path, std::move(*table), options);

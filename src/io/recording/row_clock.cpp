@@ -104,8 +104,7 @@ Result<RowClock> without_times(Table& table, double rate, const Error& problem, 
     out.notes.push_back(fmt::format("the times were ignored ({}); the recording starts at 0 s",
                                     problem.message.substr(0, std::min({problem.message.find("; --"), problem.message.find("; use "),
                                                                         problem.message.find("; give ")}))));
-    const auto clock = TRY(make_clock(rate));
-    out.clock = clock;
+    out.clock = TRY(make_clock(rate));
     return out;
 }
 
@@ -168,7 +167,7 @@ Result<RowClock> find_row_clock(Table& table, const RecordingOptions& options, c
                                 const std::vector<std::size_t>& channels) {
     RowClock out;
     if (!column) {
-        const auto rate = options.rate ? options.rate : table.rate();
+        const auto rate = options.rate ? options.rate : table.info().rate;
         if (!rate) {
             std::vector<std::string> names;
             for (const auto& c : table.columns()) names.push_back(c.name);
@@ -177,12 +176,11 @@ Result<RowClock> find_row_clock(Table& table, const RecordingOptions& options, c
                                          fmt::join(names, ", ")),
                              {path});
         }
-        const auto clock = TRY(make_clock(*rate));
-        out.clock = clock;
+        out.clock = TRY(make_clock(*rate));
         return out;
     }
     out.time_column = column;
-    if (!options.time && table.is_time_guessed())
+    if (!options.time && table.info().is_time_guessed)
         out.notes.push_back("no header: the first column increases evenly and is taken as the time (use --time none if it is a channel)");
     const auto unit = seconds_per_unit(table.columns()[*out.time_column], options, path);
     const bool drops_rows = options.bad_fields == BadFields::drop;

@@ -20,65 +20,53 @@ constexpr std::size_t max_inspected_numbers = std::size_t{1} << 22;  // in the r
 class SamplesTable final : public Table {
     std::string path_;
     std::unique_ptr<Samples> samples_;
-    std::vector<Column> columns_;
-    ColumnRoles roles_;
     std::int64_t block_ = 0, next_ = 0;  // indices of the first row of the last block, and of the next row to read
 
-    const SamplesInfo& info() const { return samples_->info(); }
+    std::int64_t rows() const { return samples_->info().rows; }
 
     /// Checks the values of a column in the rows from next_ on. Replaces infinities by gaps (NaN). If gaps are not allowed, returns an
     /// error for the first value that is not finite.
-    Result<void> check_values(std::vector<double>& values, std::size_t column) {
+    Result<void> check_values(std::vector<double>& values, std::size_t column) const {
         for (std::size_t k = 0; k < values.size(); ++k) {
             if (std::isfinite(values[k])) continue;
-            const auto field = allows_gaps_ ? std::nullopt : samples_->location_of(next_ + static_cast<std::int64_t>(k), column);
-            if (field)
-                return bad_input(fmt::format("field {} is not a number; use --bad-fields interpolate to fill it in, or --bad-fields drop "
-                                             "to skip this sample in all channels",
-                                             field->field),
-                                 field->location);
-            if (!allows_gaps_)
-                return bad_input(fmt::format("row {}: column '{}': {} where a number is expected", next_ + static_cast<std::int64_t>(k) + 1,
-                                             columns()[column].name, values[k]),
-                                 {path_});
+            if (!allows_gaps_) return samples_->bad_value(next_ + static_cast<std::int64_t>(k), column, values[k], path_);
             values[k] = std::numeric_limits<double>::quiet_NaN();
         }
         return {};
     }
 
-public:
-    SamplesTable(std::string path, std::unique_ptr<Samples> samples)
-        : path_(std::move(path)), samples_(std::move(samples)), columns_(info().columns), roles_{.time_column = info().time_column} {}
-
-    /// Finds the time column and the columns that are not channels by their names and first rows, as for a text file.
-    Result<void> find_roles() {
-        if (!has_named_columns(columns_)) return {};
-        const auto rows = std::min({inspected_rows, static_cast<std::size_t>(info().rows), max_inspected_numbers / columns_.size()});
-        std::vector<std::size_t> all(columns_.size());
+    /// The time column and the columns that are not channels by their names and first rows, as for a text file.
+    Result<ColumnRoles> find_roles() {
+        const auto& known = samples_->info();
+        if (known.roles) return *known.roles;
+        if (!has_named_columns(info_.columns)) return ColumnRoles{.time_column = known.time_column};
+        const auto count = std::min({inspected_rows, static_cast<std::size_t>(rows()), max_inspected_numbers / info_.columns.size()});
+        std::vector<std::size_t> all(info_.columns.size());
         std::iota(all.begin(), all.end(), std::size_t{0});
-        std::vector<std::vector<double>> numbers(columns_.size(), std::vector<double>(rows));
-        TRY(samples_->fetch(0, rows, all, numbers));
-        std::vector<FirstFields> first(columns_.size());
+        std::vector<std::vector<double>> numbers(info_.columns.size(), std::vector<double>(count));
+        TRY(samples_->fetch(0, count, all, numbers));
+        std::vector<FirstFields> first(info_.columns.size());
         for (std::size_t c = 0; c < first.size(); ++c)
             for (const double x : numbers[c]) first[c].add_number(x);
-        roles_ = assign_roles(columns_, first, true, info().time_column);
-        return {};
+        return assign_roles(info_.columns, first, true, known.time_column);
     }
 
-    const std::vector<Column>& columns() const override { return columns_; }
-    std::optional<double> rate() const override { return info().rate > 0.0 ? info().rate : std::nullopt; }
-    bool is_orientation_known() const override { return true; }
-    std::vector<std::string> notes() const override { return info().notes; }
-    std::optional<std::size_t> time_column() const override { return roles_.time_column; }
-    bool is_time_guessed() const override { return roles_.is_time_guessed; }
-    std::vector<std::string> time_notes() const override { return roles_.notes; }
-    double progress() const override { return static_cast<double>(next_) / static_cast<double>(info().rows); }
-    /// The file has no lines, so the number of the row (counted from 1) takes their place.
-    SourceLocation location(std::size_t row) const override { return {path_, block_ + static_cast<long>(row) + 1}; }
-    Result<void> rewind() override { return next_ = 0, Result<void>{}; }
+public:
+    SamplesTable(std::string path, std::unique_ptr<Samples> samples) : path_(std::move(path)), samples_(std::move(samples)) {}
 
-    Result<std::size_t> read(const std::vector<std::size_t>& wanted, std::size_t rows, std::vector<std::vector<double>>& out) override {
-        const auto count = static_cast<std::size_t>(std::min(static_cast<std::int64_t>(rows), info().rows - next_));
+    Result<void> open() {
+        const auto& known = samples_->info();
+        info_.columns = known.columns, info_.notes = known.notes, info_.is_orientation_known = known.is_orientation_known;
+        if (known.rate > 0.0) info_.rate = known.rate;
+        auto roles = TRY(find_roles());
+        info_.time_column = roles.time_column, info_.is_time_guessed = roles.is_time_guessed, info_.time_notes = std::move(roles.notes);
+        return {};
+    }
+    double progress() const override { return static_cast<double>(next_) / static_cast<double>(rows()); }
+    SourceLocation location(std::size_t row) const override { return samples_->location(block_ + static_cast<std::int64_t>(row), path_); }
+    Result<void> rewind() override { return next_ = 0, Result<void>{}; }
+    Result<std::size_t> read(const std::vector<std::size_t>& wanted, std::size_t max_rows, std::vector<std::vector<double>>& out) override {
+        const auto count = static_cast<std::size_t>(std::min(static_cast<std::int64_t>(max_rows), rows() - next_));
         for (auto& column : out) column.resize(count);
         if (count == 0 || wanted.empty()) return count;
         TRY(samples_->fetch(next_, count, wanted, out));
@@ -92,18 +80,14 @@ public:
 /// Samples with the times as their first column.
 class WithTimes final : public Samples {
     std::unique_ptr<Samples> times_, samples_;
-    SamplesInfo info_;
 
 public:
-    WithTimes(std::unique_ptr<Samples> times, std::unique_ptr<Samples> samples)
-        : times_(std::move(times)), samples_(std::move(samples)), info_(samples_->info()) {
+    WithTimes(std::unique_ptr<Samples> times, std::unique_ptr<Samples> samples) : times_(std::move(times)), samples_(std::move(samples)) {
+        info_ = samples_->info();
         info_.columns.insert(info_.columns.begin(), times_->info().columns[0]);
         info_.time_column = 0;
         info_.notes.insert(info_.notes.end(), times_->info().notes.begin(), times_->info().notes.end());
     }
-
-    const SamplesInfo& info() const override { return info_; }
-
     Result<void> fetch(std::int64_t first, std::size_t rows, std::span<const std::size_t> wanted,
                        std::vector<std::vector<double>>& out) override {
         std::vector<std::size_t> others;          // the wanted columns other than the time, as columns of samples_
@@ -241,8 +225,12 @@ Result<std::unique_ptr<Table>> make_table(SamplesResult samples, const std::stri
     if (!samples) return samples.error();
     if ((*samples)->info().rows < 1 || (*samples)->info().columns.empty()) return bad_input("no data in this file", {path});
     auto table = std::make_unique<SamplesTable>(path, *std::move(samples));
-    TRY(table->find_roles());
+    TRY(table->open());
     return std::unique_ptr<Table>(std::move(table));
+}
+
+Error Samples::bad_value(std::int64_t row, std::size_t column, double value, const std::string& path) const {
+    return bad_input(fmt::format("row {}: column '{}': {} where a number is expected", row + 1, info_.columns[column].name, value), {path});
 }
 
 std::unique_ptr<Samples> add_time_column(std::unique_ptr<Samples> times, std::unique_ptr<Samples> samples) {

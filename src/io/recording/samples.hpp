@@ -6,6 +6,7 @@
 #include <memory>
 #include <span>
 
+#include "io/table/column_roles.hpp"
 #include "io/table/table.hpp"
 
 namespace corpuscle {
@@ -16,24 +17,26 @@ struct SamplesInfo {
     std::int64_t rows = 0;                        ///< number of rows
     std::optional<double> rate = {};              ///< Hz; nullopt: the file does not state it
     std::optional<std::size_t> time_column = {};  ///< index of the time column, if the format defines it
+    std::optional<ColumnRoles> roles = {};        ///< of the columns, if the reader has found them; by default they follow from the numbers
+    bool is_orientation_known = true;             ///< see Table
     std::vector<std::string> notes = {};          ///< notes for the user about how the file is read
-};
-
-/// The location of a value in a text file: line and field.
-struct FieldLocation {
-    SourceLocation location;
-    std::size_t field;  ///< number in its line, counted from 1
 };
 
 /// The rows of a recording, which can be read in any order.
 class Samples {
+protected:
+    SamplesInfo info_;
+
 public:
     virtual ~Samples() = default;
-    virtual const SamplesInfo& info() const = 0;
-    /// The location of a value in a text file, for messages; nullopt for binary formats. Rows and columns count from 0.
-    virtual std::optional<FieldLocation> location_of(std::int64_t row, std::size_t column) const {
-        return static_cast<void>(row), static_cast<void>(column), std::nullopt;
-    }
+    const SamplesInfo& info() const { return info_; }
+    void add_note(std::string note) { info_.notes.push_back(std::move(note)); }
+    void set_rate(std::optional<double> rate) { info_.rate = rate; }
+    /// The location of a row in the file, for messages. Without lines, the number of the row takes their place. Rows and columns count from
+    /// 0.
+    virtual SourceLocation location(std::int64_t row, const std::string& path) const { return {path, static_cast<long>(row) + 1}; }
+    /// The error for a value that is not a finite number.
+    virtual Error bad_value(std::int64_t row, std::size_t column, double value, const std::string& path) const;
     /// Reads `rows` rows of column wanted[i] into out[i], starting with row `first` (counted from 0). The rows must exist, and out[i] must
     /// have `rows` elements.
     virtual Result<void> fetch(std::int64_t first, std::size_t rows, std::span<const std::size_t> wanted,
@@ -93,5 +96,9 @@ std::optional<std::uint64_t> time_list_length(const ArrayInfo&);
 /// `count` columns for an array of this name. A single column has the name of the array; several are called ch1, ch2 ... A unit in the name
 /// of the array ("force_mN") is the unit of all columns.
 std::vector<Column> columns_named_after(std::string_view array, std::size_t count);
+
+/// Reads the entire table into memory; a table with too many numbers is an error. The columns of the new table have the names of the rows
+/// of the old one; if these have none, they are called ch1, ch2 ...
+Result<std::unique_ptr<Table>> transpose_table(std::unique_ptr<Table>, const std::string& path);
 
 }  // namespace corpuscle

@@ -24,18 +24,7 @@ Error cannot_start(const std::string& program, int error) {
 
 /// A duplicate of a file descriptor, with a number of at least 10. It is thus not overwritten when the descriptors 3 and 4 of the child are
 /// created.
-class HighDescriptor {
-    int number_;
-
-public:
-    explicit HighDescriptor(int descriptor) : number_(::fcntl(descriptor, F_DUPFD_CLOEXEC, 10)) {}
-    HighDescriptor(const HighDescriptor&) = delete;
-    HighDescriptor& operator=(const HighDescriptor&) = delete;
-    ~HighDescriptor() {
-        if (number_ >= 0) ::close(number_);
-    }
-    int number() const { return number_; }
-};
+Descriptor high_duplicate(int descriptor) { return Descriptor(::fcntl(descriptor, F_DUPFD_CLOEXEC, 10)); }
 
 /// The environment of the child: only the variables for the dynamic linker and the sanitizers. Other variables could make a library load or
 /// write files.
@@ -76,15 +65,14 @@ int spawn(const std::string& program, const std::string& argument, int socket, i
 }  // namespace
 
 HelperProcess::HelperProcess(HelperProcess&& o) noexcept
-    : socket_(std::exchange(o.socket_, -1)), child_(std::exchange(o.child_, -1)), program_(std::move(o.program_)) {}
+    : socket_(std::move(o.socket_)), child_(std::exchange(o.child_, -1)), program_(std::move(o.program_)) {}
 
 HelperProcess& HelperProcess::operator=(HelperProcess&& o) noexcept {
-    std::swap(socket_, o.socket_), std::swap(child_, o.child_), std::swap(program_, o.program_);
+    socket_ = std::move(o.socket_), std::swap(child_, o.child_), std::swap(program_, o.program_);
     return *this;
 }
 
 HelperProcess::~HelperProcess() {
-    if (socket_ >= 0) ::close(socket_);
     if (child_ <= 0) return;
     ::kill(child_, SIGKILL);
     while (::waitpid(child_, nullptr, 0) < 0 && errno == EINTR) {
@@ -95,22 +83,22 @@ Result<HelperProcess> HelperProcess::start(const std::string& program, int file,
     int ends[2];  // of the socket: ours, and the child's
     if (::socketpair(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC, 0, ends) != 0) return cannot_start(program, errno);
     HelperProcess helper;
-    helper.socket_ = ends[0];
+    const Descriptor child_end(ends[1]);
+    helper.socket_ = Descriptor(ends[0]);
     helper.program_ = program;
     const timeval timeout{response_timeout_s + 5, 0};  // longer than the child's own alarm, which normally ends it first
     (void)::setsockopt(ends[0], SOL_SOCKET, SO_RCVTIMEO, &timeout, sizeof timeout);
-    const HighDescriptor socket(ends[1]), opened(file);
-    ::close(ends[1]);
-    if (socket.number() < 0 || opened.number() < 0) return cannot_start(program, errno);
+    const auto socket = high_duplicate(ends[1]), opened = high_duplicate(file);
+    if (!socket || !opened) return cannot_start(program, errno);
     pid_t child = -1;
-    if (const int failed = spawn(program, argument, socket.number(), opened.number(), child)) return cannot_start(program, failed);
+    if (const int failed = spawn(program, argument, socket.get(), opened.get(), child)) return cannot_start(program, failed);
     helper.child_ = child;
     return helper;
 }
 
 Result<Message> HelperProcess::receive(const std::string& path, const std::string& library) {
     Message m;
-    if (m.receive(socket_)) return m;
+    if (m.receive(socket_.get())) return m;
     return failure(path, library);
 }
 

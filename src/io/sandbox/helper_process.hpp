@@ -7,6 +7,7 @@
 #include <string>
 
 #include "core/error.hpp"
+#include "io/output/descriptor.hpp"
 #include "io/sandbox/message.hpp"
 
 namespace corpuscle {
@@ -14,7 +15,7 @@ namespace corpuscle {
 /// The child has two open descriptors: its end of a socket, and the file. The destructor kills it, and so does receive() if the child takes
 /// longer than response_timeout_s to respond.
 class HelperProcess {
-    int socket_ = -1;  // our end
+    Descriptor socket_;  // our end
     pid_t child_ = -1;
     std::string program_;  // path of the child's program, for messages
 
@@ -25,7 +26,7 @@ public:
     static constexpr std::uint64_t memory_limit = std::uint64_t{4} << 30;  ///< bytes that the child may allocate after its start
     static constexpr int socket_descriptor = 3, file_descriptor = 4;       ///< descriptors in the child
     static constexpr int exit_unknown_protocol = 2;      ///< exit status of a child of another version, which does not know `protocol`
-    static constexpr const char* protocol = "reader-1";  ///< version of the messages; the only argument of the child
+    static constexpr const char* protocol = "reader-2";  ///< version of the messages; the only argument of the child
 
     HelperProcess() = default;
     HelperProcess(HelperProcess&& other) noexcept;
@@ -36,7 +37,9 @@ public:
     static Result<HelperProcess> start(const std::string& program, int file, const std::string& argument = protocol);
     pid_t pid() const { return child_; }
 
-    void send(const Message& m) { (void)m.send(socket_); }  // an error is ignored, because receive() reports that the child has exited
+    void send(const Message& m) {
+        (void)m.send(socket_.get());
+    }  // an error is ignored, because receive() reports that the child has exited
     /// Receives the next message of the child. If the child crashes or does not respond in time, returns an error at the file `path`; its
     /// message names `library`, the library with which the child reads.
     Result<Message> receive(const std::string& path, const std::string& library);

@@ -36,21 +36,6 @@ bool receive_all(int socket, void* data, std::size_t size) {
 
 }  // namespace
 
-bool Message::get(void* data, std::size_t size) {
-    if (bytes_.size() - position_ < size) return false;
-    if (size > 0) std::memcpy(data, bytes_.data() + position_, size);
-    position_ += size;
-    return true;
-}
-
-bool Message::get(std::string& s) {
-    std::uint64_t size = 0;
-    if (!get(size) || bytes_.size() - position_ < size) return false;
-    s = bytes_.substr(position_, size);
-    position_ += size;
-    return true;
-}
-
 bool Message::send(int socket) const {
     const std::uint64_t size = bytes_.size();
     return send_all(socket, &size, sizeof size) && send_all(socket, bytes_.data(), bytes_.size());
@@ -59,7 +44,6 @@ bool Message::send(int socket) const {
 bool Message::receive(int socket) {
     std::uint64_t size = 0;
     bytes_.clear();
-    position_ = 0;
     if (!receive_all(socket, &size, sizeof size) || size > max_message) return false;
     while (bytes_.size() < size) {
         const auto old_size = bytes_.size();

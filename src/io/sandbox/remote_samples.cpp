@@ -20,7 +20,6 @@ constexpr std::size_t max_numbers_in_response = std::size_t{1} << 17;  // exceed
 class RemoteSamples final : public Samples {
     std::string path_, library_;
     HelperProcess helper_;
-    SamplesInfo info_;
 
     /// Requests rows from the helper and stores them in the columns of `out` from position `done` on.
     Result<void> fetch_part(const FetchRequest& request, std::size_t done, std::vector<std::vector<double>>& out) {
@@ -40,8 +39,6 @@ public:
         return {};
     }
 
-    const SamplesInfo& info() const override { return info_; }
-
     Result<void> fetch(std::int64_t first, std::size_t rows, std::span<const std::size_t> wanted,
                        std::vector<std::vector<double>>& out) override {
         const std::size_t max_rows = std::max<std::size_t>(1, max_numbers_in_response / std::max<std::size_t>(1, wanted.size()));
@@ -55,27 +52,13 @@ public:
     }
 };
 
-/// A file descriptor that is closed at the end of its scope; the child then has a duplicate of it.
-class OpenedFile {
-    int number_;
-
-public:
-    explicit OpenedFile(const std::string& path) : number_(::open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NOCTTY)) {}
-    OpenedFile(const OpenedFile&) = delete;
-    OpenedFile& operator=(const OpenedFile&) = delete;
-    ~OpenedFile() {
-        if (number_ >= 0) ::close(number_);
-    }
-    int number() const { return number_; }
-};
-
 }  // namespace
 
 SamplesResult open_remote_samples_with(const std::string& program, const std::string& path, const HelperProgram& reader,
                                        const TableOptions& options) {
-    const OpenedFile file(path);
-    if (file.number() < 0) return bad_input(fmt::format("cannot be opened: {}", std::strerror(errno)), {path});
-    auto helper = HelperProcess::start(program, file.number());
+    const Descriptor file(::open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NOCTTY));
+    if (!file) return bad_input(fmt::format("cannot be opened: {}", std::strerror(errno)), {path});
+    auto helper = HelperProcess::start(program, file.get());
     if (!helper) return bad_input(helper.error().message, {path});
     auto samples = std::make_unique<RemoteSamples>(path, reader.library, *std::move(helper));
     TRY(samples->open(options));

@@ -21,8 +21,8 @@ struct FetchRequest {
 Message encode(const OpenRequest&);
 Message encode(const FetchRequest&);
 // Return false if the message is not such a request.
-bool decode(Message&, OpenRequest&);
-bool decode(Message&, FetchRequest&);
+bool decode(const Message&, OpenRequest&);
+bool decode(const Message&, FetchRequest&);
 
 // Responses of the program. A response begins with 0; an error begins with its ErrorCode, which is not 0.
 Message encode(const Error&);
@@ -30,8 +30,8 @@ Message encode(const SamplesInfo&);
 Message encode(const std::vector<std::vector<double>>& columns);
 
 // Decode responses; `path` is the path of the file, for messages. The program is not trusted: any bytes give values or an error.
-Result<SamplesInfo> decode_info(Message&, const std::string& path);
+Result<SamplesInfo> decode_info(const Message&, const std::string& path);
 /// Decodes the response to a FetchRequest for `rows` rows, and stores the values of each column in `out` from position `at` on.
-Result<void> decode_rows(Message&, std::size_t at, std::size_t rows, std::vector<std::vector<double>>& out, const std::string& path);
+Result<void> decode_rows(const Message&, std::size_t at, std::size_t rows, std::vector<std::vector<double>>& out, const std::string& path);
 
 }  // namespace corpuscle

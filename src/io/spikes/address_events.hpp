@@ -30,8 +30,8 @@ namespace corpuscle::address_events {
 static_assert(std::endian::native == std::endian::little, "structures are written as they are in memory");
 
 inline constexpr std::string_view magic = "corpaer1";
-/// Sizes of the header before its runs, of a run before its name, and of a spike.
-inline constexpr std::size_t header_bytes = 32, run_bytes = 20, spike_bytes = 16;
+/// Sizes of the header before its runs, and of a spike.
+inline constexpr std::size_t header_bytes = 32, spike_bytes = 16;
 
 /// A run: afferents such as sa1#17, sa1#18 ..., at addresses that are `stride` apart; or the addresses of one channel.
 struct NameRun {

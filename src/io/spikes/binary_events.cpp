@@ -1,12 +1,13 @@
 #include <fmt/format.h>
 #include <algorithm>
-#include <charconv>
 #include <utility>
 #include <vector>
 
+#include "core/bytes.hpp"
+#include "core/text/ascii_text.hpp"
 #include "io/spikes/address_events.hpp"
-#include "io/spikes/binary_events.hpp"
 #include "io/spikes/event_time.hpp"
+#include "io/spikes/events.hpp"
 
 namespace corpuscle {
 namespace {
@@ -16,11 +17,10 @@ namespace aer = address_events;
 /// The run of a single afferent. Splits its name: "sa1#17" has the name sa1 and the number 17. The number is 0 if the name has none.
 aer::NameRun run_of(const std::string& name, std::uint32_t address) {
     const auto sign = name.rfind('#');
-    std::uint32_t number = 0;  // a number such as 017 is part of the name, because it would be written back as 17
-    if (sign == name.npos || name.size() == sign + 1 || name[sign + 1] == '0') return {address, 1, 0, 1, name};
-    const auto [end, status] = std::from_chars(name.data() + sign + 1, name.data() + name.size(), number);
-    if (status != std::errc{} || end != name.data() + name.size()) return {address, 1, 0, 1, name};
-    return {address, 1, number, 1, name.substr(0, sign)};
+    const auto digits = std::string_view(name).substr(sign == name.npos ? name.size() : sign + 1);
+    const auto number = parse_bare_number<std::uint32_t>(digits);
+    if (!number || digits[0] == '0') return {address, 1, 0, 1, name};  // a number such as 017 would be written back as 17
+    return {address, 1, *number, 1, name.substr(0, sign)};
 }
 
 /// Adds the afferent of `next`, a run of one afferent, to `run` if its number and address continue that run. Otherwise returns false.
@@ -100,19 +100,12 @@ std::string comments_of(const EventAddressing& addressing) {
     return all ? text : text + "# and others\r\n";  // addresses that are not listed
 }
 
-/// Appends the bytes of a number, little-endian.
-template <class T>
-void add_number(std::string& text, T number) {
-    text.append(reinterpret_cast<const char*>(&number), sizeof number);
-}
-
 /// Appends runs as they are in the header of address events, see address_events.hpp.
-void add_runs(std::string& text, const std::vector<aer::NameRun>& runs) {
+void put_runs(ByteWriter<>& out, const std::vector<aer::NameRun>& runs) {
     for (const auto& r : runs) {
-        for (const auto number : {r.first_address, r.stride, r.first_number, r.count, static_cast<std::uint32_t>(r.name.size())})
-            add_number(text, number);
-        text += r.name;
-        text.append((4 - r.name.size() % 4) % 4, '\0');
+        out.put(r.first_address, r.stride, r.first_number, r.count, static_cast<std::uint32_t>(r.name.size()));
+        out.put_raw(r.name.data(), r.name.size());
+        out.put_raw("\0\0\0", (4 - r.name.size() % 4) % 4);
     }
 }
 
@@ -126,14 +119,14 @@ public:
     bool has_fixed_size() const override { return true; }
 
     std::string header() const override {
-        std::string names;
+        ByteWriter names, out;
         const auto runs = runs_of(addressing_), channels = channel_runs_of(addressing_);
-        add_runs(names, runs);
-        if (!channels.empty()) add_number(names, static_cast<std::uint32_t>(channels.size())), add_runs(names, channels);
-        std::string text(aer::magic);
-        add_number(text, addressing_.clock.rate_numerator), add_number(text, addressing_.clock.rate_denominator);
-        add_number(text, static_cast<std::uint32_t>(runs.size())), add_number(text, static_cast<std::uint32_t>(names.size()));
-        return text + names;
+        put_runs(names, runs);
+        if (!channels.empty()) names.put(static_cast<std::uint32_t>(channels.size())), put_runs(names, channels);
+        out.put_raw(aer::magic.data(), aer::magic.size());
+        out.put(addressing_.clock.rate_numerator, addressing_.clock.rate_denominator, static_cast<std::uint32_t>(runs.size()),
+                static_cast<std::uint32_t>(names.bytes().size()));
+        return out.take() + names.bytes();
     }
 
     std::size_t write(const Spike& s, char* at) const override {

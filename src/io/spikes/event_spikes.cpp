@@ -7,6 +7,7 @@
 #include <utility>
 #include <vector>
 
+#include "core/bytes.hpp"
 #include "io/spikes/address_events.hpp"
 #include "io/spikes/train_collector.hpp"
 #include "io/table/seekable_bytes.hpp"
@@ -53,14 +54,6 @@ Result<void> each_event(SeekableBytes& file, std::uint64_t at, std::size_t size,
     return {};
 }
 
-/// The little-endian number at position `at`.
-template <class T>
-T number_at(std::span<const std::byte> bytes, std::size_t at) {
-    T number;
-    std::memcpy(&number, bytes.data() + at, sizeof number);
-    return number;
-}
-
 /// A file of address events.
 class AerFile {
     std::unique_ptr<SeekableBytes> file_;
@@ -70,48 +63,39 @@ class AerFile {
 
     Error format_error(std::string message) const { return bad_input(std::move(message), {file_->name()}); }
 
-    /// Reads the header up to its runs. Stores the number of runs of afferents, and the number of bytes of the header that follow.
-    Result<void> read_header_start(std::uint32_t& runs, std::uint32_t& bytes) {
+    Result<void> read_header() {
         std::byte header[aer::header_bytes];
         if (file_->size() < sizeof header) return format_error("the header of the address events is incomplete");
         TRY(file_->read(header));
-        clock_ = {number_at<std::int64_t>(header, 8), number_at<std::int64_t>(header, 16)};
-        runs = number_at<std::uint32_t>(header, 24), bytes = number_at<std::uint32_t>(header, 28);
+        char magic[8];  // was checked before
+        std::uint32_t runs = 0, bytes = 0;
+        clock_ = {};
+        ByteReader(header).get(magic, clock_.rate_numerator, clock_.rate_denominator, runs, bytes);
         if (clock_.rate_numerator < 1 || clock_.rate_denominator < 1)
             return format_error(fmt::format("invalid clock of {} samples in {} s: both numbers must be positive", clock_.rate_numerator,
                                             clock_.rate_denominator));
         if (file_->size() - sizeof header < bytes) return format_error("the names of the afferents are incomplete");
         begin_ = sizeof header + bytes;
-        return {};
-    }
-
-    /// Reads the complete header.
-    Result<void> read_complete_header() {
-        std::uint32_t runs = 0, bytes = 0;
-        TRY(read_header_start(runs, bytes));
         std::vector<std::byte> names(bytes);  // the runs, as in the file
         TRY(file_->read(names));
-        std::size_t at = 0;
-        TRY(read_runs(names, at, runs, "afferents", runs_));
-        if (names.size() - at < sizeof(std::uint32_t)) return {};
-        runs = number_at<std::uint32_t>(names, at), at += sizeof runs;
-        return read_runs(names, at, runs, "channels", channels_);
+        ByteReader in(names);
+        TRY(read_runs(in, runs, "afferents", runs_));
+        return in.get(runs) ? read_runs(in, runs, "channels", channels_) : Result<void>();
     }
 
-    /// Reads `count` runs from position `at` of `names` on, and moves `at` to the end of them. `kind` is the kind of run for messages:
-    /// "afferents" or "channels".
-    Result<void> read_runs(std::span<const std::byte> names, std::size_t& at, std::uint32_t count, std::string_view kind,
-                           std::vector<aer::NameRun>& out) const {
+    /// Reads `count` runs. `kind` is the kind of run for messages: "afferents" or "channels".
+    Result<void> read_runs(ByteReader& in, std::uint32_t count, std::string_view kind, std::vector<aer::NameRun>& out) const {
         for (std::uint32_t k = 0; k < count; ++k) {
-            // Field 0 is the first address, 1 the stride, 2 the first number, 3 the count, 4 the length of the name.
-            const auto number = [&](std::size_t field) { return number_at<std::uint32_t>(names, at + 4 * field); };
-            if (names.size() - at < aer::run_bytes || names.size() - at - aer::run_bytes < number(4))
+            aer::NameRun run{};
+            std::uint32_t letters = 0;
+            if (!in.get(run.first_address, run.stride, run.first_number, run.count, letters) || in.rest().size() < letters)
                 return format_error(fmt::format("the names of the {} end within run {} of {}", kind, k + 1, count));
-            aer::NameRun run{number(0), number(1), number(2), number(3), {}};
             if (run.stride == 0 || run.count == 0)
                 return format_error(fmt::format("run {} of {} has a stride or a count of 0", k + 1, kind));
-            run.name.assign(reinterpret_cast<const char*>(names.data()) + at + aer::run_bytes, number(4));
-            at = std::min<std::size_t>(names.size(), at + aer::run_bytes + (number(4) + std::size_t{3}) / 4 * 4);
+            run.name.resize(letters);
+            in.get_raw(run.name.data(), letters);
+            char padding[3];
+            in.get_raw(padding, std::min<std::size_t>(in.rest().size(), (4 - letters % 4) % 4));
             out.push_back(std::move(run));
         }
         return {};
@@ -140,7 +124,7 @@ public:
     explicit AerFile(std::unique_ptr<SeekableBytes> file) : file_(std::move(file)) {}
 
     Result<std::vector<NamedTrain>> read() {
-        TRY(read_complete_header());
+        TRY(read_header());
         AddressTrains trains;
         std::int64_t count = 0;  // spikes read so far
         const auto ok = each_event(*file_, begin_, aer::spike_bytes, [&](const std::byte* at) -> Result<void> {
@@ -181,10 +165,7 @@ Result<std::uint64_t> skip_comments(SeekableBytes& file) {
 
 }  // namespace
 
-Result<std::vector<NamedTrain>> read_aer_spikes(const std::string& path) {
-    auto file = TRY(open_bytes(path));
-    return AerFile(std::move(file)).read();
-}
+Result<std::vector<NamedTrain>> read_aer_spikes(const std::string& path) { return AerFile(TRY(open_bytes(path))).read(); }
 
 Result<std::vector<NamedTrain>> read_aedat2_spikes(const std::string& path) {
     auto file = TRY(open_bytes(path));

@@ -44,4 +44,7 @@ struct EventFormatInfo {
 /// All event formats.
 std::span<const EventFormatInfo> event_formats();
 
+std::unique_ptr<EventFormat> make_aer_format(const EventAddressing&);
+std::unique_ptr<EventFormat> make_aedat2_format(const EventAddressing&);
+
 }  // namespace corpuscle

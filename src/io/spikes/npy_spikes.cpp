@@ -2,10 +2,9 @@
 #include <algorithm>
 #include <cmath>
 
-#include "io/spikes/spike_columns.hpp"
+#include "io/recording/recording_formats.hpp"
 #include "io/spikes/train_collector.hpp"
 #include "io/table/foreign_format.hpp"
-#include "io/table/npy_table.hpp"
 
 namespace corpuscle {
 namespace {

@@ -87,9 +87,6 @@ public:
 
 }  // namespace
 
-Result<std::vector<NamedTrain>> read_npz_spikes(const std::string& path) {
-    auto npz = TRY(NpzReader::open(path));
-    return NpzSpikes(std::move(npz)).read();
-}
+Result<std::vector<NamedTrain>> read_npz_spikes(const std::string& path) { return NpzSpikes(TRY(NpzReader::open(path))).read(); }
 
 }  // namespace corpuscle

@@ -1,8 +1,7 @@
-#include "io/spikes/spike_columns.hpp"
+#include "io/spikes/train_collector.hpp"
 
 #include <fmt/format.h>
 #include <algorithm>
-#include <charconv>
 
 #include "core/text/ascii_text.hpp"
 #include "io/table/heading.hpp"
@@ -34,10 +33,8 @@ std::string listed_headings(const std::vector<std::string>& headings) {
 std::optional<std::size_t> requested_column(const std::vector<std::string>& headings, const std::string& wanted) {
     for (std::size_t c = 0; c < headings.size(); ++c)
         if (headings[c] == wanted || (!headings[c].empty() && parse_heading(headings[c]).name == wanted)) return c;
-    std::size_t number = 0;
-    const auto [end, status] = std::from_chars(wanted.data(), wanted.data() + wanted.size(), number);
-    if (status == std::errc{} && end == wanted.data() + wanted.size() && number >= 1 && number <= headings.size()) return number - 1;
-    return {};
+    const auto number = parse_bare_number<std::size_t>(wanted);
+    return number && *number >= 1 && *number <= headings.size() ? std::optional(*number - 1) : std::nullopt;
 }
 
 }  // namespace

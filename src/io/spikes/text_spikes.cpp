@@ -5,7 +5,6 @@
 #include <optional>
 
 #include "core/text/ascii_text.hpp"
-#include "io/spikes/spike_columns.hpp"
 #include "io/spikes/train_collector.hpp"
 #include "io/table/heading.hpp"
 #include "io/text/dialect.hpp"
@@ -146,15 +145,10 @@ public:
     TextSpikes(LineReader lines, SpikeColumns wanted) : lines_(std::move(lines)), wanted_(std::move(wanted)) {}
 
     Result<std::vector<NamedTrain>> read() {
-        const auto header = TRY(next());
-        if (!header) return bad_input("the file has no header and no spikes", {lines_.path()});
-        const auto row = TRY(read_header());
-        if (row) TRY(add_row());
-        for (;;) {
-            const auto more = TRY(next());
-            if (!more) return std::move(trains_).sorted();
-            TRY(add_row());
-        }
+        if (!TRY(next())) return bad_input("the file has no header and no spikes", {lines_.path()});
+        if (TRY(read_header())) TRY(add_row());
+        while (TRY(next())) TRY(add_row());
+        return std::move(trains_).sorted();
     }
 };
 
@@ -202,8 +196,7 @@ public:
 
 Result<std::vector<NamedTrain>> read_text_spikes(const std::string& path, const SpikeColumns& wanted) {
     auto lines = TRY(LineReader::open(path));
-    const auto json = TRY(looks_like_json(lines));
-    if (json) return JsonSpikes(lines, wanted).read();
+    if (TRY(looks_like_json(lines))) return JsonSpikes(lines, wanted).read();
     return TextSpikes(std::move(lines), wanted).read();
 }
 

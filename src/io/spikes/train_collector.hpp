@@ -1,8 +1,12 @@
 #pragma once
 // Collects the spike trains of a file by name, and declares the readers of the spike formats.
 
+#include <cstddef>
 #include <map>
+#include <optional>
+#include <string>
 #include <utility>
+#include <vector>
 
 #include "io/spikes/spike_files.hpp"
 
@@ -25,5 +29,15 @@ Result<std::vector<NamedTrain>> read_npy_spikes(const std::string& path, const S
 Result<std::vector<NamedTrain>> read_npz_spikes(const std::string& path);
 Result<std::vector<NamedTrain>> read_aer_spikes(const std::string& path);
 Result<std::vector<NamedTrain>> read_aedat2_spikes(const std::string& path);
+
+struct ResolvedSpikeColumns {
+    std::size_t time = 0;                                    ///< index of the column of spike times
+    double seconds_per_unit = 1;                             ///< the unit of the spike times, in s
+    std::optional<std::size_t> afferent = {}, channel = {};  ///< indices of the columns that identify the train; nullopt: no such column
+};
+
+/// Finds the columns by their headings, or as the user requests in `wanted`. `headings` has one element for each column, "" if the file has
+/// no header. A missing or wrong column is an error. If the error concerns one column, sets `column` to its number, counted from 1.
+Result<ResolvedSpikeColumns> find_spike_columns(const std::vector<std::string>& headings, const SpikeColumns& wanted, std::size_t& column);
 
 }  // namespace corpuscle

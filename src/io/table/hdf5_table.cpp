@@ -1,4 +1,4 @@
-#include "io/table/hdf5_table.hpp"
+#include "io/recording/recording_formats.hpp"
 
 #include "io/sandbox/remote_samples.hpp"
 

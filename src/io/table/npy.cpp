@@ -6,12 +6,15 @@
 #include <bit>
 #include <cmath>
 #include <cstring>
+#include <nlohmann/json.hpp>
 #include <optional>
 
-#include "io/table/python_literal.hpp"
+#include "io/text/utf8.hpp"
 
 namespace corpuscle {
 namespace {
+
+using Json = nlohmann::json;
 
 static_assert(std::endian::native == std::endian::little, "elements are decoded as on a little-endian machine");
 
@@ -85,33 +88,58 @@ std::optional<NpyField> parse_type(std::string_view text) {
     return field;
 }
 
+/// Parses a Python literal of strings, integers, True, False, lists, tuples and dictionaries, after conversion to JSON: its strings in
+/// double quotes, its tuples as lists, without a comma after the last element. Discarded if the text is not such a literal.
+Json parse_python_literal(std::string_view text) {
+    std::string json;
+    for (std::size_t k = 0; k < text.size(); ++k) {
+        const char c = text[k];
+        if (c == '\'' || c == '"') {
+            const auto end = std::min(text.find(c, k + 1), text.size());
+            json += Json(std::string(text.substr(k + 1, end - k - 1))).dump();
+            k = end;
+        } else if (c == ')' || c == ']' || c == '}') {
+            json.erase(json.find_last_not_of(" \t\r\n") + 1);
+            if (json.ends_with(',')) json.pop_back();
+            json += c == ')' ? ']' : c;
+        } else if (text.substr(k).starts_with("True")) {
+            json += "true", k += 3;
+        } else if (text.substr(k).starts_with("False")) {
+            json += "false", k += 4;
+        } else if (c != 'L') {  // Python 2 writes long integers as 12L
+            json += c == '(' ? '[' : c;
+        }
+    }
+    const auto is_shallow = [](int depth, auto, const auto&) { return depth <= 8; };  // drops deeper values, which no header has
+    return Json::parse(json, is_shallow, false);
+}
+
 /// The number of elements of an array of this shape. Returns max_header, which the caller rejects, if it is too large for std::size_t.
-std::size_t elements_of(const PythonLiteral& shape) {
+std::size_t elements_of(const Json& shape) {
     std::size_t product = 1;
-    for (const auto& n : shape.items)
-        if (__builtin_mul_overflow(product, static_cast<std::size_t>(n.number), &product)) return max_header;
+    for (const auto& n : shape)
+        if (!n.is_number_unsigned() || __builtin_mul_overflow(product, n.get<std::size_t>(), &product)) return max_header;
     return product;
 }
 
 /// Parses the type in the header: a type such as "<f8", or the list of the fields of a structured type, each of which is (name, type) or
 /// (name, type, shape). Adds the size of an element in bytes to `element_size`, which must be 0.
-std::optional<std::vector<NpyField>> parse_fields(const PythonLiteral& type, std::size_t& element_size) {
+std::optional<std::vector<NpyField>> parse_fields(const Json& type, std::size_t& element_size) {
     std::vector<NpyField> fields;
-    if (type.kind == PythonLiteral::text) {
-        const auto scalar = parse_type(type.characters);
+    if (type.is_string()) {
+        const auto scalar = parse_type(type.get_ref<const std::string&>());
         if (!scalar) return {};
         element_size = scalar->size;
         return std::vector{*scalar};
     }
-    if (type.kind != PythonLiteral::list || type.items.empty()) return {};
-    for (const auto& item : type.items) {
-        if (item.items.size() < 2 || item.items[1].kind != PythonLiteral::text) return {};
-        auto field = parse_type(item.items[1].characters);
+    if (!type.is_array() || type.empty()) return {};
+    for (const auto& item : type) {
+        if (!item.is_array() || item.size() < 2 || !item[1].is_string()) return {};
+        auto field = parse_type(item[1].get_ref<const std::string&>());
         if (!field || field->size > max_header) return {};
-        if (item.items.size() > 2)
-            field->kind = 'V', field->size *= elements_of(item.items[2]);  // each element holds an array, which is not read
+        if (item.size() > 2) field->kind = 'V', field->size *= elements_of(item[2]);  // each element holds an array, which is not read
         if (field->size > max_header) return {};
-        field->name = item.items[0].kind == PythonLiteral::text ? item.items[0].characters : "";
+        field->name = item[0].is_string() ? item[0].get<std::string>() : "";
         field->offset = element_size;
         element_size += field->size;
         if (field->name.empty()) field->kind = 'V';  // padding
@@ -121,21 +149,20 @@ std::optional<std::vector<NpyField>> parse_fields(const PythonLiteral& type, std
 }
 
 /// Parses the dictionary of the header. `name` is the file's name for messages.
-Result<NpyHeader> parse_header(std::string_view text, const std::string& name) {
-    const auto dictionary = parse_python_literal(text);
-    const PythonLiteral *type = nullptr, *order = nullptr, *shape = nullptr;
-    if (dictionary) type = dictionary->find("descr"), order = dictionary->find("fortran_order"), shape = dictionary->find("shape");
-    if (!type || !order || order->kind != PythonLiteral::boolean || !shape || shape->kind != PythonLiteral::list)
+Result<NpyHeader> parse_header(const std::string& text, const std::string& name) {
+    const auto dictionary = parse_python_literal(to_utf8(text));
+    const auto value = [&](const char* key) { return dictionary.is_object() ? dictionary.value(key, Json()) : Json(); };
+    const auto type = value("descr"), order = value("fortran_order"), shape = value("shape");
+    if (type.is_null() || !order.is_boolean() || !shape.is_array())
         return bad_input("the header does not contain descr, fortran_order and shape", {name});
     NpyHeader header;
-    header.is_column_major = order->number != 0;
-    header.type = type->source.substr(0, 60);
-    for (const auto& n : shape->items) {
-        if (n.kind != PythonLiteral::integer || n.number < 0)
-            return bad_input("the shape in the header is not a list of non-negative integers", {name});
-        header.shape.push_back(static_cast<std::uint64_t>(n.number));
+    header.is_column_major = order.get<bool>();
+    header.type = (type.is_string() ? "'" + type.get<std::string>() + "'" : type.dump()).substr(0, 60);
+    for (const auto& n : shape) {
+        if (!n.is_number_unsigned()) return bad_input("the shape in the header is not a list of non-negative integers", {name});
+        header.shape.push_back(n.get<std::uint64_t>());
     }
-    auto fields = parse_fields(*type, header.element_size);
+    auto fields = parse_fields(type, header.element_size);
     if (!fields || header.element_size == 0 || header.element_size > max_header)
         return bad_input(fmt::format("unknown NumPy type {} in the header", header.type), {name});
     header.fields = *std::move(fields);

@@ -1,4 +1,4 @@
-#include "io/table/npy_table.hpp"
+#include "io/recording/recording_formats.hpp"
 
 #include <fmt/format.h>
 #include <algorithm>
@@ -6,7 +6,6 @@
 
 #include "io/recording/samples.hpp"
 #include "io/table/npz.hpp"
-#include "io/text/text_table.hpp"
 
 namespace corpuscle {
 namespace {
@@ -21,8 +20,7 @@ class NpySamples final : public Samples {
     NpyHeader header_;
     ArrayExtent extent_;
     bool has_contiguous_channels_;
-    std::vector<NpyField> fields_;  // the field of each column; if the array is not structured, a single field for all columns
-    SamplesInfo info_;
+    std::vector<NpyField> fields_;   // the field of each column; if the array is not structured, a single field for all columns
     std::vector<std::byte> buffer_;  // the elements that were read last
 
     bool is_structured() const { return !header_.fields[0].name.empty(); }
@@ -71,9 +69,6 @@ public:
         for (const auto& f : header_.fields)
             if (is_structured() && f.is_numeric()) fields_.push_back(f), info_.columns.push_back(parse_heading(f.name));
     }
-    void set_rate(std::optional<double> rate) { info_.rate = rate; }
-
-    const SamplesInfo& info() const override { return info_; }
 
     Result<void> fetch(std::int64_t start, std::size_t rows, std::span<const std::size_t> wanted,
                        std::vector<std::vector<double>>& out) override {
@@ -183,8 +178,7 @@ SamplesResult open_npy(const std::string& path, const TableOptions& options) {
 }
 
 SamplesResult open_npz(const std::string& path, const TableOptions& options) {
-    auto file = TRY(NpzReader::open(path));
-    Npz npz{std::move(file)};
+    Npz npz{TRY(NpzReader::open(path))};
     npz.read_headers();
     const auto chosen = TRY(choose_array(npz.arrays, options.dataset, path));
     auto samples = TRY(npz.samples(chosen, npz.hints(chosen, options.transpose)));

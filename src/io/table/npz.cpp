@@ -5,6 +5,7 @@
 #include <cstring>
 
 #include "core/parameter.hpp"
+#include "io/text/utf8.hpp"
 
 namespace corpuscle {
 namespace {
@@ -18,34 +19,10 @@ std::string raw(std::span<const T> list) {
 }
 
 /// Decodes UTF-8. Invalid bytes become U+FFFD.
-std::u32string code_points(std::string_view s) {
+std::u32string code_points(std::string_view text) {
     std::u32string out;
-    for (std::size_t k = 0; k < s.size();) {
-        // `more` is the number of bytes that follow the first one; -1 if no character begins with it.
-        const auto first = static_cast<unsigned char>(s[k++]);
-        const int more = first < 0x80                    ? 0
-                         : first >= 0xc2 && first < 0xe0 ? 1
-                         : first >= 0xe0 && first < 0xf0 ? 2
-                         : first >= 0xf0 && first < 0xf5 ? 3
-                                                         : -1;
-        char32_t c = more <= 0 ? first : first & (0x3f >> more);
-        int left = more;
-        for (; left > 0 && k < s.size() && (static_cast<unsigned char>(s[k]) & 0xc0) == 0x80; --left)
-            c = c << 6 | (static_cast<unsigned char>(s[k++]) & 0x3f);
-        constexpr char32_t min_value[] = {0, 0x80, 0x800, 0x10000};  // by `more`; smaller code points have a shorter encoding
-        const bool invalid = more < 0 || left > 0 || c < min_value[more] || c > 0x10ffff || (c >= 0xd800 && c < 0xe000);
-        out.push_back(invalid ? U'\ufffd' : c);
-    }
+    while (!text.empty()) out.push_back(take_code_point(text).value_or(U'\ufffd'));
     return out;
-}
-
-/// Appends a code point as UTF-8; U+FFFD if it is invalid.
-void append_utf8(std::string& out, std::uint32_t c) {
-    if (c > 0x10ffff || (c >= 0xd800 && c < 0xe000)) c = 0xfffd;
-    const int more = c < 0x80 ? 0 : c < 0x800 ? 1 : c < 0x10000 ? 2 : 3;
-    constexpr std::uint32_t lead[] = {0, 0xc0, 0xe0, 0xf0};
-    out.push_back(static_cast<char>(lead[more] | c >> 6 * more));
-    for (int k = more; k-- > 0;) out.push_back(static_cast<char>(0x80 | (c >> 6 * k & 0x3f)));
 }
 
 /// An array with all its elements.
@@ -94,7 +71,7 @@ std::string string_at(const NpyField& field, const std::byte* at) {
     std::u32string letters(field.size / 4, U'\0');
     std::memcpy(letters.data(), at, field.size);
     while (!letters.empty() && letters.back() == 0) letters.pop_back();
-    for (const auto c : letters) append_utf8(out, field.big_endian ? __builtin_bswap32(c) : static_cast<std::uint32_t>(c));
+    for (const auto c : letters) append_utf8(out, field.big_endian ? __builtin_bswap32(c) : c);
     return out;
 }
 
@@ -130,10 +107,7 @@ Result<NpyHeader> read_member_header(SeekableBytes& bytes) {
                      {bytes.name()});
 }
 
-Result<NpzReader> NpzReader::open(const std::string& path) {
-    auto archive = TRY(Archive::open(path));
-    return NpzReader(std::move(archive));
-}
+Result<NpzReader> NpzReader::open(const std::string& path) { return NpzReader(TRY(Archive::open(path))); }
 
 std::vector<std::string> NpzReader::names() const {
     std::vector<std::string> all;

@@ -13,18 +13,13 @@
 namespace corpuscle {
 namespace {
 
-struct Close {
-    void operator()(std::FILE* f) const { std::fclose(f); }
-};
-using File = std::unique_ptr<std::FILE, Close>;
-
 class FileBytes final : public SeekableBytes {
     std::string name_;
-    File file_;
+    FileHandle file_;
     std::uint64_t size_;
 
 public:
-    FileBytes(std::string name, File file, std::uint64_t size) : name_(std::move(name)), file_(std::move(file)), size_(size) {}
+    FileBytes(std::string name, FileHandle file, std::uint64_t size) : name_(std::move(name)), file_(std::move(file)), size_(size) {}
 
     const std::string& name() const override { return name_; }
     std::uint64_t size() const override { return size_; }
@@ -44,7 +39,7 @@ public:
 Result<std::unique_ptr<SeekableBytes>> open_bytes(const std::string& path) {
     std::error_code status;
     if (std::filesystem::is_directory(path, status)) return bad_input("this is a directory, not a recording", {path});
-    File file(open_input(path));
+    auto file = open_input(path);
     if (!file) return bad_input(fmt::format("cannot be opened: {}", std::strerror(errno)), {path});
     const auto size = std::filesystem::file_size(path, status);
     if (status) return bad_input("this is not a regular file; save it to one first", {path});
@@ -52,7 +47,7 @@ Result<std::unique_ptr<SeekableBytes>> open_bytes(const std::string& path) {
 }
 
 Result<std::unique_ptr<SeekableBytes>> copy_to_temporary_file(SeekableBytes& from) {
-    File file(std::tmpfile());
+    FileHandle file(std::tmpfile());
     if (!file) return bad_input(fmt::format("a temporary file cannot be created: {}", std::strerror(errno)), {from.name()});
     TRY(from.seek(0));
     std::vector<std::byte> buffer(std::size_t{1} << 20);

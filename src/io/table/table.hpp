@@ -34,32 +34,34 @@ struct TableOptions {
     std::function<bool()> should_continue = [] { return true; };
 };
 
+/// Properties of a table that are known when it has been opened.
+struct TableInfo {
+    std::vector<Column> columns = {};
+    std::optional<std::size_t> time_column = {};  ///< nullopt if the reader found none
+    bool is_time_guessed = false;                 ///< true if the time column was recognised by its values, not by its name
+    std::optional<double> rate = {};              ///< Hz; nullopt if the file does not state it
+    bool is_orientation_known =
+        false;  ///< true if the reader of the format has determined whether the rows in the file are samples or channels
+    std::vector<std::string> notes = {};       ///< for the user about how the file is read
+    std::vector<std::string> time_notes = {};  ///< for the user about the time column
+};
+
 class Table {
 protected:
+    TableInfo info_;
     bool allows_gaps_ = false;  // see allow_gaps()
 
 public:
     virtual ~Table() = default;
-    virtual const std::vector<Column>& columns() const = 0;
-    /// The sample rate in Hz; nullopt if the file does not state it.
-    virtual std::optional<double> rate() const { return {}; }
-    /// True if the reader of the format has determined whether the rows in the file are samples or channels.
-    virtual bool is_orientation_known() const { return false; }
+    const TableInfo& info() const { return info_; }
+    const std::vector<Column>& columns() const { return info_.columns; }
     /// If gaps are allowed, read() returns NaN for a field that is not a finite number. Otherwise such a field is an error at its location.
     void allow_gaps(bool allowed) { allows_gaps_ = allowed; }
-    /// The index of the time column; nullopt if the reader found none.
-    virtual std::optional<std::size_t> time_column() const = 0;
-    /// True if the time column was recognised by its values, not by its name.
-    virtual bool is_time_guessed() const = 0;
     /// Reads up to `rows` rows of column wanted[i] into out[i]. Returns the number of rows read, which is smaller only at the end of the
     /// table.
     virtual Result<std::size_t> read(const std::vector<std::size_t>& wanted, std::size_t rows, std::vector<std::vector<double>>& out) = 0;
     /// Continues at the first row.
     virtual Result<void> rewind() = 0;
-    /// Notes for the user about how the file is read.
-    virtual std::vector<std::string> notes() const { return {}; }
-    /// Notes for the user about the time column.
-    virtual std::vector<std::string> time_notes() const { return {}; }
     /// Advice for a file in which the time decreases at row `row` of the last block. If a new trial begins there: how to make a file of a
     /// single trial. Otherwise "". Call rewind() before the next read().
     virtual std::string single_trial_advice(std::size_t row) { return static_cast<void>(row), std::string(); }

@@ -1,4 +1,4 @@
-#include "io/table/wav_table.hpp"
+#include "io/recording/recording_formats.hpp"
 
 #include <fmt/format.h>
 
@@ -67,30 +67,13 @@ std::string missing_samples_note(const std::string& path) {
                        data->size, size - std::min<std::uint64_t>(data->begin, size));
 }
 
-/// Samples with an additional note.
-class AnnotatedSamples final : public Samples {
-    std::unique_ptr<Samples> samples_;
-    SamplesInfo info_;
-
-public:
-    AnnotatedSamples(std::unique_ptr<Samples> samples, std::string note) : samples_(std::move(samples)), info_(samples_->info()) {
-        info_.notes.push_back(std::move(note));
-    }
-    const SamplesInfo& info() const override { return info_; }
-    Result<void> fetch(std::int64_t first, std::size_t rows, std::span<const std::size_t> wanted,
-                       std::vector<std::vector<double>>& out) override {
-        return samples_->fetch(first, rows, wanted, out);
-    }
-};
-
 }  // namespace
 
 Result<std::unique_ptr<Table>> open_wav_table(const std::string& path, const TableOptions& options) {
     if (options.dataset) return bad_usage(fmt::format("--dataset {}: a sound file has only one array", *options.dataset));
     if (options.transpose) return bad_usage("--transpose: a sound file defines its channels, so it cannot be transposed");
     auto samples = open_remote_samples(path, {"corpuscle-sound", "libsndfile"}, options);
-    if (auto note = missing_samples_note(path); samples && !note.empty())
-        samples = std::unique_ptr<Samples>(std::make_unique<AnnotatedSamples>(*std::move(samples), std::move(note)));
+    if (auto note = missing_samples_note(path); samples && !note.empty()) (*samples)->add_note(std::move(note));
     return make_table(std::move(samples), path);
 }
 

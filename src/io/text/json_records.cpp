@@ -265,9 +265,7 @@ class JsonReader {
         std::string first;
         std::size_t lines = 0;
         bool same_bracket = true;
-        for (;;) {
-            const auto more = TRY(lines_.next(line));
-            if (!more) break;
+        while (TRY(lines_.next(line))) {
             const auto text = trimmed(line);
             if (text.empty()) continue;
             if (++lines == 1)
@@ -286,23 +284,22 @@ class JsonReader {
 
     /// Reads one record from each line.
     Result<void> read_lines() {
-        for (std::string_view line;;) {
-            const auto more = TRY(lines_.next(line));
-            if (!more) return {};
+        std::string_view line;
+        while (TRY(lines_.next(line))) {
             if (trimmed(line).empty()) continue;
             const auto record = TRY(parse(line, lines_.line_number()));
             if (!record.is_structured())
                 return error_at("expected a record here, such as {\"time_s\": 0, \"fz_N\": 1}", lines_.line_number());
             TRY(emit_record(record, lines_.line_number()));
         }
+        return {};
     }
 
     /// Reads the complete text as one document.
     Result<void> read_document() {
         std::string text;
-        for (std::string_view line;;) {
-            const auto more = TRY(lines_.next(line));
-            if (!more) break;
+        std::string_view line;
+        while (TRY(lines_.next(line))) {
             text.append(line) += '\n';
             if (text.size() > max_document)
                 return error_at(fmt::format(
@@ -319,10 +316,7 @@ public:
     JsonReader(LineReader& lines, const RecordHandler& on_record, const std::function<bool()>& should_continue, JsonMetadata* metadata)
         : lines_(lines), on_record_(on_record), should_continue_(should_continue), metadata_(metadata) {}
 
-    Result<void> read() {
-        const auto by_line = TRY(are_json_lines());
-        return by_line ? read_lines() : read_document();
-    }
+    Result<void> read() { return TRY(are_json_lines()) ? read_lines() : read_document(); }
 };
 
 }  // namespace
@@ -335,9 +329,7 @@ Result<void> read_json_records(LineReader& lines, const std::function<Result<voi
 Result<bool> looks_like_json(LineReader& lines) {
     std::string_view line;
     bool json = false;
-    for (;;) {
-        const auto more = TRY(lines.next(line));
-        if (!more) break;
+    while (TRY(lines.next(line))) {
         const auto text = trimmed(line);
         if (text.empty()) continue;
         const auto rest = trimmed(text.substr(1));

@@ -9,6 +9,7 @@
 #include <string>
 #include <vector>
 
+#include "io/table/table.hpp"
 #include "io/text/line_reader.hpp"
 
 namespace corpuscle {
@@ -34,5 +35,9 @@ Result<void> read_json_records(
 
 /// True if the first line that is not empty begins like JSON. Rewinds the text.
 Result<bool> looks_like_json(LineReader&);
+
+/// Reads the entire text. `should_continue` is called now and then while reading; if it returns false, the result is an error with the code
+/// ErrorCode::interrupted.
+Result<std::unique_ptr<Table>> open_json_table(LineReader, const std::function<bool()>& should_continue);
 
 }  // namespace corpuscle

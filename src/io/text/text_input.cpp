@@ -11,6 +11,7 @@
 
 #include "core/text/input_files.hpp"
 #include "io/table/foreign_format.hpp"
+#include "io/text/utf8.hpp"
 
 namespace corpuscle {
 namespace {
@@ -19,11 +20,8 @@ constexpr std::size_t packed_block = std::size_t{1} << 17;  // compressed bytes 
 
 /// A file as it is.
 class PlainText final : public TextInput {
-    struct Close {
-        void operator()(std::FILE* f) const { std::fclose(f); }
-    };
     std::string path_;
-    std::unique_ptr<std::FILE, Close> file_;
+    FileHandle file_;
     double size_ = 0, read_ = 0;  // bytes of the file (0: not known), and bytes read so far
 
     Result<std::size_t> fetch(char* to, std::size_t max_bytes) override {
@@ -107,15 +105,6 @@ public:
     std::vector<std::string> shell_commands() const override { return {"zcat"}; }
 };
 
-/// Appends a code point as UTF-8.
-void append_code_point(std::string& out, unsigned long c) {
-    const auto byte = [&](unsigned long b) { out += static_cast<char>(b); };
-    if (c < 0x80) return byte(c);
-    if (c < 0x800) return byte(0xc0 | c >> 6), byte(0x80 | (c & 0x3f));
-    if (c < 0x10000) return byte(0xe0 | c >> 12), byte(0x80 | (c >> 6 & 0x3f)), byte(0x80 | (c & 0x3f));
-    byte(0xf0 | c >> 18), byte(0x80 | (c >> 12 & 0x3f)), byte(0x80 | (c >> 6 & 0x3f)), byte(0x80 | (c & 0x3f));
-}
-
 /// A UTF-16 text as UTF-8. U+FFFD replaces a surrogate without its partner.
 class Utf16Text final : public TextInput {
     std::string path_;
@@ -123,21 +112,21 @@ class Utf16Text final : public TextInput {
     bool big_endian_;
     std::string out_;           // converted text
     std::size_t returned_ = 0;  // bytes of out_ that have been returned
-    unsigned long high_ = 0;    // a high surrogate whose low surrogate has not come yet; 0: none
+    char32_t high_ = 0;         // a high surrogate whose low surrogate has not come yet; 0: none
     bool ended_ = false;        // true after the last code unit was read
 
     /// Converts the next code unit.
-    void append_unit(unsigned long unit) {
+    void append_unit(char32_t unit) {
         const bool low = unit >= 0xdc00 && unit < 0xe000;
         if (high_ != 0) {
-            append_code_point(out_, low ? 0x10000 + ((high_ - 0xd800) << 10) + (unit - 0xdc00) : 0xfffd);
+            append_utf8(out_, low ? 0x10000 + ((high_ - 0xd800) << 10) + (unit - 0xdc00) : 0xfffd);
             high_ = 0;
             if (low) return;
         }
         if (unit >= 0xd800 && unit < 0xdc00)
             high_ = unit;
         else
-            append_code_point(out_, low ? 0xfffd : unit);
+            append_utf8(out_, low ? 0xfffd : unit);
     }
 
     Result<void> refill() {
@@ -148,9 +137,9 @@ class Utf16Text final : public TextInput {
         if (got % 2 != 0) return bad_input("this UTF-16 text is incomplete: it ends within a character", {path_});
         for (std::size_t k = 0; k < got; k += 2) {
             const auto a = static_cast<unsigned char>(block[k]), b = static_cast<unsigned char>(block[k + 1]);
-            append_unit(big_endian_ ? a * 256UL + b : b * 256UL + a);
+            append_unit(big_endian_ ? a * 256U + b : b * 256U + a);
         }
-        if (ended_ && high_ != 0) append_code_point(out_, 0xfffd), high_ = 0;
+        if (ended_ && high_ != 0) append_utf8(out_, 0xfffd), high_ = 0;
         return {};
     }
 

@@ -29,8 +29,7 @@ Result<std::vector<HeadLine>> read_head(LineReader& lines, std::size_t skip) {
     std::string comment;
     bool gap = false;
     for (std::size_t bytes = 0; head.size() < max_preamble + inspected_rows && bytes < max_head;) {
-        const auto more = TRY(lines.next(line));
-        if (!more) break;
+        if (!TRY(lines.next(line))) break;
         if (lines.line_number() <= static_cast<long>(skip)) continue;
         if (line.find('\0') != line.npos)
             return bad_input("not a text file: it contains NUL bytes, as binary files do", {lines.path(), lines.line_number()});
@@ -403,8 +402,7 @@ void split_row(const Dialect& dialect, std::string_view line, std::size_t column
 }
 
 Result<TextLayout> detect_text_layout(LineReader& lines, std::size_t skip, bool rows_are_channels) {
-    auto head = TRY(read_head(lines, skip));
-    return LayoutDetector(std::move(head)).find(lines.path(), rows_are_channels);
+    return LayoutDetector(TRY(read_head(lines, skip))).find(lines.path(), rows_are_channels);
 }
 
 }  // namespace corpuscle

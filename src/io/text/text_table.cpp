@@ -1,4 +1,4 @@
-#include "io/text/text_table.hpp"
+#include "io/recording/recording_formats.hpp"
 
 #include <fmt/format.h>
 #include <algorithm>
@@ -9,7 +9,6 @@
 #include "core/text/ascii_text.hpp"
 #include "io/recording/field_advice.hpp"
 #include "io/text/json_records.hpp"
-#include "io/text/json_table.hpp"
 #include "io/text/text_layout.hpp"
 
 namespace corpuscle {
@@ -19,8 +18,6 @@ class TextTable final : public Table {
     LineReader lines_;
     TextLayout layout_;
     Dialect dialect_;
-    std::vector<Column> columns_;
-    std::optional<std::size_t> time_;    // index of the time column
     std::size_t skip_;                   // lines to ignore at the beginning of the file
     bool rows_are_channels_;             // true: --transpose was given
     Fields fields_;                      // of the current line
@@ -39,7 +36,7 @@ class TextTable final : public Table {
 
     /// A column for messages: its name, or its number (counted from 1) if the file has no header.
     std::string column_label(std::size_t c) const {
-        return layout_.has_header ? fmt::format("'{}'", columns_[c].name) : fmt::format("{}", c + 1);
+        return layout_.has_header ? fmt::format("'{}'", info_.columns[c].name) : fmt::format("{}", c + 1);
     }
 
     /// Reads the next line of the table that is a row. Returns false at the end of the file.
@@ -57,7 +54,7 @@ class TextTable final : public Table {
         const auto stamp = parse_time_stamp(fields_[c]);
         if (!stamp || !layout_.first_stamp || stamp->has_date != layout_.first_stamp->has_date) return {};
         double t = seconds_between(*layout_.first_stamp, *stamp) + days_;
-        if (stamp->has_date || c != time_) return t;
+        if (stamp->has_date || c != info_.time_column) return t;
         constexpr double day = 86'400;
         if (t < last_stamp_ - day / 2) days_ += day, t += day;
         return last_stamp_ = t;
@@ -66,7 +63,7 @@ class TextTable final : public Table {
     /// The end of a message: the options that help with a field in column c that cannot be read.
     std::string remedy(std::size_t c) const {
         const bool first = lines_.line_number() <= layout_.first_row_line;
-        if (c == time_)
+        if (c == info_.time_column)
             return fmt::format("; use {}--rate, such as --rate 1kHz, to take the rows as evenly spaced, or --time to name another column",
                                first ? "" : "--bad-fields drop to skip the row, ");
         return fmt::format("; use --bad-fields interpolate to fill it in, or --bad-fields drop to skip the row{}",
@@ -76,7 +73,7 @@ class TextTable final : public Table {
     /// The number in field c of `line`, whose fields are in fields_.
     Result<double> number_in(std::string_view line, std::size_t c) {
         double value = 0;
-        if (columns_[c].holds_time_stamps) {
+        if (info_.columns[c].holds_time_stamps) {
             if (const auto t = stamp_in(c)) return *t;
         } else if (dialect_.parse_number(fields_[c], value)) {
             return value;
@@ -84,10 +81,10 @@ class TextTable final : public Table {
         if (allows_gaps_) return std::numeric_limits<double>::quiet_NaN();
         const auto column = fields_[c].data() ? fields_[c].data() - line.data() + 1 : 0;  // in bytes; 0 for a missing optional field
         const auto found = fields_[c].empty() ? std::string("an empty field") : fmt::format("'{}'", fields_[c].substr(0, 40));
-        const auto advice = columns_[c].holds_time_stamps ? "" : advice_for(fields_[c]);
+        const auto advice = info_.columns[c].holds_time_stamps ? "" : advice_for(fields_[c]);
         return error_at(
-            fmt::format("column {}: {} where a {} is expected{}", column_label(c), found, columns_[c].holds_time_stamps ? "time" : "number",
-                        advice.empty() ? remedy(c) : "; it contains " + advice),
+            fmt::format("column {}: {} where a {} is expected{}", column_label(c), found,
+                        info_.columns[c].holds_time_stamps ? "time" : "number", advice.empty() ? remedy(c) : "; it contains " + advice),
             column);
     }
 
@@ -104,41 +101,41 @@ class TextTable final : public Table {
     void store_evidence() {
         constexpr std::size_t max_evidence = 8;  // columns; only one is reported
         std::size_t count = 0;
-        for (std::size_t c = 0; c < std::min(columns_.size(), layout_.first_fields.size()) && count < max_evidence; ++c) {
+        for (std::size_t c = 0; c < std::min(info_.columns.size(), layout_.first_fields.size()) && count < max_evidence; ++c) {
             const auto& word = layout_.first_fields[c];
-            if (!columns_[c].exclusion_reason.starts_with("holds words") || word.empty()) continue;
+            if (!info_.columns[c].exclusion_reason.starts_with("holds words") || word.empty()) continue;
             ++count;
             const auto advice = advice_for(word);
-            columns_[c].exclusion_evidence = fmt::format("line {} has '{}'{}{}", layout_.first_row_line, word.substr(0, 40),
-                                                         advice.empty() ? "" : ", which contains ", advice);
+            info_.columns[c].exclusion_evidence = fmt::format("line {} has '{}'{}{}", layout_.first_row_line, word.substr(0, 40),
+                                                              advice.empty() ? "" : ", which contains ", advice);
         }
     }
 
     /// Splits a row into fields_, with an empty field for a missing optional one.
     void split(std::string_view line) {
-        split_row(dialect_, line, columns_.size(), fields_);
-        if (layout_.is_last_field_optional && fields_.size() + 1 == columns_.size()) fields_.emplace_back();
+        split_row(dialect_, line, info_.columns.size(), fields_);
+        if (layout_.is_last_field_optional && fields_.size() + 1 == info_.columns.size()) fields_.emplace_back();
     }
 
     /// For a table without a header: the first of several columns is the time if it increases over the first rows, each step between 50 %
     /// and 150 % of the mean step.
     Result<void> find_unnamed_time() {
-        if (!columns_[0].exclusion_reason.empty()) return {};
+        if (!info_.columns[0].exclusion_reason.empty()) return {};
         std::vector<std::vector<double>> first(1);
         const auto rows = TRY(read({0}, 64, first));
         const auto& t = first[0];
-        if (rows >= 3 && columns_.size() > 1) {
+        if (rows >= 3 && info_.columns.size() > 1) {
             const double mean = (t[rows - 1] - t[0]) / static_cast<double>(rows - 1);
             bool even = mean > 0;
             for (std::size_t k = 1; k < rows; ++k) even = even && t[k] > t[k - 1] && std::abs(t[k] - t[k - 1] - mean) < 0.5 * mean;
-            if (even) time_ = 0;
+            if (even) info_.time_column = 0;
         }
         return rewind();
     }
 
     /// Sets the destinations of the requested columns.
     void set_columns(const std::vector<std::size_t>& wanted, std::vector<std::vector<double>>& out) {
-        destinations_.assign(columns_.size(), nullptr);
+        destinations_.assign(info_.columns.size(), nullptr);
         for (std::size_t i = 0; i < wanted.size(); ++i) destinations_[wanted[i]] = out[i].data();
         wanted_end_ = wanted.empty() ? 0 : *std::max_element(wanted.begin(), wanted.end()) + 1;
     }
@@ -183,10 +180,10 @@ class TextTable final : public Table {
                                         command.empty() ? "" : ": ", command));
         }
         split(line);
-        if (fields_.size() != columns_.size()) {
+        if (fields_.size() != info_.columns.size()) {
             if (!allows_gaps_)
                 return error_at(fmt::format("{} columns where {} are expected; use --bad-fields drop to skip such rows", fields_.size(),
-                                            columns_.size()));
+                                            info_.columns.size()));
             for (auto& column : out) column[row] = std::numeric_limits<double>::quiet_NaN();  // fields cannot be assigned to columns
             return {};
         }
@@ -212,8 +209,7 @@ class TextTable final : public Table {
         std::vector<bool> constant(layout_.trial_columns.size(), true);  // of each trial column, before `trial_line`
         quoted_rows_ = quoted_separators_ = false;
         for (std::string_view line; lines_.line_number() < trial_line;) {
-            const auto more = TRY(next_row(line));
-            if (!more) return found;
+            if (!TRY(next_row(line))) return found;
             split(line);
             if (line.find('"') != line.npos) {
                 quoted_rows_ = true;
@@ -230,7 +226,7 @@ class TextTable final : public Table {
         if (last.empty()) return found;
         for (std::size_t k = 0; k < current.size(); ++k) {
             const bool changes = current[k] != last[k];
-            if (changes || (constant[k] && is_trial_name(columns_[layout_.trial_columns[k]].name)))
+            if (changes || (constant[k] && is_trial_name(info_.columns[layout_.trial_columns[k]].name)))
                 found.push_back({layout_.trial_columns[k], first[k], changes});
         }
         // Keep the most likely one of the columns that change, and the constant columns, because they may change later in the file.
@@ -268,13 +264,13 @@ class TextTable final : public Table {
     /// Names the columns without a name: "time" for the time, otherwise ch1, ch2 ... The numbers count all columns but the time.
     void name_columns() {
         std::size_t number = 0;
-        for (std::size_t c = 0; c < columns_.size(); ++c) {
-            if (time_ == c) {
-                if (columns_[c].name.empty()) columns_[c].name = "time";
+        for (std::size_t c = 0; c < info_.columns.size(); ++c) {
+            if (info_.time_column == c) {
+                if (info_.columns[c].name.empty()) info_.columns[c].name = "time";
                 continue;
             }
             ++number;
-            if (columns_[c].name.empty()) columns_[c].name = fmt::format("ch{}", number);
+            if (info_.columns[c].name.empty()) info_.columns[c].name = fmt::format("ch{}", number);
         }
     }
 
@@ -284,27 +280,16 @@ public:
 
     Result<void> open() {
         layout_ = TRY(detect_text_layout(lines_, skip_, rows_are_channels_));
-        dialect_ = layout_.dialect, columns_ = layout_.columns, time_ = layout_.roles.time_column;
-        if (!layout_.has_header && !time_ && !layout_.has_row_names) TRY(find_unnamed_time());
+        dialect_ = layout_.dialect, info_.columns = layout_.columns, info_.time_column = layout_.roles.time_column;
+        info_.rate = layout_.rate, info_.notes = layout_.notes, info_.time_notes = layout_.roles.notes;
+        if (!layout_.has_header && !info_.time_column && !layout_.has_row_names) TRY(find_unnamed_time());
+        info_.is_time_guessed = info_.time_column && (!layout_.has_header || layout_.roles.is_time_guessed);
         name_columns();
         store_evidence();
+        if (info_.time_column && layout_.first_stamp)
+            if (const auto& time = info_.columns[*info_.time_column]; time.holds_time_stamps)
+                info_.time_notes.push_back(origin_note(*layout_.first_stamp, time.name));
         return {};
-    }
-
-    const std::vector<Column>& columns() const override { return columns_; }
-    std::optional<std::size_t> time_column() const override { return time_; }
-    bool is_time_guessed() const override { return time_ && (!layout_.has_header || layout_.roles.is_time_guessed); }
-    std::optional<double> rate() const override { return layout_.rate; }
-    std::vector<std::string> notes() const override { return layout_.notes; }
-    std::vector<std::string> time_notes() const override {
-        auto all = layout_.roles.notes;
-        if (time_ && columns_[*time_].holds_time_stamps && layout_.first_stamp) {
-            const auto& s = *layout_.first_stamp;
-            const auto instant = format_instant(static_cast<double>(s.day) * 86'400 + static_cast<double>(s.nanoseconds) * 1e-9);
-            all.push_back(
-                fmt::format("0 s is {}, the first time in '{}'", s.has_date ? instant : instant.substr(11), columns_[*time_].name));
-        }
-        return all;
     }
 
     std::string single_trial_advice(std::size_t row) override {
@@ -314,18 +299,18 @@ public:
         const auto filter = trial_filter(*trials);
         const auto command = filter.empty() ? filter : lines_.copy_command(filter, "-trial1");
         return fmt::format("the file has several trials, identified by '{}', but only one can be read at a time; make a file of {}{}",
-                           columns_[distinguishing->column].name, command.empty() ? "each" : "one: ", command);
+                           info_.columns[distinguishing->column].name, command.empty() ? "each" : "one: ", command);
     }
 
     Result<std::vector<std::string>> row_names() override {
         std::vector<std::string> names;
         if (!layout_.has_row_names) return names;
-        for (std::string_view line;;) {
-            const auto more = TRY(next_row(line));
-            if (!more) return names;
+        std::string_view line;
+        while (TRY(next_row(line))) {
             split(line);
             names.emplace_back(fields_.empty() ? std::string_view() : fields_[0]);
         }
+        return names;
     }
 
     double progress() const override { return lines_.progress(); }
@@ -337,8 +322,7 @@ public:
         set_columns(wanted, out);
         std::size_t row = 0;
         for (std::string_view line; row < rows; ++row) {
-            const auto more = TRY(next_row(line));
-            if (!more) break;
+            if (!TRY(next_row(line))) break;
             TRY(read_row(line, row, wanted, out));
             line_numbers_.push_back(lines_.line_number());
         }
@@ -356,8 +340,7 @@ public:
 Result<std::unique_ptr<Table>> open_text_table(const std::string& path, const TableOptions& options) {
     if (options.dataset) return bad_usage(fmt::format("--dataset {}: a text file has only one table", *options.dataset));
     auto lines = TRY(LineReader::open(path));
-    const auto json = TRY(looks_like_json(lines));
-    if (json) return open_json_table(std::move(lines), options.should_continue);
+    if (TRY(looks_like_json(lines))) return open_json_table(std::move(lines), options.should_continue);
     auto table = std::make_unique<TextTable>(std::move(lines), options.skip_lines, options.transpose == true);
     TRY(table->open());
     return std::unique_ptr<Table>(std::move(table));

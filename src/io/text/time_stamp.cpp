@@ -145,4 +145,9 @@ std::string format_instant(double seconds_since_1970) {
                        static_cast<unsigned>(date.day()), left / 3'600'000, left / 60'000 % 60, left / 1000 % 60, left % 1000);
 }
 
+std::string origin_note(const TimeStamp& s, const std::string& column) {
+    const auto instant = format_instant(static_cast<double>(s.day) * 86'400 + static_cast<double>(s.nanoseconds) * 1e-9);
+    return fmt::format("0 s is {}, the first time in '{}'", s.has_date ? instant : instant.substr(11), column);
+}
+
 }  // namespace corpuscle

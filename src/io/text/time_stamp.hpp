@@ -28,4 +28,7 @@ double seconds_between(const TimeStamp& from, const TimeStamp& to);
 /// Formats seconds since 1970 as "2026-03-01 12:00:00.000", in UTC, to the millisecond.
 std::string format_instant(double seconds_since_1970);
 
+/// The note that 0 s is this time stamp, the first in the time column of this name.
+std::string origin_note(const TimeStamp&, const std::string& column);
+
 }  // namespace corpuscle

@@ -1,10 +1,9 @@
-#include "io/text/transposed_table.hpp"
+#include "io/recording/samples.hpp"
 
 #include <fmt/format.h>
 #include <algorithm>
 #include <numeric>
 
-#include "io/recording/samples.hpp"
 #include "io/table/heading.hpp"
 
 namespace corpuscle {
@@ -14,21 +13,21 @@ constexpr std::size_t max_transposed_numbers = std::size_t{1} << 27;  // they ne
 
 /// Samples of a transposed text table, in memory.
 class MemorySamples final : public Samples {
-    SamplesInfo info_;
     std::vector<std::vector<double>> channels_;  // for each channel, its samples
     std::vector<SourceLocation> locations_;      // for each channel, the location of its row in the file
     std::size_t names_;  // number of fields before the first sample of a row: 1 if rows begin with a name, otherwise 0
 
 public:
     MemorySamples(SamplesInfo info, std::vector<std::vector<double>> channels, std::vector<SourceLocation> locations, std::size_t names)
-        : info_(std::move(info)), channels_(std::move(channels)), locations_(std::move(locations)), names_(names) {}
-
-    std::optional<FieldLocation> location_of(std::int64_t row, std::size_t column) const override {
-        return FieldLocation{locations_[column], static_cast<std::size_t>(row) + names_ + 1};
+        : channels_(std::move(channels)), locations_(std::move(locations)), names_(names) {
+        info_ = std::move(info);
     }
-
-    const SamplesInfo& info() const override { return info_; }
-
+    Error bad_value(std::int64_t row, std::size_t column, double, const std::string&) const override {
+        return bad_input(fmt::format("field {} is not a number; use --bad-fields interpolate to fill it in, or --bad-fields drop to skip "
+                                     "this sample in all channels",
+                                     static_cast<std::size_t>(row) + names_ + 1),
+                         locations_[column]);
+    }
     Result<void> fetch(std::int64_t first, std::size_t rows, std::span<const std::size_t> wanted,
                        std::vector<std::vector<double>>& out) override {
         for (std::size_t i = 0; i < wanted.size(); ++i)

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "core/error.hpp"
-#include "live/input/descriptor.hpp"
+#include "io/output/descriptor.hpp"
 
 namespace corpuscle {
 

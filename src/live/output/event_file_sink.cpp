@@ -12,6 +12,7 @@
 #include <optional>
 #include <thread>
 
+#include "io/output/descriptor.hpp"
 #include "io/output/output_file.hpp"
 #include "live/output/event_sink.hpp"
 

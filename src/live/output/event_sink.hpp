@@ -7,9 +7,9 @@
 #include <memory>
 #include <string>
 
+#include "io/output/descriptor.hpp"
 #include "io/spikes/events.hpp"
 #include "live/input/byte_ring.hpp"
-#include "live/input/descriptor.hpp"
 #include "live/input/sockets.hpp"
 
 namespace corpuscle {

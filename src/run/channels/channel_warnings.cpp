@@ -1,6 +1,8 @@
 #include "run/channels/channel_warnings.hpp"
+#include "core/text/quantity.hpp"
 
 #include <fmt/format.h>
+#include <cmath>
 
 #include "model/neuron/threshold_crossing.hpp"
 
@@ -44,6 +46,15 @@ std::vector<std::string> rate_warnings(std::span<const std::unique_ptr<ForceSour
                     fmt::format("{} on {}: the sample rate is {:g} Hz, but this afferent needs {:g} Hz or more; do not trust its spikes",
                                 a.name, source->name(), rate, a.min_rate));
     return warnings;
+}
+
+std::string excessive_rate_warning(double rate, const AfferentPlan& plan, const std::string& name) {
+    const auto refractory = plan.value("t_ref");
+    const auto advice = refractory && *refractory < 1 / max_nerve_rate
+                            ? fmt::format(", and give the afferent a refractory period: --set {}.t_ref=1ms", name)
+                            : std::string();
+    return fmt::format("spikes come at up to {}, but a nerve fibre fires at no more than about {}; check the force's unit and size{}",
+                       std::isfinite(rate) ? format_quantity(rate, "Hz") : "any rate", format_quantity(max_nerve_rate, "Hz"), advice);
 }
 
 }  // namespace corpuscle

@@ -4,6 +4,8 @@
 #include "model/catalog.hpp"
 #include "run/run_inputs.hpp"
 
+#include <string>
+
 namespace corpuscle {
 
 /// Warnings about afferents that membrane noise does not affect. `noise` in A.
@@ -14,5 +16,12 @@ std::vector<std::string> response_warnings(const RunStats&);
 
 /// Warnings, known before the run, about sources with a sample rate that is too low for an afferent.
 std::vector<std::string> rate_warnings(std::span<const std::unique_ptr<ForceSource>> sources, std::span<const AfferentPlan> afferents);
+
+/// The highest firing rate of a nerve fibre, Hz. The absolute refractory period is about 1 ms (Hodgkin & Huxley 1952, J Physiol 117:500).
+inline constexpr double max_nerve_rate = 1e3;
+
+/// The warning "spikes come at up to 4.5 MHz ...", with advice. `rate`: the highest firing rate of the afferent, Hz. `name`: its name for
+/// --set.
+std::string excessive_rate_warning(double rate, const AfferentPlan&, const std::string& name);
 
 }  // namespace corpuscle

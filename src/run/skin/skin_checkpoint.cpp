@@ -9,11 +9,11 @@
 #include <cerrno>
 #include <cstring>
 #include <filesystem>
-#include <fstream>
 
+#include "core/bytes.hpp"
+#include "core/text/input_files.hpp"
 #include "io/output/output_check.hpp"
 #include "io/output/output_file.hpp"
-#include "io/sandbox/message.hpp"
 #include "io/table/seekable_bytes.hpp"
 
 namespace corpuscle {
@@ -23,8 +23,9 @@ namespace fs = std::filesystem;
 
 // FILE: header, fingerprint, checksum of the force, number and checksum of the spikes, the skin's state, checksum of all this.
 constexpr std::string_view checkpoint_magic = "corpuscle checkpoint ", checkpoint_header = "corpuscle checkpoint 2\n";
+constexpr std::size_t max_checkpoint = std::size_t{1} << 36;             // bytes of FILE
 constexpr std::string_view spikes_header = "corpuscle told spikes 2\n";  // "told": handed to the sinks
-static_assert(spikes_header.size() % sizeof(std::uint64_t) == 0);  // the spikes after the header are aligned
+static_assert(spikes_header.size() % sizeof(std::uint64_t) == 0);        // the spikes after the header are aligned
 
 /// A spike as stored in FILE.spikes.
 struct StoredSpike {
@@ -37,14 +38,6 @@ Spike spike_of(const StoredSpike& s) { return {s.step, s.offset, static_cast<std
 
 /// The position in FILE.spikes of the spike with this index, bytes.
 long position_of_spike(std::uint64_t index) { return static_cast<long>(spikes_header.size() + index * sizeof(StoredSpike)); }
-
-bool get_fingerprint(Message& from, RunFingerprint& out) {
-    std::uint64_t count = 0;
-    if (!from.get(count)) return false;
-    for (std::uint64_t k = 0; k < count; ++k)
-        if (auto& [name, value] = out.emplace_back(); !from.get(name) || !from.get(value)) return false;
-    return true;
-}
 
 /// The differences between the fingerprints of two runs, in words; "" if there are none.
 std::string differences(const RunFingerprint& then, const RunFingerprint& now) {
@@ -66,13 +59,6 @@ std::string differences(const RunFingerprint& then, const RunFingerprint& now) {
     return fmt::format("{}", fmt::join(found, "; "));
 }
 
-/// True if the open file is still the file at this path.
-bool is_file_at(int file, const std::string& path) {
-    struct ::stat open_file = {}, file_at_path = {};
-    return ::fstat(file, &open_file) == 0 && ::stat(path.c_str(), &file_at_path) == 0 && open_file.st_ino == file_at_path.st_ino &&
-           open_file.st_dev == file_at_path.st_dev;
-}
-
 }  // namespace
 
 Error SkinCheckpoint::system_error(const std::string& path) const { return bad_input(std::strerror(errno), {path}); }
@@ -90,7 +76,7 @@ Result<std::unique_ptr<SkinCheckpoint>> SkinCheckpoint::open(const std::string& 
     std::unique_ptr<SkinCheckpoint> checkpoint(new SkinCheckpoint(file, skin, std::move(fingerprint)));
     TRY(checkpoint->check_file());
     TRY(checkpoint->lock_spikes());
-    if (!read_beginning(checkpoint->spikes_file_).starts_with(spikes_header))
+    if (!peek_input(checkpoint->spikes_file_).starts_with(spikes_header))
         return bad_input(fmt::format("this file was not written by a checkpoint of this version and was left unchanged; move it away, or "
                                      "name another file than {} with --checkpoint",
                                      file),
@@ -108,7 +94,7 @@ SkinCheckpoint::~SkinCheckpoint() {
     if (!spikes_) return;
     std::error_code ignored;
     if (!fs::exists(file_, ignored) && is_file_at(::fileno(spikes_.get()), spikes_file_) &&
-        read_beginning(spikes_file_).starts_with(spikes_header))
+        peek_input(spikes_file_).starts_with(spikes_header))
         fs::remove(spikes_file_, ignored);
 }
 
@@ -116,7 +102,7 @@ SkinCheckpoint::~SkinCheckpoint() {
 Result<void> SkinCheckpoint::check_file() const {
     std::error_code status;
     if (!fs::exists(file_, status)) return {};
-    const auto beginning = read_beginning(file_);
+    const auto beginning = peek_input(file_);
     if (!beginning.starts_with(checkpoint_magic))
         return bad_input("this file is not a checkpoint and was left unchanged; name another with --checkpoint", {file_});
     if (!beginning.starts_with(checkpoint_header)) {
@@ -143,7 +129,7 @@ Result<void> SkinCheckpoint::lock_spikes() {
         if (!is_new) file = ::open(spikes_file_.c_str(), O_RDWR | O_NONBLOCK | O_CLOEXEC);
         if (file < 0 && errno == ENOENT) continue;
         if (file < 0) return system_error(spikes_file_);
-        std::unique_ptr<std::FILE, FileCloser> spikes(::fdopen(file, "r+b"));
+        FileHandle spikes(::fdopen(file, "r+b"));
         if (::flock(file, LOCK_EX | LOCK_NB) != 0) {
             if (errno != EWOULDBLOCK) return system_error(spikes_file_);
             return bad_input("another run is using this checkpoint; wait for it to end, or name another file with --checkpoint", {file_});
@@ -161,27 +147,20 @@ Result<void> SkinCheckpoint::lock_spikes() {
 }
 
 Result<void> SkinCheckpoint::resume() {
-    std::ifstream in(file_, std::ios::binary);
-    std::string all((std::istreambuf_iterator<char>(in)), {});
+    const auto all = TRY(read_entire_input(file_, max_checkpoint, "checkpoint"));
     const auto damaged = bad_input(fmt::format("this checkpoint is damaged; {}", remedy()), {file_});
-    std::uint64_t sum = 0, spikes_sum = 0;
-    if (all.size() < sizeof sum) return damaged;
-    std::memcpy(&sum, all.data() + all.size() - sizeof sum, sizeof sum);
-    all.resize(all.size() - sizeof sum);
-    if (checksum_of(std::as_bytes(std::span(all))) != sum) return damaged;
-    Message message(std::move(all));
-    std::string header(checkpoint_header.size(), '\0'), state;  // check_file() has read the header
+    ByteReader in(all);
+    std::string header(checkpoint_header.size(), '\0');  // check_file() has read it
     RunFingerprint then;
-    if (!message.get(header.data(), header.size()) || !get_fingerprint(message, then)) return damaged;
+    if (!in.check_checksum(std::as_bytes(std::span(all))) || !in.get_raw(header.data(), header.size()) || !in.get(then)) return damaged;
     if (const auto differing = differences(then, fingerprint_); !differing.empty())
         return bad_input(
             fmt::format("this checkpoint belongs to another run: {}. Repeat the run with its original options, {}", differing, remedy()),
             {file_});
-    if (!message.get(force_to_resumed_) || !message.get(spike_count_) || !message.get(spikes_sum) || !message.get(state) ||
-        !message.ended())
-        return damaged;
-    if (auto ok = skin_.resume(std::as_bytes(std::span(state))); !ok)
-        return bad_input(fmt::format("{}; {}", ok.error().message, remedy()), {file_});
+    std::uint64_t spikes_sum = 0;
+    std::vector<std::byte> state;
+    if (!in.get(force_to_resumed_, spike_count_, spikes_sum, state) || !in.ended()) return damaged;
+    if (auto ok = skin_.resume(state); !ok) return bad_input(fmt::format("{}; {}", ok.error().message, remedy()), {file_});
     resumed_samples_ = skin_.step();
     return check_spikes(spikes_sum);
 }
@@ -249,21 +228,17 @@ Result<void> SkinCheckpoint::append(std::span<const Spike> spikes) {
 /// Writes the spikes to disk before FILE, which contains their number; FILE gets its name only when it is complete on disk.
 Result<void> SkinCheckpoint::flush() {
     if (std::fflush(spikes_.get()) != 0 || ::fsync(::fileno(spikes_.get())) != 0) return system_error(spikes_file_);
-    Message message;
-    message.put(checkpoint_header.data(), checkpoint_header.size());
-    message.put(fingerprint_.size());
-    for (const auto& [name, value] : fingerprint_) message.put(name), message.put(value);
-    message.put(force_sum_.value()), message.put(spike_count_), message.put(spikes_sum_.value());
-    const auto state = skin_.save();
-    message.put(state.size()), message.put(state.data(), state.size());
-    message.put(checksum_of(std::as_bytes(std::span(message.bytes()))));
-    return replace_file(file_, message.bytes());
+    ByteWriter out;
+    out.put_raw(checkpoint_header.data(), checkpoint_header.size());
+    out.put(fingerprint_, force_sum_.value(), spike_count_, spikes_sum_.value(), skin_.save());
+    out.put_checksum();
+    return replace_file(file_, out.bytes());
 }
 
 /// The lock is held until both files are removed. An output of the same name is not a checkpoint and is not removed.
 void SkinCheckpoint::remove_files() {
     std::error_code ignored;
-    if (read_beginning(file_).starts_with(checkpoint_magic)) fs::remove(file_, ignored);
+    if (peek_input(file_).starts_with(checkpoint_magic)) fs::remove(file_, ignored);
     if (is_file_at(::fileno(spikes_.get()), spikes_file_)) fs::remove(spikes_file_, ignored);
     spikes_.reset();
 }

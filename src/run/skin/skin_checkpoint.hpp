@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "core/checksum.hpp"
+#include "core/text/input_files.hpp"
 #include "run/skin/skin_force.hpp"
 
 namespace corpuscle {
@@ -44,9 +45,6 @@ public:
     void remove_files();
 
 private:
-    struct FileCloser {
-        void operator()(std::FILE* file) const { std::fclose(file); }
-    };
     SkinCheckpoint(std::string file, Skin& skin, RunFingerprint fingerprint)
         : file_(std::move(file)), spikes_file_(file_ + ".spikes"), skin_(skin), fingerprint_(std::move(fingerprint)) {}
     Result<void> check_file() const;
@@ -60,7 +58,7 @@ private:
     std::string file_, spikes_file_;
     Skin& skin_;
     RunFingerprint fingerprint_;
-    std::unique_ptr<std::FILE, FileCloser> spikes_;  // locked while it is open
+    FileHandle spikes_;  // locked while it is open
     std::int64_t resumed_samples_ = 0;
     std::uint64_t spike_count_ = 0;       // number of spikes in FILE.spikes
     std::uint64_t replayed_ = 0;          // number of these spikes that were read again

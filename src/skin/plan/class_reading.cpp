@@ -1,44 +1,44 @@
-#include "skin/plan/class_reading.hpp"
+// Reads the classes of afferents of a population file: [[class]].
 
 #include <fmt/format.h>
 #include <algorithm>
 #include <array>
-#include <cmath>
 
-#include "core/located_override.hpp"
+#include "core/text/located_override.hpp"
+#include "skin/plan/population_values.hpp"
 
 namespace corpuscle::skins {
 namespace {
+
+using KeyKind = ConfigKey::Kind;
 
 constexpr double max_density = 1e10;                      // afferents per m2: a million in 1 cm2
 constexpr double max_width = 0.1;                         // m; largest sigma and hot_spot_spread
 constexpr double min_velocity = 0.1, max_velocity = 200;  // m/s
 
-/// Converts the settings of a class (`set` or `spread`) to overrides whose target is `afferent`, the text by which the file requests the
+constexpr auto class_keys =
+    std::to_array<ConfigKey>({"name", "afferent", ConfigKey("set", KeyKind::settings), ConfigKey("spread", KeyKind::settings),
+                              ConfigKey("density", KeyKind::text_or_settings), "per_site", "sigma", "hot_spots", "hot_spot_spread",
+                              "velocity", "velocity_spread", ConfigKey("source", KeyKind::settings)});
+constexpr auto class_sources = std::to_array<ConfigKey>(
+    {"afferent", "set", "spread", "density", "per_site", "sigma", "hot_spots", "hot_spot_spread", "velocity", "velocity_spread"});
+
+/// The settings in the table `name` of a class (`set` or `spread`), as overrides whose target is the text by which the file requests the
 /// afferent.
-std::vector<ParameterOverride> overrides_for(std::string_view afferent, std::span<const LocatedSetting> spec) {
+std::vector<ParameterOverride> overrides_of(const ConfigNode& in, std::string_view name) {
     std::vector<ParameterOverride> out;
-    for (const auto& s : spec) out.push_back(located_override(s, afferent));
+    for (const auto& s : in.settings(name)) out.push_back(located_override(s, in.get("afferent")->text));
     return out;
 }
 
 /// The plan of a class's afferent, with the values of the key `set` applied.
-Result<AfferentPlan> afferent_of(const ClassSpec& spec) {
-    if (!spec.afferent) return bad_input("[[class]]: afferent is missing: afferent = \"sa1\"", spec.location);
-    const auto& text = spec.afferent->text;
-    const auto afferent = read_model_spec(text);
-    if (!afferent) return spec.afferent->error_here(afferent.error().message);
-    auto planned = TRY((*afferent)->plan(overrides_for(text, spec.set), {}));
-    TRY(check_all_used(planned.unused, std::array{std::string_view(text)}));
+Result<AfferentPlan> afferent_of(const ConfigNode& in) {
+    const auto* text = in.get("afferent");
+    if (!text) return in.error_here("[[class]]: afferent is missing: afferent = \"sa1\"");
+    const auto afferent = TRY(text->located(read_model_spec(text->text)));
+    auto planned = TRY(afferent->plan(overrides_of(in, "set"), {}));
+    TRY(check_all_used(planned.unused, std::array{std::string_view(text->text)}));
     return std::move(planned.result);
-}
-
-/// The distributions of parameters that the key `spread` of a class defines.
-Result<std::vector<ParameterDistribution>> distributions_of(const ClassSpec& spec, const AfferentPlan& plan) {
-    const auto& text = spec.afferent->text;
-    auto applied = TRY(distributions_for(plan, overrides_for(text, spec.spread)));
-    TRY(check_all_used(applied.unused, std::array{std::string_view(text)}));
-    return std::move(applied.result);
 }
 
 /// True if `key` of a density table refers to a region: by its full name ("index.tip"), or by the part after a dot ("tip").
@@ -46,17 +46,20 @@ bool matches_region(std::string_view key, std::string_view region) {
     return region == key || (region.size() > key.size() && region.ends_with(key) && region[region.size() - key.size() - 1] == '.');
 }
 
-/// The density in each region, afferents per m2. A key with the full name of a region has priority over one with a part of it.
-Result<std::vector<double>> densities_of(const ClassSpec& spec, const Sites& sites, const NumberReader& numbers) {
-    const auto density = [&](const LocatedText& s) { return numbers.number(s, "density", "1/m2", 0, max_density); };
-    if (spec.uniform_density) {
-        const auto all = density(*spec.uniform_density);
-        return all ? std::vector<double>(sites.regions.size(), *all) : Result<std::vector<double>>(all.error());
+/// The density in each region, afferents per m2, from the key `density` of a class: a number, or a table of numbers. A key with the full
+/// name of a region has priority over one with a part of it.
+Result<std::vector<double>> read_densities(const ConfigNode& in, const Sites& sites, const PopulationValues& values) {
+    const auto& density = *in.get("density");
+    const auto number = [&](const LocatedText& s) { return values.number(s, "density", "1/m2", 0, max_density); };
+    if (!density.is_table()) {
+        const double all = TRY(number(density));
+        return std::vector<double>(sites.regions.size(), all);
     }
     std::vector<double> out(sites.regions.size(), -1);  // -1: not given yet
     std::vector<char> exact(sites.regions.size(), 0);   // 1: given by a key with the region's full name
-    for (const auto& s : spec.density) {
-        const auto value = TRY(density(s.value));
+    const auto all = in.settings("density");
+    for (const auto& s : all) {
+        const auto value = TRY(number(s.value));
         bool matched = false;
         for (std::size_t r = 0; r < out.size(); ++r) {
             if (!matches_region(s.name, sites.regions[r])) continue;
@@ -70,83 +73,74 @@ Result<std::vector<double>> densities_of(const ClassSpec& spec, const Sites& sit
     }
     for (std::size_t r = 0; r < out.size(); ++r)
         if (out[r] < 0)
-            return bad_input(
-                fmt::format("density: none is given for region '{0}'; write {0} = \"0 /cm2\" if it has no afferents", sites.regions[r]),
-                spec.density.front().value.location);
+            return all.front().value.error_here(
+                fmt::format("density: none is given for region '{0}'; write {0} = \"0 /cm2\" if it has no afferents", sites.regions[r]));
     return out;
 }
 
 /// Reads the number of afferents of a class: densities, or a number for each site.
-Result<void> read_numbers(const ClassSpec& spec, const Sites& sites, const NumberReader& numbers, SkinClass& out) {
-    const bool has_density = spec.uniform_density || !spec.density.empty();
-    if (has_density == spec.per_site.has_value())
-        return bad_input(fmt::format("[[class]] {}: needs either density = \"70 /cm2\" or per_site = 1", out.name), spec.location);
+Result<void> read_numbers(const ConfigNode& in, const Sites& sites, const PopulationValues& values, SkinClass& out) {
+    const auto* density = in.get("density");
+    const bool has_density = density && !(density->is_table() && density->entries.empty());
+    if (has_density == in.has("per_site"))
+        return in.error_here(fmt::format("[[class]] {}: needs either density = \"70 /cm2\" or per_site = 1", out.name));
     if (has_density && !(sites.area > 0))
-        return bad_input(fmt::format("[[class]] {}: a density needs sites with an area of skin. Give regions, or area = \"4 mm2\" in "
-                                     "[sites]. For sensors use per_site = 1",
-                                     out.name),
-                         spec.location);
-    const auto per_site = TRY(numbers.integer(spec.per_site, "per_site", 1, 1000, 0));
+        return in.error_here(
+            fmt::format("[[class]] {}: a density needs sites with an area of skin. Give regions, or area = \"4 mm2\" in "
+                        "[sites]. For sensors use per_site = 1",
+                        out.name));
+    const auto per_site = TRY(values.integer(in, "per_site", 1, 1000, 0));
     out.per_site = static_cast<std::uint32_t>(per_site);
-    if (!has_density) return {};
-    auto density = TRY(densities_of(spec, sites, numbers));
-    out.density = std::move(density);
+    if (has_density) out.density = TRY(read_densities(in, sites, values));
     return {};
 }
 
 /// Reads the shape of receptive fields, and the conduction velocity.
-Result<void> read_fields_and_velocity(const ClassSpec& spec, const NumberReader& numbers, SkinClass& out) {
-    struct FieldSetting {
-        const OptionalLocatedText& spec;
-        std::string_view name, unit;
-        double low, high;
-        double& target;
-    };
-    const FieldSetting all[] = {{spec.sigma, "sigma", "m", 0, max_width, out.sigma},
-                                {spec.hot_spot_spread, "hot_spot_spread", "m", 0, max_width, out.hot_spot_spread},
-                                {spec.velocity, "velocity", "m/s", min_velocity, max_velocity, out.velocity},
-                                {spec.velocity_spread, "velocity_spread", "m/s", 0, max_velocity, out.velocity_spread}};
-    for (const auto& setting : all)
-        setting.target = TRY(numbers.number(setting.spec, setting.name, setting.unit, setting.low, setting.high, 0));
-    const auto spots = TRY(numbers.integer(spec.hot_spots, "hot_spots", 1, 100, 1));
+Result<void> read_fields_and_velocity(const ConfigNode& in, const PopulationValues& values, SkinClass& out) {
+    out.sigma = TRY(values.number_of(in, "sigma", "m", 0, max_width));
+    out.hot_spot_spread = TRY(values.number_of(in, "hot_spot_spread", "m", 0, max_width));
+    out.velocity = TRY(values.number_of(in, "velocity", "m/s", min_velocity, max_velocity));
+    out.velocity_spread = TRY(values.number_of(in, "velocity_spread", "m/s", 0, max_velocity));
+    const auto spots = TRY(values.integer(in, "hot_spots", 1, 100, 1));
     out.hot_spots = static_cast<std::uint32_t>(spots);
     if (out.hot_spots > 1 && !(out.sigma > 0 && out.hot_spot_spread > 0))
-        return spec.hot_spots->error_here("several hot spots need a sigma and a hot_spot_spread");
-    if (spec.velocity_spread && !spec.velocity) return spec.velocity_spread->error_here("velocity_spread needs a velocity");
+        return in.get("hot_spots")->error_here("several hot spots need a sigma and a hot_spot_spread");
+    if (in.has("velocity_spread") && !in.has("velocity")) return in.get("velocity_spread")->error_here("velocity_spread needs a velocity");
     return {};
 }
 
-Result<SkinClass> class_of(const ClassSpec& spec, const Sites& sites, const NumberReader& numbers) {
+/// The node that gives a class its name.
+const ConfigNode& name_of(const ConfigNode& in) { return in.has("name") ? *in.get("name") : *in.get("afferent"); }
+
+Result<SkinClass> read_class(const ConfigNode& in, const Sites& sites, const PopulationValues& values) {
+    TRY(check_keys(in, class_keys, "[[class]]: "));
     SkinClass out;
-    auto plan = TRY(afferent_of(spec));
-    out.name = spec.name ? spec.name->text : plan.name;
+    out.afferent = TRY(afferent_of(in));
+    out.name = in.has("name") ? in.get("name")->text : out.afferent.name;
     if (out.name.empty() || out.name.find_first_of("# \t,\n\r\"") != std::string::npos)
-        return (spec.name ? *spec.name : *spec.afferent)
-            .error_here(fmt::format("'{}' is not a valid class name: it must not contain blanks, commas, # or quotes", out.name));
-    auto distributions = TRY(distributions_of(spec, plan));
-    plan.name = out.name;  // two classes may use the same afferent, but need different random streams and names in outputs
-    for (auto& d : distributions) d.afferent = out.name;
-    out.afferent = std::move(plan), out.distributions = std::move(distributions), out.sources = read_sources(spec.source);
-    TRY(read_numbers(spec, sites, numbers, out));
-    TRY(read_fields_and_velocity(spec, numbers, out));
+        return name_of(in).error_here(
+            fmt::format("'{}' is not a valid class name: it must not contain blanks, commas, # or quotes", out.name));
+    auto spread = TRY(distributions_for(out.afferent, overrides_of(in, "spread")));
+    TRY(check_all_used(spread.unused, std::array{std::string_view(in.get("afferent")->text)}));
+    out.distributions = std::move(spread.result);
+    out.afferent.name = out.name;  // two classes may use the same afferent, but need different random streams and names in outputs
+    for (auto& d : out.distributions) d.afferent = out.name;
+    out.sources = TRY(read_sources(in, class_sources));
+    TRY(read_numbers(in, sites, values, out));
+    TRY(read_fields_and_velocity(in, values, out));
     return out;
 }
 
 }  // namespace
 
-std::vector<SourceNote> read_sources(std::span<const LocatedSetting> spec) {
-    std::vector<SourceNote> out;
-    for (const auto& s : spec) out.push_back({s.name, s.value.text});
-    return out;
-}
-
-Result<std::vector<SkinClass>> read_classes(const SkinSpec& spec, const Sites& sites, const NumberReader& numbers) {
-    if (spec.classes.empty()) return bad_input("a skin needs afferents: [[class]]", {spec.file});
+Result<std::vector<SkinClass>> read_classes(const ConfigNode& top, const Sites& sites, const PopulationValues& values) {
+    const auto classes = top.elements_of("class");
+    if (classes.empty()) return bad_input("a skin needs afferents: [[class]]", {top.location.file});
     std::vector<SkinClass> out;
-    for (const auto& c : spec.classes) {
-        auto read = TRY(class_of(c, sites, numbers));
+    for (const auto& c : classes) {
+        auto read = TRY(read_class(c, sites, values));
         if (std::any_of(out.begin(), out.end(), [&](const SkinClass& other) { return other.name == read.name; }))
-            return (c.name ? *c.name : *c.afferent).error_here(fmt::format("there are two classes '{}'; rename one of them", read.name));
+            return name_of(c).error_here(fmt::format("there are two classes '{}'; rename one of them", read.name));
         out.push_back(std::move(read));
     }
     return out;

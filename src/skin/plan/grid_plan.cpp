@@ -1,10 +1,9 @@
-#include "skin/plan/grid_plan.hpp"
+#include "skin/plan/skin_plan.hpp"
 
 #include <fmt/format.h>
-#include <charconv>
 
 #include "core/text/ascii_text.hpp"
-#include "skin/memory_check.hpp"
+#include "skin/innervation.hpp"
 
 namespace corpuscle {
 namespace {
@@ -16,13 +15,8 @@ constexpr double grid_sigma = grid_pitch / 2;  // m; choice: an afferent respond
 std::optional<std::pair<std::size_t, std::size_t>> rows_by_columns(std::string_view text) {
     const auto by = text.find_first_of("xX");
     if (by == std::string_view::npos) return {};
-    const auto number = [](std::string_view word) -> std::optional<std::size_t> {
-        word = trimmed(word);
-        std::size_t n = 0;
-        const auto [end, status] = std::from_chars(word.data(), word.data() + word.size(), n);
-        return status == std::errc{} && end == word.data() + word.size() ? std::optional(n) : std::nullopt;
-    };
-    const auto rows = number(text.substr(0, by)), columns = number(text.substr(by + 1));
+    const auto rows = parse_bare_number<std::size_t>(trimmed(text.substr(0, by))),
+               columns = parse_bare_number<std::size_t>(trimmed(text.substr(by + 1)));
     return rows && columns ? std::optional(std::pair(*rows, *columns)) : std::nullopt;
 }
 
@@ -46,8 +40,7 @@ Result<SkinPlan> plan_grid(std::string_view text) {
     if (!size) return bad_usage(fmt::format("'{}' is not a grid; write rows and columns, such as 'grid 8x8'", text));
     const double count = static_cast<double>(size->first) * static_cast<double>(size->second);
     if (count <= static_cast<double>(max_sites))
-        if (auto ok = check_available_memory(fmt::format("grid {}x{}", size->first, size->second), count, 2 * count, 18 * count); !ok)
-            return ok.error();
+        TRY(check_available_memory(fmt::format("grid {}x{}", size->first, size->second), count, 2 * count, 18 * count));
     auto sites = TRY(grid_sites(size->first, size->second, grid_pitch));
     SkinPlan plan;
     plan.name = fmt::format("grid {}x{}", size->first, size->second);

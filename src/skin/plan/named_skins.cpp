@@ -6,10 +6,9 @@
 #include <filesystem>
 
 #include "core/text/ascii_text.hpp"
+#include "core/text/config_file.hpp"
 #include "core/text/embedded_files.hpp"
 #include "core/text/input_files.hpp"
-#include "skin/plan/grid_plan.hpp"
-#include "skin/plan/skin_spec.hpp"
 
 namespace corpuscle {
 namespace {
@@ -32,8 +31,9 @@ std::vector<std::pair<std::string, std::string>> embedded_skins() {
     std::vector<std::pair<std::string, std::string>> out;
     for (const auto file : embedded_files()) {
         if (!file.starts_with("skins/")) continue;
-        const auto spec = skins::parse_skin_spec(*embedded_text(std::string(file)), std::string(file));
-        out.emplace_back(fs::path(file).stem().string(), spec && spec->title ? spec->title->text : "");
+        const auto population = parse_toml(*embedded_text(std::string(file)), std::string(file));
+        const auto* title = population ? population->get("title") : nullptr;
+        out.emplace_back(fs::path(file).stem().string(), title ? title->text : "");
     }
     return out;
 }

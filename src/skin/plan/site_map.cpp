@@ -2,7 +2,6 @@
 
 #include <fmt/format.h>
 #include <algorithm>
-#include <charconv>
 #include <filesystem>
 #include <optional>
 #include <unordered_map>
@@ -12,8 +11,7 @@
 #include "core/parameter.hpp"
 #include "core/text/ascii_text.hpp"
 #include "io/table/heading.hpp"
-#include "io/text/dialect.hpp"
-#include "io/text/line_reader.hpp"
+#include "io/text/named_columns.hpp"
 
 namespace corpuscle {
 namespace {
@@ -35,86 +33,59 @@ std::string no_such_site(const Sites& sites, std::string_view name) {
                        fmt::join(some.begin(), some.begin() + static_cast<std::ptrdiff_t>(std::min<std::size_t>(some.size(), 3)), ", "));
 }
 
-/// Reads a layout file row by row.
+/// Reads the layout of frames row by row.
 class SiteMapReader {
-    LineReader lines_;
+    NamedColumns table_;
     const Sites& sites_;
     SiteIndex index_;
-    Dialect dialect_;
-    Fields fields_;
-    std::string_view line_;
-    std::optional<std::size_t> channel_, name_;      // columns, counted from 0
+    std::size_t channel_ = 0, name_ = 0;             // columns, counted from 0
     std::vector<std::optional<std::uint32_t>> map_;  // for each channel its site, if its row has been read
     std::vector<char> taken_;                        // for each site: 1 if a channel has it
 
-    /// An error in the current row, at a field; at the row only if there is no such field.
-    Error error_at(std::string message, std::size_t field) const {
-        const long column = field < fields_.size() ? fields_[field].data() - line_.data() + 1 : 0;
-        return bad_input(std::move(message), {lines_.path(), lines_.line_number(), column});
-    }
-
-    /// Reads the next line that is neither empty nor a comment; false at the end of the file.
-    Result<bool> next_row() {
-        for (;;) {
-            const auto more = lines_.next(line_);
-            if (!more || !*more) return more;
-            if (const auto s = trimmed(line_); !s.empty() && s.front() != '#') return true;
-        }
-    }
-
     Result<void> read_header() {
-        const auto more = TRY(next_row());
-        dialect_ = Dialect::detect(line_);
-        if (more) dialect_.split(line_, fields_);
-        for (std::size_t f = 0; f < fields_.size(); ++f) {
-            const auto word = lower(fields_[f]);
-            if (word == "channel" || word == "sensor") channel_ = f;
-            if (word == "name") name_ = f;
-        }
-        if (channel_ && name_) return {};
-        return error_at(
-            "a layout of frames needs the columns channel and name: channel is the number of a value in the frame, from 1; name is a site",
-            fields_.size());
+        TRY(table_.read_header());
+        const auto channel = table_.find({"channel", "sensor"}), name = table_.find({"name"});
+        if (!channel || !name)
+            return table_.error_at(
+                "a layout of frames needs the columns channel and name: channel is the number of a value in the frame, from 1; name is a "
+                "site");
+        channel_ = *channel, name_ = *name;
+        return {};
     }
 
     Result<void> add_row() {
-        if (fields_.size() <= std::max(*channel_, *name_)) return error_at("this row has too few columns", fields_.size());
-        const auto number = fields_[*channel_], name = fields_[*name_];
-        std::size_t channel = 0;
-        const auto [end, status] = std::from_chars(number.data(), number.data() + number.size(), channel);
-        if (status != std::errc{} || end != number.data() + number.size() || channel < 1 || channel > sites_.size())
-            return error_at(
+        const auto& fields = table_.fields();
+        if (fields.size() <= std::max(channel_, name_)) return table_.error_at("this row has too few columns");
+        const auto number = fields[channel_], name = fields[name_];
+        const auto channel = parse_bare_number<std::size_t>(number).value_or(0);
+        if (channel < 1 || channel > sites_.size())
+            return table_.error_at(
                 fmt::format("channel '{}': must be a number from 1 to {}, the number of sites", number.substr(0, 64), sites_.size()),
-                *channel_);
+                channel_);
         const auto entry = index_.find(name);
-        if (entry == index_.end()) return error_at(no_such_site(sites_, name), *name_);
+        if (entry == index_.end()) return table_.error_at(no_such_site(sites_, name), name_);
         if (map_.size() < channel) map_.resize(channel);
-        if (std::exchange(taken_[entry->second], 1)) return error_at(fmt::format("site '{}' has two channels", name), *name_);
-        if (map_[channel - 1]) return error_at(fmt::format("channel {} has two rows", channel), *channel_);
+        if (std::exchange(taken_[entry->second], 1)) return table_.error_at(fmt::format("site '{}' has two channels", name), name_);
+        if (map_[channel - 1]) return table_.error_at(fmt::format("channel {} has two rows", channel), channel_);
         map_[channel - 1] = entry->second;
         return {};
     }
 
 public:
     SiteMapReader(LineReader lines, const Sites& sites)
-        : lines_(std::move(lines)), sites_(sites), index_(index_sites(sites)), taken_(sites.size()) {}
+        : table_(std::move(lines)), sites_(sites), index_(index_sites(sites)), taken_(sites.size()) {}
 
     Result<std::vector<std::uint32_t>> read() {
         TRY(read_header());
-        for (;;) {
-            const auto more = TRY(next_row());
-            if (!more) break;
-            dialect_.split(line_, fields_);
-            TRY(add_row());
-        }
+        while (TRY(table_.next())) TRY(add_row());
         std::vector<std::uint32_t> out;
         for (const auto& site : map_) {
             if (!site)
                 return bad_input(fmt::format("channel {} has no row, although channel {} has one", out.size() + 1, map_.size()),
-                                 {lines_.path()});
+                                 {table_.path()});
             out.push_back(*site);
         }
-        if (out.empty()) return bad_input("no channels in this layout", {lines_.path()});
+        if (out.empty()) return bad_input("no channels in this layout", {table_.path()});
         return out;
     }
 };

@@ -1,8 +1,16 @@
 #include "skin/plan/sites.hpp"
 
 #include <fmt/format.h>
+#include <algorithm>
 
 namespace corpuscle {
+
+void Sites::add(const Position& position, std::string name, const std::string& region_name) {
+    const auto found = std::find(regions.begin(), regions.end(), region_name);
+    region.push_back(static_cast<std::uint32_t>(found - regions.begin()));
+    if (found == regions.end()) regions.push_back(region_name);
+    positions.push_back(position), names.push_back(std::move(name));
+}
 
 Result<Sites> grid_sites(std::size_t rows, std::size_t columns, double pitch) {
     if (rows == 0 || columns == 0 || rows > max_sites || columns > max_sites || rows * columns > max_sites)

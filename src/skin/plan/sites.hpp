@@ -21,6 +21,8 @@ struct Sites {
     double area = 0;                    ///< area of skin that one site represents, m2; 0: sites are separate sensors
 
     std::size_t size() const { return positions.size(); }
+    /// Adds a site, and its region if it is new.
+    void add(const Position&, std::string name, const std::string& region_name);
 };
 
 /// A grid of sites `pitch` (m) apart, named "r1c1", "r1c2" ... in their order. Site "r1c1" is at the lower left; further rows are above it.

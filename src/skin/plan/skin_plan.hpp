@@ -59,4 +59,10 @@ struct NamedSkin {
 /// All built-in populations except grids.
 std::span<const NamedSkin> named_skins();
 
+/// True if a text begins as the name of a grid, "grid ..." or "grid:...", in upper or lower case.
+bool is_grid_name(std::string_view text);
+
+/// The plan of a grid such as "grid 8x8" (8 rows by 8 columns).
+Result<SkinPlan> plan_grid(std::string_view text);
+
 }  // namespace corpuscle

@@ -3,36 +3,33 @@
 #include <chrono>
 #include <thread>
 
-#include "io/sandbox/message.hpp"
-#include "sweep/parallel/outcome_message.hpp"
+#include "core/bytes.hpp"
 
 namespace corpuscle {
 namespace {
 
 /// Everything that must be equal in all ranks of a sweep.
 std::string identity_of(const Sweep& sweep) {
-    Message m;
-    m.put(static_cast<std::uint64_t>(sweep.item_count()));
-    for (const auto& entry : sweep.metadata()) m.put(entry.name), m.put(entry.text);
-    return m.bytes();
+    ByteWriter out;
+    out.put(sweep.item_count());
+    for (const auto& entry : sweep.metadata()) out.put(entry.name, entry.text);
+    return out.take();
 }
 
 /// The message that starts a worker: the identity of the sweep, and the ranges of items that have no row in the results.
 std::string start_message(const Sweep& sweep, const std::vector<ItemQueue::Range>& missing) {
-    Message m;
-    m.put(identity_of(sweep));
-    for (const auto& [from, to] : missing) m.put(static_cast<std::uint64_t>(from)), m.put(static_cast<std::uint64_t>(to));
-    return m.bytes();
+    ByteWriter out;
+    out.put(identity_of(sweep), missing);
+    return out.take();
 }
 
 /// The ranges of missing items in a start message. Returns an error if its sweep is not this one.
-Result<std::vector<ItemQueue::Range>> read_start(const Sweep& sweep, std::string message) {
-    Message m(std::move(message));
+Result<std::vector<ItemQueue::Range>> read_start(const Sweep& sweep, std::string_view message) {
+    ByteReader in(message);
     std::string identity;
-    if (!m.get(identity) || identity != identity_of(sweep))
-        return bad_input("reads another sweep than rank 0: give all ranks the same files");
     std::vector<ItemQueue::Range> missing;
-    for (std::uint64_t from = 0, to = 0; m.get(from) && m.get(to);) missing.emplace_back(from, to);
+    if (!in.get(identity) || identity != identity_of(sweep) || !in.get(missing))
+        return bad_input("reads another sweep than rank 0: give all ranks the same files");
     return missing;
 }
 
@@ -60,7 +57,7 @@ public:
             if (!received->message) return received->message.error();
             bytes += received->message->size();
             if (received->message->empty()) --running_;
-            if (!unpack_outcomes(*std::move(received->message), outcomes))
+            if (!unpack_outcomes(*received->message, outcomes))
                 return bad_input("ranks run different versions of corpuscle: install the same one on all machines");
         }
         return {};
@@ -90,15 +87,31 @@ Result<void> run_coordinator(Ranks& ranks, const Sweep& sweep, SweepResults& res
 
 void run_worker(Ranks& ranks, const Result<std::unique_ptr<Sweep>>& sweep, const SweepRunOptions& run) {
     const auto ok = [&]() -> Result<void> {
-        auto start = TRY(ranks.receive(0));
+        const auto start = TRY(ranks.receive(0));  // also if there is no sweep: rank 0 receives nothing before it has sent this
         if (!sweep) return sweep.error();
-        auto missing = TRY(read_start(**sweep, std::move(start)));
+        auto missing = TRY(read_start(**sweep, start));
         return compute_items(**sweep, items_of_rank(ranks, std::move(missing), run), run, [&](std::vector<ItemOutcome>&& outcomes) {
             if (!outcomes.empty()) ranks.send(0, pack_outcomes(outcomes));
             return Result<void>();
         });
     }();
     ok ? ranks.send(0, "") : ranks.send_error(ok.error());
+}
+
+auto byte_fields(ItemOutcome& o) {
+    return std::tie(o.item, o.end, o.reason, o.measures, o.spikes, o.probes, o.steps, o.iterations, o.ran_alone);
+}
+
+std::string pack_outcomes(const std::vector<ItemOutcome>& outcomes) {
+    ByteWriter out;
+    for (const auto& o : outcomes) out.put(o);
+    return out.take();
+}
+
+bool unpack_outcomes(std::string_view message, std::vector<ItemOutcome>& outcomes) {
+    for (ByteReader in(message); !in.ended();)
+        if (auto& o = outcomes.emplace_back(); !in.get(o) || o.end > ItemEnd::diverged) return outcomes.pop_back(), false;
+    return true;
 }
 
 }  // namespace corpuscle

@@ -4,6 +4,7 @@
 
 #include "run/ranks.hpp"
 #include "sweep/parallel/run_sweep.hpp"
+#include "sweep/spec/sweep.hpp"
 
 namespace corpuscle {
 
@@ -11,5 +12,9 @@ namespace corpuscle {
 Result<void> run_coordinator(Ranks&, const Sweep&, SweepResults&, const SweepRunOptions&, SweepProgress&);
 /// For a worker: computes its items and sends the outcomes to rank 0, or the error that prevents this. `sweep`: may be an error, too.
 void run_worker(Ranks&, const Result<std::unique_ptr<Sweep>>& sweep, const SweepRunOptions&);
+
+std::string pack_outcomes(const std::vector<ItemOutcome>&);
+/// Appends the outcomes of a message. Returns false if it is incomplete.
+bool unpack_outcomes(std::string_view message, std::vector<ItemOutcome>&);
 
 }  // namespace corpuscle

@@ -8,7 +8,8 @@
 #include "core/parameter.hpp"
 #include "core/text/ascii_text.hpp"
 #include "core/text/quantity.hpp"
-#include "sweep/spec/sobol.hpp"
+#include "sweep/spec/probability.hpp"
+#include "sweep/spec/sampling.hpp"
 
 namespace corpuscle::sweeps {
 namespace {
@@ -17,31 +18,26 @@ constexpr std::string_view methods[] = {"grid", "list", "uniform", "normal", "la
 constexpr double max_values = 1e6;  // of one axis
 
 /// The method given by the key `how` of a [[vary]], otherwise the method implied by the other keys.
-std::string method_of(const AxisSpec& spec) {
-    if (spec.distribution) return spec.distribution->text;
-    if (spec.list) return "list";
-    if (spec.mean || spec.sigma) return "normal";
-    return "grid";
+std::string method_of(const ConfigNode& spec) {
+    if (const auto* how = spec.get("how")) return how->text;
+    if (spec.has("list")) return "list";
+    return spec.has("mean") || spec.has("sigma") ? "normal" : "grid";
 }
 
 /// Interprets the text of one axis.
 class AxisReader {
-    const AxisSpec& spec_;
+    const ConfigNode& spec_;
     const VariedQuantity& quantity_;
     const std::string method_ = method_of(spec_);
 
-    std::string name() const { return spec_.name.text; }
+    const std::string& name() const { return axis_name(spec_).text; }
     Error error_at(const LocatedText& at, std::string message) const { return at.error_here(fmt::format("{}: {}", name(), message)); }
     /// The error of the axis as a whole, at its `how` or its name.
     Error error_at_axis(std::string message) const {
-        return error_at(spec_.distribution ? *spec_.distribution : spec_.name, std::move(message));
+        return error_at(spec_.has("how") ? *spec_.get("how") : axis_name(spec_), std::move(message));
     }
 
-    Result<double> number(const LocatedText& given) const {
-        auto value = quantity_.parse(given);
-        if (!value) return error_at(given, value.error().message);
-        return value;
-    }
+    Result<double> number(const LocatedText& given) const { return given.located(quantity_.parse(given), name() + ": "); }
     /// Reads a number and checks that the subject allows it.
     Result<double> allowed_number(const LocatedText& given) const {
         const auto value = number(given);
@@ -50,51 +46,47 @@ class AxisReader {
             return error_at(given, fmt::format("{} is outside [{}, {}]", format_quantity(*value, quantity_.column.unit),
                                                format_quantity(quantity_.min, quantity_.column.unit),
                                                format_quantity(quantity_.max, quantity_.column.unit)));
-        if (quantity_.check)
-            if (auto ok = quantity_.check(given.text); !ok) return given.error_here(ok.error().message);
+        if (quantity_.check) TRY(given.located(quantity_.check(given.text)));
         return value;
     }
 
     /// Rejects keys that the method does not use.
     Result<void> accept_only(std::initializer_list<std::string_view> known) const {
-        const std::pair<std::string_view, const OptionalLocatedText*> all[] = {
-            {"from", &spec_.from}, {"to", &spec_.to},       {"count", &spec_.count},  {"log", &spec_.log},
-            {"mean", &spec_.mean}, {"sigma", &spec_.sigma}, {"at_least", &spec_.min}, {"at_most", &spec_.max}};
-        for (const auto& [name, value] : all)
-            if (*value && std::find(known.begin(), known.end(), name) == known.end())
-                return error_at(
-                    **value, fmt::format("'{}' has no meaning for how = \"{}\" (which allows: {})", name, method_, fmt::join(known, ", ")));
-        if (spec_.list && method_ != "list")
-            return error_at(spec_.list->empty() ? spec_.name : spec_.list->front(),
-                            fmt::format("list and how = \"{}\" exclude each other", method_));
+        for (const auto& [key, value] : spec_.entries) {
+            if (key.text == "what" || key.text == "how" || std::find(known.begin(), known.end(), key.text) != known.end()) continue;
+            if (key.text == "list")
+                return error_at(value.elements.empty() ? axis_name(spec_) : value.elements.front(),
+                                fmt::format("list and how = \"{}\" exclude each other", method_));
+            return error_at(
+                value, fmt::format("'{}' has no meaning for how = \"{}\" (which allows: {})", key.text, method_, fmt::join(known, ", ")));
+        }
         return {};
     }
-
     Result<bool> is_logarithmic() const {
-        if (!spec_.log || spec_.log->text == "false") return false;
-        if (spec_.log->text != "true") return error_at(*spec_.log, fmt::format("log must be true or false, not '{}'", spec_.log->text));
+        const auto* log = spec_.get("log");
+        if (!log || log->text == "false") return false;
+        if (log->text != "true") return error_at(*log, fmt::format("log must be true or false, not '{}'", log->text));
         return true;
     }
-
     /// Reads the keys from, to and log. With log = true, from and to must be above 0.
     Result<void> range(SweepAxis& axis) const {
-        if (!spec_.from || !spec_.to)
-            return error_at_axis(fmt::format("{} is missing; how = \"{}\" needs {}", spec_.from ? "to" : "from", method_,
+        if (!spec_.has("from") || !spec_.has("to"))
+            return error_at_axis(fmt::format("{} is missing; how = \"{}\" needs {}", spec_.has("from") ? "to" : "from", method_,
                                              method_ == "grid" ? "from, to and count, or a list" : "from and to"));
-        const double from = TRY(allowed_number(*spec_.from)), to = TRY(allowed_number(*spec_.to));
-        const auto logarithmic = TRY(is_logarithmic());
-        if (logarithmic && !(from > 0 && to > 0)) return error_at(*spec_.log, "log = true needs values above 0");
-        axis.first = from, axis.second = to, axis.is_logarithmic = logarithmic;
+        axis.first = TRY(allowed_number(*spec_.get("from"))), axis.second = TRY(allowed_number(*spec_.get("to")));
+        axis.is_logarithmic = TRY(is_logarithmic());
+        if (axis.is_logarithmic && !(axis.first > 0 && axis.second > 0))
+            return error_at(*spec_.get("log"), "log = true needs values above 0");
         return {};
     }
-
     Result<void> grid(SweepAxis& axis) const {
         TRY(accept_only({"from", "to", "count", "log"}));
         TRY(range(axis));
-        if (!spec_.count)
+        const auto* given = spec_.get("count");
+        if (!given)
             return error_at_axis("count is missing: the number of values between from and to (or how = \"uniform\" for random values)");
-        const auto count = TRY(parse_integer(*spec_.count, name() + ": count", 1, max_values));
-        if (count == 1 && axis.first != axis.second) return error_at(*spec_.count, "count must be 2 or more, because from and to differ");
+        const auto count = TRY(parse_integer(*given, name() + ": count", 1, max_values));
+        if (count == 1 && axis.first != axis.second) return error_at(*given, "count must be 2 or more, because from and to differ");
         for (std::int64_t k = 0; k < count; ++k) {
             const double fraction = count == 1 ? 0 : static_cast<double>(k) / static_cast<double>(count - 1);
             axis.values.push_back(k == 0                ? axis.first
@@ -107,9 +99,8 @@ class AxisReader {
 
     /// Reads a list of labels: value k of the axis is the index k of its label.
     Result<void> labels(SweepAxis& axis) const {
-        for (const auto& label : *spec_.list) {
-            if (quantity_.check)
-                if (auto ok = quantity_.check(label.text); !ok) return label.error_here(ok.error().message);
+        for (const auto& label : spec_.elements_of("list")) {
+            if (quantity_.check) TRY(label.located(quantity_.check(label.text)));
             axis.values.push_back(static_cast<double>(axis.column.labels.size()));
             axis.column.labels.push_back(label.text);
         }
@@ -118,17 +109,17 @@ class AxisReader {
 
     Result<void> list(SweepAxis& axis) const {
         TRY(accept_only({"list"}));
-        if (!spec_.list || spec_.list->empty()) return error_at_axis("the list is empty: list = [...]");
+        const auto all = spec_.elements_of("list");
+        if (all.empty()) return error_at_axis("the list is empty: list = [...]");
         const auto is_label = [&](const LocatedText& s) { return !quantity_.parse(s); };
-        if (quantity_.labels_only || (quantity_.allows_labels && std::any_of(spec_.list->begin(), spec_.list->end(), is_label)))
-            return labels(axis);
-        for (const auto& one : *spec_.list) axis.values.push_back(TRY(allowed_number(one)));
+        if (quantity_.labels_only || (quantity_.allows_labels && std::any_of(all.begin(), all.end(), is_label))) return labels(axis);
+        for (const auto& one : all) axis.values.push_back(TRY(allowed_number(one)));
         return {};
     }
 
     /// Reads sigma: "5%" means 5 % of the mean; any other text is a value in the unit of the quantity.
     Result<double> sigma(double mean) const {
-        const auto& given = *spec_.sigma;
+        const auto& given = *spec_.get("sigma");
         const bool is_percentage = trimmed(given.text).ends_with('%');
         const auto value = is_percentage ? parse_quantity(given.text, "") : number(given);
         if (!value) return is_percentage ? error_at(given, value.error().message) : value.error();
@@ -139,16 +130,15 @@ class AxisReader {
 
     Result<void> normal(SweepAxis& axis) const {
         TRY(accept_only({"mean", "sigma", "at_least", "at_most"}));
-        if (!spec_.sigma) return error_at_axis("sigma is missing: a standard deviation, or a percentage of the mean such as \"5%\"");
-        if (!spec_.mean && !quantity_.nominal) return error_at_axis("mean is missing");
-        const auto mean = TRY(spec_.mean ? allowed_number(*spec_.mean) : *quantity_.nominal);
+        const auto* given_mean = spec_.get("mean");
+        if (!spec_.has("sigma")) return error_at_axis("sigma is missing: a standard deviation, or a percentage of the mean such as \"5%\"");
+        if (!given_mean && !quantity_.nominal) return error_at_axis("mean is missing");
+        const auto mean = TRY(given_mean ? allowed_number(*given_mean) : *quantity_.nominal);
         const auto deviation = TRY(sigma(mean));
         axis.is_normal = true, axis.first = mean, axis.second = deviation;
         double low = quantity_.min, high = quantity_.max;  // range in which the normal distribution is truncated
-        for (const auto& [given, end] : {std::pair{&spec_.min, &low}, {&spec_.max, &high}}) {
-            if (!*given) continue;
-            *end = TRY(allowed_number(**given));
-        }
+        if (const auto* given = spec_.get("at_least")) low = TRY(allowed_number(*given));
+        if (const auto* given = spec_.get("at_most")) high = TRY(allowed_number(*given));
         if (!(mean >= low && mean <= high)) return error_at_axis("the mean is not between at_least and at_most");
         if (deviation == 0) return {};  // all samples are the mean
         if (std::isfinite(low)) axis.min_probability = normal_probability((low - mean) / deviation);
@@ -159,41 +149,40 @@ class AxisReader {
     /// Latin hypercubes and Sobol points are normal if mean or sigma is given, otherwise uniform.
     Result<void> sampled(SweepAxis& axis, SamplingSpec& sampling_spec) const {
         const auto sampling = method_ == "latin" ? Sampling::latin : method_ == "sobol" ? Sampling::sobol : Sampling::random;
-        const bool as_normal = method_ == "normal" || (method_ != "uniform" && (spec_.mean || spec_.sigma));
+        const bool as_normal = method_ == "normal" || (method_ != "uniform" && (spec_.has("mean") || spec_.has("sigma")));
         if (!as_normal) TRY(accept_only({"from", "to", "log"}));
         TRY(as_normal ? normal(axis) : range(axis));
         if (sampling == Sampling::sobol && sampling_spec.dimension == sobol_dimensions)
-            return error_at(*spec_.distribution, fmt::format("Sobol points are available for at most {} axes", sobol_dimensions));
+            return error_at(*spec_.get("how"), fmt::format("Sobol points are available for at most {} axes", sobol_dimensions));
         axis.numbers.emplace(sampling, sampling_spec.seed, axis.column.name, sampling == Sampling::sobol ? sampling_spec.dimension++ : 0,
                              sampling_spec.samples);
         return {};
     }
 
 public:
-    AxisReader(const AxisSpec& spec, const VariedQuantity& quantity) : spec_(spec), quantity_(quantity) {}
+    AxisReader(const ConfigNode& spec, const VariedQuantity& quantity) : spec_(spec), quantity_(quantity) {}
 
     Result<SweepAxis> read(SamplingSpec& sampling_spec) const {
         SweepAxis axis{quantity_.column};
         if (std::find(std::begin(methods), std::end(methods), method_) == std::end(methods))
-            return error_at(*spec_.distribution, fmt::format("how = \"{}\" is unknown{} (there are {})", method_,
-                                                             did_you_mean(method_, methods), fmt::join(methods, ", ")));
+            return error_at(*spec_.get("how"), fmt::format("how = \"{}\" is unknown{} (there are {})", method_,
+                                                           did_you_mean(method_, methods), fmt::join(methods, ", ")));
         if (quantity_.labels_only && method_ != "list")
             return error_at_axis(
                 fmt::format("its values are labels: list = [\"{}\", ...]", quantity_.column.name == "corner" ? "ss" : "..."));
-        if (auto ok = method_ == "grid" ? grid(axis) : method_ == "list" ? list(axis) : sampled(axis, sampling_spec); !ok)
-            return ok.error();
+        TRY(method_ == "grid" ? grid(axis) : method_ == "list" ? list(axis) : sampled(axis, sampling_spec));
         return axis;
     }
 };
 
 }  // namespace
 
-bool is_sampled(const AxisSpec& spec) {
+bool is_sampled(const ConfigNode& spec) {
     const auto method = method_of(spec);
     return method == "uniform" || method == "normal" || method == "latin" || method == "sobol";
 }
 
-Result<SweepAxis> axis_of(const AxisSpec& spec, const VariedQuantity& quantity, SamplingSpec& sampling_spec) {
+Result<SweepAxis> axis_of(const ConfigNode& spec, const VariedQuantity& quantity, SamplingSpec& sampling_spec) {
     return AxisReader(spec, quantity).read(sampling_spec);
 }
 

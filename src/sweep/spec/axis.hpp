@@ -30,9 +30,9 @@ struct SamplingSpec {
 };
 
 /// True if the values of the axis are random samples, false if they are listed or a grid.
-bool is_sampled(const AxisSpec&);
+bool is_sampled(const ConfigNode&);
 /// Combines the text of an axis with its quantity. An axis with Sobol points increments the `dimension` of the sampling.
-Result<SweepAxis> axis_of(const AxisSpec&, const VariedQuantity&, SamplingSpec&);
+Result<SweepAxis> axis_of(const ConfigNode&, const VariedQuantity&, SamplingSpec&);
 
 /// Reads an integer from min to max. `name`: what the error message calls it.
 Result<std::int64_t> parse_integer(const LocatedText&, std::string_view name, double min, double max);

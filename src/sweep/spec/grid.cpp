@@ -41,8 +41,9 @@ bool is_deterministic(const SweepResults& results) {
     const auto stored = results.about("sweep file");  // empty if the sweep was a netlist with .step or .mc, without a sweep file
     const auto text = sweeps::read_sweep_text(file_text(stored), results.path());
     if (!text) return false;
-    return std::none_of(text->axes.begin(), text->axes.end(), [](const sweeps::AxisSpec& axis) {
-        return axis.name.text == "process" || axis.name.text == "mismatch" || sweeps::is_sampled(axis);
+    const auto axes = text->axes();
+    return std::none_of(axes.begin(), axes.end(), [](const ConfigNode& axis) {
+        return sweeps::axis_name(axis).text == "process" || sweeps::axis_name(axis).text == "mismatch" || sweeps::is_sampled(axis);
     });
 }
 

@@ -1,10 +1,13 @@
 #pragma once
-// Distributions for confidence intervals. Boost.Math has them as well, but takes six seconds to compile.
+// Distributions for samples and confidence intervals. Boost.Math has them as well, but takes six seconds to compile.
 
 namespace corpuscle {
 
-/// Quantile of the standard normal distribution; p = 0 and 1 give infinities.
-double normal_quantile(double p);
+/// Quantile of the standard normal distribution; 0 and 1 give infinities. Wichura, algorithm AS 241, Appl. Stat. 37 (1988), with a relative
+/// error of 1e-16.
+double normal_quantile(double u);
+/// The inverse: cumulative probability of a standard normal deviate, by bisection to full precision.
+double normal_probability(double deviate);
 /// I_x(a, b), the regularised incomplete beta function: a, b > 0, 0 <= x <= 1.
 double incomplete_beta(double a, double b, double x);
 /// The x at which I_x(a, b) = p.

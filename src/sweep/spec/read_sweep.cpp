@@ -9,6 +9,18 @@
 #include "sweep/subject/subject.hpp"
 
 namespace corpuscle {
+
+Result<std::unique_ptr<Sweep>> sweeps::make_sweep(const SweepText& spec, const std::string& folder) {
+    const auto *afferent = spec.get("afferent"), *netlist = spec.get("netlist");
+    if (afferent && netlist)
+        return netlist->error_here("give either afferent = ..., which responds to a force, or netlist = ..., with its own analyses");
+    if (!afferent && !netlist)
+        return bad_input("the sweep has no subject; give afferent = \"sa1\", or netlist = \"circuits/bias.cir\"", {spec.file()});
+    auto sweep = netlist ? new_analysis_sweep() : names_netlist(afferent->text) ? new_chip_sweep() : new_model_sweep();
+    TRY(sweep->prepare(spec, folder));
+    return std::unique_ptr<Sweep>(std::move(sweep));
+}
+
 namespace {
 
 namespace fs = std::filesystem;
@@ -24,31 +36,20 @@ Result<SweepText> text_at(const fs::path& path) {
 /// The text of a sweep over a netlist alone: its .step and .mc lines define what varies.
 SweepText text_of_netlist(const fs::path& path) {
     SweepText out;
-    out.file = path.string();
+    out.top.location.file = path.string();
     std::error_code status;
-    out.netlist = LocatedText{fs::exists(path, status) ? path.filename().string() : path.string(), {}};
+    out.top.set("netlist", fs::exists(path, status) ? path.filename().string() : path.string());
     return out;
 }
 
-Result<std::unique_ptr<Sweep>> make_sweep(const SweepText& spec, const std::string& folder) {
-    if (spec.afferent && spec.netlist)
-        return spec.netlist->error_here("give either afferent = ..., which responds to a force, or netlist = ..., with its own analyses");
-    if (spec.netlist) return sweeps::make_analysis_sweep(spec, folder);
-    if (!spec.afferent)
-        return bad_input("the sweep has no subject; give afferent = \"sa1\", or netlist = \"circuits/bias.cir\"", {spec.file});
-    return names_netlist(spec.afferent->text) ? sweeps::make_chip_sweep(spec, folder) : sweeps::make_model_sweep(spec, folder);
-}
-
 /// Replaces a setting of the sweep file by that of the command line, if there is one. The canonical text then ends with the option.
-void replace_setting(OptionalLocatedText& into, std::string_view key, const std::optional<std::string>& requested, SweepText& spec) {
-    if (!requested || (into && into->text == *requested)) return;
-    into = LocatedText{*requested, {}};
-    spec.canonical += fmt::format("--{} {}\n", key, *requested);
-}
-
 template <class N>
-std::optional<std::string> text_of(const std::optional<N>& number) {
-    return number ? std::optional(fmt::format("{}", *number)) : std::nullopt;
+void replace_setting(SweepText& spec, std::string_view key, const std::optional<N>& requested) {
+    if (!requested) return;
+    const auto text = fmt::format("{}", *requested);
+    if (const auto* given = spec.get(key); given && given->text == text) return;
+    spec.top.set(key, text);
+    spec.canonical += fmt::format("--{} {}\n", key, text);
 }
 
 }  // namespace
@@ -58,14 +59,14 @@ Result<std::unique_ptr<Sweep>> read_sweep(const std::string& path, const SweepOv
     const auto folder = file.parent_path().string();
     const bool is_netlist = file.extension() != ".toml";
     auto spec = TRY(is_netlist ? Result<SweepText>(text_of_netlist(file)) : text_at(file));
-    replace_setting(spec.seed, "seed", text_of(overrides.seed), spec);
-    replace_setting(spec.samples, "samples", text_of(overrides.samples), spec);
-    auto sweep = make_sweep(spec, folder);
+    replace_setting(spec, "seed", overrides.seed);
+    replace_setting(spec, "samples", overrides.samples);
+    auto sweep = sweeps::make_sweep(spec, folder);
     if (sweep) return sweep;
     auto error = sweep.error();  // in it, netlists and the files they include have paths relative to the folder of the sweep file
     std::error_code status;
     if (const auto full_path = file.parent_path() / error.location.file;
-        !error.location.file.empty() && error.location.file != spec.file && fs::exists(full_path, status))
+        !error.location.file.empty() && error.location.file != spec.file() && fs::exists(full_path, status))
         error.location.file = full_path.string();
     if (error.location.file.empty()) error.location.file = path;
     return error;

@@ -3,6 +3,7 @@
 // number of sample k is computed without those of the other samples.
 
 #include <array>
+#include <cstddef>
 #include <cstdint>
 #include <string_view>
 
@@ -30,10 +31,14 @@ public:
     double at(std::uint64_t sample) const;
 };
 
-/// Quantile of the standard normal distribution, 0 < u < 1: Wichura, algorithm AS 241, Appl. Stat. 37 (1988), with a relative error of
-/// 1e-16.
-double normal_quantile(double u);
-/// The inverse: cumulative probability of a standard normal deviate, by bisection to full precision.
-double normal_probability(double deviate);
+inline constexpr std::size_t sobol_dimensions = 50;  ///< largest number of dimensions
+
+/// The direction numbers of one dimension (from 0), as fractions of 2^32: for each bit of the Gray code of a point's number, the lowest
+/// first.
+std::array<std::uint32_t, 32> sobol_directions(std::size_t dimension);
+
+/// One coordinate of the point with this number (from 0, in Gray-code order), as a fraction of 2^32. `directions`: of the coordinate's
+/// dimension.
+std::uint32_t sobol_point(const std::array<std::uint32_t, 32>& directions, std::uint32_t number);
 
 }  // namespace corpuscle::sweeps

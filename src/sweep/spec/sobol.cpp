@@ -1,4 +1,4 @@
-#include "sweep/spec/sobol.hpp"
+#include "sweep/spec/sampling.hpp"
 
 #include <bit>
 

@@ -22,20 +22,45 @@ struct SweepForce {
     double end() const { return static_cast<double>(samples.size()) * clock.T(); }
 };
 
+using SweepForcePointer = std::shared_ptr<const SweepForce>;
+
+/// The most recent results of a function of an item's varied values: items with neighbouring indexes often have the same. Thread-safe.
+template <class T>
+class ValueCache {
+    const std::size_t max_size_;
+    std::mutex mutex_;
+    std::map<std::vector<double>, Result<T>> known_;
+
+public:
+    explicit ValueCache(std::size_t max_size) : max_size_(max_size) {}
+    /// The result for these values; calls `make` if it is not known.
+    template <class Make>
+    Result<T> get(const std::vector<double>& values, const Make& make) {
+        {
+            const std::lock_guard lock(mutex_);
+            if (const auto at = known_.find(values); at != known_.end()) return at->second;
+        }
+        auto made = make();
+        const std::lock_guard lock(mutex_);
+        if (known_.size() >= max_size_) known_.clear();
+        known_.emplace(values, made);
+        return made;
+    }
+};
+
 /// Makes the force of each item.
 class ForceFactory {
-    std::string text_;                           // the stimulus, or the path of the recording, as in the sweep file
-    std::vector<ParameterOverride> overrides_;   // fixed settings, then varied ones, whose values make() fills in
-    std::size_t fixed_count_ = 0;                // number of fixed settings
-    std::vector<std::size_t> axes_;              // for each varied setting: index of its axis in the plan
-    double rate_ = 10e3;                         // of a stimulus, Hz
-    std::uint64_t seed_ = 0;                     // of a random stimulus
-    std::shared_ptr<const SweepForce> nominal_;  // without varied values; of a recording: its only force
-    struct Cache;
-    std::shared_ptr<Cache> cache_;
+    std::string text_;                                      // the stimulus, or the path of the recording, as in the sweep file
+    std::vector<ParameterOverride> overrides_;              // fixed settings, then varied ones, whose values make() fills in
+    std::size_t fixed_count_ = 0;                           // number of fixed settings
+    std::vector<std::size_t> axes_;                         // for each varied setting: index of its axis in the plan
+    double rate_ = 10e3;                                    // of a stimulus, Hz
+    std::uint64_t seed_ = 0;                                // of a random stimulus
+    SweepForcePointer nominal_;                             // without varied values; of a recording: its only force
+    std::shared_ptr<ValueCache<SweepForcePointer>> cache_;  // by varied values
 
     /// `varied_values`: for each varied setting, in their order; or none, for the nominal force.
-    Result<std::shared_ptr<const SweepForce>> make(std::span<const double> varied_values) const;
+    Result<SweepForcePointer> make(std::span<const double> varied_values) const;
 
 public:
     /// Reads the force of a sweep file. `folder`: that of the sweep file, to which the path of a recording is relative.
@@ -53,9 +78,9 @@ public:
 
     /// Makes the nominal force. Call after all calls of set(), and before nominal() and at().
     Result<void> prepare();
-    const std::shared_ptr<const SweepForce>& nominal() const { return nominal_; }
+    const SweepForcePointer& nominal() const { return nominal_; }
     /// The force for an item's values on all axes. Thread-safe.
-    Result<std::shared_ptr<const SweepForce>> at(std::span<const double> values) const;
+    Result<SweepForcePointer> at(std::span<const double> values) const;
     /// Number of samples, rate and a hash of the recording, in one line; "" for a stimulus.
     std::string recording_summary() const;
 

@@ -1,4 +1,5 @@
 #include "sweep/spec/sweep_plan.hpp"
+#include "sweep/spec/probability.hpp"
 
 #include <algorithm>
 

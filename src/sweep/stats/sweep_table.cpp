@@ -61,14 +61,13 @@ Result<ReadPart> read_part(const SweepResults& results, const std::string& colum
         fmt::format("SELECT item, ended, {} FROM items WHERE item >= {} AND item < {} ORDER BY item", columns_sql, from, to)));
     ReadPart out;
     out.columns.resize(columns);
-    for (;;) {
-        const auto more = TRY(rows.step());
-        if (!more) return out;
+    while (TRY(rows.step())) {
         out.items.push_back(rows.integer(0));
         const auto ended = rows.text(1);
         out.end.push_back(ended == "done" ? ItemEnd::done : ended == "truncated" ? ItemEnd::iteration_limit : ItemEnd::diverged);
         for (std::size_t k = 0; k < columns; ++k) out.columns[k].push_back(rows.number(static_cast<int>(k) + 2));
     }
+    return out;
 }
 
 /// Reads all rows; a large table in several parts in parallel, each with its own connection to the file.
@@ -124,9 +123,8 @@ Result<SweepTable> read_table(const SweepResults& results, const std::vector<std
         columns_sql.push_back(sql::quoted_name(results.stored_column_names()[results.axes().size() + m])),
             out.measures.push_back(results.measures()[m]);
     const auto has_iterations =
-        sql::query_integer(results.handle(), results.path(), "SELECT EXISTS(SELECT 1 FROM items WHERE iterations > 0)");
-    if (!has_iterations) return has_iterations.error();
-    if (*has_iterations && measure_names.empty()) {
+        TRY(sql::query_integer(results.handle(), results.path(), "SELECT EXISTS(SELECT 1 FROM items WHERE iterations > 0)"));
+    if (has_iterations && measure_names.empty()) {
         columns_sql.emplace_back("iterations");
         out.measures.push_back({"iterations", "", "Newton iterations of the circuit"});
     }
@@ -154,11 +152,8 @@ Result<std::vector<FailedItem>> failed_items(const SweepResults& results, std::s
         TRY(sql::Statement::make(results.handle(), results.path(),
                                  fmt::format("SELECT item, ended, why FROM items WHERE ended <> 'done' ORDER BY item LIMIT {}", limit)));
     std::vector<FailedItem> out;
-    for (;;) {
-        const auto more = TRY(rows.step());
-        if (!more) return out;
-        out.push_back({rows.integer(0), rows.text(2).empty() ? rows.text(1) : rows.text(2)});
-    }
+    while (TRY(rows.step())) out.push_back({rows.integer(0), rows.text(2).empty() ? rows.text(1) : rows.text(2)});
+    return out;
 }
 
 }  // namespace corpuscle

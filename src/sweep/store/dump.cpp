@@ -4,18 +4,13 @@
 #include <cmath>
 #include <cstring>
 
-#include "sweep/store/sqlite.hpp"
+#include "sweep/store/results_layout.hpp"
 
 namespace corpuscle {
 namespace {
 
 /// A text as a CSV field, quoted if necessary.
-std::string csv_field(const std::string& text) {
-    if (text.find_first_of(",\"\n\r") == text.npos) return text;
-    std::string out = "\"";
-    for (const char c : text) out += c == '"' ? "\"\"" : std::string(1, c);
-    return out + "\"";
-}
+std::string csv_field(const std::string& text) { return text.find_first_of(",\"\n\r") == text.npos ? text : sql::quoted_name(text); }
 
 /// The text of a value: its label if the column has labels, otherwise a number.
 std::string value_text(double x, const SweepColumn& column) {
@@ -62,7 +57,7 @@ public:
 };
 
 std::string header_line(const SweepResults& results) {
-    std::string text = "item,ended,steps,iterations,alone,why";
+    auto text = fmt::format("{}", fmt::join(ResultsLayout::item_columns, ","));
     for (const auto& name : results.stored_column_names()) text += "," + csv_field(name);
     for (const auto& name : results.train_names()) text += "," + csv_field("spikes of " + name);
     for (const auto& name : results.probe_names()) text += "," + csv_field("trace of " + name);

@@ -11,22 +11,6 @@ namespace {
 
 constexpr int max_listed = 3;  // items listed in a message about differences
 
-/// All columns of the table items except the item, with a table name before each: "i.ended, i.steps, ...".
-std::string result_columns(const std::string& table, const ResultsLayout& layout) {
-    std::string out;
-    for (const char* name : {"ended", "steps", "iterations", "alone", "why"})
-        out += fmt::format("{}{}.{}", out.empty() ? "" : ", ", table, name);
-    for (const auto& name : layout.stored_column_names) out += fmt::format(", {}.{}", table, sql::quoted_name(name));
-    return out;
-}
-
-/// All columns of the table items: "item, ended, ...".
-std::string item_columns(const ResultsLayout& layout) {
-    std::string out = "item, ended, steps, iterations, alone, why";
-    for (const auto& name : layout.stored_column_names) out += ", " + sql::quoted_name(name);
-    return out;
-}
-
 /// The statement that copies the rows that `main` lacks from `source`. `items`: number of items of the sweep.
 std::string insertion_of(std::string_view table, const std::string& columns, std::int64_t items) {
     return fmt::format("INSERT INTO main.{0}({1}) SELECT {1} FROM source.{0} WHERE item >= 0 AND item < {2} ON CONFLICT DO NOTHING;", table,
@@ -36,7 +20,7 @@ std::string insertion_of(std::string_view table, const std::string& columns, std
 /// The query for items that both files have, with different results.
 std::string select_differing(const ResultsLayout& layout) {
     std::string text = fmt::format("SELECT item FROM main.items i JOIN source.items s USING(item) WHERE ({}) IS NOT ({})",
-                                   result_columns("i", layout), result_columns("s", layout));
+                                   layout.columns("i."), layout.columns("s."));
     // A spike train or probe differs if the other file has other bytes or no row for it; so both directions are compared.
     for (const auto& [table, index, bytes] : {std::tuple{"spikes", "train", "times"}, std::tuple{"traces", "trace", "samples"}})
         for (const auto& [one, other] : {std::pair{"main", "source"}, std::pair{"source", "main"}})
@@ -51,15 +35,8 @@ std::string select_differing(const ResultsLayout& layout) {
 Result<void> check_differences(sqlite3* file, const ResultsLayout& layout, const std::string& path, const std::string& from) {
     auto rows = TRY(sql::Statement::make(file, path, select_differing(layout)));
     std::string listed;
-    for (int k = 0;; ++k) {
-        const auto more = TRY(rows.step());
-        if (!more) break;
-        if (k == max_listed) {
-            listed += " ...";
-            break;
-        }
-        listed += fmt::format("{}{}", listed.empty() ? "" : ", ", rows.integer(0));
-    }
+    for (int k = 0; k <= max_listed && TRY(rows.step()); ++k)
+        listed += k == max_listed ? " ..." : fmt::format("{}{}", k > 0 ? ", " : "", rows.integer(0));
     if (listed.empty()) return {};
     return bad_input(
         fmt::format("the results of item {} differ from those in {}, although the sweep is the same: one of the two was changed or made by "
@@ -92,7 +69,7 @@ Result<std::int64_t> SweepResults::merge(const SweepResults& from) {
     auto ok = check_differences(file, impl.layout, path(), from.path());
     if (ok) {
         ok = sql::run(file, path(),
-                      "BEGIN IMMEDIATE;" + insertion_of("items", item_columns(impl.layout), item_count()) +
+                      "BEGIN IMMEDIATE;" + insertion_of("items", impl.layout.columns(), item_count()) +
                           insertion_of("spikes", "item, train, times", item_count()) +
                           insertion_of("traces", "item, trace, samples", item_count()) + "COMMIT");
         if (!ok && !sqlite3_get_autocommit(file)) (void)sql::run(file, path(), "ROLLBACK");

@@ -13,6 +13,7 @@
 
 #include <fmt/format.h>
 
+#include "io/output/output_file.hpp"
 #include "sweep/store/results_impl.hpp"
 
 namespace corpuscle {
@@ -36,19 +37,15 @@ Error not_written(const std::string& path) {
 /// Creates an empty file. Never follows a link or reuses an existing file.
 Result<void> create_empty(const std::string& path) {
     ::unlink(path.c_str());
-    const int file = ::open(path.c_str(), O_RDWR | O_CREAT | O_EXCL | O_NOFOLLOW | O_CLOEXEC, 0666);
-    if (file < 0) return not_written(path);
-    ::close(file);
-    return {};
+    const Descriptor file(::open(path.c_str(), O_RDWR | O_CREAT | O_EXCL | O_NOFOLLOW | O_CLOEXEC, 0666));
+    return file ? Result<void>() : not_written(path);
 }
 
 /// Opens a file that no other process knows yet. If it is in WAL mode, this ends it, so that other programs can read the file in a
 /// read-only folder. Each transaction is written to disk at once. There is no journal: a file that cannot be completed is removed.
 Result<sql::Handle> open_new_file(const std::string& path) {
-    auto file = sql::open(path, SQLITE_OPEN_READWRITE);
-    if (!file) return file;
-    if (auto ok = sql::run(file->get(), path, "PRAGMA locking_mode = EXCLUSIVE; PRAGMA synchronous = FULL; PRAGMA journal_mode = OFF"); !ok)
-        return ok.error();
+    auto file = TRY(sql::open(path, SQLITE_OPEN_READWRITE));
+    TRY(sql::run(file.get(), path, "PRAGMA locking_mode = EXCLUSIVE; PRAGMA synchronous = FULL; PRAGMA journal_mode = OFF"));
     return file;
 }
 
@@ -62,15 +59,10 @@ Result<void> copy_pages(sqlite3* from, const std::string& path) {
     return {};
 }
 
-/// Renames a new file, so that it replaces the other at once, and makes the operating system write the folder to disk, so that this
-/// survives a loss of power.
+/// Renames a new file, so that it replaces the other at once, also on the disk.
 Result<void> move_into_place(const std::string& from, const std::string& to) {
     if (::rename(from.c_str(), to.c_str()) != 0) return not_written(to);
-    const auto folder = fs::path(to).parent_path();
-    const int file = ::open(folder.empty() ? "." : folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
-    if (file < 0) return {};
-    ::fsync(file);
-    ::close(file);
+    (void)sync_directory_of(to);
     return {};
 }
 
@@ -92,8 +84,8 @@ void SweepResults::Impl::remove_wal() const { ::unlink(wal_path().c_str()), ::un
 Result<void> SweepResults::Impl::create_file() const {
     remove_wal();  // of a file that was removed; it must not be applied to this file
     return replace_file([&](const std::string& new_path) -> Result<void> {
-        const auto opened = open_new_file(new_path);
-        return opened ? layout.write(opened->get(), path) : opened.error();
+        const auto opened = TRY(open_new_file(new_path));
+        return layout.write(opened.get(), path);
     });
 }
 
@@ -107,8 +99,8 @@ Result<void> SweepResults::Impl::checkpoint() {
     if (std::error_code status; !fs::exists(wal_path(), status) && !is_writing) return {};  // no new rows
     auto ok = replace_file([&](const std::string& new_path) -> Result<void> {
         TRY(copy_pages(file.get(), new_path));
-        const auto ended_wal_mode = open_new_file(new_path);
-        return ended_wal_mode ? Result<void>() : ended_wal_mode.error();
+        TRY(open_new_file(new_path));  // ends WAL mode
+        return {};
     });
     if (!ok) return ok;
     insert_item = {}, insert_spikes = {}, insert_probe = {}, is_writing = false;

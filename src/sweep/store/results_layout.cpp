@@ -5,6 +5,8 @@
 #include <nlohmann/json.hpp>
 #include <set>
 
+#include "core/text/ascii_text.hpp"
+
 namespace corpuscle {
 namespace {
 
@@ -37,15 +39,9 @@ CREATE TABLE traces(item INTEGER NOT NULL, trace INTEGER NOT NULL, samples BLOB 
 CREATE TABLE items(item INTEGER PRIMARY KEY, ended TEXT NOT NULL, steps INTEGER NOT NULL, iterations INTEGER NOT NULL,
                    alone INTEGER NOT NULL, why TEXT NOT NULL)";
 
-std::string lower(std::string text) {
-    for (char& c : text)
-        if (c >= 'A' && c <= 'Z') c = static_cast<char>(c + ('a' - 'A'));
-    return text;
-}
-
 /// See ResultsLayout::stored_column_names.
 std::vector<std::string> unique_names(const std::vector<SweepColumn>& axes, const std::vector<SweepColumn>& measures) {
-    std::set<std::string> taken = {"item", "ended", "steps", "iterations", "alone", "why"};
+    std::set<std::string> taken(ResultsLayout::item_columns.begin(), ResultsLayout::item_columns.end());
     std::vector<std::string> out;
     for (const auto* columns : {&axes, &measures})
         for (const auto& c : *columns) {
@@ -79,9 +75,7 @@ Result<void> check_table(sqlite3* file, const std::string& path, const std::stri
     rows.set(1, std::string_view(table));
     std::set<std::string> existing;
     bool has_integer_key = false;
-    for (;;) {
-        const auto more = TRY(rows.step());
-        if (!more) break;
+    while (TRY(rows.step())) {
         existing.insert(lower(rows.text(0)));
         has_integer_key = has_integer_key || (rows.text(0) == names.item && lower(rows.text(1)) == "integer" && rows.integer(2) == 1);
     }
@@ -97,7 +91,8 @@ Result<void> check_table(sqlite3* file, const std::string& path, const std::stri
 
 /// Checks the tables items, spikes and traces. `stored`: columns of axes and measures.
 Result<void> check_tables(sqlite3* file, const std::string& path, const std::vector<std::string>& stored, const FormatNames& names) {
-    std::vector<std::string> columns = {names.item, "ended", "steps", "iterations", "alone", "why"};
+    std::vector<std::string> columns(ResultsLayout::item_columns.begin(), ResultsLayout::item_columns.end());
+    columns[0] = names.item;
     columns.insert(columns.end(), stored.begin(), stored.end());
     TRY(check_table(file, path, names.items, columns, names));
     TRY(check_table(file, path, "spikes", {names.item, "train", "times"}));
@@ -124,8 +119,7 @@ Result<void> show_first_format(sqlite3* file, const std::string& path, const std
 /// Returns an error if the file has an item that is not one of the sweep's `items` items.
 Result<void> check_items(sqlite3* file, const std::string& path, std::int64_t items) {
     auto rows = TRY(sql::Statement::make(file, path, "SELECT item FROM items WHERE item < 0 OR item >= ? LIMIT 1"));
-    const auto found = TRY(rows.set(1, items).step());
-    if (!found) return {};
+    if (!TRY(rows.set(1, items).step())) return {};
     return changed_by_other_program(path,
                                     fmt::format("it holds item {}, of a sweep of {} items (0 to {})", rows.integer(0), items, items - 1));
 }
@@ -140,9 +134,7 @@ Result<std::vector<SweepColumn>> read_columns(sqlite3* file, const std::string& 
     rows.set(1, std::string_view(kind));
     std::vector<SweepColumn> out;
     std::size_t label_bytes = 0;
-    for (;;) {
-        const auto more = TRY(rows.step());
-        if (!more) return out;
+    while (TRY(rows.step())) {
         if (out.size() == max_columns) return changed_by_other_program(path, fmt::format("there are more than {} columns", max_columns));
         for (const int column : {0, 1, 2, 3, 6}) label_bytes += rows.bytes(column).size();
         if (label_bytes > max_label_bytes)
@@ -154,6 +146,7 @@ Result<std::vector<SweepColumn>> read_columns(sqlite3* file, const std::string& 
         out.push_back(std::move(c));
         stored.push_back(rows.text(6));
     }
+    return out;
 }
 
 /// Writes the axes or measures. `stored`: names of all axes and measures in the table items; `first`: index of the first of these columns.
@@ -174,18 +167,16 @@ Result<void> write_columns(sqlite3* file, const std::string& path, const char* k
 }
 
 Result<std::map<std::string, std::string>> read_about(sqlite3* file, const std::string& path) {
-    auto rows = sql::Statement::make(file, path, "SELECT key, value FROM about");
-    if (!rows) return rows.error();
+    auto rows = TRY(sql::Statement::make(file, path, "SELECT key, value FROM about"));
     std::map<std::string, std::string> out;
     std::size_t bytes = 0;
-    for (;;) {
-        const auto more = TRY(rows->step());
-        if (!more) return out;
-        bytes += rows->bytes(0).size() + rows->bytes(1).size();
+    while (TRY(rows.step())) {
+        bytes += rows.bytes(0).size() + rows.bytes(1).size();
         if (bytes > max_about_bytes)
             return changed_by_other_program(path, fmt::format("its table about holds more than {} MB", max_about_bytes >> 20));
-        out[rows->text(0)] = rows->text(1);
+        out[rows.text(0)] = rows.text(1);
     }
+    return out;
 }
 
 /// The format of a results file. Returns an error for any other SQLite file and for an unknown format.
@@ -232,13 +223,10 @@ Result<ResultsLayout> ResultsLayout::read(sqlite3* file, const std::string& path
     ResultsLayout out;
     out.file_format = stored_format;
     TRY(check_table(file, path, "about", {"key", "value"}));
-    if (auto ok = check_table(file, path, "columns",
-                              {"position", "kind", "name", "unit", names.description, "words", "at_least", "at_most", "stored"});
-        !ok)
-        return ok.error();
+    TRY(check_table(file, path, "columns",
+                    {"position", "kind", "name", "unit", names.description, "words", "at_least", "at_most", "stored"}));
     try {
-        auto about = TRY(read_about(file, path));
-        out.about = std::move(about);
+        out.about = TRY(read_about(file, path));
         for (const auto& [key, limit] : {std::pair{names.metadata, max_label_bytes},
                                          {"trains", max_label_bytes},
                                          {"traces", max_label_bytes},
@@ -250,9 +238,8 @@ Result<ResultsLayout> ResultsLayout::read(sqlite3* file, const std::string& path
         out.train_names = Json::parse(out.about.at("trains")).get<std::vector<std::string>>();
         out.probe_names = Json::parse(out.about.at("traces")).get<std::vector<std::string>>();
         out.probe_times = Json::parse(out.about.at("trace_times")).get<std::vector<double>>();
-        for (auto [kind, into] : {std::pair{"axis", &out.axes}, std::pair{"measure", &out.measures}}) {
+        for (auto [kind, into] : {std::pair{"axis", &out.axes}, std::pair{"measure", &out.measures}})
             *into = TRY(read_columns(file, path, kind, names, out.stored_column_names));
-        }
     } catch (const std::exception&) {  // of JSON, std::stoll or map::at, if a table was edited by hand
         return bad_input("is damaged: its tables about and columns cannot be read; name another file", {path});
     }
@@ -287,6 +274,13 @@ Result<void> ResultsLayout::write(sqlite3* file, const std::string& path) const 
     TRY(write_columns(file, path, "axis", axes, stored_column_names, 0));
     TRY(write_columns(file, path, "measure", measures, stored_column_names, axes.size()));
     return sql::run(file, path, "COMMIT");
+}
+
+std::string ResultsLayout::columns(std::string_view table) const {
+    std::string out;
+    for (const auto name : item_columns) out += fmt::format("{}{}{}", out.empty() ? "" : ", ", table, name);
+    for (const auto& name : stored_column_names) out += fmt::format(", {}{}", table, sql::quoted_name(name));
+    return out;
 }
 
 Error ResultsLayout::read_only_format(const std::string& path) const {

@@ -2,6 +2,7 @@
 // The layout of a results file: the sweep's metadata, the columns, the names of trains and probes. It is written once, when the file is
 // created.
 
+#include <array>
 #include <map>
 
 #include "sweep/spec/sweep.hpp"
@@ -25,11 +26,16 @@ struct ResultsLayout {
     /// lower case, gets a number.
     std::vector<std::string> stored_column_names;
 
+    /// The columns of the table items before those of the axes and measures.
+    static constexpr std::array<std::string_view, 6> item_columns = {"item", "ended", "steps", "iterations", "alone", "why"};
+
     static ResultsLayout of(const Sweep&);
     /// Also shows a file of an earlier format under the present names of tables and columns.
     static Result<ResultsLayout> read(sqlite3*, const std::string& path);
     /// Creates the tables in an empty file. Fills the tables about and columns, and leaves the others empty.
     Result<void> write(sqlite3*, const std::string& path) const;
+    /// The columns of the table items for a statement: "item, ended, ...". Each begins with `table`, such as "i.".
+    std::string columns(std::string_view table = "") const;
     bool is_current_format() const { return file_format == format; }
     /// The error of adding rows to a file of an earlier format, or merging it.
     Error read_only_format(const std::string& path) const;

@@ -136,9 +136,7 @@ Result<bool> Statement::step() {
 }
 
 Result<void> Statement::finish() {
-    for (;;) {
-        const auto more = TRY(step());
-        if (!more) break;
+    while (TRY(step())) {
     }
     reset();
     return {};
@@ -162,8 +160,7 @@ std::span<const std::byte> Statement::bytes(int column) const {
 
 Result<std::int64_t> query_integer(sqlite3* file, const std::string& path, const std::string& text) {
     auto statement = TRY(Statement::make(file, path, text));
-    const auto found = TRY(statement.step());
-    return found ? statement.integer(0) : 0;
+    return TRY(statement.step()) ? statement.integer(0) : 0;
 }
 
 }  // namespace corpuscle::sql

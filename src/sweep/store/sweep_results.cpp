@@ -25,11 +25,10 @@ ItemEnd end_of(std::string_view name) {
     return at == item_ends.end() ? ItemEnd::diverged : static_cast<ItemEnd>(at - item_ends.begin());
 }
 
-/// The statement that inserts a row into the table items. `columns`: stored names of the axes and measures.
-std::string insert_statement(const std::vector<std::string>& columns) {
-    std::string names = "item, ended, steps, iterations, alone, why", values = "?, ?, ?, ?, ?, ?";
-    for (const auto& column : columns) names += ", " + sql::quoted_name(column), values += ", ?";
-    return fmt::format("INSERT INTO items({}) VALUES({}) ON CONFLICT(item) DO NOTHING", names, values);
+/// The statement that inserts a row into the table items.
+std::string insert_statement(const ResultsLayout& layout) {
+    const std::vector<char> values(layout.item_columns.size() + layout.stored_column_names.size(), '?');
+    return fmt::format("INSERT INTO items({}) VALUES({}) ON CONFLICT(item) DO NOTHING", layout.columns(), fmt::join(values, ", "));
 }
 
 /// The numbers of a blob; an incomplete last number is ignored.
@@ -44,8 +43,8 @@ std::vector<T> numbers(std::span<const std::byte> bytes) {
 template <class T>
 Result<std::vector<T>> read_blob(sqlite3* file, const std::string& path, const char* query, std::int64_t item, std::size_t index) {
     auto row = TRY(sql::Statement::make(file, path, query));
-    const auto found = TRY(row.set(1, item).set(2, static_cast<std::int64_t>(index)).step());
-    return found ? numbers<T>(row.bytes(0)) : std::vector<T>{};
+    if (!TRY(row.set(1, item).set(2, static_cast<std::int64_t>(index)).step())) return std::vector<T>{};
+    return numbers<T>(row.bytes(0));
 }
 
 /// Creates the folder of a file.
@@ -76,18 +75,11 @@ Result<void> SweepResults::Impl::open_file(int flags) {
 Result<void> SweepResults::Impl::begin_writing() {
     if (is_writing) return {};
     if (!lock) return bad_input("was opened for reading only", {path});
-    if (auto ok =
-            sql::run(file.get(), path,
-                     "PRAGMA journal_mode = WAL; PRAGMA wal_autocheckpoint = 0; PRAGMA synchronous = FULL; PRAGMA cache_size = -32768");
-        !ok)
-        return ok;
-    const auto prepare = [&](const std::string& text, sql::Statement& out) -> Result<void> {
-        out = TRY(sql::Statement::make(file.get(), path, text));
-        return {};
-    };
-    TRY(prepare(insert_statement(layout.stored_column_names), insert_item));
-    TRY(prepare("INSERT INTO spikes(item, train, times) VALUES(?, ?, ?)", insert_spikes));
-    TRY(prepare("INSERT INTO traces(item, trace, samples) VALUES(?, ?, ?)", insert_probe));
+    TRY(sql::run(file.get(), path,
+                 "PRAGMA journal_mode = WAL; PRAGMA wal_autocheckpoint = 0; PRAGMA synchronous = FULL; PRAGMA cache_size = -32768"));
+    insert_item = TRY(sql::Statement::make(file.get(), path, insert_statement(layout)));
+    insert_spikes = TRY(sql::Statement::make(file.get(), path, "INSERT INTO spikes(item, train, times) VALUES(?, ?, ?)"));
+    insert_probe = TRY(sql::Statement::make(file.get(), path, "INSERT INTO traces(item, trace, samples) VALUES(?, ?, ?)"));
     set_next_checkpoint_size();
     is_writing = true;
     return {};
@@ -112,17 +104,9 @@ Result<void> SweepResults::Impl::insert(const Sweep& sweep, const ItemOutcome& o
     ++finished;
     for (std::size_t k = 0; k < o.spikes.size(); ++k)
         if (!o.spikes[k].empty())
-            if (auto ok = insert_spikes.set(1, o.item)
-                              .set(2, static_cast<std::int64_t>(k))
-                              .set(3, std::as_bytes(std::span(o.spikes[k])))
-                              .finish();
-                !ok)
-                return ok;
+            TRY(insert_spikes.set(1, o.item).set(2, static_cast<std::int64_t>(k)).set(3, std::as_bytes(std::span(o.spikes[k]))).finish());
     for (std::size_t k = 0; k < o.probes.size(); ++k)
-        if (auto ok =
-                insert_probe.set(1, o.item).set(2, static_cast<std::int64_t>(k)).set(3, std::as_bytes(std::span(o.probes[k]))).finish();
-            !ok)
-            return ok;
+        TRY(insert_probe.set(1, o.item).set(2, static_cast<std::int64_t>(k)).set(3, std::as_bytes(std::span(o.probes[k]))).finish());
     return {};
 }
 
@@ -138,8 +122,7 @@ Result<SweepResults> SweepResults::open_with_layout(const std::string& path, con
     auto impl = std::make_unique<Impl>();
     impl->path = path;
     TRY(make_folder(path));
-    auto lock = TRY(WriterLock::take(path));
-    impl->lock = std::move(lock);
+    impl->lock = TRY(WriterLock::take(path));
     impl->remove_new_file();
     if (std::error_code status; !fs::exists(path, status)) {
         impl->layout = expected;  // create_file() writes it
@@ -168,10 +151,8 @@ Result<SweepResults> SweepResults::open_read_only(const std::string& path) {
         // SQLite needs a -shm file beside the results, which cannot be created in a read-only folder. Without rows in the -wal, the file
         // can be opened as immutable instead.
         if (fs::exists(impl->wal_path(), status) && fs::file_size(impl->wal_path(), status) > 0) return needs_writable_folder(path);
-        auto opened =
-            sql::open("file:" + fs::absolute(path).string() + "?immutable=1", SQLITE_OPEN_READONLY | SQLITE_OPEN_URI | SQLITE_OPEN_NOMUTEX);
-        if (!opened) return opened.error();
-        impl->file = std::move(*opened);
+        impl->file = TRY(sql::open("file:" + fs::absolute(path).string() + "?immutable=1",
+                                   SQLITE_OPEN_READONLY | SQLITE_OPEN_URI | SQLITE_OPEN_NOMUTEX));
         stored = ResultsLayout::read(impl->file.get(), path);
     }
     if (!stored) return stored.error();
@@ -245,21 +226,18 @@ Result<std::int64_t> SweepResults::count_ended(ItemEnd end) const {
 }
 
 Result<void> SweepResults::for_each_row(const std::function<bool(const Row&)>& on_row) const {
-    std::string text = "SELECT item, ended, steps, iterations, alone, why";
-    for (const auto& column : stored_column_names()) text += ", " + sql::quoted_name(column);
-    auto rows = TRY(sql::Statement::make(handle(), path(), text + " FROM items ORDER BY item"));
+    auto rows = TRY(sql::Statement::make(handle(), path(), "SELECT " + impl_->layout.columns() + " FROM items ORDER BY item"));
     Row row;
     row.axes.resize(axes().size()), row.measures.resize(measures().size());
-    for (;;) {
-        const auto more = TRY(rows.step());
-        if (!more) return {};
+    while (TRY(rows.step())) {
         row.item = rows.integer(0), row.end = end_of(rows.text(1)), row.steps = rows.integer(2), row.iterations = rows.integer(3);
         row.ran_alone = rows.integer(4) != 0, row.reason = rows.text(5);
-        int column = 6;
+        int column = ResultsLayout::item_columns.size();
         for (auto* into : {&row.axes, &row.measures})
             for (double& x : *into) x = rows.number(column++);
         if (!on_row(row)) return {};
     }
+    return {};
 }
 
 Result<std::vector<double>> SweepResults::spikes(std::int64_t item, std::size_t train) const {

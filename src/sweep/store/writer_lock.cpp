@@ -10,6 +10,8 @@
 #include <cstring>
 #include <sstream>
 
+#include "io/output/output_check.hpp"
+
 namespace corpuscle {
 namespace {
 
@@ -21,13 +23,6 @@ struct flock whole_file_lock(short kind) {
     lock.l_type = kind;
     lock.l_whence = SEEK_SET;
     return lock;
-}
-
-/// True if the open file is still the one at this path: the process that had the lock before may have removed the file.
-bool is_file_at_path(int file, const std::string& path) {
-    struct stat open_file = {}, file_at_path = {};
-    return ::fstat(file, &open_file) == 0 && ::stat(path.c_str(), &file_at_path) == 0 && open_file.st_ino == file_at_path.st_ino &&
-           open_file.st_dev == file_at_path.st_dev;
 }
 
 /// The content of a lock file as write_progress() writes it; all members are 0 or empty if the file is empty. No value: anything else.
@@ -68,35 +63,28 @@ Error locked_error(const std::string& results) {
 
 }  // namespace
 
-WriterLock::~WriterLock() {
-    ::unlink(path_.c_str());
-    ::close(file_);
-}
+WriterLock::~WriterLock() { ::unlink(path_.c_str()); }
 
 Result<std::unique_ptr<WriterLock>> WriterLock::take(const std::string& results) {
     const auto path = lock_path(results);
     for (;;) {
-        const int file = ::open(path.c_str(), O_RDWR | O_CREAT | O_CLOEXEC | O_NOFOLLOW, 0666);
-        if (file < 0 && errno == ELOOP) return not_ours(path, "is a link");
-        if (file < 0)
+        Descriptor file(::open(path.c_str(), O_RDWR | O_CREAT | O_CLOEXEC | O_NOFOLLOW, 0666));
+        if (!file && errno == ELOOP) return not_ours(path, "is a link");
+        if (!file)
             return bad_input(fmt::format("cannot be written: its folder is not writable ({}); give a writable path "
                                          "with --out",
                                          std::strerror(errno)),
                              {results});
         auto lock_range = whole_file_lock(F_WRLCK);
-        if (::fcntl(file, F_OFD_SETLK, &lock_range) != 0) {
-            const int cause = errno;
-            ::close(file);
-            if (cause == EAGAIN || cause == EACCES) return locked_error(results);
-            return bad_input(fmt::format("cannot be locked ({}): does this file system support locks?", std::strerror(cause)), {path});
+        if (::fcntl(file.get(), F_OFD_SETLK, &lock_range) != 0) {
+            if (errno == EAGAIN || errno == EACCES) return locked_error(results);
+            return bad_input(fmt::format("cannot be locked ({}): does this file system support locks?", std::strerror(errno)), {path});
         }
-        if (is_file_at_path(file, path)) {
-            if (!is_ours(file)) return ::close(file), not_ours(path, "has other content");
-            auto lock = std::make_unique<WriterLock>(path, file);
-            lock->write_progress(0, 0);
-            return lock;
-        }
-        ::close(file);
+        if (!is_file_at(file.get(), path)) continue;
+        if (!is_ours(file.get())) return not_ours(path, "has other content");
+        auto lock = std::make_unique<WriterLock>(path, std::move(file));
+        lock->write_progress(0, 0);
+        return lock;
     }
 }
 
@@ -106,19 +94,17 @@ void WriterLock::write_progress(std::int64_t finished, std::int64_t planned) con
     const auto now = std::chrono::duration<double>(std::chrono::system_clock::now().time_since_epoch()).count();
     const auto text = fmt::format("{} {:.3f} {} {} {}\n", ::getpid(), now, finished, planned, host[0] ? host.data() : "-");
     // The content is only for messages, so errors, such as a full disk, are ignored.
-    if (::ftruncate(file_, 0) == 0) [[maybe_unused]]
-        const auto written = ::pwrite(file_, text.data(), text.size(), 0);
+    if (::ftruncate(file_.get(), 0) == 0) [[maybe_unused]]
+        const auto written = ::pwrite(file_.get(), text.data(), text.size(), 0);
 }
 
 std::optional<WriterLock::Writer> WriterLock::holder(const std::string& results) {
-    const int file = ::open(lock_path(results).c_str(), O_RDONLY | O_CLOEXEC | O_NOFOLLOW | O_NONBLOCK);
-    if (file < 0) return {};
+    const Descriptor file(::open(lock_path(results).c_str(), O_RDONLY | O_CLOEXEC | O_NOFOLLOW | O_NONBLOCK));
+    if (!file) return {};
     auto lock_range = whole_file_lock(F_RDLCK);
-    const bool is_free = ::fcntl(file, F_OFD_GETLK, &lock_range) == 0 && lock_range.l_type == F_UNLCK;
-    const auto writer = read_writer(file);
-    ::close(file);
+    const bool is_free = ::fcntl(file.get(), F_OFD_GETLK, &lock_range) == 0 && lock_range.l_type == F_UNLCK;
     if (is_free) return {};
-    return writer.value_or(Writer{});
+    return read_writer(file.get()).value_or(Writer{});
 }
 
 }  // namespace corpuscle

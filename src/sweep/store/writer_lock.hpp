@@ -10,6 +10,7 @@
 #include <string>
 
 #include "core/error.hpp"
+#include "io/output/descriptor.hpp"
 
 namespace corpuscle {
 
@@ -17,7 +18,7 @@ namespace corpuscle {
 /// SQLite.)
 class WriterLock {
     std::string path_;  // of the lock file
-    int file_;          // its descriptor
+    Descriptor file_;
 
 public:
     /// The process that has the lock. If it has not yet written the lock file, all members are 0 or empty.
@@ -29,10 +30,8 @@ public:
         std::int64_t planned = 0;   ///< items that the run is to compute
     };
 
-    /// `file`: descriptor of the locked lock file.
-    WriterLock(std::string path, int file) : path_(std::move(path)), file_(file) {}
-    WriterLock(const WriterLock&) = delete;
-    WriterLock& operator=(const WriterLock&) = delete;
+    /// `file`: the locked lock file.
+    WriterLock(std::string path, Descriptor file) : path_(std::move(path)), file_(std::move(file)) {}
     ~WriterLock();  ///< also removes the lock file
 
     /// `results`: path of the results file. If another process has the lock, the error names that process.

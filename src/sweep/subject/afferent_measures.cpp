@@ -8,41 +8,51 @@
 namespace corpuscle::sweeps {
 
 AfferentMeasures::AfferentMeasures(const SweepForce& nominal, bool is_circuit, std::span<const std::string> ranges) {
-    for (std::size_t m = 0; m < std::size(measures); ++m)
-        available_.push_back(
-            {Kind::total, m, "", {std::string(measures[m].name), std::string(measures[m].unit), std::string(measures[m].description)}});
-    available_.push_back({Kind::first, 0, "", {"first_spike", "s", "time of the first spike"}});
-    available_.push_back({Kind::last, 0, "", {"last_spike", "s", "time of the last spike"}});
-    if (is_circuit) {
-        available_.push_back({Kind::power, 0, "", {"power", "W", "mean power of all sources"}});
-        available_.push_back({Kind::sensor_power, 0, "", {"sensor_power", "W", "the part of the power due to the sensor's current"}});
-        available_.push_back({Kind::outside,
-                              0,
-                              "",
-                              {"outside", "s", "total time outside an operating range; with several ranges, the longest of their times"}});
-        available_.push_back({Kind::iterations, 0, "", {"iterations", "", "Newton iterations"}});
-        for (std::size_t r = 0; r < ranges.size(); ++r)
-            available_.push_back(
-                {Kind::one_range, r, "", {"outside." + ranges[r], "s", fmt::format("total time that {} is outside its range", ranges[r])}});
+    const auto column_of = [](const MeasureInfo& m) {
+        return SweepColumn{std::string(m.name), std::string(m.unit), std::string(m.description)};
+    };
+    const auto add = [&](SweepColumn column, bool is_default, auto value, std::size_t index = 0) {
+        available_.push_back({std::move(column), value, index, "", is_default});
+    };
+    for (std::size_t m = 0; m < std::size(measures); ++m) {
+        const bool needs_cycle = measures[m].name == VectorStrength::info.name || measures[m].name == Entrainment::info.name;
+        const bool is_default = !needs_cycle || nominal.cycle_frequency != 0;
+        add(column_of(measures[m]), is_default, [](const Values& v, const Entry& entry) { return v.total[entry.index]; }, m);
     }
-    for (auto& entry : available_) {
-        const bool needs_cycle =
-            entry.kind == Kind::total && (entry.column.name == VectorStrength::info.name || entry.column.name == Entrainment::info.name);
-        entry.is_default =
-            entry.kind != Kind::iterations && entry.kind != Kind::one_range && !(needs_cycle && nominal.cycle_frequency == 0);
+    add({"first_spike", "s", "time of the first spike"}, true,
+        [](const Values& v, const Entry&) { return v.response.spikes.empty() ? no_value : v.response.spikes.front(); });
+    add({"last_spike", "s", "time of the last spike"}, true,
+        [](const Values& v, const Entry&) { return v.response.spikes.empty() ? no_value : v.response.spikes.back(); });
+    if (is_circuit) {
+        add({"power", "W", "mean power of all sources"}, true, [](const Values& v, const Entry&) { return v.response.power; });
+        add({"sensor_power", "W", "the part of the power due to the sensor's current"}, true,
+            [](const Values& v, const Entry&) { return v.response.sensor_power; });
+        add({"outside", "s", "total time outside an operating range; with several ranges, the longest of their times"}, true,
+            [](const Values& v, const Entry&) { return v.response.time_outside; });
+        add({"iterations", "", "Newton iterations"}, false, [](const Values& v, const Entry&) { return v.response.iterations; });
+        for (std::size_t r = 0; r < ranges.size(); ++r)
+            add(
+                {"outside." + ranges[r], "s", fmt::format("total time that {} is outside its range", ranges[r])}, false,
+                [](const Values& v, const Entry& entry) { return v.response.time_outside_ranges[entry.index]; }, r);
     }
     for (const auto& phase : nominal.phases)
-        for (std::size_t m = 0; m < std::size(measures); ++m)
-            available_.push_back({Kind::phase,
-                                  m,
-                                  phase.name,
-                                  {fmt::format("{}.{}", measures[m].name, phase.name), std::string(measures[m].unit),
-                                   fmt::format("{} ({})", measures[m].description, phase.name)}});
+        for (std::size_t m = 0; m < std::size(measures); ++m) {
+            auto column = column_of(measures[m]);
+            column.name += "." + phase.name, column.description += " (" + phase.name + ")";
+            add(
+                std::move(column), false,
+                [](const Values& v, const Entry& entry) {
+                    const auto at = v.of_phases.find(entry.phase);
+                    return at == v.of_phases.end() ? no_value : at->second[entry.index];
+                },
+                m);
+            available_.back().phase = phase.name;
+        }
 }
 
-Result<void> AfferentMeasures::select(const std::optional<std::vector<LocatedText>>& names) {
+Result<void> AfferentMeasures::select(const ConfigNode* names) {
     if (names) {
-        for (const auto& name : *names) {
+        for (const auto& name : names->elements) {
             const auto before = columns_.size();
             TRY(require_column(name));
             if (columns_.size() == before) return name.error_here(fmt::format("measures: '{}' is listed twice", name.text));
@@ -66,7 +76,7 @@ Result<std::size_t> AfferentMeasures::require_column(const LocatedText& name) {
     std::string listed;
     for (const auto& entry : available_) {
         names.push_back(entry.column.name);
-        if (entry.kind != Kind::phase) listed += (listed.empty() ? "" : ", ") + entry.column.name;
+        if (entry.phase.empty()) listed += (listed.empty() ? "" : ", ") + entry.column.name;
     }
     return name.error_here(fmt::format("unknown measure '{}'{} (known: {}; for one phase: {}, for example)", name.text,
                                        did_you_mean(name.text, names), listed, names.back()));
@@ -77,31 +87,16 @@ std::vector<double> AfferentMeasures::values(const SweepForce& force, const Item
     for (const auto& p : force.phases) windows.push_back({p.from, p.to, force.cycle_frequency});
     // The accumulators have one train, with index 0.
     MeasureAccumulator total({{.stimulus_frequency = force.cycle_frequency}}, 1), phases(std::move(windows), 1);
-    const bool by_phase = std::any_of(selected_.begin(), selected_.end(), [](const Entry& entry) { return entry.kind == Kind::phase; });
+    const bool by_phase = std::any_of(selected_.begin(), selected_.end(), [](const Entry& entry) { return !entry.phase.empty(); });
     for (const double t : response.spikes) {
         total.spike(0, t);
         if (by_phase) phases.spike(0, t);
     }
     total.set_end(force.end()), phases.set_end(force.end());
-    const auto all = total.values(0, 0);
-    std::vector<std::vector<double>> phase_values;
-    for (std::size_t p = 0; by_phase && p < force.phases.size(); ++p) phase_values.push_back(phases.values(0, p));
+    Values all{response, total.values(0, 0), {}};
+    for (std::size_t p = 0; by_phase && p < force.phases.size(); ++p) all.of_phases[force.phases[p].name] = phases.values(0, p);
     std::vector<double> out;
-    for (const auto& entry : selected_) {
-        double value = no_value;
-        const auto& spikes = response.spikes;
-        if (entry.kind == Kind::total) value = all[entry.index];
-        if (entry.kind == Kind::first && !spikes.empty()) value = spikes.front();
-        if (entry.kind == Kind::last && !spikes.empty()) value = spikes.back();
-        if (entry.kind == Kind::power) value = response.power;
-        if (entry.kind == Kind::sensor_power) value = response.sensor_power;
-        if (entry.kind == Kind::outside) value = response.time_outside;
-        if (entry.kind == Kind::one_range) value = response.time_outside_ranges[entry.index];
-        if (entry.kind == Kind::iterations) value = response.iterations;
-        for (std::size_t p = 0; entry.kind == Kind::phase && p < phase_values.size(); ++p)
-            if (force.phases[p].name == entry.phase) value = phase_values[p][entry.index];
-        out.push_back(value);
-    }
+    for (const auto& entry : selected_) out.push_back(entry.value(all, entry));
     return out;
 }
 

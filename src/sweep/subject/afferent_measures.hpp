@@ -2,6 +2,7 @@
 // The measures of an item of a sweep, by name: every spike measure over the complete force and over each phase of the force; for a circuit
 // also power, time outside operating ranges, and Newton iterations.
 
+#include <map>
 #include <span>
 
 #include "sweep/spec/sweep_force.hpp"
@@ -20,14 +21,17 @@ struct ItemResponse {
 
 /// The measures that are available for the items of a sweep, and those that are selected.
 class AfferentMeasures {
-    /// total, phase: a spike measure over the complete force, or over one phase; outside: over all operating ranges; one_range: of one of
-    /// them.
-    enum class Kind { total, phase, first, last, power, sensor_power, outside, one_range, iterations };
+    /// The values from which the measures of an item follow.
+    struct Values {
+        const ItemResponse& response;
+        std::vector<double> total;                             ///< of each of `measures`, over the complete force
+        std::map<std::string, std::vector<double>> of_phases;  ///< the same for each phase, by its name; empty if they are not needed
+    };
     struct Entry {
-        Kind kind;
-        std::size_t index = 0;   ///< total, phase: index in `measures` of measure/measures.hpp; one_range: index of the range
-        std::string phase = {};  ///< phase: its name
         SweepColumn column;
+        double (*value)(const Values&, const Entry&);
+        std::size_t index = 0;    ///< in `measures` of measure/measures.hpp, or of the operating range
+        std::string phase = {};   ///< its name; "": the measure is not of a phase
         bool is_default = false;  ///< selected if the sweep file selects no measures
     };
     std::vector<Entry> selected_, available_;
@@ -38,12 +42,11 @@ public:
     /// model.
     AfferentMeasures(const SweepForce& nominal, bool is_circuit, std::span<const std::string> ranges);
 
-    /// Selects measures by name. Without names: the measures over the complete force, except `iterations`, the time outside each single
+    /// Selects measures by a list of names. Null: the measures over the complete force, except `iterations`, the time outside each single
     /// range, and, for a force without cycle, the measures that need one.
-    Result<void> select(const std::optional<std::vector<LocatedText>>& names);
+    Result<void> select(const ConfigNode* names);
     /// The index of a measure's column; selects the measure if it was not selected.
     Result<std::size_t> require_column(const LocatedText& name);
-    std::vector<SweepColumn>& columns() { return columns_; }
     const std::vector<SweepColumn>& columns() const { return columns_; }
 
     /// The values of the selected measures, in the order of columns(); NaN: no value.

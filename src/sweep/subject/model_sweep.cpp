@@ -5,8 +5,8 @@
 #include <algorithm>
 #include <map>
 
-#include "core/located_override.hpp"
 #include "core/stimulus/stimuli.hpp"
+#include "core/text/located_override.hpp"
 #include "core/text/quantity.hpp"
 #include "model/lane_population.hpp"
 #include "run/afferent_plan.hpp"
@@ -29,16 +29,14 @@ struct ModelItem {
     std::optional<std::string> failure = {};  // why the item cannot be simulated; no value: it can
 };
 
-class ModelSweep final : public PlannedSweep {
+class ModelSweep final : public AfferentSweep {
+    std::string text_;      // the afferent in the sweep file
     AfferentPlan nominal_;  // without varied values
-    ForceFactory force_;
-    std::unique_ptr<AfferentMeasures> afferent_measures_;
     struct VariedModelParameter {
         std::size_t parameter, axis;  // indexes in the model's parameters and in the plan's axes
     };
     std::vector<VariedModelParameter> varied_;  // without those of the force
     std::vector<std::size_t> probes_;           // indexes of the probes to record, among those of the afferent
-    std::size_t every_ = 0;                     // sampling step of the probes, in samples of the force; 0: no probes
 
     /// Index of the afferent's parameter of this name, which must exist.
     std::size_t parameter_index(std::string_view name) const {
@@ -52,10 +50,17 @@ class ModelSweep final : public PlannedSweep {
         return dot != std::string_view::npos && matches_name(nominal_, text.substr(0, dot)) ? text.substr(dot + 1) : text;
     }
 
-    Result<VariedQuantity> find_quantity(const LocatedText& quantity) const;
+    Result<void> open(const SweepText&, const std::string& folder) override;
+    const std::string& subject_name() const override { return nominal_.name; }
+    std::string title() const override { return fmt::format("{}, {}", text_, force_.name()); }
+    Result<VariedQuantity> find_afferent_quantity(const LocatedText& quantity) const override;
+    void vary_afferent(const SweepAxis&, const std::string& quantity, std::size_t axis) override {
+        varied_.push_back({parameter_index(parameter_name(quantity)), axis});
+    }
+    Result<void> select_measures(const SweepText&) override;
+    Result<void> add_probe(const LocatedText& probe) override;
     /// Plans the afferent and sets the force with the fixed settings of the sweep file.
     Result<void> apply_settings(const AfferentSpec&, const SweepText&);
-    Result<void> select_probes(const SweepText&);
 
     SimulationOptions options_for(const SweepForce& force) const { return {force.clock.T()}; }
     Result<ModelItem> make_item(std::int64_t number) const;
@@ -68,17 +73,13 @@ class ModelSweep final : public PlannedSweep {
     void report(ModelItem&, std::vector<std::vector<float>> probe_samples, const OutcomeHandler&) const;
 
 public:
-    static Result<std::unique_ptr<Sweep>> make(const SweepText&, const std::string& folder);
     Result<void> run_items(const NextItem&, const OutcomeHandler&, const std::function<bool()>& stop) const override;
 };
 
-Result<VariedQuantity> ModelSweep::find_quantity(const LocatedText& quantity) const {
-    if (force_.has_parameter(quantity.text)) return force_.find_quantity(quantity);
+Result<VariedQuantity> ModelSweep::find_afferent_quantity(const LocatedText& quantity) const {
     std::vector<ParameterInfo> rows;
     for (const auto& p : *nominal_.parameters) rows.push_back(p.info);
-    const auto row = find_parameter({nominal_.name, std::string(parameter_name(quantity.text)), ""}, rows);
-    if (!row) return quantity.error_here(row.error().message);
-    const auto& r = **row;
+    const auto& r = *TRY(quantity.located(find_parameter({nominal_.name, std::string(parameter_name(quantity.text)), ""}, rows)));
     VariedQuantity out{
         {quantity.text, std::string(r.unit), std::string(r.description)}, nominal_.values[parameter_index(r.name)], r.low, r.high};
     out.parse = [unit = std::string(r.unit)](const LocatedText& s) { return parse_quantity(s.text, unit); };
@@ -87,12 +88,11 @@ Result<VariedQuantity> ModelSweep::find_quantity(const LocatedText& quantity) co
 
 Result<void> ModelSweep::apply_settings(const AfferentSpec& afferent, const SweepText& spec) {
     std::vector<ParameterOverride> overrides;
-    for (const auto& s : spec.settings) {
-        if (!force_.has_parameter(s.name))
+    for (const auto& s : spec.top.settings("set"))
+        if (force_.has_parameter(s.name))
+            TRY(force_.set(s));
+        else
             overrides.push_back(located_override(s, afferent.text()));
-        else if (auto ok = force_.set(s); !ok)
-            return ok;
-    }
     auto planned = TRY(afferent.plan(overrides, {}));
     nominal_ = std::move(planned.result);
     auto targets = is_stimulus(force_.name()) ? stimulus_members(force_.name()) : std::vector<std::string_view>();
@@ -100,67 +100,34 @@ Result<void> ModelSweep::apply_settings(const AfferentSpec& afferent, const Swee
     return check_all_used(planned.unused, targets);
 }
 
-/// Selects the probes that are written to the results.
-Result<void> ModelSweep::select_probes(const SweepText& spec) {
-    if (spec.probes.empty()) return {};
-    const auto& force = *force_.nominal();
-    const auto afferent = make_afferent(nominal_, options_for(force));
+Result<void> ModelSweep::add_probe(const LocatedText& probe) {
+    const auto afferent = make_afferent(nominal_, options_for(*force_.nominal()));
     std::vector<std::string_view> names;
     for (const auto& p : afferent->probes()) names.push_back(p.name);
-    for (const auto& probe : spec.probes) {
-        const auto at = std::find(names.begin(), names.end(), probe.text);
-        if (at == names.end())
-            return probe.error_here(fmt::format("traces: {} has no '{}'{} (it has {})", nominal_.name, probe.text,
-                                                did_you_mean(probe.text, names), fmt::join(names, ", ")));
-        probes_.push_back(static_cast<std::size_t>(at - names.begin()));
-        probe_names_.push_back(probe.text);
-    }
-    every_ = TRY(probe_stride(spec, force.clock.T()));
-    for (std::size_t k = 0; k < force.samples.size(); k += every_) probe_times_.push_back(force.clock.time(static_cast<std::int64_t>(k)));
+    const auto at = std::find(names.begin(), names.end(), probe.text);
+    if (at == names.end())
+        return probe.error_here(fmt::format("traces: {} has no '{}'{} (it has {})", nominal_.name, probe.text,
+                                            did_you_mean(probe.text, names), fmt::join(names, ", ")));
+    probes_.push_back(static_cast<std::size_t>(at - names.begin())), probe_names_.push_back(probe.text);
     return {};
 }
 
-Result<std::unique_ptr<Sweep>> ModelSweep::make(const SweepText& spec, const std::string& folder) {
-    auto out = std::make_unique<ModelSweep>();
-    auto& s = *out;
-    if (spec.directives) return spec.directives->error_here("orders applies to netlist = ...; an afferent = ... responds to its force");
-    const auto& afferent_name = spec.afferent->text;
-    if (spec.iterations)
-        return spec.iterations->error_here(fmt::format("{} is a model and has no iterations; remove iterations", afferent_name));
-    const auto afferent = read_afferent_spec(afferent_name);
-    if (!afferent) return spec.afferent->error_here(afferent.error().message);
-    const auto seed = TRY(seed_of(spec));
-    s.force_ = TRY(ForceFactory::of(spec, folder, seed));
-    TRY(s.apply_settings(**afferent, spec));
-    VariableQuantities quantities;
-    quantities.subject_name = s.nominal_.name;
-    quantities.find_quantity = [&](const LocatedText& quantity) { return s.find_quantity(quantity); };
-    quantities.vary = [&](const SweepAxis&, const std::string& quantity, std::size_t axis) {
-        if (s.force_.has_parameter(quantity))
-            s.force_.vary(quantity, axis);
-        else
-            s.varied_.push_back({s.parameter_index(s.parameter_name(quantity)), axis});
-    };
-    s.plan_ = TRY(plan_of(spec, quantities));
-    TRY(s.force_.prepare());
-    if (const double rate = s.force_.nominal()->clock.rate(); rate < s.nominal_.min_rate)
-        return (spec.rate ? *spec.rate : *spec.afferent)
-            .error_here(fmt::format("the sample rate is {:g} Hz, but {} needs {:g} Hz or more", rate, afferent_name, s.nominal_.min_rate));
-    s.afferent_measures_ = std::make_unique<AfferentMeasures>(*s.force_.nominal(), false, std::span<const std::string>());
-    TRY(s.afferent_measures_->select(spec.measures));
-    const MeasureLookup lookup{[&](const LocatedText& name) { return s.afferent_measures_->require_column(name); },
-                               [&](const LocatedText& model, std::size_t column) {
-                                   return model_measure(model, s.force_, {s.afferent_measures_->columns()[column].name, model.location});
-                               }};
-    TRY(set_limits(spec, lookup, s.afferent_measures_->columns()));
-    s.measures_ = s.afferent_measures_->columns();
-    const auto keeps = TRY(keeps_spikes(spec));
-    if (keeps) s.train_names_ = {s.nominal_.name};
-    TRY(s.select_probes(spec));
-    s.metadata_ = first_metadata(spec, fmt::format("{}, {}", afferent_name, s.force_.name()));
-    if (auto summary = s.force_.recording_summary(); !summary.empty())
-        s.metadata_.push_back({"recording " + s.force_.name(), std::move(summary)});
-    return std::unique_ptr<Sweep>(std::move(out));
+Result<void> ModelSweep::open(const SweepText& spec, const std::string& folder) {
+    const auto& name = *spec.get("afferent");
+    text_ = name.text;
+    if (const auto* iterations = spec.get("iterations"))
+        return iterations->error_here(fmt::format("{} is a model and has no iterations; remove iterations", text_));
+    const auto afferent = TRY(name.located(read_afferent_spec(text_)));
+    TRY(open_force(spec, folder));
+    return apply_settings(*afferent, spec);
+}
+
+Result<void> ModelSweep::select_measures(const SweepText& spec) {
+    TRY(AfferentSweep::select_measures(spec));
+    const double rate = force_.nominal()->clock.rate();
+    if (rate >= nominal_.min_rate) return {};
+    const auto* given = spec.get("rate") ? spec.get("rate") : spec.get("afferent");
+    return given->error_here(fmt::format("the sample rate is {:g} Hz, but {} needs {:g} Hz or more", rate, text_, nominal_.min_rate));
 }
 
 Result<ModelItem> ModelSweep::make_item(std::int64_t number) const {
@@ -213,8 +180,7 @@ Result<void> ModelSweep::respond(std::vector<ModelItem>& block, const OutcomeHan
         lane_groups[shared].push_back(&item);
     }
     for (const auto& [shared, items] : lane_groups) {
-        const auto done = TRY(respond_on_lanes(items, set, stop));
-        if (!done) scalars.insert(scalars.end(), items.begin(), items.end());
+        if (!TRY(respond_on_lanes(items, set, stop))) scalars.insert(scalars.end(), items.begin(), items.end());
     }
     std::vector<bool> is_reported(block.size());
     for (auto* item : scalars) {
@@ -234,9 +200,8 @@ Result<bool> ModelSweep::respond_on_lanes(std::span<ModelItem* const> items, Ins
     for (const auto* item : items) plans.push_back(&item->plan);
     const bool same_parameters = varied_.empty();  // then one plan is enough for all lanes
     auto population =
-        make_lane_population({same_parameters ? std::span(plans).first(1) : std::span<const AfferentPlan* const>(plans), items.size()},
-                             options_for(*items[0]->force), set);
-    if (!population) return population.error();
+        TRY(make_lane_population({same_parameters ? std::span(plans).first(1) : std::span<const AfferentPlan* const>(plans), items.size()},
+                                 options_for(*items[0]->force), set));
     const bool same_force = std::all_of(items.begin(), items.end(), [&](const ModelItem* item) { return item->force == items[0]->force; });
     std::size_t longest = 0;
     for (const auto* item : items) longest = std::max(longest, item->force->samples.size());
@@ -263,7 +228,7 @@ Result<bool> ModelSweep::respond_on_lanes(std::span<ModelItem* const> items, Ins
         }
         spikes.clear();
         PopulationResponse response{&spikes};
-        if (const auto ok = (*population)->respond(force, steps, response, single_thread); !ok) return false;
+        if (const auto ok = population->respond(force, steps, response, single_thread); !ok) return false;
         for (const auto& s : spikes) {
             auto& item = *items[s.afferent_index];
             if (s.step < static_cast<std::int64_t>(item.force->samples.size()))
@@ -285,25 +250,17 @@ Result<std::vector<std::vector<float>>> ModelSweep::respond_alone(ModelItem& ite
 }
 
 void ModelSweep::report(ModelItem& item, std::vector<std::vector<float>> probe_samples, const OutcomeHandler& on_outcome) const {
-    ItemOutcome out;
-    out.item = item.number;
-    if (item.failure) {
-        out.end = ItemEnd::diverged, out.reason = *item.failure, item.spikes.clear();
-        out.measures.assign(measures_.size(), std::numeric_limits<double>::quiet_NaN());
-    } else {
-        ItemResponse response;
-        response.spikes = item.spikes;
-        out.measures = afferent_measures_->values(*item.force, response);
+    auto out = failed_outcome(item.number, item.failure.value_or(""));
+    out.probes = padded_probes(std::move(probe_samples));
+    if (!item.failure) {
+        out.end = ItemEnd::done, out.measures = afferent_measures_->values(*item.force, {item.spikes});
+        if (!train_names_.empty()) out.spikes[0] = std::move(item.spikes);
     }
-    if (!train_names_.empty()) out.spikes.push_back(std::move(item.spikes));
-    probe_samples.resize(probe_names_.size());
-    for (auto& t : probe_samples) t.resize(probe_times_.size(), std::numeric_limits<float>::quiet_NaN());
-    out.probes = std::move(probe_samples);
     on_outcome(std::move(out));
 }
 
 }  // namespace
 
-Result<std::unique_ptr<Sweep>> make_model_sweep(const SweepText& spec, const std::string& folder) { return ModelSweep::make(spec, folder); }
+std::unique_ptr<PlannedSweep> new_model_sweep() { return std::make_unique<ModelSweep>(); }
 
 }  // namespace corpuscle::sweeps

@@ -150,8 +150,7 @@ Result<VariedQuantity> NetlistFactory::find_quantity(const LocatedText& quantity
         out.labels_only = true, out.column.description = "process corner";
         return out;
     }
-    const auto netlist = TRY(nominal());
-    const auto circuit = TRY(netlist.elaborate());
+    const auto circuit = TRY(TRY(nominal()).elaborate());
     if (lowercase == "temp") {
         out.parse = temperature_of, out.nominal = circuit.temperature, out.allows_labels = false;
         out.column.unit = "degC", out.column.description = "temperature";

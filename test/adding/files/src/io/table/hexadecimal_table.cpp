@@ -11,12 +11,11 @@ namespace {
 
 class HexadecimalSamples final : public Samples {
     std::vector<double> values_;
-    SamplesInfo info_;
 
 public:
-    explicit HexadecimalSamples(std::vector<double> values)
-        : values_(std::move(values)), info_{.columns = {{"hexadecimal", ""}}, .rows = static_cast<std::int64_t>(values_.size())} {}
-    const SamplesInfo& info() const override { return info_; }
+    explicit HexadecimalSamples(std::vector<double> values) : values_(std::move(values)) {
+        info_.columns = {{"hexadecimal", ""}}, info_.rows = static_cast<std::int64_t>(values_.size());
+    }
     Result<void> fetch(std::int64_t first, std::size_t rows, std::span<const std::size_t> wanted,
                        std::vector<std::vector<double>>& out) override {
         for (std::size_t k = 0; k < wanted.size(); ++k)
