@@ -9,7 +9,7 @@ class Addition:
     file: str  # path of the new file; its text is below files/, if `text` does not say otherwise
     list: str  # path of the list
     insertions: list  # (text of the list, text that replaces it); each adds to one line
-    list_names: str  # regular expression: the names that the list defines; an object that uses none of them does not depend on its entries
+    list_names: str  # regular expression: the names that the list defines; a file that uses none of them does not depend on its entries
     text: str = ""  # path of the text of the new file, from the root of the tree
 
 

@@ -44,7 +44,7 @@ class Build:
         self.root, self.build, self.tree, self.out = root, build, tree, out
         self.replaced = {}  # object of the build: the objects that take its place
         commands = run("ninja -t commands corpuscle", build).splitlines()
-        self.compile = [c for c in commands if " -c " in c and "/src/corpuscle" not in c]  # the program does not use the public interface
+        self.compile = [c for c in commands if " -c " in c]
         self.archive = [c for c in commands if " qc " in c]
         self.link = next(c for c in commands if " -o corpuscle " in c)
         self.known = {}
@@ -55,10 +55,12 @@ class Build:
         return text
 
     def sources(self, command):
-        """The files of the tree that a command compiles: one, or those of a unity file."""
-        source = command.split(" -c ")[1].split()[0]
-        text = [source] if "/Unity/" not in source else re.findall(r'#include "([^"]+)"', pathlib.Path(source).read_text())
-        return [pathlib.Path(self.moved(s)) for s in text]
+        """The files of the tree that a command compiles: one, or those of a unit."""
+        source = pathlib.Path(command.split(" -c ")[1].split()[0])
+        files = [source]
+        if source.parent.name.endswith("_units"):
+            files = [(source.parent / f).resolve() for f in re.findall(r'#include "([^"]+)"', source.read_text())]
+        return [pathlib.Path(self.moved(str(f))) for f in files]
 
     def uses(self, command, additions):
         """True if a command compiles a file that uses an extended list."""
@@ -73,12 +75,9 @@ class Build:
 
     def compiled(self, command, number, source=None):
         """The command for the other tree, of a source file or of the sources of the command; also its object."""
-        original = command.split(" -c ")[1].split()[0]
         if source is None:
-            source = self.moved(original)
-            if "/Unity/" in original:
-                source = self.out / f"unity{number}.cxx"
-                source.write_text(self.moved(pathlib.Path(original).read_text()))
+            source = self.out / f"unit{number}.cpp"
+            source.write_text("".join(f'#include "{s}"\n' for s in self.sources(command)))
         target = self.out / f"object{number}.o"
         mine = re.sub(r" -MD -MT \S+ -MF \S+| -o \S+ -c \S+", "", self.moved(command))
         if "cmake_pch" in command:  # one precompiled header for all, so the options of one target for all, with further directories
@@ -88,7 +87,7 @@ class Build:
 
     def precompile(self):
         """Makes the precompiled header of the program for QUICK options."""
-        command = next(c for c in self.compile if "/cmake_pch.hxx" in c and "corpuscle-cli.dir" in c and "-x c++-header" not in c)
+        command = next(c for c in self.compile if "/cmake_pch.hxx" in c and "-x c++-header" not in c)
         header = re.search(r"(\S+/cmake_pch.hxx)", command)[1]
         includes = re.findall(r"#include <.*", pathlib.Path(header).read_text())
         (self.out / "common.hxx").write_text("\n".join(includes) + "\n")

@@ -26,7 +26,7 @@ using test::function_count;
 constexpr std::size_t points = 4096;
 
 template <class V>
-test::NumberFunctions<V> functions_for(InstructionSet set) {
+test::NumberFunctions<V> functions_for([[maybe_unused]] InstructionSet set) {
     const auto pick = [](auto in_double, auto in_float) {
         if constexpr (sizeof(V) == 8)
             return (void)in_float, in_double;
