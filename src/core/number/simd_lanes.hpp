@@ -19,6 +19,14 @@ inline xsimd::batch<float> xsimd::batch<float>::operator-() const noexcept {
     return -data;
 }
 #endif
+#if defined(__aarch64__)
+// xsimd up to 13 divides floats by an estimate that it improves twice, which is not rounded correctly.
+template <>
+inline xsimd::batch<float>& xsimd::batch<float>::operator/=(const xsimd::batch<float>& divisor) noexcept {
+    data = vdivq_f32(data, divisor.data);
+    return *this;
+}
+#endif
 
 namespace corpuscle::num {
 
@@ -68,15 +76,23 @@ Lanes<V> sqrt(Lanes<V> x) {
     return xsimd::sqrt(x);
 }
 
-/// max() is a > b ? a : b and min() is a < b ? a : b, also for NaN and for zeros of different sign, because the processor's instructions
-/// are defined so.
+/// max() is a > b ? a : b and min() is a < b ? a : b, also for NaN and for zeros of different sign. The instructions of x86-64 are defined
+/// so; those of aarch64 return NaN if either is NaN.
 template <class V>
 Lanes<V> max(Lanes<V> a, Lanes<V> b) {
+#ifdef __SSE2__
     return xsimd::max(a, b);
+#else
+    return xsimd::select(a > b, a, b);
+#endif
 }
 template <class V>
 Lanes<V> min(Lanes<V> a, Lanes<V> b) {
+#ifdef __SSE2__
     return xsimd::min(a, b);
+#else
+    return xsimd::select(a < b, a, b);
+#endif
 }
 
 /// The mask as an integer: one bit for each lane, the first lane lowest.
