@@ -1,12 +1,11 @@
-# `cmake --install` installs the program, the library with its headers, a CMake package (find_package(corpuscle)), examples, documents and licences.
+# `cmake --install` installs the program, the library with its public headers, a CMake package (find_package(corpuscle)), examples, documents and licences.
 include(GNUInstallDirs)
 include(CMakePackageConfigHelpers)
 
 install(TARGETS corpuscle-cli corpuscle-study)
 install(TARGETS corpuscle-hdf5 corpuscle-sound RUNTIME DESTINATION ${CMAKE_INSTALL_LIBEXECDIR}/corpuscle)
 install(TARGETS corpuscle EXPORT corpuscle-targets)
-install(DIRECTORY src/ DESTINATION include/corpuscle FILES_MATCHING PATTERN "*.hpp" PATTERN "*.h" PATTERN "*.def")
-install(FILES ${PROJECT_BINARY_DIR}/generated/core/version.hpp DESTINATION include/corpuscle/core)
+install(DIRECTORY include/ DESTINATION include/corpuscle)
 install(EXPORT corpuscle-targets NAMESPACE corpuscle:: DESTINATION ${CMAKE_INSTALL_LIBDIR}/cmake/corpuscle)
 configure_package_config_file(cmake/corpuscle-config.cmake.in corpuscle-config.cmake INSTALL_DESTINATION ${CMAKE_INSTALL_LIBDIR}/cmake/corpuscle)
 write_basic_package_version_file(corpuscle-config-version.cmake COMPATIBILITY SameMinorVersion)

@@ -15,6 +15,8 @@ done
 for work in dygraphs CLI11 nlohmann-json xsimd toml++ fmt 'Frances Y. Kuo and Stephen Joe'; do
   grep -qF "$work" "$prefix/share/doc/corpuscle/NOTICE" || { echo "NOTICE lacks $work"; status=1; }
 done
+headers=$(cd "$prefix/include/corpuscle" && find . -type f | sort | tr '\n' ' ')
+[ "$headers" = "./corpuscle.h ./corpuscle.hpp " ] || { echo "installed headers: $headers; only the public ones are expected"; status=1; }
 library=$(find "$prefix" -name libcorpuscle.a)
 shared=$prefix/try.so
 "$compiler" -shared -o "$shared" -Wl,-z,text -Wl,--whole-archive "$library" -Wl,--no-whole-archive || status=1

@@ -28,7 +28,7 @@ std::size_t widest_line(const std::string& text) {
 bool is_harmless(const std::string& text) {
     for (const std::string mark : {"\xe2\x80\xae", "\xe2\x80\x8f", "\xe2\x81\xa6", "\xc2\x9b", "\x7f"})
         if (text.find(mark) != text.npos) return false;
-    return is_utf8(text) && std::none_of(text.begin(), text.end(), [](char c) { return c >= 0 && c < 32 && c != '\n'; });
+    return is_utf8(text) && std::none_of(text.begin(), text.end(), [](unsigned char c) { return c < 32 && c != '\n'; });
 }
 
 TEST(PrintedText, HelpFitsInAHundredColumnsAndShowsExamplesFirst) {

@@ -1,6 +1,7 @@
 // A live skin allocates no memory while frames are pushed, for any forces. This is a separate program, because it replaces operator new to
 // count allocations.
 
+#include <algorithm>
 #include <atomic>
 #include <cstdio>
 #include <cstdlib>

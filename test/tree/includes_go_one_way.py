@@ -1,6 +1,7 @@
 """includes_go_one_way.py ROOT: every module includes only the modules below it, and no folder has too many files.
 
-The table is that of doc/architecture.md. A file may include the files of its own module."""
+The table is that of doc/architecture.md. A file may include the files of its own module. The public headers, in include/, include none of
+ours, so that a user of the installed library needs no other header."""
 import collections
 import pathlib
 import re
@@ -28,7 +29,8 @@ LISTS = {"reproduction/studies": "a list of studies: one file for each figure, t
 
 
 def module_of(path):
-    """The module of a file; None for the public face in src itself, which may include everything, and for other files."""
+    """The module of a file; None for the files in src itself, which implement the public headers and may include everything, and for other
+    files."""
     parts = path.parts
     if parts[0] in ("src", "apps") and len(parts) > 2:
         return parts[1]
@@ -37,15 +39,17 @@ def module_of(path):
 
 def check(root):
     files = [pathlib.Path(line) for line in subprocess.run(["git", "-C", root, "ls-files"], check=True, capture_output=True, text=True).stdout.splitlines()]
-    files = [path for path in files if path.parts[0] in ("src", "apps", "reproduction") and (root / path).exists()]
+    files = [path for path in files if path.parts[0] in ("include", "src", "apps", "reproduction") and (root / path).exists()]
     names = {}  # as written after #include
     for path in files:
         names[str(path)] = path
-        if path.parts[0] in ("src", "apps"):
+        if path.parts[0] in ("include", "src", "apps"):
             names[str(pathlib.Path(*path.parts[1:]))] = path
     faults = []
     for path in files:
         module = module_of(path)
+        if path.parts[0] == "include":
+            faults += [f"{path}: includes {name}, which is not installed" for name in re.findall(r'#\s*include "([^"]+)"', (root / path).read_text())]
         if module is None or path.suffix not in (".hpp", ".cpp", ".h", ".c", ".def"):
             continue
         if module not in MAY_INCLUDE:
@@ -58,7 +62,7 @@ def check(root):
                 continue
             other = module_of(target)
             if other is None:
-                faults.append(f"{path}:{number}: includes {target}, the public face; only files in src itself do")
+                faults.append(f"{path}:{number}: includes {target}; only the files in src itself include the public headers")
             elif other != module and other not in MAY_INCLUDE[module]:
                 faults.append(f"{path}:{number}: {module} must not include {other} ({included[1]})")
     for folder, count in collections.Counter(str(path.parent) for path in files).items():
