@@ -207,6 +207,7 @@ TEST(NetlistElements, AreRejectedWithLocationAndSuggestion) {
         {"R1 a 0 1k m=2 m=3", "2:15: r1: m is given twice"},
         {"R1 a 0 1k r=3", "2:11: r1: its value is given twice"},
         {"R1 a 0 1k tc1=", "2:14: '=' without a value after it"},
+        {"R1 = 1k", "2:4: unexpected '=' after 'r1'; to define a parameter: .param name=value"},
         {"R 1 0 1k", "2:1: r: the name of an element must be longer than its letter, such as r1"},
         {"R1 a 0 1k\nR2 a 0 1\nr1 b 0 2k", "4:1: element 'r1' is already defined at dir/t.cir:2"},
         {"Q1 c b e qm", "2:1: 'q1': unknown element letter q; known are R C L V I E F G H B D M X"},

@@ -1,6 +1,5 @@
 #include "circuit/netlist/statement.hpp"
 
-
 namespace corpuscle::circuit {
 namespace {
 
@@ -157,6 +156,7 @@ Result<Statement> split_element(LogicalLine line, bool (*is_long_value)(char, st
             s.words.push_back(first);
             continue;
         }
+        if (s.words.empty()) return c.error_at(c.at, "unexpected '=' after '{}'; to define a parameter: .param name=value", s.text(first));
         ++c.at;
         const auto value = TRY(read_value(c, is_long_value && is_long_value(s.line.text[0], s.text(first))));
         s.pairs.push_back({first, value});
