@@ -37,8 +37,7 @@ Result<Expectation> expectation_of(const Directive& c) {
 }
 
 Result<void> check_expectations(const Circuit& circuit, RunOutcome& out) {
-    for (const auto& c : circuit.directives) {
-        if (c.name != "expect") continue;
+    for (const auto& c : circuit.directives_named("expect")) {
         auto e = TRY(expectation_of(c));
         const auto found = out.find_number(e.name);
         if (!found) {
@@ -50,15 +49,6 @@ Result<void> check_expectations(const Circuit& circuit, RunOutcome& out) {
         out.expectations.push_back(std::move(e));
     }
     return {};
-}
-
-/// STEP, STOP and START of .tran STEP STOP [START ...]; 0 if there is none.
-PrintedTimes printed_times(const Directive& c) {
-    const auto number = [&](std::size_t word) {
-        const auto found = read_number(c, word, "a number");
-        return found ? *found : 0;
-    };
-    return {number(2), number(0), number(1)};
 }
 
 /// Passes the points of the plots of one analysis to the measurements, to .print and to the sinks of the options, and stores them. Only the
@@ -82,7 +72,7 @@ public:
     PointDispatcher(const Circuit& circuit, const RunOptions& options, const std::vector<std::string>& saved_curves,
                     MeasurementSet& measures, AnalysisRun& run, const DeviceCurrents& currents)
         : options_(options), measures_(measures), run_(run), currents_(currents),
-          printer_(circuit, run.directive->name, is_transient() ? printed_times(*run.directive) : PrintedTimes{}) {
+          printer_(circuit, *run.directive) {
         if (options.curve_sink) selector_.emplace(saved_curves, *options.curve_sink);
     }
     bool is_transient() const { return run_.directive->name == "tran"; }

@@ -192,15 +192,8 @@ Result<std::shared_ptr<const CircuitAfferentFactory>> CircuitAfferentFactory::cr
         return error_at(location, "no source carries a force; add one, such as 'iin 0 fin force 60n' (60 nA per newton)");
     if (!output) return error_at(location, "no .spike directive defines the spike output; add '.spike v(NODE) LEVEL [rise|fall]'");
     auto factory = std::make_shared<CircuitAfferentFactory>();
-    for (const auto& c : circuit->directives) {
-        if (c.name == "mc") {
-            const auto chips = TRY(parse_chip_spec(c));
-            factory->chips = chips;
-        }
-        if (c.name != "tran") continue;
-        const auto times = TRY(read_transient_times(c));
-        factory->times = times;
-    }
+    for (const auto& c : circuit->directives_named("mc")) factory->chips = TRY(parse_chip_spec(c));
+    for (const auto& c : circuit->directives_named("tran")) factory->times = TRY(read_transient_times(c));
     // The mismatch override replaces .mc.
     if (circuit->mismatch_seed) factory->chips = ChipSpec{1, *circuit->mismatch_seed, true, true, circuit->chip};
     if (probes.empty()) probes.push_back({output.value().text, output.value().unknowns});

@@ -81,8 +81,7 @@ Result<std::unique_ptr<ForceSource>> source_of(const Directive& c) {
 /// The .force line; null if there is none. A second one is an error.
 Result<const Directive*> find_force_line(const Circuit& circuit) {
     const Directive* found = nullptr;
-    for (const auto& c : circuit.directives) {
-        if (c.name != "force") continue;
+    for (const auto& c : circuit.directives_named("force")) {
         if (found) return error_at(c.location, ".force: only one is allowed; the first is in line {}", found->location.line);
         found = &c;
     }

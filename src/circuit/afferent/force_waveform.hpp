@@ -5,7 +5,7 @@
 #include <span>
 #include <vector>
 
-#include "circuit/afferent/state_archive.hpp"
+#include "circuit/solve/state_archive.hpp"
 
 namespace corpuscle::circuit {
 

@@ -40,8 +40,7 @@ Result<OperatingRange> parse_range(const System& system, const Directive& c) {
 
 Result<std::optional<SpikeOutput>> read_spike_output(const System& system) {
     std::optional<SpikeOutput> out;
-    for (const auto& c : system.circuit().directives) {
-        if (c.name != "spike") continue;
+    for (const auto& c : system.circuit().directives_named("spike")) {
         if (out) return error_at(c.location, ".spike: only one is allowed; the first is in line {}", out->location.line);
         out = TRY(parse_spike(system, c));
     }
@@ -50,10 +49,7 @@ Result<std::optional<SpikeOutput>> read_spike_output(const System& system) {
 
 Result<std::vector<OperatingRange>> read_operating_ranges(const System& system) {
     std::vector<OperatingRange> out;
-    for (const auto& c : system.circuit().directives) {
-        if (c.name != "assert") continue;
-        out.push_back(TRY(parse_range(system, c)));
-    }
+    for (const auto& c : system.circuit().directives_named("assert")) out.push_back(TRY(parse_range(system, c)));
     return out;
 }
 

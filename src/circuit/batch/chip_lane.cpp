@@ -28,31 +28,30 @@ Result<bool> ChipLane::start(const Chip& chip, const BatchOptions& options) {
     chip_ = chip;
 
     auto& context = simulation_->context();
-    const auto start = simulation_->transient().save();  // the state at the initial condition
-    plan_ = simulation_->transient().plan();
+    const auto& start = simulation_->transient();  // at the initial condition
+    plan_ = start.plan();
     control_ = {}, newton_ = {}, restart_pending_ = false, next_task_ = NextTask::nothing, rounds_ = 0;
-    control_.h = start.control.h, times_ = {}, points_ = smooth_count_ = 1, newest_slot_ = curve_points_ = 0, breakpoint_ = -1,
+    control_.h = start.control().h, times_ = {}, points_ = smooth_count_ = 1, newest_slot_ = curve_points_ = 0, breakpoint_ = -1,
     jumped_ = false;
     end_time_ = static_cast<double>(chip_->force.size() - 1) * chip_->T;
     const EvalContext eval_context{0, 1, context.tolerances.gmin, true};
     memory_.load_chip(lane_, context.system, eval_context);
-    context.newton.limiting_state = start.limiting_state;
     auto& b = memory_.block;
     for (std::size_t n = 0; n < b.unknowns; ++n) {
         for (std::size_t s = 0; s < b.points; ++s)
             b.past_x[s * b.unknowns + n].value[lane_] = b.past_q[s * b.unknowns + n].value[lane_] = 0;
-        b.past_x[n].value[lane_] = b.x[n].value[lane_] = start.history[0].x[n], b.past_q[n].value[lane_] = start.history[0].q[n];
-        b.rate[n].value[lane_] = start.rate[n], b.scale[n].value[lane_] = start.scale[n];
-        const bool charged = simulation_->transient().has_charge(n), voltage = b.is_voltage[n] != 0;
+        b.past_x[n].value[lane_] = b.x[n].value[lane_] = start.x()[n], b.past_q[n].value[lane_] = start.history()[0].q[n];
+        b.rate[n].value[lane_] = start.rate()[n], b.scale[n].value[lane_] = start.scale()[n];
+        const bool charged = start.has_charge(n), voltage = b.is_voltage[n] != 0;
         const double relative = charged ? plan_.reltol : 0, floor = !charged ? 0 : voltage ? plan_.vntol : plan_.abstol;
-        const double allowed = relative * start.scale[n] + floor;
+        const double allowed = relative * start.scale()[n] + floor;
         b.relative[n].value[lane_] = relative, b.floor[n].value[lane_] = floor;
         b.inverse_allowed[n].value[lane_] = allowed > 0 ? 1 / allowed : 0;
     }
     sources_.clear();
     for (const auto k : context.system.scalar_devices())
         if (const auto& d = *context.system.devices()[k]; d.is_linear() && d.is_time_dependent()) sources_.push_back(k);
-    x_ = start.history[0].x;
+    x_ = start.history()[0].x;
     power_ = simulation_->meter().delivered_at(x_, 0);
     response_.range_violations.resize(chip_->design->operating_ranges.size());
     if (options.probe_every > 0) response_.probes.resize(chip_->design->probes.size());

@@ -18,8 +18,8 @@ constexpr double min_reported_leak = 0.1;  // smallest leakage current in Cost::
 
 bool is_afferent(const Circuit& circuit) {
     const auto& elements = circuit.elements;
-    return std::any_of(elements.begin(), elements.end(), [](const auto& e) { return e.waveform.shape == Waveform::Shape::force; }) &&
-           std::any_of(circuit.directives.begin(), circuit.directives.end(), [](const auto& c) { return c.name == "spike"; });
+    return circuit.has_directive("spike") &&
+           std::any_of(elements.begin(), elements.end(), [](const auto& e) { return e.waveform.shape == Waveform::Shape::force; });
 }
 
 void add_areas(const Circuit& circuit, const Blocks& blocks, Cost& out) {
@@ -35,19 +35,6 @@ void add_areas(const Circuit& circuit, const Blocks& blocks, Cost& out) {
         ++block.transistors;
         block.unit_transistors += static_cast<std::size_t>(std::ceil(value_or(e.values, "m", 1) * value_or(e.values, "stack", 1)));
     }
-}
-
-void add_leakage(const AnalysisContext& context, std::span<const double> x, const Blocks& blocks, Cost& out) {
-    out.smallest_bias = smallest_bias(*context.circuit);
-    for (auto& leak : leakage_of(context.system, x, out.supply)) {
-        auto& block = out.blocks[blocks.block_of_element[leak.element]];
-        if (block.worst_leak.name.empty() || leak.current > block.worst_leak.current) block.worst_leak = leak;
-        if (leak.is_off && out.smallest_bias > 0 && leak.current > min_reported_leak * out.smallest_bias)
-            out.leaks.push_back(std::move(leak));
-    }
-    std::sort(out.leaks.begin(), out.leaks.end(), [](const Leakage& a, const Leakage& b) {
-        return std::tuple(a.capacitor_node.empty(), -a.current, a.element) < std::tuple(b.capacitor_node.empty(), -b.current, b.element);
-    });
 }
 
 enum Terminal { D, G, S, B };
@@ -96,6 +83,55 @@ double drain_current(const Device& d, double polarity, double supply, double for
     return std::abs(StampBuffer().eval(d, v, context).f[D]);
 }
 
+/// The leakage of every transistor at the operating point x. supply: V.
+std::vector<Leakage> leakage_of(const System& system, std::span<const double> x, double supply) {
+    std::vector<Leakage> out;
+    const auto& circuit = system.circuit();
+    const MergedNodes merged(circuit);
+    const auto capacitor_node_of = capacitor_nodes(circuit, merged);
+    for (std::size_t k = 0; k < circuit.elements.size(); ++k) {
+        const auto& e = circuit.elements[k];
+        if (!has_role(e, Role::transistor)) continue;
+        const auto& d = *system.devices()[k];
+        const double polarity = circuit.models[static_cast<std::size_t>(e.model)].type == "pmos" ? -1 : 1;
+        const auto v = system.terminal_values(d, x);
+        const double source = std::min(polarity * v[D], polarity * v[S]);
+        Leakage leak{k,     e.name, drain_current(d, polarity, supply, std::max(polarity * v[B] - source, 0.0)), polarity * v[G] - source,
+                     false, ""};
+        leak.is_off = leak.V_GS < thermal_voltage(circuit.temperature + zero_celsius);
+        for (const auto end : {D, S})
+            if (const auto node = capacitor_node_of.find(merged.representative(e.nodes[end]));
+                leak.capacitor_node.empty() && node != capacitor_node_of.end())
+                leak.capacitor_node = circuit.nodes[static_cast<std::size_t>(node->second)];
+        out.push_back(std::move(leak));
+    }
+    return out;
+}
+
+/// The smallest DC current above 0 of the ideal current sources, A, FORCE sources excluded; 0 if there is none.
+double smallest_bias(const Circuit& circuit) {
+    double smallest = 0;
+    for (const auto& e : circuit.elements) {
+        if (!has_role(e, Role::current_source) || e.waveform.shape == Waveform::Shape::force) continue;
+        const double i = std::abs(e.waveform.dc * value_or(e.values, "m", 1));
+        if (i > 0 && (smallest == 0 || i < smallest)) smallest = i;
+    }
+    return smallest;
+}
+
+void add_leakage(const AnalysisContext& context, std::span<const double> x, const Blocks& blocks, Cost& out) {
+    out.smallest_bias = smallest_bias(*context.circuit);
+    for (auto& leak : leakage_of(context.system, x, out.supply)) {
+        auto& block = out.blocks[blocks.block_of_element[leak.element]];
+        if (block.worst_leak.name.empty() || leak.current > block.worst_leak.current) block.worst_leak = leak;
+        if (leak.is_off && out.smallest_bias > 0 && leak.current > min_reported_leak * out.smallest_bias)
+            out.leaks.push_back(std::move(leak));
+    }
+    std::sort(out.leaks.begin(), out.leaks.end(), [](const Leakage& a, const Leakage& b) {
+        return std::tuple(a.capacitor_node.empty(), -a.current, a.element) < std::tuple(b.capacitor_node.empty(), -b.current, b.element);
+    });
+}
+
 }  // namespace
 
 Area Cost::area() const {
@@ -130,40 +166,6 @@ Result<void> CostMeter::attach(RunOptions& options) {
     meter_.emplace(context_.system, operating_point.x, context_.tolerances.gmin);
     options.unknowns_sink = &power_over_time_.emplace(*meter_, std::move(phases));
     return {};
-}
-
-std::vector<Leakage> leakage_of(const System& system, std::span<const double> x, double supply) {
-    std::vector<Leakage> out;
-    const auto& circuit = system.circuit();
-    const MergedNodes merged(circuit);
-    const auto capacitor_node_of = capacitor_nodes(circuit, merged);
-    for (std::size_t k = 0; k < circuit.elements.size(); ++k) {
-        const auto& e = circuit.elements[k];
-        if (!has_role(e, Role::transistor)) continue;
-        const auto& d = *system.devices()[k];
-        const double polarity = circuit.models[static_cast<std::size_t>(e.model)].type == "pmos" ? -1 : 1;
-        const auto v = system.terminal_values(d, x);
-        const double source = std::min(polarity * v[D], polarity * v[S]);
-        Leakage leak{k,     e.name, drain_current(d, polarity, supply, std::max(polarity * v[B] - source, 0.0)), polarity * v[G] - source,
-                     false, ""};
-        leak.is_off = leak.V_GS < thermal_voltage(circuit.temperature + zero_celsius);
-        for (const auto end : {D, S})
-            if (const auto node = capacitor_node_of.find(merged.representative(e.nodes[end]));
-                leak.capacitor_node.empty() && node != capacitor_node_of.end())
-                leak.capacitor_node = circuit.nodes[static_cast<std::size_t>(node->second)];
-        out.push_back(std::move(leak));
-    }
-    return out;
-}
-
-double smallest_bias(const Circuit& circuit) {
-    double smallest = 0;
-    for (const auto& e : circuit.elements) {
-        if (!has_role(e, Role::current_source) || e.waveform.shape == Waveform::Shape::force) continue;
-        const double i = std::abs(e.waveform.dc * value_or(e.values, "m", 1));
-        if (i > 0 && (smallest == 0 || i < smallest)) smallest = i;
-    }
-    return smallest;
 }
 
 }  // namespace corpuscle::circuit

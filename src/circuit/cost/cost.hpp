@@ -24,12 +24,6 @@ struct Leakage {
     std::string capacitor_node;  ///< a node at its source or drain whose voltage a capacitor holds, such as "u"; "" if there is none
 };
 
-/// The leakage of every transistor at the operating point x. supply: V.
-std::vector<Leakage> leakage_of(const System&, std::span<const double> x, double supply);
-
-/// The smallest DC current above 0 of the ideal current sources, A, FORCE sources excluded; 0 if there is none.
-double smallest_bias(const Circuit&);
-
 /// Area and leakage of one block.
 struct BlockCost {
     std::string name;

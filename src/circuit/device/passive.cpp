@@ -144,8 +144,8 @@ Result<void> read_passive(ElementReader& line) {
 
 /// True if .dc sweeps the element.
 bool is_swept(const ElementExport& e) {
-    return std::any_of(e.circuit.directives.begin(), e.circuit.directives.end(), [&](const Directive& c) {
-        return c.name == "dc" && std::find(c.words.begin(), c.words.end(), e.element.name) != c.words.end();
+    return std::ranges::any_of(e.circuit.directives_named("dc"), [&](const Directive& c) {
+        return std::find(c.words.begin(), c.words.end(), e.element.name) != c.words.end();
     });
 }
 

@@ -99,10 +99,8 @@ private:
         words.insert(words.begin(), "");
         std::string out;
         for (const auto kind : printed) {
-            const bool has_analysis = std::any_of(circuit_.directives.begin(), circuit_.directives.end(),
-                                                  [&](const Directive& other) { return other.name == kind; });
             words[0] = kind;
-            if (has_analysis) out += line("print", words);
+            if (circuit_.has_directive(kind)) out += line("print", words);
         }
         return out;
     }

@@ -46,7 +46,7 @@ std::string options_text(const Tolerances& t, const Circuit& c) {
         if (const auto option = c.options.find(name); option != c.options.end()) out += fmt::format(" {}={}", name, option->second);
     if (const auto method = c.option_words.find("method"); method != c.option_words.end())
         out += " method=" + method->second;
-    else if (std::any_of(c.directives.begin(), c.directives.end(), [](const Directive& directive) { return directive.name == "tran"; }))
+    else if (c.has_directive("tran"))
         out += " method=gear";
     return fmt::format("{}\n.temp {}\n", out, c.temperature);
 }

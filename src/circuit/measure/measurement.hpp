@@ -193,17 +193,6 @@ public:
     double value() const override { return summary_.any ? statistic_(summary_) : not_found; }
 };
 
-/// The value of a curve at an operating point, which has no sweep.
-class OperatingPointMeasurement final : public Measurement {
-    CurveView curve_;
-    double value_ = not_found;
-
-public:
-    explicit OperatingPointMeasurement(CurveView curve) : curve_(curve) {}
-    void add_point(double, const PlotRow& row) override { value_ = curve_.value(row).real(); }
-    double value() const override { return value_; }
-};
-
 /// Parses the words of a .meas line that follow NAME, for a plot with the curves of `head`, which needs no values:
 ///
 ///     find CURVE at=X | find CURVE when EDGE | deriv CURVE at=X | deriv CURVE when EDGE | when EDGE | count EDGE [rise|fall|cross]

@@ -89,7 +89,8 @@ private:
         const auto view = CurveView::find(head_, name);
         if (!view) return error_here("there is no curve {}", name);
         ++at_;
-        return ParseResult(std::make_unique<OperatingPointMeasurement>(*view));
+        const auto first = [](const CurveSummary& s) { return s.first_value; };
+        return ParseResult(std::make_unique<SummaryMeasurement>(first, CurveFollower(*view), Interval()));
     }
 
     /// The curve of this name.

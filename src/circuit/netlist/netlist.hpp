@@ -6,6 +6,7 @@
 #include <map>
 #include <memory>
 #include <optional>
+#include <ranges>
 #include <string>
 #include <string_view>
 #include <unordered_map>
@@ -81,6 +82,11 @@ struct Circuit {
 
     std::unordered_map<std::string, int> node_numbers, element_numbers;  ///< indices by name, filled by Netlist::elaborate()
 
+    /// The directives of this name, in the order of the netlist.
+    auto directives_named(std::string_view name) const {
+        return directives | std::views::filter([name](const Directive& c) { return c.name == name; });
+    }
+    bool has_directive(std::string_view name) const { return !directives_named(name).empty(); }
     int find_node(std::string_view name) const;     ///< the index of the node; -1 if no node has this name
     int find_element(std::string_view name) const;  ///< the index of the element; -1 if no element has this name
 };

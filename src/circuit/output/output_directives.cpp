@@ -50,8 +50,7 @@ public:
         for (const auto& head : heads_) TRY(measures.begin(head.directive->name, head.plot));
         const auto known = number_names();
         TRY(measures.check(known));
-        for (const auto& c : circuit_.directives)
-            if (c.name == "expect") TRY(check_expectation(c, known));
+        for (const auto& c : circuit_.directives_named("expect")) TRY(check_expectation(c, known));
         return {};
     }
 

@@ -4,19 +4,15 @@
 #include <string>
 #include <vector>
 
-#include "circuit/netlist/netlist.hpp"
+#include "circuit/analysis/transient_setup.hpp"
 #include "circuit/output/curve_view.hpp"
 #include "circuit/output/saved_quantities.hpp"
 
 namespace corpuscle::circuit {
 
-/// The times of the rows for a .tran, s. Rows are at START and every STEP after it, linearly interpolated between time points. No row is
-/// before the first time point. (ngspice's batch mode prints every time point, and these rows only with `.options interp`.)
-struct PrintedTimes {
-    double start = 0, step = 0, stop = 0;  ///< step 0: a row for each point, as for the other analyses
-};
-
-/// Makes the tables of the .print lines that apply to a plot of one analysis, while its points arrive.
+/// Makes the tables of the .print lines that apply to a plot of one analysis, while its points arrive. For a .tran, rows are at START and
+/// every STEP after it, linearly interpolated between time points. No row is before the first time point. (ngspice's batch mode prints every
+/// time point, and these rows only with `.options interp`.)
 class TablePrinter final : public PointSink {
     struct Table {
         std::vector<CurveView> views;  // one for each column
@@ -24,7 +20,7 @@ class TablePrinter final : public PointSink {
     };
     const Circuit& circuit_;
     std::string_view analysis_;
-    PrintedTimes times_;
+    TransientTimes times_;          // step 0: a row for each point, for all analyses but .tran
     std::vector<Table> tables_;     // one for each .print line
     std::vector<double> previous_;  // the point of the last call of add_point(), of a .tran
     double rows_ = 0;               // number of rows printed or skipped so far
@@ -33,8 +29,10 @@ class TablePrinter final : public PointSink {
     void print_at_next_time(std::span<const double> row);
 
 public:
-    TablePrinter(const Circuit& circuit, std::string_view analysis, const PrintedTimes& times)
-        : circuit_(circuit), analysis_(analysis), times_(times) {}
+    TablePrinter(const Circuit& circuit, const Directive& analysis) : circuit_(circuit), analysis_(analysis.name) {
+        if (analysis_ != "tran") return;
+        if (const auto times = read_transient_times(analysis)) times_ = *times;
+    }
     Result<void> begin(const Plot& head) override;
     Result<void> add_point(const PlotRow& row) override;
     Result<void> end() override;

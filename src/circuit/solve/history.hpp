@@ -37,14 +37,17 @@ public:
     void restart(bool forget) { count_ = std::min(count_, 1), smooth_count_ = forget ? count_ : smooth_count_; }
     int count() const { return count_; }                ///< points that the integration formula may use
     int smooth_count() const { return smooth_count_; }  ///< newest points that lie on one smooth curve, at least count()
-    /// Sets the number of points that the integration formula may use.
-    void set_count(int count) { count_ = std::clamp(count, std::min(smooth_count_, 1), smooth_count_); }
+    void set_counts(int count, int smooth_count) { count_ = count, smooth_count_ = smooth_count; }
     /// Point k, from 0 for the newest.
     const TimePoint& operator[](int k) const { return ring_[static_cast<std::size_t>((first_ + k) % capacity)]; }
-    TimePoint& newest() { return ring_[static_cast<std::size_t>(first_)]; }
+    TimePoint& operator[](int k) { return ring_[static_cast<std::size_t>((first_ + k) % capacity)]; }
     /// Storage for the next point: fill it, then call accept().
     TimePoint& next_point() { return ring_[static_cast<std::size_t>((first_ + capacity - 1) % capacity)]; }
     void accept();
+    /// Moves the origin of time to `t`, s.
+    void shift_origin(double t) {
+        for (auto& point : ring_) point.t -= t;
+    }
 
     /// The times of the smooth_count() newest points; then zeros.
     std::array<double, max_points> times() const;

@@ -80,7 +80,7 @@ public:
     /// Takes one Newton step from x. The status is `converged` if the remaining error of every unknown with allowed[n] > 0 is a small part
     /// of allowed[n] (V or A).
     Status iterate(std::vector<double>& x, std::span<const double> allowed);
-    const NewtonControl& newton_control() const { return newton_control_; }
+    NewtonControl& newton_control() { return newton_control_; }
     /// The charges at the result of iterate(). Call at most once after iterate().
     void read_charges(std::span<double> q);
     /// Solves (G + a C) e = r in place, with the last matrix: the effect e of a perturbation r of the equations on the unknowns.
@@ -89,9 +89,6 @@ public:
     void evaluate_static(double t, std::span<const double> x, std::span<double> f, std::span<double> q);
     /// Fixes the pivot order of all later matrices to that of the matrix at x with dq/dt = a q.
     void fix_pivot_order(std::span<const double> x, double a);
-    // See NewtonControl.
-    double quadratic_factor() const { return newton_control_.quadratic_factor; }
-    void set_quadratic_factor(double factor) { newton_control_.quadratic_factor = factor; }
     /// The elimination list after fix_pivot_order(); null: there is none.
     const Elimination* elimination() const { return solver_.elimination(); }
 };

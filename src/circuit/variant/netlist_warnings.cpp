@@ -50,15 +50,8 @@ void warn_about_sizes(std::vector<Error>& out, const Circuit& c) {
 
 bool has_initial_value(const Element& e) { return has_role(e, Role::capacitor) || has_role(e, Role::inductor); }
 
-bool has_directive(const Circuit& c, std::string_view name) {
-    return std::any_of(c.directives.begin(), c.directives.end(), [&](const Directive& directive) { return directive.name == name; });
-}
-
 void warn_about_initial_conditions(std::vector<Error>& out, const Circuit& c) {
-    const bool without_uic = std::any_of(c.directives.begin(), c.directives.end(), [](const Directive& directive) {
-        return directive.name == "tran" && (directive.words.empty() || directive.words.back() != "uic");
-    });
-    if (without_uic)
+    if (!std::ranges::all_of(c.directives_named("tran"), [](const Directive& d) { return !d.words.empty() && d.words.back() == "uic"; }))
         warn(
             out, c, [](const Element& e) { return has_value(e, "ic") && has_initial_value(e); },
             [](const Element&) {
@@ -75,12 +68,9 @@ void warn_about_initial_conditions(std::vector<Error>& out, const Circuit& c) {
 
 void warn_about_missing_ac(std::vector<Error>& out, const Circuit& c) {
     if (std::any_of(c.elements.begin(), c.elements.end(), [](const Element& e) { return e.waveform.ac_magnitude != 0; })) return;
-    for (const auto& directive : c.directives)
-        if (directive.name == "ac") {
-            out.push_back(error_at(directive.location,
-                                   ".ac: no source has an AC value, so every response is 0; add one, such as 'v1 in 0 dc 0 ac 1'"));
-            return;
-        }
+    for (const auto& directive : c.directives_named("ac") | std::views::take(1))
+        out.push_back(
+            error_at(directive.location, ".ac: no source has an AC value, so every response is 0; add one, such as 'v1 in 0 dc 0 ac 1'"));
 }
 
 void warn_about_pulses(std::vector<Error>& out, const Circuit& c) {
@@ -100,8 +90,8 @@ void warn_about_pulses(std::vector<Error>& out, const Circuit& c) {
 }
 
 void warn_about_tran_times(std::vector<Error>& out, const Circuit& c) {
-    for (const auto& directive : c.directives) {
-        if (directive.name != "tran" || directive.words.size() < 2) continue;
+    for (const auto& directive : c.directives_named("tran")) {
+        if (directive.words.size() < 2) continue;
         const auto step = parse_number(directive.words[0]), stop = parse_number(directive.words[1]);
         if (step && stop && stop->value > 0 && step->value > stop->value)
             out.push_back(error_at(directive.location, ".tran: STEP {} is longer than STOP {}; the order is .tran STEP STOP",
@@ -114,7 +104,7 @@ void warn_about_tran_times(std::vector<Error>& out, const Circuit& c) {
 std::vector<Error> netlist_warnings(const Circuit& c) {
     std::vector<Error> out;
     warn_about_sizes(out, c), warn_about_missing_ac(out, c), warn_about_pulses(out, c), warn_about_tran_times(out, c);
-    if (has_directive(c, "tran")) warn_about_initial_conditions(out, c);
+    if (c.has_directive("tran")) warn_about_initial_conditions(out, c);
     return out;
 }
 
