@@ -7,12 +7,11 @@
 
 #include "circuit/analyses.hpp"
 #include "circuit/expression/spice_number.hpp"
+#include "circuit/measure/measurement.hpp"
 #include "circuit/output/curve_view.hpp"
-#include "circuit/output/measurement_set.hpp"
 #include "circuit/output/print_directive.hpp"
 #include "circuit/output/saved_quantities.hpp"
 #include "circuit/solve/system.hpp"
-#include "circuit/variant/netlist_warnings.hpp"
 #include "core/parameter.hpp"
 
 namespace corpuscle::circuit {
@@ -71,8 +70,7 @@ public:
 
     PointDispatcher(const Circuit& circuit, const RunOptions& options, const std::vector<std::string>& saved_curves,
                     MeasurementSet& measures, AnalysisRun& run, const DeviceCurrents& currents)
-        : options_(options), measures_(measures), run_(run), currents_(currents),
-          printer_(circuit, *run.directive) {
+        : options_(options), measures_(measures), run_(run), currents_(currents), printer_(circuit, *run.directive) {
         if (options.curve_sink) selector_.emplace(saved_curves, *options.curve_sink);
     }
     bool is_transient() const { return run_.directive->name == "tran"; }
@@ -144,7 +142,6 @@ Result<RunOutcome> run_directives(AnalysisContext& context, const RunOptions& op
     RunOutcome out;
     if (!context.is_brief) {
         out.warnings = circuit->warnings;
-        for (auto& warning : find_dangling_nodes(*circuit)) out.warnings.push_back(std::move(warning));
         for (auto& warning : netlist_warnings(*circuit)) out.warnings.push_back(std::move(warning));
     }
     const auto saved = TRY(resolve_saved_quantities(context.system));

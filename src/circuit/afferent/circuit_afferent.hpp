@@ -1,7 +1,6 @@
 #pragma once
 // A netlist with a force input and a spike output, as an afferent.
 
-#include "circuit/afferent/response_directives.hpp"
 #include "circuit/analysis/transient_setup.hpp"
 #include "circuit/output/saved_quantities.hpp"
 #include "circuit/variant/netlist_variants.hpp"

@@ -5,8 +5,7 @@
 #include <cmath>
 #include <utility>
 
-#include "circuit/afferent/force_directive.hpp"
-#include "circuit/afferent/response_directives.hpp"
+#include "circuit/afferent/force_waveform.hpp"
 #include "circuit/analysis/analysis_context.hpp"
 #include "circuit/analysis/transient_setup.hpp"
 #include "circuit/device/named_values.hpp"

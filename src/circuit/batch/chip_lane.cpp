@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "circuit/solve/interpolant.hpp"
+#include "circuit/solve/history.hpp"
 
 namespace corpuscle::circuit {
 namespace {

@@ -4,7 +4,7 @@
 #include <memory>
 #include <vector>
 
-#include "circuit/lanes/chip_kernels.hpp"
+#include "circuit/lanes/kernels.hpp"
 #include "circuit/solve/elimination.hpp"
 #include "circuit/solve/step_equations.hpp"
 #include "circuit/solve/system.hpp"

@@ -11,7 +11,7 @@
 #include <string_view>
 #include <vector>
 
-#include "circuit/lanes/transistor_kernels.hpp"
+#include "circuit/lanes/kernels.hpp"
 #include "circuit/netlist/netlist.hpp"
 #include "core/error.hpp"
 

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 
-#include "circuit/afferent/force_directive.hpp"
 #include "circuit/afferent/force_waveform.hpp"
 #include "circuit/device/device_kind.hpp"
 #include "circuit/device/named_values.hpp"

@@ -3,7 +3,7 @@
 
 #include <utility>
 
-#include "circuit/lanes/chip_kernels.hpp"
+#include "circuit/lanes/kernels.hpp"
 #include "circuit/lanes/transistor_kernels_impl.hpp"
 
 namespace corpuscle::circuit::lanes {

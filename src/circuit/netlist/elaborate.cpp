@@ -78,9 +78,9 @@ private:
 
     /// Elaborates an X line.
     Result<void> elaborate_instance(Scope& scope, const Statement& s) {
-        const auto name = s.text(std::size_t{0});
+        const auto name = s.text(0);
         auto words = instance_words(s);
-        if (words.size() < 1) return error_at(s.location(std::size_t{1}), "{}: expected nodes and the name of a subcircuit", name);
+        if (words.size() < 1) return error_at(s.location(1), "{}: expected nodes and the name of a subcircuit", name);
         const Word subcircuit_name = words.back();
         words.pop_back();
         Scope inner;
@@ -114,7 +114,7 @@ private:
             }
             for (const auto n : keys_of(f->definition->subcircuits)) known.push_back(n);
         }
-        return error_at(s.location(name), "{}: unknown subcircuit '{}'{}", s.text(std::size_t{0}), s.text(name),
+        return error_at(s.location(name), "{}: unknown subcircuit '{}'{}", s.text(0), s.text(name),
                         did_you_mean(s.text(name), known));
     }
 
@@ -124,7 +124,7 @@ private:
         if (words.size() != ports.size()) {
             std::string expected;
             for (const auto& port : ports) expected += expected.size() < 100 ? ' ' + port : std::string();
-            return error_at(s.line.location(), "{}: {} node{}, but subcircuit '{}' has {}:{}", s.text(std::size_t{0}), words.size(),
+            return error_at(s.line.location(), "{}: {} node{}, but subcircuit '{}' has {}:{}", s.text(0), words.size(),
                             words.size() == 1 ? "" : "s", inner.definition->name, ports.size(), expected);
         }
         for (std::size_t k = 0; k < words.size(); ++k) inner.ports.emplace(ports[k], builder_.find_or_add_node(scope, s.text(words[k])));
@@ -154,14 +154,14 @@ private:
             else if (name != "m")
                 return unknown_parameter(s, pair, name, *inner.definition);
             else if (!(value > 0))
-                return error_at(s.location(pair.value), "{}: m = {:g} must be positive", s.text(std::size_t{0}), value);
+                return error_at(s.location(pair.value), "{}: m = {:g} must be positive", s.text(0), value);
             else
                 inner.m *= value;
         }
         return {};
     }
     static Error unknown_parameter(const Statement& s, const NameValue& pair, std::string_view name, const SubcktDef& body) {
-        return error_at(s.location(pair.name), "{}: subcircuit '{}' has no parameter '{}'{}", s.text(std::size_t{0}), body.name, name,
+        return error_at(s.location(pair.name), "{}: subcircuit '{}' has no parameter '{}'{}", s.text(0), body.name, name,
                         did_you_mean(name, keys_of(body.defaults)));
     }
 
@@ -251,7 +251,7 @@ private:
             const auto value = TRY(scope.evaluate(without_braces(s, s.words[k], static_cast<std::uint32_t>(std::min(from, text.size())))));
             const auto node = trimmed(text.substr(2, close - 2));
             if (is_ground(node)) return error_at(s.location(k), "ground is always at 0 V");
-            node_voltages_.push_back({builder_.node_name(scope, node), value, s.location(k), s.text(std::size_t{0}) == ".ic"});
+            node_voltages_.push_back({builder_.node_name(scope, node), value, s.location(k), s.text(0) == ".ic"});
         }
         return {};
     }
@@ -271,7 +271,7 @@ private:
     // ---- directives ----
 
     void add_directive(const Statement& s) {
-        Directive out{std::string(s.text(std::size_t{0}).substr(1)), {}, {}, s.line.location()};
+        Directive out{std::string(s.text(0).substr(1)), {}, {}, s.line.location()};
         for (std::size_t k = 1; k < s.words.size(); ++k) {
             out.words.push_back(without_blanks(s, s.words[k]));
             out.columns.push_back(static_cast<int>(s.location(k).column));

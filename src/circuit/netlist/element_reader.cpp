@@ -9,7 +9,7 @@
 namespace corpuscle::circuit {
 
 ElementReader::ElementReader(CircuitBuilder& builder, Scope& scope, const Statement& s)
-    : builder_(builder), scope_(scope), s_(s), kind_(*find_device_kind(s.text(std::size_t{0})[0])), name_(s.text(std::size_t{0})) {
+    : builder_(builder), scope_(scope), s_(s), kind_(*find_device_kind(s.text(0)[0])), name_(s.text(0)) {
     element.name = scope.path + std::string(name_);
     element.letter = name_[0];
     element.location = s.line.location();

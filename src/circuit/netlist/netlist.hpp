@@ -91,6 +91,11 @@ struct Circuit {
     int find_element(std::string_view name) const;  ///< the index of the element; -1 if no element has this name
 };
 
+/// Warns about nodes with one connection only, transistor sizes in metres that were probably meant in micrometres, missing sizes, ic= and
+/// off without effect, .ac without an AC source, pulses longer than their period, and a .tran whose STEP is longer than STOP. There is one
+/// warning of each kind for all elements, located at the first of them, and one for each such node and .tran.
+std::vector<Error> netlist_warnings(const Circuit&);
+
 /// Overrides of the values in a netlist.
 struct ResolvedOverrides {
     std::string corner;                                  ///< section to read from libraries; "" means the sections that the netlist names

@@ -7,7 +7,6 @@
 #include "circuit/analyses.hpp"
 #include "circuit/devices.hpp"
 #include "circuit/expression/spice_number.hpp"
-#include "circuit/netlist/corner_selector.hpp"
 #include "circuit/netlist/parsed_netlist.hpp"
 #include "core/parameter.hpp"
 #include "core/text/ascii_text.hpp"
@@ -92,7 +91,7 @@ public:
         SubcktDef* const outer_body = std::exchange(file_body_, body_);
         auto ok = section.empty() ? statements(lines) : read_section(lines, section);
         if (ok && body_ != file_body_)
-            ok = error_at(body_->head->location(std::size_t{0}), ".subckt {} is not closed by .ends", body_->name);
+            ok = error_at(body_->head->location(0), ".subckt {} is not closed by .ends", body_->name);
         file_body_ = outer_body;
         open_files_.pop_back();
         ended_ = false;
@@ -211,7 +210,7 @@ private:
         SourceLocation location;
         for (const auto& pair : s.pairs)
             if (s.text(pair.name) == *twice) location = s.location(pair.name);
-        return error_at(location, "{}: {} is given twice", s.text(std::size_t{0}), *twice);
+        return error_at(location, "{}: {} is given twice", s.text(0), *twice);
     }
 
     // ---- .param, .func, .model, .global ----
@@ -267,11 +266,11 @@ private:
         auto read = TRY(split_element(std::move(line), nullptr));
         if (read.words.size() < 3)
             return error_at(read.location(read.words.size()), ".model: expected a name and a type, such as .model nm nmos (vto=0.5)");
-        if (read.words.size() > 3) return error_at(read.location(std::size_t{3}), "expected name=value, not '{}'", read.text(3));
+        if (read.words.size() > 3) return error_at(read.location(3), "expected name=value, not '{}'", read.text(3));
         TRY(check_duplicates(read));
         const std::string name(read.text(1));
         if (const auto known = body_->models.find(name); known != body_->models.end())
-            return error_at(read.location(std::size_t{1}), "model '{}' is already defined at {}", name, location_text(*known->second));
+            return error_at(read.location(1), "model '{}' is already defined at {}", name, location_text(*known->second));
         body_->models.emplace(name, &store(std::move(read)));
         return {};
     }
@@ -291,7 +290,7 @@ private:
     /// Reads a .subckt line. The following lines belong to its body until .ends.
     Result<void> subcircuit(LogicalLine line) {
         auto read = TRY(split_element(std::move(line), nullptr));
-        if (read.words.size() < 2) return error_at(read.location(std::size_t{1}), ".subckt: expected a name and nodes");
+        if (read.words.size() < 2) return error_at(read.location(1), ".subckt: expected a name and nodes");
         TRY(check_duplicates(read));
         if (++subcircuit_depth_ > max_definition_depth)
             return error_at(read.line.location(), "definitions of subcircuits are nested deeper than the limit of {}",
@@ -299,7 +298,7 @@ private:
         const std::string name(read.text(1));
         auto& body = body_->subcircuits[name];
         if (body)
-            return error_at(read.location(std::size_t{1}), "subcircuit '{}' is already defined at {}", name, location_text(*body->head));
+            return error_at(read.location(1), "subcircuit '{}' is already defined at {}", name, location_text(*body->head));
         body = std::make_unique<SubcktDef>();
         body->name = name, body->outer = body_, body->head = &store(std::move(read));
         body_ = body.get();
@@ -329,7 +328,7 @@ private:
         auto read = TRY(split_directive(std::move(line)));
         if (body_ == file_body_) return error_at(read.line.location(), ".ends without .subckt");
         if (read.words.size() > 1 && read.text(1) != body_->name)
-            return error_at(read.location(std::size_t{1}), ".ends {} does not match .subckt {}", read.text(1), body_->name);
+            return error_at(read.location(1), ".ends {} does not match .subckt {}", read.text(1), body_->name);
         body_ = body_->outer;
         --subcircuit_depth_;
         return {};
@@ -347,16 +346,16 @@ private:
         auto read = TRY(split_directive(std::move(line)));
         if (read.words.size() != 2)
             return error_at(read.location(read.words.size() < 2 ? 1 : 2), ".include: expected one file; put a name with blanks in quotes");
-        return open(unquoted(read.text(1)), "", read.location(std::size_t{1}));
+        return open(unquoted(read.text(1)), "", read.location(1));
     }
 
     /// Reads ".lib file section", or skips the section that ".lib section" begins.
     Result<void> library(LogicalLineReader& lines, LogicalLine line) {
         auto read = TRY(split_directive(std::move(line)));
-        if (read.words.size() == 3) return open(unquoted(read.text(1)), lower(unquoted(read.text(2))), read.location(std::size_t{1}));
+        if (read.words.size() == 3) return open(unquoted(read.text(1)), lower(unquoted(read.text(2))), read.location(1));
         const bool is_file = read.words.size() == 2 && unquoted(read.text(1)) != read.text(1);
         if (read.words.size() != 2 || is_file)
-            return error_at(read.location(std::size_t{1}), ".lib: expected a file and a section; to read a complete file, use .include");
+            return error_at(read.location(1), ".lib: expected a file and a section; to read a complete file, use .include");
         return skip_section(lines, read.line.location());
     }
 

@@ -4,8 +4,8 @@
 #include <algorithm>
 
 #include "circuit/analyses.hpp"
+#include "circuit/measure/measurement.hpp"
 #include "circuit/output/curve_view.hpp"
-#include "circuit/output/measurement_set.hpp"
 #include "core/parameter.hpp"
 
 namespace corpuscle::circuit {

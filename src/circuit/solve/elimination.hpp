@@ -6,7 +6,7 @@
 #include <span>
 #include <vector>
 
-#include "circuit/lanes/chip_kernels.hpp"
+#include "circuit/lanes/kernels.hpp"
 
 namespace corpuscle::circuit {
 

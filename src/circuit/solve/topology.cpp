@@ -103,26 +103,4 @@ Result<void> check_solvable(const Circuit& c) {
     return check_floating_nodes(c);
 }
 
-std::vector<Error> find_dangling_nodes(const Circuit& c) {
-    std::vector<int> terminals(c.nodes.size());           // number of terminals, and of uses in expressions, by node
-    std::vector<const Element*> element(c.nodes.size());  // the last element with a terminal at the node
-    for (const auto& e : c.elements) {
-        for (const int n : e.nodes) ++terminals[static_cast<std::size_t>(n)], element[static_cast<std::size_t>(n)] = &e;
-        if (!e.expression) continue;
-        for (const auto& in : e.expression->inputs())
-            for (const auto& name : {in.name, in.minus})
-                if (const int n = c.find_node(name); in.kind == ExpressionInput::Kind::voltage && n > 0)
-                    ++terminals[static_cast<std::size_t>(n)];
-    }
-    std::vector<std::string_view> connected;  // nodes with more than one terminal, as suggestions
-    for (std::size_t n = 1; n < c.nodes.size(); ++n)
-        if (terminals[n] > 1) connected.push_back(c.nodes[n]);
-    std::vector<Error> out;
-    for (std::size_t n = 1; n < c.nodes.size(); ++n)
-        if (terminals[n] == 1 && c.nodes[n].find('.') == std::string::npos)  // not inside a subcircuit
-            out.push_back(error_at(element[n]->location, "node '{}' is connected only to {}{}", c.nodes[n], element[n]->name,
-                                   did_you_mean(c.nodes[n], connected)));
-    return out;
-}
-
 }  // namespace corpuscle::circuit

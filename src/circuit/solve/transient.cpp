@@ -5,7 +5,7 @@
 #include <cmath>
 #include <utility>
 
-#include "circuit/solve/interpolant.hpp"
+#include "circuit/solve/history.hpp"
 #include "core/text/quantity.hpp"
 
 namespace corpuscle::circuit {

@@ -5,7 +5,7 @@
 #include <utility>
 
 #include "circuit/devices.hpp"
-#include "circuit/solve/interpolant.hpp"
+#include "circuit/solve/history.hpp"
 #include "circuit/solve/transient.hpp"
 
 namespace corpuscle::circuit {
