@@ -39,11 +39,9 @@ Result<void> check_expectations(const Circuit& circuit, RunOutcome& out) {
     for (const auto& c : circuit.directives_named("expect")) {
         auto e = TRY(expectation_of(c));
         const auto found = out.find_number(e.name);
-        if (!found) {
-            std::vector<std::string_view> known;
-            for (const auto& [name, value] : out.numbers) known.push_back(name);
-            return error_at(c.location, ".expect: there is no measurement, number or curve '{}'{}", e.name, did_you_mean(e.name, known));
-        }
+        if (!found)
+            return error_at(c.location, ".expect: there is no measurement, number or curve '{}'{}", e.name,
+                            did_you_mean(e.name, std::views::keys(out.numbers)));
         e.actual = *found, e.is_met = std::abs(*found - e.expected) <= e.tolerance;
         out.expectations.push_back(std::move(e));
     }

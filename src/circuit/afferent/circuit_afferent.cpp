@@ -11,19 +11,17 @@
 #include "circuit/afferent/force_waveform.hpp"
 #include "circuit/afferent/streaming_transient.hpp"
 #include "circuit/cost/cost.hpp"
+#include "core/checksum.hpp"
 
 namespace corpuscle::circuit {
 namespace {
 
 /// FNV-1a hash over the values and connections that determine how a circuit responds.
 std::uint64_t fingerprint_of(const Circuit& c) {
-    std::uint64_t hash = 0xcbf29ce484222325;
-    const auto number = [&](std::uint64_t x) { hash = (hash ^ x) * 0x100000001b3; };
+    Fnv1a hash;
+    const auto number = [&](std::uint64_t x) { hash.add_word(x); };
     const auto real = [&](double x) { number(std::bit_cast<std::uint64_t>(x)); };
-    const auto text = [&](std::string_view s) {
-        for (const char letter : s) number(static_cast<unsigned char>(letter));
-        number(s.size());
-    };
+    const auto text = [&](std::string_view s) { hash.add(s), number(s.size()); };
     const auto values = [&](const Values& all) {
         for (const auto& [name, value] : all) text(name), real(value);
     };
@@ -50,7 +48,7 @@ std::uint64_t fingerprint_of(const Circuit& c) {
     for (const auto& command : c.directives)
         if (command.name == "tran" || command.name == "spike")
             for (const auto& word : command.words) text(word);
-    return hash;
+    return hash.value;
 }
 
 /// The unknowns whose values between time points are used: those of spikes, probes and operating ranges.

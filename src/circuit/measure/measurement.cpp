@@ -19,7 +19,6 @@ Result<Expression> parse_expression(const Directive& c, const KnownNumbers& numb
             if (known == name) return value;
         return {};
     };
-    scope.function = [](std::string_view) -> const ExpressionScope::Function* { return nullptr; };
     for (const auto& [known, value] : numbers) scope.suggestions.push_back(known);
     auto inside = c.words[2].substr(6);  // after "param="
     if (inside.size() > 1 && (inside.front() == '\'' || inside.front() == '{')) inside = inside.substr(1, inside.size() - 2);

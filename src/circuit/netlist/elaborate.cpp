@@ -56,7 +56,8 @@ private:
         all.insert(builder_.overrides.parameters.begin(), builder_.overrides.parameters.end());  // does not replace given values
         for (const auto& [name, value] : all)
             if (!parsed_.top.parameters.contains(name))
-                return error_at({parsed_.file}, "there is no .param {}{}", name, did_you_mean(name, keys_of(parsed_.top.parameters)));
+                return error_at({parsed_.file}, "there is no .param {}{}", name,
+                                did_you_mean(name, std::views::keys(parsed_.top.parameters)));
         return top_.define(all);
     }
 
@@ -112,10 +113,9 @@ private:
                 inner.definition = at->second.get(), inner.enclosing = f;
                 return {};
             }
-            for (const auto n : keys_of(f->definition->subcircuits)) known.push_back(n);
+            for (const auto& [subcircuit, body] : f->definition->subcircuits) known.push_back(subcircuit);
         }
-        return error_at(s.location(name), "{}: unknown subcircuit '{}'{}", s.text(0), s.text(name),
-                        did_you_mean(s.text(name), known));
+        return error_at(s.location(name), "{}: unknown subcircuit '{}'{}", s.text(0), s.text(name), did_you_mean(s.text(name), known));
     }
 
     /// Connects the ports of the subcircuit to the nodes that the X line names.
@@ -162,7 +162,7 @@ private:
     }
     static Error unknown_parameter(const Statement& s, const NameValue& pair, std::string_view name, const SubcktDef& body) {
         return error_at(s.location(pair.name), "{}: subcircuit '{}' has no parameter '{}'{}", s.text(0), body.name, name,
-                        did_you_mean(name, keys_of(body.defaults)));
+                        did_you_mean(name, std::views::keys(body.defaults)));
     }
 
     /// Checks that all nodes and elements that expressions, F and H lines name exist.
@@ -171,8 +171,7 @@ private:
         for (const auto& p : builder_.forward_refs) {
             if (p.target == ForwardRef::Target::node) {
                 if (c.node_numbers.contains(p.name)) continue;
-                const std::vector<std::string_view> known(c.nodes.begin() + 1, c.nodes.end());
-                return error_at(p.location, "{}: unknown node '{}'{}", p.user, p.name, did_you_mean(p.name, known));
+                return error_at(p.location, "{}: unknown node '{}'{}", p.user, p.name, did_you_mean(p.name, c.nodes | std::views::drop(1)));
             }
             const int k = c.find_element(p.name);
             if (k < 0) return error_at(p.location, "{}: unknown element '{}'{}", p.user, p.name, did_you_mean(p.name, voltage_sources()));
@@ -259,10 +258,9 @@ private:
         Circuit& c = builder_.circuit;
         for (const auto& voltage : node_voltages_) {
             const int k = c.find_node(voltage.node);
-            if (k < 0) {
-                const std::vector<std::string_view> known(c.nodes.begin() + 1, c.nodes.end());
-                return error_at(voltage.location, "unknown node '{}'{}", voltage.node, did_you_mean(voltage.node, known));
-            }
+            if (k < 0)
+                return error_at(voltage.location, "unknown node '{}'{}", voltage.node,
+                                did_you_mean(voltage.node, c.nodes | std::views::drop(1)));
             (voltage.is_ic ? c.ic : c.nodesets).emplace_back(k, voltage.value);
         }
         return {};

@@ -92,8 +92,7 @@ std::string CornerSelector::select_section(const std::string& section, std::stri
     if (corner_.empty()) return section;
     const auto known = sections_in(text);
     if (std::find(known.begin(), known.end(), corner_) != known.end()) return is_found_ = true, corner_;
-    const std::vector<std::string_view> names(known.begin(), known.end());
-    libraries_.push_back(fmt::format("'{}' has {}{}", library, fmt::join(known, ", "), did_you_mean(corner_, names)));
+    libraries_.push_back(fmt::format("'{}' has {}{}", library, fmt::join(known, ", "), did_you_mean(corner_, known)));
     return section;
 }
 

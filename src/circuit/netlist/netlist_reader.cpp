@@ -90,8 +90,7 @@ public:
         if (!section.empty()) out_.libraries.insert(path);
         SubcktDef* const outer_body = std::exchange(file_body_, body_);
         auto ok = section.empty() ? statements(lines) : read_section(lines, section);
-        if (ok && body_ != file_body_)
-            ok = error_at(body_->head->location(0), ".subckt {} is not closed by .ends", body_->name);
+        if (ok && body_ != file_body_) ok = error_at(body_->head->location(0), ".subckt {} is not closed by .ends", body_->name);
         file_body_ = outer_body;
         open_files_.pop_back();
         ended_ = false;
@@ -171,13 +170,11 @@ private:
     }
 
     static Error unknown(std::string_view word, SourceLocation location) {
-        const auto names = directive_names();
-        const std::vector<std::string_view> known(names.begin(), names.end());
         if (word == ".if" || word == ".elseif" || word == ".else" || word == ".endif")
             return error_at(location, "{}: conditional parts of a netlist are not supported", word);
         for (const auto& [old_name, new_name] : renamed_directives)
             if (word == old_name) return error_at(location, "{} is now {}", old_name, new_name);
-        return error_at(location, "unknown statement '{}'{}", word, did_you_mean(word, known));
+        return error_at(location, "unknown statement '{}'{}", word, did_you_mean(word, directive_names()));
     }
 
     Statement& store(Statement s) { return out_.statements.emplace_back(std::move(s)); }
@@ -297,8 +294,7 @@ private:
                             max_definition_depth);
         const std::string name(read.text(1));
         auto& body = body_->subcircuits[name];
-        if (body)
-            return error_at(read.location(1), "subcircuit '{}' is already defined at {}", name, location_text(*body->head));
+        if (body) return error_at(read.location(1), "subcircuit '{}' is already defined at {}", name, location_text(*body->head));
         body = std::make_unique<SubcktDef>();
         body->name = name, body->outer = body_, body->head = &store(std::move(read));
         body_ = body.get();
@@ -400,11 +396,9 @@ private:
         LogicalLine line;
         while (true) {
             const auto more = TRY(lines.next(line));
-            if (!more) {
-                const std::vector<std::string_view> names(known.begin(), known.end());
+            if (!more)
                 return bad_input(
-                    fmt::format("library '{}' has no section '{}'{}", open_files_.back().path, section, did_you_mean(section, names)));
-            }
+                    fmt::format("library '{}' has no section '{}'{}", open_files_.back().path, section, did_you_mean(section, known)));
             if (lower(std::string_view(line.text).substr(0, 4)) != ".lib") continue;
             const auto head = TRY(split_directive(std::move(line)));
             if (head.words.size() != 2) continue;

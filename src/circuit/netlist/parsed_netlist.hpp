@@ -82,14 +82,6 @@ void warn_about_units(const Statement& element, std::vector<Error>& warnings);
 
 inline bool is_ground(std::string_view node) { return node == "0" || node == "gnd"; }
 
-/// The keys of a map, for suggestions.
-template <class Map>
-std::vector<std::string_view> keys_of(const Map& map) {
-    std::vector<std::string_view> names;
-    for (const auto& entry : map) names.push_back(entry.first);
-    return names;
-}
-
 /// Returns an error if the name of an option or its value is invalid. The value is `number` or `word`; an option without both is a flag.
 Result<void> check_option(std::string_view name, std::optional<double> number, std::optional<std::string_view> word,
                           const SourceLocation& location);

@@ -69,7 +69,7 @@ std::string alternatives(std::span<const std::string_view> words) {
 Error unknown_model(const Scope& scope, const WordRef& name, std::string_view user) {
     std::vector<std::string_view> known;
     for (const Scope* f = &scope; f; f = f->enclosing)
-        for (const auto n : keys_of(f->definition->models)) known.push_back(n);
+        for (const auto& [model, statement] : f->definition->models) known.push_back(model);
     constexpr std::string_view units[] = {"f",   "h",  "v",  "a",  "pf", "nf", "uf", "ohm", "k", "kohm",
                                           "meg", "mh", "uh", "nh", "fF", "p",  "n",  "u",   "m"};
     const bool is_unit = std::find(std::begin(units), std::end(units), name.view()) != std::end(units);

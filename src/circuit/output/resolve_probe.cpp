@@ -113,7 +113,7 @@ std::string suggest_probe(const Circuit& c, std::string_view probe_text) {
     const auto names = probe->is_current ? elements_of(c) : nodes_of(c);
     std::vector<std::string> known;
     for (const auto name : names) known.push_back(short_name(name, piece_count(probe->first), kind));
-    const auto similar = did_you_mean(lower(probe->first), std::vector<std::string_view>(known.begin(), known.end()));
+    const auto similar = did_you_mean(lower(probe->first), known);
     return !similar.empty() || names.empty()
                ? similar
                : fmt::format("; there are the {} {}", probe->is_current ? "devices" : "nodes", abbreviated_list(names));

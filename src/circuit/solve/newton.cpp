@@ -52,7 +52,7 @@ bool NewtonSolver::solve(std::vector<double>& x, const NodeClamps& clamps, int m
         }
         if (is_close && !evaluation.is_limited && is_balanced()) return true;
         if (!linear_solver.factor(std::span<const double>(evaluation.G).first(system.pattern().entries()))) {
-            singular_unknown = linear_solver.singularity().column;
+            singular_unknown = linear_solver.singular_column();
             return false;
         }
         for (std::size_t n = 0; n < count; ++n) step[n] = -evaluation.f[n];
