@@ -4,7 +4,6 @@
 #include <ranges>
 #include <vector>
 
-#include "core/error.hpp"
 #include "core/parameter.hpp"
 
 namespace corpuscle::circuit {

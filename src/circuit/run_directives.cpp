@@ -1,18 +1,12 @@
 #include "circuit/run_directives.hpp"
 
-#include <fmt/format.h>
 #include <algorithm>
 #include <cmath>
-#include <utility>
 
 #include "circuit/analyses.hpp"
 #include "circuit/expression/spice_number.hpp"
 #include "circuit/measure/measurement.hpp"
-#include "circuit/output/curve_view.hpp"
-#include "circuit/output/print_directive.hpp"
-#include "circuit/output/saved_quantities.hpp"
-#include "circuit/solve/system.hpp"
-#include "core/parameter.hpp"
+#include "circuit/output/output_directives.hpp"
 
 namespace corpuscle::circuit {
 namespace {

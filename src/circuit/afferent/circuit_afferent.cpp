@@ -1,14 +1,8 @@
 #include "circuit/afferent/circuit_afferent.hpp"
 
-#include <fmt/format.h>
-#include <array>
-#include <bit>
-#include <cmath>
-#include <limits>
 #include <mutex>
 #include <nlohmann/json.hpp>
 
-#include "circuit/afferent/force_waveform.hpp"
 #include "circuit/afferent/streaming_transient.hpp"
 #include "circuit/cost/cost.hpp"
 #include "core/checksum.hpp"
@@ -172,8 +166,7 @@ Result<void> CircuitAfferent::simulate_samples(StreamingTransient& transient, st
 }  // namespace
 
 Result<std::shared_ptr<const CircuitAfferentFactory>> CircuitAfferentFactory::create(const Netlist& netlist) {
-    auto circuit = TRY(netlist.elaborate());
-    auto factory = create(std::make_shared<const Circuit>(std::move(circuit)));
+    auto factory = create(std::make_shared<const Circuit>(TRY(netlist.elaborate())));
     if (!factory) return factory;
     std::const_pointer_cast<CircuitAfferentFactory>(*factory)->netlist = netlist;
     return factory;

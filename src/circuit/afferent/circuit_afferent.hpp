@@ -2,7 +2,6 @@
 // A netlist with a force input and a spike output, as an afferent.
 
 #include "circuit/analysis/transient_setup.hpp"
-#include "circuit/output/saved_quantities.hpp"
 #include "circuit/variant/netlist_variants.hpp"
 #include "core/afferent_factory.hpp"
 

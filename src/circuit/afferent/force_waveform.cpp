@@ -1,10 +1,7 @@
 #include "circuit/afferent/force_waveform.hpp"
 
-#include <fmt/format.h>
 #include <algorithm>
-#include <cmath>
 #include <limits>
-#include <vector>
 
 #include "circuit/analysis/analysis_context.hpp"
 #include "circuit/expression/spice_number.hpp"
@@ -195,8 +192,7 @@ Result<std::optional<ForceWaveform>> force_directive(const Circuit& circuit) {
     const auto line = TRY(find_force_line(circuit));
     if (!line) return std::optional<ForceWaveform>();
     auto source = TRY(source_of(*line));
-    auto waveform = TRY(read_waveform_of(*source, *line));
-    return std::optional<ForceWaveform>(std::move(waveform));
+    return std::optional<ForceWaveform>(TRY(read_waveform_of(*source, *line)));
 }
 
 Result<std::string> pwl_force(const Circuit& circuit, double scale) {

@@ -1,9 +1,5 @@
 #include "circuit/afferent/streaming_transient.hpp"
 
-#include <fmt/format.h>
-#include <algorithm>
-#include <cmath>
-
 #include "core/text/quantity.hpp"
 
 namespace corpuscle::circuit {

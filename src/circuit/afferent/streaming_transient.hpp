@@ -3,7 +3,6 @@
 
 #include "circuit/afferent/circuit_afferent.hpp"
 #include "circuit/afferent/force_waveform.hpp"
-#include "circuit/analysis/transient_setup.hpp"
 #include "circuit/cost/power.hpp"
 
 namespace corpuscle::circuit {

@@ -1,11 +1,9 @@
 #include "circuit/analysis/analysis_context.hpp"
 
-#include <fmt/format.h>
 #include <cmath>
 
 #include "circuit/devices.hpp"
 #include "circuit/expression/spice_number.hpp"
-#include "core/parameter.hpp"
 
 namespace corpuscle::circuit {
 

@@ -1,14 +1,10 @@
 #include "circuit/analysis/equilibria.hpp"
 
-#include <fmt/format.h>
 #include <algorithm>
 #include <cmath>
 #include <tuple>
-#include <utility>
 
 #include "circuit/analysis/transient_setup.hpp"
-#include "circuit/devices.hpp"
-#include "circuit/solve/operating_point.hpp"
 #include "core/text/quantity.hpp"
 
 namespace corpuscle::circuit {

@@ -1,12 +1,10 @@
 // .op: the operating point, the quantities of each device, and a search for other equilibria.
 
-#include <fmt/format.h>
 #include <algorithm>
 #include <cmath>
 #include <string>
 #include <vector>
 
-#include "circuit/analysis/analysis_context.hpp"
 #include "circuit/analysis/equilibria.hpp"
 #include "core/text/quantity.hpp"
 

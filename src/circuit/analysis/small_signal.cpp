@@ -4,7 +4,6 @@
 #include <cmath>
 
 #include "circuit/analysis/analysis_context.hpp"
-#include "core/parameter.hpp"
 
 namespace corpuscle::circuit {
 namespace {

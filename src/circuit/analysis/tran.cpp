@@ -1,12 +1,10 @@
 // .tran: transient analysis.
 
-#include <fmt/format.h>
 #include <algorithm>
 #include <cmath>
 #include <utility>
 
 #include "circuit/afferent/force_waveform.hpp"
-#include "circuit/analysis/analysis_context.hpp"
 #include "circuit/analysis/transient_setup.hpp"
 #include "circuit/device/named_values.hpp"
 #include "core/text/quantity.hpp"
@@ -126,8 +124,7 @@ Result<AnalysisResult> analyse_tran(AnalysisContext& context, const Directive& c
     const auto times = TRY(read_transient_times(c));
     const auto plan = TRY(read_transient_plan(*context.circuit));
     const auto spike_output = TRY(read_spike_output(context.system));
-    auto ranges = TRY(read_operating_ranges(context.system));
-    RangeMonitor range_monitor(std::move(ranges));
+    RangeMonitor range_monitor(TRY(read_operating_ranges(context.system)));
     context.hit_iteration_limit = false;
     const auto force = TRY(force_directive(*context.circuit));
     if (force && !context.system.set_force_input(&*force))

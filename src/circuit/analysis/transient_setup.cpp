@@ -1,12 +1,6 @@
 #include "circuit/analysis/transient_setup.hpp"
 
-#include <fmt/format.h>
-#include <algorithm>
-#include <cmath>
-
 #include "circuit/device/named_values.hpp"
-#include "circuit/devices.hpp"
-#include "circuit/solve/operating_point.hpp"
 #include "core/text/quantity.hpp"
 
 namespace corpuscle::circuit {

@@ -3,7 +3,6 @@
 
 #include <optional>
 
-#include "circuit/analysis/analysis_context.hpp"
 #include "circuit/output/saved_quantities.hpp"
 #include "circuit/solve/transient.hpp"
 #include "core/afferent.hpp"

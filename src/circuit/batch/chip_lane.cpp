@@ -1,10 +1,5 @@
 #include "circuit/batch/chip_lane.hpp"
 
-#include <algorithm>
-#include <cmath>
-
-#include "circuit/solve/history.hpp"
-
 namespace corpuscle::circuit {
 namespace {
 

@@ -1,8 +1,5 @@
 #include "circuit/batch/chip_memory.hpp"
 
-#include <algorithm>
-#include <numeric>
-
 #include "circuit/device/transistor.hpp"
 #include "circuit/device/uicm.hpp"
 

@@ -4,10 +4,7 @@
 #include <memory>
 #include <vector>
 
-#include "circuit/lanes/kernels.hpp"
-#include "circuit/solve/elimination.hpp"
 #include "circuit/solve/step_equations.hpp"
-#include "circuit/solve/system.hpp"
 
 namespace corpuscle::circuit {
 

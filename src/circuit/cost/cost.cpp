@@ -1,10 +1,6 @@
 #include "circuit/cost/cost.hpp"
 
-#include <algorithm>
-#include <cmath>
-#include <map>
 #include <nlohmann/json.hpp>
-#include <numeric>
 #include <tuple>
 
 #include "circuit/afferent/force_waveform.hpp"
@@ -40,38 +36,23 @@ void add_areas(const Circuit& circuit, const Blocks& blocks, Cost& out) {
 
 enum Terminal { D, G, S, B };
 
-/// Merges nodes that are connected by 0 V sources, which only measure a current.
-class MergedNodes {
-    std::vector<int> representative_;  // by node: the lowest number of the nodes merged with it
+/// True for a 0 V source, which only measures a current.
+bool is_wire(const Element& e) {
+    return has_role(e, Role::voltage_source) && e.waveform.dc == 0 && e.waveform.shape == Waveform::Shape::none &&
+           e.waveform.ac_magnitude == 0;
+}
 
-public:
-    explicit MergedNodes(const Circuit& circuit) : representative_(circuit.nodes.size()) {
-        std::iota(representative_.begin(), representative_.end(), 0);
-        for (const auto& e : circuit.elements) {
-            if (!is_wire(e)) continue;
-            const int first = representative(e.nodes[0]), second = representative(e.nodes[1]);
-            std::replace(representative_.begin(), representative_.end(), std::max(first, second), std::min(first, second));
-        }
-    }
-    static bool is_wire(const Element& e) {
-        return has_role(e, Role::voltage_source) && e.waveform.dc == 0 && e.waveform.shape == Waveform::Shape::none &&
-               e.waveform.ac_magnitude == 0;
-    }
-    int representative(int node) const { return representative_[static_cast<std::size_t>(node)]; }
-};
-
-/// Nodes whose voltage is held by a capacitor and not by a voltage source. Maps the representative of the merged nodes to the node of the
-/// capacitor.
-std::map<int, int> capacitor_nodes(const Circuit& circuit, const MergedNodes& merged) {
+/// Nodes whose voltage is held by a capacitor and not by a voltage source. Maps the root of the merged nodes to the node of the capacitor.
+std::map<int, int> capacitor_nodes(const Circuit& circuit, NodeSets& merged) {
     std::map<int, int> out;
     for (const auto& e : circuit.elements)
         if (has_role(e, Role::capacitor))
             for (int k = 0; k < 2; ++k)
-                out.emplace(merged.representative(e.nodes[static_cast<std::size_t>(k)]), e.nodes[static_cast<std::size_t>(k)]);
-    out.erase(0);  // ground
+                out.emplace(merged.root(e.nodes[static_cast<std::size_t>(k)]), e.nodes[static_cast<std::size_t>(k)]);
+    out.erase(merged.root(0));  // ground
     for (const auto& e : circuit.elements)
-        if (has_role(e, Role::voltage_source) && !MergedNodes::is_wire(e))
-            for (const int node : e.nodes) out.erase(merged.representative(node));
+        if (has_role(e, Role::voltage_source) && !is_wire(e))
+            for (const int node : e.nodes) out.erase(merged.root(node));
     return out;
 }
 
@@ -88,20 +69,22 @@ double drain_current(const Device& d, double polarity, double supply, double for
 std::vector<Leakage> leakage_of(const System& system, std::span<const double> x, double supply) {
     std::vector<Leakage> out;
     const auto& circuit = system.circuit();
-    const MergedNodes merged(circuit);
+    NodeSets merged(circuit.nodes.size());  // by wires
+    for (const auto& e : circuit.elements)
+        if (is_wire(e)) merged.join(e.nodes[0], e.nodes[1]);
     const auto capacitor_node_of = capacitor_nodes(circuit, merged);
     for (std::size_t k = 0; k < circuit.elements.size(); ++k) {
         const auto& e = circuit.elements[k];
         if (!has_role(e, Role::transistor)) continue;
         const auto& d = *system.devices()[k];
-        const double polarity = circuit.models[static_cast<std::size_t>(e.model)].type == "pmos" ? -1 : 1;
+        const double polarity = circuit.model_of(e)->type == "pmos" ? -1 : 1;
         const auto v = system.terminal_values(d, x);
         const double source = std::min(polarity * v[D], polarity * v[S]);
         Leakage leak{k,     e.name, drain_current(d, polarity, supply, std::max(polarity * v[B] - source, 0.0)), polarity * v[G] - source,
                      false, ""};
         leak.is_off = leak.V_GS < thermal_voltage(circuit.temperature + zero_celsius);
         for (const auto end : {D, S})
-            if (const auto node = capacitor_node_of.find(merged.representative(e.nodes[end]));
+            if (const auto node = capacitor_node_of.find(merged.root(e.nodes[end]));
                 leak.capacitor_node.empty() && node != capacitor_node_of.end())
                 leak.capacitor_node = circuit.nodes[static_cast<std::size_t>(node->second)];
         out.push_back(std::move(leak));

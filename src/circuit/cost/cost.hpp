@@ -8,7 +8,6 @@
 #include "circuit/cost/area.hpp"
 #include "circuit/cost/power.hpp"
 #include "circuit/run_directives.hpp"
-#include "circuit/solve/system.hpp"
 
 namespace corpuscle::circuit {
 

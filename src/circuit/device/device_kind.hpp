@@ -75,4 +75,10 @@ struct DeviceKind {
     Result<std::unique_ptr<DeviceBatch>> (*make_batch)() = nullptr;
 };
 
+/// The quantity that the expression of a B, and of a C, E or G with an expression, gives.
+enum class ExpressionQuantity { current, voltage, charge };
+
+/// Makes the device of an element with an expression. A current and a charge are multiplied by the value m of the element.
+Result<std::unique_ptr<Device>> make_expression_device(const Element&, DeviceSetup&, ExpressionQuantity);
+
 }  // namespace corpuscle::circuit

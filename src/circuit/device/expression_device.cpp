@@ -1,10 +1,9 @@
-#include "circuit/device/expression_device.hpp"
+#include "circuit/device/device_kind.hpp"
 
 #include <algorithm>
 
 #include "circuit/device/named_values.hpp"
 #include "circuit/device/physical_constants.hpp"
-#include "core/parameter.hpp"
 
 namespace corpuscle::circuit {
 namespace {

@@ -1,6 +1,5 @@
 #include "circuit/device/source_waveform.hpp"
 
-#include <fmt/format.h>
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -8,7 +7,6 @@
 #include "circuit/expression/spice_number.hpp"
 #include "circuit/netlist/element_reader.hpp"
 #include "core/number/elementary.hpp"
-#include "core/parameter.hpp"
 
 namespace corpuscle::circuit {
 namespace {

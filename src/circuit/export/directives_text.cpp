@@ -1,6 +1,5 @@
 #include "circuit/export/element_text.hpp"
 
-#include <fmt/format.h>
 #include <algorithm>
 #include <iterator>
 

@@ -1,7 +1,5 @@
 #include "circuit/export/element_text.hpp"
 
-#include <fmt/format.h>
-
 #include "circuit/device/named_values.hpp"
 #include "circuit/devices.hpp"
 
@@ -19,7 +17,7 @@ std::string input_text(const ElementExport& e, const ExpressionInput& in) {
         case ExpressionInput::Kind::time:
             return "time";
         case ExpressionInput::Kind::temperature:
-            if (e.element.values.contains("temp")) return fmt::format("{}", e.celsius());
+            if (e.element.values.contains("temp")) return fmt::format("{}", celsius_of(e.circuit, e.element));
             return e.element.values.contains("dtemp") ? fmt::format("(temper+{})", e.value("dtemp", 0)) : "temper";
     }
     return "0";
@@ -84,12 +82,6 @@ djd {8} {9} jd temp=27
 }  // namespace
 
 double ElementExport::value(std::string_view name, double default_value) const { return value_or(element.values, name, default_value); }
-
-double ElementExport::value_or_of_model(std::string_view name, double default_value) const {
-    return value(name, model() ? value_or(model()->values, name, default_value) : default_value);
-}
-
-double ElementExport::celsius() const { return value("temp", circuit.temperature + value("dtemp", 0)); }
 
 std::string ElementExport::temperature() const {
     if (element.values.contains("temp")) return fmt::format(" temp={}", value("temp", 0));

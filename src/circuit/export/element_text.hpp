@@ -17,13 +17,9 @@ struct ElementExport {
     std::string head;  ///< its name and nodes in the export
 
     /// The model of the element; null if it has none.
-    const Model* model() const { return element.model < 0 ? nullptr : &circuit.models[static_cast<std::size_t>(element.model)]; }
+    const Model* model() const { return circuit.model_of(element); }
     /// The value with this name of the element.
     double value(std::string_view name, double default_value) const;
-    /// The value with this name of the element, else of its model, else the default.
-    double value_or_of_model(std::string_view name, double default_value) const;
-    /// The temperature of the element, C.
-    double celsius() const;
     /// " temp=..." or " dtemp=..." if the element has it.
     std::string temperature() const;
     /// The expression of the element. That of a current or a charge is multiplied by m.

@@ -1,6 +1,5 @@
 #include "circuit/export/export_names.hpp"
 
-#include <fmt/format.h>
 #include <algorithm>
 
 #include "circuit/devices.hpp"

@@ -1,6 +1,5 @@
 #include "circuit/export/ngspice_deck.hpp"
 
-#include <fmt/format.h>
 #include <algorithm>
 
 #include "circuit/analysis/analysis_context.hpp"
@@ -18,9 +17,8 @@ std::string one_line(std::string text) {
 
 /// True if the circuit has transistors of this polarity.
 bool has_transistors(const Circuit& c, std::string_view type) {
-    return std::any_of(c.elements.begin(), c.elements.end(), [&](const Element& e) {
-        return has_role(e, Role::transistor) && e.model >= 0 && c.models[static_cast<std::size_t>(e.model)].type == type;
-    });
+    return std::any_of(c.elements.begin(), c.elements.end(),
+                       [&](const Element& e) { return has_role(e, Role::transistor) && c.model_of(e) && c.model_of(e)->type == type; });
 }
 
 std::string header(const Circuit& c, bool transistors) {
@@ -66,10 +64,7 @@ Result<NgspiceDeck> ngspice_deck(std::shared_ptr<const Circuit> circuit) {
     const ExportNames names(c);
     const bool n = has_transistors(c, "nmos"), p = has_transistors(c, "pmos");
     NgspiceDeck deck{header(c, n || p) + options_text(context->tolerances, c), {}};
-    for (std::size_t k = 0; k < c.elements.size(); ++k) {
-        auto text = TRY(element_text(c, k, names));
-        deck.text += text;
-    }
+    for (std::size_t k = 0; k < c.elements.size(); ++k) deck.text += TRY(element_text(c, k, names));
     for (std::size_t k = 0; k < c.models.size(); ++k) deck.text += model_text(c, k, names);
     if (n || p) deck.text += uicm_functions();
     if (n) deck.text += uicm_subcircuit(false);

@@ -1,13 +1,11 @@
 // Parses the text of an expression into steps in one pass. User functions are expanded where they are called.
 
-#include <fmt/format.h>
 #include <algorithm>
 
 #include "circuit/error_at.hpp"
 #include "circuit/expression/expression.hpp"
 #include "circuit/expression/expression_operations.hpp"
 #include "circuit/expression/spice_number.hpp"
-#include "core/parameter.hpp"
 #include "core/text/ascii_text.hpp"
 
 namespace corpuscle::circuit {

@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <charconv>
 #include <limits>
-#include <string>
 
 #include "core/text/ascii_text.hpp"
 

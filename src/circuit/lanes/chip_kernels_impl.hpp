@@ -3,7 +3,6 @@
 
 #include <utility>
 
-#include "circuit/lanes/kernels.hpp"
 #include "circuit/lanes/transistor_kernels_impl.hpp"
 
 namespace corpuscle::circuit::lanes {

@@ -1,9 +1,5 @@
 #include "circuit/measure/measurement.hpp"
 
-#include <algorithm>
-
-#include "circuit/expression/expression.hpp"
-
 namespace corpuscle::circuit {
 namespace {
 
@@ -33,21 +29,21 @@ Error incomplete_measure(const Directive& c) {
 }  // namespace
 
 bool CrossingCounter::add_point(double x, const PlotRow& row) {
-    if (!follower_.add_point(x, row)) return false;
-    const auto& segment = *follower_.segment();
-    if (!(segment.rises() && edges_.rising) && !(segment.falls() && edges_.falling)) return false;
-    const double position = segment.zero();
-    if (!edges_.interval.contains(position)) return false;
-    ++count_;
-    if (edges_.number != 0 && count_ != edges_.number) return false;
-    position_ = position;
+    if (!follower.add_point(x, row)) return false;
+    const auto& segment = *follower.segment;
+    if (!(segment.rises() && edges.rising) && !(segment.falls() && edges.falling)) return false;
+    const double zero = segment.zero();
+    if (!edges.interval.contains(zero)) return false;
+    ++count;
+    if (edges.number != 0 && count != edges.number) return false;
+    position = zero;
     return true;
 }
 
 void ValueMeasurement::add_point(double x, const PlotRow& row) {
     const bool has_segment = curve_.add_point(x, row), is_crossing = event_.add_point(x, row);
     if (!has_segment) return;
-    const auto& segment = *curve_.segment();
+    const auto& segment = *curve_.segment;
     if (!first_segment_) first_segment_ = segment;
     // With at=X, the first segment that contains X counts.
     const bool is_here = event_.crossing ? is_crossing : std::isnan(value_) && segment.contains(event_.at);
@@ -56,8 +52,8 @@ void ValueMeasurement::add_point(double x, const PlotRow& row) {
 
 /// at=X that lies beyond an end of the curve only by rounding counts as that end.
 double ValueMeasurement::value() const {
-    if (!std::isnan(value_) || event_.crossing || !curve_.segment()) return value_;
-    const auto& last = *curve_.segment();
+    if (!std::isnan(value_) || event_.crossing || !curve_.segment) return value_;
+    const auto& last = *curve_.segment;
     const auto& first = first_segment_ ? *first_segment_ : last;
     const double tolerance = 1e-9 * std::abs(last.x1 - first.x0);
     if (std::abs(event_.at - last.x1) <= tolerance) return value_in(last, last.x1);
@@ -82,7 +78,7 @@ void CurveSummary::add(const LineSegment& segment) {
 
 void SummaryMeasurement::add_point(double x, const PlotRow& row) {
     curve_.add_point(x, row);
-    auto segment = *curve_.segment();  // at the first point a segment of length 0
+    auto segment = *curve_.segment;  // at the first point a segment of length 0
     if (segment.cut(interval_.from, interval_.to)) summary_.add(segment);
 }
 

@@ -7,7 +7,6 @@
 #include <memory>
 #include <optional>
 
-#include "circuit/netlist/netlist.hpp"
 #include "circuit/output/curve_view.hpp"
 
 namespace corpuscle::circuit {
@@ -64,23 +63,17 @@ struct Interval {
 };
 
 /// Follows a curve, or a curve minus another curve or a level, point by point.
-class CurveFollower {
-    CurveView curve_;
-    std::optional<CurveView> other_;
-    double level_ = 0;
-    std::optional<LineSegment> segment_;  // the newest segment; after the first point a segment of length 0
+struct CurveFollower {
+    CurveView curve;
+    double level = 0;
+    std::optional<CurveView> other{};      ///< replaces the level
+    std::optional<LineSegment> segment{};  ///< the newest one; after the first point a segment of length 0
 
-public:
-    explicit CurveFollower(CurveView curve) : curve_(curve) {}
-    CurveFollower(CurveView curve, double level) : curve_(curve), level_(level) {}
-    CurveFollower(CurveView curve, CurveView other) : curve_(curve), other_(other) {}
-
-    const std::optional<LineSegment>& segment() const { return segment_; }
     /// Returns false at the first point, which does not complete a segment.
     bool add_point(double x, const PlotRow& row) {
-        const double y = curve_.measured_value(row) - (other_ ? other_->measured_value(row) : level_);
-        const bool first = !segment_;
-        segment_ = first ? LineSegment{x, y, x, y} : LineSegment{segment_->x1, segment_->y1, x, y};
+        const double y = curve.measured_value(row) - (other ? other->measured_value(row) : level);
+        const bool first = !segment;
+        segment = first ? LineSegment{x, y, x, y} : LineSegment{segment->x1, segment->y1, x, y};
         return !first;
     }
 };
@@ -88,23 +81,21 @@ public:
 /// Selects some zero crossings of a curve.
 struct EdgeSelection {
     bool rising = true, falling = true;
-    double number = 1;  ///< of the crossing among those that count: 1 is the first; 0 is the last
-    Interval interval;  ///< only crossings in this interval count
+    double number = 1;        ///< of the crossing among those that count: 1 is the first; 0 is the last
+    Interval interval;        ///< only crossings in this interval count
+    bool is_counted = false;  ///< true: the result is the number of crossings, not the position of one
 };
 
 /// Counts the zero crossings of a CurveFollower that count for the selection, and keeps the position of the selected one.
-class CrossingCounter {
-    CurveFollower follower_;
-    EdgeSelection edges_;
-    double count_ = 0;             // crossings so far
-    double position_ = not_found;  // x of the selected one
+struct CrossingCounter {
+    CurveFollower follower;
+    EdgeSelection edges;
+    double count = 0;             ///< crossings so far
+    double position = not_found;  ///< x of the selected one; NaN if it was not found yet
 
-public:
-    CrossingCounter(CurveFollower follower, EdgeSelection edges) : follower_(std::move(follower)), edges_(edges) {}
     /// Returns true if the newest segment has the selected crossing. If the last crossing is selected, returns true at every crossing.
     bool add_point(double x, const PlotRow&);
-    double count() const { return count_; }
-    double position() const { return position_; }  ///< x of the selected crossing; NaN if it was not found yet
+    double result() const { return edges.is_counted ? count : position; }
 };
 
 /// A position x: that of at=X, or that of a crossing.
@@ -114,10 +105,11 @@ struct EventPoint {
 
     /// Returns true if the newest segment has the crossing.
     bool add_point(double x, const PlotRow& row) { return crossing && crossing->add_point(x, row); }
-    double position() const { return crossing ? crossing->position() : at; }
+    double position() const { return crossing ? crossing->result() : at; }
 };
 
-/// when ...: the position of a crossing. trig ... targ ...: the distance from the trigger to the target.
+/// when ...: the position of a crossing. count ...: the number of crossings. trig ... targ ...: the distance from the trigger to the
+/// target.
 class DistanceMeasurement final : public Measurement {
     std::optional<EventPoint> trigger_;
     EventPoint target_;
@@ -129,16 +121,6 @@ public:
         target_.add_point(x, row);
     }
     double value() const override { return trigger_ ? target_.position() - trigger_->position() : target_.position(); }
-};
-
-/// count ...: the number of crossings.
-class CountMeasurement final : public Measurement {
-    CrossingCounter crossings_;
-
-public:
-    explicit CountMeasurement(CrossingCounter crossings) : crossings_(std::move(crossings)) {}
-    void add_point(double x, const PlotRow& row) override { crossings_.add_point(x, row); }
-    double value() const override { return crossings_.count(); }
 };
 
 /// find and deriv: the value or the slope of a curve at a position.

@@ -1,13 +1,10 @@
 // Elaborates a parsed netlist into the flat circuit: expands subcircuits and evaluates directives.
 
-#include <fmt/format.h>
 #include <algorithm>
 
 #include "circuit/devices.hpp"
 #include "circuit/expression/spice_number.hpp"
-#include "circuit/netlist/parsed_netlist.hpp"
 #include "circuit/netlist/scope.hpp"
-#include "core/parameter.hpp"
 #include "core/text/ascii_text.hpp"
 
 namespace corpuscle::circuit {

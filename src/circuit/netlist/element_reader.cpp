@@ -4,7 +4,6 @@
 
 #include "circuit/devices.hpp"
 #include "circuit/netlist/scope.hpp"
-#include "core/parameter.hpp"
 
 namespace corpuscle::circuit {
 
@@ -47,15 +46,6 @@ Result<double> ElementReader::number(std::size_t word) const { return scope_.eva
 Result<double> ElementReader::number(const NameValue& pair) {
     read_names_.push_back(s_.text(pair.name));
     return scope_.evaluate({&s_, pair.value});
-}
-
-Result<void> ElementReader::value(std::size_t word) {
-    element.value = TRY(number(word));
-    return {};
-}
-Result<void> ElementReader::value(const NameValue& pair) {
-    element.value = TRY(number(pair));
-    return {};
 }
 
 void ElementReader::control_source(std::size_t word) {

@@ -1,12 +1,8 @@
 #include "circuit/netlist/netlist.hpp"
 
-#include <fmt/format.h>
 #include <algorithm>
-#include <memory>
 
 #include "circuit/netlist/parsed_netlist.hpp"
-#include "circuit/netlist/statement.hpp"
-#include "core/parameter.hpp"
 #include "core/text/ascii_text.hpp"
 #include "core/text/input_files.hpp"
 

@@ -14,7 +14,6 @@
 
 #include "circuit/error_at.hpp"
 #include "circuit/expression/expression.hpp"
-#include "core/error.hpp"
 
 namespace corpuscle::circuit {
 
@@ -89,6 +88,8 @@ struct Circuit {
     bool has_directive(std::string_view name) const { return !directives_named(name).empty(); }
     int find_node(std::string_view name) const;     ///< the index of the node; -1 if no node has this name
     int find_element(std::string_view name) const;  ///< the index of the element; -1 if no element has this name
+    /// The model of an element; null if it has none.
+    const Model* model_of(const Element& e) const { return e.model < 0 ? nullptr : &models[static_cast<std::size_t>(e.model)]; }
 };
 
 /// Warns about nodes with one connection only, transistor sizes in metres that were probably meant in micrometres, missing sizes, ic= and

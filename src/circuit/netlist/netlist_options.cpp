@@ -4,8 +4,6 @@
 #include <limits>
 #include <vector>
 
-#include "core/parameter.hpp"
-
 namespace corpuscle::circuit {
 namespace {
 

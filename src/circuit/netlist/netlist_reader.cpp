@@ -1,6 +1,5 @@
 // Parses the statements of a netlist, of the files that it includes and of sections of libraries.
 
-#include <fmt/format.h>
 #include <algorithm>
 #include <filesystem>
 
@@ -8,7 +7,6 @@
 #include "circuit/devices.hpp"
 #include "circuit/expression/spice_number.hpp"
 #include "circuit/netlist/parsed_netlist.hpp"
-#include "core/parameter.hpp"
 #include "core/text/ascii_text.hpp"
 
 namespace corpuscle::circuit {
@@ -33,9 +31,8 @@ std::vector<std::string> directive_names() {
 }
 
 bool is_directive(std::string_view word) {
-    return std::find(std::begin(structural_directives), std::end(structural_directives), word) != std::end(structural_directives) ||
-           std::find(std::begin(circuit_directives), std::end(circuit_directives), word) != std::end(circuit_directives) ||
-           find_analysis(word.substr(1)) != nullptr;
+    static const auto names = directive_names();
+    return std::ranges::find(names, word) != names.end();
 }
 
 bool is_element_letter(char letter) { return letter == 'x' || find_device_kind(letter) != nullptr; }
@@ -162,8 +159,7 @@ private:
         if (word == ".global") return global(std::move(line));
         if (word == ".temp") return store_directive(std::move(line), out_.temperatures);
         if (word.starts_with(".opt")) {
-            auto read = TRY(split_element(std::move(line), nullptr));
-            out_.options.push_back(&store(std::move(read)));
+            out_.options.push_back(&store(TRY(split_element(std::move(line), nullptr))));
             return {};
         }
         return store_directive(std::move(line), out_.directives);
@@ -180,8 +176,7 @@ private:
     Statement& store(Statement s) { return out_.statements.emplace_back(std::move(s)); }
 
     Result<void> store_directive(LogicalLine line, std::vector<const Statement*>& list) {
-        auto read = TRY(split_directive(std::move(line)));
-        list.push_back(&store(std::move(read)));
+        list.push_back(&store(TRY(split_directive(std::move(line)))));
         return {};
     }
 
@@ -213,8 +208,7 @@ private:
     // ---- .param, .func, .model, .global ----
 
     Result<void> parameters(LogicalLine line) {
-        auto read = TRY(split_assignments(std::move(line)));
-        const Statement& s = store(std::move(read));
+        const Statement& s = store(TRY(split_assignments(std::move(line))));
         if (s.pairs.empty()) return error_at(s.line.location(), ".param: expected name=value");
         for (const auto& pair : s.pairs) {
             const std::string name(s.text(pair.name));

@@ -1,6 +1,5 @@
 // Warnings about likely mistakes in a valid netlist, and about numbers that users often take for other ones: 1F, 5M.
 
-#include <fmt/format.h>
 #include <algorithm>
 
 #include "circuit/device/named_values.hpp"
@@ -8,7 +7,6 @@
 #include "circuit/devices.hpp"
 #include "circuit/expression/spice_number.hpp"
 #include "circuit/netlist/parsed_netlist.hpp"
-#include "core/text/ascii_text.hpp"
 #include "core/text/quantity.hpp"
 
 namespace corpuscle::circuit {

@@ -10,7 +10,6 @@
 #include <string_view>
 #include <vector>
 
-#include "circuit/expression/expression.hpp"
 #include "circuit/netlist/netlist.hpp"
 #include "circuit/netlist/statement.hpp"
 

@@ -1,11 +1,9 @@
 #include "circuit/netlist/scope.hpp"
 
-#include <fmt/format.h>
 #include <algorithm>
 #include <cmath>
 
 #include "circuit/expression/spice_number.hpp"
-#include "core/parameter.hpp"
 
 namespace corpuscle::circuit {
 namespace {

@@ -7,7 +7,6 @@
 #include <unordered_map>
 
 #include "circuit/device/device.hpp"
-#include "circuit/expression/expression.hpp"
 #include "circuit/output/point_sink.hpp"
 
 namespace corpuscle::circuit {

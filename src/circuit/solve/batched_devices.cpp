@@ -1,7 +1,6 @@
 #include "circuit/solve/batched_devices.hpp"
 
 #include <algorithm>
-#include <map>
 #include <type_traits>
 
 namespace corpuscle::circuit {

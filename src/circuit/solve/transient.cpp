@@ -1,11 +1,5 @@
 #include "circuit/solve/transient.hpp"
 
-#include <fmt/format.h>
-#include <algorithm>
-#include <cmath>
-#include <utility>
-
-#include "circuit/solve/history.hpp"
 #include "core/text/quantity.hpp"
 
 namespace corpuscle::circuit {

@@ -5,7 +5,6 @@
 #include <utility>
 
 #include "circuit/devices.hpp"
-#include "circuit/solve/history.hpp"
 #include "circuit/solve/transient.hpp"
 
 namespace corpuscle::circuit {

@@ -1,9 +1,7 @@
 #include "circuit/variant/netlist_overrides.hpp"
 
-#include <fmt/format.h>
 #include <algorithm>
 #include <cmath>
-#include <optional>
 
 #include "circuit/devices.hpp"
 #include "circuit/variant/hierarchical_names.hpp"

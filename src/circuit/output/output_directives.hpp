@@ -6,13 +6,12 @@
 
 #include "circuit/analysis/transient_setup.hpp"
 #include "circuit/output/curve_view.hpp"
-#include "circuit/output/saved_quantities.hpp"
 
 namespace corpuscle::circuit {
 
 /// Makes the tables of the .print lines that apply to a plot of one analysis, while its points arrive. For a .tran, rows are at START and
-/// every STEP after it, linearly interpolated between time points. No row is before the first time point. (ngspice's batch mode prints every
-/// time point, and these rows only with `.options interp`.)
+/// every STEP after it, linearly interpolated between time points. No row is before the first time point. (ngspice's batch mode prints
+/// every time point, and these rows only with `.options interp`.)
 class TablePrinter final : public PointSink {
     struct Table {
         std::vector<CurveView> views;  // one for each column
