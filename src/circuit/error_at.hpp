@@ -2,7 +2,6 @@
 
 #include <fmt/format.h>
 #include <ranges>
-#include <vector>
 
 #include "core/parameter.hpp"
 

@@ -47,10 +47,11 @@ std::uint64_t fingerprint_of(const Circuit& c) {
 
 /// The unknowns whose values between time points are used: those of spikes, probes and operating ranges.
 std::vector<int> interpolated_unknowns(const CircuitAfferentFactory& factory) {
-    std::vector<int> out = {factory.spike_output.unknowns.plus, factory.spike_output.unknowns.minus};
-    for (const auto& range : factory.operating_ranges)
-        out.push_back(range.quantity.unknowns.plus), out.push_back(range.quantity.unknowns.minus);
-    for (const auto& probe : factory.probes) out.push_back(probe.unknowns.plus), out.push_back(probe.unknowns.minus);
+    std::vector<int> out;
+    const auto add = [&](const SavedQuantity& quantity) { out.insert(out.end(), {quantity.unknowns.plus, quantity.unknowns.minus}); };
+    add(factory.spike_output.quantity);
+    for (const auto& range : factory.operating_ranges) add(range.quantity);
+    for (const auto& probe : factory.probes) add(probe);
     return out;
 }
 
@@ -187,7 +188,7 @@ Result<std::shared_ptr<const CircuitAfferentFactory>> CircuitAfferentFactory::cr
     for (const auto& c : circuit->directives_named("tran")) factory->times = TRY(read_transient_times(c));
     // The mismatch override replaces .mc.
     if (circuit->mismatch_seed) factory->chips = ChipSpec{1, *circuit->mismatch_seed, true, true, circuit->chip};
-    if (probes.empty()) probes.push_back({output.value().text, output.value().unknowns});
+    if (probes.empty()) probes.push_back(output->quantity);
     factory->circuit = std::move(circuit), factory->plan = plan, factory->spike_output = *output, factory->probes = std::move(probes),
     factory->operating_ranges = std::move(ranges);
     factory->plan.reported = interpolated_unknowns(*factory);

@@ -2,11 +2,6 @@
 // The force waveform that drives the force sources of a circuit, to which samples are appended while the simulation runs; and .force, the
 // default force of a netlist, used if the caller provides no force.
 
-#include <cstdint>
-#include <optional>
-#include <span>
-#include <vector>
-
 #include "circuit/netlist/netlist.hpp"
 #include "circuit/solve/state_archive.hpp"
 #include "core/force_source.hpp"

@@ -66,7 +66,7 @@ std::vector<double> StreamingTransient::raise_force_from_rest(double force) {
 }
 
 Result<void> StreamingTransient::begin(std::span<const double> force) {
-    origin_sample_ = 0, pending_spike_.reset(), power_now_.reset();
+    origin_sample_ = 0, pending_spike_.reset(), energy_.power.reset();
     auto x = solve_start(force, rest_);
     if (!x) x = solve_start(force, raise_force_from_rest(force[0]));
     if (!x) {
@@ -83,25 +83,18 @@ Result<void> StreamingTransient::step() {
     if (is_time_dependent_ && transient_->time() >= stop_time_unshifted)
         return error_at({factory_.circuit->file}, "a netlist whose sources depend on time runs for at most {:g} s", stop_time_unshifted);
     const double from = transient_->time();
-    if (!power_now_) power_now_ = meter_->delivered_at(transient_->x(), from);
+    if (!energy_.power) energy_.power = meter_->delivered_at(transient_->x(), from);
     const auto stepped = TRY(transient_->step(force_.known_until()));
     if (!stepped)
         return error_at({factory_.circuit->file},
                         "a time step needs force samples that were not given yet");  // cannot happen: delay() is long enough
-    add_energy(from);
+    energy_.add(*meter_, transient_->x(), from, transient_->time());
     const auto spike = factory_.spike_output.find_spike(*transient_);
     if (!spike) return {};
     // The spike is in the interval (before, before + 1], in samples since the origin.
     const double at = *spike / force_.T(), before = std::ceil(at) - 1;
     pending_spike_ = {origin_sample_ + static_cast<std::int64_t>(before) + 1, at - before, 0};
     return {};
-}
-
-/// Adds the energy of the step that began at `step_start` and ends now.
-void StreamingTransient::add_energy(double step_start) {
-    const double t = transient_->time();
-    const auto before = *std::exchange(power_now_, meter_->delivered_at(transient_->x(), t));
-    energy_use_ += energy_between(before, *power_now_, t - step_start);
 }
 
 /// Moves the origin of time to the last sample before now.
@@ -138,7 +131,7 @@ void StreamingTransient::save(std::vector<double>& out) {
 
 bool StreamingTransient::restore(std::span<const double> in, std::int64_t samples) {
     StateArchive reader(in);
-    power_now_.reset(), energy_use_ = {};
+    energy_ = {};
     archive(reader);
     return reader.is_valid && force_.end_sample() + origin_sample_ == samples;
 }

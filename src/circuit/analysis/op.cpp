@@ -2,8 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <string>
-#include <vector>
 
 #include "circuit/analysis/equilibria.hpp"
 #include "core/text/quantity.hpp"

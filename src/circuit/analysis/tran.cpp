@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <utility>
 
 #include "circuit/afferent/force_waveform.hpp"
 #include "circuit/analysis/transient_setup.hpp"
@@ -89,7 +88,7 @@ Result<double> spike_error(AnalysisContext& context, TranSetup setup, const std:
     for (double* tolerance : {&setup.plan.reltol, &setup.plan.vntol, &setup.plan.abstol}) *tolerance /= 10;
     // Only the spikes are compared, so other unknowns and points within a step are not needed.
     setup.plan.all_reported = false, setup.plan.steps_only = true;
-    setup.plan.reported = {setup.spike_output->unknowns.plus, setup.spike_output->unknowns.minus};
+    setup.plan.reported = {setup.spike_output->quantity.unknowns.plus, setup.spike_output->quantity.unknowns.minus};
     Transient transient(context.system, context.newton, setup.plan);
     const auto finer = run_transient(context, setup, transient, [](double, std::span<const double>) { return true; });
     if (!finer && finer.error().code == ErrorCode::interrupted) return finer.error();

@@ -64,7 +64,7 @@ Result<SpikeOutput> parse_spike(const System& system, const Directive& c) {
     if (c.words.size() < 2)
         return error_at(c.location_of(1), ".spike: {} needs a level to cross: .spike v(NODE) LEVEL [rise|fall]", c.words[0]);
     const auto level = TRY(read_number(c, 1, "the level to cross"));
-    SpikeOutput out{c.words[0], unknowns, level, true, c.location};
+    SpikeOutput out{{c.words[0], unknowns}, level, true, c.location};
     if (c.words.size() > 2) {
         if (c.words[2] != "rise" && c.words[2] != "fall")
             return error_at(c.location_of(2), ".spike: '{}' must be rise or fall", c.words[2]);
@@ -88,8 +88,7 @@ Result<OperatingRange> parse_range(const System& system, const Directive& c) {
         message = word.substr(1, word.size() - 2);
     }
     if (c.words.size() > 4) return error_at(c.location_of(4), ".assert: unexpected '{}'; expected {}", c.words[4], syntax);
-    SavedQuantity quantity{c.words[0], unknowns};
-    return OperatingRange{std::move(quantity), low, high, std::move(message), c.location};
+    return OperatingRange{{c.words[0], unknowns}, low, high, std::move(message), c.location};
 }
 
 }  // namespace
@@ -97,10 +96,8 @@ Result<OperatingRange> parse_range(const System& system, const Directive& c) {
 Result<TransientPlan> read_transient_plan(const Circuit& c) {
     TransientPlan plan;
     if (const auto given = c.option_words.find("accuracy"); given != c.option_words.end()) {
-        const Accuracy* found = nullptr;
-        for (const auto& a : accuracies)
-            if (a.word == given->second) found = &a;
-        if (found == nullptr) return invalid_option(c, "accuracy", given->second, "rough, normal, fine, finest");
+        const auto* found = std::ranges::find(accuracies, given->second, &Accuracy::word);
+        if (found == std::end(accuracies)) return invalid_option(c, "accuracy", given->second, "rough, normal, fine, finest");
         plan.reltol = found->reltol, plan.vntol = found->vntol;
     }
     plan.reltol = value_or(c.options, "reltol", plan.reltol);

@@ -1,8 +1,6 @@
 #pragma once
 // The input of a transient: .tran and .options, its initial condition, and .spike and .assert.
 
-#include <optional>
-
 #include "circuit/output/saved_quantities.hpp"
 #include "circuit/solve/transient.hpp"
 #include "core/afferent.hpp"
@@ -36,14 +34,15 @@ Result<InitialCondition> find_initial_condition(AnalysisContext&, bool uic, std:
 /// .spike v(NODE[,NODE]) LEVEL [rise|fall]: a spike occurs where the voltage, or the current i(V), crosses the level upwards (default)
 /// or downwards.
 struct SpikeOutput {
-    std::string text;  ///< the quantity: "v(out)"
-    OutputVariable unknowns;
+    SavedQuantity quantity;
     double level = 0;       ///< V or A
     bool is_rising = true;  ///< true if upward crossings are spikes, false if downward ones are
     SourceLocation location;
 
     /// The time of the first spike within the last step of the transient, s; nothing if the step has no spike.
-    std::optional<double> find_spike(const Transient& t) const { return t.crossing(unknowns.plus, unknowns.minus, level, is_rising); }
+    std::optional<double> find_spike(const Transient& t) const {
+        return t.crossing(quantity.unknowns.plus, quantity.unknowns.minus, level, is_rising);
+    }
 };
 
 /// Reads the .spike directive; nothing if the circuit has none. A second .spike is an error.

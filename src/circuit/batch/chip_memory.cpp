@@ -1,6 +1,6 @@
 #include "circuit/batch/chip_memory.hpp"
 
-#include "circuit/device/transistor.hpp"
+#include "circuit/device/device_kind.hpp"
 #include "circuit/device/uicm.hpp"
 
 namespace corpuscle::circuit {

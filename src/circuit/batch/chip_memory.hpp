@@ -1,9 +1,6 @@
 #pragma once
 // The memory of a block of chips, as the kernels need it. Transistors are linearized again when their voltages have moved.
 
-#include <memory>
-#include <vector>
-
 #include "circuit/solve/step_equations.hpp"
 
 namespace corpuscle::circuit {

@@ -2,8 +2,6 @@
 // The cost of a circuit: power, area, leakage.
 
 #include <nlohmann/json_fwd.hpp>
-#include <string>
-#include <vector>
 
 #include "circuit/cost/area.hpp"
 #include "circuit/cost/power.hpp"

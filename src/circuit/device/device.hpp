@@ -3,14 +3,7 @@
 
 #include <array>
 #include <complex>
-#include <cstdint>
 #include <limits>
-#include <memory>
-#include <optional>
-#include <span>
-#include <string>
-#include <string_view>
-#include <vector>
 
 #include "circuit/lanes/kernels.hpp"
 #include "circuit/netlist/netlist.hpp"

@@ -1,4 +1,4 @@
-#include "circuit/device/transistor.hpp"
+#include "circuit/device/device_kind.hpp"
 
 #include <cmath>
 

@@ -2,8 +2,6 @@
 // The parameters of a transistor: its model card (.model) and its instance (M line); and the constants computed from both.
 
 #include <array>
-#include <cstdint>
-#include <string_view>
 
 #include "circuit/device/uicm.hpp"
 #include "core/parameter.hpp"

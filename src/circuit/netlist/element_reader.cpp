@@ -25,7 +25,7 @@ Result<void> ElementReader::read() {
 
 Error ElementReader::too_many(std::size_t word) const { return error_at(word, "unexpected '{}'", text(word)); }
 
-bool ElementReader::is_model(std::size_t word) const { return builder_.has_model(scope_, text(word)); }
+bool ElementReader::is_model(std::size_t word) const { return scope_.definer_of_model(text(word)) != nullptr; }
 bool ElementReader::is_parameter(std::size_t word) const { return scope_.parameter(text(word)).has_value(); }
 
 Result<void> ElementReader::nodes(std::size_t n, std::string_view expected) {

@@ -1,16 +1,9 @@
 #pragma once
 // A SPICE netlist: its parsed statements, and the flat circuit that results once its parameters have values.
 
-#include <cstdint>
-#include <functional>
 #include <map>
-#include <memory>
-#include <optional>
 #include <ranges>
-#include <string>
-#include <string_view>
 #include <unordered_map>
-#include <vector>
 
 #include "circuit/error_at.hpp"
 #include "circuit/expression/expression.hpp"

@@ -3,12 +3,7 @@
 
 #include <deque>
 #include <map>
-#include <memory>
-#include <optional>
 #include <set>
-#include <string>
-#include <string_view>
-#include <vector>
 
 #include "circuit/netlist/netlist.hpp"
 #include "circuit/netlist/statement.hpp"

@@ -192,16 +192,9 @@ int CircuitBuilder::find_or_add_node(const Scope& scope, std::string_view name) 
     return at->second;
 }
 
-bool CircuitBuilder::has_model(const Scope& scope, std::string_view name) const {
-    for (const Scope* f = &scope; f; f = f->enclosing)
-        if (f->definition->models.contains(name)) return true;
-    return false;
-}
-
 Result<int> CircuitBuilder::find_or_add_model(Scope& scope, const WordRef& name, std::string_view user,
                                               std::span<const std::string_view> types) {
-    Scope* f = &scope;  // the scope that defines the model
-    while (f && !f->definition->models.contains(name.view())) f = f->enclosing;
+    Scope* f = scope.definer_of_model(name.view());
     if (!f) return unknown_model(scope, name, user);
     const Statement& s = *f->definition->models.find(name.view())->second;
     const auto type = short_type(s.text(2));

@@ -1,9 +1,6 @@
 #pragma once
 // .print: tables of numbers as text.
 
-#include <string>
-#include <vector>
-
 #include "circuit/analysis/transient_setup.hpp"
 #include "circuit/output/curve_view.hpp"
 

@@ -1,8 +1,6 @@
 #pragma once
 // .save and .probe: the curves to keep; and the probes that a user names in a circuit.
 
-#include <optional>
-
 #include "circuit/analysis/analysis_context.hpp"
 #include "circuit/devices.hpp"
 

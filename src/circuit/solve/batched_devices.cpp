@@ -1,4 +1,4 @@
-#include "circuit/solve/batched_devices.hpp"
+#include "circuit/solve/step_equations.hpp"
 
 #include <algorithm>
 #include <type_traits>

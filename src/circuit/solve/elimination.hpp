@@ -2,8 +2,6 @@
 // Gaussian elimination of one sparsity pattern as a flat list of operations. The operations and their order do not depend on the values,
 // so one circuit and many circuits on lanes compute the same bits.
 
-#include <optional>
-#include <span>
 #include <vector>
 
 #include "circuit/lanes/kernels.hpp"

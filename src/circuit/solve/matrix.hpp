@@ -2,11 +2,6 @@
 // Sparse linear equations with one pattern and many sets of values, solved by SuiteSparse's KLU. Only matrix.cpp includes KLU.
 
 #include <complex>
-#include <memory>
-#include <optional>
-#include <span>
-#include <utility>
-#include <vector>
 
 #include "circuit/solve/elimination.hpp"
 

@@ -1,12 +1,8 @@
 #pragma once
 // The equations of a circuit: f(x) + dq(x)/dt = 0, where x holds the unknowns: node voltages (V) and branch currents (A).
 
-#include <memory>
 #include <numeric>
-#include <optional>
-#include <string>
 #include <unordered_map>
-#include <vector>
 
 #include "circuit/device/device.hpp"
 #include "circuit/solve/matrix.hpp"

@@ -2,8 +2,6 @@
 // Transient analysis: integrates f(x, t) + dq(x)/dt = 0 with steps as long as the tolerances allow.
 
 #include <algorithm>
-#include <functional>
-#include <optional>
 
 #include "circuit/solve/history.hpp"
 #include "circuit/solve/state_archive.hpp"

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <utility>
 
 #include "circuit/devices.hpp"
 #include "circuit/solve/transient.hpp"

@@ -2,8 +2,6 @@
 // The netlists that are embedded in the program, and overrides of a netlist by name: its parameters, the values of its devices, corner,
 // temperature and mismatch.
 
-#include <span>
-
 #include "circuit/netlist/netlist.hpp"
 #include "core/parameter_override.hpp"
 
