@@ -1,8 +1,5 @@
 #include "circuit/run_directives.hpp"
 
-#include <algorithm>
-#include <cmath>
-
 #include "circuit/analyses.hpp"
 #include "circuit/expression/spice_number.hpp"
 #include "circuit/measure/measurement.hpp"

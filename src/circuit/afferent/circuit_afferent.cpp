@@ -167,13 +167,12 @@ Result<void> CircuitAfferent::simulate_samples(StreamingTransient& transient, st
 }  // namespace
 
 Result<std::shared_ptr<const CircuitAfferentFactory>> CircuitAfferentFactory::create(const Netlist& netlist) {
-    auto factory = create(std::make_shared<const Circuit>(TRY(netlist.elaborate())));
-    if (!factory) return factory;
-    std::const_pointer_cast<CircuitAfferentFactory>(*factory)->netlist = netlist;
-    return factory;
+    auto circuit = std::make_shared<const Circuit>(TRY(netlist.elaborate()));
+    return create(std::move(circuit), netlist);
 }
 
-Result<std::shared_ptr<const CircuitAfferentFactory>> CircuitAfferentFactory::create(std::shared_ptr<const Circuit> circuit) {
+Result<std::shared_ptr<const CircuitAfferentFactory>> CircuitAfferentFactory::create(std::shared_ptr<const Circuit> circuit,
+                                                                                     std::optional<Netlist> netlist) {
     const auto context = TRY(AnalysisContext::make(circuit));
     const SourceLocation location{circuit->file};
     const auto plan = TRY(read_transient_plan(*circuit));
@@ -184,6 +183,7 @@ Result<std::shared_ptr<const CircuitAfferentFactory>> CircuitAfferentFactory::cr
         return error_at(location, "no source carries a force; add one, such as 'iin 0 fin force 60n' (60 nA per newton)");
     if (!output) return error_at(location, "no .spike directive defines the spike output; add '.spike v(NODE) LEVEL [rise|fall]'");
     auto factory = std::make_shared<CircuitAfferentFactory>();
+    factory->netlist = std::move(netlist);
     for (const auto& c : circuit->directives_named("mc")) factory->chips = TRY(parse_chip_spec(c));
     for (const auto& c : circuit->directives_named("tran")) factory->times = TRY(read_transient_times(c));
     // The mismatch override replaces .mc.

@@ -1,8 +1,5 @@
 #include "circuit/afferent/force_waveform.hpp"
 
-#include <algorithm>
-#include <limits>
-
 #include "circuit/analysis/analysis_context.hpp"
 #include "circuit/expression/spice_number.hpp"
 #include "core/stimulus/stimuli.hpp"

@@ -1,7 +1,6 @@
 #include "circuit/afferent/netlist_plan.hpp"
 
 #include <deque>
-#include <limits>
 
 #include "circuit/afferent/circuit_afferent.hpp"
 #include "circuit/variant/netlist_overrides.hpp"

@@ -1,7 +1,5 @@
 #include "circuit/analysis/analysis_context.hpp"
 
-#include <cmath>
-
 #include "circuit/devices.hpp"
 #include "circuit/expression/spice_number.hpp"
 

@@ -1,7 +1,5 @@
 #include "circuit/analysis/equilibria.hpp"
 
-#include <algorithm>
-#include <cmath>
 #include <tuple>
 
 #include "circuit/analysis/transient_setup.hpp"

@@ -1,8 +1,5 @@
 // .tran: transient analysis.
 
-#include <algorithm>
-#include <cmath>
-
 #include "circuit/afferent/force_waveform.hpp"
 #include "circuit/analysis/transient_setup.hpp"
 #include "circuit/device/named_values.hpp"

@@ -2,8 +2,6 @@
 // One chip on its lane, with its own time, step, order and Newton state. Its unknowns are a column of the block. In each round, the kernels
 // make one Newton iteration for all lanes. Times are in s since the first sample of the chip's force.
 
-#include <array>
-
 #include "circuit/afferent/streaming_transient.hpp"
 #include "circuit/batch/chip_batch.hpp"
 #include "circuit/batch/chip_memory.hpp"

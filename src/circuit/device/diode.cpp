@@ -1,7 +1,5 @@
 // The junction diode of SPICE, level 1.
 
-#include <cmath>
-
 #include "circuit/device/device_kind.hpp"
 #include "circuit/device/named_values.hpp"
 #include "circuit/device/physical_constants.hpp"

@@ -1,7 +1,5 @@
 #include "circuit/device/device_kind.hpp"
 
-#include <algorithm>
-
 #include "circuit/device/named_values.hpp"
 #include "circuit/device/physical_constants.hpp"
 

@@ -1,7 +1,5 @@
 // Independent sources: V and I.
 
-#include <algorithm>
-
 #include "circuit/afferent/force_waveform.hpp"
 #include "circuit/device/device_kind.hpp"
 #include "circuit/device/named_values.hpp"

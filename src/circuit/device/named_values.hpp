@@ -1,8 +1,6 @@
 #pragma once
 // Named parameter values of an element or a model.
 
-#include <algorithm>
-
 #include "circuit/netlist/netlist.hpp"
 #include "core/text/ascii_text.hpp"
 

@@ -1,7 +1,6 @@
 #include "circuit/device/source_waveform.hpp"
 
 #include <algorithm>
-#include <cmath>
 #include <limits>
 
 #include "circuit/expression/spice_number.hpp"

@@ -1,7 +1,5 @@
 #include "circuit/export/element_text.hpp"
 
-#include <algorithm>
-
 #include "circuit/device/named_values.hpp"
 #include "circuit/devices.hpp"
 

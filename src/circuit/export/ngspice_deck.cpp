@@ -1,7 +1,5 @@
 #include "circuit/export/ngspice_deck.hpp"
 
-#include <algorithm>
-
 #include "circuit/analyses.hpp"
 #include "circuit/devices.hpp"
 #include "circuit/export/element_text.hpp"

@@ -1,7 +1,5 @@
 // Parses the text of an expression into steps in one pass. User functions are expanded where they are called.
 
-#include <algorithm>
-
 #include "circuit/error_at.hpp"
 #include "circuit/expression/expression.hpp"
 #include "circuit/expression/expression_operations.hpp"

@@ -1,8 +1,6 @@
 #include "circuit/expression/spice_number.hpp"
 
 #include <fmt/format.h>
-#include <algorithm>
-#include <charconv>
 #include <limits>
 
 #include "core/text/ascii_text.hpp"

@@ -1,7 +1,5 @@
 // Elaborates a parsed netlist into the flat circuit: expands subcircuits and evaluates directives.
 
-#include <algorithm>
-
 #include "circuit/devices.hpp"
 #include "circuit/expression/spice_number.hpp"
 #include "circuit/netlist/scope.hpp"

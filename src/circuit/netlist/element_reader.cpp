@@ -1,7 +1,5 @@
 #include "circuit/netlist/element_reader.hpp"
 
-#include <algorithm>
-
 #include "circuit/devices.hpp"
 #include "circuit/netlist/scope.hpp"
 

@@ -1,7 +1,5 @@
 #include "circuit/netlist/netlist.hpp"
 
-#include <algorithm>
-
 #include "circuit/netlist/parsed_netlist.hpp"
 #include "core/text/ascii_text.hpp"
 #include "core/text/input_files.hpp"

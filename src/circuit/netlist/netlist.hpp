@@ -2,7 +2,6 @@
 // A SPICE netlist: its parsed statements, and the flat circuit that results once its parameters have values.
 
 #include <map>
-#include <ranges>
 #include <unordered_map>
 
 #include "circuit/error_at.hpp"

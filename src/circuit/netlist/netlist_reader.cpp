@@ -1,6 +1,5 @@
 // Parses the statements of a netlist, of the files that it includes and of sections of libraries.
 
-#include <algorithm>
 #include <filesystem>
 
 #include "circuit/analyses.hpp"

@@ -1,7 +1,5 @@
 // Warnings about likely mistakes in a valid netlist, and about numbers that users often take for other ones: 1F, 5M.
 
-#include <algorithm>
-
 #include "circuit/device/named_values.hpp"
 #include "circuit/device/uicm_card.hpp"
 #include "circuit/devices.hpp"

@@ -2,7 +2,6 @@
 // A parsed netlist before any parameter has a value. Used inside circuit/netlist only.
 
 #include <deque>
-#include <map>
 #include <set>
 
 #include "circuit/netlist/netlist.hpp"

@@ -122,32 +122,27 @@ private:
 
 constexpr double max_rows = 1e6;  // of one table of a .tran
 
-struct Column {
-    std::string name;
-    CurveView view;
-};
-
-/// The columns of a directive, the swept quantity first. Empty if it is not a .print line, names another analysis, or names no curve of the
-/// plot.
-std::vector<Column> columns_of(const Directive& c, std::string_view analysis, const Plot& plot) {
-    std::vector<Column> out;
+/// The table of a directive with its heads; the swept quantity is the first column. Without columns if it is not a .print line, names
+/// another analysis, or names no curve of the plot.
+PrintedTable table_of(const Directive& c, std::string_view analysis, const Plot& plot) {
+    PrintedTable out;
+    const auto add = [&](const std::string& name) {
+        const auto view = CurveView::find(plot, name);
+        if (!view) return;
+        out.views.push_back(*view);
+        out.text += fmt::format("{:>16}", name);
+    };
     const bool names_analysis = !c.words.empty() && find_analysis(c.words[0]) != nullptr;
     if (c.name != "print" || (names_analysis && c.words[0] != analysis)) return out;
-    if (plot.has_sweep) out.push_back({plot.curves[0].name, *CurveView::find(plot, plot.curves[0].name)});
+    if (plot.has_sweep) add(plot.curves[0].name);
     for (std::size_t w = names_analysis ? 1 : 0; w < c.words.size(); ++w)
         if (c.words[w] == "all")
-            for (std::size_t k = plot.has_sweep; k < plot.curves.size(); ++k)
-                out.push_back({plot.curves[k].name, *CurveView::find(plot, plot.curves[k].name)});
-        else if (const auto view = CurveView::find(plot, c.words[w]))
-            out.push_back({c.words[w], *view});
-    if (out.size() < (plot.has_sweep ? 2U : 1U)) out.clear();
+            for (std::size_t k = plot.has_sweep; k < plot.curves.size(); ++k) add(plot.curves[k].name);
+        else
+            add(c.words[w]);
+    if (out.views.size() < (plot.has_sweep ? 2U : 1U)) return {};
+    out.text += '\n';
     return out;
-}
-
-std::string column_heads(const std::vector<Column>& columns) {
-    std::string out;
-    for (const auto& c : columns) fmt::format_to(std::back_inserter(out), "{:>16}", c.name);
-    return out + '\n';
 }
 
 void append_number(std::string& out, std::complex<double> x) {
@@ -163,15 +158,14 @@ Result<void> check_output_directives(const System& system, DeviceCurrents curren
 
 Result<void> TablePrinter::begin(const Plot& plot) {
     for (const auto& c : circuit_.directives) {
-        const auto columns = columns_of(c, analysis_, plot);
-        if (columns.empty()) continue;
+        auto table = table_of(c, analysis_, plot);
+        if (table.views.empty()) continue;
         if (const double rows = std::floor((times_.stop - times_.start) / times_.step) + 1; times_.step > 0 && rows > max_rows)
             return error_at(
                 c.location,
                 ".print tran: {:g} rows (one every {:g} s over {:g} s) exceed the limit of {:g}; use a longer STEP of .tran, or --out",
                 rows, times_.step, times_.stop - times_.start, max_rows);
-        tables_.push_back({{}, column_heads(columns)});
-        for (const auto& column : columns) tables_.back().views.push_back(column.view);
+        tables_.push_back(std::move(table));
     }
     return {};
 }

@@ -6,20 +6,22 @@
 
 namespace corpuscle::circuit {
 
+/// One table of a .print line.
+struct PrintedTable {
+    std::vector<CurveView> views;  ///< one for each column
+    std::string text;
+};
+
 /// Makes the tables of the .print lines that apply to a plot of one analysis, while its points arrive. For a .tran, rows are at START and
 /// every STEP after it, linearly interpolated between time points. No row is before the first time point. (ngspice's batch mode prints
 /// every time point, and these rows only with `.options interp`.)
 class TablePrinter final : public PointSink {
-    struct Table {
-        std::vector<CurveView> views;  // one for each column
-        std::string text;
-    };
     const Circuit& circuit_;
     std::string_view analysis_;
-    TransientTimes times_;          // step 0: a row for each point, for all analyses but .tran
-    std::vector<Table> tables_;     // one for each .print line
-    std::vector<double> previous_;  // the point of the last call of add_point(), of a .tran
-    double rows_ = 0;               // number of rows printed or skipped so far
+    TransientTimes times_;              // step 0: a row for each point, for all analyses but .tran
+    std::vector<PrintedTable> tables_;  // one for each .print line
+    std::vector<double> previous_;      // the point of the last call of add_point(), of a .tran
+    double rows_ = 0;                   // number of rows printed or skipped so far
 
     double next_time() const { return times_.start + rows_ * times_.step; }
     void print_at_next_time(std::span<const double> row);

@@ -1,6 +1,5 @@
 #include "circuit/solve/step_equations.hpp"
 
-#include <algorithm>
 #include <type_traits>
 
 namespace corpuscle::circuit {

@@ -1,9 +1,7 @@
 #pragma once
 // The last accepted points of a transient, the polynomials through them, and the polynomial that interpolates between the two newest ones.
 
-#include <algorithm>
 #include <array>
-#include <cmath>
 #include <optional>
 #include <span>
 #include <vector>

@@ -1,6 +1,5 @@
 #include "circuit/solve/operating_point.hpp"
 
-#include <algorithm>
 #include <cmath>
 
 #include "circuit/device/named_values.hpp"

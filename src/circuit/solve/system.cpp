@@ -1,8 +1,5 @@
 #include "circuit/solve/system.hpp"
 
-#include <algorithm>
-#include <cmath>
-
 #include "circuit/device/named_values.hpp"
 #include "circuit/device/physical_constants.hpp"
 #include "circuit/devices.hpp"

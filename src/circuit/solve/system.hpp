@@ -2,7 +2,6 @@
 // The equations of a circuit: f(x) + dq(x)/dt = 0, where x holds the unknowns: node voltages (V) and branch currents (A).
 
 #include <numeric>
-#include <unordered_map>
 
 #include "circuit/device/device.hpp"
 #include "circuit/solve/matrix.hpp"

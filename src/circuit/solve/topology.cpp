@@ -1,8 +1,5 @@
 #include "circuit/solve/system.hpp"
 
-#include <algorithm>
-#include <numeric>
-
 #include "circuit/devices.hpp"
 
 namespace corpuscle::circuit {

@@ -1,8 +1,6 @@
 #pragma once
 // Transient analysis: integrates f(x, t) + dq(x)/dt = 0 with steps as long as the tolerances allow.
 
-#include <algorithm>
-
 #include "circuit/solve/history.hpp"
 #include "circuit/solve/state_archive.hpp"
 #include "circuit/solve/step_equations.hpp"

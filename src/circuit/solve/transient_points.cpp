@@ -1,8 +1,5 @@
 // Interpolation of a transient between its accepted points.
 
-#include <algorithm>
-#include <cmath>
-
 #include "circuit/devices.hpp"
 #include "circuit/solve/transient.hpp"
 

@@ -1,7 +1,6 @@
 #include "circuit/variant/hierarchical_names.hpp"
 
 #include <fmt/format.h>
-#include <algorithm>
 
 #include "core/text/ascii_text.hpp"
 

@@ -1,8 +1,5 @@
 #include "circuit/variant/netlist_overrides.hpp"
 
-#include <algorithm>
-#include <cmath>
-
 #include "circuit/devices.hpp"
 #include "circuit/variant/hierarchical_names.hpp"
 #include "core/text/ascii_text.hpp"

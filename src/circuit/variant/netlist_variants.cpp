@@ -1,7 +1,6 @@
 #include "circuit/variant/netlist_variants.hpp"
 
 #include <algorithm>
-#include <cmath>
 
 #include "circuit/analysis/analysis_context.hpp"
 #include "circuit/device/uicm_card.hpp"
