@@ -64,7 +64,8 @@ Result<SpikeOutput> parse_spike(const System& system, const Directive& c) {
     if (c.words.size() < 2)
         return error_at(c.location_of(1), ".spike: {} needs a level to cross: .spike v(NODE) LEVEL [rise|fall]", c.words[0]);
     const auto level = TRY(read_number(c, 1, "the level to cross"));
-    SpikeOutput out{{c.words[0], unknowns}, level, true, c.location};
+    SavedQuantity quantity{c.words[0], unknowns};
+    SpikeOutput out{std::move(quantity), level, true, c.location};
     if (c.words.size() > 2) {
         if (c.words[2] != "rise" && c.words[2] != "fall")
             return error_at(c.location_of(2), ".spike: '{}' must be rise or fall", c.words[2]);
@@ -88,7 +89,8 @@ Result<OperatingRange> parse_range(const System& system, const Directive& c) {
         message = word.substr(1, word.size() - 2);
     }
     if (c.words.size() > 4) return error_at(c.location_of(4), ".assert: unexpected '{}'; expected {}", c.words[4], syntax);
-    return OperatingRange{{c.words[0], unknowns}, low, high, std::move(message), c.location};
+    SavedQuantity quantity{c.words[0], unknowns};
+    return OperatingRange{std::move(quantity), low, high, std::move(message), c.location};
 }
 
 }  // namespace

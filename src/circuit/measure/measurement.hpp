@@ -105,8 +105,7 @@ struct EventPoint {
     double position() const { return crossing ? crossing->result() : at; }
 };
 
-/// when ...: the position of a crossing. count ...: the number of crossings. trig ... targ ...: the distance from the trigger to the
-/// target.
+/// The position of a crossing (when ...), the number of crossings (count ...) or the distance from a trigger to a target (trig ...).
 class DistanceMeasurement final : public Measurement {
     std::optional<EventPoint> trigger_;
     EventPoint target_;

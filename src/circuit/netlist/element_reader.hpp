@@ -41,8 +41,8 @@ public:
     Result<double> number(std::size_t word) const;
     Result<double> number(const NameValue&);
     /// Reads a word, or the value of a pair, as the element's value.
-    template <class Word>
-    Result<void> value(const Word& word) {
+    template <class Where>
+    Result<void> value(const Where& word) {
         element.value = TRY(number(word));
         return {};
     }
@@ -52,13 +52,20 @@ public:
     void control_source(std::size_t word);
 
     /// An error at a word, given by its number or as a Word.
-    template <class Where, class... Arguments>
-    Error error_at(const Where& word, fmt::format_string<Arguments...> message, Arguments&&... arguments) const {
-        return circuit::error_at(s_.location(word), "{}: {}", name_, fmt::format(message, std::forward<Arguments>(arguments)...));
+    template <class... Arguments>
+    Error error_at(std::size_t word, fmt::format_string<Arguments...> message, Arguments&&... arguments) const {
+        return error_in(s_.location(word), fmt::format(message, std::forward<Arguments>(arguments)...));
+    }
+    template <class... Arguments>
+    Error error_at(const Word& word, fmt::format_string<Arguments...> message, Arguments&&... arguments) const {
+        return error_in(s_.location(word), fmt::format(message, std::forward<Arguments>(arguments)...));
     }
     Error too_many(std::size_t word) const;  ///< the error for a word after the last one that the element can have
 
 private:
+    Error error_in(SourceLocation location, std::string_view message) const {
+        return circuit::error_at(std::move(location), "{}: {}", name_, message);
+    }
     void add_forward_reference(const ExpressionInput&, const SourceLocation&);
     Result<void> named_parameters();
     void override_values();
