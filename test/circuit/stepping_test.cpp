@@ -74,7 +74,7 @@ TEST(Transient, ResumesFromASavedStateWithTheSameResult) {
         continuous->archive(writer);
     }
     auto resumed = other.started_transient();
-    StateArchive reader(saved);
+    StateArchive reader{std::span<const double>(saved)};
     resumed->archive(reader);
     EXPECT_TRUE(reader.is_valid);
     for (int k = 701; k < 2000; ++k) ASSERT_TRUE(resumed->step(0.2));
