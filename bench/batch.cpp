@@ -17,7 +17,7 @@
 #include <string>
 
 #include "circuit/batch/chip_batch.hpp"
-#include "circuit/variant/embedded_netlists.hpp"
+#include "circuit/variant/netlist_overrides.hpp"
 #include "core/stimulus/stimuli.hpp"
 
 namespace {

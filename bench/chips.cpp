@@ -33,7 +33,7 @@ Work run_round(AnalysisContext& bench, std::uint64_t chips) {
     work.sum.resize(nodes), work.squares.resize(nodes);
     for (std::uint64_t chip = 0; chip < chips; ++chip) {
         ChipSample sample{1, chip, true, {}};
-        std::copy_n(sample_process(sample.seed, chip).values, 4, sample.process);
+        sample.process = sample_process(sample.seed, chip);
         bench.apply_variation(sample);
         const auto found = bench.operating_point();
         if (!found) {

@@ -4,7 +4,7 @@
 #include <nlohmann/json.hpp>
 
 #include "circuit/export/ngspice_deck.hpp"
-#include "circuit/variant/embedded_netlists.hpp"
+#include "circuit/variant/netlist_overrides.hpp"
 #include "cli/arguments/own_files.hpp"
 #include "cli/output/output_files.hpp"
 #include "cli/output/printable.hpp"

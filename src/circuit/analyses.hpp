@@ -13,9 +13,8 @@ inline constexpr const Analysis* analyses[] = {&op_analysis,   &dc_analysis, &ac
 
 /// The analysis of this name; null if there is none.
 inline const Analysis* find_analysis(std::string_view name) {
-    for (const auto* a : analyses)
-        if (a->name == name) return a;
-    return nullptr;
+    const auto* const found = std::ranges::find(analyses, name, &Analysis::name);
+    return found == std::end(analyses) ? nullptr : *found;
 }
 
 }  // namespace corpuscle::circuit

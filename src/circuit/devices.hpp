@@ -25,9 +25,8 @@ inline constexpr const DeviceKind* device_kinds[] = {&resistor_kind,
 
 /// The kind of device of this letter; null if there is none.
 inline const DeviceKind* find_device_kind(char letter) {
-    for (const auto* kind : device_kinds)
-        if (kind->letter == letter) return kind;
-    return nullptr;
+    const auto* const found = std::ranges::find(device_kinds, letter, &DeviceKind::letter);
+    return found == std::end(device_kinds) ? nullptr : *found;
 }
 
 /// "R C L ... X": the letters of all elements, subcircuits included.

@@ -1,8 +1,9 @@
 #pragma once
 
 #include <fmt/format.h>
+#include <ranges>
 
-#include "core/error.hpp"
+#include "core/parameter.hpp"
 
 namespace corpuscle::circuit {
 
@@ -10,6 +11,14 @@ namespace corpuscle::circuit {
 template <class... Arguments>
 Error error_at(SourceLocation location, fmt::format_string<Arguments...> message, Arguments&&... arguments) {
     return bad_input(fmt::format(message, std::forward<Arguments>(arguments)...), std::move(location));
+}
+
+/// The same as in core/parameter.hpp, for names in a range of any kind.
+template <std::ranges::input_range Names>
+std::string did_you_mean(std::string_view typed, Names&& names) {
+    std::vector<std::string_view> views;
+    for (const auto& name : names) views.emplace_back(name);
+    return corpuscle::did_you_mean(typed, views);
 }
 
 }  // namespace corpuscle::circuit

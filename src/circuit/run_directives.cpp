@@ -1,19 +1,9 @@
 #include "circuit/run_directives.hpp"
 
-#include <fmt/format.h>
-#include <algorithm>
-#include <cmath>
-#include <utility>
-
 #include "circuit/analyses.hpp"
 #include "circuit/expression/spice_number.hpp"
-#include "circuit/output/curve_view.hpp"
-#include "circuit/output/measurement_set.hpp"
-#include "circuit/output/print_directive.hpp"
-#include "circuit/output/saved_quantities.hpp"
-#include "circuit/solve/system.hpp"
-#include "circuit/variant/netlist_warnings.hpp"
-#include "core/parameter.hpp"
+#include "circuit/measure/measurement.hpp"
+#include "circuit/output/output_directives.hpp"
 
 namespace corpuscle::circuit {
 namespace {
@@ -37,28 +27,16 @@ Result<Expectation> expectation_of(const Directive& c) {
 }
 
 Result<void> check_expectations(const Circuit& circuit, RunOutcome& out) {
-    for (const auto& c : circuit.directives) {
-        if (c.name != "expect") continue;
+    for (const auto& c : circuit.directives_named("expect")) {
         auto e = TRY(expectation_of(c));
         const auto found = out.find_number(e.name);
-        if (!found) {
-            std::vector<std::string_view> known;
-            for (const auto& [name, value] : out.numbers) known.push_back(name);
-            return error_at(c.location, ".expect: there is no measurement, number or curve '{}'{}", e.name, did_you_mean(e.name, known));
-        }
+        if (!found)
+            return error_at(c.location, ".expect: there is no measurement, number or curve '{}'{}", e.name,
+                            did_you_mean(e.name, std::views::keys(out.numbers)));
         e.actual = *found, e.is_met = std::abs(*found - e.expected) <= e.tolerance;
         out.expectations.push_back(std::move(e));
     }
     return {};
-}
-
-/// STEP, STOP and START of .tran STEP STOP [START ...]; 0 if there is none.
-PrintedTimes printed_times(const Directive& c) {
-    const auto number = [&](std::size_t word) {
-        const auto found = read_number(c, word, "a number");
-        return found ? *found : 0;
-    };
-    return {number(2), number(0), number(1)};
 }
 
 /// Passes the points of the plots of one analysis to the measurements, to .print and to the sinks of the options, and stores them. Only the
@@ -81,8 +59,7 @@ public:
 
     PointDispatcher(const Circuit& circuit, const RunOptions& options, const std::vector<std::string>& saved_curves,
                     MeasurementSet& measures, AnalysisRun& run, const DeviceCurrents& currents)
-        : options_(options), measures_(measures), run_(run), currents_(currents),
-          printer_(circuit, run.directive->name, is_transient() ? printed_times(*run.directive) : PrintedTimes{}) {
+        : options_(options), measures_(measures), run_(run), currents_(currents), printer_(circuit, *run.directive) {
         if (options.curve_sink) selector_.emplace(saved_curves, *options.curve_sink);
     }
     bool is_transient() const { return run_.directive->name == "tran"; }
@@ -154,7 +131,6 @@ Result<RunOutcome> run_directives(AnalysisContext& context, const RunOptions& op
     RunOutcome out;
     if (!context.is_brief) {
         out.warnings = circuit->warnings;
-        for (auto& warning : find_dangling_nodes(*circuit)) out.warnings.push_back(std::move(warning));
         for (auto& warning : netlist_warnings(*circuit)) out.warnings.push_back(std::move(warning));
     }
     const auto saved = TRY(resolve_saved_quantities(context.system));

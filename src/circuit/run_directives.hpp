@@ -1,9 +1,6 @@
 #pragma once
 // Runs the directives of a netlist: its analyses in order, then its measurements and expectations.
 
-#include <functional>
-#include <optional>
-
 #include "circuit/analysis/analysis_context.hpp"
 
 namespace corpuscle::circuit {

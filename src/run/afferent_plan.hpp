@@ -1,7 +1,7 @@
 #pragma once
 // Finds afferents of every kind by name: entries of the catalogue and netlists.
 
-#include "circuit/variant/embedded_netlists.hpp"
+#include "circuit/variant/netlist_overrides.hpp"
 #include "model/catalog.hpp"
 
 namespace corpuscle {

@@ -5,7 +5,7 @@
 #include <nlohmann/json.hpp>
 #include <thread>
 
-#include "circuit/variant/embedded_netlists.hpp"
+#include "circuit/variant/netlist_overrides.hpp"
 #include "support/child_process.hpp"
 #include "support/program.hpp"
 #include "support/test_paths.hpp"

@@ -6,7 +6,6 @@
 #include <map>
 
 #include "circuit/batch/chip_batch.hpp"
-#include "circuit/variant/embedded_netlists.hpp"
 #include "circuit/variant/netlist_overrides.hpp"
 #include "core/number/instruction_set.hpp"
 #include "core/stimulus/stimuli.hpp"

@@ -5,7 +5,7 @@
 #include <map>
 #include <set>
 
-#include "circuit/export/export_names.hpp"
+#include "circuit/export/element_text.hpp"
 #include "circuit/export/ngspice_deck.hpp"
 #include "circuit/expression/spice_number.hpp"
 #include "support/ngspice.hpp"

@@ -9,7 +9,7 @@
 #include "circuit/afferent/circuit_afferent.hpp"
 #include "circuit/devices.hpp"
 #include "circuit/netlist_runner.hpp"
-#include "circuit/output/resolve_probe.hpp"
+#include "circuit/output/saved_quantities.hpp"
 #include "circuit/variant/hierarchical_names.hpp"
 #include "support/support.hpp"
 

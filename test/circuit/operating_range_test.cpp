@@ -1,6 +1,6 @@
 // .assert: a quantity outside its design range is reported, in a netlist's transient and in the response of a netlist afferent.
 
-#include "circuit/afferent/response_directives.hpp"
+#include "circuit/analysis/transient_setup.hpp"
 
 #include <gtest/gtest.h>
 

@@ -212,7 +212,7 @@ TEST(Chips, RestLikeANetlistWithTheSameMismatchAsParameters) {
     const auto& circuit = *sampled->circuit;
     for (std::uint64_t chip = 0; chip < 50; ++chip) {
         ChipSample sample{9, chip, true, {}};
-        std::copy_n(sample_process(9, chip).values, 4, sample.process);
+        sample.process = sample_process(9, chip);
         sampled->apply_variation(sample);
         std::array<std::string, 4> extra_parameters;
         std::uint32_t device = 0;

@@ -66,13 +66,17 @@ const std::string membrane = oscillator_netlist("0.2");
 TEST(Transient, ResumesFromASavedStateWithTheSameResult) {
     TransientFixture one(membrane, 0.2), other(membrane, 0.2);
     auto continuous = one.started_transient();
-    std::optional<TransientState> saved;
+    std::vector<double> saved;
     for (int k = 0; k < 2000; ++k) {
         ASSERT_TRUE(continuous->step(0.2));
-        if (k == 700) saved = continuous->save();
+        if (k != 700) continue;
+        StateArchive writer(saved);
+        continuous->archive(writer);
     }
     auto resumed = other.started_transient();
-    resumed->restore(*saved);
+    StateArchive reader{std::span<const double>(saved)};
+    resumed->archive(reader);
+    EXPECT_TRUE(reader.is_valid);
     for (int k = 701; k < 2000; ++k) ASSERT_TRUE(resumed->step(0.2));
     EXPECT_EQ(resumed->time(), continuous->time());
     for (std::size_t n = 0; n < continuous->x().size(); ++n) EXPECT_EQ(resumed->x()[n], continuous->x()[n]) << n;

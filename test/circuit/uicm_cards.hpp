@@ -25,7 +25,7 @@ inline UicmInstance with_mismatch(UicmInstance instance, const UicmCard& card, s
 
 /// The card with the process variation of one chip.
 inline UicmCard with_process(UicmCard card, bool pmos, std::uint64_t seed, std::uint64_t chip) {
-    const UicmShift shift = process_shift(card, pmos, sample_process(seed, chip).values);
+    const UicmShift shift = process_shift(card, pmos, sample_process(seed, chip));
     card.V_T0 += shift.V_T, card.I_SQ *= shift.factor;
     return card;
 }

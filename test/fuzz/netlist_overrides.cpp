@@ -5,7 +5,7 @@
 #include <cstdlib>
 #include <string>
 
-#include "circuit/output/resolve_probe.hpp"
+#include "circuit/output/saved_quantities.hpp"
 #include "circuit/variant/netlist_overrides.hpp"
 
 using namespace corpuscle;

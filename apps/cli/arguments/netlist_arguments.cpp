@@ -2,7 +2,7 @@
 
 #include <fmt/format.h>
 
-#include "circuit/output/resolve_probe.hpp"
+#include "circuit/output/saved_quantities.hpp"
 
 namespace corpuscle {
 

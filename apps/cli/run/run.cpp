@@ -6,7 +6,7 @@
 #include "circuit/analyses.hpp"
 #include "circuit/cost/cost.hpp"
 #include "circuit/devices.hpp"
-#include "circuit/output/resolve_probe.hpp"
+#include "circuit/output/saved_quantities.hpp"
 #include "circuit/variant/netlist_overrides.hpp"
 #include "cli/arguments/netlist_arguments.hpp"
 #include "cli/output/curve_files.hpp"

@@ -6,7 +6,7 @@
 #include <numeric>
 #include <utility>
 
-#include "circuit/variant/embedded_netlists.hpp"
+#include "circuit/variant/netlist_overrides.hpp"
 #include "cli/arguments/own_files.hpp"
 #include "cli/output/printable.hpp"
 #include "cli/output/stream_report.hpp"

@@ -1,29 +1,21 @@
 #include "circuit/afferent/circuit_afferent.hpp"
 
-#include <fmt/format.h>
-#include <array>
-#include <bit>
-#include <cmath>
-#include <limits>
 #include <mutex>
 #include <nlohmann/json.hpp>
 
-#include "circuit/afferent/force_waveform.hpp"
 #include "circuit/afferent/streaming_transient.hpp"
 #include "circuit/cost/cost.hpp"
+#include "core/checksum.hpp"
 
 namespace corpuscle::circuit {
 namespace {
 
 /// FNV-1a hash over the values and connections that determine how a circuit responds.
 std::uint64_t fingerprint_of(const Circuit& c) {
-    std::uint64_t hash = 0xcbf29ce484222325;
-    const auto number = [&](std::uint64_t x) { hash = (hash ^ x) * 0x100000001b3; };
+    Fnv1a hash;
+    const auto number = [&](std::uint64_t x) { hash.add_word(x); };
     const auto real = [&](double x) { number(std::bit_cast<std::uint64_t>(x)); };
-    const auto text = [&](std::string_view s) {
-        for (const char letter : s) number(static_cast<unsigned char>(letter));
-        number(s.size());
-    };
+    const auto text = [&](std::string_view s) { hash.add(s), number(s.size()); };
     const auto values = [&](const Values& all) {
         for (const auto& [name, value] : all) text(name), real(value);
     };
@@ -50,15 +42,16 @@ std::uint64_t fingerprint_of(const Circuit& c) {
     for (const auto& command : c.directives)
         if (command.name == "tran" || command.name == "spike")
             for (const auto& word : command.words) text(word);
-    return hash;
+    return hash.value;
 }
 
 /// The unknowns whose values between time points are used: those of spikes, probes and operating ranges.
 std::vector<int> interpolated_unknowns(const CircuitAfferentFactory& factory) {
-    std::vector<int> out = {factory.spike_output.unknowns.plus, factory.spike_output.unknowns.minus};
-    for (const auto& range : factory.operating_ranges)
-        out.push_back(range.quantity.unknowns.plus), out.push_back(range.quantity.unknowns.minus);
-    for (const auto& probe : factory.probes) out.push_back(probe.unknowns.plus), out.push_back(probe.unknowns.minus);
+    std::vector<int> out;
+    const auto add = [&](const SavedQuantity& quantity) { out.insert(out.end(), {quantity.unknowns.plus, quantity.unknowns.minus}); };
+    add(factory.spike_output.quantity);
+    for (const auto& range : factory.operating_ranges) add(range.quantity);
+    for (const auto& probe : factory.probes) add(probe);
     return out;
 }
 
@@ -174,14 +167,12 @@ Result<void> CircuitAfferent::simulate_samples(StreamingTransient& transient, st
 }  // namespace
 
 Result<std::shared_ptr<const CircuitAfferentFactory>> CircuitAfferentFactory::create(const Netlist& netlist) {
-    auto circuit = TRY(netlist.elaborate());
-    auto factory = create(std::make_shared<const Circuit>(std::move(circuit)));
-    if (!factory) return factory;
-    std::const_pointer_cast<CircuitAfferentFactory>(*factory)->netlist = netlist;
-    return factory;
+    auto circuit = std::make_shared<const Circuit>(TRY(netlist.elaborate()));
+    return create(std::move(circuit), netlist);
 }
 
-Result<std::shared_ptr<const CircuitAfferentFactory>> CircuitAfferentFactory::create(std::shared_ptr<const Circuit> circuit) {
+Result<std::shared_ptr<const CircuitAfferentFactory>> CircuitAfferentFactory::create(std::shared_ptr<const Circuit> circuit,
+                                                                                     std::optional<Netlist> netlist) {
     const auto context = TRY(AnalysisContext::make(circuit));
     const SourceLocation location{circuit->file};
     const auto plan = TRY(read_transient_plan(*circuit));
@@ -192,18 +183,12 @@ Result<std::shared_ptr<const CircuitAfferentFactory>> CircuitAfferentFactory::cr
         return error_at(location, "no source carries a force; add one, such as 'iin 0 fin force 60n' (60 nA per newton)");
     if (!output) return error_at(location, "no .spike directive defines the spike output; add '.spike v(NODE) LEVEL [rise|fall]'");
     auto factory = std::make_shared<CircuitAfferentFactory>();
-    for (const auto& c : circuit->directives) {
-        if (c.name == "mc") {
-            const auto chips = TRY(parse_chip_spec(c));
-            factory->chips = chips;
-        }
-        if (c.name != "tran") continue;
-        const auto times = TRY(read_transient_times(c));
-        factory->times = times;
-    }
+    factory->netlist = std::move(netlist);
+    for (const auto& c : circuit->directives_named("mc")) factory->chips = TRY(parse_chip_spec(c));
+    for (const auto& c : circuit->directives_named("tran")) factory->times = TRY(read_transient_times(c));
     // The mismatch override replaces .mc.
     if (circuit->mismatch_seed) factory->chips = ChipSpec{1, *circuit->mismatch_seed, true, true, circuit->chip};
-    if (probes.empty()) probes.push_back({output.value().text, output.value().unknowns});
+    if (probes.empty()) probes.push_back(output->quantity);
     factory->circuit = std::move(circuit), factory->plan = plan, factory->spike_output = *output, factory->probes = std::move(probes),
     factory->operating_ranges = std::move(ranges);
     factory->plan.reported = interpolated_unknowns(*factory);

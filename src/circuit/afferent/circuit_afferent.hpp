@@ -1,9 +1,7 @@
 #pragma once
 // A netlist with a force input and a spike output, as an afferent.
 
-#include "circuit/afferent/response_directives.hpp"
 #include "circuit/analysis/transient_setup.hpp"
-#include "circuit/output/saved_quantities.hpp"
 #include "circuit/variant/netlist_variants.hpp"
 #include "core/afferent_factory.hpp"
 
@@ -20,7 +18,7 @@ public:
     static constexpr double default_max_step = 5e-3;  ///< s, the default of LONGEST in .tran
 
     static Result<std::shared_ptr<const CircuitAfferentFactory>> create(const Netlist&);
-    static Result<std::shared_ptr<const CircuitAfferentFactory>> create(std::shared_ptr<const Circuit>);
+    static Result<std::shared_ptr<const CircuitAfferentFactory>> create(std::shared_ptr<const Circuit>, std::optional<Netlist> = {});
 
     std::unique_ptr<Afferent> make(const AfferentPlan&, const SimulationOptions&) const override;
     AfferentTraits traits(const AfferentPlan&) const override;

@@ -1,12 +1,8 @@
 #include "circuit/afferent/netlist_plan.hpp"
 
-#include <fmt/format.h>
 #include <deque>
-#include <limits>
 
 #include "circuit/afferent/circuit_afferent.hpp"
-#include "circuit/devices.hpp"
-#include "circuit/output/resolve_probe.hpp"
 #include "circuit/variant/netlist_overrides.hpp"
 
 namespace corpuscle::circuit {

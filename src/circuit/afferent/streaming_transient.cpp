@@ -1,9 +1,5 @@
 #include "circuit/afferent/streaming_transient.hpp"
 
-#include <fmt/format.h>
-#include <algorithm>
-#include <cmath>
-
 #include "core/text/quantity.hpp"
 
 namespace corpuscle::circuit {
@@ -70,7 +66,7 @@ std::vector<double> StreamingTransient::raise_force_from_rest(double force) {
 }
 
 Result<void> StreamingTransient::begin(std::span<const double> force) {
-    origin_sample_ = 0, pending_spike_.reset(), power_now_.reset();
+    origin_sample_ = 0, pending_spike_.reset(), energy_.power.reset();
     auto x = solve_start(force, rest_);
     if (!x) x = solve_start(force, raise_force_from_rest(force[0]));
     if (!x) {
@@ -87,12 +83,12 @@ Result<void> StreamingTransient::step() {
     if (is_time_dependent_ && transient_->time() >= stop_time_unshifted)
         return error_at({factory_.circuit->file}, "a netlist whose sources depend on time runs for at most {:g} s", stop_time_unshifted);
     const double from = transient_->time();
-    if (!power_now_) power_now_ = meter_->delivered_at(transient_->x(), from);
+    if (!energy_.power) energy_.power = meter_->delivered_at(transient_->x(), from);
     const auto stepped = TRY(transient_->step(force_.known_until()));
     if (!stepped)
         return error_at({factory_.circuit->file},
                         "a time step needs force samples that were not given yet");  // cannot happen: delay() is long enough
-    add_energy(from);
+    energy_.add(*meter_, transient_->x(), from, transient_->time());
     const auto spike = factory_.spike_output.find_spike(*transient_);
     if (!spike) return {};
     // The spike is in the interval (before, before + 1], in samples since the origin.
@@ -101,19 +97,10 @@ Result<void> StreamingTransient::step() {
     return {};
 }
 
-/// Adds the energy of the step that began at `step_start` and ends now.
-void StreamingTransient::add_energy(double step_start) {
-    const double t = transient_->time();
-    const auto before = *std::exchange(power_now_, meter_->delivered_at(transient_->x(), t));
-    energy_use_ += energy_between(before, *power_now_, t - step_start);
-}
-
 /// Moves the origin of time to the last sample before now.
 void StreamingTransient::shift_origin() {
     const auto samples = static_cast<std::int64_t>(std::floor(transient_->time() / force_.T()));
-    auto state = transient_->save();
-    for (auto& point : state.history) point.t -= static_cast<double>(samples) * force_.T();
-    transient_->restore(state);
+    transient_->shift_origin(static_cast<double>(samples) * force_.T());
     force_.shift_origin(samples);
     origin_sample_ += samples;
 }
@@ -124,54 +111,29 @@ double StreamingTransient::probe_value(const SavedQuantity& saved, std::int64_t 
     return saved.value(context_->system, [&](int u) { return transient_->interpolate(t, u); });
 }
 
-void StreamingTransient::archive(StateArchive& a, TransientState& s) {
-    constexpr double max_count = 1e9;
+void StreamingTransient::archive(StateArchive& a) {
     auto spike = pending_spike_.value_or(Spike{});
     bool has_spike = pending_spike_.has_value();
     a.integer(origin_sample_, 0, max_exact_integer), a.integer(has_spike, 0, 1);
     a.integer(spike.step, 0, max_exact_integer), a.number(spike.offset);
     pending_spike_ = has_spike ? std::optional(spike) : std::nullopt;
-    const auto size = static_cast<std::size_t>(context_->system.size());
-    a.numbers(start_, size);
-    auto points = s.history.size();
-    a.integer(points, 1, History::max_points);
-    const auto last_point = static_cast<double>(points);
-    auto& c = s.control;
-    a.integer(c.order, 1, factory_.plan.max_order), a.integer(c.steps_since_order_change, 0, max_count);
-    a.integer(c.failures, 0, max_count), a.integer(s.damping_steps, 0, 2), a.integer(c.starting, 0, 1), a.integer(s.restart_pending, 0, 1);
-    a.integer(s.count, 1, last_point), a.integer(s.curve_points, 0, last_point), a.integer(s.start_phase, 0, 2);
-    a.number(c.h), a.number(s.quadratic_factor), a.number(c.recent_max_step);
-    for (long* n : {&s.stats.steps, &s.stats.rejected, &s.stats.diverged, &s.stats.iterations}) a.integer(*n, 0, max_exact_integer);
-    s.history.resize(points);
-    for (auto& point : s.history) a.number(point.t), a.numbers(point.x, size), a.numbers(point.q, size);
-    for (auto* values : {&s.scale, &s.rate, &s.rate_change, &s.max_rate}) a.numbers(*values, size);
-    a.numbers(s.limiting_state, context_->system.initial_limiting_state().size());
-    s.alternations.resize(size);
-    for (int& n : s.alternations) a.integer(n, 0, max_count);
+    a.numbers(start_, static_cast<std::size_t>(context_->system.size()));
+    if (a.is_reader()) (void)transient_->begin(start_);  // cannot fail: start_ is not solved again
+    transient_->archive(a);
     force_.archive(a);
 }
 
 void StreamingTransient::save(std::vector<double>& out) {
-    auto state = transient_->save();
     force_.discard_before(transient_->time());
     StateArchive writer(out);
-    archive(writer, state);
+    archive(writer);
 }
 
 bool StreamingTransient::restore(std::span<const double> in, std::int64_t samples) {
     StateArchive reader(in);
-    TransientState s;
-    power_now_.reset(), energy_use_ = {};
-    archive(reader, s);
-    const auto later = [](const TimePoint& a, const TimePoint& b) { return a.t <= b.t; };
-    const bool is_possible =
-        s.control.h > 0 && s.quadratic_factor > 0 && s.control.recent_max_step >= 0 &&
-        std::adjacent_find(s.history.begin(), s.history.end(), later) == s.history.end() &&
-        std::all_of(s.history.begin(), s.history.end(), [](const auto& p) { return std::abs(p.t) <= stop_time_unshifted; });
-    if (!reader.is_valid || !is_possible || force_.end_sample() + origin_sample_ != samples) return false;
-    if (!transient_->begin(start_)) return false;  // required before Transient::restore()
-    transient_->restore(s);
-    return true;
+    energy_ = {};
+    archive(reader);
+    return reader.is_valid && force_.end_sample() + origin_sample_ == samples;
 }
 
 }  // namespace corpuscle::circuit

@@ -3,16 +3,9 @@
 
 #include "circuit/afferent/circuit_afferent.hpp"
 #include "circuit/afferent/force_waveform.hpp"
-#include "circuit/analysis/transient_setup.hpp"
 #include "circuit/cost/power.hpp"
 
 namespace corpuscle::circuit {
-
-/// The energy of a step of this length, s, by the trapezoidal rule for the power.
-inline EnergyUse energy_between(const PowerMeter::DeliveredPower& a, const PowerMeter::DeliveredPower& b, double length) {
-    const double half = length / 2;
-    return {length, half * (a.supplies + b.supplies), half * (a.sensor + b.sensor)};
-}
 
 /// Bound to one netlist and one sample time T, s. The elimination order of the matrix is chosen at 0 N, so that the results depend on the
 /// force alone and not on earlier simulations. Sample 0 is the first sample given to begin().
@@ -22,8 +15,7 @@ class StreamingTransient {
     ForceWaveform force_;  // its time is that of the transient
     std::optional<Transient> transient_;
     std::optional<PowerMeter> meter_;
-    std::optional<PowerMeter::DeliveredPower> power_now_;  // power at the end of the last step; empty until evaluated
-    EnergyUse energy_use_;
+    EnergyCounter energy_;
     bool is_time_dependent_ = false;      // a source that is not a FORCE source depends on time
     std::vector<double> rest_;            // operating point at 0 N, by unknown
     std::vector<double> start_;           // operating point at the first force, by unknown
@@ -35,7 +27,6 @@ class StreamingTransient {
     void solve_rest();
     Result<InitialCondition> solve_start(std::span<const double> force, std::vector<double> from);
     std::vector<double> raise_force_from_rest(double force);
-    void add_energy(double step_start);  // s
 
 public:
     static Result<std::unique_ptr<StreamingTransient>> make(const CircuitAfferentFactory&, double T, const std::optional<ChipSample>& chip);
@@ -57,7 +48,7 @@ public:
     /// Counts of the steps and iterations since begin().
     const TransientStats& work() const { return transient_->stats(); }
     /// The energy used since the last call of this function or of restore().
-    EnergyUse take_energy_use() { return std::exchange(energy_use_, {}); }
+    EnergyUse take_energy_use() { return std::exchange(energy_.sum, {}); }
 
     AnalysisContext& context() { return *context_; }
     const ForceWaveform& force() const { return force_; }
@@ -71,7 +62,7 @@ public:
 private:
     /// The time of a sample on the transient's clock, s.
     double time_of(std::int64_t sample) const { return static_cast<double>(sample - origin_sample_) * force_.T(); }
-    void archive(StateArchive&, TransientState&);
+    void archive(StateArchive&);
 };
 
 }  // namespace corpuscle::circuit

@@ -1,11 +1,7 @@
 #include "circuit/analysis/analysis_context.hpp"
 
-#include <fmt/format.h>
-#include <cmath>
-
 #include "circuit/devices.hpp"
 #include "circuit/expression/spice_number.hpp"
-#include "core/parameter.hpp"
 
 namespace corpuscle::circuit {
 
@@ -104,8 +100,7 @@ Result<OutputVariable> read_output_variable(const System& system, const Directiv
         const auto full = fmt::format("{}({})", voltage ? 'v' : 'i', name);
         const int index = system.unknown(full);
         if (index >= 0) return index;
-        const std::vector<std::string_view> known(system.names().begin(), system.names().end());
-        return error_at(location, ".{}: unknown output {}{}", c.name, full, did_you_mean(full, known));
+        return error_at(location, ".{}: unknown output {}{}", c.name, full, did_you_mean(full, system.names()));
     };
     const auto comma = inside.find(',');
     const auto plus = TRY(unknown(inside.substr(0, comma)));
@@ -132,7 +127,7 @@ Result<void> for_each_frequency(const AnalysisContext& context, const Directive&
         const double f = frequencies[k], omega = 6.283185307179586 * f;
         for (std::size_t e = 0; e < admittances.size(); ++e) admittances[e] = {sums.G[e], omega * sums.C[e]};
         if (!solver.factor(admittances)) {
-            const int unknown = solver.singularity().column;
+            const int unknown = solver.singular_column();
             return error_at(c.location, ".{} at {:g} Hz: the matrix is singular{}", c.name, f,
                             unknown < 0 ? "" : " at " + system.names()[static_cast<std::size_t>(unknown)]);
         }

@@ -1,12 +1,6 @@
 #pragma once
 // The input of the analyses (equations, tolerances) and their results.
 
-#include <functional>
-#include <memory>
-#include <optional>
-#include <string>
-#include <vector>
-
 #include "circuit/output/point_sink.hpp"
 #include "circuit/solve/operating_point.hpp"
 

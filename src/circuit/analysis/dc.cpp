@@ -1,12 +1,10 @@
 // .dc: operating points along one or two sweeps. Each search starts from the previous point of the inner sweep, so that hysteresis is
 // visible.
 
-#include <fmt/format.h>
 #include <algorithm>
 #include <cmath>
 
 #include "circuit/analysis/analysis_context.hpp"
-#include "core/parameter.hpp"
 
 namespace corpuscle::circuit {
 namespace {

@@ -1,14 +1,8 @@
 #include "circuit/analysis/equilibria.hpp"
 
-#include <fmt/format.h>
-#include <algorithm>
-#include <cmath>
 #include <tuple>
-#include <utility>
 
 #include "circuit/analysis/transient_setup.hpp"
-#include "circuit/devices.hpp"
-#include "circuit/solve/operating_point.hpp"
 #include "core/text/quantity.hpp"
 
 namespace corpuscle::circuit {
@@ -121,6 +115,17 @@ std::pair<double, double> supply_range(const AnalysisContext& context) {
     return {low, high};
 }
 
+/// The nodes (indices of unknowns) whose voltages differ by more than 1 mV between two equilibria, the largest difference first.
+std::vector<std::size_t> differing_nodes(const AnalysisContext& context, const Equilibrium& a, const Equilibrium& b) {
+    const auto difference = [&](std::size_t n) { return std::abs(a.x[n] - b.x[n]); };
+    std::vector<std::size_t> out;
+    for (std::size_t n = 0; n < static_cast<std::size_t>(context.system.nodes()); ++n)
+        if (difference(n) > min_difference) out.push_back(n);
+    std::sort(out.begin(), out.end(),
+              [&](std::size_t m, std::size_t n) { return std::pair(-difference(m), m) < std::pair(-difference(n), n); });
+    return out;
+}
+
 }  // namespace
 
 Result<std::vector<Equilibrium>> find_equilibria(AnalysisContext& context, double rise) {
@@ -145,16 +150,6 @@ Result<std::vector<Equilibrium>> find_equilibria(AnalysisContext& context, doubl
             (void)states.add_from(std::move(midpoint));
         }
     return states.take_sorted();
-}
-
-std::vector<std::size_t> differing_nodes(const AnalysisContext& context, const Equilibrium& a, const Equilibrium& b) {
-    const auto difference = [&](std::size_t n) { return std::abs(a.x[n] - b.x[n]); };
-    std::vector<std::size_t> out;
-    for (std::size_t n = 0; n < static_cast<std::size_t>(context.system.nodes()); ++n)
-        if (difference(n) > min_difference) out.push_back(n);
-    std::sort(out.begin(), out.end(),
-              [&](std::size_t m, std::size_t n) { return std::pair(-difference(m), m) < std::pair(-difference(n), n); });
-    return out;
 }
 
 std::string describe(const AnalysisContext& context, const std::vector<Equilibrium>& states) {

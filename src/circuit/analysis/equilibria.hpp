@@ -26,9 +26,6 @@ struct Equilibrium {
 /// in .op. If it settles, its final state is an equilibrium. Otherwise no equilibrium has is_power_on.
 Result<std::vector<Equilibrium>> find_equilibria(AnalysisContext&, double rise = 1e-3);
 
-/// The nodes (indices of unknowns) whose voltages differ by more than 1 mV between two equilibria, the largest difference first.
-std::vector<std::size_t> differing_nodes(const AnalysisContext&, const Equilibrium&, const Equilibrium&);
-
 /// Describes the equilibria as text: stability, which is the default and which the power-on state, and the nodes that differ from the
 /// first.
 std::string describe(const AnalysisContext&, const std::vector<Equilibrium>&);

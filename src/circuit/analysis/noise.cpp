@@ -1,6 +1,5 @@
 // .noise: the contribution of each device's noise currents to the output, by the adjoint network (Rohrer et al., 1971).
 
-#include <fmt/format.h>
 #include <algorithm>
 #include <cmath>
 

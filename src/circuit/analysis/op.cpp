@@ -1,12 +1,8 @@
 // .op: the operating point, the quantities of each device, and a search for other equilibria.
 
-#include <fmt/format.h>
 #include <algorithm>
 #include <cmath>
-#include <string>
-#include <vector>
 
-#include "circuit/analysis/analysis_context.hpp"
 #include "circuit/analysis/equilibria.hpp"
 #include "core/text/quantity.hpp"
 
@@ -86,13 +82,14 @@ std::string operating_point_table(const System& system, std::span<const double> 
 /// from the operating point by more than 1 mV at a node.
 std::optional<Error> check_second_state(AnalysisContext& context, const OperatingPoint& found) {
     if (context.system.is_linear() || !context.circuit->nodesets.empty()) return {};
+    const auto nodes = static_cast<std::size_t>(context.system.nodes());
     double high = 0;
-    for (std::size_t n = 0; n < static_cast<std::size_t>(context.system.nodes()); ++n) high = std::max(high, std::abs(found.x[n]));
+    for (std::size_t n = 0; n < nodes; ++n) high = std::max(high, std::abs(found.x[n]));
     std::vector<double> start(found.x.size());
-    for (std::size_t n = 0; n < static_cast<std::size_t>(context.system.nodes()); ++n) start[n] = high;
+    std::fill_n(start.begin(), nodes, high);
     const auto again = find_operating_point(context.newton, std::move(start));
     if (!again) return {};
-    for (std::size_t n = 0; n < static_cast<std::size_t>(context.system.nodes()); ++n)
+    for (std::size_t n = 0; n < nodes; ++n)
         if (std::abs(again->x[n] - found.x[n]) > 1e-3)
             return Error{
                 ErrorCode::not_converged,

@@ -1,13 +1,6 @@
 // .tran: transient analysis.
 
-#include <fmt/format.h>
-#include <algorithm>
-#include <cmath>
-#include <utility>
-
-#include "circuit/afferent/force_directive.hpp"
-#include "circuit/afferent/response_directives.hpp"
-#include "circuit/analysis/analysis_context.hpp"
+#include "circuit/afferent/force_waveform.hpp"
 #include "circuit/analysis/transient_setup.hpp"
 #include "circuit/device/named_values.hpp"
 #include "core/text/quantity.hpp"
@@ -92,7 +85,7 @@ Result<double> spike_error(AnalysisContext& context, TranSetup setup, const std:
     for (double* tolerance : {&setup.plan.reltol, &setup.plan.vntol, &setup.plan.abstol}) *tolerance /= 10;
     // Only the spikes are compared, so other unknowns and points within a step are not needed.
     setup.plan.all_reported = false, setup.plan.steps_only = true;
-    setup.plan.reported = {setup.spike_output->unknowns.plus, setup.spike_output->unknowns.minus};
+    setup.plan.reported = {setup.spike_output->quantity.unknowns.plus, setup.spike_output->quantity.unknowns.minus};
     Transient transient(context.system, context.newton, setup.plan);
     const auto finer = run_transient(context, setup, transient, [](double, std::span<const double>) { return true; });
     if (!finer && finer.error().code == ErrorCode::interrupted) return finer.error();
@@ -127,8 +120,7 @@ Result<AnalysisResult> analyse_tran(AnalysisContext& context, const Directive& c
     const auto times = TRY(read_transient_times(c));
     const auto plan = TRY(read_transient_plan(*context.circuit));
     const auto spike_output = TRY(read_spike_output(context.system));
-    auto ranges = TRY(read_operating_ranges(context.system));
-    RangeMonitor range_monitor(std::move(ranges));
+    RangeMonitor range_monitor(TRY(read_operating_ranges(context.system)));
     context.hit_iteration_limit = false;
     const auto force = TRY(force_directive(*context.circuit));
     if (force && !context.system.set_force_input(&*force))

@@ -1,11 +1,6 @@
 #include "circuit/batch/chip_batch.hpp"
 
-#include <algorithm>
-#include <cmath>
-#include <limits>
-
 #include "circuit/batch/chip_lane.hpp"
-#include "circuit/device/transistor.hpp"
 
 namespace corpuscle::circuit {
 namespace {

@@ -1,12 +1,6 @@
 #pragma once
 // Simulates many chips of one netlist, each with its own force, on SIMD lanes. Each lane is one chip with its own time.
 
-#include <functional>
-#include <memory>
-#include <optional>
-#include <span>
-#include <vector>
-
 #include "circuit/afferent/circuit_afferent.hpp"
 
 namespace corpuscle::circuit {

@@ -1,10 +1,5 @@
 #include "circuit/batch/chip_lane.hpp"
 
-#include <algorithm>
-#include <cmath>
-
-#include "circuit/solve/interpolant.hpp"
-
 namespace corpuscle::circuit {
 namespace {
 
@@ -28,32 +23,31 @@ Result<bool> ChipLane::start(const Chip& chip, const BatchOptions& options) {
     chip_ = chip;
 
     auto& context = simulation_->context();
-    const auto start = simulation_->transient().save();  // the state at the initial condition
-    plan_ = simulation_->transient().plan();
+    const auto& start = simulation_->transient();  // at the initial condition
+    plan_ = start.plan();
     control_ = {}, newton_ = {}, restart_pending_ = false, next_task_ = NextTask::nothing, rounds_ = 0;
-    control_.h = start.control.h, times_ = {}, points_ = smooth_count_ = 1, newest_slot_ = curve_points_ = 0, breakpoint_ = -1,
+    control_.h = start.control().h, times_ = {}, points_ = smooth_count_ = 1, newest_slot_ = curve_points_ = 0, breakpoint_ = -1,
     jumped_ = false;
     end_time_ = static_cast<double>(chip_->force.size() - 1) * chip_->T;
     const EvalContext eval_context{0, 1, context.tolerances.gmin, true};
     memory_.load_chip(lane_, context.system, eval_context);
-    context.newton.limiting_state = start.limiting_state;
     auto& b = memory_.block;
     for (std::size_t n = 0; n < b.unknowns; ++n) {
         for (std::size_t s = 0; s < b.points; ++s)
             b.past_x[s * b.unknowns + n].value[lane_] = b.past_q[s * b.unknowns + n].value[lane_] = 0;
-        b.past_x[n].value[lane_] = b.x[n].value[lane_] = start.history[0].x[n], b.past_q[n].value[lane_] = start.history[0].q[n];
-        b.rate[n].value[lane_] = start.rate[n], b.scale[n].value[lane_] = start.scale[n];
-        const bool charged = simulation_->transient().has_charge(n), voltage = b.is_voltage[n] != 0;
+        b.past_x[n].value[lane_] = b.x[n].value[lane_] = start.x()[n], b.past_q[n].value[lane_] = start.history()[0].q[n];
+        b.rate[n].value[lane_] = start.rate()[n], b.scale[n].value[lane_] = start.scale()[n];
+        const bool charged = start.has_charge(n), voltage = b.is_voltage[n] != 0;
         const double relative = charged ? plan_.reltol : 0, floor = !charged ? 0 : voltage ? plan_.vntol : plan_.abstol;
-        const double allowed = relative * start.scale[n] + floor;
+        const double allowed = relative * start.scale()[n] + floor;
         b.relative[n].value[lane_] = relative, b.floor[n].value[lane_] = floor;
         b.inverse_allowed[n].value[lane_] = allowed > 0 ? 1 / allowed : 0;
     }
     sources_.clear();
     for (const auto k : context.system.scalar_devices())
         if (const auto& d = *context.system.devices()[k]; d.is_linear() && d.is_time_dependent()) sources_.push_back(k);
-    x_ = start.history[0].x;
-    power_ = simulation_->meter().delivered_at(x_, 0);
+    x_ = start.history()[0].x;
+    energy_ = {simulation_->meter().delivered_at(x_, 0)};
     response_.range_violations.resize(chip_->design->operating_ranges.size());
     if (options.probe_every > 0) response_.probes.resize(chip_->design->probes.size());
     next_sample_ = 0;
@@ -70,6 +64,7 @@ bool ChipLane::is_compatible() const {
 ChipResponse ChipLane::finish() {
     chip_.reset();
     next_task_ = NextTask::nothing;
+    response_.energy_use = energy_.sum;
     return std::move(response_);
 }
 
@@ -242,7 +237,7 @@ void ChipLane::advance() {
 bool ChipLane::accept_step() {
     const double step_start = times_[0];
     advance();
-    add_energy(step_start);
+    energy_.add(simulation_->meter(), x_, step_start, times_[0]);
     // A spike after the last sample is dropped.
     if (const auto at = spike(); at && std::ceil(*at / chip_->T) < static_cast<double>(chip_->force.size()))
         response_.spikes.push_back(*at);
@@ -266,11 +261,12 @@ double ChipLane::interpolate(double t, int unknown) const {
 /// The time of a spike within the last step; nothing if there is none.
 std::optional<double> ChipLane::spike() const {
     const auto& o = chip_->design->spike_output;
+    const auto [plus, minus] = o.quantity.unknowns;
     const auto u = [&](int k, int unknown) { return unknown < 0 ? 0 : past(memory_.block.past_x, k, static_cast<std::size_t>(unknown)); };
     const double sign = o.is_rising ? 1 : -1;
-    const auto beyond = [&](int k) { return sign * (u(k, o.unknowns.plus) - u(k, o.unknowns.minus) - o.level); };
-    return find_crossing(times_[1], times_[0], beyond(1), beyond(0),
-                         [&](double t) { return sign * (interpolate(t, o.unknowns.plus) - interpolate(t, o.unknowns.minus) - o.level); });
+    const auto beyond = [&, plus = plus, minus = minus](int k) { return sign * (u(k, plus) - u(k, minus) - o.level); };
+    const auto at = [&, plus = plus, minus = minus](double t) { return sign * (interpolate(t, plus) - interpolate(t, minus) - o.level); };
+    return find_crossing(times_[1], times_[0], beyond(1), beyond(0), at);
 }
 
 /// For all samples in the last step: records the probes and checks the operating ranges.
@@ -289,12 +285,6 @@ void ChipLane::record_samples() {
         for (std::size_t p = 0; every > 0 && next_sample_ % every == 0 && p < design.probes.size(); ++p)
             response_.probes[p].push_back(static_cast<float>(design.probes[p].value(system, value)));
     }
-}
-
-/// Adds the energy of the last step, by the trapezoidal rule for the power.
-void ChipLane::add_energy(double step_start) {
-    const auto before = std::exchange(power_, simulation_->meter().delivered_at(x_, times_[0]));
-    response_.energy_use += energy_between(before, power_, times_[0] - step_start);
 }
 
 }  // namespace corpuscle::circuit

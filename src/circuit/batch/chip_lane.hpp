@@ -2,8 +2,6 @@
 // One chip on its lane, with its own time, step, order and Newton state. Its unknowns are a column of the block. In each round, the kernels
 // make one Newton iteration for all lanes. Times are in s since the first sample of the chip's force.
 
-#include <array>
-
 #include "circuit/afferent/streaming_transient.hpp"
 #include "circuit/batch/chip_batch.hpp"
 #include "circuit/batch/chip_memory.hpp"
@@ -53,10 +51,10 @@ private:
     std::vector<std::size_t> sources_;  // indices of the time-dependent sources
     std::vector<double> v_;             // buffers of set_sources()
     StampBuffer stamp_;
-    std::vector<double> x_;             // unknowns at the newest point
-    PowerMeter::DeliveredPower power_;  // at the newest point
-    std::int64_t next_sample_ = 0;      // next sample to record
-    long rounds_ = 0;                   // since start()
+    std::vector<double> x_;         // unknowns at the newest point
+    EnergyCounter energy_;          // up to the newest point
+    std::int64_t next_sample_ = 0;  // next sample to record
+    long rounds_ = 0;               // since start()
 
     // Point k of the history, from 0 for the newest: its slot in the ring buffer, the value of unknown n there, the times of the newest
     // points.
@@ -71,7 +69,6 @@ private:
     double interpolate(double t, int unknown) const;
     std::optional<double> spike() const;
     void record_samples();
-    void add_energy(double step_start);
 
 public:
     ChipLane(ChipMemory& memory, std::size_t lane) : memory_(memory), lane_(lane) {}

@@ -1,28 +1,10 @@
 #include "circuit/batch/chip_memory.hpp"
 
-#include <algorithm>
-#include <numeric>
-
-#include "circuit/device/transistor.hpp"
+#include "circuit/device/device_kind.hpp"
 #include "circuit/device/uicm.hpp"
 
 namespace corpuscle::circuit {
 namespace {
-
-/// Allocates several arrays of rows from one vector.
-class RowAllocator {
-    std::vector<std::pair<lanes::LaneRow**, std::size_t>> requests_;
-
-public:
-    void request(lanes::LaneRow*& array, std::size_t count) { requests_.emplace_back(&array, count); }
-    void allocate(std::vector<lanes::LaneRow>& memory) {
-        std::size_t total = 0;
-        for (const auto& [array, count] : requests_) total += count;
-        memory.assign(total, {});
-        std::size_t offset = 0;
-        for (const auto& [array, count] : requests_) *array = memory.data() + offset, offset += count;
-    }
-};
 
 /// The unknowns of the transistors' terminals; ground is the index after the last unknown. All groups consist of transistors, the only kind
 /// of device that has batches.
@@ -63,16 +45,19 @@ ChipMemory::ChipMemory(const System& system, const Elimination& elimination, std
     b.unknowns = n, b.entries = entries, b.points = points, b.devices = transistors_, b.list = list;
     b.row = row_.data(), b.column = column_.data(), b.slot = slot_.data(), b.is_voltage = is_voltage_.data(),
     b.terminals = terminals_.data();
-    RowAllocator rows;
+    std::vector<std::pair<lanes::LaneRow**, std::size_t>> arrays;  // the arrays of rows_ and their lengths
     for (auto* array : {&b.q, &b.source_currents, &b.history, &b.rate, &b.r, &b.step, &b.error, &b.inverse_pivot, &b.work, &b.scale,
                         &b.inverse_allowed, &b.relative, &b.floor})
-        rows.request(*array, n);
-    for (auto* array : {&b.x, &b.I, &b.Q}) rows.request(*array, n + 1);
-    for (auto* array : {&b.G, &b.C}) rows.request(*array, entries + 1);
-    rows.request(b.slots, b.list.slots);
-    for (auto* array : {&b.past_x, &b.past_q}) rows.request(*array, points * n);
-    rows.request(b.linearized_at, 4 * transistors_);
-    rows.allocate(rows_);
+        arrays.emplace_back(array, n);
+    for (auto* array : {&b.x, &b.I, &b.Q}) arrays.emplace_back(array, n + 1);
+    for (auto* array : {&b.G, &b.C}) arrays.emplace_back(array, entries + 1);
+    for (auto* array : {&b.past_x, &b.past_q}) arrays.emplace_back(array, points * n);
+    arrays.emplace_back(&b.slots, b.list.slots), arrays.emplace_back(&b.linearized_at, 4 * transistors_);
+    std::size_t total = 0;
+    for (const auto& [array, count] : arrays) total += count;
+    rows_.resize(total);
+    auto* next = rows_.data();
+    for (const auto& [array, count] : arrays) *array = std::exchange(next, next + count);
     std::vector<char> has_entry(b.list.slots);
     for (std::size_t e = 0; e < entries; ++e) has_entry[static_cast<std::size_t>(slot_[e])] = 1;
     for (std::size_t k = 0; k < b.list.slots; ++k)

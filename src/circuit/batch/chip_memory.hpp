@@ -1,13 +1,7 @@
 #pragma once
 // The memory of a block of chips, as the kernels need it. Transistors are linearized again when their voltages have moved.
 
-#include <memory>
-#include <vector>
-
-#include "circuit/lanes/chip_kernels.hpp"
-#include "circuit/solve/elimination.hpp"
 #include "circuit/solve/step_equations.hpp"
-#include "circuit/solve/system.hpp"
 
 namespace corpuscle::circuit {
 

@@ -1,6 +1,9 @@
 #pragma once
 // Silicon area of elements.
 
+#include <algorithm>
+#include <cmath>
+
 namespace corpuscle::circuit {
 
 /// Areas in m^2, without wells, bulk contacts, wires, guard rings and pads.
@@ -10,7 +13,10 @@ struct Area {
     double islands = 0;     ///< of the same transistors, with each unit transistor on its own island
     double capacitors = 0;  ///< of plates; they are metal above the transistors, so they may overlap the arrays
     double total() const { return arrays + capacitors; }
-    Area& operator+=(const Area&);
+    Area& operator+=(const Area& more) {
+        gates += more.gates, arrays += more.arrays, islands += more.islands, capacitors += more.capacitors;
+        return *this;
+    }
 };
 
 /// Density of MIM capacitors, F/m^2. 20 x 20 um are 0.8 pF and 30 x 30 um are 1.8 pF (thesis table 5; errata S4).
@@ -32,8 +38,17 @@ struct RectangleRule {
     static constexpr double between_L = 0.54e-6;                    ///< m; between units along L, which share a diffusion with contacts
 };
 /// A_T of an array with r = `rows` and c = `columns`, m^2.
-double rectangle_area(double W, double L, double rows, double columns);
+inline double rectangle_area(double W, double L, double rows, double columns) {
+    using Rule = RectangleRule;
+    return (rows * W + (rows - 1) * Rule::between_W + Rule::around_W) * (columns * L + (columns - 1) * Rule::between_L + Rule::around_L);
+}
 /// The area, m^2, of the smallest rectangle that contains this number of unit transistors.
-double array_area(double W, double L, double unit_transistors);
+inline double array_area(double W, double L, double unit_transistors) {
+    constexpr double max_rows = 4096;
+    double smallest = rectangle_area(W, L, 1, std::ceil(unit_transistors));
+    for (double rows = 2; rows <= std::min(std::ceil(unit_transistors), max_rows); ++rows)
+        smallest = std::min(smallest, rectangle_area(W, L, rows, std::ceil(unit_transistors / rows)));
+    return smallest;
+}
 
 }  // namespace corpuscle::circuit

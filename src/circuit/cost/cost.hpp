@@ -2,13 +2,10 @@
 // The cost of a circuit: power, area, leakage.
 
 #include <nlohmann/json_fwd.hpp>
-#include <string>
-#include <vector>
 
 #include "circuit/cost/area.hpp"
 #include "circuit/cost/power.hpp"
 #include "circuit/run_directives.hpp"
-#include "circuit/solve/system.hpp"
 
 namespace corpuscle::circuit {
 
@@ -23,12 +20,6 @@ struct Leakage {
     bool is_off = false;         ///< true if V_GS is below phi_t: the transistor carries less than e times its leakage current
     std::string capacitor_node;  ///< a node at its source or drain whose voltage a capacitor holds, such as "u"; "" if there is none
 };
-
-/// The leakage of every transistor at the operating point x. supply: V.
-std::vector<Leakage> leakage_of(const System&, std::span<const double> x, double supply);
-
-/// The smallest DC current above 0 of the ideal current sources, A, FORCE sources excluded; 0 if there is none.
-double smallest_bias(const Circuit&);
 
 /// Area and leakage of one block.
 struct BlockCost {

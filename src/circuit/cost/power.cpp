@@ -1,8 +1,5 @@
 #include "circuit/cost/power.hpp"
 
-#include <algorithm>
-#include <cmath>
-
 #include "circuit/devices.hpp"
 
 namespace corpuscle::circuit {

@@ -1,12 +1,9 @@
 #pragma once
 // Power delivered by sources and dissipated in blocks.
 
-#include <string>
-#include <utility>
-#include <vector>
-
 #include "circuit/output/point_sink.hpp"
 #include "circuit/solve/system.hpp"
+#include "core/afferent.hpp"
 #include "core/force_source.hpp"
 
 namespace corpuscle::circuit {
@@ -58,6 +55,19 @@ public:
     std::vector<std::string> sources() const;  ///< names of the sources
     double supply() const { return supply_; }  ///< V: voltage of the voltage source that delivers the most power at the operating point
     bool has_sensor() const { return !sensors_.empty(); }
+};
+
+/// Sums the energy of the steps of a transient, by the trapezoidal rule for the power.
+struct EnergyCounter {
+    std::optional<PowerMeter::DeliveredPower> power{};  ///< at the end of the last step; empty until evaluated
+    EnergyUse sum{};
+
+    /// Adds a step from t0 to t, s; x is the solution at its end.
+    void add(const PowerMeter& meter, std::span<const double> x, double t0, double t) {
+        const double half = (t - t0) / 2;
+        const auto before = *std::exchange(power, meter.delivered_at(x, t));
+        sum += {t - t0, half * (before.supplies + power->supplies), half * (before.sensor + power->sensor)};
+    }
 };
 
 /// Mean and peak power over a transient, and the mean in each phase of its force.

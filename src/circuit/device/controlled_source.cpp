@@ -1,7 +1,5 @@
 // Controlled sources (E F G H) and sources with an expression (B, E, G).
 
-#include "circuit/device/device_kind.hpp"
-#include "circuit/device/expression_device.hpp"
 #include "circuit/device/named_values.hpp"
 #include "circuit/devices.hpp"
 #include "circuit/export/element_text.hpp"
@@ -12,35 +10,27 @@ namespace {
 
 /// v(+) - v(-) = gain times a voltage (E) or a current (H). Unknowns: two nodes and the current through the source, then from index 3 the
 /// two controlling nodes or the controlling current.
-class ControlledVoltageSource final : public Device {
-    double gain_;
-
+class ControlledVoltageSource final : public DeviceWithValue {
 public:
-    explicit ControlledVoltageSource(double gain) : gain_(gain) {}
+    using DeviceWithValue::DeviceWithValue;  // the gain
     void eval(std::span<const double> v, const EvalContext&, const Stamp& out) const override {
         out.add_branch(v);
-        out.f[2] -= gain_ * (v[3] - (v.size() > 4 ? v[4] : 0));
-        out.slope(2, 3) -= gain_;
-        if (v.size() > 4) out.slope(2, 4) += gain_;
+        out.f[2] -= value_ * (v[3] - (v.size() > 4 ? v[4] : 0));
+        out.slope(2, 3) -= value_;
+        if (v.size() > 4) out.slope(2, 4) += value_;
     }
-    bool set_principal_value(double gain) override { return gain_ = gain, true; }
-    std::optional<double> principal_value() const override { return gain_; }
 };
 
 /// i = gain times a voltage (G) or a current (F). Unknowns: two nodes, then from index 2 the two controlling nodes or the controlling
 /// current.
-class ControlledCurrentSource final : public Device {
-    double gain_;
-
+class ControlledCurrentSource final : public DeviceWithValue {
 public:
-    explicit ControlledCurrentSource(double gain) : gain_(gain) {}
+    using DeviceWithValue::DeviceWithValue;  // the gain
     void eval(std::span<const double> v, const EvalContext&, const Stamp& out) const override {
-        Stamp::add_between(out.f, 0, 1, gain_ * (v[2] - (v.size() > 3 ? v[3] : 0)));
-        out.slope(0, 2) += gain_, out.slope(1, 2) -= gain_;
-        if (v.size() > 3) out.slope(0, 3) -= gain_, out.slope(1, 3) += gain_;
+        Stamp::add_between(out.f, 0, 1, value_ * (v[2] - (v.size() > 3 ? v[3] : 0)));
+        out.slope(0, 2) += value_, out.slope(1, 2) -= value_;
+        if (v.size() > 3) out.slope(0, 3) -= value_, out.slope(1, 3) += value_;
     }
-    bool set_principal_value(double gain) override { return gain_ = gain, true; }
-    std::optional<double> principal_value() const override { return gain_; }
 };
 
 Result<std::unique_ptr<Device>> make_expression_source(const Element& e, DeviceSetup& setup) {

@@ -1,19 +1,12 @@
 #pragma once
 // A device defines its currents, charges and their derivatives once. All analyses (.op, .dc, .ac, .noise, .tran) use these.
 
+#include <array>
 #include <complex>
-#include <cstdint>
 #include <limits>
-#include <memory>
-#include <optional>
-#include <span>
-#include <string>
-#include <string_view>
-#include <vector>
 
-#include "circuit/lanes/transistor_kernels.hpp"
+#include "circuit/lanes/kernels.hpp"
 #include "circuit/netlist/netlist.hpp"
-#include "core/error.hpp"
 
 namespace corpuscle::circuit {
 
@@ -93,7 +86,7 @@ struct OperatingValue {
 struct ChipSample {
     std::uint64_t seed = 0, chip = 0;  ///< chip: its number among the chips of this seed
     bool has_mismatch = true;          ///< false: all devices have the process deviation only
-    double process[4] = {};            ///< standard normal deviates common to all devices: V_T0 of NMOS, PMOS; I_SQ of NMOS, PMOS
+    std::array<double, 4> process{};   ///< standard normal deviates common to all devices: V_T0 of NMOS, PMOS; I_SQ of NMOS, PMOS
 };
 
 /// An element of the circuit. Its unknowns are its terminals, then those that only its equations need, e.g. a branch current.
@@ -142,6 +135,17 @@ public:
     virtual std::vector<NoiseSource> noise(std::span<const double>) const { return {}; }
     virtual std::vector<OperatingValue> operating_info(std::span<const double>) const { return {}; }
     virtual std::string operating_region(std::span<const double>) const { return {}; }  ///< "saturation", "weak" ...
+};
+
+/// A device whose principal value may be any number.
+class DeviceWithValue : public Device {
+protected:
+    double value_;
+
+public:
+    explicit DeviceWithValue(double value) : value_(value) {}
+    bool set_principal_value(double value) override { return value_ = value, true; }
+    std::optional<double> principal_value() const override { return value_; }
 };
 
 inline Stamp StampBuffer::eval(const Device& device, std::span<const double> v, const EvalContext& context) {

@@ -75,4 +75,22 @@ struct DeviceKind {
     Result<std::unique_ptr<DeviceBatch>> (*make_batch)() = nullptr;
 };
 
+/// The quantity that the expression of a B, and of a C, E or G with an expression, gives.
+enum class ExpressionQuantity { current, voltage, charge };
+
+/// Makes the device of an element with an expression. A current and a charge are multiplied by the value m of the element.
+Result<std::unique_ptr<Device>> make_expression_device(const Element&, DeviceSetup&, ExpressionQuantity);
+
+// The members of a transistor that the batch of chips uses.
+
+struct UicmConstants;
+/// The constants of a transistor, with its variation applied. The reference is valid as long as the device.
+const UicmConstants& transistor_constants(const Device&);
+
+namespace lanes {
+struct ChipKernels;
+}
+/// The functions that compute one chip on each SIMD lane, for the instruction set that instruction_set() returns.
+Result<const lanes::ChipKernels*> chip_kernels();
+
 }  // namespace corpuscle::circuit

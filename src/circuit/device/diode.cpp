@@ -1,13 +1,10 @@
 // The junction diode of SPICE, level 1.
 
-#include <cmath>
-
 #include "circuit/device/device_kind.hpp"
 #include "circuit/device/named_values.hpp"
 #include "circuit/device/physical_constants.hpp"
 #include "circuit/export/element_text.hpp"
 #include "circuit/netlist/element_reader.hpp"
-#include "core/number/elementary.hpp"
 
 namespace corpuscle::circuit {
 namespace {
@@ -165,7 +162,7 @@ public:
 };
 
 Result<std::unique_ptr<Device>> make_diode(const Element& e, DeviceSetup& setup) {
-    const auto& model = setup.circuit().models[static_cast<std::size_t>(e.model)];
+    const auto& model = *setup.circuit().model_of(e);
     if (value_or(e.values, "pj", 0) != 0)
         return error_at(e.location, "{}: pj is not supported (this level 1 diode has no sidewalls); remove it", e.name);
     if (const double level = value_or(model.values, "level", 1); level != 1)
@@ -192,8 +189,7 @@ Result<void> read_diode(ElementReader& line) {
             continue;
         }
         if (k > 4 || line.find("area")) return line.too_many(k);
-        const auto area = TRY(line.number(k));
-        line.element.values["area"] = area;
+        line.element.values["area"] = TRY(line.number(k));
     }
     return {};
 }

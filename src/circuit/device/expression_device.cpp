@@ -1,10 +1,7 @@
-#include "circuit/device/expression_device.hpp"
-
-#include <algorithm>
+#include "circuit/device/device_kind.hpp"
 
 #include "circuit/device/named_values.hpp"
 #include "circuit/device/physical_constants.hpp"
-#include "core/parameter.hpp"
 
 namespace corpuscle::circuit {
 namespace {
@@ -93,10 +90,9 @@ public:
 
 private:
     static Result<int> node(const Element& e, const DeviceSetup& setup, const std::string& name) {
-        const auto& nodes = setup.circuit().nodes;
-        const int number = setup.circuit().find_node(name);
-        const std::vector<std::string_view> known(nodes.begin(), nodes.end());
-        if (number < 0) return error_at(e.location, "{}: unknown node '{}'{}", e.name, name, did_you_mean(name, known));
+        const Circuit& c = setup.circuit();
+        const int number = c.find_node(name);
+        if (number < 0) return error_at(e.location, "{}: unknown node '{}'{}", e.name, name, did_you_mean(name, c.nodes));
         return setup.node_unknown(number);
     }
 };

@@ -1,15 +1,11 @@
 // Independent sources: V and I.
 
-#include <algorithm>
-
-#include "circuit/afferent/force_directive.hpp"
 #include "circuit/afferent/force_waveform.hpp"
 #include "circuit/device/device_kind.hpp"
 #include "circuit/device/named_values.hpp"
 #include "circuit/device/source_waveform.hpp"
 #include "circuit/export/element_text.hpp"
 #include "circuit/netlist/element_reader.hpp"
-#include "core/number/elementary.hpp"
 
 namespace corpuscle::circuit {
 namespace {
@@ -28,9 +24,8 @@ std::complex<double> phasor(const Waveform& w) {
 }
 
 /// A V or I source. With the keyword FORCE its value is the DC value plus the force (N) times the argument of FORCE (V/N or A/N).
-class IndependentSource : public Device {
+class IndependentSource : public DeviceWithValue {
     Waveform wave_;
-    double value_;                            // DC value, V or A
     std::optional<SourceWaveform> waveform_;  // only during a transient
     const ForceWaveform* force_ = nullptr;    // null: no FORCE, or 0 N
 
@@ -41,9 +36,7 @@ protected:
     double value(const EvalContext& context) const { return context.source_scale * value_at(context.time); }
 
 public:
-    explicit IndependentSource(const Waveform& wave) : wave_(wave), value_(dc_value(wave)), phasor_(phasor(wave)) {}
-    bool set_principal_value(double value) override { return value_ = value, true; }
-    std::optional<double> principal_value() const override { return value_; }
+    explicit IndependentSource(const Waveform& wave) : DeviceWithValue(dc_value(wave)), wave_(wave), phasor_(phasor(wave)) {}
     void start_transient(double step, double stop) override {
         waveform_.reset();
         if (stop > 0 && wave_.shape != Waveform::Shape::none && wave_.shape != Waveform::Shape::force) waveform_.emplace(wave_, step, stop);

@@ -1,10 +1,7 @@
 #pragma once
 // Named parameter values of an element or a model.
 
-#include <algorithm>
-
 #include "circuit/netlist/netlist.hpp"
-#include "core/parameter.hpp"
 #include "core/text/ascii_text.hpp"
 
 namespace corpuscle::circuit {
@@ -13,6 +10,17 @@ namespace corpuscle::circuit {
 inline double value_or(const Values& values, std::string_view name, double fallback) {
     const auto at = values.find(name);
     return at == values.end() ? fallback : at->second;
+}
+
+/// The value with this name of an element, else of its model, else the fallback.
+inline double value_or_of_model(const Circuit& c, const Element& e, std::string_view name, double fallback) {
+    const Model* model = c.model_of(e);
+    return value_or(e.values, name, model ? value_or(model->values, name, fallback) : fallback);
+}
+
+/// The temperature of an element, C.
+inline double celsius_of(const Circuit& c, const Element& e) {
+    return value_or(e.values, "temp", c.temperature + value_or(e.values, "dtemp", 0));
 }
 
 /// Rejects a parameter name that is not in `known`. `owner`: name of the element or model.

@@ -1,9 +1,6 @@
 // Resistor, capacitor, inductor.
 
-#include <algorithm>
-
 #include "circuit/device/device_kind.hpp"
-#include "circuit/device/expression_device.hpp"
 #include "circuit/device/named_values.hpp"
 #include "circuit/device/physical_constants.hpp"
 #include "circuit/export/element_text.hpp"
@@ -16,10 +13,7 @@ namespace {
 /// The value of an R, C or L at its temperature: value * scale * (1 + tc1 dT + tc2 dT^2), where dT is the temperature above tnom. The
 /// values of tc1, tc2 and tnom are those of the element, else of its model. The default of tnom is that of .options, else 27 C.
 double at_temperature(double value, const Element& e, const DeviceSetup& setup) {
-    const Model* model = e.model < 0 ? nullptr : &setup.circuit().models[static_cast<std::size_t>(e.model)];
-    const auto parameter = [&](std::string_view name, double fallback) {
-        return value_or(e.values, name, model ? value_or(model->values, name, fallback) : fallback);
-    };
+    const auto parameter = [&](std::string_view name, double fallback) { return value_or_of_model(setup.circuit(), e, name, fallback); };
     const double dT = setup.temperature(e) - zero_celsius - parameter("tnom", value_or(setup.circuit().options, "tnom", 27));
     return value * value_or(e.values, "scale", 1) * (1 + parameter("tc1", 0) * dT + parameter("tc2", 0) * dT * dT);
 }
@@ -28,23 +22,21 @@ double at_temperature(double value, const Element& e, const DeviceSetup& setup) 
 Result<void> check_parameters(const Element& e, const DeviceSetup& setup) {
     static constexpr std::string_view model_values[] = {"tc1", "tc2", "tnom"};
     if (value_or(e.values, "scale", 1) == 0) return error_at(e.location, "{}: scale must not be 0", e.name);
-    if (e.model < 0) return {};
-    const Model& model = setup.circuit().models[static_cast<std::size_t>(e.model)];
-    return check_value_names(model.name, model.values, model_values, model.location);
+    const Model* model = setup.circuit().model_of(e);
+    return model ? check_value_names(model->name, model->values, model_values, model->location) : Result<void>();
 }
 
 /// i = v / R. Unknowns: two nodes.
-class Resistor final : public Device {
-    double g_, r_, kelvin_;  // S and ohm of m resistors in parallel; K
+class Resistor final : public DeviceWithValue {
+    double g_, kelvin_;  // S, of m resistors in parallel; K
 
 public:
-    Resistor(double r, double m, double kelvin) : g_(m / r), r_(r / m), kelvin_(kelvin) {}
+    Resistor(double r, double m, double kelvin) : DeviceWithValue(r / m), g_(m / r), kelvin_(kelvin) {}
     void eval(std::span<const double> v, const EvalContext&, const Stamp& out) const override {
         Stamp::add_between(out.f, 0, 1, g_ * (v[0] - v[1]));
         out.add_conductance(0, 1, g_);
     }
-    bool set_principal_value(double r) override { return r != 0 && (g_ = 1 / r, r_ = r, true); }
-    std::optional<double> principal_value() const override { return r_; }
+    bool set_principal_value(double r) override { return r != 0 && (g_ = 1 / r, value_ = r, true); }
     std::vector<NoiseSource> noise(std::span<const double>) const override { return {{"thermal", 0, 1, 4 * boltzmann * kelvin_ * g_, 0}}; }
     std::vector<OperatingValue> operating_info(std::span<const double> v) const override {
         return {{"i", "A", g_ * (v[0] - v[1])}, {"p", "W", g_ * (v[0] - v[1]) * (v[0] - v[1])}};
@@ -52,32 +44,24 @@ public:
 };
 
 /// q = C v. Unknowns: two nodes.
-class Capacitor final : public Device {
-    double c_;
-
+class Capacitor final : public DeviceWithValue {
 public:
-    explicit Capacitor(double c) : c_(c) {}
+    using DeviceWithValue::DeviceWithValue;
     void eval(std::span<const double> v, const EvalContext&, const Stamp& out) const override {
-        Stamp::add_between(out.q, 0, 1, c_ * (v[0] - v[1]));
-        out.add_capacitance(0, 1, c_);
+        Stamp::add_between(out.q, 0, 1, value_ * (v[0] - v[1]));
+        out.add_capacitance(0, 1, value_);
     }
-    bool set_principal_value(double c) override { return c_ = c, true; }
-    std::optional<double> principal_value() const override { return c_; }
 };
 
 /// v = L di/dt. Unknowns: two nodes, and the current; the equation of the current is v - d(L i)/dt = 0.
-class Inductor final : public Device {
-    double l_;
-
+class Inductor final : public DeviceWithValue {
 public:
-    explicit Inductor(double l) : l_(l) {}
+    using DeviceWithValue::DeviceWithValue;
     void eval(std::span<const double> v, const EvalContext&, const Stamp& out) const override {
         out.add_branch(v);
-        out.q[2] -= l_ * v[2];
-        out.capacitance(2, 2) -= l_;
+        out.q[2] -= value_ * v[2];
+        out.capacitance(2, 2) -= value_;
     }
-    bool set_principal_value(double l) override { return l_ = l, true; }
-    std::optional<double> principal_value() const override { return l_; }
 };
 
 Result<std::unique_ptr<Device>> make_resistor(const Element& e, DeviceSetup& setup) {
@@ -144,8 +128,8 @@ Result<void> read_passive(ElementReader& line) {
 
 /// True if .dc sweeps the element.
 bool is_swept(const ElementExport& e) {
-    return std::any_of(e.circuit.directives.begin(), e.circuit.directives.end(), [&](const Directive& c) {
-        return c.name == "dc" && std::find(c.words.begin(), c.words.end(), e.element.name) != c.words.end();
+    return std::ranges::any_of(e.circuit.directives_named("dc"), [&](const Directive& c) {
+        return std::find(c.words.begin(), c.words.end(), e.element.name) != c.words.end();
     });
 }
 
@@ -158,8 +142,9 @@ Result<std::string> write_passive(const ElementExport& e) {
     }
     const double m = e.value("m", 1), scaled = e.element.value * e.value("scale", 1),
                  total = e.element.letter == 'c' ? scaled * m : scaled / m;
-    const double tc1 = e.value_or_of_model("tc1", 0), tc2 = e.value_or_of_model("tc2", 0),
-                 dT = e.celsius() - e.value_or_of_model("tnom", value_or(e.circuit.options, "tnom", 27));
+    const auto parameter = [&](std::string_view name, double fallback) { return value_or_of_model(e.circuit, e.element, name, fallback); };
+    const double tc1 = parameter("tc1", 0), tc2 = parameter("tc2", 0),
+                 dT = celsius_of(e.circuit, e.element) - parameter("tnom", value_or(e.circuit.options, "tnom", 27));
     if (is_swept(e)) return fmt::format("{} {}{}\n", e.head, total * (1 + tc1 * dT + tc2 * dT * dT), e.temperature());
     std::string out = fmt::format("{} {}", e.head, total);
     if (e.model() && e.model()->values.contains("tnom")) out += ' ' + e.names.model(e.element.model);

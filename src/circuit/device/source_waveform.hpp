@@ -1,8 +1,6 @@
 #pragma once
 // The waveform of an independent source.
 
-#include <vector>
-
 #include "circuit/netlist/netlist.hpp"
 
 namespace corpuscle::circuit {

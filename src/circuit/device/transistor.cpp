@@ -1,16 +1,11 @@
-#include "circuit/device/transistor.hpp"
-
-#include <array>
-#include <cmath>
+#include "circuit/device/device_kind.hpp"
 
 #include "circuit/device/device_kind.hpp"
 #include "circuit/device/named_values.hpp"
 #include "circuit/device/physical_constants.hpp"
-#include "circuit/device/uicm_card.hpp"
 #include "circuit/export/element_text.hpp"
 #include "circuit/lanes/chip_kernels_impl.hpp"
 #include "circuit/netlist/element_reader.hpp"
-#include "core/number/instruction_set.hpp"
 
 namespace corpuscle::circuit {
 
@@ -140,7 +135,7 @@ Result<UicmInstance> read_instance(const Element& e) {
 }
 
 Result<std::unique_ptr<Device>> make_transistor(const Element& e, DeviceSetup& setup) {
-    const auto& model = setup.circuit().models[static_cast<std::size_t>(e.model)];
+    const auto& model = *setup.circuit().model_of(e);
     if (value_or(model.values, "level", 1) != UicmCard::level)
         return error_at(model.location, "{}: MOS model level {:g} is not supported; use level={:g}, UICM, as in process/tsmc180.lib",
                         model.name, value_or(model.values, "level", 1), UicmCard::level);
@@ -183,7 +178,7 @@ Result<std::string> write_transistor(const ElementExport& e) {
     UicmInstance size;
     for (const auto& f : UicmInstance::fields) size.*f.member = e.value(f.name, size.*f.member);
     const bool pmos = e.model()->type == "pmos";
-    return fmt::format("{} {} {}", e.head, pmos ? "uicm_p" : "uicm_n", uicm_parameters(card, size, e.celsius(), pmos));
+    return fmt::format("{} {} {}", e.head, pmos ? "uicm_p" : "uicm_n", uicm_parameters(card, size, celsius_of(e.circuit, e.element), pmos));
 }
 
 /// Drain, source and bulk.

@@ -1,10 +1,8 @@
 #include "circuit/device/uicm_card.hpp"
 
 #include <algorithm>
-#include <cmath>
 
 #include "circuit/device/physical_constants.hpp"
-#include "core/number/elementary.hpp"
 #include "core/random.hpp"
 
 namespace corpuscle::circuit {
@@ -80,12 +78,12 @@ UicmShift sample_mismatch(const UicmCard& card, const UicmInstance& instance, st
     return {card.A_VT * per_root_area * deviates.first, num::exp(card.A_IS * per_root_area * deviates.second)};
 }
 
-ProcessDeviates sample_process(std::uint64_t seed, std::uint64_t chip) {
+std::array<double, 4> sample_process(std::uint64_t seed, std::uint64_t chip) {
     const auto n = normal_pair(seed, 0, process_purpose, chip), p = normal_pair(seed, 1, process_purpose, chip);
     return {n.first, p.first, n.second, p.second};
 }
 
-UicmShift process_shift(const UicmCard& card, bool pmos, const double (&deviates)[4]) {
+UicmShift process_shift(const UicmCard& card, bool pmos, const std::array<double, 4>& deviates) {
     return {card.S_VT0 * deviates[pmos ? 1 : 0], num::exp(card.S_IS * deviates[pmos ? 3 : 2])};
 }
 

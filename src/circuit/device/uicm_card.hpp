@@ -1,11 +1,9 @@
 #pragma once
 // The parameters of a transistor: its model card (.model) and its instance (M line); and the constants computed from both.
 
-#include <cstdint>
-#include <string_view>
+#include <array>
 
 #include "circuit/device/uicm.hpp"
-#include "circuit/device/uicm_constants.hpp"
 #include "core/parameter.hpp"
 
 namespace corpuscle::circuit {
@@ -99,14 +97,11 @@ struct UicmShift {
 /// factor exp(A_IS / sqrt(area) times another one). The area is the gate area of the whole array. `device`: number of the transistor, from
 /// 0, among the transistors of the flat circuit.
 UicmShift sample_mismatch(const UicmCard&, const UicmInstance&, std::uint64_t seed, std::uint32_t device, std::uint64_t chip);
-/// Standard normal deviates common to all transistors of a chip: V_T0 of NMOS and PMOS, then I_SQ of NMOS and PMOS.
-struct ProcessDeviates {
-    double values[4];
-};
-/// A random sample for (seed, chip).
-ProcessDeviates sample_process(std::uint64_t seed, std::uint64_t chip);
-/// The deviation of a transistor of this card and polarity. `deviates`: those of ProcessDeviates.
-UicmShift process_shift(const UicmCard&, bool pmos, const double (&deviates)[4]);
+/// A random sample for (seed, chip): standard normal deviates common to all transistors of a chip, V_T0 of NMOS and PMOS, then I_SQ of NMOS
+/// and PMOS.
+std::array<double, 4> sample_process(std::uint64_t seed, std::uint64_t chip);
+/// The deviation of a transistor of this card and polarity. `deviates`: those of sample_process().
+UicmShift process_shift(const UicmCard&, bool pmos, const std::array<double, 4>& deviates);
 /// Applies mismatch and process shifts to the constants. The mismatch of I_SQ comes from the mobility and changes zeta as well; that of the
 /// process does not.
 UicmConstants with_shifts(UicmConstants, const UicmShift& mismatch, const UicmShift& process);

@@ -1,7 +1,5 @@
 #include "circuit/export/element_text.hpp"
 
-#include <fmt/format.h>
-
 #include "circuit/device/named_values.hpp"
 #include "circuit/devices.hpp"
 
@@ -19,21 +17,102 @@ std::string input_text(const ElementExport& e, const ExpressionInput& in) {
         case ExpressionInput::Kind::time:
             return "time";
         case ExpressionInput::Kind::temperature:
-            if (e.element.values.contains("temp")) return fmt::format("{}", e.celsius());
+            if (e.element.values.contains("temp")) return fmt::format("{}", celsius_of(e.circuit, e.element));
             return e.element.values.contains("dtemp") ? fmt::format("(temper+{})", e.value("dtemp", 0)) : "temper";
     }
     return "0";
 }
 
+// uicm_g is the charge q at one end as a function of a new unknown z, chosen so that q + ln q is nearly linear in z. Newton's method then
+// converges, and q is never below 0. With p and q the charges at the two ends, h the larger and l the smaller of them, k = zeta, and i and
+// q_S, q_D as in mos_channel.hpp:
+//
+//     d = q_S - q_D with velocity saturation;            y = q_S + q_D of these = p + q + |p - q| - |d|
+//     t = y + 2 - zeta |i| = (y + 2) / (1 + zeta |d|);   i = d t
+//
+// uicm_charge is the channel charge of an end, with the sign of d for that end. None of these quantities has a kink at V_DS = 0,
+// where ngspice takes 0 as the derivative of |x|.
+constexpr std::string_view functions = R"(.func uicm_g(z) {z > 300 ? z+0.6931471805599453 : asinh(exp(min(z,300)))}
+.func uicm_ln_g(z) {z < -30 ? z : ln(uicm_g(max(z,-30)))}
+.func uicm_root(h,k) {sqrt((1+k)*(1+k)+2*k*h)}
+.func uicm_d(d,h,l,k) {d*(1-k+uicm_root(h,k))/(1+k+uicm_root(h,k)+k*(h-l)-2*k*l/h)}
+.func uicm_t(d,y,k) {(y+2)/(1+k*abs(d))}
+.func uicm_charge(d,y,t) {y/4+d/12+d*d/(12*t)-d*d*d/(60*t*t)}
+)";
+
+// Field {0} is the name; the others are:
+//
+//     {1} {2} {3}          voltages from gate, source and drain to bulk, with the signs of the polarity
+//
+//     {4}                  terminals between which the channel current flows
+//
+//     {5}                  sign of the channel charges
+//
+//     {6} {7} {8} {9}      anode and cathode of the source junction, then of the drain junction
+constexpr std::string_view subcircuit = R"(.subckt {0} d g s b vt=0.5 slope=1.3 phit=0.02587 sigma=0 zeta=0 is=0 va=1e6
++ cox=0 cgs=0 cgd=0 cgb=0 iss=0 isd=0 tops=0 topd=0 njphit=0.02587 cjs=0 cjd=0 pb=0.8 mj=0.4 fc=0.5
+* q + ln q = x at source and drain
+bzs zs 0 i=uicm_g(v(zs))+uicm_ln_g(v(zs))-1-(({1}-vt+sigma*({2}+{3}))/slope-{2})/phit
+bzd zd 0 i=uicm_g(v(zd))+uicm_ln_g(v(zd))-1-(({1}-vt+sigma*({2}+{3}))/slope-{3})/phit
+bqs qs 0 i=v(qs)-uicm_g(v(zs))
+bqd qd 0 i=v(qd)-uicm_g(v(zd))
+* channel current
+bd d1 0 i=v(d1)-uicm_d(v(qs)-v(qd),max(max(v(qs),v(qd)),1e-90),max(min(v(qs),v(qd)),0),zeta)
+by y 0 i=v(y)-max(v(qs)+v(qd)+abs(v(qs)-v(qd))-abs(v(d1)),0)
+bi {4} i=is*v(d1)*uicm_t(v(d1),max(v(y),0),zeta)*(1+(sqrt(v(d,s)*v(d,s)+16*phit*phit)-4*phit)/va)
+* channel charges: one capacitor for each end, with a voltage source at its other side; the bulk supplies the depletion charge
+cqd d cd {{slope*cox}}
+bqdg cd g v=v(d,g){5}phit*uicm_charge(-v(d1),max(v(y),0),uicm_t(v(d1),max(v(y),0),zeta))
+cqs s cs {{slope*cox}}
+bqsg cs g v=v(s,g){5}phit*uicm_charge(v(d1),max(v(y),0),uicm_t(v(d1),max(v(y),0),zeta))
+bqb g b i=(1-1/slope)*(i(bqdg)+i(bqsg))
+cgd g d {{cgd}}
+cgs g s {{cgs}}
+cgb g b {{cgb+cox*(slope-1)/slope}}
+* junctions: currents, then charges and gmin
+bjs {6} {7} i=iss*(exp(min(v({6},{7})/njphit,tops))*(1+max(v({6},{7})/njphit-tops,0))-1)
+bjd {8} {9} i=isd*(exp(min(v({8},{9})/njphit,topd))*(1+max(v({8},{9})/njphit-topd,0))-1)
+djs {6} {7} js temp=27
+djd {8} {9} jd temp=27
+.model js d(is=1e-40 n=10 cjo={{cjs}} vj={{pb}} m={{mj}} fc={{fc}} tnom=27)
+.model jd d(is=1e-40 n=10 cjo={{cjd}} vj={{pb}} m={{mj}} fc={{fc}} tnom=27)
+.ends
+)";
+
+bool is_letter_or_digit(char c) { return (c >= 'a' && c <= 'z') || (c >= '0' && c <= '9'); }
+
+/// The name in small letters, with all characters but letters, digits and those of `allowed` replaced by _.
+std::string legal(std::string_view name, std::string_view allowed) {
+    std::string out;
+    for (const char c : name) out += is_letter_or_digit(lower(c)) || allowed.find(c) != std::string_view::npos ? lower(c) : '_';
+    return out;
+}
+
+/// Makes the names legal and unique. Names that are legal already keep their text; of equal ones, the first does.
+std::vector<std::string> unique_names(const std::vector<std::string>& wanted, std::string_view allowed) {
+    std::set<std::string, std::less<>> taken;
+    std::vector<std::string> out(wanted.size());
+    for (std::size_t k = 0; k < wanted.size(); ++k)
+        if (legal(wanted[k], allowed) == wanted[k] && taken.insert(wanted[k]).second) out[k] = wanted[k];
+    for (std::size_t k = 0; k < wanted.size(); ++k) {
+        const auto legal_name = legal(wanted[k], allowed);
+        for (int n = 1; out[k].empty(); ++n)
+            if (auto name = n == 1 ? legal_name : fmt::format("{}_{}", legal_name, n); taken.insert(name).second) out[k] = std::move(name);
+    }
+    return out;
+}
+
+/// The name that an element has in the export, before illegal characters are replaced.
+std::string exported_name(const Element& e) {
+    const auto prefix = kind_of(e).export_prefix;
+    return e.name.find('.') != std::string::npos ? fmt::format("{}{}_{}", prefix, e.letter, e.name) : fmt::format("{}{}", prefix, e.name);
+}
+
+bool is_in_name(char c) { return is_letter_or_digit(c) || c == '_' || c == '.' || c == '#' || c == '@'; }
+
 }  // namespace
 
 double ElementExport::value(std::string_view name, double default_value) const { return value_or(element.values, name, default_value); }
-
-double ElementExport::value_or_of_model(std::string_view name, double default_value) const {
-    return value(name, model() ? value_or(model()->values, name, default_value) : default_value);
-}
-
-double ElementExport::celsius() const { return value("temp", circuit.temperature + value("dtemp", 0)); }
 
 std::string ElementExport::temperature() const {
     if (element.values.contains("temp")) return fmt::format(" temp={}", value("temp", 0));
@@ -70,6 +149,64 @@ std::string model_text(const Circuit& circuit, std::size_t k, const ExportNames&
         if (!is_left_out) out += fmt::format("{}{}={}", out.back() == '(' ? "" : " ", name == "cj0" ? "cjo" : name, value);
     }
     return out + ")\n";
+}
+
+std::string uicm_functions() { return std::string(functions); }
+
+std::string uicm_subcircuit(bool pmos) {
+    if (pmos) return fmt::format(subcircuit, "uicm_p", "v(b,g)", "v(b,s)", "v(b,d)", "s d", "-", "s", "b", "d", "b");
+    return fmt::format(subcircuit, "uicm_n", "v(g,b)", "v(s,b)", "v(d,b)", "d s", "+", "b", "s", "b", "d");
+}
+
+std::string uicm_parameters(const UicmCard& card, const UicmInstance& size, double temperature, bool pmos) {
+    const auto c = uicm_constants(card, size, temperature, pmos);
+    std::string out = fmt::format("vt={} slope={} phit={} sigma={} zeta={} is={} va={}\n", c.V_T, card.n, 1 / c.per_phi_t,
+                                  c.sigma_n * card.n, c.zeta, c.I_S, 1 / c.lambda);
+    out += fmt::format("+ cox={} cgs={} cgd={} cgb={}", card.C_ox * size.area(), c.C_gs, c.C_gd, c.C_gb);
+    out += fmt::format(" iss={} isd={} tops={} topd={} njphit={}\n", c.I_sat_s, c.I_sat_d, c.exp_limit_s, c.exp_limit_d, 1 / c.per_n_phi_t);
+    return out + fmt::format("+ cjs={} cjd={} pb={} mj={} fc={}\n", c.C_js, c.C_jd, card.P_B, card.M_J, card.F_C);
+}
+
+ExportNames::ExportNames(const Circuit& circuit) : circuit_(circuit) {
+    nodes_ = unique_names(circuit.nodes, "_.#");
+    std::vector<std::string> elements, models;
+    for (const auto& e : circuit.elements) elements.push_back(legal(exported_name(e), "_"));
+    for (const auto& m : circuit.models) models.push_back(legal(m.name, "_"));
+    elements_ = unique_names(elements, "_"), models_ = unique_names(models, "_");
+}
+
+std::string ExportNames::node(std::string_view name) const {
+    const int number = name == "gnd" ? 0 : circuit_.find_node(name);
+    return number < 0 ? "" : nodes_[static_cast<std::size_t>(number)];
+}
+
+std::string ExportNames::element(std::string_view name) const {
+    const int number = circuit_.find_element(name);
+    return number < 0 ? "" : elements_[static_cast<std::size_t>(number)];
+}
+
+std::string ExportNames::word(std::string_view text) const {
+    std::string out;
+    for (std::size_t at = 0; at < text.size();) {
+        const auto open = text.find('(', at), close = text.find(')', std::min(open, text.size()));
+        if (close == std::string_view::npos) return out + std::string(text.substr(at));
+        std::size_t name = open;  // start of the function's name
+        while (name > at && is_in_name(text[name - 1])) --name;
+        out += text.substr(at, open + 1 - at);
+        at = open + 1;
+        const char kind = name < open ? text[name] : ' ';               // first letter of the function's name
+        if (open - name > 3 || (kind != 'v' && kind != 'i')) continue;  // a view such as v vm vdb, but not max(
+        auto inside = text.substr(at, close - at);
+        for (bool first = true; first || !inside.empty(); first = false) {
+            const auto comma = std::min(inside.find(','), inside.size());
+            const auto name_here = inside.substr(0, comma);
+            const auto known = kind == 'v' ? node(name_here) : element(name_here);
+            out += fmt::format("{}{}", first ? "" : ",", known.empty() ? std::string(name_here) : known);
+            inside.remove_prefix(std::min(comma + 1, inside.size()));
+        }
+        at = close;
+    }
+    return out;
 }
 
 }  // namespace corpuscle::circuit

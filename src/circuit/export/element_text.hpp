@@ -1,13 +1,35 @@
 #pragma once
-// Elements, models and directives of the flat circuit as lines of an ngspice netlist.
+// Elements and models of the flat circuit as lines of an ngspice netlist; and the names of nodes, elements and models there: unique, and
+// only with characters that ngspice accepts.
 
-#include <string>
-#include <vector>
+#include <set>
 
 #include "circuit/device/uicm_card.hpp"
-#include "circuit/export/export_names.hpp"
+#include "circuit/netlist/netlist.hpp"
 
 namespace corpuscle::circuit {
+
+/// Nodes keep their names ("x1.out"). The name of an element inside a subcircuit begins with its letter: x1.m3 is xm_x1_m3, x1.x2.r1 is
+/// r_x1_x2_r1. A transistor is exported as a subcircuit, so its name begins with x. Characters other than a-z 0-9 _ (for nodes also
+/// . and #) become _, and names that are then equal get a number.
+class ExportNames {
+    const Circuit& circuit_;
+    std::vector<std::string> nodes_, elements_, models_;
+
+public:
+    explicit ExportNames(const Circuit&);
+
+    // Names by index in Circuit::nodes, elements and models.
+    const std::string& node(int number) const { return nodes_[static_cast<std::size_t>(number)]; }
+    const std::string& element(std::size_t number) const { return elements_[number]; }
+    const std::string& model(int number) const { return models_[static_cast<std::size_t>(number)]; }
+    /// The exported name of a node or element of the circuit; "" if the circuit has none of this name.
+    std::string node(std::string_view name) const;
+    std::string element(std::string_view name) const;
+
+    /// A word of a directive with the names in its v(...) and i(...) replaced: "v(x1.a,b)=0.5", "vdb(out)".
+    std::string word(std::string_view) const;
+};
 
 /// An element that is being exported, as the write functions of devices see it.
 struct ElementExport {
@@ -17,13 +39,9 @@ struct ElementExport {
     std::string head;  ///< its name and nodes in the export
 
     /// The model of the element; null if it has none.
-    const Model* model() const { return element.model < 0 ? nullptr : &circuit.models[static_cast<std::size_t>(element.model)]; }
+    const Model* model() const { return circuit.model_of(element); }
     /// The value with this name of the element.
     double value(std::string_view name, double default_value) const;
-    /// The value with this name of the element, else of its model, else the default.
-    double value_or_of_model(std::string_view name, double default_value) const;
-    /// The temperature of the element, C.
-    double celsius() const;
     /// " temp=..." or " dtemp=..." if the element has it.
     std::string temperature() const;
     /// The expression of the element. That of a current or a charge is multiplied by m.
@@ -35,10 +53,6 @@ Result<std::string> element_text(const Circuit&, std::size_t element, const Expo
 
 /// The .model line of a diode, or of an R, C or L whose model has tnom; "" for other models, whose numbers the elements' lines contain.
 std::string model_text(const Circuit&, std::size_t model, const ExportNames&);
-
-/// All directives as lines, with analyses first. Directives that ngspice does not have become comments. Appends to `warnings`: a message
-/// for each of them, and for each directive whose results differ in ngspice.
-std::string directives_text(const Circuit&, const ExportNames&, std::vector<Error>& warnings);
 
 /// Functions that the subcircuits uicm_n and uicm_p use.
 std::string uicm_functions();

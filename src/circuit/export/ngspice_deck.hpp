@@ -1,10 +1,6 @@
 #pragma once
 // Exports a netlist as an ngspice deck that gives the same results, to check or to continue work in ngspice.
 
-#include <memory>
-#include <string>
-#include <vector>
-
 #include "circuit/netlist/netlist.hpp"
 
 namespace corpuscle::circuit {

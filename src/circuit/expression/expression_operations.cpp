@@ -1,7 +1,6 @@
 #include "circuit/expression/expression_operations.hpp"
 
 #include <algorithm>
-#include <cmath>
 #include <limits>
 
 #include "core/number/elementary.hpp"

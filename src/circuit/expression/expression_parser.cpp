@@ -1,12 +1,9 @@
 // Parses the text of an expression into steps in one pass. User functions are expanded where they are called.
 
-#include <fmt/format.h>
-#include <algorithm>
-
+#include "circuit/error_at.hpp"
 #include "circuit/expression/expression.hpp"
 #include "circuit/expression/expression_operations.hpp"
 #include "circuit/expression/spice_number.hpp"
-#include "core/parameter.hpp"
 #include "core/text/ascii_text.hpp"
 
 namespace corpuscle::circuit {
@@ -292,12 +289,6 @@ private:
             if (constant.name.size() > 1) names.push_back(constant.name);
         return did_you_mean(name, names);
     }
-    static std::string function_suggestion(std::string_view name) {
-        std::vector<std::string_view> names;
-        for (const auto& operation : all_operations()) names.push_back(operation.name);
-        return did_you_mean(name, names);
-    }
-
     Index call(const std::string& name, std::size_t from) {
         const auto* user_function = scope_.function ? scope_.function(name) : nullptr;
         if (!user_function && (name == "v" || name == "i")) return voltage_or_current(name[0], from);
@@ -305,7 +296,9 @@ private:
             return fail(from, "{}() is not supported; for a charge, use a capacitor with q='...'", name);
         const auto* row = find_function(name, scope_.allows_inputs);
         const auto* random = find_random_function(name);
-        if (!user_function && !row && !random) return fail(from, "unknown function '{}'{}", name, function_suggestion(name));
+        if (!user_function && !row && !random)
+            return fail(from, "unknown function '{}'{}", name,
+                        did_you_mean(name, all_operations() | std::views::transform(&Operation::name)));
         std::vector<Index> values;
         if (!read_arguments(values)) return no_index;
         if (user_function) return expand_function(name, *user_function, values, from);

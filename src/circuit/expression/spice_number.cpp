@@ -1,10 +1,7 @@
 #include "circuit/expression/spice_number.hpp"
 
 #include <fmt/format.h>
-#include <algorithm>
-#include <charconv>
 #include <limits>
-#include <string>
 
 #include "core/text/ascii_text.hpp"
 

@@ -1,9 +1,6 @@
 #pragma once
 // Kernels for a block of chips. T is double or a vector of lanes.
 
-#include <utility>
-
-#include "circuit/lanes/chip_kernels.hpp"
 #include "circuit/lanes/transistor_kernels_impl.hpp"
 
 namespace corpuscle::circuit::lanes {

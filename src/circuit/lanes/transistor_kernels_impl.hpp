@@ -5,7 +5,7 @@
 #include <type_traits>
 
 #include "circuit/device/uicm.hpp"
-#include "circuit/lanes/transistor_kernels.hpp"
+#include "circuit/lanes/kernels.hpp"
 
 namespace corpuscle::circuit::lanes {
 namespace {

@@ -1,13 +1,9 @@
 #pragma once
-// Measurements for .meas: each computes one number from curves, point by point and in constant memory.
+// .meas: each measurement computes one number from curves, point by point and in constant memory.
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
-#include <memory>
-#include <optional>
 
-#include "circuit/netlist/netlist.hpp"
 #include "circuit/output/curve_view.hpp"
 
 namespace corpuscle::circuit {
@@ -64,23 +60,17 @@ struct Interval {
 };
 
 /// Follows a curve, or a curve minus another curve or a level, point by point.
-class CurveFollower {
-    CurveView curve_;
-    std::optional<CurveView> other_;
-    double level_ = 0;
-    std::optional<LineSegment> segment_;  // the newest segment; after the first point a segment of length 0
+struct CurveFollower {
+    CurveView curve;
+    double level = 0;
+    std::optional<CurveView> other{};      ///< replaces the level
+    std::optional<LineSegment> segment{};  ///< the newest one; after the first point a segment of length 0
 
-public:
-    explicit CurveFollower(CurveView curve) : curve_(curve) {}
-    CurveFollower(CurveView curve, double level) : curve_(curve), level_(level) {}
-    CurveFollower(CurveView curve, CurveView other) : curve_(curve), other_(other) {}
-
-    const std::optional<LineSegment>& segment() const { return segment_; }
     /// Returns false at the first point, which does not complete a segment.
     bool add_point(double x, const PlotRow& row) {
-        const double y = curve_.measured_value(row) - (other_ ? other_->measured_value(row) : level_);
-        const bool first = !segment_;
-        segment_ = first ? LineSegment{x, y, x, y} : LineSegment{segment_->x1, segment_->y1, x, y};
+        const double y = curve.measured_value(row) - (other ? other->measured_value(row) : level);
+        const bool first = !segment;
+        segment = first ? LineSegment{x, y, x, y} : LineSegment{segment->x1, segment->y1, x, y};
         return !first;
     }
 };
@@ -88,23 +78,21 @@ public:
 /// Selects some zero crossings of a curve.
 struct EdgeSelection {
     bool rising = true, falling = true;
-    double number = 1;  ///< of the crossing among those that count: 1 is the first; 0 is the last
-    Interval interval;  ///< only crossings in this interval count
+    double number = 1;        ///< of the crossing among those that count: 1 is the first; 0 is the last
+    Interval interval;        ///< only crossings in this interval count
+    bool is_counted = false;  ///< true: the result is the number of crossings, not the position of one
 };
 
 /// Counts the zero crossings of a CurveFollower that count for the selection, and keeps the position of the selected one.
-class CrossingCounter {
-    CurveFollower follower_;
-    EdgeSelection edges_;
-    double count_ = 0;             // crossings so far
-    double position_ = not_found;  // x of the selected one
+struct CrossingCounter {
+    CurveFollower follower;
+    EdgeSelection edges;
+    double count = 0;             ///< crossings so far
+    double position = not_found;  ///< x of the selected one; NaN if it was not found yet
 
-public:
-    CrossingCounter(CurveFollower follower, EdgeSelection edges) : follower_(std::move(follower)), edges_(edges) {}
     /// Returns true if the newest segment has the selected crossing. If the last crossing is selected, returns true at every crossing.
     bool add_point(double x, const PlotRow&);
-    double count() const { return count_; }
-    double position() const { return position_; }  ///< x of the selected crossing; NaN if it was not found yet
+    double result() const { return edges.is_counted ? count : position; }
 };
 
 /// A position x: that of at=X, or that of a crossing.
@@ -114,10 +102,10 @@ struct EventPoint {
 
     /// Returns true if the newest segment has the crossing.
     bool add_point(double x, const PlotRow& row) { return crossing && crossing->add_point(x, row); }
-    double position() const { return crossing ? crossing->position() : at; }
+    double position() const { return crossing ? crossing->result() : at; }
 };
 
-/// when ...: the position of a crossing. trig ... targ ...: the distance from the trigger to the target.
+/// The position of a crossing (when ...), the number of crossings (count ...) or the distance from a trigger to a target (trig ...).
 class DistanceMeasurement final : public Measurement {
     std::optional<EventPoint> trigger_;
     EventPoint target_;
@@ -129,16 +117,6 @@ public:
         target_.add_point(x, row);
     }
     double value() const override { return trigger_ ? target_.position() - trigger_->position() : target_.position(); }
-};
-
-/// count ...: the number of crossings.
-class CountMeasurement final : public Measurement {
-    CrossingCounter crossings_;
-
-public:
-    explicit CountMeasurement(CrossingCounter crossings) : crossings_(std::move(crossings)) {}
-    void add_point(double x, const PlotRow& row) override { crossings_.add_point(x, row); }
-    double value() const override { return crossings_.count(); }
 };
 
 /// find and deriv: the value or the slope of a curve at a position.
@@ -193,17 +171,6 @@ public:
     double value() const override { return summary_.any ? statistic_(summary_) : not_found; }
 };
 
-/// The value of a curve at an operating point, which has no sweep.
-class OperatingPointMeasurement final : public Measurement {
-    CurveView curve_;
-    double value_ = not_found;
-
-public:
-    explicit OperatingPointMeasurement(CurveView curve) : curve_(curve) {}
-    void add_point(double, const PlotRow& row) override { value_ = curve_.value(row).real(); }
-    double value() const override { return value_; }
-};
-
 /// Parses the words of a .meas line that follow NAME, for a plot with the curves of `head`, which needs no values:
 ///
 ///     find CURVE at=X | find CURVE when EDGE | deriv CURVE at=X | deriv CURVE when EDGE | when EDGE | count EDGE [rise|fall|cross]
@@ -215,5 +182,34 @@ public:
 /// EDGE is CURVE=VALUE or CURVE=CURVE, then SELECTION: [rise=N|last] [fall=N|last] [cross=N|last] [td=T] [from=A] [to=B]. POSITION is at=X,
 /// CURVE val=V SELECTION, or EDGE. For an operating point, only `find CURVE` is possible.
 Result<std::unique_ptr<Measurement>> parse_measurement(const Directive&, const Plot& head);
+
+/// All .meas lines of a circuit. Each line names a kind of analysis (tran, ac ...) and measures the first plot of the first such analysis.
+class MeasurementSet {
+    struct Entry {
+        const Directive* directive;                // the .meas line
+        std::unique_ptr<Measurement> measurement;  // null: its analysis has not begun, or the line is a param= expression
+    };
+    std::vector<Entry> entries_;
+    std::vector<Measurement*> active_;  // measurements of the plot that was begun last
+    bool has_sweep_ = true;             // of that plot
+
+public:
+    explicit MeasurementSet(const Circuit&);
+
+    /// Begins the first plot of an analysis of this kind; `head` has its curves without values. An ill-formed .meas line or an unknown
+    /// curve is an error.
+    Result<void> begin(std::string_view analysis, const Plot& head);
+    /// Call this after begin() for every analysis. Reports the errors of finish() that depend on names only. `number_names` are the names
+    /// of the numbers that the analyses may produce.
+    Result<void> check(const std::vector<std::string>& number_names) const;
+    /// Adds a point of the plot.
+    void add_point(const PlotRow& row) {
+        for (auto* measurement : active_) measurement->add_point(has_sweep_ ? row[0].real() : 0, row);
+    }
+
+    /// Call this after all analyses. `numbers` contains the numbers of the analyses, which param= expressions may use. Appends the results
+    /// in the order of the .meas lines. A measurement that found nothing is NaN and adds a warning.
+    Result<void> finish(std::vector<std::pair<std::string, double>>& numbers, std::vector<Error>& warnings) const;
+};
 
 }  // namespace corpuscle::circuit

@@ -1,7 +1,5 @@
 #include "circuit/measure/measurement.hpp"
 
-#include <fmt/format.h>
-
 #include "circuit/expression/spice_number.hpp"
 
 namespace corpuscle::circuit {
@@ -73,7 +71,6 @@ private:
         if (kind == "when" || kind == "count") {
             ++at_;
             auto crossings = TRY(edge(kind == "count"));
-            if (kind == "count") return ParseResult(std::make_unique<CountMeasurement>(std::move(crossings)));
             return ParseResult(std::make_unique<DistanceMeasurement>(std::nullopt, EventPoint{not_found, std::move(crossings)}));
         }
         return error_here(
@@ -89,7 +86,8 @@ private:
         const auto view = CurveView::find(head_, name);
         if (!view) return error_here("there is no curve {}", name);
         ++at_;
-        return ParseResult(std::make_unique<OperatingPointMeasurement>(*view));
+        const auto first = [](const CurveSummary& s) { return s.first_value; };
+        return ParseResult(std::make_unique<SummaryMeasurement>(first, CurveFollower{*view}, Interval()));
     }
 
     /// The curve of this name.
@@ -149,6 +147,7 @@ private:
     /// without a number select the kind of edges.
     Result<EdgeSelection> edges(bool is_count, std::optional<double>* level = nullptr) {
         EdgeSelection out;
+        out.is_counted = is_count;
         for (bool more = true; more;) {
             more = false;
             for (const auto& e : edge_words)
@@ -172,28 +171,31 @@ private:
         const auto left = curve(std::string_view(word).substr(0, equals));
         if (!left) return left.error();
         const auto right = std::string_view(word).substr(equals + 1);
-        const auto level = parse_number(right);
-        const auto other = TRY(level ? left : curve(right));
+        CurveFollower follower{*left};
+        if (const auto level = parse_number(right))
+            follower.level = level->value;
+        else
+            follower.other = TRY(curve(right));
         ++at_;
         const auto selection = TRY(edges(is_count));
-        return CrossingCounter(level ? CurveFollower(*left, level->value) : CurveFollower(*left, other), selection);
+        return CrossingCounter{std::move(follower), selection};
     }
 
     ParseResult summary(SummaryMeasurement::Statistic statistic) {
         const auto view = TRY(curve());
         Interval interval;
         for (bool more = true; more;) more = TRY(bounds(interval));
-        return ParseResult(std::make_unique<SummaryMeasurement>(statistic, CurveFollower(view), interval));
+        return ParseResult(std::make_unique<SummaryMeasurement>(statistic, CurveFollower{view}, interval));
     }
 
     ParseResult find_or_deriv(bool is_slope) {
         const auto view = TRY(curve());
         const auto at = TRY(option("at"));
-        if (at) return ParseResult(std::make_unique<ValueMeasurement>(CurveFollower(view), is_slope, EventPoint{*at, {}}));
+        if (at) return ParseResult(std::make_unique<ValueMeasurement>(CurveFollower{view}, is_slope, EventPoint{*at, {}}));
         if (peek() != "when") return error_here("'{}': expected at=VALUE or when CURVE=VALUE", peek());
         ++at_;
         auto crossings = TRY(edge());
-        return ParseResult(std::make_unique<ValueMeasurement>(CurveFollower(view), is_slope, EventPoint{not_found, std::move(crossings)}));
+        return ParseResult(std::make_unique<ValueMeasurement>(CurveFollower{view}, is_slope, EventPoint{not_found, std::move(crossings)}));
     }
 
     ParseResult distance() {
@@ -217,7 +219,7 @@ private:
         std::optional<double> level;
         const auto selection = TRY(edges(false, &level));
         if (!level) return error_here("expected val= after '{}'", name);
-        return EventPoint{not_found, CrossingCounter(CurveFollower(view, *level), selection)};
+        return EventPoint{not_found, CrossingCounter{CurveFollower{view, *level}, selection}};
     }
 };
 

@@ -1,13 +1,8 @@
 // Elaborates a parsed netlist into the flat circuit: expands subcircuits and evaluates directives.
 
-#include <fmt/format.h>
-#include <algorithm>
-
 #include "circuit/devices.hpp"
 #include "circuit/expression/spice_number.hpp"
-#include "circuit/netlist/parsed_netlist.hpp"
 #include "circuit/netlist/scope.hpp"
-#include "core/parameter.hpp"
 #include "core/text/ascii_text.hpp"
 
 namespace corpuscle::circuit {
@@ -56,7 +51,8 @@ private:
         all.insert(builder_.overrides.parameters.begin(), builder_.overrides.parameters.end());  // does not replace given values
         for (const auto& [name, value] : all)
             if (!parsed_.top.parameters.contains(name))
-                return error_at({parsed_.file}, "there is no .param {}{}", name, did_you_mean(name, keys_of(parsed_.top.parameters)));
+                return error_at({parsed_.file}, "there is no .param {}{}", name,
+                                did_you_mean(name, std::views::keys(parsed_.top.parameters)));
         return top_.define(all);
     }
 
@@ -78,9 +74,9 @@ private:
 
     /// Elaborates an X line.
     Result<void> elaborate_instance(Scope& scope, const Statement& s) {
-        const auto name = s.text(std::size_t{0});
+        const auto name = s.text(0);
         auto words = instance_words(s);
-        if (words.size() < 1) return error_at(s.location(std::size_t{1}), "{}: expected nodes and the name of a subcircuit", name);
+        if (words.size() < 1) return error_at(s.location(1), "{}: expected nodes and the name of a subcircuit", name);
         const Word subcircuit_name = words.back();
         words.pop_back();
         Scope inner;
@@ -112,10 +108,9 @@ private:
                 inner.definition = at->second.get(), inner.enclosing = f;
                 return {};
             }
-            for (const auto n : keys_of(f->definition->subcircuits)) known.push_back(n);
+            for (const auto& [subcircuit, body] : f->definition->subcircuits) known.push_back(subcircuit);
         }
-        return error_at(s.location(name), "{}: unknown subcircuit '{}'{}", s.text(std::size_t{0}), s.text(name),
-                        did_you_mean(s.text(name), known));
+        return error_at(s.location(name), "{}: unknown subcircuit '{}'{}", s.text(0), s.text(name), did_you_mean(s.text(name), known));
     }
 
     /// Connects the ports of the subcircuit to the nodes that the X line names.
@@ -124,7 +119,7 @@ private:
         if (words.size() != ports.size()) {
             std::string expected;
             for (const auto& port : ports) expected += expected.size() < 100 ? ' ' + port : std::string();
-            return error_at(s.line.location(), "{}: {} node{}, but subcircuit '{}' has {}:{}", s.text(std::size_t{0}), words.size(),
+            return error_at(s.line.location(), "{}: {} node{}, but subcircuit '{}' has {}:{}", s.text(0), words.size(),
                             words.size() == 1 ? "" : "s", inner.definition->name, ports.size(), expected);
         }
         for (std::size_t k = 0; k < words.size(); ++k) inner.ports.emplace(ports[k], builder_.find_or_add_node(scope, s.text(words[k])));
@@ -154,15 +149,15 @@ private:
             else if (name != "m")
                 return unknown_parameter(s, pair, name, *inner.definition);
             else if (!(value > 0))
-                return error_at(s.location(pair.value), "{}: m = {:g} must be positive", s.text(std::size_t{0}), value);
+                return error_at(s.location(pair.value), "{}: m = {:g} must be positive", s.text(0), value);
             else
                 inner.m *= value;
         }
         return {};
     }
     static Error unknown_parameter(const Statement& s, const NameValue& pair, std::string_view name, const SubcktDef& body) {
-        return error_at(s.location(pair.name), "{}: subcircuit '{}' has no parameter '{}'{}", s.text(std::size_t{0}), body.name, name,
-                        did_you_mean(name, keys_of(body.defaults)));
+        return error_at(s.location(pair.name), "{}: subcircuit '{}' has no parameter '{}'{}", s.text(0), body.name, name,
+                        did_you_mean(name, std::views::keys(body.defaults)));
     }
 
     /// Checks that all nodes and elements that expressions, F and H lines name exist.
@@ -171,8 +166,7 @@ private:
         for (const auto& p : builder_.forward_refs) {
             if (p.target == ForwardRef::Target::node) {
                 if (c.node_numbers.contains(p.name)) continue;
-                const std::vector<std::string_view> known(c.nodes.begin() + 1, c.nodes.end());
-                return error_at(p.location, "{}: unknown node '{}'{}", p.user, p.name, did_you_mean(p.name, known));
+                return error_at(p.location, "{}: unknown node '{}'{}", p.user, p.name, did_you_mean(p.name, c.nodes | std::views::drop(1)));
             }
             const int k = c.find_element(p.name);
             if (k < 0) return error_at(p.location, "{}: unknown element '{}'{}", p.user, p.name, did_you_mean(p.name, voltage_sources()));
@@ -251,7 +245,7 @@ private:
             const auto value = TRY(scope.evaluate(without_braces(s, s.words[k], static_cast<std::uint32_t>(std::min(from, text.size())))));
             const auto node = trimmed(text.substr(2, close - 2));
             if (is_ground(node)) return error_at(s.location(k), "ground is always at 0 V");
-            node_voltages_.push_back({builder_.node_name(scope, node), value, s.location(k), s.text(std::size_t{0}) == ".ic"});
+            node_voltages_.push_back({builder_.node_name(scope, node), value, s.location(k), s.text(0) == ".ic"});
         }
         return {};
     }
@@ -259,10 +253,9 @@ private:
         Circuit& c = builder_.circuit;
         for (const auto& voltage : node_voltages_) {
             const int k = c.find_node(voltage.node);
-            if (k < 0) {
-                const std::vector<std::string_view> known(c.nodes.begin() + 1, c.nodes.end());
-                return error_at(voltage.location, "unknown node '{}'{}", voltage.node, did_you_mean(voltage.node, known));
-            }
+            if (k < 0)
+                return error_at(voltage.location, "unknown node '{}'{}", voltage.node,
+                                did_you_mean(voltage.node, c.nodes | std::views::drop(1)));
             (voltage.is_ic ? c.ic : c.nodesets).emplace_back(k, voltage.value);
         }
         return {};
@@ -271,7 +264,7 @@ private:
     // ---- directives ----
 
     void add_directive(const Statement& s) {
-        Directive out{std::string(s.text(std::size_t{0}).substr(1)), {}, {}, s.line.location()};
+        Directive out{std::string(s.text(0).substr(1)), {}, {}, s.line.location()};
         for (std::size_t k = 1; k < s.words.size(); ++k) {
             out.words.push_back(without_blanks(s, s.words[k]));
             out.columns.push_back(static_cast<int>(s.location(k).column));

@@ -1,15 +1,12 @@
 #include "circuit/netlist/element_reader.hpp"
 
-#include <algorithm>
-
 #include "circuit/devices.hpp"
 #include "circuit/netlist/scope.hpp"
-#include "core/parameter.hpp"
 
 namespace corpuscle::circuit {
 
 ElementReader::ElementReader(CircuitBuilder& builder, Scope& scope, const Statement& s)
-    : builder_(builder), scope_(scope), s_(s), kind_(*find_device_kind(s.text(std::size_t{0})[0])), name_(s.text(std::size_t{0})) {
+    : builder_(builder), scope_(scope), s_(s), kind_(*find_device_kind(s.text(0)[0])), name_(s.text(0)) {
     element.name = scope.path + std::string(name_);
     element.letter = name_[0];
     element.location = s.line.location();
@@ -26,7 +23,7 @@ Result<void> ElementReader::read() {
 
 Error ElementReader::too_many(std::size_t word) const { return error_at(word, "unexpected '{}'", text(word)); }
 
-bool ElementReader::is_model(std::size_t word) const { return builder_.has_model(scope_, text(word)); }
+bool ElementReader::is_model(std::size_t word) const { return scope_.definer_of_model(text(word)) != nullptr; }
 bool ElementReader::is_parameter(std::size_t word) const { return scope_.parameter(text(word)).has_value(); }
 
 Result<void> ElementReader::nodes(std::size_t n, std::string_view expected) {
@@ -47,15 +44,6 @@ Result<double> ElementReader::number(std::size_t word) const { return scope_.eva
 Result<double> ElementReader::number(const NameValue& pair) {
     read_names_.push_back(s_.text(pair.name));
     return scope_.evaluate({&s_, pair.value});
-}
-
-Result<void> ElementReader::value(std::size_t word) {
-    element.value = TRY(number(word));
-    return {};
-}
-Result<void> ElementReader::value(const NameValue& pair) {
-    element.value = TRY(number(pair));
-    return {};
 }
 
 void ElementReader::control_source(std::size_t word) {

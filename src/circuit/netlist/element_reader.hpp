@@ -40,9 +40,12 @@ public:
     Result<void> model(std::size_t word, std::initializer_list<std::string_view> types);
     Result<double> number(std::size_t word) const;
     Result<double> number(const NameValue&);
-    /// Reads the word as the element's value.
-    Result<void> value(std::size_t word);
-    Result<void> value(const NameValue&);
+    /// Reads a word, or the value of a pair, as the element's value.
+    template <class Where>
+    Result<void> value(const Where& word) {
+        element.value = TRY(number(word));
+        return {};
+    }
     /// Reads the value of a pair as the expression of the element.
     Result<void> expression(const NameValue&);
     /// Reads the word as the name of the voltage source whose current controls the element.

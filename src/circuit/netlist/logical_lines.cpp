@@ -1,7 +1,5 @@
 #include "circuit/netlist/statement.hpp"
 
-#include <algorithm>
-
 #include "core/text/ascii_text.hpp"
 
 namespace corpuscle::circuit {

@@ -1,9 +1,7 @@
 #include "circuit/netlist/netlist.hpp"
 
-#include <algorithm>
-#include <memory>
-
 #include "circuit/netlist/parsed_netlist.hpp"
+#include "core/text/ascii_text.hpp"
 #include "core/text/input_files.hpp"
 
 namespace corpuscle::circuit {
@@ -14,6 +12,20 @@ Result<std::string> read_file_text(const std::string& path) { return read_entire
 int index_of_name(const std::unordered_map<std::string, int>& numbers, std::string_view name) {
     const auto at = numbers.find(std::string(name));
     return at == numbers.end() ? -1 : at->second;
+}
+
+/// The names of the sections that the text of a library defines.
+std::vector<std::string> sections_in(std::string_view text) {
+    std::vector<std::string> out;
+    LogicalLineReader lines(text, std::make_shared<const std::string>());
+    LogicalLine line;
+    for (auto more = lines.next(line); more && *more; more = lines.next(line)) {
+        if (lower(std::string_view(line.text).substr(0, 4)) != ".lib") continue;
+        // ".lib section" begins a section; ".lib file section" reads another file.
+        const auto head = split_directive(std::move(line));
+        if (head && head->words.size() == 2) out.push_back(lower(unquoted(head->text(1))));
+    }
+    return out;
 }
 
 }  // namespace
@@ -68,6 +80,20 @@ std::map<std::string, Netlist::Parameter, std::less<>> Netlist::parameters() con
         for (const auto& [name, text] : impl_->top.parameters)
             out.emplace(name, Parameter{std::string(text.view()), !impl_->libraries.contains(text.location().file)});
     return out;
+}
+
+std::string CornerSelector::select_section(const std::string& section, std::string_view library, std::string_view text) {
+    if (corner_.empty()) return section;
+    const auto known = sections_in(text);
+    if (std::find(known.begin(), known.end(), corner_) != known.end()) return is_found_ = true, corner_;
+    libraries_.push_back(fmt::format("'{}' has {}{}", library, fmt::join(known, ", "), did_you_mean(corner_, known)));
+    return section;
+}
+
+Result<void> CornerSelector::check_found(const std::string& netlist) const {
+    if (corner_.empty() || is_found_) return {};
+    if (libraries_.empty()) return error_at({netlist}, "there is no corner '{}': the netlist has no line .lib 'file' section", corner_);
+    return error_at({netlist}, "no corner '{}': library {}", corner_, fmt::join(libraries_, "; "));
 }
 
 }  // namespace corpuscle::circuit

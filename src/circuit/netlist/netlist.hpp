@@ -1,19 +1,11 @@
 #pragma once
 // A SPICE netlist: its parsed statements, and the flat circuit that results once its parameters have values.
 
-#include <cstdint>
-#include <functional>
 #include <map>
-#include <memory>
-#include <optional>
-#include <string>
-#include <string_view>
 #include <unordered_map>
-#include <vector>
 
 #include "circuit/error_at.hpp"
 #include "circuit/expression/expression.hpp"
-#include "core/error.hpp"
 
 namespace corpuscle::circuit {
 
@@ -81,9 +73,21 @@ struct Circuit {
 
     std::unordered_map<std::string, int> node_numbers, element_numbers;  ///< indices by name, filled by Netlist::elaborate()
 
+    /// The directives of this name, in the order of the netlist.
+    auto directives_named(std::string_view name) const {
+        return directives | std::views::filter([name](const Directive& c) { return c.name == name; });
+    }
+    bool has_directive(std::string_view name) const { return !directives_named(name).empty(); }
     int find_node(std::string_view name) const;     ///< the index of the node; -1 if no node has this name
     int find_element(std::string_view name) const;  ///< the index of the element; -1 if no element has this name
+    /// The model of an element; null if it has none.
+    const Model* model_of(const Element& e) const { return e.model < 0 ? nullptr : &models[static_cast<std::size_t>(e.model)]; }
 };
+
+/// Warns about nodes with one connection only, transistor sizes in metres that were probably meant in micrometres, missing sizes, ic= and
+/// off without effect, .ac without an AC source, pulses longer than their period, and a .tran whose STEP is longer than STOP. There is one
+/// warning of each kind for all elements, located at the first of them, and one for each such node and .tran.
+std::vector<Error> netlist_warnings(const Circuit&);
 
 /// Overrides of the values in a netlist.
 struct ResolvedOverrides {

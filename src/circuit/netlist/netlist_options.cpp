@@ -2,9 +2,6 @@
 
 #include <algorithm>
 #include <limits>
-#include <vector>
-
-#include "core/parameter.hpp"
 
 namespace corpuscle::circuit {
 namespace {
@@ -56,9 +53,7 @@ Result<void> check_option(std::string_view name, std::optional<double> number, s
         if (contains_name(without_effect, name)) return {};
         if (contains_name(unsupported, name))
             return error_at(location, ".options {}: not supported, because it changes the circuit; set it at the elements instead", name);
-        std::vector<std::string_view> known;
-        for (const auto& r : option_rows) known.push_back(r.name);
-        const auto hint = did_you_mean(name, known);
+        const auto hint = did_you_mean(name, option_rows | std::views::transform(&OptionRow::name));
         return error_at(location, "unknown option '{}'{}", name,
                         hint.empty() ? "; known are reltol, vntol, abstol, gmin, itl1, temp, tnom, accuracy, method, maxord, "
                                        "spikecheck"

@@ -1,15 +1,11 @@
 // Parses the statements of a netlist, of the files that it includes and of sections of libraries.
 
-#include <fmt/format.h>
-#include <algorithm>
 #include <filesystem>
 
 #include "circuit/analyses.hpp"
 #include "circuit/devices.hpp"
 #include "circuit/expression/spice_number.hpp"
-#include "circuit/netlist/corner_selector.hpp"
 #include "circuit/netlist/parsed_netlist.hpp"
-#include "core/parameter.hpp"
 #include "core/text/ascii_text.hpp"
 
 namespace corpuscle::circuit {
@@ -34,9 +30,8 @@ std::vector<std::string> directive_names() {
 }
 
 bool is_directive(std::string_view word) {
-    return std::find(std::begin(structural_directives), std::end(structural_directives), word) != std::end(structural_directives) ||
-           std::find(std::begin(circuit_directives), std::end(circuit_directives), word) != std::end(circuit_directives) ||
-           find_analysis(word.substr(1)) != nullptr;
+    static const auto names = directive_names();
+    return std::ranges::find(names, word) != names.end();
 }
 
 bool is_element_letter(char letter) { return letter == 'x' || find_device_kind(letter) != nullptr; }
@@ -91,8 +86,7 @@ public:
         if (!section.empty()) out_.libraries.insert(path);
         SubcktDef* const outer_body = std::exchange(file_body_, body_);
         auto ok = section.empty() ? statements(lines) : read_section(lines, section);
-        if (ok && body_ != file_body_)
-            ok = error_at(body_->head->location(std::size_t{0}), ".subckt {} is not closed by .ends", body_->name);
+        if (ok && body_ != file_body_) ok = error_at(body_->head->location(0), ".subckt {} is not closed by .ends", body_->name);
         file_body_ = outer_body;
         open_files_.pop_back();
         ended_ = false;
@@ -164,28 +158,24 @@ private:
         if (word == ".global") return global(std::move(line));
         if (word == ".temp") return store_directive(std::move(line), out_.temperatures);
         if (word.starts_with(".opt")) {
-            auto read = TRY(split_element(std::move(line), nullptr));
-            out_.options.push_back(&store(std::move(read)));
+            out_.options.push_back(&store(TRY(split_element(std::move(line), nullptr))));
             return {};
         }
         return store_directive(std::move(line), out_.directives);
     }
 
     static Error unknown(std::string_view word, SourceLocation location) {
-        const auto names = directive_names();
-        const std::vector<std::string_view> known(names.begin(), names.end());
         if (word == ".if" || word == ".elseif" || word == ".else" || word == ".endif")
             return error_at(location, "{}: conditional parts of a netlist are not supported", word);
         for (const auto& [old_name, new_name] : renamed_directives)
             if (word == old_name) return error_at(location, "{} is now {}", old_name, new_name);
-        return error_at(location, "unknown statement '{}'{}", word, did_you_mean(word, known));
+        return error_at(location, "unknown statement '{}'{}", word, did_you_mean(word, directive_names()));
     }
 
     Statement& store(Statement s) { return out_.statements.emplace_back(std::move(s)); }
 
     Result<void> store_directive(LogicalLine line, std::vector<const Statement*>& list) {
-        auto read = TRY(split_directive(std::move(line)));
-        list.push_back(&store(std::move(read)));
+        list.push_back(&store(TRY(split_directive(std::move(line)))));
         return {};
     }
 
@@ -211,14 +201,13 @@ private:
         SourceLocation location;
         for (const auto& pair : s.pairs)
             if (s.text(pair.name) == *twice) location = s.location(pair.name);
-        return error_at(location, "{}: {} is given twice", s.text(std::size_t{0}), *twice);
+        return error_at(location, "{}: {} is given twice", s.text(0), *twice);
     }
 
     // ---- .param, .func, .model, .global ----
 
     Result<void> parameters(LogicalLine line) {
-        auto read = TRY(split_assignments(std::move(line)));
-        const Statement& s = store(std::move(read));
+        const Statement& s = store(TRY(split_assignments(std::move(line))));
         if (s.pairs.empty()) return error_at(s.line.location(), ".param: expected name=value");
         for (const auto& pair : s.pairs) {
             const std::string name(s.text(pair.name));
@@ -267,11 +256,11 @@ private:
         auto read = TRY(split_element(std::move(line), nullptr));
         if (read.words.size() < 3)
             return error_at(read.location(read.words.size()), ".model: expected a name and a type, such as .model nm nmos (vto=0.5)");
-        if (read.words.size() > 3) return error_at(read.location(std::size_t{3}), "expected name=value, not '{}'", read.text(3));
+        if (read.words.size() > 3) return error_at(read.location(3), "expected name=value, not '{}'", read.text(3));
         TRY(check_duplicates(read));
         const std::string name(read.text(1));
         if (const auto known = body_->models.find(name); known != body_->models.end())
-            return error_at(read.location(std::size_t{1}), "model '{}' is already defined at {}", name, location_text(*known->second));
+            return error_at(read.location(1), "model '{}' is already defined at {}", name, location_text(*known->second));
         body_->models.emplace(name, &store(std::move(read)));
         return {};
     }
@@ -291,15 +280,14 @@ private:
     /// Reads a .subckt line. The following lines belong to its body until .ends.
     Result<void> subcircuit(LogicalLine line) {
         auto read = TRY(split_element(std::move(line), nullptr));
-        if (read.words.size() < 2) return error_at(read.location(std::size_t{1}), ".subckt: expected a name and nodes");
+        if (read.words.size() < 2) return error_at(read.location(1), ".subckt: expected a name and nodes");
         TRY(check_duplicates(read));
         if (++subcircuit_depth_ > max_definition_depth)
             return error_at(read.line.location(), "definitions of subcircuits are nested deeper than the limit of {}",
                             max_definition_depth);
         const std::string name(read.text(1));
         auto& body = body_->subcircuits[name];
-        if (body)
-            return error_at(read.location(std::size_t{1}), "subcircuit '{}' is already defined at {}", name, location_text(*body->head));
+        if (body) return error_at(read.location(1), "subcircuit '{}' is already defined at {}", name, location_text(*body->head));
         body = std::make_unique<SubcktDef>();
         body->name = name, body->outer = body_, body->head = &store(std::move(read));
         body_ = body.get();
@@ -329,7 +317,7 @@ private:
         auto read = TRY(split_directive(std::move(line)));
         if (body_ == file_body_) return error_at(read.line.location(), ".ends without .subckt");
         if (read.words.size() > 1 && read.text(1) != body_->name)
-            return error_at(read.location(std::size_t{1}), ".ends {} does not match .subckt {}", read.text(1), body_->name);
+            return error_at(read.location(1), ".ends {} does not match .subckt {}", read.text(1), body_->name);
         body_ = body_->outer;
         --subcircuit_depth_;
         return {};
@@ -347,16 +335,16 @@ private:
         auto read = TRY(split_directive(std::move(line)));
         if (read.words.size() != 2)
             return error_at(read.location(read.words.size() < 2 ? 1 : 2), ".include: expected one file; put a name with blanks in quotes");
-        return open(unquoted(read.text(1)), "", read.location(std::size_t{1}));
+        return open(unquoted(read.text(1)), "", read.location(1));
     }
 
     /// Reads ".lib file section", or skips the section that ".lib section" begins.
     Result<void> library(LogicalLineReader& lines, LogicalLine line) {
         auto read = TRY(split_directive(std::move(line)));
-        if (read.words.size() == 3) return open(unquoted(read.text(1)), lower(unquoted(read.text(2))), read.location(std::size_t{1}));
+        if (read.words.size() == 3) return open(unquoted(read.text(1)), lower(unquoted(read.text(2))), read.location(1));
         const bool is_file = read.words.size() == 2 && unquoted(read.text(1)) != read.text(1);
         if (read.words.size() != 2 || is_file)
-            return error_at(read.location(std::size_t{1}), ".lib: expected a file and a section; to read a complete file, use .include");
+            return error_at(read.location(1), ".lib: expected a file and a section; to read a complete file, use .include");
         return skip_section(lines, read.line.location());
     }
 
@@ -401,11 +389,9 @@ private:
         LogicalLine line;
         while (true) {
             const auto more = TRY(lines.next(line));
-            if (!more) {
-                const std::vector<std::string_view> names(known.begin(), known.end());
+            if (!more)
                 return bad_input(
-                    fmt::format("library '{}' has no section '{}'{}", open_files_.back().path, section, did_you_mean(section, names)));
-            }
+                    fmt::format("library '{}' has no section '{}'{}", open_files_.back().path, section, did_you_mean(section, known)));
             if (lower(std::string_view(line.text).substr(0, 4)) != ".lib") continue;
             const auto head = TRY(split_directive(std::move(line)));
             if (head.words.size() != 2) continue;

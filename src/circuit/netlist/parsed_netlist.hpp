@@ -2,15 +2,8 @@
 // A parsed netlist before any parameter has a value. Used inside circuit/netlist only.
 
 #include <deque>
-#include <map>
-#include <memory>
-#include <optional>
 #include <set>
-#include <string>
-#include <string_view>
-#include <vector>
 
-#include "circuit/expression/expression.hpp"
 #include "circuit/netlist/netlist.hpp"
 #include "circuit/netlist/statement.hpp"
 
@@ -56,6 +49,23 @@ struct ParsedNetlist {
 
 struct Netlist::Impl : ParsedNetlist {};
 
+/// Selects a process corner: from each library the section with the name of the corner is read, instead of the section that the netlist
+/// names.
+class CornerSelector {
+    std::string corner_;                  // "" if no corner is requested
+    bool is_found_ = false;               // at least one library has the corner
+    std::vector<std::string> libraries_;  // libraries without the corner, for the error: "'card.lib' has tt, ss"
+
+public:
+    explicit CornerSelector(std::string corner) : corner_(std::move(corner)) {}
+
+    /// The section to read from a library where the netlist names `section`. `library` is the file's name and `text` its contents. A
+    /// library that does not have the corner keeps `section`.
+    std::string select_section(const std::string& section, std::string_view library, std::string_view text);
+    /// Call this after all files are read. Returns an error if a corner was requested and no library had it.
+    Result<void> check_found(const std::string& netlist) const;
+};
+
 /// Reads the text and all files that it includes. For `corner`, see Netlist::parse().
 Result<void> read_netlist(const std::string& text, const std::string& file, const Netlist::FileOpener&, const std::string& corner,
                           ParsedNetlist&);
@@ -64,14 +74,6 @@ Result<void> read_netlist(const std::string& text, const std::string& file, cons
 void warn_about_units(const Statement& element, std::vector<Error>& warnings);
 
 inline bool is_ground(std::string_view node) { return node == "0" || node == "gnd"; }
-
-/// The keys of a map, for suggestions.
-template <class Map>
-std::vector<std::string_view> keys_of(const Map& map) {
-    std::vector<std::string_view> names;
-    for (const auto& entry : map) names.push_back(entry.first);
-    return names;
-}
 
 /// Returns an error if the name of an option or its value is invalid. The value is `number` or `word`; an option without both is a flag.
 Result<void> check_option(std::string_view name, std::optional<double> number, std::optional<std::string_view> word,

@@ -17,6 +17,12 @@ struct Scope {
     double m = 1;                ///< number of parallel instances; the product of m= of this X line and of all around it
     int depth = 0;               ///< 0 for the top level
 
+    /// The scope that defines the model of this name: this one or one that encloses it; null if there is none.
+    Scope* definer_of_model(std::string_view name) {
+        Scope* f = this;
+        while (f && !f->definition->models.contains(name)) f = f->enclosing;
+        return f;
+    }
     /// Look up a name in this scope, then in its callers.
     std::optional<double> parameter(std::string_view name) const;
     const ExpressionScope::Function* function(std::string_view name) const;
@@ -65,7 +71,6 @@ public:
     /// The index in the circuit of the model that the scope calls `name`. The model is evaluated and added at its first use. `user` is the
     /// element that uses it. The model must have one of these types.
     Result<int> find_or_add_model(Scope&, const WordRef& name, std::string_view user, std::span<const std::string_view> types);
-    bool has_model(const Scope&, std::string_view name) const;
     Result<void> add_element(Element);
 
     /// Counts an elaborated statement and the memory of its name. Exceeding the limit of either is an error.

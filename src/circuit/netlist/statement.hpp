@@ -3,11 +3,6 @@
 // that continue it. The location of each byte in the file is kept.
 
 #include <cstdint>
-#include <memory>
-#include <optional>
-#include <string>
-#include <string_view>
-#include <vector>
 
 #include "circuit/error_at.hpp"
 

@@ -50,8 +50,6 @@ double CurveView::evaluate_expression(const PlotRow& row) const {
 Result<Expression> parse_par_expression(std::string_view name, const SourceLocation& location) {
     ExpressionScope scope;
     scope.allows_inputs = true;
-    scope.parameter = [](std::string_view) -> std::optional<double> { return {}; };
-    scope.function = [](std::string_view) -> const ExpressionScope::Function* { return nullptr; };
     name.remove_prefix(4), name.remove_suffix(name.ends_with(')'));  // removes "par(" and ")"
     if (name.size() >= 2 && (name[0] == '\'' || name[0] == '{')) name = name.substr(1, name.size() - 2);
     return Expression::parse(name, location, scope);

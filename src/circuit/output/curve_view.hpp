@@ -1,13 +1,7 @@
 #pragma once
 // Finds curves of a plot by the names that netlists use: v(a,b), vdb(out), vp(out), i(v1), par('v(a)*i(v1)').
 
-#include <memory>
-#include <optional>
-#include <string_view>
-#include <unordered_map>
-
 #include "circuit/device/device.hpp"
-#include "circuit/expression/expression.hpp"
 #include "circuit/output/point_sink.hpp"
 
 namespace corpuscle::circuit {

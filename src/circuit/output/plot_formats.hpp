@@ -1,9 +1,6 @@
 #pragma once
 // File formats of plots: ngspice's .raw, binary or ASCII, and CSV.
 
-#include <span>
-#include <string>
-
 #include "circuit/output/point_sink.hpp"
 
 namespace corpuscle::circuit {

@@ -1,8 +1,9 @@
 #include "circuit/output/saved_quantities.hpp"
 
-#include <fmt/format.h>
-#include <algorithm>
 #include <unordered_set>
+
+#include "circuit/variant/hierarchical_names.hpp"
+#include "core/text/ascii_text.hpp"
 
 namespace corpuscle::circuit {
 namespace {
@@ -23,6 +24,73 @@ int element_of_current(const Circuit& circuit, std::string_view word) {
 int device_of_current(const System& system, std::string_view word) {
     const int k = system.unknown(word) >= 0 ? -1 : element_of_current(system.circuit(), word);
     return k >= 0 && has_device_current(system.circuit().elements[static_cast<std::size_t>(k)]) ? k : -1;
+}
+
+struct ProbeText {
+    bool is_current = false;
+    std::string_view first, second;  // a and b of v(a,b); `second` is "" if there is only one name
+};
+
+Result<ProbeText> parse_probe(std::string_view probe_text) {
+    const auto text = trimmed(probe_text);
+    const auto open = text.find('(');
+    if (open == std::string_view::npos && !text.empty() && text.find_first_of(") \t") == std::string_view::npos)
+        return ProbeText{false, text, ""};
+    const bool is_call = open == 1 && text.ends_with(')') && (lower(text[0]) == 'v' || lower(text[0]) == 'i');
+    ProbeText out;
+    if (is_call) {
+        const auto inside = text.substr(2, text.size() - 3);
+        const auto comma = inside.find(',');
+        out = {lower(text[0]) == 'i', trimmed(inside.substr(0, comma)), comma == inside.npos ? "" : trimmed(inside.substr(comma + 1))};
+    }
+    if (out.first.empty() || (out.is_current && !out.second.empty()) || out.first.find_first_of("() \t") != std::string_view::npos)
+        return bad_usage(fmt::format("--probe '{}': write a node, v(NODE), v(NODE,NODE), i(SOURCE) or i(DEVICE)", probe_text));
+    return out;
+}
+
+Error ambiguous_probe(std::string_view probe_text, const Circuit& c, std::span<const std::string_view> names,
+                      const std::vector<std::size_t>& found) {
+    std::vector<std::string_view> matches;
+    for (const auto k : found) matches.push_back(names[k]);
+    return bad_input(
+        fmt::format("--probe {}: ambiguous in {} ({}); write more of its path", probe_text, c.file, abbreviated_list(matches)));
+}
+
+/// The names of all nodes but ground.
+std::vector<std::string_view> nodes_of(const Circuit& c) { return {c.nodes.begin() + 1, c.nodes.end()}; }
+std::vector<std::string_view> elements_of(const Circuit& c) {
+    std::vector<std::string_view> names;
+    for (const auto& e : c.elements) names.push_back(e.name);
+    return names;
+}
+
+Result<std::optional<std::string>> resolve_node(const Circuit& c, std::string_view probe_text, std::string_view name) {
+    if (name == "0" || equal_ignoring_case(name, "gnd")) return std::optional<std::string>("0");
+    const auto names = nodes_of(c);
+    const auto found = find_matching_names(names, name, LastPiece::node);
+    if (found.size() > 1) return ambiguous_probe(probe_text, c, names, found);
+    return found.empty() ? std::optional<std::string>() : std::string(names[found[0]]);
+}
+
+/// "M, D, R ": the devices whose current follows from their voltages.
+std::string recordable_letters() {
+    std::string out;
+    for (const auto* kind : device_kinds)
+        if (kind->saves_terminal_current)
+            out = fmt::format("{}{}{}", static_cast<char>(kind->letter - 'a' + 'A'), out.empty() ? " " : ", ", out);
+    return out;
+}
+
+Result<std::optional<std::string>> resolve_current(const Circuit& c, std::string_view probe_text, std::string_view name) {
+    const auto names = elements_of(c);
+    const auto found = find_matching_names(names, name, LastPiece::element);
+    if (found.size() > 1) return ambiguous_probe(probe_text, c, names, found);
+    if (found.empty()) return std::optional<std::string>();
+    const auto& e = c.elements[found[0]];
+    if (!has_branch_current(e) && !has_device_current(e))
+        return bad_input(fmt::format("--probe {}: the current of {} cannot be recorded; record that of an {}or voltage source", probe_text,
+                                     e.name, recordable_letters()));
+    return std::optional(fmt::format("i({})", e.name));
 }
 
 }  // namespace
@@ -94,6 +162,45 @@ PlotRow DeviceCurrents::extend(const PlotRow& row) {
     for (const auto& s : currents_)
         row_.push_back(s.value(system_, [&](int u) { return u < 0 ? 0 : row.real[static_cast<std::size_t>(u) + has_sweep_]; }));
     return PlotRow(row_);
+}
+
+std::vector<std::string> split_probes(std::string_view text) {
+    std::vector<std::string> out(1);
+    int depth = 0;
+    for (const char letter : text) {
+        depth += letter == '(' ? 1 : letter == ')' ? -1 : 0;
+        if (letter == ',' && depth == 0)
+            out.emplace_back();
+        else
+            out.back() += letter;
+    }
+    return out;
+}
+
+Result<std::optional<std::string>> resolve_probe(const Circuit& c, std::string_view probe_text) {
+    const auto probe = TRY(parse_probe(probe_text));
+    if (probe.is_current) return resolve_current(c, probe_text, probe.first);
+    const auto first = resolve_node(c, probe_text, probe.first);
+    if (!first || !*first || probe.second.empty())
+        return !first || !*first ? first : Result<std::optional<std::string>>(fmt::format("v({})", **first));
+    const auto second = resolve_node(c, probe_text, probe.second);
+    if (!second || !*second) return second;
+    return std::optional(fmt::format("v({},{})", **first, **second));
+}
+
+std::string suggest_probe(const Circuit& c, std::string_view probe_text) {
+    const auto probe = parse_probe(probe_text);
+    if (!probe) return "";
+    const auto kind = probe->is_current ? LastPiece::element : LastPiece::node;
+    if (!probe->is_current && find_matching_names(elements_of(c), probe->first, LastPiece::element).size() == 1)
+        return fmt::format("; a device's current is i({})", probe->first);
+    const auto names = probe->is_current ? elements_of(c) : nodes_of(c);
+    std::vector<std::string> known;
+    for (const auto name : names) known.push_back(short_name(name, piece_count(probe->first), kind));
+    const auto similar = did_you_mean(lower(probe->first), known);
+    return !similar.empty() || names.empty()
+               ? similar
+               : fmt::format("; there are the {} {}", probe->is_current ? "devices" : "nodes", abbreviated_list(names));
 }
 
 }  // namespace corpuscle::circuit

@@ -1,7 +1,5 @@
-#include "circuit/solve/batched_devices.hpp"
+#include "circuit/solve/step_equations.hpp"
 
-#include <algorithm>
-#include <map>
 #include <type_traits>
 
 namespace corpuscle::circuit {

@@ -2,11 +2,9 @@
 // Gaussian elimination of one sparsity pattern as a flat list of operations. The operations and their order do not depend on the values,
 // so one circuit and many circuits on lanes compute the same bits.
 
-#include <optional>
-#include <span>
 #include <vector>
 
-#include "circuit/lanes/chip_kernels.hpp"
+#include "circuit/lanes/kernels.hpp"
 
 namespace corpuscle::circuit {
 

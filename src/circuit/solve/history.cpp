@@ -1,7 +1,5 @@
 #include "circuit/solve/history.hpp"
 
-#include <algorithm>
-
 namespace corpuscle::circuit {
 
 void History::accept() {

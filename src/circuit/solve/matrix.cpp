@@ -3,10 +3,7 @@
 #include <klu.h>
 
 #include <algorithm>
-#include <optional>
 #include <type_traits>
-
-#include "circuit/solve/elimination.hpp"
 
 namespace corpuscle::circuit {
 
@@ -42,9 +39,6 @@ struct LinearSolver<T>::Impl {
     klu_common common;
     klu_symbolic* symbolic;
     klu_numeric* numeric = nullptr;
-    std::optional<Elimination> list;
-    bool by_list = false;     // the last factorization used the list
-    long fallback_count = 0;  // see LinearSolver::fallback_count()
 
     explicit Impl(const SparsityPattern& p)
         : pattern(p), size(p.size()), begin(p.column_begin().begin(), p.column_begin().end()), rows(p.rows().begin(), p.rows().end()) {
@@ -83,24 +77,19 @@ bool LinearSolver<T>::factor(std::span<const T> values) {
     auto* numbers = reinterpret_cast<double*>(const_cast<T*>(values.data()));  // KLU has no const arguments but does not write here
     if (impl_->symbolic == nullptr) return false;
     if constexpr (!Impl::is_complex) {
-        impl_->by_list = impl_->list && impl_->list->factor(values);
-        if (impl_->by_list) return true;
+        by_list_ = list_ && list_->factor(values);
+        if (by_list_) return true;
         // If there is a list, KLU's previous pivots are not reused: a solution must depend on its matrix only, not on earlier matrices.
-        if (impl_->list) return factor_with_new_pivots(values);
+        if (list_) return factor_with_new_pivots(values);
     }
     return (impl_->numeric != nullptr && impl_->refactor(numbers)) || impl_->factor(numbers);
 }
 
 template <class T>
 bool LinearSolver<T>::factor_with_new_pivots(std::span<const T> values) {
-    impl_->by_list = false;
-    impl_->fallback_count += impl_->list.has_value();  // 1 if there is a list
+    by_list_ = false;
+    fallback_count_ += list_.has_value();  // 1 if there is a list
     return impl_->factor(reinterpret_cast<double*>(const_cast<T*>(values.data())));
-}
-
-template <class T>
-double LinearSolver<T>::growth() const {
-    return impl_->by_list ? impl_->list->growth() : 0;
 }
 
 template <class T>
@@ -112,32 +101,22 @@ void LinearSolver<T>::fix_pivot_order(std::span<const T> values) {
         std::vector<int> rows(static_cast<std::size_t>(impl_->size)), columns(rows.size());
         klu_extract(impl_->numeric, impl_->symbolic, nullptr, nullptr, nullptr, nullptr, nullptr, nullptr, nullptr, nullptr, nullptr,
                     rows.data(), columns.data(), nullptr, nullptr, &impl_->common);
-        impl_->list.emplace(impl_->pattern, rows, columns, values);
-        impl_->fallback_count = 0;
+        list_.emplace(impl_->pattern, rows, columns, values);
+        fallback_count_ = 0;
     }
     (void)values;
 }
 
 template <class T>
-const Elimination* LinearSolver<T>::elimination() const {
-    return impl_->list ? &*impl_->list : nullptr;
-}
-
-template <class T>
-long LinearSolver<T>::fallback_count() const {
-    return impl_->fallback_count;
-}
-
-template <class T>
-Singularity LinearSolver<T>::singularity() const {
-    return {impl_->symbolic == nullptr || impl_->common.singular_col >= impl_->size ? -1 : impl_->common.singular_col};
+int LinearSolver<T>::singular_column() const {
+    return impl_->symbolic == nullptr || impl_->common.singular_col >= impl_->size ? -1 : impl_->common.singular_col;
 }
 
 template <class T>
 void LinearSolver<T>::solve(std::span<T> b) const {
     auto* numbers = reinterpret_cast<double*>(b.data());
     if constexpr (!Impl::is_complex)
-        if (impl_->by_list) return impl_->list->solve(b);
+        if (by_list_) return list_->solve(b);
     of_type<T>(klu_solve, klu_z_solve)(impl_->symbolic, impl_->numeric, impl_->size, 1, numbers, &impl_->common);
 }
 

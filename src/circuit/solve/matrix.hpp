@@ -2,10 +2,8 @@
 // Sparse linear equations with one pattern and many sets of values, solved by SuiteSparse's KLU. Only matrix.cpp includes KLU.
 
 #include <complex>
-#include <memory>
-#include <span>
-#include <utility>
-#include <vector>
+
+#include "circuit/solve/elimination.hpp"
 
 namespace corpuscle::circuit {
 
@@ -33,18 +31,14 @@ public:
     }
 };
 
-/// Why a factorization failed: this column depends linearly on others. -1: not known.
-struct Singularity {
-    int column = -1;
-};
-
-class Elimination;
-
 /// Factors matrices of one pattern and solves equations with them. The pattern must outlive the solver. T: double or std::complex<double>.
 template <class T>
 class LinearSolver {
     struct Impl;
-    std::unique_ptr<Impl> impl_;
+    std::unique_ptr<Impl> impl_;  // of KLU
+    std::optional<Elimination> list_;
+    bool by_list_ = false;  // the last factorization used the list
+    long fallback_count_ = 0;
 
 public:
     explicit LinearSolver(const SparsityPattern&);
@@ -52,17 +46,17 @@ public:
     LinearSolver(LinearSolver&&) noexcept;
 
     /// Factors the matrix with these values and reuses the previous pivots if they are still stable. Returns false if the matrix is
-    /// singular; see singularity().
+    /// singular.
     bool factor(std::span<const T> values);
-    Singularity singularity() const;
+    int singular_column() const;  ///< why it failed: this column depends linearly on others; -1: not known
     /// Fixes the pivot order of this matrix and prepares its elimination as a list. Later matrices use the list; if its pivots are not
     /// stable for a matrix, that matrix gets new pivots. No effect on complex matrices and on very large ones.
     void fix_pivot_order(std::span<const T> values);
-    const Elimination* elimination() const;  ///< null: no list
-    long fallback_count() const;             ///< number of matrices since fix_pivot_order() for which the list was not used
+    const Elimination* elimination() const { return list_ ? &*list_ : nullptr; }  ///< null: no list
+    long fallback_count() const { return fallback_count_; }  ///< number of matrices since fix_pivot_order() for which the list was not used
     /// The largest multiplier in the last factorization, see Elimination::growth(). If it is large, the solution should be checked. 0: the
     /// list was not used.
-    double growth() const;
+    double growth() const { return by_list_ ? list_->growth() : 0; }
     bool factor_with_new_pivots(std::span<const T> values);  ///< chooses new pivots even if there is a list; increases fallback_count()
     void solve(std::span<T> right_side) const;               ///< A x = b, in place
     void solve_transposed(std::span<T> right_side) const;    ///< A^T x = b (no conjugate), in place; not after fix_pivot_order()

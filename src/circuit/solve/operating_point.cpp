@@ -1,35 +1,11 @@
 #include "circuit/solve/operating_point.hpp"
 
-#include <fmt/format.h>
-#include <algorithm>
-#include <array>
 #include <cmath>
-#include <functional>
-#include <optional>
 
 #include "circuit/device/named_values.hpp"
 
 namespace corpuscle::circuit {
 namespace {
-
-/// Loosens the tolerances during its lifetime.
-class LooseTolerances {
-    Tolerances& tolerances_;
-    const Tolerances tight_;
-
-    void loosen() const { tolerances_.reltol = 1e-2, tolerances_.vntol = 1e-3, tolerances_.abstol = 1e-13; }
-
-public:
-    explicit LooseTolerances(Tolerances& tolerances) : tolerances_(tolerances), tight_(tolerances) { loosen(); }
-    LooseTolerances(const LooseTolerances&) = delete;
-    ~LooseTolerances() { tolerances_ = tight_; }
-    /// Runs `work` with the original tolerances.
-    bool with_tight(const std::function<bool()>& work) const {
-        tolerances_ = tight_;
-        const bool ok = work();
-        return loosen(), ok;
-    }
-};
 
 /// Searches for the operating point with one method after another.
 class OperatingPointSearch {
@@ -102,9 +78,23 @@ class OperatingPointSearch {
     /// positive feedback, such as a Schmitt trigger that switches, moves faster and faster; there the step is limited so that a voltage
     /// changes by about `max_change`. Only the last steps are solved with tight tolerances.
     bool pseudo_transient(std::vector<double>& x) {
+        const auto tight = newton_.tolerances;
+        auto loose = tight;
+        loose.reltol = 1e-2, loose.vntol = 1e-3, loose.abstol = 1e-13;
+        newton_.tolerances = loose;
+        const bool found = pseudo_transient(x, [&](std::vector<double>& solution) {
+            newton_.tolerances = tight;
+            const bool ok = newton_.solve(solution, clamps_, 20);
+            newton_.tolerances = loose;
+            return ok;
+        });
+        newton_.tolerances = tight;
+        return found;
+    }
+    template <class Solve>
+    bool pseudo_transient(std::vector<double>& x, const Solve& solve_tightly) {
         constexpr double max_change = 20e-3, settled_below = 2e-3;  // V
         constexpr int max_iterations = 5;
-        const LooseTolerances loose(newton_.tolerances);
         double g = 1e-4, failed_g = 0;  // S: capacitance / time step, which is smaller for a longer step; that of the last failed step
         double rate = 0;                // A: largest change of a voltage in the last step, times g
         int limited_steps = 0;          // remaining steps that must be shorter than the failed one
@@ -120,8 +110,7 @@ class OperatingPointSearch {
             const double moved = largest_difference(last, x), speedup = rate > 0 ? moved * g / rate : 0;
             rate = moved * g;  // speedup: this rate / that of the step before
             if (moved < 10 * settled_below && g < 1e-13) {
-                if (auto solution = x; loose.with_tight([&] { return newton_.solve(solution, clamps_, 20); }))
-                    return x = std::move(solution), true;
+                if (auto solution = x; solve_tightly(solution)) return x = std::move(solution), true;
                 if (g < 1e-19) return false;
             }
             const bool quick = newton_.iterations - before <= 3;

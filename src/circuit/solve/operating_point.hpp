@@ -1,10 +1,6 @@
 #pragma once
 // The DC operating point of a circuit: f(x) = 0, by Newton's method, or by continuation methods if Newton's method diverges.
 
-#include <optional>
-#include <string>
-#include <vector>
-
 #include "circuit/solve/system.hpp"
 
 namespace corpuscle::circuit {

@@ -3,7 +3,6 @@
 // relative to the allowed error.
 
 #include <algorithm>
-#include <cmath>
 
 #include "core/number/elementary.hpp"
 

@@ -1,9 +1,5 @@
 #include "circuit/solve/step_equations.hpp"
 
-#include <algorithm>
-#include <cmath>
-#include <utility>
-
 namespace corpuscle::circuit {
 namespace {
 

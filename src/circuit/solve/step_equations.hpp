@@ -2,11 +2,49 @@
 // The equations of one time step, f(x, t) + a q(x) + history = 0, and their solution by Newton's method. The integration formula gives a
 // and history so that dq/dt = a q(x) + history at the end of the step.
 
-#include "circuit/solve/batched_devices.hpp"
 #include "circuit/solve/operating_point.hpp"
 #include "circuit/solve/step_control.hpp"
 
 namespace corpuscle::circuit {
+
+/// All device groups of a system. Index lists are made once: the unknown of each terminal, and the derivatives that add up to each matrix
+/// entry. Vectors of unknowns have one more element at the end, for ground.
+class BatchedDevices {
+    struct GroupBuffer {
+        const DeviceGroup& group;
+        std::size_t offset;  // of the group's values in numbers(): v, f, q [terminals][stride]; df, dq [terminals^2][stride]
+    };
+    struct alignas(64) CacheLine {
+        double values[8];
+    };
+    /// Index lists that add values to targets, grouped by the number of terms of each target.
+    struct ScatterAdd {
+        struct Run {  // `count` successive targets, to each of which `terms` values are added
+            int terms, count;
+        };
+        std::vector<Run> runs;
+        std::vector<int> to;    // index of each target
+        std::vector<int> from;  // indices of the values, target by target
+        void add(const double* numbers, double* out) const;
+    };
+    std::vector<GroupBuffer> buffers_;
+    std::vector<CacheLine> lines_;  // storage of numbers()
+    std::vector<int> terminals_;    // unknown of each element of v, one buffer after another
+    ScatterAdd slopes_, currents_, charges_;
+
+    double* numbers() { return lines_.empty() ? nullptr : lines_[0].values; }
+    static ScatterAdd make_scatter(std::vector<std::pair<int, int>> to_from);
+
+public:
+    explicit BatchedDevices(const System&);
+    BatchedDevices(const BatchedDevices&) = delete;
+
+    /// Evaluates the devices at x; adds f + rate q to the residual r, and df + rate dq to the Jacobian J. rate: 1/s.
+    void evaluate(const EvalContext&, double rate, const std::vector<double>& x, std::vector<double>& J, std::vector<double>& r);
+    /// Adds the charges at x + step, extrapolated linearly from the last evaluation at x, to q. Call at most once after each evaluate(),
+    /// since it overwrites the evaluation.
+    void add_charges(const std::vector<double>& step, std::vector<double>& q);
+};
 
 /// The largest difference allowed between an expression and its linearization when a Newton iteration ends.
 struct ExpressionTolerance {
@@ -80,7 +118,7 @@ public:
     /// Takes one Newton step from x. The status is `converged` if the remaining error of every unknown with allowed[n] > 0 is a small part
     /// of allowed[n] (V or A).
     Status iterate(std::vector<double>& x, std::span<const double> allowed);
-    const NewtonControl& newton_control() const { return newton_control_; }
+    NewtonControl& newton_control() { return newton_control_; }
     /// The charges at the result of iterate(). Call at most once after iterate().
     void read_charges(std::span<double> q);
     /// Solves (G + a C) e = r in place, with the last matrix: the effect e of a perturbation r of the equations on the unknowns.
@@ -89,9 +127,6 @@ public:
     void evaluate_static(double t, std::span<const double> x, std::span<double> f, std::span<double> q);
     /// Fixes the pivot order of all later matrices to that of the matrix at x with dq/dt = a q.
     void fix_pivot_order(std::span<const double> x, double a);
-    // See NewtonControl.
-    double quadratic_factor() const { return newton_control_.quadratic_factor; }
-    void set_quadratic_factor(double factor) { newton_control_.quadratic_factor = factor; }
     /// The elimination list after fix_pivot_order(); null: there is none.
     const Elimination* elimination() const { return solver_.elimination(); }
 };

@@ -1,9 +1,5 @@
 #include "circuit/solve/system.hpp"
 
-#include <fmt/format.h>
-#include <algorithm>
-#include <cmath>
-
 #include "circuit/device/named_values.hpp"
 #include "circuit/device/physical_constants.hpp"
 #include "circuit/devices.hpp"
@@ -31,9 +27,7 @@ public:
         system_.names_.push_back(fmt::format("v({})", name));
         return static_cast<int>(system_.names_.size()) - 1;
     }
-    double temperature(const Element& e) const override {
-        return value_or(e.values, "temp", circuit().temperature + value_or(e.values, "dtemp", 0)) + zero_celsius;
-    }
+    double temperature(const Element& e) const override { return celsius_of(circuit(), e) + zero_celsius; }
     const Circuit& circuit() const override { return *system_.circuit_; }
 };
 

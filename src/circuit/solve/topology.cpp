@@ -1,34 +1,9 @@
 #include "circuit/solve/system.hpp"
 
-#include <fmt/format.h>
-#include <algorithm>
-#include <numeric>
-
 #include "circuit/devices.hpp"
-#include "core/parameter.hpp"
 
 namespace corpuscle::circuit {
 namespace {
-
-/// Sets of connected nodes (union-find).
-class NodeSets {
-    std::vector<int> parent_;
-
-public:
-    explicit NodeSets(std::size_t count) : parent_(count) { std::iota(parent_.begin(), parent_.end(), 0); }
-    int root(int k) {
-        auto& up = parent_[static_cast<std::size_t>(k)];
-        while (up != parent_[static_cast<std::size_t>(up)]) up = parent_[static_cast<std::size_t>(up)];
-        return up;
-    }
-    /// Unites the sets of a and b. Returns false if both were in one set already.
-    bool join(int a, int b) {
-        a = root(a), b = root(b);
-        if (a == b) return false;
-        parent_[static_cast<std::size_t>(a)] = b;
-        return true;
-    }
-};
 
 /// The names of up to three elements at a node, and the number of the others.
 std::string elements_at(const Circuit& c, int node) {
@@ -101,28 +76,6 @@ Result<void> check_solvable(const Circuit& c) {
         return error_at(c.elements[0].location, "no element is connected to ground (node 0)");
     TRY(check_voltage_loops(c));
     return check_floating_nodes(c);
-}
-
-std::vector<Error> find_dangling_nodes(const Circuit& c) {
-    std::vector<int> terminals(c.nodes.size());           // number of terminals, and of uses in expressions, by node
-    std::vector<const Element*> element(c.nodes.size());  // the last element with a terminal at the node
-    for (const auto& e : c.elements) {
-        for (const int n : e.nodes) ++terminals[static_cast<std::size_t>(n)], element[static_cast<std::size_t>(n)] = &e;
-        if (!e.expression) continue;
-        for (const auto& in : e.expression->inputs())
-            for (const auto& name : {in.name, in.minus})
-                if (const int n = c.find_node(name); in.kind == ExpressionInput::Kind::voltage && n > 0)
-                    ++terminals[static_cast<std::size_t>(n)];
-    }
-    std::vector<std::string_view> connected;  // nodes with more than one terminal, as suggestions
-    for (std::size_t n = 1; n < c.nodes.size(); ++n)
-        if (terminals[n] > 1) connected.push_back(c.nodes[n]);
-    std::vector<Error> out;
-    for (std::size_t n = 1; n < c.nodes.size(); ++n)
-        if (terminals[n] == 1 && c.nodes[n].find('.') == std::string::npos)  // not inside a subcircuit
-            out.push_back(error_at(element[n]->location, "node '{}' is connected only to {}{}", c.nodes[n], element[n]->name,
-                                   did_you_mean(c.nodes[n], connected)));
-    return out;
 }
 
 }  // namespace corpuscle::circuit

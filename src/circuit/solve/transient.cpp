@@ -1,11 +1,5 @@
 #include "circuit/solve/transient.hpp"
 
-#include <fmt/format.h>
-#include <algorithm>
-#include <cmath>
-#include <utility>
-
-#include "circuit/solve/interpolant.hpp"
 #include "core/text/quantity.hpp"
 
 namespace corpuscle::circuit {
@@ -23,7 +17,7 @@ Result<void> Transient::begin(std::vector<double> x, bool settled, std::span<con
     newton_.limiting_state = system_.initial_limiting_state();
     newton_.context.with_charges = true, newton_.context.time = 0;
     system_.eval(x, newton_.context, newton_.limiting_state, newton_.evaluation);
-    stats_ = {}, equations_.iterations = 0, equations_.set_quadratic_factor(1);
+    stats_ = {}, equations_.iterations = 0, equations_.newton_control().quadratic_factor = 1;
     alternations_.assign(count, 0), damping_steps_ = 0, has_charge_.assign(count, 0);
     for (std::size_t n = 0; n < count; ++n)
         has_charge_[n] = newton_.evaluation.C[system_.pattern().entry_index(static_cast<int>(n), static_cast<int>(n))] != 0;
@@ -77,7 +71,7 @@ Result<void> Transient::make_consistent() {
 /// again. Without, it keeps the value of the last step, which differs by the residual of that step. In a very short first step this small
 /// difference would be a large current.
 void Transient::restart(bool forget, bool exact) {
-    TimePoint& point = history_points_.newest();
+    TimePoint& point = history_points_[0];
     equations_.evaluate_static(point.t, point.x, rate_, error_);
     if (exact) point.q = error_;
     for (double& r : rate_) r = -r;
@@ -356,28 +350,29 @@ Result<bool> Transient::step(double until) {
     }
 }
 
-TransientState Transient::save() const {
-    TransientState s;
-    for (int k = 0; k < history_points_.smooth_count(); ++k) s.history.push_back(history_points_[k]);
-    s.control = control_, s.restart_pending = restart_pending_, s.damping_steps = damping_steps_;
-    s.count = history_points_.count(), s.curve_points = curve_points_, s.start_phase = static_cast<int>(start_phase_);
-    s.quadratic_factor = equations_.quadratic_factor(), s.stats = stats_;
-    s.scale = scale_, s.rate = rate_, s.rate_change = rate_change_, s.max_rate = max_rate_, s.alternations = alternations_,
-    s.limiting_state = newton_.limiting_state;
-    return s;
-}
-
-void Transient::restore(const TransientState& s) {
-    history_points_.clear();
-    for (auto point = s.history.rbegin(); point != s.history.rend(); ++point)
-        history_points_.next_point() = *point, history_points_.accept();
-    history_points_.set_count(s.count);
-    control_ = s.control, restart_pending_ = s.restart_pending, damping_steps_ = s.damping_steps;
-    curve_points_ = s.curve_points, start_phase_ = static_cast<StartPhase>(s.start_phase);
-    equations_.set_quadratic_factor(s.quadratic_factor), stats_ = s.stats, equations_.iterations = s.stats.iterations;
-    scale_ = s.scale, rate_ = s.rate, rate_change_ = s.rate_change, max_rate_ = s.max_rate, alternations_ = s.alternations,
-    newton_.limiting_state = s.limiting_state;
-    update_tolerances();
+void Transient::archive(StateArchive& a) {
+    constexpr double max_count = 1e9;
+    int points = history_points_.smooth_count(), count = history_points_.count();
+    a.integer(points, 1, History::max_points);
+    a.integer(control_.order, 1, plan_.max_order), a.integer(control_.steps_since_order_change, 0, max_count);
+    a.integer(control_.failures, 0, max_count), a.integer(damping_steps_, 0, 2), a.integer(control_.starting, 0, 1);
+    a.integer(restart_pending_, 0, 1), a.integer(count, 1, points), a.integer(curve_points_, 0, points), a.integer(start_phase_, 0, 2);
+    auto& quadratic_factor = equations_.newton_control().quadratic_factor;
+    a.number(control_.h), a.number(quadratic_factor), a.number(control_.recent_max_step);
+    for (long* n : {&stats_.steps, &stats_.rejected, &stats_.diverged, &stats_.iterations}) a.integer(*n, 0, max_exact_integer);
+    equations_.iterations = stats_.iterations;
+    history_points_.set_counts(count, points);
+    const auto size = scale_.size();
+    for (int k = 0; k < points; ++k) {
+        auto& point = history_points_[k];
+        a.number(point.t), a.numbers(point.x, size), a.numbers(point.q, size);
+        a.is_valid &= std::abs(point.t) <= plan_.stop && (k == 0 || point.t < history_points_[k - 1].t);
+    }
+    for (auto* values : {&scale_, &rate_, &rate_change_, &max_rate_}) a.numbers(*values, size);
+    a.numbers(newton_.limiting_state, newton_.limiting_state.size());
+    for (int& n : alternations_) a.integer(n, 0, max_count);
+    a.is_valid &= control_.h > 0 && quadratic_factor > 0 && control_.recent_max_step >= 0;
+    if (a.is_valid) update_tolerances();
 }
 
 Result<void> Transient::run(std::vector<double> x, bool settled, const PointCallback& each, std::span<const double> charge) {

@@ -1,11 +1,8 @@
 #pragma once
 // Transient analysis: integrates f(x, t) + dq(x)/dt = 0 with steps as long as the tolerances allow.
 
-#include <algorithm>
-#include <functional>
-#include <optional>
-
 #include "circuit/solve/history.hpp"
+#include "circuit/solve/state_archive.hpp"
 #include "circuit/solve/step_equations.hpp"
 
 namespace corpuscle::circuit {
@@ -31,22 +28,6 @@ struct TransientStats {
     long steps = 0, rejected = 0;  ///< accepted and rejected steps
     long diverged = 0;             ///< rejected steps whose Newton iterations diverged
     long iterations = 0;           ///< Newton iterations
-};
-
-/// The complete state of a transient. The next steps depend only on this, the circuit and the x passed to begin(). Members have the names
-/// and meanings of those of Transient and NewtonControl.
-struct TransientState {
-    std::vector<TimePoint> history;  ///< newest first
-    StepControl control;
-    bool restart_pending = false;
-    double quadratic_factor = 1;
-    int damping_steps = 0;
-    int count = 1;  ///< History::count()
-    int curve_points = 0;
-    int start_phase = 0;  ///< Transient::StartPhase as a number
-    std::vector<double> scale, rate, limiting_state, rate_change, max_rate;
-    std::vector<int> alternations;
-    TransientStats stats;
 };
 
 /// Integration with variable step and order: variable-coefficient BDF or the trapezoidal rule. The polynomial through the earlier points is
@@ -159,10 +140,15 @@ public:
     /// downwards if not `upwards`.
     std::optional<double> crossing(int plus, int minus, double level, bool upwards) const;
 
-    TransientState save() const;
-    /// Call after begin() with the same x as the saved transient. The steps are bit-identical if the first x ever passed to begin() is the
-    /// same for both, too.
-    void restore(const TransientState&);
+    /// Writes or reads the complete state. The next steps depend only on this, the circuit and the first x ever passed to begin(). Before
+    /// reading, call begin() with the same x as the saved transient.
+    void archive(StateArchive&);
+    void shift_origin(double t) { history_points_.shift_origin(t); }  ///< moves the origin of time to t, s
+    const History& history() const { return history_points_; }
+    const StepControl& control() const { return control_; }
+    // By unknown: the largest magnitude so far, and dq/dt at the newest point.
+    const std::vector<double>& scale() const { return scale_; }
+    const std::vector<double>& rate() const { return rate_; }
 };
 
 }  // namespace corpuscle::circuit

@@ -1,11 +1,6 @@
 // Interpolation of a transient between its accepted points.
 
-#include <algorithm>
-#include <cmath>
-#include <utility>
-
 #include "circuit/devices.hpp"
-#include "circuit/solve/interpolant.hpp"
 #include "circuit/solve/transient.hpp"
 
 namespace corpuscle::circuit {

@@ -1,7 +1,6 @@
 #include "circuit/variant/hierarchical_names.hpp"
 
 #include <fmt/format.h>
-#include <algorithm>
 
 #include "core/text/ascii_text.hpp"
 
@@ -9,16 +8,6 @@ namespace corpuscle::circuit {
 namespace {
 
 constexpr int no_match = 4;  // above all ranks of match_rank()
-
-std::vector<std::string_view> split(std::string_view name) {
-    std::vector<std::string_view> out;
-    for (std::size_t at = 0; at <= name.size();) {
-        const auto end = std::min(name.find('.', at), name.size());
-        out.push_back(name.substr(at, end - at));
-        at = end + 1;
-    }
-    return out;
-}
 
 /// True if the piece's first letter may be left out.
 bool has_optional_letter(std::string_view piece, bool is_last, LastPiece kind) {
@@ -29,7 +18,7 @@ bool has_optional_letter(std::string_view piece, bool is_last, LastPiece kind) {
 /// How well a name matches the typed pieces; a lower rank is better. 0: `typed` is the full path; 1: the full path with letters left out;
 /// 2 and 3: the same for the end of the path.
 int match_rank(std::string_view name, std::span<const std::string_view> typed, LastPiece kind) {
-    const auto pieces = split(name);
+    const auto pieces = split(name, '.');
     if (typed.size() > pieces.size()) return no_match;
     bool exact = true;
     for (std::size_t k = 0; k < typed.size(); ++k) {
@@ -47,7 +36,7 @@ std::size_t piece_count(std::string_view name) { return static_cast<std::size_t>
 
 std::vector<std::size_t> find_matching_names(std::span<const std::string_view> names, std::string_view typed, LastPiece kind) {
     const auto lower_case = lower(typed);
-    const auto words = split(lower_case);
+    const auto words = split(lower_case, '.');
     std::vector<std::size_t> out;
     int best = no_match;
     for (std::size_t k = 0; k < names.size(); ++k) {
@@ -59,7 +48,7 @@ std::vector<std::size_t> find_matching_names(std::span<const std::string_view> n
 }
 
 std::string short_name(std::string_view name, std::size_t pieces, LastPiece kind) {
-    const auto all = split(name);
+    const auto all = split(name, '.');
     std::string out;
     for (std::size_t k = all.size() - std::min(pieces, all.size()); k < all.size(); ++k) {
         if (!out.empty()) out += '.';

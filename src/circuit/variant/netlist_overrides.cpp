@@ -1,10 +1,5 @@
 #include "circuit/variant/netlist_overrides.hpp"
 
-#include <fmt/format.h>
-#include <algorithm>
-#include <cmath>
-#include <optional>
-
 #include "circuit/devices.hpp"
 #include "circuit/variant/hierarchical_names.hpp"
 #include "core/text/ascii_text.hpp"
@@ -96,11 +91,9 @@ private:
             if (dot != std::string::npos && has_parameter(e, std::string_view(typed).substr(dot + 1)))
                 known.push_back(short_name(e.name, pieces - 1, LastPiece::element) + typed.substr(dot));
         }
-        const std::vector<std::string_view> views(known.begin(), known.end());
-        const std::vector<std::string_view> params(parameters_.begin(), parameters_.end());
         return error_of(setting, "{} has no parameter or device '{}'{} (it has {}corner, temp, mismatch, and {} devices, such as {})",
-                        circuit_.file, setting.parameter, did_you_mean(typed, views),
-                        params.empty() ? "" : fmt::format("{}, ", fmt::join(params, ", ")), names_.size(),
+                        circuit_.file, setting.parameter, did_you_mean(typed, known),
+                        parameters_.empty() ? "" : fmt::format("{}, ", fmt::join(parameters_, ", ")), names_.size(),
                         names_.empty() ? "none" : short_name(names_.back(), piece_count(names_.back()), LastPiece::element));
     }
 
@@ -272,8 +265,7 @@ Result<Applied<Netlist>> apply_overrides(const NetlistOpener& open, const std::s
         } else if (std::find(parameters.begin(), parameters.end(), lower_name) != parameters.end()) {
             TRY(set_parameter(setting, lower_name, changes));
         } else if (setting.target.empty()) {
-            const std::vector<std::string_view> known(parameters.begin(), parameters.end());
-            return error_of(setting, "{} has no .param {}{}", name, lower_name, did_you_mean(lower_name, known));
+            return error_of(setting, "{} has no .param {}{}", name, lower_name, did_you_mean(lower_name, parameters));
         } else {
             device_overrides.push_back(&setting);
         }

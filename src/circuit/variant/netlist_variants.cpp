@@ -1,8 +1,6 @@
 #include "circuit/variant/netlist_variants.hpp"
 
-#include <fmt/format.h>
 #include <algorithm>
-#include <cmath>
 
 #include "circuit/analysis/analysis_context.hpp"
 #include "circuit/device/uicm_card.hpp"
@@ -65,8 +63,7 @@ Result<NetlistVariants::Axis> read_axis(const Directive& c) {
 
 Result<ChipSpec> parse_chip_spec(const Directive& c) {
     ChipSpec out;
-    const auto count = TRY(read_number(c, 0, "the number of chips"));
-    out.count = count;
+    out.count = TRY(read_number(c, 0, "the number of chips"));
     for (std::size_t k = 1; k < c.words.size(); ++k) {
         const auto equals = c.words[k].find('=');
         const auto name = c.words[k].substr(0, equals);
@@ -86,7 +83,7 @@ Result<ChipSpec> parse_chip_spec(const Directive& c) {
 
 ChipSample ChipSpec::sample(std::uint64_t chip) const {
     ChipSample out{seed, first_chip + chip, has_mismatch, {}};
-    if (has_process) std::copy_n(sample_process(seed, first_chip + chip).values, 4, out.process);
+    if (has_process) out.process = sample_process(seed, first_chip + chip);
     return out;
 }
 
@@ -98,8 +95,7 @@ std::optional<ChipSample> chip_sample_of(const Circuit& c) {
 Result<NetlistVariants> NetlistVariants::create(const Netlist& netlist) {
     NetlistVariants out{};
     out.netlist_ = netlist;
-    auto nominal = TRY(netlist.elaborate());
-    out.nominal_ = std::make_shared<const Circuit>(std::move(nominal));
+    out.nominal_ = std::make_shared<const Circuit>(TRY(netlist.elaborate()));
     double count = 1;  // of the variants so far
     for (const auto& c : out.nominal_->directives) {
         if (c.name == "step") {

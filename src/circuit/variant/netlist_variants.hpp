@@ -1,9 +1,6 @@
 #pragma once
 // The variants of a netlist that .step and .mc define: the same circuit with other values.
 
-#include <memory>
-#include <optional>
-
 #include "circuit/device/device.hpp"
 
 namespace corpuscle::circuit {

@@ -3,7 +3,7 @@
 #include <fmt/format.h>
 #include <filesystem>
 
-#include "circuit/variant/embedded_netlists.hpp"
+#include "circuit/variant/netlist_overrides.hpp"
 #include "core/text/input_files.hpp"
 #include "run/afferent_plan.hpp"
 #include "sweep/subject/subject.hpp"

@@ -6,7 +6,7 @@
 #include <map>
 
 #include "circuit/batch/chip_batch.hpp"
-#include "circuit/output/resolve_probe.hpp"
+#include "circuit/output/saved_quantities.hpp"
 #include "core/parameter.hpp"
 #include "sweep/subject/subject.hpp"
 

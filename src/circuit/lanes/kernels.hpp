@@ -1,6 +1,6 @@
 #pragma once
-// Interface between batches of chips of one circuit and their kernels on SIMD lanes, compiled once for each instruction set. Plain data
-// and pointers only. A row has one number for each chip. The results in a chip's column depend on that column alone.
+// Interface between circuit code, compiled for every machine, and the kernels of transistors and of batches of chips on SIMD lanes, compiled
+// once for each instruction set. Plain data and pointers only.
 
 #include <cstddef>
 #include <cstdint>
@@ -10,9 +10,40 @@
 
 namespace corpuscle::circuit::lanes {
 
+inline constexpr std::size_t max_lanes = 8;  ///< a multiple of the number of lanes of every instruction set
+
+/// The stamps of several devices of one kind. The elements have the order of Stamp, but each element is a row of `stride` numbers, one for
+/// each device, aligned to 64 bytes.
+struct BatchStamp {
+    std::size_t stride;  ///< at least the number of devices, rounded up to the number of lanes
+    const double* v;     ///< values of the unknowns
+    double *f, *df;
+    double* max_term;  ///< for each f, the largest |df/dv| max(|v|, phi_t), the scale of its rounding error; null: not needed
+    double *q, *dq;    ///< null: not needed
+    double rate = 0;   ///< 1/s: rate q is added to f, and rate dq to df
+};
+
+/// A batch of transistors. The unknowns are drain, gate, source, bulk.
+struct TransistorCall : BatchStamp {
+    const std::byte* models;  ///< from build(), one for each register of transistors
+    std::size_t count;        ///< number of transistors
+    double gmin;              ///< S, in parallel with every junction
+};
+
+/// The transistor kernels of one instruction set.
+struct TransistorKernels {
+    std::size_t lanes, model_bytes;  ///< number of lanes; size of a model, which holds one transistor per lane
+    void (*build)(std::byte* to, const UicmConstants* constants);  ///< constructs a model from one element of `constants` per lane
+    void (*eval)(const TransistorCall&);
+    void (*extrapolate)(std::size_t stride, const double* dv, const double* dq, double* q);  ///< q += dq dv for the whole stride
+};
+
+extern const TransistorKernels scalar_transistor_kernels;
+CORPUSCLE_KERNELS(TransistorKernels, transistor_kernel_table)
+
 inline constexpr std::size_t chips_per_block = 8;  ///< the same for every instruction set
 
-/// One number for each chip of a block.
+/// One number for each chip of a block. The results in a chip's column depend on that column alone.
 struct alignas(64) LaneRow {
     double value[chips_per_block];
 };

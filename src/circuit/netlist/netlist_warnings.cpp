@@ -1,12 +1,10 @@
-#include "circuit/variant/netlist_warnings.hpp"
-
-#include <fmt/format.h>
-#include <algorithm>
+// Warnings about likely mistakes in a valid netlist, and about numbers that users often take for other ones: 1F, 5M.
 
 #include "circuit/device/named_values.hpp"
 #include "circuit/device/uicm_card.hpp"
 #include "circuit/devices.hpp"
 #include "circuit/expression/spice_number.hpp"
+#include "circuit/netlist/parsed_netlist.hpp"
 #include "core/text/quantity.hpp"
 
 namespace corpuscle::circuit {
@@ -27,6 +25,27 @@ void warn(std::vector<Error>& out, const Circuit& c, Holds&& holds, Message&& me
 }
 
 bool has_value(const Element& e, std::string_view name) { return e.values.contains(name); }
+
+/// Warns about nodes that only one terminal of one element is connected to. The circuit can be solved, but this is often a typing error.
+void warn_about_dangling_nodes(std::vector<Error>& out, const Circuit& c) {
+    std::vector<int> terminals(c.nodes.size());           // number of terminals, and of uses in expressions, by node
+    std::vector<const Element*> element(c.nodes.size());  // the last element with a terminal at the node
+    for (const auto& e : c.elements) {
+        for (const int n : e.nodes) ++terminals[static_cast<std::size_t>(n)], element[static_cast<std::size_t>(n)] = &e;
+        if (!e.expression) continue;
+        for (const auto& in : e.expression->inputs())
+            for (const auto& name : {in.name, in.minus})
+                if (const int n = c.find_node(name); in.kind == ExpressionInput::Kind::voltage && n > 0)
+                    ++terminals[static_cast<std::size_t>(n)];
+    }
+    std::vector<std::string_view> connected;  // nodes with more than one terminal, as suggestions
+    for (std::size_t n = 1; n < c.nodes.size(); ++n)
+        if (terminals[n] > 1) connected.push_back(c.nodes[n]);
+    for (std::size_t n = 1; n < c.nodes.size(); ++n)
+        if (terminals[n] == 1 && c.nodes[n].find('.') == std::string::npos)  // not inside a subcircuit
+            out.push_back(error_at(element[n]->location, "node '{}' is connected only to {}{}", c.nodes[n], element[n]->name,
+                                   did_you_mean(c.nodes[n], connected)));
+}
 
 void warn_about_sizes(std::vector<Error>& out, const Circuit& c) {
     const auto too_long = [](const Element& e, std::string_view name) { return value_or(e.values, name, 0) > max_gate_size; };
@@ -50,15 +69,8 @@ void warn_about_sizes(std::vector<Error>& out, const Circuit& c) {
 
 bool has_initial_value(const Element& e) { return has_role(e, Role::capacitor) || has_role(e, Role::inductor); }
 
-bool has_directive(const Circuit& c, std::string_view name) {
-    return std::any_of(c.directives.begin(), c.directives.end(), [&](const Directive& directive) { return directive.name == name; });
-}
-
 void warn_about_initial_conditions(std::vector<Error>& out, const Circuit& c) {
-    const bool without_uic = std::any_of(c.directives.begin(), c.directives.end(), [](const Directive& directive) {
-        return directive.name == "tran" && (directive.words.empty() || directive.words.back() != "uic");
-    });
-    if (without_uic)
+    if (!std::ranges::all_of(c.directives_named("tran"), [](const Directive& d) { return !d.words.empty() && d.words.back() == "uic"; }))
         warn(
             out, c, [](const Element& e) { return has_value(e, "ic") && has_initial_value(e); },
             [](const Element&) {
@@ -75,12 +87,9 @@ void warn_about_initial_conditions(std::vector<Error>& out, const Circuit& c) {
 
 void warn_about_missing_ac(std::vector<Error>& out, const Circuit& c) {
     if (std::any_of(c.elements.begin(), c.elements.end(), [](const Element& e) { return e.waveform.ac_magnitude != 0; })) return;
-    for (const auto& directive : c.directives)
-        if (directive.name == "ac") {
-            out.push_back(error_at(directive.location,
-                                   ".ac: no source has an AC value, so every response is 0; add one, such as 'v1 in 0 dc 0 ac 1'"));
-            return;
-        }
+    for (const auto& directive : c.directives_named("ac") | std::views::take(1))
+        out.push_back(
+            error_at(directive.location, ".ac: no source has an AC value, so every response is 0; add one, such as 'v1 in 0 dc 0 ac 1'"));
 }
 
 void warn_about_pulses(std::vector<Error>& out, const Circuit& c) {
@@ -100,8 +109,8 @@ void warn_about_pulses(std::vector<Error>& out, const Circuit& c) {
 }
 
 void warn_about_tran_times(std::vector<Error>& out, const Circuit& c) {
-    for (const auto& directive : c.directives) {
-        if (directive.name != "tran" || directive.words.size() < 2) continue;
+    for (const auto& directive : c.directives_named("tran")) {
+        if (directive.words.size() < 2) continue;
         const auto step = parse_number(directive.words[0]), stop = parse_number(directive.words[1]);
         if (step && stop && stop->value > 0 && step->value > stop->value)
             out.push_back(error_at(directive.location, ".tran: STEP {} is longer than STOP {}; the order is .tran STEP STOP",
@@ -109,13 +118,51 @@ void warn_about_tran_times(std::vector<Error>& out, const Circuit& c) {
     }
 }
 
+/// The unit of an element's main value; "" if it has no unit or no such value.
+std::string_view unit_of(char letter) {
+    const auto* kind = find_device_kind(letter);
+    return kind == nullptr || kind->parameters.empty() ? "" : kind->parameters[0].unit;
+}
+
+/// The warning for a number in the line of an element whose value has this unit; "" if there is nothing to warn about. `text` is the number
+/// in small letters. In the file its suffix begins with a capital, unless the suffix is "a".
+std::string warning_for(std::string_view unit, const SpiceNumber& number, std::string_view text) {
+    const auto scale = number.suffix.substr(0, 3);
+    const bool is_milli = scale.starts_with('m') && scale != "meg" && scale != "mil";
+    const auto digits = text.substr(0, text.size() - number.suffix.size());
+    const bool is_source = unit == "V" || unit == "A";
+    if (!is_source && equal_ignoring_case(number.suffix, "a"))
+        return fmt::format("{0}{1} is {0}, since 'a' is not a scale factor; for {0} times 1e-18 write {0}e-18", digits, number.suffix);
+    if (unit == "ohm" && is_milli) return fmt::format("{}M is {} milliohm; for a megohm write {}Meg", digits, digits, digits);
+    if (unit == "F" && number.suffix == "f") return fmt::format("{}F is {} femtofarad; for a farad write {}", digits, digits, digits);
+    if (is_source && number.suffix == "mhz")
+        return fmt::format("{}MHz is {} millihertz; for a megahertz write {}Meg", digits, digits, digits);
+    return "";
+}
+
 }  // namespace
 
 std::vector<Error> netlist_warnings(const Circuit& c) {
     std::vector<Error> out;
+    warn_about_dangling_nodes(out, c);
     warn_about_sizes(out, c), warn_about_missing_ac(out, c), warn_about_pulses(out, c), warn_about_tran_times(out, c);
-    if (has_directive(c, "tran")) warn_about_initial_conditions(out, c);
+    if (c.has_directive("tran")) warn_about_initial_conditions(out, c);
     return out;
+}
+
+void warn_about_units(const Statement& s, std::vector<Error>& warnings) {
+    const auto check = [&](const Word& w) {
+        if (w.kind != Word::Kind::plain) return;
+        const auto text = s.text(w);
+        const auto number = parse_number(text);
+        if (!number || number->suffix.empty()) return;
+        if (!equal_ignoring_case(number->suffix, "a") && !s.line.was_capital(w.at + text.size() - number->suffix.size())) return;
+        const std::string warning = warning_for(unit_of(s.line.text[0]), *number, text);
+        if (!warning.empty()) warnings.push_back(error_at(s.location(w), "{}: {}", s.text(0), warning));
+    };
+    for (std::size_t k = 3; k < s.words.size(); ++k) check(s.words[k]);  // after the name and two nodes
+    for (const auto& pair : s.pairs)
+        if (s.text(pair.name) == "r" || s.text(pair.name) == "c") check(pair.value);
 }
 
 }  // namespace corpuscle::circuit
