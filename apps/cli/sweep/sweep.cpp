@@ -77,7 +77,7 @@ SweepRunOptions run_options_of(const SweepArguments& args, const Shard& shard, c
 Error with_advice(const Error& error, const SweepResults& results) {
     if (error.code != ErrorCode::interrupted) return error;
     return {error.code, fmt::format("interrupted; {} of {} items have ended and are saved in {}; the same command resumes the sweep",
-                                    results.finished_count(), results.item_count(), results.path())};
+                                    results.finished_count(), results.item_count, results.path())};
 }
 
 /// Opens the results file, runs the missing items and prints the status. `ranks`: null for a single process; the others for rank 0.

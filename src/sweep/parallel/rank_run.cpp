@@ -11,8 +11,8 @@ namespace {
 /// Everything that must be equal in all ranks of a sweep.
 std::string identity_of(const Sweep& sweep) {
     ByteWriter out;
-    out.put(sweep.item_count());
-    for (const auto& entry : sweep.metadata()) out.put(entry.name, entry.text);
+    out.put(sweep.item_count);
+    for (const auto& entry : sweep.metadata) out.put(entry.name, entry.text);
     return out.take();
 }
 

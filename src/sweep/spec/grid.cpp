@@ -35,8 +35,8 @@ std::string file_text(const std::string& stored) {
 }  // namespace
 
 bool is_deterministic(const SweepResults& results) {
-    if (!results.about(mismatch_metadata_name).empty() || results.axes().empty()) return false;
-    for (const auto& axis : results.axes())
+    if (!results.about(mismatch_metadata_name).empty() || results.axes.empty()) return false;
+    for (const auto& axis : results.axes)
         if (axis.name.starts_with("process.")) return false;
     const auto stored = results.about("sweep file");  // empty if the sweep was a netlist with .step or .mc, without a sweep file
     const auto text = sweeps::read_sweep_text(file_text(stored), results.path());

@@ -24,28 +24,17 @@ struct SweepAxis {
 };
 
 /// The axes of a sweep, and the values of each item.
-class SweepPlan {
-    std::vector<SweepAxis> axes_;
-    std::vector<SweepColumn> columns_;
-    circuit::ChipSpec chips_;
-    std::int64_t samples_ = 1, points_ = 1;  // samples per point; number of points
-
-public:
+struct SweepPlan {
     static constexpr double max_items = 1e12;  ///< of one sweep
 
-    SweepPlan() = default;
-    /// `chips`: whether process and mismatch are sampled, and with which seed; its count is not used. `samples`: number of samples per
-    /// point.
-    SweepPlan(std::vector<SweepAxis> axes, const circuit::ChipSpec& chips, std::int64_t samples);
+    std::vector<SweepAxis> axes = {};
+    circuit::ChipSpec chips{0, 0, false, false};  ///< whether process and mismatch are sampled, and with which seed; its count is not used
+    std::int64_t samples = 1;                     ///< number of samples per point
 
-    const std::vector<SweepAxis>& axes() const { return axes_; }
+    std::int64_t item_count() const;
+    bool samples_chips() const { return chips.has_process || chips.has_mismatch; }
     /// A column for each axis; then, if the process is sampled, one for each of its four deviates.
-    const std::vector<SweepColumn>& columns() const { return columns_; }
-    const circuit::ChipSpec& chips() const { return chips_; }
-    std::int64_t samples() const { return samples_; }  ///< number of samples per point
-    std::int64_t item_count() const { return points_ * samples_; }
-    bool samples_chips() const { return chips_.has_process || chips_.has_mismatch; }
-
+    std::vector<SweepColumn> columns() const;
     /// The values of an item, in the order of columns().
     std::vector<double> values(std::int64_t item) const;
     /// Process and mismatch of an item; no value if neither is sampled.

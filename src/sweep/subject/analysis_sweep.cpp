@@ -135,8 +135,8 @@ Result<void> AnalysesSweep::select_measures(const SweepText& spec) {
 }
 
 Result<std::size_t> AnalysesSweep::measure_column(const LocatedText& name) {
-    for (std::size_t k = 0; k < measures_.size(); ++k)
-        if (measures_[k].name == name.text) return k;
+    for (std::size_t k = 0; k < measures.size(); ++k)
+        if (measures[k].name == name.text) return k;
     const auto& known = number_names_;
     const bool is_known = std::find(known.begin(), known.end(), name.text) != known.end();
     const bool is_curve = without_transients_ && without_transients_->find_number(name.text);  // the measure is its last value
@@ -150,18 +150,18 @@ Result<std::size_t> AnalysesSweep::measure_column(const LocatedText& name) {
                                            name.text, did_you_mean(name.text, names),
                                            known.empty() ? "none" : fmt::format("{}", fmt::join(known, ", "))));
     }
-    measures_.push_back({name.text, unit_of(name.text), ""});
-    return measures_.size() - 1;
+    measures.push_back({name.text, unit_of(name.text), ""});
+    return measures.size() - 1;
 }
 
 /// One train for each .tran, if spikes are kept and the netlist has a .spike.
 Result<void> AnalysesSweep::select_outputs(const SweepText& spec, bool keeps_spikes) {
-    if (measures_.empty())
+    if (measures.empty())
         return spec.get("netlist")->error_here(
             "the netlist computes no numbers (.meas, .print op); name the measures: measures = [\"v(out)\"]");
     if (!keeps_spikes || !has_directive(*nominal_, "spike")) return {};
     for (const auto& d : nominal_->directives)
-        if (d.name == "tran") train_names_.push_back(train_names_.empty() ? "tran" : fmt::format("tran {}", train_names_.size() + 1));
+        if (d.name == "tran") train_names.push_back(train_names.empty() ? "tran" : fmt::format("tran {}", train_names.size() + 1));
     return {};
 }
 
@@ -187,8 +187,8 @@ Result<std::int64_t> AnalysesSweep::nominal_iterations(const std::function<bool(
 
 ItemOutcome AnalysesSweep::outcome(std::int64_t item, const RunOutcome& result) const {
     auto out = failed_outcome(item, "", ItemEnd::done);
-    for (std::size_t k = 0; k < measures_.size(); ++k)
-        if (const auto value = result.find_number(measures_[k].name)) out.measures[k] = *value;
+    for (std::size_t k = 0; k < measures.size(); ++k)
+        if (const auto value = result.find_number(measures[k].name)) out.measures[k] = *value;
     std::size_t train = 0;
     for (const auto& a : result.analyses) {
         if (a.result.spikes && train < out.spikes.size()) out.spikes[train++] = *a.result.spikes;

@@ -69,8 +69,8 @@ Result<void> ChipSweep::add_probe(const LocatedText& probe) {
     if (!found)
         return probe.error_here(fmt::format("traces: {} has no node or device '{}'{}", netlist_.name(), probe.text,
                                             circuit::suggest_probe(*nominal_->circuit, probe.text)));
-    probe_names_.push_back(*found);
-    netlist_.save(probe_names_);
+    probe_names.push_back(*found);
+    netlist_.save(probe_names);
     nominal_ = TRY(CircuitAfferentFactory::create(TRY(netlist_.nominal())));
     return {};
 }
@@ -100,7 +100,7 @@ ItemOutcome ChipSweep::outcome(std::int64_t item, const ActiveChip& chip, ChipRe
     auto out = failed_outcome(item, response.error ? response.error->text() : "");
     out.ran_alone = response.is_scalar, out.steps = response.stats.steps, out.iterations = response.stats.iterations;
     if (response.error) return out;
-    if (!train_names_.empty()) out.spikes[0] = response.spikes;
+    if (!train_names.empty()) out.spikes[0] = response.spikes;
     out.probes = padded_probes(std::move(response.probes));
     if (response.hit_iteration_limit) {
         out.end = ItemEnd::iteration_limit, out.reason = fmt::format("stopped after {} iterations", response.stats.iterations);

@@ -108,7 +108,7 @@ Result<void> ModelSweep::add_probe(const LocatedText& probe) {
     if (at == names.end())
         return probe.error_here(fmt::format("traces: {} has no '{}'{} (it has {})", nominal_.name, probe.text,
                                             did_you_mean(probe.text, names), fmt::join(names, ", ")));
-    probes_.push_back(static_cast<std::size_t>(at - names.begin())), probe_names_.push_back(probe.text);
+    probes_.push_back(static_cast<std::size_t>(at - names.begin())), probe_names.push_back(probe.text);
     return {};
 }
 
@@ -145,7 +145,7 @@ std::size_t ModelSweep::block_items() const {
     auto limit = max_block_items;
     if (force_.varies()) limit = std::clamp<std::size_t>(max_varied_samples / force_.nominal()->samples.size(), 1, limit);
     const auto fraction =
-        static_cast<std::size_t>(std::min<std::int64_t>(item_count() / 8, max_block_items)) / min_block_items * min_block_items;
+        static_cast<std::size_t>(std::min<std::int64_t>(item_count / 8, max_block_items)) / min_block_items * min_block_items;
     return std::min(limit, std::max(fraction, min_block_items));
 }
 
@@ -254,7 +254,7 @@ void ModelSweep::report(ModelItem& item, std::vector<std::vector<float>> probe_s
     out.probes = padded_probes(std::move(probe_samples));
     if (!item.failure) {
         out.end = ItemEnd::done, out.measures = afferent_measures_->values(*item.force, {item.spikes});
-        if (!train_names_.empty()) out.spikes[0] = std::move(item.spikes);
+        if (!train_names.empty()) out.spikes[0] = std::move(item.spikes);
     }
     on_outcome(std::move(out));
 }

@@ -185,9 +185,9 @@ std::vector<double> NetlistFactory::netlist_values(std::span<const double> value
     return out;
 }
 
-std::vector<Sweep::MetadataText> NetlistFactory::metadata() const {
+std::vector<MetadataText> NetlistFactory::metadata() const {
     const std::lock_guard lock(files_->mutex);
-    std::vector<Sweep::MetadataText> out;
+    std::vector<MetadataText> out;
     for (const auto& [name, text] : files_->texts) {
         const fs::path path = name;
         out.push_back(

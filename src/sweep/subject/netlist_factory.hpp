@@ -60,7 +60,7 @@ public:
     std::vector<double> netlist_values(std::span<const double> values) const;
 
     /// One entry for each file that was read, with its text.
-    std::vector<Sweep::MetadataText> metadata() const;
+    std::vector<MetadataText> metadata() const;
 };
 
 /// True if two circuits have the same devices at the same nodes and differ at most in numbers.

@@ -29,10 +29,6 @@ class PlannedSweep : public Sweep {
 
 protected:
     SweepPlan plan_;
-    std::vector<SweepColumn> measures_;
-    std::vector<std::string> train_names_, probe_names_;
-    std::vector<double> probe_times_;
-    std::vector<MetadataText> metadata_;
     NetlistFactory netlist_{};  // of a circuit
     ForceFactory force_;        // of an afferent
 
@@ -68,14 +64,7 @@ protected:
 
 public:
     Result<void> prepare(const SweepText&, const std::string& folder);
-    std::int64_t item_count() const override { return plan_.item_count(); }
-    const std::vector<SweepColumn>& axes() const override { return plan_.columns(); }
-    const std::vector<SweepColumn>& measures() const override { return measures_; }
-    const std::vector<std::string>& train_names() const override { return train_names_; }
-    const std::vector<std::string>& probe_names() const override { return probe_names_; }
-    const std::vector<double>& probe_times() const override { return probe_times_; }
     std::vector<double> values(std::int64_t item) const override { return plan_.values(item); }
-    const std::vector<MetadataText>& metadata() const override { return metadata_; }
 };
 
 /// The common part of the sweeps over an afferent, which responds to a force.
