@@ -13,10 +13,7 @@
 #include <filesystem>
 #include <random>
 
-#include "run/ranks.hpp"
-#include "sweep/parallel/rank_run.hpp"
-#include "sweep/store/sqlite.hpp"
-#include "sweep/store/sweep_results.hpp"
+#include "sweep/parallel/run_sweep.hpp"
 
 namespace {
 

@@ -10,7 +10,6 @@
 #include "circuit/device/uicm_card.hpp"
 #include "circuit/netlist/netlist.hpp"
 #include "core/random.hpp"
-#include "sweep/spec/sweep_document.hpp"
 #include "sweep/stats/sweep_summary.hpp"
 #include "synthetic_sweep.hpp"
 

@@ -8,7 +8,7 @@
 #include "cli/output/sweep_status.hpp"
 #include "cli/output/terminal.hpp"
 #include "cli/verbs.hpp"
-#include "sweep/parallel/rank_run.hpp"
+#include "sweep/parallel/run_sweep.hpp"
 #include "sweep/store/writer_lock.hpp"
 
 namespace corpuscle {
@@ -92,7 +92,7 @@ Result<void> run_and_report(Ranks* ranks, const Sweep& sweep, const SweepArgumen
             progress.update(static_cast<double>(c.finished()) / static_cast<double>(std::max<std::int64_t>(1, c.planned)));
         };
         SweepProgress counts;
-        return ranks ? run_coordinator(*ranks, sweep, results, run_options, counts) : run_sweep(sweep, results, run_options, counts);
+        return run_sweep(sweep, results, run_options, counts, ranks);
     }();
     if (const auto checkpointed = results.checkpoint(); !checkpointed && !common.quiet)
         print_warning(fmt::format("the results are complete only if {} is kept together with {}-wal: {}", results.path(), results.path(),

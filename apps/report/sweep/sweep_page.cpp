@@ -9,7 +9,6 @@
 #include "report/page_template.hpp"
 #include "report/sweep/sweep_plots.hpp"
 #include "sweep/spec/mismatch_samples.hpp"
-#include "sweep/spec/sweep_document.hpp"
 
 namespace corpuscle {
 namespace {

@@ -174,16 +174,24 @@ Sensitivity sensitivity_of(std::span<const double> measure, std::span<const Swee
     return out;
 }
 
+GroupMeans group_means(std::span<const double> values, std::span<const std::size_t> group, std::size_t groups) {
+    GroupMeans out{std::vector<double>(groups), std::vector<double>(groups)};
+    for (std::size_t k = 0; k < values.size(); ++k)
+        if (group[k] < groups && std::isfinite(values[k])) out.means[group[k]] += values[k], ++out.counts[group[k]];
+    for (std::size_t g = 0; g < groups; ++g) out.means[g] = out.counts[g] > 0 ? out.means[g] / out.counts[g] : Estimate::none;
+    return out;
+}
+
 GroupEffect group_effect(std::span<const double> measure, std::span<const std::size_t> group, std::size_t groups) {
-    std::vector<double> sums(groups), counts(groups);
+    const auto [means, counts] = group_means(measure, group, groups);
     double sum = 0, n = 0, squares = 0, inside = 0;  // squares, inside: sums of squares in total, and inside the groups
-    for (std::size_t k = 0; k < measure.size(); ++k)
-        if (std::isfinite(measure[k])) sum += measure[k], ++n, sums[group[k]] += measure[k], ++counts[group[k]];
+    for (const double x : measure)
+        if (std::isfinite(x)) sum += x, ++n;
     const auto used_groups = static_cast<double>(std::count_if(counts.begin(), counts.end(), [](double c) { return c > 0; }));
     if (used_groups < 2 || n <= used_groups) return {};
     for (std::size_t k = 0; k < measure.size(); ++k) {
         if (!std::isfinite(measure[k])) continue;
-        const double deviation = measure[k] - sum / n, deviation_in_group = measure[k] - sums[group[k]] / counts[group[k]];
+        const double deviation = measure[k] - sum / n, deviation_in_group = measure[k] - means[group[k]];
         squares += deviation * deviation, inside += deviation_in_group * deviation_in_group;
     }
     if (!(squares > 0)) return {};

@@ -38,6 +38,13 @@ inline constexpr double false_discovery_rate = 0.01;
 /// follows Student's distribution.
 Sensitivity sensitivity_of(std::span<const double> measure, std::span<const SweepFactor> factors);
 
+/// For each group, the mean and the number of its values that are finite.
+struct GroupMeans {
+    std::vector<double> means, counts;  ///< the mean of no values is NaN
+};
+/// `group`: for each value, the index of its group; a value whose index is not below `groups` is left out.
+GroupMeans group_means(std::span<const double> values, std::span<const std::size_t> group, std::size_t groups);
+
 /// The effect of groups, such as the points of an axis, on a measure: the fraction of the measure's variance that lies between the groups
 /// (omega squared), and its p-value by Fisher's F.
 struct GroupEffect {

@@ -65,46 +65,34 @@ void finish_point(PointSummary& point, std::size_t measures) {
 
 /// The value in each row, minus the mean over the rows of its group.
 std::vector<double> inside_groups(const std::vector<double>& values, const SweepGroups& points) {
-    std::vector<double> sums(points.groups.size()), counts(points.groups.size()), out(values.size());
-    for (std::size_t r = 0; r < values.size(); ++r)
-        if (std::isfinite(values[r])) sums[points.group_of[r]] += values[r], ++counts[points.group_of[r]];
-    for (std::size_t r = 0; r < values.size(); ++r) out[r] = values[r] - sums[points.group_of[r]] / counts[points.group_of[r]];
+    const auto means = group_means(values, points.group_of, points.groups.size()).means;
+    std::vector<double> out(values.size());
+    for (std::size_t r = 0; r < values.size(); ++r) out[r] = values[r] - means[points.group_of[r]];
     return out;
 }
 
-/// The first chips of a sweep, at most max_analysed_chips, and for each chip the mean of a measure over the points. Chip k is sample k: a
-/// chip is simulated at each point with the same mismatch and the same values of the sampled axes.
-class ChipMeans {
-    std::vector<std::size_t> chip_of_;  // for each row: index in chips_, or none
-    std::vector<std::uint64_t> chips_;  // numbers of the chips
-    static constexpr auto none = static_cast<std::size_t>(-1);
-
-public:
-    /// `samples`: number of samples of each point; 0: each item is a separate chip.
-    ChipMeans(const SweepTable& table, std::int64_t samples) {
-        std::unordered_map<std::uint64_t, std::size_t> index;  // by the number of the chip
-        for (const auto item : table.items) {
-            const auto chip = static_cast<std::uint64_t>(samples > 0 ? item % samples : item);
-            const auto known = index.find(chip);
-            if (known == index.end() && chips_.size() == max_analysed_chips) {
-                chip_of_.push_back(none);
-                continue;
-            }
-            if (known == index.end()) index[chip] = chips_.size(), chips_.push_back(chip);
-            chip_of_.push_back(index[chip]);
-        }
-    }
-    const std::vector<std::uint64_t>& chips() const { return chips_; }
+/// The first chips of a sweep, at most max_analysed_chips. Chip k is sample k: a chip is simulated at each point with the same mismatch and
+/// the same values of the sampled axes.
+struct Chips {
+    std::vector<std::uint64_t> numbers;
+    std::vector<std::size_t> of_row;  ///< for each row: index in `numbers`; max_analysed_chips if it is of another chip
 
     /// For each chip, the mean of the values in its rows; NaN if there are none.
-    std::vector<double> of(const std::vector<double>& values) const {
-        std::vector<double> out(chips_.size()), counts(chips_.size());
-        for (std::size_t r = 0; r < values.size(); ++r)
-            if (chip_of_[r] != none && std::isfinite(values[r])) out[chip_of_[r]] += values[r], ++counts[chip_of_[r]];
-        for (std::size_t c = 0; c < out.size(); ++c) out[c] = counts[c] > 0 ? out[c] / counts[c] : Estimate::none;
-        return out;
-    }
+    std::vector<double> means(const std::vector<double>& values) const { return group_means(values, of_row, numbers.size()).means; }
 };
+
+/// `samples`: number of samples of each point; 0: each item is a separate chip.
+Chips chips_of(const SweepTable& table, std::int64_t samples) {
+    Chips out;
+    std::unordered_map<std::uint64_t, std::size_t> index;  // by the number of the chip
+    for (const auto item : table.items) {
+        const auto chip = static_cast<std::uint64_t>(samples > 0 ? item % samples : item);
+        if (out.numbers.size() < max_analysed_chips && index.try_emplace(chip, out.numbers.size()).second) out.numbers.push_back(chip);
+        const auto known = index.find(chip);
+        out.of_row.push_back(known == index.end() ? max_analysed_chips : known->second);
+    }
+    return out;
+}
 
 /// The index of the subject of a measure: the only subject, or the one that is named in NAME.MEASURE; -1 if there is none.
 std::ptrdiff_t subject_of(const std::string& measure, const MismatchSamples& mismatch) {
@@ -126,11 +114,11 @@ struct Factors {
     std::vector<SubjectFactors> subjects;
 };
 
-Factors factors_of(const SweepTable& table, const std::optional<MismatchSamples>& mismatch, const ChipMeans& means) {
+Factors factors_of(const SweepTable& table, const std::optional<MismatchSamples>& mismatch, const Chips& chips) {
     Factors out;
     for (std::size_t a = 0; a < table.axes.size(); ++a) {
         if (table.has_points(a)) continue;
-        out.axes.push_back(means.of(table.axis_values[a]));
+        out.axes.push_back(chips.means(table.axis_values[a]));
         out.axis_names.push_back({table.axes[a].name, "", -1, -1, static_cast<std::ptrdiff_t>(a), {}});
     }
     if (!mismatch) return out;
@@ -139,7 +127,7 @@ Factors factors_of(const SweepTable& table, const std::optional<MismatchSamples>
         const auto& devices = mismatch->subjects[s].devices;
         for (std::size_t d = 0; d < devices.size(); ++d) {
             if (devices[d].sigma_VT == 0 && devices[d].sigma_IS == 0) continue;
-            auto deviates = deviates_of(devices[d], mismatch->seed, means.chips());
+            auto deviates = deviates_of(devices[d], mismatch->seed, chips.numbers);
             const NamedInfluence name{devices[d].name, "", static_cast<std::ptrdiff_t>(d), static_cast<std::ptrdiff_t>(s), -1, {}};
             const auto add = [&](double sigma, const char* quantity, SweepFactor& values) {
                 if (sigma == 0) return;
@@ -173,7 +161,7 @@ struct DependenceSearch {
     const std::optional<MismatchSamples>& mismatch;
     SweepGroups points;                                        // by all axes with points
     std::vector<std::pair<std::size_t, SweepGroups>> by_axis;  // index of an axis with two or more points, and its groups
-    ChipMeans means;
+    Chips chips;
     Factors factors;
 };
 
@@ -204,7 +192,7 @@ Dependence dependence_of(const std::string& name, const std::vector<double>& val
     auto* subject_factors = subject >= 0 ? &search.factors.subjects[static_cast<std::size_t>(subject)] : nullptr;
     if (subject_factors)
         for (auto& f : subject_factors->values) all.push_back(std::move(f));
-    out.sensitivity = sensitivity_of(search.means.of(inside_groups(values, search.points)), all);
+    out.sensitivity = sensitivity_of(search.chips.means(inside_groups(values, search.points)), all);
     for (const auto& i : out.sensitivity.influences) {
         out.influences.push_back(i.factor < axes ? search.factors.axis_names[i.factor] : subject_factors->names[i.factor - axes]);
         out.influences.back().influence = i;
@@ -225,9 +213,11 @@ std::vector<Dependence> dependences_of(const SweepTable& table, const std::optio
     auto points = group_rows_by_axes(table, point_axes);
     const auto count = static_cast<std::int64_t>(points.groups.size());
     // Without the description of the mismatch, the number of samples follows from the numbers of items and points.
-    const ChipMeans means(table, mismatch ? mismatch->chips : count > 0 && table.item_count % count == 0 ? table.item_count / count : 0);
-    analysed_chips = means.chips().size();
-    DependenceSearch search{table, mismatch, std::move(points), {}, means, factors_of(table, mismatch, means)};
+    const auto chips = chips_of(table, mismatch                                     ? mismatch->chips
+                                       : count > 0 && table.item_count % count == 0 ? table.item_count / count
+                                                                                    : 0);
+    analysed_chips = chips.numbers.size();
+    DependenceSearch search{table, mismatch, std::move(points), {}, chips, factors_of(table, mismatch, chips)};
     for (const auto a : point_axes)
         if (auto groups = group_rows_by_axes(table, {a}); groups.groups.size() > 1) search.by_axis.emplace_back(a, std::move(groups));
     std::vector<Dependence> out;

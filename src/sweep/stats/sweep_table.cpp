@@ -7,7 +7,8 @@
 
 #include "core/parameter.hpp"
 #include "core/thread_pool.hpp"
-#include "sweep/spec/grid.hpp"
+#include "sweep/spec/axis.hpp"
+#include "sweep/spec/mismatch_samples.hpp"
 
 namespace corpuscle {
 namespace {
@@ -88,7 +89,31 @@ Result<std::vector<ReadPart>> read_parts(const SweepResults& results, const std:
     return out;
 }
 
+/// The stored text of the sweep file without the lines for options of the command line ("--seed 3").
+std::string file_text(const std::string& stored) {
+    std::string out;
+    for (std::size_t from = 0; from < stored.size();) {
+        const auto end = std::min(stored.find('\n', from), stored.size() - 1) + 1;
+        if (stored.compare(from, 2, "--") != 0) out += stored.substr(from, end - from);
+        from = end;
+    }
+    return out;
+}
+
 }  // namespace
+
+bool is_deterministic(const SweepResults& results) {
+    if (!results.about(mismatch_metadata_name).empty() || results.axes.empty()) return false;
+    for (const auto& axis : results.axes)
+        if (axis.name.starts_with("process.")) return false;
+    const auto stored = results.about("sweep file");  // empty if the sweep was a netlist with .step or .mc, without a sweep file
+    const auto text = sweeps::read_sweep_text(file_text(stored), results.path());
+    if (!text) return false;
+    const auto axes = text->axes();
+    return std::none_of(axes.begin(), axes.end(), [](const ConfigNode& axis) {
+        return sweeps::axis_name(axis).text == "process" || sweeps::axis_name(axis).text == "mismatch" || sweeps::is_sampled(axis);
+    });
+}
 
 bool SweepTable::meets_limits(std::size_t row, std::size_t measure) const {
     if (ends[row] != ItemEnd::done) return false;
