@@ -38,7 +38,7 @@ void ChannelRun::warn_of_rates() {
     for (const auto& plan : afferents_) {
         const MeasureRow* fastest = nullptr;
         double rate = max_nerve_rate;
-        for (const auto& row : summary_.rows())
+        for (const auto& row : summary_.rows)
             if (const double r = row.copy_statistics.empty() ? row.values[peak] : row.copy_statistics[peak].max;
                 row.afferent == plan.name && r > rate)
                 fastest = &row, rate = r;
@@ -47,7 +47,7 @@ void ChannelRun::warn_of_rates() {
 }
 
 nlohmann::ordered_json ChannelRun::summarize(const RunStats& stats) {
-    for (const auto& i : summary_.inputs()) {
+    for (const auto& i : summary_.inputs) {
         print_notes(i.name, i.quality.descriptions, common_.quiet);
         for (const auto& s : i.quality.warnings) warn(fmt::format("{}: {}", i.name, s));
     }

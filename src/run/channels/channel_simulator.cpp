@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 #include <algorithm>
 #include <limits>
+#include <map>
 #include <utility>
 
 namespace corpuscle {
@@ -28,29 +29,6 @@ std::string lane_key(const AfferentPlan& plan) {
     return key;
 }
 
-/// The indexes of the plans of an input, grouped.
-struct PlanGroups {
-    std::vector<std::vector<std::size_t>> on_lanes;  ///< groups of plans that can share lanes
-    std::vector<std::size_t> scalar;                 ///< plans that cannot use lanes
-};
-
-/// Groups the plans that can use lanes by lane_key().
-PlanGroups group_plans(std::span<const AfferentPlan> plans, const SimulationOptions& run) {
-    PlanGroups groups;
-    std::vector<std::string> keys;
-    for (std::size_t k = 0; k < plans.size(); ++k) {
-        if (!can_use_lanes(plans[k], run)) {
-            groups.scalar.push_back(k);
-            continue;
-        }
-        const auto key = lane_key(plans[k]);
-        const auto at = static_cast<std::size_t>(std::find(keys.begin(), keys.end(), key) - keys.begin());
-        if (at == keys.size()) keys.push_back(key), groups.on_lanes.emplace_back();
-        groups.on_lanes[at].push_back(k);
-    }
-    return groups;
-}
-
 /// The name of source n of a run. If earlier sources have the same name, a number is appended: "press (2)".
 std::string unique_name(std::span<const std::unique_ptr<ForceSource>> sources, std::size_t n) {
     int same = 1;
@@ -60,11 +38,11 @@ std::string unique_name(std::span<const std::unique_ptr<ForceSource>> sources, s
 
 }  // namespace
 
-ChannelSimulator::ChannelSimulator(ForceSource& source, const std::string& input_name, std::span<const AfferentPlan> plans,
-                                   InputPosition position)
-    : source_(source), population_(source, plans, input_name, position.input_count == 1),
-      input_(make_input(population_, input_name, source)) {
-    input_.index = position.index, input_.input_count = position.input_count, input_.first_afferent = position.first_afferent;
+ChannelSimulator::ChannelSimulator(std::span<const std::unique_ptr<ForceSource>> sources, std::size_t index,
+                                   std::span<const AfferentPlan> plans, std::uint32_t first_afferent)
+    : source_(*sources[index]), population_(source_, plans, unique_name(sources, index), sources.size() == 1),
+      input_(make_input(population_, unique_name(sources, index), source_)) {
+    input_.first_afferent = first_afferent, input_.index = index, input_.input_count = sources.size();
 }
 
 Result<void> ChannelSimulator::start(const RespondOptions& options, bool wants_probes) {
@@ -84,14 +62,20 @@ Result<std::vector<bool>> ChannelSimulator::place_on_lanes(const SimulationOptio
     const auto plans = population_.plans();
     const bool in_float = options.precision == Precision::single_precision;
     if (in_float && set == InstructionSet::scalar) return bad_usage("float needs SIMD lanes: CORPUSCLE_ISA=scalar has none");
-    const auto groups = group_plans(plans, run);
-    if (in_float && (wants_probes_ || !groups.scalar.empty()))
-        return bad_usage(wants_probes_ ? "float precision cannot record probes: remove --float, or --probe and --probe-files"
-                                       : fmt::format("{}: {} cannot run in float", plans[groups.scalar[0]].name,
-                                                     plans[groups.scalar[0]].traits().lane_obstacles));
     std::vector<bool> is_scalar(plans.size());
-    for (const auto k : groups.scalar) is_scalar[k] = true;
-    for (const auto& group : groups.on_lanes) {
+    std::map<std::string, std::vector<std::size_t>> groups;  // of plans that can share lanes, by their keys
+    for (std::size_t k = 0; k < plans.size(); ++k) {
+        if (can_use_lanes(plans[k], run))
+            groups[lane_key(plans[k])].push_back(k);
+        else
+            is_scalar[k] = true;
+    }
+    const auto scalar = static_cast<std::size_t>(std::find(is_scalar.begin(), is_scalar.end(), true) - is_scalar.begin());
+    if (in_float && (wants_probes_ || scalar < plans.size()))
+        return bad_usage(wants_probes_
+                             ? "float precision cannot record probes: remove --float, or --probe and --probe-files"
+                             : fmt::format("{}: {} cannot run in float", plans[scalar].name, plans[scalar].traits().lane_obstacles));
+    for (const auto& [key, group] : groups) {
         if (!in_float && (wants_probes_ || set == InstructionSet::scalar || group.size() * population_.channels() < min_lane_group))
             for (const auto k : group) is_scalar[k] = true;
         else
@@ -178,7 +162,7 @@ void ChannelSimulator::simulate_scalar(ScalarAfferent& scalar) {
         for (auto& p : probe_values_[u]) probe_values.push_back(p.data());
     const auto delay = static_cast<std::size_t>(afferents_[u % afferents_.size()]->delay());
     const auto force =
-        delay > 0 ? lookahead_.samples(population_.channel_of(u), 0, force_.count + delay) : std::span(force_of(u), force_.count);
+        delay > 0 ? lookahead_.samples(population_.channel_of(u), force_.count + delay) : std::span(force_of(u), force_.count);
     scalar.spikes.clear();
     auto& response = scalar.response.emplace(
         ResponseBlock{scalar.spikes, input_.first_afferent + scalar.afferent_index, probe_values, scalar.range_violations});
@@ -265,11 +249,10 @@ Result<void> ChannelSimulator::finish(std::vector<Spike>&, RunStats& stats) {
 std::vector<std::unique_ptr<BlockSimulator>> make_channel_simulators(std::span<const std::unique_ptr<ForceSource>> sources,
                                                                      std::span<const AfferentPlan> plans) {
     std::vector<std::unique_ptr<BlockSimulator>> simulators;
-    InputPosition position{0, sources.size(), 0};
-    for (; position.index < sources.size(); ++position.index) {
-        auto& source = *sources[position.index];
-        simulators.push_back(std::make_unique<ChannelSimulator>(source, unique_name(sources, position.index), plans, position));
-        position.first_afferent += static_cast<std::uint32_t>(source.channels().size() * plans.size());
+    std::uint32_t first_afferent = 0;
+    for (std::size_t k = 0; k < sources.size(); ++k) {
+        simulators.push_back(std::make_unique<ChannelSimulator>(sources, k, plans, first_afferent));
+        first_afferent += static_cast<std::uint32_t>(simulators.back()->input().population.size());
     }
     return simulators;
 }

@@ -9,16 +9,11 @@
 
 namespace corpuscle {
 
-/// The position of an input among those of a run.
-struct InputPosition {
-    std::size_t index = 0, input_count = 1;
-    std::uint32_t first_afferent = 0;
-};
-
 class ChannelSimulator final : public BlockSimulator {
 public:
-    /// The source and the plans must outlive the simulator.
-    ChannelSimulator(ForceSource&, const std::string& input_name, std::span<const AfferentPlan> plans, InputPosition);
+    /// The sources and the plans must outlive the simulator. `index`: of the source. `first_afferent`: see Input.
+    ChannelSimulator(std::span<const std::unique_ptr<ForceSource>> sources, std::size_t index, std::span<const AfferentPlan> plans,
+                     std::uint32_t first_afferent);
 
     Result<void> start(const RespondOptions&, bool wants_probes) override;
     const Input& input() const override { return input_; }

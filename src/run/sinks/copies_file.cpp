@@ -27,15 +27,15 @@ class CopiesFile final : public FileSink {
     void put_row(const Input&, std::size_t afferent_index);
 
 public:
-    CopiesFile(std::string directory, const CopySpec&);
+    explicit CopiesFile(const OutputRequest&);
     Result<void> open();
     Result<void> begin(const Input&) override;
     Result<void> block(const Input&, const RunBlock&) override;
     Result<void> end(const Input&, std::int64_t samples, std::span<const Spike> last) override;
 };
 
-CopiesFile::CopiesFile(std::string directory, const CopySpec& copies) : FileSink(std::move(directory)) {
-    for (const auto& s : copies.distributions) {
+CopiesFile::CopiesFile(const OutputRequest& request) : FileSink(request) {
+    for (const auto& s : request.copies.distributions) {
         auto at =
             std::find_if(columns_.begin(), columns_.end(), [&](const Column& c) { return c.parameter == s.parameter && c.unit == s.unit; });
         if (at == columns_.end()) at = columns_.insert(at, Column{s.parameter, s.unit, {}});
@@ -89,7 +89,7 @@ Result<void> CopiesFile::end(const Input& input, std::int64_t samples, std::span
 
 const OutputFormat copies_format = {
     .names = {"copies.csv"},
-    .make = [](const OutputRequest& request) { return make_file_sink<CopiesFile>(request.directory, request.copies); },
+    .make = make_file_sink<CopiesFile>,
     .is_written = [](const OutputRequest& request) { return request.copies.count > 0; },
 };
 

@@ -14,6 +14,15 @@
 namespace corpuscle {
 namespace {
 
+/// The value of --bin, s.
+Result<double> bin_width_of(const OutputRequest& request) {
+    const auto& text = request.options.at("--bin");
+    const auto width = parse_quantity(text, "s");
+    if (!width) return bad_usage(fmt::format("--bin {}", width.error().message));
+    if (!(*width > 0)) return bad_usage(fmt::format("--bin {}: must be greater than 0, such as 10ms", text));
+    return *width;
+}
+
 class PsthFile final : public FileSink {
     double bin_width_;  // s
     bool has_header_ = false;
@@ -36,7 +45,7 @@ class PsthFile final : public FileSink {
     }
 
 public:
-    PsthFile(std::string directory, double bin_width) : FileSink(std::move(directory)), bin_width_(bin_width) {}
+    explicit PsthFile(const OutputRequest& request) : FileSink(request), bin_width_(*bin_width_of(request)) {}
     Result<void> open() { return create("psth.csv"); }
     Result<void> begin(const Input&) override;
     /// Spikes of later blocks are after the last sample of this block.
@@ -81,15 +90,6 @@ void PsthFile::end_bin(double to) {
     ++current_bin_;
 }
 
-/// The value of --bin, s.
-Result<double> bin_width_of(const OutputRequest& request) {
-    const auto& text = request.options.at("--bin");
-    const auto width = parse_quantity(text, "s");
-    if (!width) return bad_usage(fmt::format("--bin {}", width.error().message));
-    if (!(*width > 0)) return bad_usage(fmt::format("--bin {}: must be greater than 0, such as 10ms", text));
-    return *width;
-}
-
 }  // namespace
 
 const OutputFormat psth_format = {
@@ -97,7 +97,7 @@ const OutputFormat psth_format = {
     .option = "--bin",
     .value_name = "TIME",
     .help = "with --out, also write psth.csv: spike counts and rates in bins of this length",
-    .make = [](const OutputRequest& request) { return make_file_sink<PsthFile>(request.directory, *bin_width_of(request)); },
+    .make = make_file_sink<PsthFile>,
     .check =
         [](const OutputRequest& request) {
             const auto width = bin_width_of(request);

@@ -156,7 +156,7 @@ const OutputFormat sound_format = {
     .names = {"spikes#.wav"},
     .option = "--wav",
     .help = "with --out, also write spikes.wav: one click per spike",
-    .make = make_in_directory<SpikeSoundFile>,
+    .make = make_file_sink<SpikeSoundFile>,
 };
 
 }  // namespace corpuscle

@@ -153,7 +153,7 @@ const OutputFormat vectors_format = {
     .names = {"vectors-*.csv", "rom-*.csv"},
     .option = "--vectors",
     .help = "with --out, also write vectors-AFFERENT.csv and rom-AFFERENT.csv: every fixed-point value after the converter",
-    .make = make_in_directory<VectorsFile>,
+    .make = make_file_sink<VectorsFile>,
     .check = check_vectors,
     .names_of = vectors_file_names,
 };
