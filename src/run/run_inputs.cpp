@@ -2,8 +2,6 @@
 
 #include <algorithm>
 
-#include "run/channels/channel_simulator.hpp"
-
 namespace corpuscle {
 namespace {
 

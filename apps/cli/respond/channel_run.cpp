@@ -4,7 +4,6 @@
 #include <nlohmann/json.hpp>
 
 #include "cli/output/terminal.hpp"
-#include "run/channels/channel_simulator.hpp"
 #include "run/channels/channel_warnings.hpp"
 
 namespace corpuscle {

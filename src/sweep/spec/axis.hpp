@@ -18,21 +18,16 @@ struct VariedQuantity {
     std::function<Result<double>(const LocatedText&)> parse = {};  ///< converts a text such as "2 N" to a number in the unit of `column`
     /// Returns an error if the subject rejects the value. Null: min and max are the only check.
     std::function<Result<void>(const std::string& value)> check = {};
+    /// Takes the values of the quantity from the axis with this index in the plan. `labels`: of the axis; empty if its values are numbers.
+    std::function<void(std::size_t axis, const std::vector<std::string>& labels)> vary = {};
     /// labels_only: all values are labels such as "ss"; allows_labels: values are numbers or labels such as "8x4".
     bool labels_only = false, allows_labels = false;
 };
 
-/// Seed and number of samples of the sampled axes.
-struct SamplingSpec {
-    std::uint64_t seed = 0;
-    std::uint64_t samples = 1;
-    std::size_t dimension = 0;  ///< Sobol dimension of the next axis with Sobol points: the number of such axes read so far
-};
-
 /// True if the values of the axis are random samples, false if they are listed or a grid.
 bool is_sampled(const ConfigNode&);
-/// Combines the text of an axis with its quantity. An axis with Sobol points increments the `dimension` of the sampling.
-Result<SweepAxis> axis_of(const ConfigNode&, const VariedQuantity&, SamplingSpec&);
+/// Combines the text of an axis with its quantity. `plan`: has seed and number of samples, and the axes that were read before.
+Result<SweepAxis> axis_of(const ConfigNode&, const VariedQuantity&, const SweepPlan& plan);
 
 /// Reads an integer from min to max. `name`: what the error message calls it.
 Result<std::int64_t> parse_integer(const LocatedText&, std::string_view name, double min, double max);

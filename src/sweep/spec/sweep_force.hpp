@@ -69,11 +69,10 @@ public:
     const std::string& name() const { return text_; }
     /// True if a name such as "press.F_max" means a parameter of this force.
     bool has_parameter(std::string_view name) const;
-    Result<VariedQuantity> find_quantity(const LocatedText& quantity) const;
+    /// VariedQuantity::vary() may be called after all calls of set().
+    Result<VariedQuantity> find_quantity(const LocatedText& quantity);
     /// Adds a fixed setting.
     Result<void> set(const LocatedSetting&);
-    /// Takes the values of this parameter from the axis with index `axis` in the plan. Call after all calls of set().
-    void vary(const std::string& name, std::size_t axis);
     bool varies() const { return !axes_.empty(); }
 
     /// Makes the nominal force. Call after all calls of set(), and before nominal() and at().

@@ -28,8 +28,9 @@ struct SweepPlan {
     static constexpr double max_items = 1e12;  ///< of one sweep
 
     std::vector<SweepAxis> axes = {};
-    circuit::ChipSpec chips{0, 0, false, false};  ///< whether process and mismatch are sampled, and with which seed; its count is not used
-    std::int64_t samples = 1;                     ///< number of samples per point
+    circuit::ChipSpec chips{0, 0, false,
+                            false};  ///< whether process and mismatch are sampled; its seed is for all axes, its count is not used
+    std::int64_t samples = 1;        ///< number of samples per point
 
     std::int64_t item_count() const;
     bool samples_chips() const { return chips.has_process || chips.has_mismatch; }

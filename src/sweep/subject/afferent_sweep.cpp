@@ -5,6 +5,7 @@
 
 #include "core/text/quantity.hpp"
 #include "run/afferent_plan.hpp"
+#include "run/simulate.hpp"
 #include "sweep/subject/subject.hpp"
 
 namespace corpuscle::sweeps {
@@ -22,6 +23,16 @@ Result<std::size_t> probe_stride(const ConfigNode* given, double T) {
 
 }  // namespace
 
+Result<SimulatedResponse> simulate_afferent(const Afferent& afferent, const SweepForce& force, std::span<const std::size_t> probes,
+                                            std::size_t every, const std::function<bool()>& stop) {
+    const auto response = TRY(simulate(afferent, force.samples, {probes, every, stop}));
+    SimulatedResponse out;
+    for (const auto& values : response.probes) out.probe_samples.emplace_back(values.begin(), values.end());
+    for (const auto& s : response.spikes)
+        if (s.step <= static_cast<std::int64_t>(force.samples.size())) out.spikes.push_back(force.clock.time(s.step, s.offset));
+    return out;
+}
+
 Result<void> AfferentSweep::open_force(const SweepText& spec, const std::string& folder) {
     if (const auto* orders = spec.get("orders"))
         return orders->error_here("orders applies to netlist = ...; an afferent = ... responds to its force");
@@ -30,12 +41,8 @@ Result<void> AfferentSweep::open_force(const SweepText& spec, const std::string&
     return {};
 }
 
-Result<VariedQuantity> AfferentSweep::find_quantity(const LocatedText& quantity) const {
+Result<VariedQuantity> AfferentSweep::find_quantity(const LocatedText& quantity) {
     return force_.has_parameter(quantity.text) ? force_.find_quantity(quantity) : find_afferent_quantity(quantity);
-}
-
-void AfferentSweep::vary(const SweepAxis& a, const std::string& quantity, std::size_t axis) {
-    force_.has_parameter(quantity) ? force_.vary(quantity, axis) : vary_afferent(a, quantity, axis);
 }
 
 Result<void> AfferentSweep::select_measures(const SweepText& spec) {

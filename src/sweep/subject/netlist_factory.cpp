@@ -56,7 +56,7 @@ Result<double> any_number(const LocatedText& spec) {
 
 /// The source files, as they were first read, so that changes of a file during the sweep have no effect.
 struct NetlistFactory::Files {
-    std::mutex mutex;
+    std::recursive_mutex mutex;                              // a netlist includes other files
     std::vector<std::pair<std::string, std::string>> texts;  // path and text
     std::map<std::string, Netlist> by_corner;                // parsed netlists
 };
@@ -86,31 +86,22 @@ Result<NetlistFactory> NetlistFactory::of(const LocatedText& name_or_path, const
 }
 
 Result<std::string> NetlistFactory::text_of(const std::string& path) const {
-    {
-        const std::lock_guard lock(files_->mutex);
-        for (const auto& [name, text] : files_->texts)
-            if (name == path) return text;
-    }
+    const std::lock_guard lock(files_->mutex);
+    for (const auto& [name, text] : files_->texts)
+        if (name == path) return text;
     auto text = is_embedded_ ? embedded_text(path) : read_netlist_file(fs::path(folder_) / path, path);
     if (!text) return text;
-    const std::lock_guard lock(files_->mutex);
     files_->texts.emplace_back(path, *text);
     return text;
 }
 
 Result<Netlist> NetlistFactory::open(const std::string& corner) const {
-    {
-        const std::lock_guard lock(files_->mutex);
-        if (const auto at = files_->by_corner.find(corner); at != files_->by_corner.end()) return at->second;
-    }
-    auto text = text_of(file_);
-    if (!text) return text.error();
-    if (!directives_.empty()) text = with_directives(*text, directives_);
-    auto netlist = Netlist::parse(std::move(*text), file_, [this](const std::string& path) { return text_of(path); }, corner);
-    if (!netlist) return netlist;
     const std::lock_guard lock(files_->mutex);
-    files_->by_corner.emplace(corner, *netlist);
-    return netlist;
+    if (const auto at = files_->by_corner.find(corner); at != files_->by_corner.end()) return at->second;
+    auto text = TRY(text_of(file_));
+    if (!directives_.empty()) text = with_directives(text, directives_);
+    auto netlist = TRY(Netlist::parse(std::move(text), file_, [this](const std::string& path) { return text_of(path); }, corner));
+    return files_->by_corner.emplace(corner, std::move(netlist)).first->second;
 }
 
 ParameterOverride NetlistFactory::override_of(const std::string& name, std::string value) const {
@@ -136,7 +127,7 @@ Result<void> NetlistFactory::set(const LocatedSetting& setting) {
     return {};
 }
 
-Result<VariedQuantity> NetlistFactory::find_quantity(const LocatedText& quantity) const {
+Result<VariedQuantity> NetlistFactory::find_quantity(const LocatedText& quantity) {
     const auto check = [this, name = quantity.text](const std::string& value) -> Result<void> {
         auto extended = overrides_;
         extended.push_back(override_of(name, value));
@@ -145,6 +136,7 @@ Result<VariedQuantity> NetlistFactory::find_quantity(const LocatedText& quantity
     };
     VariedQuantity out{{quantity.text, "", ""}};
     out.parse = any_number, out.check = check, out.allows_labels = true;
+    out.vary = [this, name = quantity.text](std::size_t axis, const auto& labels) { varied_.push_back({name, axis, labels}); };
     const auto lowercase = lower(quantity.text);
     if (lowercase == "corner") {
         out.labels_only = true, out.column.description = "process corner";
@@ -165,10 +157,6 @@ Result<VariedQuantity> NetlistFactory::find_quantity(const LocatedText& quantity
             return quantity.error_here(ok.error().message);
     }
     return out;
-}
-
-void NetlistFactory::vary(const std::string& quantity, std::size_t axis, std::vector<std::string> labels) {
-    varied_.push_back({quantity, axis, std::move(labels)});
 }
 
 Result<Netlist> NetlistFactory::at(std::span<const double> values) const {

@@ -38,9 +38,7 @@ protected:
     /// The nominal circuit, without varied values; null for a model.
     virtual const circuit::Circuit* circuit() const { return nullptr; }
     virtual const std::string& subject_name() const { return netlist_.name(); }
-    virtual Result<VariedQuantity> find_quantity(const LocatedText& quantity) const = 0;
-    /// Tells the subject that this quantity takes its values from the axis with index `axis` in the plan.
-    virtual void vary(const SweepAxis&, const std::string& quantity, std::size_t axis) = 0;
+    virtual Result<VariedQuantity> find_quantity(const LocatedText& quantity) = 0;
     /// Selects the measures of the sweep file, before their limits are set.
     virtual Result<void> select_measures(const SweepText&) = 0;
     /// The index of a measure's column, which is added if necessary.
@@ -75,11 +73,9 @@ protected:
 
     /// Reads the force, and refuses keys that do not apply to afferents.
     Result<void> open_force(const SweepText&, const std::string& folder);
-    Result<VariedQuantity> find_quantity(const LocatedText& quantity) const final;
-    void vary(const SweepAxis&, const std::string& quantity, std::size_t axis) final;
+    Result<VariedQuantity> find_quantity(const LocatedText& quantity) final;
     /// The same for quantities of the afferent.
-    virtual Result<VariedQuantity> find_afferent_quantity(const LocatedText& quantity) const = 0;
-    virtual void vary_afferent(const SweepAxis&, const std::string& quantity, std::size_t axis) = 0;
+    virtual Result<VariedQuantity> find_afferent_quantity(const LocatedText& quantity) = 0;
     virtual std::vector<std::string> range_names() const { return {}; }  ///< of the operating ranges of a circuit
     Result<void> select_measures(const SweepText&) override;
     Result<std::size_t> measure_column(const LocatedText& measure) final;
