@@ -9,7 +9,6 @@
 #include "core/text/ascii_text.hpp"
 #include "core/text/quantity.hpp"
 #include "sweep/spec/probability.hpp"
-#include "sweep/spec/sampling.hpp"
 
 namespace corpuscle::sweeps {
 namespace {
@@ -42,10 +41,9 @@ class AxisReader {
     Result<double> number(const LocatedText& given) const { return given.located(quantity_.parse(given), name() + ": "); }
     /// Reads a number and checks that the subject allows it.
     Result<double> allowed_number(const LocatedText& given) const {
-        const auto value = number(given);
-        if (!value) return value;
-        if (!(*value >= quantity_.min && *value <= quantity_.max))
-            return error_at(given, fmt::format("{} is outside [{}, {}]", format_quantity(*value, quantity_.column.unit),
+        const auto value = TRY(number(given));
+        if (!(value >= quantity_.min && value <= quantity_.max))
+            return error_at(given, fmt::format("{} is outside [{}, {}]", format_quantity(value, quantity_.column.unit),
                                                format_quantity(quantity_.min, quantity_.column.unit),
                                                format_quantity(quantity_.max, quantity_.column.unit)));
         if (quantity_.check) TRY(given.located(quantity_.check(given.text)));

@@ -1,9 +1,8 @@
-#include "sweep/spec/sweep_plan.hpp"
-#include "sweep/spec/probability.hpp"
-
 #include <algorithm>
 
 #include "core/number/elementary.hpp"
+#include "sweep/spec/axis.hpp"
+#include "sweep/spec/probability.hpp"
 
 namespace corpuscle::sweeps {
 

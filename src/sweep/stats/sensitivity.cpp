@@ -121,12 +121,12 @@ bool add_factors(Regression& regression, std::vector<Candidate>&& found, std::si
 
 }  // namespace
 
-Sensitivity sensitivity_of(std::span<const double> measure, std::span<const SweepFactor> factors) {
+Sensitivity sensitivity_of(std::span<const double> measure, std::span<const SweepFactor> factors, std::span<const SweepFactor> more) {
     std::vector<std::size_t> items;
     for (std::size_t k = 0; k < measure.size(); ++k)
         if (std::isfinite(measure[k])) items.push_back(k);
     const auto n = static_cast<double>(items.size());
-    Sensitivity out{items.size(), factors.size()};
+    Sensitivity out{items.size(), factors.size() + more.size()};
     const auto y = items.size() < 8 ? std::vector<double>() : standardised(measure, items);
     if (y.empty()) return out;
     double mean = 0, squares = 0;
@@ -142,9 +142,9 @@ Sensitivity sensitivity_of(std::span<const double> measure, std::span<const Swee
         if (degrees_of_freedom < 4 || unexplained < 1e-9) break;
         std::vector<Candidate> found;
         std::size_t tried = 0;
-        for (std::size_t f = 0; f < factors.size(); ++f) {
+        for (std::size_t f = 0; f < out.factors; ++f) {
             if (std::find(regression.selected.begin(), regression.selected.end(), f) != regression.selected.end()) continue;
-            auto x = standardised(factors[f], items);
+            auto x = standardised(f < factors.size() ? factors[f] : more[f - factors.size()], items);
             if (x.empty()) continue;
             ++tried;
             const double r = std::clamp(dot_product(x, regression.residual) / std::sqrt(unexplained), -1.0, 1.0);

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 #include <tuple>
 #include <unordered_map>
 
@@ -45,22 +46,17 @@ void put_measure(SweepSummary& out, const SweepTable& table, const SweepGroups& 
     put(out.all, sorted.size() == 1 ? sorted[0] : SortedSample::merged(sorted), table.rows(), total_passed);
 }
 
-/// Counts the items of a group by their ends. `passed`: for each row of the table.
+/// Counts the items of a group by their ends, and allocates the measures. `passed`: for each row of the table.
 PointSummary point_summary(const SweepTable& table, const SweepGroup& group, const std::vector<char>& passed) {
     PointSummary out;
-    out.label = group.label;
+    out.label = group.label, out.items = static_cast<std::int64_t>(group.rows.size());
     for (const auto r : group.rows) {
         ++(table.ends[r] == ItemEnd::done ? out.done : table.ends[r] == ItemEnd::iteration_limit ? out.iteration_limit : out.diverged);
         out.passed += passed[r];
     }
+    out.yield = estimate_proportion(out.passed, out.items);
+    out.measures.resize(table.measures.size());
     return out;
-}
-
-/// Computes the number of items and the yield of a point, and allocates its measures.
-void finish_point(PointSummary& point, std::size_t measures) {
-    point.items = point.done + point.iteration_limit + point.diverged;
-    point.yield = estimate_proportion(point.passed, point.items);
-    point.measures.resize(measures);
 }
 
 /// The value in each row, minus the mean over the rows of its group.
@@ -102,39 +98,35 @@ std::ptrdiff_t subject_of(const std::string& measure, const MismatchSamples& mis
     return -1;
 }
 
-/// All factors that may influence a measure: sampled axes may influence every measure, devices only the measures of their subject. Each
-/// factor has a value for each chip, and a NamedInfluence whose `influence` is not yet set.
+/// Factors that may influence a measure. Each has a value for each chip, and a NamedInfluence whose `influence` is not yet set.
 struct Factors {
-    std::vector<SweepFactor> axes;
-    std::vector<NamedInfluence> axis_names;
-    struct SubjectFactors {
-        std::vector<SweepFactor> values;
-        std::vector<NamedInfluence> names;
-    };
-    std::vector<SubjectFactors> subjects;
+    std::vector<SweepFactor> values = {};
+    std::vector<NamedInfluence> names = {};
+
+    void add(SweepFactor factor, NamedInfluence name) { values.push_back(std::move(factor)), names.push_back(std::move(name)); }
 };
 
-Factors factors_of(const SweepTable& table, const std::optional<MismatchSamples>& mismatch, const Chips& chips) {
+/// The sampled axes, which may influence every measure.
+Factors axis_factors(const SweepTable& table, const Chips& chips) {
     Factors out;
-    for (std::size_t a = 0; a < table.axes.size(); ++a) {
-        if (table.has_points(a)) continue;
-        out.axes.push_back(chips.means(table.axis_values[a]));
-        out.axis_names.push_back({table.axes[a].name, "", -1, -1, static_cast<std::ptrdiff_t>(a), {}});
-    }
-    if (!mismatch) return out;
-    for (std::size_t s = 0; s < mismatch->subjects.size(); ++s) {
-        auto& subject_factors = out.subjects.emplace_back();
-        const auto& devices = mismatch->subjects[s].devices;
+    for (std::size_t a = 0; a < table.axes.size(); ++a)
+        if (!table.has_points(a))
+            out.add(chips.means(table.axis_values[a]), {table.axes[a].name, "", -1, -1, static_cast<std::ptrdiff_t>(a), {}});
+    return out;
+}
+
+/// The devices of each subject, which may influence only the measures of this subject.
+std::vector<Factors> device_factors(const MismatchSamples& mismatch, const Chips& chips) {
+    std::vector<Factors> out(mismatch.subjects.size());
+    for (std::size_t s = 0; s < out.size(); ++s) {
+        const auto& devices = mismatch.subjects[s].devices;
         for (std::size_t d = 0; d < devices.size(); ++d) {
             if (devices[d].sigma_VT == 0 && devices[d].sigma_IS == 0) continue;
-            auto deviates = deviates_of(devices[d], mismatch->seed, chips.numbers);
-            const NamedInfluence name{devices[d].name, "", static_cast<std::ptrdiff_t>(d), static_cast<std::ptrdiff_t>(s), -1, {}};
-            const auto add = [&](double sigma, const char* quantity, SweepFactor& values) {
-                if (sigma == 0) return;
-                subject_factors.values.push_back(std::move(values)), subject_factors.names.push_back(name);
-                subject_factors.names.back().quantity = quantity;
-            };
-            add(devices[d].sigma_VT, "V_T", deviates.V_T), add(devices[d].sigma_IS, "I_S", deviates.I_S);
+            auto deviates = deviates_of(devices[d], mismatch.seed, chips.numbers);
+            NamedInfluence name{devices[d].name, "V_T", static_cast<std::ptrdiff_t>(d), static_cast<std::ptrdiff_t>(s), -1, {}};
+            if (devices[d].sigma_VT != 0) out[s].add(std::move(deviates.V_T), name);
+            name.quantity = "I_S";
+            if (devices[d].sigma_IS != 0) out[s].add(std::move(deviates.I_S), name);
         }
     }
     return out;
@@ -162,23 +154,25 @@ struct DependenceSearch {
     SweepGroups points;                                        // by all axes with points
     std::vector<std::pair<std::size_t, SweepGroups>> by_axis;  // index of an axis with two or more points, and its groups
     Chips chips;
-    Factors factors;
+    Factors axes;
+    std::vector<Factors> devices;  // of each subject
 };
 
 /// Adds the square of each factor, for the yield. A measure can have limits on both sides, so deviations in either direction lower the
 /// yield.
-void add_squares(Factors::SubjectFactors& subject_factors) {
-    const auto count = subject_factors.values.size();
+void add_squares(Factors& factors) {
+    const auto count = factors.values.size();
     for (std::size_t f = 0; f < count; ++f) {
-        SweepFactor squares;
-        for (const double x : subject_factors.values[f]) squares.push_back(x * x);
-        subject_factors.values.push_back(std::move(squares)), subject_factors.names.push_back(subject_factors.names[f]);
-        subject_factors.names.back().quantity += " squared";
+        auto squares = factors.values[f];
+        for (double& x : squares) x *= x;
+        auto name = factors.names[f];
+        name.quantity += " squared";
+        factors.add(std::move(squares), std::move(name));
     }
 }
 
-/// Finds what one measure depends on. During the search, the factors of its subject's devices are moved to the end of those of the axes.
-Dependence dependence_of(const std::string& name, const std::vector<double>& values, DependenceSearch& search) {
+/// Finds what one measure depends on.
+Dependence dependence_of(const std::string& name, const std::vector<double>& values, const DependenceSearch& search) {
     Dependence out{name, {}, {}, {}, {}, {}};
     for (const auto& [axis, groups] : search.by_axis) {
         const auto between = group_effect(values, groups.group_of, groups.groups.size());
@@ -186,20 +180,15 @@ Dependence dependence_of(const std::string& name, const std::vector<double>& val
     }
     std::sort(out.points.begin(), out.points.end(),
               [](const auto& a, const auto& b) { return std::pair(-a.second.fraction, a.first) < std::pair(-b.second.fraction, b.first); });
-    auto& all = search.factors.axes;
-    const auto axes = all.size();
     const auto subject = search.mismatch ? subject_of(name, *search.mismatch) : -1;
-    auto* subject_factors = subject >= 0 ? &search.factors.subjects[static_cast<std::size_t>(subject)] : nullptr;
-    if (subject_factors)
-        for (auto& f : subject_factors->values) all.push_back(std::move(f));
-    out.sensitivity = sensitivity_of(search.chips.means(inside_groups(values, search.points)), all);
+    static const Factors none;
+    const auto& devices = subject >= 0 ? search.devices[static_cast<std::size_t>(subject)] : none;
+    const auto& axes = search.axes;
+    out.sensitivity = sensitivity_of(search.chips.means(inside_groups(values, search.points)), axes.values, devices.values);
     for (const auto& i : out.sensitivity.influences) {
-        out.influences.push_back(i.factor < axes ? search.factors.axis_names[i.factor] : subject_factors->names[i.factor - axes]);
+        out.influences.push_back(i.factor < axes.names.size() ? axes.names[i.factor] : devices.names[i.factor - axes.names.size()]);
         out.influences.back().influence = i;
     }
-    if (subject_factors)
-        for (std::size_t f = 0; f < subject_factors->values.size(); ++f) subject_factors->values[f] = std::move(all[axes + f]);
-    all.resize(axes);
     out.devices = device_contributions(out.influences);
     return out;
 }
@@ -217,13 +206,14 @@ std::vector<Dependence> dependences_of(const SweepTable& table, const std::optio
                                        : count > 0 && table.item_count % count == 0 ? table.item_count / count
                                                                                     : 0);
     analysed_chips = chips.numbers.size();
-    DependenceSearch search{table, mismatch, std::move(points), {}, chips, factors_of(table, mismatch, chips)};
+    DependenceSearch search{table, mismatch, std::move(points), {}, chips, axis_factors(table, chips), {}};
+    if (mismatch) search.devices = device_factors(*mismatch, chips);
     for (const auto a : point_axes)
         if (auto groups = group_rows_by_axes(table, {a}); groups.groups.size() > 1) search.by_axis.emplace_back(a, std::move(groups));
     std::vector<Dependence> out;
     for (std::size_t m = 0; m < table.measures.size(); ++m)
         out.push_back(dependence_of(table.measures[m].name, table.measure_values[m], search));
-    for (auto& subject_factors : search.factors.subjects) add_squares(subject_factors);
+    for (auto& factors : search.devices) add_squares(factors);
     if (table.has_limits()) out.push_back(dependence_of("yield", {passed.begin(), passed.end()}, search));
     return out;
 }
@@ -258,13 +248,10 @@ Result<SweepSummary> summary_of(const SweepTable& table, const std::optional<Mis
     out.options = options, out.axes = groups.axes, out.mismatch = mismatch;
     std::vector<char> passed(table.rows());
     for (std::size_t r = 0; r < passed.size(); ++r) passed[r] = table.passes(r);
-    for (const auto& g : groups.groups) {
-        auto& point = out.points.emplace_back(point_summary(table, g, passed));
-        out.all.done += point.done, out.all.iteration_limit += point.iteration_limit, out.all.diverged += point.diverged,
-            out.all.passed += point.passed;
-        finish_point(point, table.measures.size());
-    }
-    finish_point(out.all, table.measures.size());
+    for (const auto& g : groups.groups) out.points.push_back(point_summary(table, g, passed));
+    SweepGroup all{"", std::vector<std::size_t>(table.rows())};
+    std::iota(all.rows.begin(), all.rows.end(), std::size_t{0});
+    out.all = point_summary(table, all, passed);
     ThreadPool pool(table.rows() > 100000 ? 0 : 1);
     pool.for_each(table.measures.size(), [&](std::size_t m, unsigned) { put_measure(out, table, groups, m); });
     if (!table.is_grid) {

@@ -123,9 +123,7 @@ bool SweepTable::meets_limits(std::size_t row, std::size_t measure) const {
 }
 
 bool SweepTable::has_limits() const {
-    for (std::size_t m = 0; m < measures.size(); ++m)
-        if (has_limits(m)) return true;
-    return false;
+    return std::ranges::any_of(measures, [](const SweepColumn& m) { return m.min || m.max; });
 }
 
 bool SweepTable::passes(std::size_t row) const {

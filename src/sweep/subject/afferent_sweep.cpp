@@ -68,7 +68,7 @@ Result<double> AfferentSweep::model_value(const LocatedText& model, std::size_t 
     const auto response = TRY(simulate_afferent(*afferent, force));
     AfferentMeasures of_model(force, false, {});
     const auto measure = TRY(of_model.require_column({measures[column].name, model.location}));
-    return of_model.values(force, {response.spikes})[measure];
+    return of_model.values(force, response.spikes)[measure];
 }
 
 Result<void> AfferentSweep::select_outputs(const SweepText& spec, bool keeps_spikes) {

@@ -91,16 +91,7 @@ class ChipSweep final : public AfferentSweep {
             return out;
         }
         out.end = ItemEnd::done;
-        ItemResponse measured;
-        measured.spikes = response.spikes, measured.iterations = static_cast<double>(response.stats.iterations);
-        const double T = chip.force->clock.T(), seconds = response.energy_use.seconds;
-        measured.power = response.energy_use.supplies / seconds, measured.sensor_power = response.energy_use.sensor / seconds;
-        for (const auto& o : response.range_violations) {
-            measured.time_outside_ranges.push_back(static_cast<double>(o.samples) * T);
-            measured.time_outside = std::max(measured.time_outside, measured.time_outside_ranges.back());
-        }
-        measured.time_outside_ranges.resize(nominal_->operating_ranges.size());
-        out.measures = afferent_measures_->values(*chip.force, measured);
+        out.measures = afferent_measures_->values(*chip.force, response.spikes, &response);
         return out;
     }
 

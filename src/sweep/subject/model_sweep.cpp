@@ -25,7 +25,7 @@ struct ModelItem {
     std::int64_t number;  // index in the sweep
     AfferentPlan plan;
     std::shared_ptr<const SweepForce> force;
-    std::vector<double> spikes = {};          // times since the first sample of the force, s
+    SimulatedResponse response = {};
     std::optional<std::string> failure = {};  // why the item cannot be simulated; no value: it can
 };
 
@@ -153,12 +153,11 @@ class ModelSweep final : public AfferentSweep {
         }
         std::vector<bool> is_reported(block.size());
         for (auto* item : scalars) {
-            item->spikes.clear();  // left over if the lanes failed
-            auto probe_samples = TRY(respond_alone(*item, stop));
-            report(*item, std::move(probe_samples), on_outcome), is_reported[static_cast<std::size_t>(item - block.data())] = true;
+            TRY(respond_alone(*item, stop));
+            report(*item, on_outcome), is_reported[static_cast<std::size_t>(item - block.data())] = true;
         }
         for (std::size_t k = 0; k < block.size(); ++k)
-            if (!is_reported[k]) report(block[k], {}, on_outcome);
+            if (!is_reported[k]) report(block[k], on_outcome);
         return {};
     }
 
@@ -202,30 +201,26 @@ class ModelSweep final : public AfferentSweep {
             for (const auto& s : spikes) {
                 auto& item = *items[s.afferent_index];
                 if (s.step < static_cast<std::int64_t>(item.force->samples.size()))
-                    item.spikes.push_back(item.force->clock.time(s.step, s.offset));
+                    item.response.spikes.push_back(item.force->clock.time(s.step, s.offset));
             }
         }
         return true;
     }
 
-    /// Simulates one item by the scalar code and returns the samples of its probes.
-    Result<std::vector<std::vector<float>>> respond_alone(ModelItem& item, const std::function<bool()>& stop) const {
+    /// Simulates one item by the scalar code.
+    Result<void> respond_alone(ModelItem& item, const std::function<bool()>& stop) const {
         auto response = simulate_afferent(*make_afferent(item.plan, options_for(*item.force)), *item.force, probes_, every_, stop);
         if (!response && response.error().code == ErrorCode::interrupted) return response.error();
-        if (!response) {
-            item.failure = response.error().message;
-            return std::vector<std::vector<float>>();
-        }
-        item.spikes = std::move(response->spikes);
-        return std::move(response->probe_samples);
+        response ? void(item.response = std::move(*response)) : void(item.failure = response.error().message);
+        return {};
     }
 
-    void report(ModelItem& item, std::vector<std::vector<float>> probe_samples, const OutcomeHandler& on_outcome) const {
+    void report(ModelItem& item, const OutcomeHandler& on_outcome) const {
         auto out = failed_outcome(item.number, item.failure.value_or(""));
-        out.probes = padded_probes(std::move(probe_samples));
+        out.probes = padded_probes(std::move(item.response.probe_samples));
         if (!item.failure) {
-            out.end = ItemEnd::done, out.measures = afferent_measures_->values(*item.force, {item.spikes});
-            if (!train_names.empty()) out.spikes[0] = std::move(item.spikes);
+            out.end = ItemEnd::done, out.measures = afferent_measures_->values(*item.force, item.response.spikes);
+            if (!train_names.empty()) out.spikes[0] = std::move(item.response.spikes);
         }
         on_outcome(std::move(out));
     }

@@ -110,12 +110,11 @@ ParameterOverride NetlistFactory::override_of(const std::string& name, std::stri
 }
 
 Result<Netlist> NetlistFactory::with_overrides(std::span<const ParameterOverride> overrides) const {
-    auto applied = circuit::apply_overrides([this](const std::string& corner) { return open(corner); }, file_, overrides);
-    if (!applied) return applied.error();
-    if (saved_curves_.empty()) return std::move(applied->result);
-    auto changes = applied->result.overrides();
+    auto applied = TRY(circuit::apply_overrides([this](const std::string& corner) { return open(corner); }, file_, overrides));
+    if (saved_curves_.empty()) return std::move(applied.result);
+    auto changes = applied.result.overrides();
     changes.replaces_saved = true, changes.saved = saved_curves_;
-    return applied->result.with_overrides(std::move(changes));
+    return applied.result.with_overrides(std::move(changes));
 }
 
 Result<void> NetlistFactory::set(const LocatedSetting& setting) {

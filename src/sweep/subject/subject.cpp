@@ -113,8 +113,6 @@ Result<void> PlannedSweep::prepare(const SweepText& spec, const std::string& fol
     return {};
 }
 
-Result<std::int64_t> PlannedSweep::nominal_iterations(const std::function<bool()>&) const { return 0; }
-
 long PlannedSweep::find_iteration_limit(const std::function<bool()>& stop) const {
     if (iteration_limit_ > 0) return iteration_limit_;
     const std::lock_guard lock(mutex_);

@@ -51,7 +51,7 @@ protected:
     virtual std::string title() const { return circuit()->title; }
 
     /// Newton iterations of the nominal circuit; 0: no limit follows from it. An error of code `interrupted` if `stop` returned true.
-    virtual Result<std::int64_t> nominal_iterations(const std::function<bool()>& stop) const;
+    virtual Result<std::int64_t> nominal_iterations(const std::function<bool()>& /*stop*/) const { return 0; }
     /// The iteration limit of an item: from the sweep file, otherwise iteration_limit_factor times the iterations of the nominal circuit.
     /// 0: no limit, because the nominal circuit fails or `stop` returned true.
     long find_iteration_limit(const std::function<bool()>& stop) const;
