@@ -78,21 +78,15 @@ Json row_document(const MeasureRow& row) {
     return out;
 }
 
-/// The energy that all copies of one afferent used. The statistics have one entry for each copy; the copies of an afferent are adjacent,
-/// and every afferent has the same number of them.
-EnergyUse energy_used_by(const RunStats& stats, std::size_t afferent, std::size_t afferent_count) {
-    EnergyUse out;
-    const std::size_t copies = stats.energy_use.size() / afferent_count;
-    for (std::size_t k = 0; k < copies; ++k) out += stats.energy_use[afferent * copies + k];
-    return out;
-}
-
 /// For each afferent whose cost is known, in a list without copies: the cost (power, area, leakage) of one afferent at rest under `force`
 /// (N), and its mean power during the run, over all its copies and channels. An empty array if no afferent has a known cost.
 Json cost_documents_of(std::span<const AfferentPlan> afferents, const RunStats& stats, double force) {
     Json out = Json::array();
     for (std::size_t a = 0; a < afferents.size(); ++a) {
-        const auto cost = afferents[a].factory->cost(force, energy_used_by(stats, a, afferents.size()));
+        const std::size_t copies = stats.energy_use.size() / afferents.size();  // which are adjacent; every afferent has the same number
+        EnergyUse energy;                                                       // of all copies
+        for (std::size_t k = 0; k < copies; ++k) energy += stats.energy_use[a * copies + k];
+        const auto cost = afferents[a].factory->cost(force, energy);
         if (cost.is_null()) continue;
         out.push_back({{"afferent", afferents[a].name}, {"rest_force_N", force}});
         out.back().update(cost);

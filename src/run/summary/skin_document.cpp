@@ -103,9 +103,6 @@ Json skin_row_document(const SkinSummary& s, const SkinSummaryRow& r) {
             {"median_first_spike_s", json_number(r.median_first_spike)}};
 }
 
-std::string hertz_cell(double x) { return std::isfinite(x) ? fmt::format("{:.1f}", x) : "-"; }
-std::string millisecond_cell(double x) { return std::isfinite(x) ? fmt::format("{:.2f}", 1e3 * x) : "-"; }
-
 }  // namespace
 
 Json SkinSummary::document(const RespondOptions& options, const SkinRunNotes& notes) const {
@@ -143,8 +140,8 @@ std::vector<std::vector<std::string>> SkinSummary::table() const {
         if (regions) cells.push_back(region_name(*this, r));
         if (phases) cells.push_back(phase_name(*this, r));
         for (const auto n : {r.afferents, r.touched, r.active, r.spikes}) cells.push_back(fmt::format("{}", n));
-        for (const auto x : {r.touched_rate, r.max_rate}) cells.push_back(hertz_cell(x));
-        for (const auto x : {r.first_spike, r.median_first_spike}) cells.push_back(millisecond_cell(x));
+        for (const auto x : {r.touched_rate, r.max_rate}) cells.push_back(std::isfinite(x) ? fmt::format("{:.1f}", x) : "-");
+        for (const auto x : {r.first_spike, r.median_first_spike}) cells.push_back(std::isfinite(x) ? fmt::format("{:.2f}", 1e3 * x) : "-");
         out.push_back(std::move(cells));
     };
     // The rows of all regions first, without and then with phases; then those of single regions over all phases, if afferents were active.
