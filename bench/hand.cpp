@@ -128,7 +128,7 @@ int main(int argc, char** argv) {
             const auto out = value_or_exit(events_format.make({.directory = folder, .options = {{"--events", "aer"}}}));
             Sink* const sinks[] = {out.get()};
             SkinPopulation population(*skin);
-            const Input input{population, name, "", *make_clock(1e3)};
+            const Input input{{name, "", *make_clock(1e3)}, population};
             std::vector<std::unique_ptr<BlockSimulator>> inputs;
             inputs.push_back(std::make_unique<SkinSimulator>(population, input, *force.force, *skin_state));
             const double from = processor();

@@ -13,10 +13,7 @@
 #include <filesystem>
 #include <random>
 
-#include "run/ranks.hpp"
-#include "sweep/parallel/rank_run.hpp"
-#include "sweep/store/sqlite.hpp"
-#include "sweep/store/sweep_results.hpp"
+#include "sweep/parallel/run_sweep.hpp"
 
 namespace {
 
@@ -40,26 +37,14 @@ double memory_MB() {
 
 /// A sweep without a simulation: its outcomes are random numbers.
 class RandomSweep final : public Sweep {
-    std::int64_t items_;
-    std::vector<SweepColumn> axes_, measures_;
-    std::vector<std::string> trains_ = {"sa1"}, probe_names_;
-    std::vector<double> probe_times_;
-    std::vector<MetadataText> metadata_ = {{"title", "bench"}};
-
 public:
-    explicit RandomSweep(std::int64_t items) : items_(items) {
-        for (int k = 0; k < 6; ++k) axes_.push_back({fmt::format("axis{}", k), ""});
-        for (int k = 0; k < 10; ++k) measures_.push_back({fmt::format("measure{}", k), ""});
+    explicit RandomSweep(std::int64_t items) {
+        item_count = items, train_names = {"sa1"}, metadata = {{"title", "bench"}};
+        for (int k = 0; k < 6; ++k) axes.push_back({fmt::format("axis{}", k), ""});
+        for (int k = 0; k < 10; ++k) measures.push_back({fmt::format("measure{}", k), ""});
     }
-    std::int64_t item_count() const override { return items_; }
-    const std::vector<SweepColumn>& axes() const override { return axes_; }
-    const std::vector<SweepColumn>& measures() const override { return measures_; }
-    const std::vector<std::string>& train_names() const override { return trains_; }
-    const std::vector<std::string>& probe_names() const override { return probe_names_; }
-    const std::vector<double>& probe_times() const override { return probe_times_; }
-    const std::vector<MetadataText>& metadata() const override { return metadata_; }
     std::vector<double> values(std::int64_t item) const override {
-        std::vector<double> out(axes_.size());
+        std::vector<double> out(axes.size());
         for (std::size_t k = 0; k < out.size(); ++k) out[k] = 1 / static_cast<double>(3 + item + static_cast<std::int64_t>(k));
         return out;
     }
@@ -68,7 +53,7 @@ public:
     ItemOutcome outcome(std::int64_t item, std::mt19937& random) const {
         std::uniform_real_distribution<> number;
         ItemOutcome o{item};
-        for (std::size_t k = 0; k < measures_.size(); ++k) o.measures.push_back(number(random));
+        for (std::size_t k = 0; k < measures.size(); ++k) o.measures.push_back(number(random));
         o.spikes.resize(1);
         for (int k = 0; k < 15; ++k) o.spikes[0].push_back(number(random));
         return o;
@@ -77,7 +62,7 @@ public:
 
 void run_query(const SweepResults& results, const char* query) {
     const auto start = Clock::now();
-    const auto value = sql::query_integer(results.handle(), results.path(), query);
+    const auto value = results.file().query_integer(query);
     fmt::print("  {:.3f} s  {}  ({})\n", since(start), query, value ? *value : -1);
 }
 

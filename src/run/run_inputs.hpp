@@ -42,7 +42,7 @@ struct RunStats {
     std::vector<Error> diverged;
 };
 
-/// Simulates the afferents of one input: afferents on channels (channels/channel_simulator.hpp) or a skin (skin/skin_simulator.hpp).
+/// Simulates the afferents of one input: afferents on channels (channels/channel_simulator.cpp) or a skin (skin/skin_simulator.hpp).
 class BlockSimulator {
 public:
     BlockSimulator() = default;
@@ -60,6 +60,10 @@ public:
     /// Called at the end of the force. Completes Input::quality and the statistics, and appends spikes that are still being conducted.
     virtual Result<void> finish(std::vector<Spike>&, RunStats&) = 0;
 };
+
+/// The simulators of all sources of a run, with one afferent of each plan on every channel.
+std::vector<std::unique_ptr<BlockSimulator>> make_channel_simulators(std::span<const std::unique_ptr<ForceSource>>,
+                                                                     std::span<const AfferentPlan>);
 
 /// Simulates all inputs, one after another, and frees each simulator after its input. An error of a simulator or a sink ends the run. If
 /// should_continue stops it, the error has the code `interrupted`.

@@ -56,6 +56,6 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     const auto pairs = pair_trains(*trains, *trains, {});
     require(bool(pairs));
     for (const auto& p : *pairs)
-        if (p.train_a->size() < 100) require(compare_trains(p, {})->matched == p.train_a->size());
+        if (p.a->times.size() < 100) require(compare_trains(p, {})->matched == p.a->times.size());
     return 0;
 }

@@ -19,14 +19,14 @@ void must(bool ok) {
 void check(const Error& e) { must(!e.message.empty()); }
 
 void check(const Sweep& s) {
-    must(s.item_count() >= 1 && !s.metadata().empty());
-    for (const auto& f : s.metadata()) must(!f.name.empty());
-    for (const auto item : {std::int64_t{0}, s.item_count() / 2, s.item_count() - 1}) {
+    must(s.item_count >= 1 && !s.metadata.empty());
+    for (const auto& f : s.metadata) must(!f.name.empty());
+    for (const auto item : {std::int64_t{0}, s.item_count / 2, s.item_count - 1}) {
         const auto values = s.values(item);
-        must(values.size() == s.axes().size());
+        must(values.size() == s.axes.size());
         for (std::size_t k = 0; k < values.size(); ++k) {
             must(std::isfinite(values[k]));
-            const auto& words = s.axes()[k].labels;
+            const auto& words = s.axes[k].labels;
             must(words.empty() || static_cast<std::size_t>(values[k]) < words.size());
         }
     }

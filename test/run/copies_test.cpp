@@ -80,7 +80,7 @@ TEST(CopyStatistics, AreTheMeanDeviationMinAndMaxOfTheCopiesWithAValue) {
 
 /// The length of the phase of a row, or of its entire input, s.
 double length_of(const RunSummary& summary, const MeasureRow& row) {
-    for (const auto& input : summary.inputs()) {
+    for (const auto& input : summary.inputs) {
         if (std::find(input.channels.begin(), input.channels.end(), row.channel) == input.channels.end()) continue;
         for (const auto& p : input.phases)
             if (p.name == row.phase) return p.to - p.from;
@@ -97,12 +97,12 @@ TEST(Summary, OfCopiesHasTheStatisticsOfTheirSeparateRows) {
     RunSummary combined, separate;
     simulate_press_and_sine(p.copies, {&combined});
     simulate_press_and_sine(separate_plans, {&separate});
-    ASSERT_EQ(combined.rows().size(), 2U * 5 + 2);
-    ASSERT_EQ(separate.rows().size(), 25 * combined.rows().size());
-    for (const auto& row : combined.rows())
+    ASSERT_EQ(combined.rows.size(), 2U * 5 + 2);
+    ASSERT_EQ(separate.rows.size(), 25 * combined.rows.size());
+    for (const auto& row : combined.rows)
         for (std::size_t m = 0; m < std::size(measures); ++m) {
             std::vector<double> values;
-            for (const auto& r : separate.rows())
+            for (const auto& r : separate.rows)
                 if (r.afferent.starts_with(row.afferent + "#") && r.channel == row.channel && r.phase == row.phase)
                     values.push_back(m == measure_index<MeanRate> ? r.values[measure_index<SpikeCount>] / length_of(separate, r)
                                                                   : r.values[m]);

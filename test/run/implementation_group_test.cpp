@@ -67,14 +67,15 @@ ImplementationRun run_implementations(const std::vector<std::string>& stimuli, c
 
 TEST(ImplementationComparisons, HaveCountsByPhaseAndTheDistancesOfCompare) {
     const auto ran = run_implementations({"press"}, {"sa1-kim", "fa1", "sa1"}, 333);
-    ASSERT_EQ(ran.summary.comparisons().rows().size(), 1u) << "fa1 has one implementation";
-    const auto& row = ran.summary.comparisons().rows()[0];
+    ASSERT_EQ(ran.summary.comparisons.rows.size(), 1u) << "fa1 has one implementation";
+    const auto& row = ran.summary.comparisons.rows[0];
     EXPECT_EQ(row.reference + " " + row.afferent + " " + row.channel, "sa1 sa1-kim press");
     const auto model = test::train("sa1", "press", {.rate = 2e3}), kim = test::train("sa1-kim", "press", {.rate = 2e3});
     EXPECT_EQ(row.total.spikes, kim.size());
     EXPECT_EQ(row.total.reference_spikes, model.size());
     EXPECT_NEAR(row.total.excess(), static_cast<double>(kim.size()) / static_cast<double>(model.size()) - 1, 1e-15);
-    const auto difference = value_or_throw(compare_trains({"a", "b", &model, &kim}, {.window = 20e-3}));
+    const NamedTrain a{"sa1", "press", model}, b{"sa1-kim", "press", kim};
+    const auto difference = value_or_throw(compare_trains({&a, &b}, {.window = 20e-3}));
     EXPECT_NEAR(row.victor_purpura, difference.victor_purpura, 1e-9);
     EXPECT_NEAR(row.van_rossum, difference.van_rossum(), 1e-9);
     EXPECT_EQ(row.matched, difference.matched);
@@ -86,7 +87,7 @@ TEST(ImplementationComparisons, HaveCountsByPhaseAndTheDistancesOfCompare) {
     EXPECT_EQ(counted, kim.size());
     EXPECT_EQ(reference_count, model.size());
     ASSERT_EQ(row.phases.size(), 5u);
-    for (const auto& r : ran.summary.rows())
+    for (const auto& r : ran.summary.rows)
         for (const auto& p : row.phases) {
             if (r.phase != p.phase || r.afferent == "fa1") continue;
             EXPECT_EQ(r.values[0], static_cast<double>(r.afferent == "sa1" ? p.reference_spikes : p.spikes))
@@ -96,11 +97,11 @@ TEST(ImplementationComparisons, HaveCountsByPhaseAndTheDistancesOfCompare) {
 }
 
 TEST(ImplementationComparisons, AShiftIsPositiveIfTheVersionIsLater) {
-    const auto row = run_implementations({"press"}, {"sa1", "SA1"}, 4096).summary.comparisons().rows().at(0);
+    const auto row = run_implementations({"press"}, {"sa1", "SA1"}, 4096).summary.comparisons.rows.at(0);
     EXPECT_EQ(row.matched, row.total.spikes);
     EXPECT_EQ(row.median_shift, 0);
     EXPECT_EQ(row.victor_purpura + row.van_rossum, 0);
-    const auto kim = run_implementations({"press"}, {"sa1", "sa1-kim"}, 4096).summary.comparisons().rows().at(0);
+    const auto kim = run_implementations({"press"}, {"sa1", "sa1-kim"}, 4096).summary.comparisons.rows.at(0);
     const auto model = test::train("sa1", "press", {.rate = 2e3}), kim_train = test::train("sa1-kim", "press", {.rate = 2e3});
     ASSERT_LT(kim_train[0], model[0]) << "otherwise the next expectation proves nothing";
     EXPECT_LT(kim.median_shift, 0);
@@ -121,9 +122,9 @@ TEST(ImplementationComparisons, DoNotDependOnTheBlockAndAreSeparateForEachInput)
 }
 
 TEST(ImplementationComparisons, LeaveOutCopiesAndSingleVersions) {
-    EXPECT_TRUE(run_implementations({"press"}, {"sa1", "fa1"}, 4096).summary.comparisons().rows().empty());
+    EXPECT_TRUE(run_implementations({"press"}, {"sa1", "fa1"}, 4096).summary.comparisons.rows.empty());
     const auto copies = run_implementations({"press"}, {"sa1", "sa1-kim"}, 4096, 3);
-    EXPECT_TRUE(copies.summary.comparisons().rows().empty());
+    EXPECT_TRUE(copies.summary.comparisons.rows.empty());
     EXPECT_FALSE(nlohmann::json::parse(copies.document).contains("comparisons"));
 }
 
@@ -131,8 +132,8 @@ TEST(ImplementationComparisons, LeaveOutCopiesAndSingleVersions) {
 TEST(ImplementationComparisons, ChipsFireAsTheirModelsDo) {
     const auto ran = run_implementations(
         {"press"}, {"sa1", "fa1", test::source_root() + "/circuits/sa1.cir", test::source_root() + "/circuits/fa1.cir"}, 4096);
-    ASSERT_EQ(ran.summary.comparisons().rows().size(), 2u);
-    for (const auto& row : ran.summary.comparisons().rows()) {
+    ASSERT_EQ(ran.summary.comparisons.rows.size(), 2u);
+    for (const auto& row : ran.summary.comparisons.rows) {
         EXPECT_LE(std::abs(row.total.excess()), 0.25) << row.afferent;
         EXPECT_LT(std::abs(row.median_shift), 10e-3) << row.afferent;
         EXPECT_GE(row.matched, 8u) << row.afferent;

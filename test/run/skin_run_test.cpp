@@ -35,8 +35,8 @@ Result<RunStats> press_fingertip(const TemporaryFolder& folder, const std::strin
     Sink* const sinks[] = {file.get()};
     SkinPopulation population(*skin);
     std::vector<std::unique_ptr<BlockSimulator>> inputs;
-    inputs.push_back(std::make_unique<SkinSimulator>(population, make_input(population, "press", *source), *force, *running,
-                                                     SkinRunParts{.checkpoint = checkpoint.get()}));
+    inputs.push_back(
+        std::make_unique<SkinSimulator>(population, make_input(population, "press", *source), *force, *running, checkpoint.get()));
     auto done = run(std::move(inputs), sinks, {.should_continue = [&](double) { return blocks-- != 0; }});
     if (done && file->commit() && checkpoint) checkpoint->remove_files();
     return done;

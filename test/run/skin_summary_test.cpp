@@ -48,7 +48,7 @@ double force_at(std::size_t site, std::int64_t k) { return site == 0 && k >= 2 &
 /// be read.
 void run_sinks(const Innervation& skin, const std::vector<Sink*>& sinks, std::int64_t block = samples, bool listed = false) {
     const SkinPopulation population(skin);
-    const Input input{population, "poke", "by hand", {1000, 1, 0}, {{"on", 0, 0.01}, {"off", 0.01, 0.02}}};
+    const Input input{{"poke", "by hand", {1000, 1, 0}, {{"on", 0, 0.01}, {"off", 0.01, 0.02}}}, population};
     for (auto* l : sinks) ASSERT_TRUE(l->begin(input));
     for (std::int64_t first = 0; first < samples; first += block) {
         const auto steps = std::min(block, samples - first);
@@ -70,7 +70,7 @@ void run_sinks(const Innervation& skin, const std::vector<Sink*>& sinks, std::in
 }
 
 const SkinSummaryRow& row_of(const SkinSummary& s, std::size_t class_index, std::size_t region, std::size_t phase) {
-    return *std::find_if(s.rows().begin(), s.rows().end(),
+    return *std::find_if(s.rows.begin(), s.rows.end(),
                          [&](const SkinSummaryRow& r) { return r.class_index == class_index && r.region == region && r.phase == phase; });
 }
 
@@ -140,19 +140,19 @@ TEST(SkinSummary, CountsClassesByRegionAndPhase) {
     const auto& fa1 = row_of(s, 1, SkinSummaryRow::all, SkinSummaryRow::all);
     EXPECT_EQ(fa1.spikes, 3) << "including a spike that was delayed beyond the end of the force";
     EXPECT_EQ(row_of(s, 1, SkinSummaryRow::all, 1).spikes, 1) << "the delayed spike is in no phase";
-    EXPECT_EQ(s.rows().size(), 2 * 3 * 3);
-    EXPECT_DOUBLE_EQ(s.max_force(), 3);
-    EXPECT_DOUBLE_EQ(s.min_force(), 0);
-    EXPECT_DOUBLE_EQ(s.touch_start(), 2e-3);
+    EXPECT_EQ(s.rows.size(), 2 * 3 * 3);
+    EXPECT_DOUBLE_EQ(s.max_force, 3);
+    EXPECT_DOUBLE_EQ(s.min_force, 0);
+    EXPECT_DOUBLE_EQ(s.touch_start, 2e-3);
 }
 
 TEST(SkinSummary, ARateWhileTouchedUsesTheSiteOfLargestWeight) {
     const auto skin = small_skin();
     SkinSummary s;
     run_sinks(skin, {&s}, samples, true);
-    EXPECT_DOUBLE_EQ(s.touched_times()[0], 10e-3);
-    EXPECT_DOUBLE_EQ(s.touched_times()[1], 5e-3) << "the time at the second of its two sites, which has the larger weight";
-    EXPECT_DOUBLE_EQ(s.touched_times()[2], 0) << "a site that is not listed is ignored";
+    EXPECT_DOUBLE_EQ(s.touched_times[0], 10e-3);
+    EXPECT_DOUBLE_EQ(s.touched_times[1], 5e-3) << "the time at the second of its two sites, which has the larger weight";
+    EXPECT_DOUBLE_EQ(s.touched_times[2], 0) << "a site that is not listed is ignored";
     EXPECT_DOUBLE_EQ(row_of(s, 0, SkinSummaryRow::all, SkinSummaryRow::all).touched_rate, 3 / 15e-3);
     EXPECT_DOUBLE_EQ(row_of(s, 0, SkinSummaryRow::all, 0).touched_rate, 2 / 13e-3);
     EXPECT_DOUBLE_EQ(row_of(s, 0, SkinSummaryRow::all, 1).touched_rate, 1 / 2e-3);
@@ -171,7 +171,7 @@ TEST(SkinSummary, FirstSpikesAreOrderedByTimeThenAfferent) {
     EXPECT_EQ(all[2].afferent_index, 3U);
     EXPECT_DOUBLE_EQ(all[1].time, 6e-3);
     EXPECT_EQ(s.first_spikes(2).size(), 2U);
-    EXPECT_TRUE(std::isnan(s.first_times()[2]));
+    EXPECT_TRUE(std::isnan(s.first_times[2]));
 }
 
 TEST(SkinSummary, FilesContainTheGivenSpikes) {

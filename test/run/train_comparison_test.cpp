@@ -24,7 +24,7 @@ std::string pairs(const Names& a, const Names& b, const CompareOptions& options 
     const auto found = pair_trains(in_a, in_b, options);
     if (!found) return found.error().message;
     std::string text;
-    for (const auto& p : *found) text += (text.empty() ? "" : " ") + p.a + "=" + p.b;
+    for (const auto& p : *found) text += (text.empty() ? "" : " ") + (p.a ? p.a->name() : "") + "=" + (p.b ? p.b->name() : "");
     return text;
 }
 
@@ -87,8 +87,8 @@ TEST(PairTrains, OfAHundredThousandTrainsTakesLessThanFiveSeconds) {
 }
 
 TEST(Compare, CountsMatchedMissingAndExtraSpikes) {
-    const std::vector<double> a = {0.1, 0.2, 0.3, 0.4}, b = {0.101, 0.198, 0.35, 0.4, 0.6};
-    const auto d = value_or_throw(compare_trains({"a", "b", &a, &b}, {}));
+    const NamedTrain a{"a", "", {0.1, 0.2, 0.3, 0.4}}, b{"b", "", {0.101, 0.198, 0.35, 0.4, 0.6}};
+    const auto d = value_or_throw(compare_trains({&a, &b}, {}));
     EXPECT_EQ(d.matched, 3U);
     EXPECT_EQ(d.missing(), 1U);
     EXPECT_EQ(d.extra(), 2U);
@@ -96,7 +96,7 @@ TEST(Compare, CountsMatchedMissingAndExtraSpikes) {
     EXPECT_NEAR(d.rms(), std::sqrt((1e-6 + 4e-6) / 3), 1e-12);
     EXPECT_NEAR(d.victor_purpura, 3 + 0.3, 1e-9);
     EXPECT_NEAR(d.victor_purpura_per_spike(), 3.3 / 9, 1e-9);
-    const auto silence = value_or_throw(compare_trains({"a", "", &a, nullptr}, {}));
+    const auto silence = value_or_throw(compare_trains({&a, nullptr}, {}));
     EXPECT_EQ(silence.missing(), 4U);
     EXPECT_EQ(silence.victor_purpura_per_spike(), 1);
     EXPECT_TRUE(std::isnan(silence.rms()));

@@ -11,29 +11,19 @@ namespace corpuscle::test {
 
 /// Every 97th item reaches the iteration limit, and the item after it diverges. The second measure is missing in every fifth item.
 class PlainSweep : public Sweep {
-    std::int64_t item_count_;
     double seconds_per_item_;  // run time of a work item, s
-    std::vector<SweepColumn> axes_ = {{"gain", "", "factor of the force"}, {"kind", "", "parity of the item", {"even", "odd"}}};
-    std::vector<SweepColumn> measures_ = {{"rate", "Hz", "rate of spikes"},
-                                          {"Rate", "Hz", "a name that differs only in case"},
-                                          {"why", "", "named like a column of every sweep", {}, 0.25, 0.75}};
-    std::vector<std::string> train_names_ = {"sa1", "fa1"}, probe_names_ = {"v(u)"};
-    std::vector<double> probe_times_ = {0, 0.1, 0.2, 0.3};
 
 public:
-    std::vector<MetadataText> metadata_;
-
-    explicit PlainSweep(std::int64_t items, std::string netlist = "a\nb\nc\n", double seconds = 0)
-        : item_count_(items), seconds_per_item_(seconds),
-          metadata_({{"title", "plain"}, {"netlist circuits/sa1.cir", std::move(netlist)}}) {}
-
-    std::int64_t item_count() const override { return item_count_; }
-    const std::vector<SweepColumn>& axes() const override { return axes_; }
-    const std::vector<SweepColumn>& measures() const override { return measures_; }
-    const std::vector<std::string>& train_names() const override { return train_names_; }
-    const std::vector<std::string>& probe_names() const override { return probe_names_; }
-    const std::vector<double>& probe_times() const override { return probe_times_; }
-    const std::vector<MetadataText>& metadata() const override { return metadata_; }
+    explicit PlainSweep(std::int64_t items, std::string netlist = "a\nb\nc\n", double seconds = 0) : seconds_per_item_(seconds) {
+        item_count = items;
+        axes = {{"gain", "", "factor of the force"}, {"kind", "", "parity of the item", {"even", "odd"}}};
+        measures = {{"rate", "Hz", "rate of spikes"},
+                    {"Rate", "Hz", "a name that differs only in case"},
+                    {"why", "", "named like a column of every sweep", {}, 0.25, 0.75}};
+        train_names = {"sa1", "fa1"}, probe_names = {"v(u)"};
+        probe_times = {0, 0.1, 0.2, 0.3};
+        metadata = {{"title", "plain"}, {"netlist circuits/sa1.cir", std::move(netlist)}};
+    }
     std::vector<double> values(std::int64_t item) const override {
         return {0.5 + static_cast<double>(item) / 7, static_cast<double>(item % 2)};
     }

@@ -1,6 +1,6 @@
 // Calibration of trims: the limits of a chip, and the search for known codes.
 
-#include "sweep/calibrate/calibration_report.hpp"
+#include "sweep/calibrate/calibrate.hpp"
 
 #include <gtest/gtest.h>
 

@@ -12,7 +12,6 @@
 #include "support/support.hpp"
 #include "sweep/parallel/run_sweep.hpp"
 #include "sweep/stats/sweep_table.hpp"
-#include "sweep/store/dump.hpp"
 #include "sweep/store/sqlite.hpp"
 
 namespace corpuscle {
@@ -93,7 +92,7 @@ TEST(SweepResults, OfTheFirstFormatAreNotExtendedOrMergedAndTheRemedyIsNamed) {
     const TemporaryFolder folder;
     const auto path = old_results(folder, std::string(first_format) + "PRAGMA user_version = 1;");
     auto results = value_or_throw(SweepResults::open_read_only(path));
-    EXPECT_EQ(*results.count_ended(ItemEnd::diverged), 1);
+    EXPECT_EQ(value_or_throw(results.file().query_integer("SELECT count(*) FROM items WHERE ended = 'diverged'")), 1);
     EXPECT_EQ(value_or_throw(results.spikes(0, 0)), std::vector<double>{1.0});
     const auto table = value_or_throw(read_table(results, {}));
     EXPECT_EQ(table.items, (std::vector<std::int64_t>{0, 1}));
@@ -153,7 +152,7 @@ TEST(HostileResults, OpeningExecutesNoTriggerOfTheSchema) {
     one.push_back(sweep.outcome(60));
     ASSERT_TRUE(results.add(sweep, std::move(one)));
     std::int64_t diverged = 0, expected_diverged = 0;
-    ASSERT_TRUE(results.for_each_row([&](const SweepResults::Row& row) {
+    ASSERT_TRUE(results.for_each_row([&](const std::vector<double>&, const ItemOutcome& row) {
         diverged += row.end == ItemEnd::diverged, expected_diverged += sweep.outcome(row.item).end == ItemEnd::diverged;
         return true;
     }));
@@ -190,7 +189,7 @@ TEST(HostileResults, InAnotherOrderOfColumnsAreMergedColumnByColumn) {
     const auto merged = into.merge(value_or_throw(SweepResults::open_read_only(path)));
     ASSERT_TRUE(merged) << merged.error().text();
     EXPECT_EQ(*merged, 50);
-    ASSERT_TRUE(into.for_each_row([&](const SweepResults::Row& row) {
+    ASSERT_TRUE(into.for_each_row([&](const std::vector<double>&, const ItemOutcome& row) {
         const auto o = sweep.outcome(row.item);
         EXPECT_EQ(row.steps, o.steps);
         EXPECT_EQ(row.reason, o.reason);

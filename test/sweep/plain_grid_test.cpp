@@ -1,6 +1,6 @@
 // A sweep over a plain grid reports the effect of every axis, and no statistics that only make sense for random samples.
 
-#include "sweep/spec/grid.hpp"
+#include "sweep/stats/sweep_summary.hpp"
 
 #include <gtest/gtest.h>
 
@@ -10,7 +10,6 @@
 #include "support/program.hpp"
 #include "support/support.hpp"
 #include "sweep/parallel/run_sweep.hpp"
-#include "sweep/spec/sweep_document.hpp"
 #include "sweep/stats/sweep_summary.hpp"
 
 namespace corpuscle {

@@ -10,7 +10,6 @@
 #include "circuit/device/uicm_card.hpp"
 #include "circuit/netlist/netlist.hpp"
 #include "core/random.hpp"
-#include "sweep/spec/sweep_document.hpp"
 #include "sweep/stats/sweep_summary.hpp"
 #include "synthetic_sweep.hpp"
 
@@ -134,7 +133,7 @@ TEST_F(SyntheticSweepSummary, PointsAreTheTemperaturesAndEndsAndYieldsAreCounted
     EXPECT_EQ(summary.all.iteration_limit, 60);
     EXPECT_EQ(summary.all.diverged, 6);
     std::int64_t passed = 0, line_passed = 0, count_passed = 0;
-    for (std::int64_t item = 0; item < sweep->item_count(); ++item) {
+    for (std::int64_t item = 0; item < sweep->item_count; ++item) {
         const auto o = sweep->outcome(item);
         const bool done = o.end == ItemEnd::done, line_is_within = done && std::abs(o.measures[0]) <= 0.5,
                    count_is_within = done && o.measures[2] >= 3;

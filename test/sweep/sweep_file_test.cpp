@@ -58,7 +58,7 @@ Outcomes run_items(const Sweep& sweep, std::vector<std::int64_t> items) {
     return out;
 }
 Outcomes run_items(const Sweep& sweep) {
-    std::vector<std::int64_t> all(static_cast<std::size_t>(sweep.item_count()));
+    std::vector<std::int64_t> all(static_cast<std::size_t>(sweep.item_count));
     std::iota(all.begin(), all.end(), 0);
     return run_items(sweep, all);
 }
@@ -72,9 +72,9 @@ void expect_same_bytes(const std::vector<T>& a, const std::vector<T>& b) {
 /// Compares the outcomes of one call for all items in order with those of several calls in reverse order.
 void expect_the_same_outcomes_in_any_order(const Sweep& sweep) {
     const auto forward = run_items(sweep);
-    ASSERT_EQ(forward.size(), static_cast<std::size_t>(sweep.item_count()));
+    ASSERT_EQ(forward.size(), static_cast<std::size_t>(sweep.item_count));
     Outcomes reversed;
-    for (auto to = sweep.item_count(); to > 0;) {
+    for (auto to = sweep.item_count; to > 0;) {
         const auto from = std::max<std::int64_t>(to - 3, 0);
         std::vector<std::int64_t> few;
         for (auto u = to; u-- > from;) few.push_back(u);
@@ -157,7 +157,7 @@ TEST(SweepFile, ANormalAxisStaysWithinItsLimitsAndHasTheSameSamplesAtEachPoint) 
     const auto s = w.sweep(
         "afferent = 'sa1'\nsamples = 200\nseed = 9\n[[vary]]\nwhat = 'press.F_max'\nlist = ['1N', 2]\n[[vary]]\nwhat = 'f_B'\nmean = "
         "'20Hz'\nsigma = '50%'\nat_least = '15Hz'\nat_most = '26Hz'\n");
-    ASSERT_EQ(s->item_count(), 400);
+    ASSERT_EQ(s->item_count, 400);
     std::set<double> seen;
     for (std::int64_t k = 0; k < 200; ++k) {
         const auto one = s->values(k), other = s->values(200 + k);
@@ -169,7 +169,7 @@ TEST(SweepFile, ANormalAxisStaysWithinItsLimitsAndHasTheSameSamplesAtEachPoint) 
         seen.insert(one[1]);
     }
     EXPECT_EQ(seen.size(), 200u);
-    EXPECT_EQ(s->axes()[1].unit, "Hz");
+    EXPECT_EQ(s->axes[1].unit, "Hz");
 }
 
 constexpr const char* netlist_with_step_and_mc =
@@ -219,7 +219,7 @@ TEST(SweepFile, StepAndMcOfANetlistGiveTheSameChipsAsASweepFile) {
     // Settings of the sweep file override the netlist's, parameter by parameter.
     const auto fewer = w.sweep("netlist = 'mine/x.cir'\nsamples = 2\n[[vary]]\nwhat = 'temp'\nlist = [85]\n");
     expect_same_bytes(first_measures(*fewer), std::vector<double>{expected[6], expected[7], expected[15], expected[16]});
-    for (const auto& f : fewer->metadata()) {
+    for (const auto& f : fewer->metadata) {
         EXPECT_EQ(f.name.find(w.path("")), std::string::npos) << f.name;
         EXPECT_EQ(f.text.find(w.path("")), std::string::npos) << f.name;
     }
@@ -271,11 +271,11 @@ TEST(SweepFile, ChipsOfANetlistHaveTheSameSamplesInEveryDesign) {
         expect_same_bytes(one.at(item).spikes[0], more.at(item).spikes.at(0));
         expect_same_bytes(one.at(item).measures, more.at(item).measures);
         EXPECT_LT(more.at(3 + item).spikes.at(0).size(), one.at(item).spikes[0].size());
-        EXPECT_EQ(one.at(item).probes.at(0).size(), plain->probe_times().size());
+        EXPECT_EQ(one.at(item).probes.at(0).size(), plain->probe_times.size());
     }
     EXPECT_NE(one.at(0).spikes[0], one.at(1).spikes[0]);
     EXPECT_EQ(run_items(*w.sweep("iterations = 20\n" + head)).at(2).end, ItemEnd::iteration_limit);
-    EXPECT_EQ(plain->metadata().back().name, "drawn");
+    EXPECT_EQ(plain->metadata.back().name, "drawn");
     expect_the_same_outcomes_in_any_order(*wider);
 }
 
@@ -286,8 +286,8 @@ TEST(SweepFile, ALimitIsTwoNumbersOrTheModelsMeasureUnderTheSameForce) {
         "{at_most = '320ms'}\npeak_rate.plateau = ['1Hz', '1kHz']\nlast_spike = {like = 'sa1', within = '10%'}\n");
     const auto model = test::train("sa1");
     std::map<std::string, SweepColumn> columns;
-    for (const auto& c : s->measures()) columns[c.name] = c;
-    EXPECT_EQ(s->measures()[0].name, "first_spike");
+    for (const auto& c : s->measures) columns[c.name] = c;
+    EXPECT_EQ(s->measures[0].name, "first_spike");
     EXPECT_EQ(columns.at("spikes").min, static_cast<double>(model.size()) - 3);
     EXPECT_EQ(columns.at("spikes").max, static_cast<double>(model.size()) + 3);
     EXPECT_FALSE(columns.at("first_spike").min);
@@ -354,10 +354,10 @@ TEST(SweepFile, TheLayoutOfTheTextDoesNotMatter) {
     const auto a = w.sweep("# one\nsamples = 3\nafferent = 'sa1'\n[set]\n'press.F_max' = 2\n[[vary]]\nwhat = 'f_B'\nsigma = '5%'\n");
     const auto b =
         w.sweep("afferent   = \"sa1\"  # two\nsamples = 3\nset = {'press.F_max' = 2}\n\n[[vary]]\nsigma = '5%'\nwhat = 'f_B'\n", "y.toml");
-    ASSERT_EQ(a->metadata().size(), b->metadata().size());
-    for (std::size_t k = 0; k < a->metadata().size(); ++k) EXPECT_EQ(a->metadata()[k].text, b->metadata()[k].text) << a->metadata()[k].name;
+    ASSERT_EQ(a->metadata.size(), b->metadata.size());
+    for (std::size_t k = 0; k < a->metadata.size(); ++k) EXPECT_EQ(a->metadata[k].text, b->metadata[k].text) << a->metadata[k].name;
     const auto c = w.sweep("afferent = 'sa1'\nsamples = 3\n[set]\n'press.F_max' = 3\n[[vary]]\nwhat = 'f_B'\nsigma = '5%'\n");
-    EXPECT_NE(a->metadata().at(2).text, c->metadata().at(2).text);
+    EXPECT_NE(a->metadata.at(2).text, c->metadata.at(2).text);
 }
 
 /// The examples, with few items.
@@ -366,9 +366,9 @@ TEST(SweepFile, TheExamplesRun) {
     int count = 0;
     for (const auto& file : std::filesystem::directory_iterator(test::source_root() + "/examples/sweeps")) {
         const auto complete = test::read_file(file.path().string());
-        EXPECT_GT(test::value_or_throw(read_sweep(file.path().string()))->item_count(), 50);
+        EXPECT_GT(test::value_or_throw(read_sweep(file.path().string()))->item_count, 50);
         const auto s = w.sweep(std::regex_replace(complete, std::regex("samples( *)= [0-9]+"), "samples = 2"));
-        const auto all = run_items(*s, {0, s->item_count() - 1});
+        const auto all = run_items(*s, {0, s->item_count - 1});
         for (const auto& [item, o] : all) {
             EXPECT_EQ(o.end, ItemEnd::done) << file.path() << o.reason;
             EXPECT_TRUE(std::isfinite(o.measures.at(0))) << file.path();

@@ -15,7 +15,6 @@
 #include "support/plain_sweep.hpp"
 #include "support/support.hpp"
 #include "sweep/parallel/run_sweep.hpp"
-#include "sweep/store/dump.hpp"
 #include "sweep/store/sqlite.hpp"
 
 namespace corpuscle {
@@ -48,25 +47,25 @@ TEST(SweepResults, AreReadBackAsWrittenAndEndAsOneFile) {
     run_sweep_of(sweep, folder / "r.sqlite", {.threads = 3});
     EXPECT_EQ(folder.file_names(), std::vector<std::string>{"r.sqlite"});
     const auto results = value_or_throw(SweepResults::open_read_only(folder / "r.sqlite"));
-    auto mode = value_or_throw(sql::Statement::make(results.handle(), results.path(), "PRAGMA journal_mode"));
+    auto mode = value_or_throw(results.file().prepare("PRAGMA journal_mode"));
     EXPECT_TRUE(value_or_throw(mode.step()));
     EXPECT_EQ(mode.text(0), "delete") << "other programs can read the file in a read-only folder";
-    EXPECT_EQ(results.item_count(), 1000);
+    EXPECT_EQ(results.item_count, 1000);
     EXPECT_EQ(results.finished_count(), 1000);
     EXPECT_EQ(results.about("netlist circuits/sa1.cir"), "a\nb\nc\n");
-    EXPECT_EQ(results.axes()[1].labels, (std::vector<std::string>{"even", "odd"}));
-    EXPECT_EQ(results.measures()[2].max, 0.75);
-    EXPECT_EQ(results.stored_column_names(), (std::vector<std::string>{"gain", "kind", "rate", "Rate_2", "why_2"}));
-    EXPECT_EQ(results.probe_times(), sweep.probe_times());
+    EXPECT_EQ(results.axes[1].labels, (std::vector<std::string>{"even", "odd"}));
+    EXPECT_EQ(results.measures[2].max, 0.75);
+    EXPECT_EQ(results.stored_column_names, (std::vector<std::string>{"gain", "kind", "rate", "Rate_2", "why_2"}));
+    EXPECT_EQ(results.probe_times, sweep.probe_times);
     std::int64_t item = 0;
-    const auto ok = results.for_each_row([&](const SweepResults::Row& row) {
+    const auto ok = results.for_each_row([&](const std::vector<double>& axes, const ItemOutcome& row) {
         const auto o = sweep.outcome(item);
         EXPECT_EQ(row.item, item);
         EXPECT_EQ(row.end, o.end);
         EXPECT_EQ(row.reason, o.reason);
         EXPECT_EQ(row.steps, o.steps);
         EXPECT_EQ(row.ran_alone, o.ran_alone);
-        EXPECT_EQ(row.axes, sweep.values(item));
+        EXPECT_EQ(axes, sweep.values(item));
         for (std::size_t k = 0; k < row.measures.size(); ++k) {
             const double expected = o.measures.empty() ? std::nan("") : o.measures[k];
             EXPECT_TRUE(std::isnan(expected) ? std::isnan(row.measures[k]) : row.measures[k] == expected);
@@ -78,7 +77,7 @@ TEST(SweepResults, AreReadBackAsWrittenAndEndAsOneFile) {
     });
     EXPECT_TRUE(ok);
     EXPECT_EQ(item, 400) << "stopped where requested";
-    EXPECT_EQ(value_or_throw(results.count_ended(ItemEnd::diverged)), 11);
+    EXPECT_EQ(value_or_throw(results.file().query_integer("SELECT count(*) FROM items WHERE ended = 'diverged'")), 11);
 }
 
 namespace fs = std::filesystem;
@@ -141,7 +140,7 @@ TEST(SweepResults, OfARunKilledAtAnyMomentKeepFinishedItemsAndAreCompletedByTheS
             const auto results = value_or_throw(SweepResults::open_read_only(path));
             rows = results.finished_count();
             std::int64_t before = -1;
-            const auto ok = results.for_each_row([&](const SweepResults::Row& row) {
+            const auto ok = results.for_each_row([&](const std::vector<double>&, const ItemOutcome& row) {
                 EXPECT_GT(row.item, before);
                 before = row.item;
                 const auto o = sweep.outcome(row.item);
@@ -217,7 +216,7 @@ TEST(SweepResults, AtTheFileSizeLimitKeepTheirRowsAndNameTheRemedy) {
         ::setrlimit(RLIMIT_FSIZE, &limit);
         auto results = value_or_throw(SweepResults::open(path, sweep));
         Result<void> ok;
-        for (std::int64_t item = 0; ok && item < sweep.item_count(); item += 100) {
+        for (std::int64_t item = 0; ok && item < sweep.item_count; item += 100) {
             std::vector<ItemOutcome> some;
             for (std::int64_t k = item; k < item + 100; ++k) some.push_back(sweep.outcome(k));
             ok = results.add(sweep, std::move(some));
@@ -272,7 +271,7 @@ TEST(SweepResults, RefuseTheFileOfAnotherSweepAndNameTheDifference) {
                   "undo the change, or remove this file");
     EXPECT_NE(refusal(path, PlainSweep(30)).find("the number of items was 20 and is 30 now"), std::string::npos);
     PlainSweep more(20);
-    more.metadata_.insert(more.metadata_.begin(), {"card process/x.lib", "y"});
+    more.metadata.insert(more.metadata.begin(), {"card process/x.lib", "y"});
     EXPECT_NE(refusal(path, more).find("it has no entry 'card process/x.lib'"), std::string::npos);
 }
 

@@ -14,12 +14,6 @@ namespace corpuscle::test {
 class SyntheticSweep final : public Sweep {
     std::int64_t chips_;  // at each temperature
     MismatchSamples mismatch_;
-    std::vector<SweepColumn> axes_{{"temp", "C", "temperature"}, {"corner", "", "", {"tt", "ss"}}, {"process.vt_n", "", "drawn"}};
-    std::vector<SweepColumn> measures_{
-        {"line", "V", "a straight line of what is drawn", {}, -0.5, 0.5}, {"noise", "s", ""}, {"count", "", "", {}, 3.0, {}}};
-    std::vector<std::string> train_names_{"out"}, probe_names_{"vf"};
-    std::vector<double> probe_times_;
-    std::vector<MetadataText> metadata_;
 
 public:
     static constexpr double temps[] = {0, 27, 85};  ///< degrees Celsius
@@ -34,17 +28,14 @@ public:
         mismatch_.subjects.push_back({"made", {}});
         for (std::uint32_t d = 0; d < devices; ++d)
             mismatch_.subjects[0].devices.push_back({"x1.m" + std::to_string(d), d, d % 2 == 1, 2e-6, 0.5e-6, 4, 2, 5e-3, 0.02});
-        for (int k = 0; k < 50; ++k) probe_times_.push_back(0.02 * k);
-        metadata_ = {{"title", "A made-up sweep"}, {"sweep", "[vary]\n"}, {mismatch_metadata_name, format_mismatch_samples(mismatch_)}};
+        item_count = 3 * chips;
+        axes = {{"temp", "C", "temperature"}, {"corner", "", "", {"tt", "ss"}}, {"process.vt_n", "", "drawn"}};
+        measures = {{"line", "V", "a straight line of what is drawn", {}, -0.5, 0.5}, {"noise", "s", ""}, {"count", "", "", {}, 3.0, {}}};
+        train_names = {"out"}, probe_names = {"vf"};
+        for (int k = 0; k < 50; ++k) probe_times.push_back(0.02 * k);
+        metadata = {{"title", "A made-up sweep"}, {"sweep", "[vary]\n"}, {mismatch_metadata_name, format_mismatch_samples(mismatch_)}};
     }
     const MismatchSamples& mismatch() const { return mismatch_; }
-    std::int64_t item_count() const override { return 3 * chips_; }
-    const std::vector<SweepColumn>& axes() const override { return axes_; }
-    const std::vector<SweepColumn>& measures() const override { return measures_; }
-    const std::vector<std::string>& train_names() const override { return train_names_; }
-    const std::vector<std::string>& probe_names() const override { return probe_names_; }
-    const std::vector<double>& probe_times() const override { return probe_times_; }
-    const std::vector<MetadataText>& metadata() const override { return metadata_; }
     std::vector<double> values(std::int64_t item) const override {
         return {temps[item / chips_], 0, normal(99, static_cast<std::uint32_t>(item % chips_), 1, 0)};
     }
@@ -67,7 +58,7 @@ public:
         out.spikes.emplace_back();
         for (int k = 0; k < 5 + item % 3; ++k) out.spikes[0].push_back(0.1 * k + 0.02 + 0.004 * line);
         out.probes.emplace_back();
-        for (const double t : probe_times_) out.probes[0].push_back(static_cast<float>(std::sin(6 * t) + 0.1 * line));
+        for (const double t : probe_times) out.probes[0].push_back(static_cast<float>(std::sin(6 * t) + 0.1 * line));
         return out;
     }
 };
@@ -76,7 +67,7 @@ public:
 inline SweepResults write_synthetic_results(const std::string& path, const SyntheticSweep& sweep) {
     auto results = value_or_throw(SweepResults::open(path, sweep));
     std::vector<ItemOutcome> all;
-    for (std::int64_t item = 0; item < sweep.item_count(); ++item) all.push_back(sweep.outcome(item));
+    for (std::int64_t item = 0; item < sweep.item_count; ++item) all.push_back(sweep.outcome(item));
     EXPECT_TRUE(results.add(sweep, std::move(all)) && results.checkpoint());
     return results;
 }

@@ -75,16 +75,15 @@ nlohmann::ordered_json document_of(const SweepStatus& s) {
 
 Result<SweepStatus> read_sweep_status(const SweepResults& results, const Shard& shard) {
     SweepStatus out;
-    out.results = results.path(), out.shard = shard, out.items = shard.count(0, results.item_count());
-    auto* file = results.handle();
-    auto counts = TRY(sql::Statement::make(
-        file, results.path(), "SELECT count(*), total(ended = 'truncated'), total(ended = 'diverged'), total(iterations) FROM items"));
+    out.results = results.path(), out.shard = shard, out.items = shard.count(0, results.item_count);
+    auto counts =
+        TRY(results.file().prepare("SELECT count(*), total(ended = 'truncated'), total(ended = 'diverged'), total(iterations) FROM items"));
     TRY(counts.step());
     out.finished = counts.integer(0), out.truncated = counts.integer(1), out.diverged = counts.integer(2),
     out.iterations = counts.integer(3);
     if (out.truncated + out.diverged == 0) return out;
-    auto reasons = TRY(sql::Statement::make(
-        file, results.path(), "SELECT why, count(*) FROM items WHERE ended <> 'done' GROUP BY why ORDER BY 2 DESC, 1 LIMIT 3"));
+    auto reasons =
+        TRY(results.file().prepare("SELECT why, count(*) FROM items WHERE ended <> 'done' GROUP BY why ORDER BY 2 DESC, 1 LIMIT 3"));
     while (TRY(reasons.step())) out.reasons.emplace_back(reasons.text(0), reasons.integer(1));
     return out;
 }

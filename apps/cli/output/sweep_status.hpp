@@ -2,9 +2,7 @@
 // The progress of a sweep, as text and JSON.
 
 #include "cli/verb.hpp"
-#include "sweep/parallel/item_queue.hpp"
-#include "sweep/store/sweep_results.hpp"
-#include "sweep/store/writer_lock.hpp"
+#include "sweep/parallel/run_sweep.hpp"
 
 namespace corpuscle {
 

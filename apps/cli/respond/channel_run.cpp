@@ -4,7 +4,6 @@
 #include <nlohmann/json.hpp>
 
 #include "cli/output/terminal.hpp"
-#include "run/channels/channel_simulator.hpp"
 #include "run/channels/channel_warnings.hpp"
 
 namespace corpuscle {
@@ -38,7 +37,7 @@ void ChannelRun::warn_of_rates() {
     for (const auto& plan : afferents_) {
         const MeasureRow* fastest = nullptr;
         double rate = max_nerve_rate;
-        for (const auto& row : summary_.rows())
+        for (const auto& row : summary_.rows)
             if (const double r = row.copy_statistics.empty() ? row.values[peak] : row.copy_statistics[peak].max;
                 row.afferent == plan.name && r > rate)
                 fastest = &row, rate = r;
@@ -47,7 +46,7 @@ void ChannelRun::warn_of_rates() {
 }
 
 nlohmann::ordered_json ChannelRun::summarize(const RunStats& stats) {
-    for (const auto& i : summary_.inputs()) {
+    for (const auto& i : summary_.inputs) {
         print_notes(i.name, i.quality.descriptions, common_.quiet);
         for (const auto& s : i.quality.warnings) warn(fmt::format("{}: {}", i.name, s));
     }

@@ -31,7 +31,7 @@ std::string cell(const MeasureRow& row, std::size_t m) {
 /// One line for each input. It shows sample rate, duration and range of force, so that the user notices a wrong unit or rate.
 std::string inputs_table(const RunSummary& summary) {
     std::string text;
-    for (const auto& i : summary.inputs())
+    for (const auto& i : summary.inputs)
         text += fmt::format("{}: {}{} samples at {}, {}, {:.4g} to {:.4g} N\n", printable(i.name),
                             i.channels.size() == 1 ? "" : fmt::format("{} channels, ", i.channels.size()), i.samples,
                             format_quantity(i.clock.rate(), "Hz"), format_quantity(static_cast<double>(i.samples) * i.clock.T(), "s"),
@@ -49,13 +49,13 @@ std::string copies_line(const CopySpec& spec) {
 /// The table of rates and other measures. A long table omits afferents that did not fire.
 std::string rate_table(const RunSummary& summary) {
     std::map<std::pair<std::string, std::string>, double> spikes;  // by afferent and channel, over all phases
-    for (const auto& r : summary.rows()) spikes[{r.afferent, r.channel}] += r.values[measure_index<SpikeCount>];
-    const bool shows_silent = summary.rows().size() <= max_rate_rows_with_silent;
+    for (const auto& r : summary.rows) spikes[{r.afferent, r.channel}] += r.values[measure_index<SpikeCount>];
+    const bool shows_silent = summary.rows.size() <= max_rate_rows_with_silent;
     std::vector<std::vector<std::string>> rows = {{"afferent", "channel", "phase"}};
     const auto columns = summary.columns();
     for (const auto c : columns) rows[0].push_back(column_heading(measures[c]));
     std::size_t omitted = 0;
-    for (const auto& r : summary.rows()) {
+    for (const auto& r : summary.rows) {
         if (!shows_silent && spikes[{r.afferent, r.channel}] == 0) continue;
         if (rows.size() > max_rate_rows) {
             ++omitted;
@@ -100,7 +100,7 @@ std::vector<std::string> reference_line(const ImplementationComparison& c) {
 std::string implementations_table(const ImplementationComparisons& comparisons) {
     std::vector<std::vector<std::string>> rows = {
         {"implementation", "channel", "spikes", "by phase", "change (%)", "matched", "shift (ms)", "Victor-Purpura", "van Rossum"}};
-    const auto& all = comparisons.rows();
+    const auto& all = comparisons.rows;
     std::size_t omitted = 0, silent = 0;
     const ImplementationComparison* last = nullptr;  // the last printed row; its reference has been printed, too
     for (const auto& c : all) {
@@ -131,7 +131,7 @@ std::string implementations_table(const ImplementationComparisons& comparisons) 
 }  // namespace
 
 std::string ChannelRun::table() const {
-    return inputs_table(summary_) + copies_line(copy_spec_) + rate_table(summary_) + implementations_table(summary_.comparisons());
+    return inputs_table(summary_) + copies_line(copy_spec_) + rate_table(summary_) + implementations_table(summary_.comparisons);
 }
 
 }  // namespace corpuscle

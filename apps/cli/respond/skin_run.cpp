@@ -37,9 +37,9 @@ Result<void> SkinRun::open_checkpoint() {
 Result<std::vector<std::unique_ptr<BlockSimulator>>> SkinRun::simulators() {
     TRY(make_skin());
     TRY(open_checkpoint());
-    const SkinRunParts parts{ranks_, checkpoint_.get()};
     std::vector<std::unique_ptr<BlockSimulator>> inputs;
-    inputs.push_back(std::make_unique<SkinSimulator>(*population_, make_input(*population_, name_, *source_), *force_, *skin_, parts));
+    inputs.push_back(std::make_unique<SkinSimulator>(*population_, make_input(*population_, name_, *source_), *force_, *skin_,
+                                                     checkpoint_.get(), ranks_));
     return inputs;
 }
 

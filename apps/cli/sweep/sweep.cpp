@@ -8,7 +8,7 @@
 #include "cli/output/sweep_status.hpp"
 #include "cli/output/terminal.hpp"
 #include "cli/verbs.hpp"
-#include "sweep/parallel/rank_run.hpp"
+#include "sweep/parallel/run_sweep.hpp"
 #include "sweep/store/writer_lock.hpp"
 
 namespace corpuscle {
@@ -77,7 +77,7 @@ SweepRunOptions run_options_of(const SweepArguments& args, const Shard& shard, c
 Error with_advice(const Error& error, const SweepResults& results) {
     if (error.code != ErrorCode::interrupted) return error;
     return {error.code, fmt::format("interrupted; {} of {} items have ended and are saved in {}; the same command resumes the sweep",
-                                    results.finished_count(), results.item_count(), results.path())};
+                                    results.finished_count(), results.item_count, results.path())};
 }
 
 /// Opens the results file, runs the missing items and prints the status. `ranks`: null for a single process; the others for rank 0.
@@ -92,7 +92,7 @@ Result<void> run_and_report(Ranks* ranks, const Sweep& sweep, const SweepArgumen
             progress.update(static_cast<double>(c.finished()) / static_cast<double>(std::max<std::int64_t>(1, c.planned)));
         };
         SweepProgress counts;
-        return ranks ? run_coordinator(*ranks, sweep, results, run_options, counts) : run_sweep(sweep, results, run_options, counts);
+        return run_sweep(sweep, results, run_options, counts, ranks);
     }();
     if (const auto checkpointed = results.checkpoint(); !checkpointed && !common.quiet)
         print_warning(fmt::format("the results are complete only if {} is kept together with {}-wal: {}", results.path(), results.path(),

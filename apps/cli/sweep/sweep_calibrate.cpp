@@ -11,7 +11,7 @@
 #include "core/text/ascii_text.hpp"
 #include "run/afferent_plan.hpp"
 #include "run/simulate.hpp"
-#include "sweep/calibrate/calibration_report.hpp"
+#include "sweep/calibrate/calibrate.hpp"
 
 namespace corpuscle {
 namespace {

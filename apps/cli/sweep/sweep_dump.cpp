@@ -4,7 +4,7 @@
 
 #include "cli/output/terminal.hpp"
 #include "cli/verbs.hpp"
-#include "sweep/store/dump.hpp"
+#include "sweep/store/sweep_results.hpp"
 
 namespace corpuscle {
 namespace {

@@ -14,7 +14,6 @@
 #include "io/output/output_check.hpp"
 #include "report/sweep/sweep_page.hpp"
 #include "run/earlier_outputs.hpp"
-#include "sweep/spec/sweep_document.hpp"
 
 namespace corpuscle {
 namespace {

@@ -13,7 +13,7 @@ using Count = ImplementationComparison::PhaseCount;
 /// The names of the phases of all inputs, each once, in order of first occurrence.
 std::vector<std::string> phases_of(const ImplementationComparisons& comparisons) {
     std::vector<std::string> all;
-    for (const auto& c : comparisons.rows())
+    for (const auto& c : comparisons.rows)
         for (const auto& p : c.phases)
             if (std::find(all.begin(), all.end(), p.phase) == all.end()) all.push_back(p.phase);
     return all;
@@ -54,7 +54,7 @@ Json implementations_document(const ImplementationComparisons& comparisons) {
                                        {"van Rossum", 2}})
         columns.push_back(name), decimals.push_back(places);
     const ImplementationComparison* last = nullptr;  // of the previous row; comparisons with one reference on one channel are adjacent
-    for (const auto& c : comparisons.rows()) {
+    for (const auto& c : comparisons.rows) {
         if (!last || last->reference != c.reference || last->channel != c.channel) {
             rows.push_back(counts_row(c, c.reference, phases, &Count::reference_spikes));
             while (rows.back().size() < columns.size()) rows.back().push_back(nullptr);

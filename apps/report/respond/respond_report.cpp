@@ -41,11 +41,10 @@ Json cell_document(const MeasureRow& row, std::size_t m) {
 Json table_document(const RunSummary& summary) {
     Json columns = {"afferent", "channel", "phase"}, decimals = {nullptr, nullptr, nullptr}, rows = Json::array();
     const auto shown = summary.columns();
-    const bool means =
-        !summary.rows().empty() && !summary.rows()[0].copy_statistics.empty();  // of copies; the mean of a count needs a decimal
+    const bool means = !summary.rows.empty() && !summary.rows[0].copy_statistics.empty();  // of copies; the mean of a count needs a decimal
     for (const auto m : shown)
         columns.push_back(column_heading(measures[m])), decimals.push_back(std::max(measures[m].decimals, means ? 1 : 0));
-    for (const auto& r : summary.rows()) {
+    for (const auto& r : summary.rows) {
         Json row = {r.afferent, r.channel, r.phase};
         for (const auto m : shown) row.push_back(cell_document(r, m));
         rows.push_back(std::move(row));
@@ -56,8 +55,8 @@ Json table_document(const RunSummary& summary) {
 /// Recording quality: findings as text, and a row of quality metrics for each channel of a recording. Stimuli have no rows.
 Json quality_document(const RunSummary& summary) {
     Json messages = Json::array(), columns = {"channel"}, rows = Json::array();
-    const bool several = summary.inputs().size() > 1;
-    for (const auto& i : summary.inputs()) {
+    const bool several = summary.inputs.size() > 1;
+    for (const auto& i : summary.inputs) {
         const auto add = [&](const std::vector<std::string>& texts, bool is_warning) {
             for (const auto& s : texts) messages.push_back({{"text", several ? i.name + ": " + s : s}, {"grave", is_warning}});
         };
@@ -170,7 +169,7 @@ Result<void> RespondReport::end(const Input& input, std::int64_t samples, std::s
 std::string RespondReport::page(const RunSummary& summary, std::span<const AfferentPlan> plans, const std::string& command,
                                 const std::vector<std::string>& warnings, const Json& costs) const {
     std::string title;
-    for (const auto& i : summary.inputs()) title += (title.empty() ? "" : ", ") + i.name;
+    for (const auto& i : summary.inputs) title += (title.empty() ? "" : ", ") + i.name;
     Json afferents = Json::array(), notes = Json::array();
     for (std::size_t a = 0; a < plans.size(); ++a) {
         const auto& plan = plans[a];
@@ -185,7 +184,7 @@ std::string RespondReport::page(const RunSummary& summary, std::span<const Affer
                              {"probes", recordables_[a]}});
     }
     for (const auto& w : warnings) notes.push_back(w);
-    for (const auto& i : summary.inputs())
+    for (const auto& i : summary.inputs)
         for (const auto& r : i.notes) notes.push_back(i.name + ": " + r);
     Json document = {{"title", title},
                      {"program", fmt::format("corpuscle {}", version)},
@@ -195,7 +194,7 @@ std::string RespondReport::page(const RunSummary& summary, std::span<const Affer
                      {"traces", traces_},
                      {"spikes", spikes_},
                      {"table", table_document(summary)},
-                     {"comparisons", implementations_document(summary.comparisons())},
+                     {"comparisons", implementations_document(summary.comparisons)},
                      {"quality", quality_document(summary)},
                      {"notes", notes},
                      {"versions", {{"corpuscle", version}, {"compiler", compiler_version()}}}};

@@ -37,7 +37,7 @@ Json sites_document(const Sites& sites) {
 /// The properties of each mark that do not change over time. Mark m stands for the afferents begin[m] ... begin[m + 1] - 1; it has their
 /// mean position, the earliest of their first spikes (s; NaN if none fired), and the region and number of the first of them.
 Json marks_document(const SkinSummary& summary, std::span<const std::uint32_t> begin) {
-    const auto& afferents = summary.skin().afferents;
+    const auto& afferents = summary.skin->afferents;
     std::vector<std::uint16_t> region;
     std::vector<std::uint32_t> copy;  // number of the first afferent within its class, from 1
     std::vector<float> first_spikes;
@@ -47,7 +47,7 @@ Json marks_document(const SkinSummary& summary, std::span<const std::uint32_t> b
         double earliest = no_value;
         for (auto u = begin[m]; u < begin[m + 1]; ++u) {
             mean.x += afferents[u].position.x / (begin[m + 1] - begin[m]), mean.y += afferents[u].position.y / (begin[m + 1] - begin[m]);
-            earliest = std::fmin(earliest, summary.first_times()[u]);  // fmin ignores NaN
+            earliest = std::fmin(earliest, summary.first_times[u]);  // fmin ignores NaN
         }
         positions.push_back(mean), first_spikes.push_back(static_cast<float>(earliest));
         region.push_back(static_cast<std::uint16_t>(afferents[begin[m]].region)), copy.push_back(afferents[begin[m]].number);
@@ -78,7 +78,7 @@ Json classes_document(const Innervation& skin) {
 
 std::string skin_page(const SkinSummary& summary, const SkinReport& report, const RespondOptions& options, const SkinRunNotes& run_info,
                       const std::string& command) {
-    const auto title = fmt::format("{} on {}", summary.name(), summary.skin().plan.name);
+    const auto title = fmt::format("{} on {}", summary.input.name, summary.skin->plan.name);
     Json notes = run_info.warnings;
     for (const auto& r : run_info.notes) notes.push_back(r);
     const Json page = {{"title", title},
@@ -86,10 +86,10 @@ std::string skin_page(const SkinSummary& summary, const SkinReport& report, cons
                        {"command", command},
                        {"notes", notes},
                        {"summary", summary.document(options, run_info)},
-                       {"regions", summary.skin().plan.sites.regions},
-                       {"sites", sites_document(summary.skin().plan.sites)},
+                       {"regions", summary.skin->plan.sites.regions},
+                       {"sites", sites_document(summary.skin->plan.sites)},
                        {"marks", marks_document(summary, report.marks())},
-                       {"classes", classes_document(summary.skin())},
+                       {"classes", classes_document(*summary.skin)},
                        {"over", report.document()},
                        {"versions", {{"corpuscle", version}, {"compiler", compiler_version()}}}};
     return fill_template(asset("skin.html"), escape_html(title), script_json(page));

@@ -9,7 +9,6 @@
 #include "report/page_template.hpp"
 #include "report/sweep/sweep_plots.hpp"
 #include "sweep/spec/mismatch_samples.hpp"
-#include "sweep/spec/sweep_document.hpp"
 
 namespace corpuscle {
 namespace {
@@ -202,11 +201,11 @@ Result<std::string> sweep_page(const SweepResults& results, const SweepTable& ta
     const auto points = thinned_rows(table.rows(), max_points), chips = thinned_rows(table.rows(), max_rasters);
     const auto traced = thinned_rows(table.rows(), max_traces), failed = failed_rows(table);
     page["rasters"] = Json::array(), page["traces"] = Json::array();
-    for (std::size_t t = 0; t < std::min<std::size_t>(results.train_names().size(), 4); ++t) {
+    for (std::size_t t = 0; t < std::min<std::size_t>(results.train_names.size(), 4); ++t) {
         auto raster = TRY(rasters(results, t, table, chips));
         page["rasters"].push_back(std::move(raster));
     }
-    for (std::size_t t = 0; t < std::min<std::size_t>(results.probe_names().size(), 8); ++t) {
+    for (std::size_t t = 0; t < std::min<std::size_t>(results.probe_names.size(), 8); ++t) {
         auto one = TRY(envelopes(results, t, table, traced, groupings));
         page["traces"].push_back(std::move(one));
     }

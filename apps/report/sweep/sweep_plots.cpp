@@ -145,7 +145,7 @@ PlotJson normal_plots(const std::vector<double>& values, const SweepGroups& grou
 
 Result<PlotJson> envelopes(const SweepResults& results, std::size_t probe, const SweepTable& table, const std::vector<std::size_t>& rows,
                            const std::vector<Grouping>& groupings) {
-    const auto shown = thinned_rows(results.probe_times().size(), max_times);
+    const auto shown = thinned_rows(results.probe_times.size(), max_times);
     std::vector<std::vector<float>> all;  // [row][time]
     for (const auto r : rows) {
         const auto samples = TRY(results.probe_samples(table.items[r], probe));
@@ -164,7 +164,7 @@ Result<PlotJson> envelopes(const SweepResults& results, std::size_t probe, const
         return stats;
     };
     std::vector<double> times;
-    for (const auto k : shown) times.push_back(results.probe_times()[k]);
+    for (const auto k : shown) times.push_back(results.probe_times[k]);
     const auto overall = stats_over([](std::size_t) { return true; });
     PlotJson medians = PlotJson::array();
     for (const auto& g : groupings) {
@@ -172,9 +172,9 @@ Result<PlotJson> envelopes(const SweepResults& results, std::size_t probe, const
         for (std::size_t k = 0; k < g.row_groups.groups.size() && g.row_groups.groups.size() > 1; ++k)
             medians.back().push_back(rounded_numbers(stats_over([&](std::size_t r) { return g.row_groups.group_of[r] == k; }).median));
     }
-    return PlotJson{{"name", results.probe_names()[probe]},
+    return PlotJson{{"name", results.probe_names[probe]},
                     {"times", rounded_numbers(times)},
-                    {"every", results.probe_times().size() > max_times},
+                    {"every", results.probe_times.size() > max_times},
                     {"items", rows.size()},
                     {"min", rounded_numbers(overall.min)},
                     {"low", rounded_numbers(overall.low)},
@@ -193,7 +193,7 @@ Result<PlotJson> rasters(const SweepResults& results, std::size_t train, const S
         shown.push_back(r), counts.push_back(spikes.size());
         for (const double t : spikes) times.push_back(static_cast<float>(t));
     }
-    return PlotJson{{"name", results.train_names()[train]},
+    return PlotJson{{"name", results.train_names[train]},
                     {"rows", shown},
                     {"counts", counts},
                     {"times", base64(times.data(), times.size() * sizeof(float))}};

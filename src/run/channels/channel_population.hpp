@@ -2,7 +2,7 @@
 // Afferents on channels: one of each plan on every channel of a source.
 
 #include "model/catalog.hpp"
-#include "run/population.hpp"
+#include "run/sink.hpp"
 
 namespace corpuscle {
 

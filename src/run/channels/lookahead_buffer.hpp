@@ -1,6 +1,7 @@
 #pragma once
 // Reads a source of force some samples ahead, for afferents whose response lags behind the force.
 
+#include <algorithm>
 #include <span>
 #include <vector>
 
@@ -17,18 +18,38 @@ class LookaheadBuffer {
     std::size_t available_ = 0;                // number of samples of the source in the buffer, without repetitions of the last force
     bool ended_ = false;                       // true after the end of the source has been read
 
-    Result<void> fill(ForceSource&, Frames& block);
+    /// Reads until the buffer has a full block and the look-ahead after it, or the source ends. Uses `block` to read into.
+    Result<void> fill(ForceSource& source, Frames& block) {
+        while (!ended_ && available_ < block.capacity + lookahead_) {
+            TRY(source.read(block));
+            ended_ = block.count == 0;
+            available_ += block.count;
+            for (std::size_t c = 0; c < buffer_.size(); ++c) {
+                auto& channel = buffer_[c];
+                const auto& force = block.force[c];
+                channel.insert(channel.end(), force.begin(), force.begin() + static_cast<std::ptrdiff_t>(block.count));
+                if (ended_ && !channel.empty()) channel.insert(channel.end(), lookahead_, channel.back());
+            }
+        }
+        return {};
+    }
 
 public:
     LookaheadBuffer(std::size_t channels, std::size_t lookahead) : lookahead_(lookahead), buffer_(channels) {}
 
     /// Reads the next block; a count of 0 marks the end.
-    Result<void> next(ForceSource&, Frames&);
-    /// `count` samples of a channel from sample `from` of the last block on. The range may end up to `lookahead` samples after the block.
-    /// Only if `lookahead` is not 0.
-    std::span<const double> samples(std::size_t channel, std::size_t from, std::size_t count) const {
-        return std::span(buffer_[channel]).subspan(from, count);
+    Result<void> next(ForceSource& source, Frames& block) {
+        if (lookahead_ == 0) return source.read(block);
+        for (auto& channel : buffer_) channel.erase(channel.begin(), channel.begin() + static_cast<std::ptrdiff_t>(last_block_));
+        available_ -= last_block_;
+        TRY(fill(source, block));
+        // Before the end of the source, fill() leaves at least lookahead_ samples after the block.
+        last_block_ = block.count = std::min(block.capacity, ended_ ? available_ : available_ - lookahead_);
+        for (std::size_t c = 0; c < buffer_.size(); ++c) std::copy_n(buffer_[c].begin(), last_block_, block.force[c].begin());
+        return {};
     }
+    /// The first `count` samples of the last block and the look-ahead after it. Only if `lookahead` is not 0.
+    std::span<const double> samples(std::size_t channel, std::size_t count) const { return std::span(buffer_[channel]).first(count); }
 };
 
 }  // namespace corpuscle

@@ -90,7 +90,7 @@ Result<void> ImplementationComparisons::block(const Input& input, const RunBlock
 Result<void> ImplementationComparisons::end(const Input& input, std::int64_t, std::span<const Spike>) {
     for (std::size_t c = 0; c < input.on_channels().channels(); ++c)
         for (const auto& group : groups_)
-            for (std::size_t m = 1; m < group.members.size(); ++m) rows_.push_back(compare_implementation(input, c, group, m));
+            for (std::size_t m = 1; m < group.members.size(); ++m) rows.push_back(compare_implementation(input, c, group, m));
     trains_.clear();
     return {};
 }
@@ -114,7 +114,7 @@ ImplementationComparison ImplementationComparisons::compare_implementation(const
 
 Json ImplementationComparisons::document() const {
     Json pairs = Json::array();
-    for (const auto& r : rows_) pairs.push_back(row_document(r));
+    for (const auto& r : rows) pairs.push_back(row_document(r));
     return {{"cost_Hz", cost}, {"tau_s", tau}, {"pairs", pairs}};
 }
 

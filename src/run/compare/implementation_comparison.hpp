@@ -49,12 +49,13 @@ public:
     static constexpr double cost = 100;   ///< 1/s, of moving a spike in the Victor-Purpura distance; it moves spikes by less than 2 / cost
     static constexpr double tau = 10e-3;  ///< s, time constant of the van Rossum distance
 
+    /// For each input and channel: every implementation except the references.
+    std::vector<ImplementationComparison> rows;
+
     Result<void> begin(const Input&) override;
     Result<void> block(const Input&, const RunBlock&) override;
     Result<void> end(const Input&, std::int64_t samples, std::span<const Spike> last) override;
 
-    /// For each input and channel: every implementation except the references.
-    const std::vector<ImplementationComparison>& rows() const { return rows_; }
     /// The rows as a JSON document, with cost and tau.
     nlohmann::ordered_json document() const;
 
@@ -62,7 +63,6 @@ private:
     std::vector<ImplementationGroup> groups_;  // the afferent types with several implementations
     std::vector<bool> is_kept_;                // for each plan: true if its spikes are kept
     std::vector<std::vector<double>> trains_;  // spike times of each afferent of the current input, s from the start of the input
-    std::vector<ImplementationComparison> rows_;
 
     /// `member`: an index of ImplementationGroup::members.
     ImplementationComparison compare_implementation(const Input&, std::size_t channel, const ImplementationGroup&,

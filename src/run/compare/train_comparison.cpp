@@ -57,10 +57,6 @@ public:
     }
 };
 
-TrainPair train_pair(const NamedTrain* a, const NamedTrain* b) {
-    return {a ? a->name() : "", b ? b->name() : "", a ? &a->times : nullptr, b ? &b->times : nullptr};
-}
-
 /// The trains whose complete name, afferent or channel is `name`.
 std::vector<const NamedTrain*> trains_named(const Trains& trains, const std::string& name) {
     std::vector<const NamedTrain*> all;
@@ -90,11 +86,11 @@ Result<void> add_pairs(const Trains& a, const Trains& b, const std::string& text
     for (const auto& [name, found, all, file] : {std::tuple{&from, &in_a, &a, "first"}, std::tuple{&to, &in_b, &b, "second"}})
         if (found->empty())
             return bad_usage(fmt::format("--pair {}: the {} file has no train '{}'; it has {}", text, file, *name, list_names(*all)));
-    if (in_a.size() == 1 && in_b.size() == 1) return out.push_back(train_pair(in_a[0], in_b[0])), Result<void>();
+    if (in_a.size() == 1 && in_b.size() == 1) return out.push_back({in_a[0], in_b[0]}), Result<void>();
     const std::size_t before = out.size();
     const TrainIndex index(b);
     for (const auto* train : in_a)
-        if (const auto* other = renamed_partner(index, in_b, *train, from, to)) out.push_back(train_pair(train, other));
+        if (const auto* other = renamed_partner(index, in_b, *train, from, to)) out.push_back({train, other});
     if (out.size() > before) return {};
     return bad_usage(
         fmt::format("--pair {}: matches {} trains of the first file and {} of the second, and no two of their names differ only "
@@ -111,9 +107,9 @@ std::vector<TrainPair> by_name(const Trains& a, const Trains& b) {
         return found && same_file.partner_of(*found) == &t ? found : nullptr;
     };
     std::vector<TrainPair> out;
-    for (const auto& t : a) out.push_back(train_pair(&t, partner(t, in_a, in_b)));
+    for (const auto& t : a) out.push_back({&t, partner(t, in_a, in_b)});
     for (const auto& t : b)
-        if (!partner(t, in_b, in_a)) out.push_back(train_pair(nullptr, &t));
+        if (!partner(t, in_b, in_a)) out.push_back({nullptr, &t});
     return out;
 }
 
@@ -154,24 +150,25 @@ Result<std::vector<TrainPair>> pair_trains(const Trains& a, const Trains& b, con
             return bad_usage(
                 fmt::format("--by-order: the first file has {} trains, the second {}; --pair A-NAME=B-NAME selects trains to compare",
                             a.size(), b.size()));
-        for (std::size_t k = 0; k < a.size(); ++k) out.push_back(train_pair(&a[k], &b[k]));
+        for (std::size_t k = 0; k < a.size(); ++k) out.push_back({&a[k], &b[k]});
         return out;
     }
     for (const auto& text : options.pairs) TRY(add_pairs(a, b, text, out));
     if (!options.pairs.empty()) return out;
     out = by_name(a, b);
-    if (a.empty() || b.empty() || std::any_of(out.begin(), out.end(), [](const auto& p) { return p.train_a && p.train_b; })) return out;
-    if (a.size() == 1 && b.size() == 1) return std::vector{train_pair(&a[0], &b[0])};
+    if (a.empty() || b.empty() || std::any_of(out.begin(), out.end(), [](const auto& p) { return p.a && p.b; })) return out;
+    if (a.size() == 1 && b.size() == 1) return std::vector<TrainPair>{{&a[0], &b[0]}};
     return bad_usage(fmt::format("no train has the same name in both files: {} | {}; {} would compare these{}", list_names(a),
                                  list_names(b), suggest_pair(a, b),
                                  a.size() == b.size() ? ", --by-order compares all of them in this order" : ""));
 }
 
 Result<TrainDifference> compare_trains(const TrainPair& pair, const CompareOptions& options) {
-    static const std::vector<double> empty_train;
-    const auto &a = pair.train_a ? *pair.train_a : empty_train, &b = pair.train_b ? *pair.train_b : empty_train;
+    static const NamedTrain missing;
+    const auto &train_a = pair.a ? *pair.a : missing, &train_b = pair.b ? *pair.b : missing;
+    const auto &a = train_a.times, &b = train_b.times;
     const auto matched = TRY(align_trains(a, b, 2 / options.window));  // a cost at which only spikes closer than the window can match
-    TrainDifference d{pair.a, pair.b, a.size(), b.size(), matched.moved.size()};
+    TrainDifference d{train_a.name(), train_b.name(), a.size(), b.size(), matched.moved.size()};
     for (const auto& m : matched.moved) {
         const double shift = std::abs(b[m.b] - a[m.a]);
         d.max_shift = std::max(d.max_shift, shift);

@@ -15,10 +15,9 @@ struct CompareOptions {
     double tau = 10e-3;                   ///< s, time constant of the van Rossum distance
 };
 
-/// A train of file A and its partner in file B. If there is no partner, the train is compared with an empty train.
+/// A train of file A and its partner in file B. If one of them is missing (null), the other is compared with an empty train.
 struct TrainPair {
-    std::string a, b;                                                 ///< names of the trains; "" for a missing one
-    const std::vector<double>*train_a = nullptr, *train_b = nullptr;  ///< spike times, s; null for a missing train
+    const NamedTrain *a, *b;
 };
 
 /// Differences of one pair of trains, or of all pairs together.

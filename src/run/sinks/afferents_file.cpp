@@ -12,21 +12,21 @@ namespace corpuscle {
 namespace {
 
 std::string afferent_row(const SkinSummary& summary, std::size_t u) {
-    const auto& skin = summary.skin();
+    const auto& skin = *summary.skin;
     const auto& afferent = skin.afferents[u];
-    const double first = summary.first_times()[u], seconds = summary.seconds();
-    const auto spikes = summary.counts()[u];
+    const double first = summary.first_times[u], seconds = summary.seconds();
+    const auto spikes = summary.counts[u];
     return fmt::format("{},{},{},{:.3f},{:.3f},{:.6f},{},{},{:.9g},{:.6g}\n", u, quote_csv_field(skin.afferent_name(u)),
                        quote_csv_field(skin.plan.sites.regions[afferent.region]), 1e3 * afferent.position.x, 1e3 * afferent.position.y,
-                       1e3 * afferent.delay, spikes, std::isnan(first) ? "" : fmt::format("{:.9f}", summary.clock().t0 + first),
-                       summary.touched_times()[u], seconds > 0 ? static_cast<double>(spikes) / seconds : 0);
+                       1e3 * afferent.delay, spikes, std::isnan(first) ? "" : fmt::format("{:.9f}", summary.input.clock.t0 + first),
+                       summary.touched_times[u], seconds > 0 ? static_cast<double>(spikes) / seconds : 0);
 }
 
 class AfferentsFile final : public FileSink {
     const SkinSummary& summary_;
 
 public:
-    AfferentsFile(std::string directory, const SkinSummary& summary) : FileSink(std::move(directory)), summary_(summary) {}
+    explicit AfferentsFile(const OutputRequest& request) : FileSink(request), summary_(*request.skin) {}
     Result<void> open() {
         TRY(create("afferents.csv"));
         return files_[0].write("afferent_index,afferent,region,x_mm,y_mm,delay_ms,spikes,first_spike_s,touched_s,rate_Hz\n");
@@ -41,7 +41,7 @@ public:
 
 const OutputFormat afferents_format = {
     .names = {"afferents.csv"},
-    .make = [](const OutputRequest& request) { return make_file_sink<AfferentsFile>(request.directory, *request.skin); },
+    .make = make_file_sink<AfferentsFile>,
     .is_written = [](const OutputRequest& request) { return request.skin != nullptr; },
 };
 

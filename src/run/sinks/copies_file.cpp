@@ -24,72 +24,65 @@ class CopiesFile final : public FileSink {
     fmt::memory_buffer text_;
 
     /// Appends the row of an afferent to text_; the index is within the input, from 0.
-    void put_row(const Input&, std::size_t afferent_index);
+    void put_row(const Input& input, std::size_t afferent_index) {
+        const auto out = std::back_inserter(text_);
+        const auto& plan = input.on_channels().plan_of(afferent_index);
+        fmt::format_to(out, "{},{}", quote_csv_field(plan.name), quote_csv_field(input.population.channel_name(afferent_index)));
+        for (const auto& c : columns_) {
+            const bool differs = std::find(c.afferents.begin(), c.afferents.end(), plan.original_name) != c.afferents.end();
+            differs ? fmt::format_to(out, ",{}", *plan.value(c.parameter)) : fmt::format_to(out, ",");
+        }
+        for (const double x : tally_.values(afferent_index, 0))
+            std::isfinite(x) ? fmt::format_to(out, ",{:.9g}", x) : fmt::format_to(out, ",");
+        text_.push_back('\n');
+    }
 
 public:
-    CopiesFile(std::string directory, const CopySpec&);
-    Result<void> open();
-    Result<void> begin(const Input&) override;
-    Result<void> block(const Input&, const RunBlock&) override;
-    Result<void> end(const Input&, std::int64_t samples, std::span<const Spike> last) override;
+    explicit CopiesFile(const OutputRequest& request) : FileSink(request) {
+        for (const auto& s : request.copies.distributions) {
+            auto at = std::find_if(columns_.begin(), columns_.end(),
+                                   [&](const Column& c) { return c.parameter == s.parameter && c.unit == s.unit; });
+            if (at == columns_.end()) at = columns_.insert(at, Column{s.parameter, s.unit, {}});
+            at->afferents.push_back(s.afferent);
+        }
+    }
+
+    Result<void> open() {
+        TRY(create("copies.csv"));
+        std::string header = "afferent,channel";
+        for (const auto& c : columns_)
+            header += "," + quote_csv_field(c.unit.empty() ? std::string(c.parameter) : fmt::format("{}_{}", c.parameter, c.unit));
+        for (const auto& m : measures) header += "," + quote_csv_field(measure_key(m));
+        return files_[0].write(header + "\n");
+    }
+
+    Result<void> begin(const Input& input) override {
+        tally_ = MeasureAccumulator({{.stimulus_frequency = input.cycle_frequency}}, input.population.size());
+        return {};
+    }
+
+    Result<void> block(const Input& input, const RunBlock& block) override {
+        for (const auto& s : block.spikes) tally_.spike(input.afferent_of(s), input.since_start(s));
+        return {};
+    }
+
+    Result<void> end(const Input& input, std::int64_t samples, std::span<const Spike>) override {
+        tally_.set_end(input.since_start(samples));
+        for (std::size_t u = 0; u < input.population.size(); ++u) {
+            put_row(input, u);
+            // Writes in pieces of 64 KiB.
+            if (text_.size() < std::size_t{1} << 16 && u + 1 < input.population.size()) continue;
+            TRY(write_text(text_));
+        }
+        return {};
+    }
 };
-
-CopiesFile::CopiesFile(std::string directory, const CopySpec& copies) : FileSink(std::move(directory)) {
-    for (const auto& s : copies.distributions) {
-        auto at =
-            std::find_if(columns_.begin(), columns_.end(), [&](const Column& c) { return c.parameter == s.parameter && c.unit == s.unit; });
-        if (at == columns_.end()) at = columns_.insert(at, Column{s.parameter, s.unit, {}});
-        at->afferents.push_back(s.afferent);
-    }
-}
-
-Result<void> CopiesFile::open() {
-    TRY(create("copies.csv"));
-    std::string header = "afferent,channel";
-    for (const auto& c : columns_)
-        header += "," + quote_csv_field(c.unit.empty() ? std::string(c.parameter) : fmt::format("{}_{}", c.parameter, c.unit));
-    for (const auto& m : measures) header += "," + quote_csv_field(measure_key(m));
-    return files_[0].write(header + "\n");
-}
-
-Result<void> CopiesFile::begin(const Input& input) {
-    tally_ = MeasureAccumulator({{.stimulus_frequency = input.cycle_frequency}}, input.population.size());
-    return {};
-}
-
-Result<void> CopiesFile::block(const Input& input, const RunBlock& block) {
-    for (const auto& s : block.spikes) tally_.spike(input.afferent_of(s), input.since_start(s));
-    return {};
-}
-
-void CopiesFile::put_row(const Input& input, std::size_t afferent_index) {
-    const auto out = std::back_inserter(text_);
-    const auto& plan = input.on_channels().plan_of(afferent_index);
-    fmt::format_to(out, "{},{}", quote_csv_field(plan.name), quote_csv_field(input.population.channel_name(afferent_index)));
-    for (const auto& c : columns_) {
-        const bool differs = std::find(c.afferents.begin(), c.afferents.end(), plan.original_name) != c.afferents.end();
-        differs ? fmt::format_to(out, ",{}", *plan.value(c.parameter)) : fmt::format_to(out, ",");
-    }
-    for (const double x : tally_.values(afferent_index, 0)) std::isfinite(x) ? fmt::format_to(out, ",{:.9g}", x) : fmt::format_to(out, ",");
-    text_.push_back('\n');
-}
-
-Result<void> CopiesFile::end(const Input& input, std::int64_t samples, std::span<const Spike>) {
-    tally_.set_end(input.since_start(samples));
-    for (std::size_t u = 0; u < input.population.size(); ++u) {
-        put_row(input, u);
-        // Writes in pieces of 64 KiB.
-        if (text_.size() < std::size_t{1} << 16 && u + 1 < input.population.size()) continue;
-        TRY(write_text(text_));
-    }
-    return {};
-}
 
 }  // namespace
 
 const OutputFormat copies_format = {
     .names = {"copies.csv"},
-    .make = [](const OutputRequest& request) { return make_file_sink<CopiesFile>(request.directory, request.copies); },
+    .make = make_file_sink<CopiesFile>,
     .is_written = [](const OutputRequest& request) { return request.copies.count > 0; },
 };
 

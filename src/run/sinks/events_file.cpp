@@ -9,8 +9,16 @@
 namespace corpuscle {
 namespace {
 
+/// The requested format; null if its name is unknown.
+const EventFormatInfo* requested_format(const OutputRequest& request) {
+    const auto formats = event_formats();
+    const auto at = std::ranges::find(formats, request.options.at("--events"), &EventFormatInfo::name);
+    return at == formats.end() ? nullptr : &*at;
+}
+
 class EventsFile final : public SpikeFileSink {
-    std::string format_name_, extension_;
+    std::string_view format_name_;
+    std::string extension_;
     std::unique_ptr<EventFormat> format_;
     std::string bytes_;  // of the current block
 
@@ -25,8 +33,8 @@ class EventsFile final : public SpikeFileSink {
     }
 
 public:
-    EventsFile(std::string directory, std::string format, std::string_view extension)
-        : SpikeFileSink(std::move(directory)), format_name_(std::move(format)), extension_(extension) {}
+    explicit EventsFile(const OutputRequest& request)
+        : SpikeFileSink(request), format_name_(requested_format(request)->name), extension_(requested_format(request)->extension) {}
     Result<void> open() { return create("spikes" + extension_); }
     Result<void> begin(const Input& input) override {
         if (input.index > 0) TRY(create(numbered_name("spikes#" + extension_, input.index)));
@@ -35,16 +43,9 @@ public:
     }
 };
 
-/// The format of this name; null if there is none.
-const EventFormatInfo* find_event_format(std::string_view name) {
-    const auto formats = event_formats();
-    const auto at = std::find_if(formats.begin(), formats.end(), [&](const auto& f) { return f.name == name; });
-    return at == formats.end() ? nullptr : &*at;
-}
-
 Result<void> check_event_format(const OutputRequest& request) {
+    if (requested_format(request)) return {};
     const auto& name = request.options.at("--events");
-    if (find_event_format(name)) return {};
     std::vector<std::string_view> names;
     for (const auto& f : event_formats()) names.push_back(f.name);
     return bad_usage(fmt::format("--events {}: expected one of {}{}", name, fmt::join(names, ", "), did_you_mean(name, names)));
@@ -52,7 +53,7 @@ Result<void> check_event_format(const OutputRequest& request) {
 
 std::vector<std::string> event_file_names(const OutputRequest& request) {
     std::vector<std::string> names;
-    const auto name = fmt::format("spikes#{}", find_event_format(request.options.at("--events"))->extension);
+    const auto name = fmt::format("spikes#{}", requested_format(request)->extension);
     for (std::size_t k = 0; k < request.inputs; ++k) names.push_back(numbered_name(name, k));
     return names;
 }
@@ -64,11 +65,7 @@ const OutputFormat events_format = {
     .option = "--events",
     .value_name = "FORMAT",
     .help = "write the spikes as lines, jsonl, aer or aedat2 (doc/events.md) instead of spikes.csv",
-    .make =
-        [](const OutputRequest& request) {
-            const auto* const format = find_event_format(request.options.at("--events"));
-            return make_file_sink<EventsFile>(request.directory, std::string(format->name), format->extension);
-        },
+    .make = make_file_sink<EventsFile>,
     .check = check_event_format,
     .names_of = event_file_names,
 };

@@ -13,6 +13,19 @@ namespace corpuscle {
 
 class SkinSummary;
 
+/// The files that the user requests, and the properties of the run that are known before it starts.
+struct OutputRequest {
+    std::string directory = {};
+    std::map<std::string, std::string, std::less<>> options = {};  ///< the output options of the user with their values; "" for a flag
+    std::size_t inputs = 1;                                        ///< number of inputs
+    std::size_t channels = 1;                                      ///< on channels: number of channels of all inputs
+    std::span<const AfferentPlan> plans = {};                      ///< on channels: the simulated afferents
+    CopySpec copies = {};
+    const SkinSummary* skin = nullptr;  ///< for a skin: its summary, which precedes the files among the sinks
+
+    bool has(std::string_view option) const { return options.contains(option); }
+};
+
 /// A sink that writes files. The files get their final names in commit().
 class FileSink : public Sink {
 protected:
@@ -24,7 +37,7 @@ protected:
     Result<void> write_text(fmt::memory_buffer& text);
 
 public:
-    explicit FileSink(std::string directory) : directory_(std::move(directory)) {}
+    explicit FileSink(const OutputRequest& request) : directory_(request.directory) {}
     FileSink(const FileSink&) = delete;
     FileSink& operator=(const FileSink&) = delete;
     /// Removes the files that were not committed. The last one is removed first: the first one may have created the directory.
@@ -44,19 +57,6 @@ protected:
 public:
     Result<void> block(const Input& input, const RunBlock& block) override { return add(input, block.spikes); }
     Result<void> end(const Input& input, std::int64_t, std::span<const Spike> last) override { return add(input, last); }
-};
-
-/// The files that the user requests, and the properties of the run that are known before it starts.
-struct OutputRequest {
-    std::string directory = {};
-    std::map<std::string, std::string, std::less<>> options = {};  ///< the output options of the user with their values; "" for a flag
-    std::size_t inputs = 1;                                        ///< number of inputs
-    std::size_t channels = 1;                                      ///< on channels: number of channels of all inputs
-    std::span<const AfferentPlan> plans = {};                      ///< on channels: the simulated afferents
-    CopySpec copies = {};
-    const SkinSummary* skin = nullptr;  ///< for a skin: its summary, which precedes the files among the sinks
-
-    bool has(std::string_view option) const { return options.contains(option); }
 };
 
 /// The largest number of copies of an afferent whose probes or vectors are written.
@@ -93,18 +93,12 @@ std::string numbered_name(std::string_view name, std::size_t index);
 /// Returns an error if the run has more copies than max_recorded_copies.
 Result<void> check_recorded_copies(const OutputRequest&, std::string_view option);
 
-/// Makes a sink of type F from the directory and other arguments, and creates its first file.
-template <class F, class... A>
-Result<std::unique_ptr<FileSink>> make_file_sink(A&&... arguments) {
-    auto sink = std::make_unique<F>(std::forward<A>(arguments)...);
+/// Makes a sink of type F for a request, and creates its first file.
+template <class F>
+Result<std::unique_ptr<FileSink>> make_file_sink(const OutputRequest& request) {
+    auto sink = std::make_unique<F>(request);
     TRY(sink->open());
     return std::unique_ptr<FileSink>(std::move(sink));
-}
-
-/// The same for a sink that needs only the directory.
-template <class F>
-Result<std::unique_ptr<FileSink>> make_in_directory(const OutputRequest& request) {
-    return make_file_sink<F>(request.directory);
 }
 
 /// Names of afferent and channel of each afferent of an input as two CSV fields: "sa1,press".

@@ -74,7 +74,7 @@ const OutputFormat npz_format = {
     .names = {"spikes.npz"},
     .option = "--npz",
     .help = "with --out, also write spikes.npz: exact times for NumPy and SpikeInterface",
-    .make = make_in_directory<NpzFile>,
+    .make = make_file_sink<NpzFile>,
 };
 
 }  // namespace corpuscle

@@ -47,7 +47,7 @@ const OutputFormat probes_format = {
     .names = {"probes#.csv"},
     .option = "--probe-files",
     .help = "with --out, also write probes.csv: force, currents, membranes",
-    .make = make_in_directory<ProbesFile>,
+    .make = make_file_sink<ProbesFile>,
     .check = [](const OutputRequest& request) { return check_recorded_copies(request, "--probe-files"); },
 };
 

@@ -14,6 +14,23 @@
 namespace corpuscle {
 namespace {
 
+/// The value of --bin, s.
+Result<double> bin_width_of(const OutputRequest& request) {
+    const auto& text = request.options.at("--bin");
+    const auto width = parse_quantity(text, "s");
+    if (!width) return bad_usage(fmt::format("--bin {}", width.error().message));
+    if (!(*width > 0)) return bad_usage(fmt::format("--bin {}: must be greater than 0, such as 10ms", text));
+    return *width;
+}
+
+/// Returns an error if bins are shorter than a hundredth of the sample period, because almost all of them would be empty.
+Result<void> check_bin_width(const Clock& clock, double bin_width) {
+    const double min = 0.01 * clock.T();
+    if (bin_width >= min * (1 - 1e-9)) return {};
+    return bad_usage(fmt::format("--bin {}: shorter than a hundredth of the {} between samples; write {} or more",
+                                 format_quantity(bin_width, "s"), format_quantity(clock.T(), "s"), format_quantity(min, "s")));
+}
+
 class PsthFile final : public FileSink {
     double bin_width_;  // s
     bool has_header_ = false;
@@ -24,7 +41,17 @@ class PsthFile final : public FileSink {
     fmt::memory_buffer text_;           // lines of complete bins that are not yet written
 
     std::int64_t bin_index(double t) const { return static_cast<std::int64_t>(std::floor(t / bin_width_ + 1e-9)); }
-    void end_bin(double to);
+
+    /// Completes the current bin, which ends at `to` (s since the start).
+    void end_bin(double to) {
+        const double from = static_cast<double>(current_bin_) * bin_width_;
+        for (std::size_t g = 0; g < counts_.size(); ++g)
+            fmt::format_to(std::back_inserter(text_), "{},{:.9f},{:.9f},{},{:.6g}\n", groups_.groups[g].names, t0_ + from, t0_ + to,
+                           counts_[g], static_cast<double>(counts_[g]) / (to - from) / groups_.groups[g].afferents);
+        counts_.assign(counts_.size(), 0);
+        ++current_bin_;
+    }
+
     void end_bins_before(std::int64_t bin) {
         while (current_bin_ < bin) end_bin(static_cast<double>(current_bin_ + 1) * bin_width_);
     }
@@ -36,9 +63,17 @@ class PsthFile final : public FileSink {
     }
 
 public:
-    PsthFile(std::string directory, double bin_width) : FileSink(std::move(directory)), bin_width_(bin_width) {}
+    explicit PsthFile(const OutputRequest& request) : FileSink(request), bin_width_(*bin_width_of(request)) {}
     Result<void> open() { return create("psth.csv"); }
-    Result<void> begin(const Input&) override;
+
+    Result<void> begin(const Input& input) override {
+        TRY(check_bin_width(input.clock, bin_width_));
+        groups_ = input.population.bin_groups();
+        t0_ = input.clock.t0, current_bin_ = 0, counts_.assign(groups_.groups.size(), 0);
+        if (std::exchange(has_header_, true)) return {};
+        return files_[0].write(groups_.columns + ",from_s,to_s,spikes,rate_Hz\n");
+    }
+
     /// Spikes of later blocks are after the last sample of this block.
     Result<void> block(const Input& input, const RunBlock& block) override {
         count(input, block.spikes);
@@ -55,41 +90,6 @@ public:
     }
 };
 
-/// Returns an error if bins are shorter than a hundredth of the sample period, because almost all of them would be empty.
-Result<void> check_bin_width(const Clock& clock, double bin_width) {
-    const double min = 0.01 * clock.T();
-    if (bin_width >= min * (1 - 1e-9)) return {};
-    return bad_usage(fmt::format("--bin {}: shorter than a hundredth of the {} between samples; write {} or more",
-                                 format_quantity(bin_width, "s"), format_quantity(clock.T(), "s"), format_quantity(min, "s")));
-}
-
-Result<void> PsthFile::begin(const Input& input) {
-    TRY(check_bin_width(input.clock, bin_width_));
-    groups_ = input.population.bin_groups();
-    t0_ = input.clock.t0, current_bin_ = 0, counts_.assign(groups_.groups.size(), 0);
-    if (std::exchange(has_header_, true)) return {};
-    return files_[0].write(groups_.columns + ",from_s,to_s,spikes,rate_Hz\n");
-}
-
-/// Completes the current bin, which ends at `to` (s since the start).
-void PsthFile::end_bin(double to) {
-    const double from = static_cast<double>(current_bin_) * bin_width_;
-    for (std::size_t g = 0; g < counts_.size(); ++g)
-        fmt::format_to(std::back_inserter(text_), "{},{:.9f},{:.9f},{},{:.6g}\n", groups_.groups[g].names, t0_ + from, t0_ + to, counts_[g],
-                       static_cast<double>(counts_[g]) / (to - from) / groups_.groups[g].afferents);
-    counts_.assign(counts_.size(), 0);
-    ++current_bin_;
-}
-
-/// The value of --bin, s.
-Result<double> bin_width_of(const OutputRequest& request) {
-    const auto& text = request.options.at("--bin");
-    const auto width = parse_quantity(text, "s");
-    if (!width) return bad_usage(fmt::format("--bin {}", width.error().message));
-    if (!(*width > 0)) return bad_usage(fmt::format("--bin {}: must be greater than 0, such as 10ms", text));
-    return *width;
-}
-
 }  // namespace
 
 const OutputFormat psth_format = {
@@ -97,7 +97,7 @@ const OutputFormat psth_format = {
     .option = "--bin",
     .value_name = "TIME",
     .help = "with --out, also write psth.csv: spike counts and rates in bins of this length",
-    .make = [](const OutputRequest& request) { return make_file_sink<PsthFile>(request.directory, *bin_width_of(request)); },
+    .make = make_file_sink<PsthFile>,
     .check =
         [](const OutputRequest& request) {
             const auto width = bin_width_of(request);

@@ -33,7 +33,7 @@ public:
 
 const OutputFormat spikes_format = {
     .names = {"spikes.csv"},
-    .make = make_in_directory<SpikesFile>,
+    .make = make_file_sink<SpikesFile>,
     .is_written = [](const OutputRequest& request) { return !request.has("--events"); },
 };
 

@@ -52,80 +52,6 @@ std::string one_line(std::string name) {
 
 std::string vectors_name(const AfferentPlan& plan, std::size_t file) { return numbered_name("vectors-" + plan.name + "#.csv", file); }
 
-class VectorsFile final : public FileSink {
-    /// The vectors of one afferent on one channel of the current input.
-    struct AfferentFile {
-        std::size_t plan_index;
-        std::size_t file;  // index in files_
-        State state;       // of the afferent, which this sink simulates itself
-    };
-    std::vector<std::unique_ptr<DigitalAfferent>> digital_;  // for each plan, at the sample rate of the current input; null if not digital
-    std::vector<std::optional<AfferentFile>> afferent_files_;  // for each afferent of the current input; no value if not digital
-    std::vector<std::size_t> file_counts_;                     // for each plan: number of vectors files so far
-
-    Result<void> make_afferents(const Input&);
-    Result<void> open_vectors_file(const Input&, std::size_t afferent_index);
-
-public:
-    using FileSink::FileSink;
-    Result<void> begin(const Input&) override;
-    Result<void> block(const Input&, const RunBlock&) override;
-};
-
-/// Makes the digital afferents at this input's sample rate; for the first input also writes their tables of force words.
-Result<void> VectorsFile::make_afferents(const Input& input) {
-    digital_.clear();
-    for (const auto& plan : input.on_channels().plans()) {
-        const bool is_digital = !plan.converter.empty();
-        digital_.push_back(is_digital ? make_digital(plan, {input.clock.T()}) : nullptr);
-        if (!is_digital || input.index > 0) continue;
-        TRY(create(fmt::format("rom-{}.csv", plan.name)));
-        TRY(files_.back().write(rom_text(*digital_.back())));
-    }
-    file_counts_.resize(digital_.size());
-    return {};
-}
-
-Result<void> VectorsFile::open_vectors_file(const Input& input, std::size_t afferent_index) {
-    const auto& afferents = input.on_channels();
-    const auto a = afferent_index % digital_.size(), c = afferents.channel_of(afferent_index);
-    const auto& plan = afferents.plan_of(afferent_index);
-    TRY(create(vectors_name(plan, file_counts_[a]++)));
-    TRY(files_.back().write(header_text(plan, one_line(afferents.channel(c)), *digital_[a])));
-    const ChannelSlot slot{static_cast<std::uint32_t>(c), static_cast<std::uint32_t>(afferents.channels())};
-    afferent_files_[afferent_index] = AfferentFile{a, files_.size() - 1, digital_[a]->start(slot)};
-    return {};
-}
-
-Result<void> VectorsFile::begin(const Input& input) {
-    TRY(make_afferents(input));
-    afferent_files_.clear();
-    afferent_files_.resize(input.population.size());
-    for (std::size_t u = 0; u < afferent_files_.size(); ++u)
-        if (digital_[u % digital_.size()]) TRY(open_vectors_file(input, u));
-    return {};
-}
-
-Result<void> VectorsFile::block(const Input& input, const RunBlock& block) {
-    for (std::size_t u = 0; u < afferent_files_.size(); ++u) {
-        if (!afferent_files_[u]) continue;
-        fmt::memory_buffer text;
-        const auto put_row = [&](const DigitalAfferent::Conversion& c) {
-            fmt::format_to(std::back_inserter(text), "{},{}", c.code, c.force);
-            for (const Word w : c.recorded) fmt::format_to(std::back_inserter(text), ",{}", w);
-            for (const bool spike : c.fired) fmt::format_to(std::back_inserter(text), ",{:d}", spike);
-            text.push_back('\n');
-        };
-        std::vector<Spike> spikes;
-        ResponseBlock response{spikes};
-        auto& [plan, file, state] = *afferent_files_[u];
-        const auto force = block.force[input.on_channels().channel_of(u)];
-        TRY(digital_[plan]->respond_and_report(force, state, response, put_row));
-        TRY(files_[file].write({text.data(), text.size()}));
-    }
-    return {};
-}
-
 Result<void> check_vectors(const OutputRequest& request) {
     const auto has_converter = [](const AfferentPlan& plan) { return !plan.converter.empty(); };
     if (std::none_of(request.plans.begin(), request.plans.end(), has_converter)) {
@@ -147,13 +73,82 @@ std::vector<std::string> vectors_file_names(const OutputRequest& request) {
     return names;
 }
 
+class VectorsFile final : public FileSink {
+    /// The vectors of one afferent on one channel of the current input.
+    struct AfferentFile {
+        std::size_t plan_index;
+        std::size_t file;  // index in files_
+        State state;       // of the afferent, which this sink simulates itself
+    };
+    std::vector<std::unique_ptr<DigitalAfferent>> digital_;  // for each plan, at the sample rate of the current input; null if not digital
+    std::vector<std::optional<AfferentFile>> afferent_files_;  // for each afferent of the current input; no value if not digital
+    std::vector<std::size_t> file_counts_;                     // for each plan: number of vectors files so far
+
+    /// Makes the digital afferents at this input's sample rate; for the first input also writes their tables of force words.
+    Result<void> make_afferents(const Input& input) {
+        digital_.clear();
+        for (const auto& plan : input.on_channels().plans()) {
+            const bool is_digital = !plan.converter.empty();
+            digital_.push_back(is_digital ? make_digital(plan, {input.clock.T()}) : nullptr);
+            if (!is_digital || input.index > 0) continue;
+            TRY(create(fmt::format("rom-{}.csv", plan.name)));
+            TRY(files_.back().write(rom_text(*digital_.back())));
+        }
+        file_counts_.resize(digital_.size());
+        return {};
+    }
+
+    Result<void> open_vectors_file(const Input& input, std::size_t afferent_index) {
+        const auto& afferents = input.on_channels();
+        const auto a = afferent_index % digital_.size(), c = afferents.channel_of(afferent_index);
+        const auto& plan = afferents.plan_of(afferent_index);
+        TRY(create(vectors_name(plan, file_counts_[a]++)));
+        TRY(files_.back().write(header_text(plan, one_line(afferents.channel(c)), *digital_[a])));
+        const ChannelSlot slot{static_cast<std::uint32_t>(c), static_cast<std::uint32_t>(afferents.channels())};
+        afferent_files_[afferent_index] = AfferentFile{a, files_.size() - 1, digital_[a]->start(slot)};
+        return {};
+    }
+
+public:
+    using FileSink::FileSink;
+
+    Result<void> begin(const Input& input) override {
+        TRY(make_afferents(input));
+        afferent_files_.clear();
+        afferent_files_.resize(input.population.size());
+        for (std::size_t u = 0; u < afferent_files_.size(); ++u)
+            if (digital_[u % digital_.size()]) TRY(open_vectors_file(input, u));
+        return {};
+    }
+
+    Result<void> block(const Input& input, const RunBlock& block) override {
+        for (std::size_t u = 0; u < afferent_files_.size(); ++u) {
+            if (!afferent_files_[u]) continue;
+            fmt::memory_buffer text;
+            const auto put_row = [&](const DigitalAfferent::Conversion& c) {
+                fmt::format_to(std::back_inserter(text), "{},{}", c.code, c.force);
+                for (const Word w : c.recorded) fmt::format_to(std::back_inserter(text), ",{}", w);
+                for (const bool spike : c.fired) fmt::format_to(std::back_inserter(text), ",{:d}", spike);
+                text.push_back('\n');
+            };
+            std::vector<Spike> spikes;
+            ResponseBlock response{spikes};
+            auto& [plan, file, state] = *afferent_files_[u];
+            const auto force = block.force[input.on_channels().channel_of(u)];
+            TRY(digital_[plan]->respond_and_report(force, state, response, put_row));
+            TRY(files_[file].write({text.data(), text.size()}));
+        }
+        return {};
+    }
+};
+
 }  // namespace
 
 const OutputFormat vectors_format = {
     .names = {"vectors-*.csv", "rom-*.csv"},
     .option = "--vectors",
     .help = "with --out, also write vectors-AFFERENT.csv and rom-AFFERENT.csv: every fixed-point value after the converter",
-    .make = make_in_directory<VectorsFile>,
+    .make = make_file_sink<VectorsFile>,
     .check = check_vectors,
     .names_of = vectors_file_names,
 };

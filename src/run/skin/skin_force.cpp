@@ -12,24 +12,14 @@ namespace {
 /// Samples per block. Blocks are short, because each site with force at any time in a block is simulated for the complete block.
 constexpr std::size_t pressed_block = 64, site_block = 256;
 
-/// A force at the sites that is computed from a source.
-class SourceForce : public SkinForce {
-protected:
+class PressedForce final : public SkinForce {
     ForceSource& source_;
-    explicit SourceForce(ForceSource& source) : source_(source) {}
-
-public:
-    double progress() const override { return source_.progress(); }
-    RecordingQuality quality() const override { return source_.quality(); }
-};
-
-class PressedForce final : public SourceForce {
     Contact& contact_;
     Frames frames_{1, pressed_block};
     std::int64_t first_ = 0;  // index of the first sample of the next block
 
 public:
-    PressedForce(ForceSource& source, Contact& contact) : SourceForce(source), contact_(contact) {}
+    PressedForce(ForceSource& source, Contact& contact) : source_(source), contact_(contact) {}
 
     Result<Block> next() override {
         frames_.count = 0;
@@ -42,9 +32,12 @@ public:
         first_ += static_cast<std::int64_t>(force.size());
         return Block{site_force, force};
     }
+    double progress() const override { return source_.progress(); }
+    RecordingQuality quality() const override { return source_.quality(); }
 };
 
-class SitesForce final : public SourceForce {
+class SitesForce final : public SkinForce {
+    ForceSource& source_;
     std::vector<std::uint32_t> sites_;  // the site of each channel
     Frames frames_;
     std::vector<double> force_;                                    // [site][step], N; 0 at sites without a channel
@@ -52,7 +45,7 @@ class SitesForce final : public SourceForce {
 
 public:
     SitesForce(ForceSource& source, std::vector<std::uint32_t> sites, std::size_t all_sites)
-        : SourceForce(source), sites_(std::move(sites)), frames_(sites_.size(), site_block), force_(all_sites * site_block) {}
+        : source_(source), sites_(std::move(sites)), frames_(sites_.size(), site_block), force_(all_sites * site_block) {}
 
     Result<Block> next() override {
         frames_.count = 0;
@@ -64,6 +57,8 @@ public:
         }
         return Block{{force_.data(), site_block}, {total_.data(), frames_.count}};
     }
+    double progress() const override { return source_.progress(); }
+    RecordingQuality quality() const override { return source_.quality(); }
 };
 
 }  // namespace

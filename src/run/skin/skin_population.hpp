@@ -1,8 +1,7 @@
 #pragma once
 // The afferents of a skin as a population. Their channel is the region that contains them.
 
-#include "run/population.hpp"
-#include "skin/innervation.hpp"
+#include "run/sink.hpp"
 
 namespace corpuscle {
 

@@ -1,5 +1,9 @@
 #include "run/skin/skin_simulator.hpp"
 
+#include <fmt/format.h>
+#include <algorithm>
+#include <cstring>
+#include <type_traits>
 #include <utility>
 
 namespace corpuscle {
@@ -8,7 +12,116 @@ namespace {
 /// Checkpoints are so far apart that the cost of saving is negligible.
 constexpr std::chrono::seconds save_interval{10};
 
+static_assert(std::is_trivially_copyable_v<Spike> && std::is_trivially_copyable_v<SkinStats>, "they are sent as their bytes");
+
+void send_spikes(Ranks& ranks, const std::vector<Spike>& spikes) {
+    ranks.send(0, std::string(reinterpret_cast<const char*>(spikes.data()), spikes.size() * sizeof(Spike)));
+}
+
+/// Simulates the afferents of this rank. Each block is a message of spikes; one more has the spikes that are still being conducted at the
+/// end of the force, and the last one the statistics.
+Result<void> simulate_rank_afferents(Ranks& ranks, SkinForce& force, Skin& skin, ThreadPool& pool) {
+    std::vector<Spike> spikes;
+    for (;; spikes.clear()) {
+        const auto block = TRY(force.next());
+        const auto steps = block.total_force.size();
+        if (steps == 0) break;
+        TRY(skin.respond(block.force, steps, spikes, pool));
+        send_spikes(ranks, spikes);
+    }
+    skin.finish(spikes);
+    send_spikes(ranks, spikes);
+    const auto stats = skin.stats();
+    ranks.send(0, std::string(reinterpret_cast<const char*>(&stats), sizeof stats));
+    return {};
+}
+
+/// For rank 0: adds the spikes of all workers for one block to its own, and sorts them. Returns the error of a worker, if it had one.
+Result<void> gather_spikes(Ranks& ranks, std::vector<Spike>& spikes) {
+    for (int rank = 1; rank < ranks.size(); ++rank) {
+        const auto message = TRY(ranks.receive(rank));
+        const auto before = spikes.size();
+        spikes.resize(before + message.size() / sizeof(Spike));
+        std::copy_n(message.data(), (spikes.size() - before) * sizeof(Spike), reinterpret_cast<char*>(spikes.data() + before));
+    }
+    std::sort(spikes.begin(), spikes.end());
+    return {};
+}
+
+/// For rank 0, after the last block: adds the workers' statistics to its own.
+Result<void> gather_stats(Ranks& ranks, SkinStats& stats) {
+    for (int rank = 1; rank < ranks.size(); ++rank) {
+        const auto message = TRY(ranks.receive(rank));
+        SkinStats worker;  // its `steps` are the same for all ranks
+        std::memcpy(&worker, message.data(), std::min(sizeof worker, message.size()));
+        stats.afferent_steps += worker.afferent_steps, stats.skipped_steps += worker.skipped_steps;
+        stats.spikes += worker.spikes, stats.truncated_steps += worker.truncated_steps;
+    }
+    return {};
+}
+
 }  // namespace
+
+Result<SkinProbes> SkinProbes::make(const Innervation& skin, const SimulationOptions& run) {
+    SkinProbes out;
+    out.skin_ = &skin;
+    for (std::size_t c = 0; c < skin.plan.classes.size(); ++c) {
+        const auto& plan = skin.plan.classes[c];
+        const auto count = skin.class_begin[c + 1] - skin.class_begin[c];
+        if (count > max_afferents)
+            return bad_usage(
+                fmt::format("--probe-files works with at most {} afferents of a class, but {} has {} of {}; use fewer, such as "
+                            "--population 'grid 4x4'",
+                            max_afferents, skin.plan.name, count, plan.name));
+        const auto plans = TRY(make_copies(plan.afferent, static_cast<std::uint32_t>(count), plan.distributions, skin.plan.seed));
+        for (const auto& afferent : plans) {
+            out.afferents_.push_back(make_afferent(afferent, run));
+            out.states_.push_back(out.afferents_.back()->start());
+            out.values_.emplace_back(out.afferents_.back()->probes().size());
+        }
+    }
+    out.force_.resize(out.afferents_.size());
+    return out;
+}
+
+std::vector<std::span<const Probe>> SkinProbes::class_probes() const {
+    std::vector<std::span<const Probe>> out;
+    for (std::size_t c = 0; c < skin_->plan.classes.size(); ++c) {
+        const auto first = skin_->class_begin[c];
+        out.push_back(first < skin_->class_begin[c + 1] ? afferents_[first]->probes() : std::span<const Probe>{});
+    }
+    return out;
+}
+
+/// Adds the contributions of the sites in ascending order, as FieldForce does.
+void SkinProbes::compute_force(const SiteForce& force, std::size_t steps) {
+    for (auto& f : force_) f.assign(steps, 0);
+    force.for_each_site(skin_->plan.sites.size(), [&](std::size_t s) {
+        const double* const at_site = force.data + s * force.stride;
+        for (std::size_t c = 0; c < skin_->fields.size(); ++c) {
+            const auto& fields = skin_->fields[c];
+            for (auto k = fields.begin[s]; k < fields.begin[s + 1]; ++k) {
+                auto& on_afferent = force_[skin_->class_begin[c] + fields.afferent[k]];
+                for (std::size_t t = 0; t < steps; ++t) on_afferent[t] += fields.weight[k] * at_site[t];
+            }
+        }
+    });
+}
+
+Result<void> SkinProbes::respond(const SiteForce& force, std::size_t steps, ThreadPool& pool) {
+    compute_force(force, steps);
+    std::vector<Result<void>> results(afferents_.size());
+    pool.for_each(afferents_.size(), [&](std::size_t u, unsigned) {
+        std::vector<double*> arrays;
+        for (auto& values : values_[u]) values.resize(steps), arrays.push_back(values.data());
+        std::vector<Spike> spikes;
+        ResponseBlock response{spikes, 0, arrays};
+        results[u] = afferents_[u]->respond(force_[u], states_[u], response);
+    });
+    for (auto& result : results)
+        if (!result) return result;
+    return {};
+}
 
 Result<void> SkinSimulator::start(const RespondOptions& options, bool wants_probes) {
     if (!wants_probes) return {};
@@ -21,13 +134,12 @@ Result<void> SkinSimulator::start(const RespondOptions& options, bool wants_prob
 Result<void> SkinSimulator::simulate(const SkinForce::Block& block, ThreadPool& pool) {
     spikes_.clear();
     const auto steps = block.total_force.size();
-    auto* const checkpoint = parts_.checkpoint;
-    if (checkpoint) TRY(checkpoint->add_force(block, samples_));
-    if (checkpoint && samples_ < checkpoint->resumed_samples())
-        return checkpoint->replay(samples_ + static_cast<std::int64_t>(steps), spikes_);
+    if (checkpoint_) TRY(checkpoint_->add_force(block, samples_));
+    if (checkpoint_ && samples_ < checkpoint_->resumed_samples())
+        return checkpoint_->replay(samples_ + static_cast<std::int64_t>(steps), spikes_);
     TRY(skin_.respond(block.force, steps, spikes_, pool));
-    if (parts_.ranks) TRY(gather_spikes(*parts_.ranks, spikes_));
-    return checkpoint ? checkpoint->append(spikes_) : Result<void>{};
+    if (ranks_) TRY(gather_spikes(*ranks_, spikes_));
+    return checkpoint_ ? checkpoint_->append(spikes_) : Result<void>{};
 }
 
 Result<RunBlock> SkinSimulator::next(ThreadPool& pool, RunStats&) {
@@ -44,26 +156,30 @@ Result<RunBlock> SkinSimulator::next(ThreadPool& pool, RunStats&) {
 }
 
 Result<void> SkinSimulator::save(bool stops) {
-    auto* const checkpoint = parts_.checkpoint;
-    if (!checkpoint || samples_ <= checkpoint->resumed_samples()) return {};
+    if (!checkpoint_ || samples_ <= checkpoint_->resumed_samples()) return {};
     const auto now = std::chrono::steady_clock::now();
     if (!stops && now - last_save_ < save_interval) return {};
     last_save_ = now;
-    return checkpoint->flush();
+    return checkpoint_->flush();
 }
 
 Result<void> SkinSimulator::finish(std::vector<Spike>& last, RunStats& stats) {
-    if (parts_.checkpoint) TRY(parts_.checkpoint->finish(samples_));
+    if (checkpoint_) TRY(checkpoint_->finish(samples_));
     skin_.finish(last);
     auto work = skin_.stats();
-    if (parts_.ranks) {
-        TRY(gather_spikes(*parts_.ranks, last));
-        TRY(gather_stats(*parts_.ranks, work));
+    if (ranks_) {
+        TRY(gather_spikes(*ranks_, last));
+        TRY(gather_stats(*ranks_, work));
     }
     stats.samples += work.steps, stats.afferent_steps += work.afferent_steps, stats.skipped_steps += work.skipped_steps;
     stats.spikes += work.spikes, stats.truncated_steps += work.truncated_steps;
     input_.quality = force_.quality();
     return {};
+}
+
+void run_skin_worker(Ranks& ranks, Result<SkinForce*> force, Skin* skin, ThreadPool& pool) {
+    const auto done = force ? simulate_rank_afferents(ranks, **force, *skin, pool) : Result<void>(force.error());
+    if (!done) ranks.send_error(done.error());
 }
 
 }  // namespace corpuscle

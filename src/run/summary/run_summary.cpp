@@ -7,7 +7,6 @@
 
 #include "core/version.hpp"
 #include "run/channels/channel_population.hpp"
-#include "run/summary/cost_document.hpp"
 #include "run/summary/json_number.hpp"
 
 namespace corpuscle {
@@ -79,6 +78,22 @@ Json row_document(const MeasureRow& row) {
     return out;
 }
 
+/// For each afferent whose cost is known, in a list without copies: the cost (power, area, leakage) of one afferent at rest under `force`
+/// (N), and its mean power during the run, over all its copies and channels. An empty array if no afferent has a known cost.
+Json cost_documents_of(std::span<const AfferentPlan> afferents, const RunStats& stats, double force) {
+    Json out = Json::array();
+    for (std::size_t a = 0; a < afferents.size(); ++a) {
+        const std::size_t copies = stats.energy_use.size() / afferents.size();  // which are adjacent; every afferent has the same number
+        EnergyUse energy;                                                       // of all copies
+        for (std::size_t k = 0; k < copies; ++k) energy += stats.energy_use[a * copies + k];
+        const auto cost = afferents[a].factory->cost(force, energy);
+        if (cost.is_null()) continue;
+        out.push_back({{"afferent", afferents[a].name}, {"rest_force_N", force}});
+        out.back().update(cost);
+    }
+    return out;
+}
+
 }  // namespace
 
 void CopyStatistics::add(double x) {
@@ -123,27 +138,25 @@ std::string column_heading(const MeasureInfo& m) { return std::string(m.title) +
 
 Result<void> RunSummary::begin(const Input& input) {
     const auto& afferents = input.on_channels();
-    inputs_.push_back(
-        {input.name, input.clock, 0, afferents.force_names(), input.notes, input.metadata, INFINITY, -INFINITY, input.phases});
-    inputs_.back().sensors = afferents.sensors();
+    inputs.push_back({input, afferents.force_names(), afferents.sensors()});
     std::vector<TimeWindow> windows;  // one for each phase; without phases one for the whole input, whose end is set in end()
     for (const auto& p : input.phases) windows.push_back({p.from, p.to, input.cycle_frequency});
     if (windows.empty()) windows.push_back({.stimulus_frequency = input.cycle_frequency});
     tally_ = MeasureAccumulator(std::move(windows), afferents.size());
-    return comparisons_.begin(input);
+    return comparisons.begin(input);
 }
 
 Result<void> RunSummary::block(const Input& input, const RunBlock& block) {
-    auto& summary = inputs_.back();
+    auto& summary = inputs.back();
     for (const auto& channel : block.force)
         for (const double f : channel)
             summary.min_force = std::min(summary.min_force, f), summary.max_force = std::max(summary.max_force, f);
     for (const auto& s : block.spikes) tally_.spike(input.afferent_of(s), input.since_start(s));
-    return comparisons_.block(input, block);
+    return comparisons.block(input, block);
 }
 
 Result<void> RunSummary::end(const Input& input, std::int64_t samples, std::span<const Spike> last) {
-    auto& summary = inputs_.back();
+    auto& summary = inputs.back();
     summary.samples = samples;
     summary.quality = input.quality;
     tally_.set_end(input.since_start(samples));
@@ -152,12 +165,12 @@ Result<void> RunSummary::end(const Input& input, std::int64_t samples, std::span
     for (std::size_t c = 0; c < summary.channels.size(); ++c)
         for (std::size_t g = 0; g + 1 < groups.size(); ++g)
             for (std::size_t p = 0; p < std::max<std::size_t>(summary.phases.size(), 1); ++p)
-                rows_.push_back(row(input, c, groups[g], groups[g + 1], p));
-    return comparisons_.end(input, samples, last);
+                rows.push_back(row(input, c, groups[g], groups[g + 1], p));
+    return comparisons.end(input, samples, last);
 }
 
 MeasureRow RunSummary::row(const Input& input, std::size_t channel, std::size_t from, std::size_t to, std::size_t phase) const {
-    const auto& summary = inputs_.back();
+    const auto& summary = inputs.back();
     const auto plans = input.on_channels().plans();
     const std::size_t first = channel * plans.size();
     MeasureRow row{base_name(plans[from]), summary.channels[channel], summary.phases.empty() ? "all" : summary.phases[phase].name,
@@ -178,7 +191,7 @@ MeasureRow RunSummary::row(const Input& input, std::size_t channel, std::size_t 
 std::vector<std::size_t> RunSummary::columns() const {
     std::vector<std::size_t> columns;
     for (std::size_t m = 0; m < std::size(measures); ++m)
-        if (std::any_of(rows_.begin(), rows_.end(), [m](const MeasureRow& r) { return std::isfinite(r.values[m]); })) columns.push_back(m);
+        if (std::any_of(rows.begin(), rows.end(), [m](const MeasureRow& r) { return std::isfinite(r.values[m]); })) columns.push_back(m);
     return columns;
 }
 
@@ -193,10 +206,10 @@ Json RunSummary::document(std::span<const AfferentPlan> afferents, const RunStat
     out["afferents"] = Json::array();
     for (const auto& a : afferents) out["afferents"].push_back(document_of(a));
     out["inputs"] = Json::array();
-    for (const auto& i : inputs_) out["inputs"].push_back(input_document(i));
+    for (const auto& i : inputs) out["inputs"].push_back(input_document(i));
     out["rates"] = Json::array();
-    for (const auto& r : rows_) out["rates"].push_back(row_document(r));
-    if (!comparisons_.rows().empty()) out["comparisons"] = comparisons_.document();
+    for (const auto& r : rows) out["rates"].push_back(row_document(r));
+    if (!comparisons.rows.empty()) out["comparisons"] = comparisons.document();
     out["work"] = {{"samples", stats.samples},     {"afferent_steps", stats.afferent_steps},
                    {"spikes", stats.spikes},       {"truncated_steps", stats.truncated_steps},
                    {"saturated", stats.saturated}, {"overflowed", stats.overflowed}};
@@ -206,7 +219,7 @@ Json RunSummary::document(std::span<const AfferentPlan> afferents, const RunStat
                                    {"iterations", stats.iterations},
                                    {"not_converged", stats.diverged.size()}};
     double rest_force = INFINITY;  // the smallest force of the run
-    for (const auto& i : inputs_) rest_force = std::min(rest_force, i.min_force);
+    for (const auto& i : inputs) rest_force = std::min(rest_force, i.min_force);
     if (auto costs = cost_documents_of(afferents, stats, rest_force); !costs.empty()) out["costs"] = std::move(costs);
     out["warnings"] = warnings;
     return out;

@@ -48,27 +48,20 @@ nlohmann::ordered_json document_of(const CopySpec&);
 
 class RunSummary final : public Sink {
 public:
-    struct InputSummary {
-        std::string name;
-        Clock clock;
-        std::int64_t samples = 0;                  ///< on each channel
-        std::vector<std::string> channels, notes;  ///< names of the channels; notes of the source
-        std::vector<MetadataEntry> metadata;
-        double min_force = 0, max_force = 0;  ///< N, over all samples and channels
-        std::vector<Phase> phases;            ///< phases of the stimulus; empty if it has no phases
-        RecordingQuality quality = {};        ///< empty for a stimulus
-        std::vector<Channel> sensors = {};    ///< the channels of the source, some with a position
+    struct InputSummary : InputDescription {
+        std::vector<std::string> channels;                   ///< names of the channels
+        std::vector<Channel> sensors;                        ///< the channels of the source, some with a position
+        std::int64_t samples = 0;                            ///< on each channel
+        double min_force = INFINITY, max_force = -INFINITY;  ///< N, over all samples and channels
     };
+    std::vector<MeasureRow> rows;           ///< in order of input, channel, afferent, phase
+    std::vector<InputSummary> inputs;       ///< the quality of a recording is complete at the end of the input
+    ImplementationComparisons comparisons;  ///< of the implementations of one afferent type
 
     Result<void> begin(const Input&) override;
     Result<void> block(const Input&, const RunBlock&) override;
     Result<void> end(const Input&, std::int64_t samples, std::span<const Spike> last) override;
 
-    /// The rows in order of input, channel, afferent, phase.
-    const std::vector<MeasureRow>& rows() const { return rows_; }
-    const std::vector<InputSummary>& inputs() const { return inputs_; }
-    /// Comparisons of the implementations of one afferent type.
-    const ImplementationComparisons& comparisons() const { return comparisons_; }
     /// The indexes in `measures` of the measures that have a value in some row: the columns of a table.
     std::vector<std::size_t> columns() const;
     /// The summary as a JSON document; the same input and options give the same bytes. The afferents are those that were requested,
@@ -77,10 +70,7 @@ public:
                                     const std::vector<std::string>& warnings) const;
 
 private:
-    std::vector<InputSummary> inputs_;
     MeasureAccumulator tally_;  // the measures of every afferent of the current input in every phase; times since its start
-    std::vector<MeasureRow> rows_;
-    ImplementationComparisons comparisons_;
 
     /// The row of the plans from `from` to `to` - 1, which are one afferent or all copies of one afferent.
     MeasureRow row(const Input&, std::size_t channel, std::size_t from, std::size_t to, std::size_t phase) const;

@@ -70,32 +70,26 @@ Json skin_document(const Innervation& skin) {
 
 Json skin_input_document(const SkinSummary& s, const SkinRunNotes& notes) {
     Json phases = Json::array(), parameters = Json::object();
-    for (const auto& p : s.phases()) phases.push_back({{"name", p.name}, {"from_s", p.from}, {"to_s", p.to}});
+    for (const auto& p : s.input.phases) phases.push_back({{"name", p.name}, {"from_s", p.from}, {"to_s", p.to}});
     for (const auto& f : notes.metadata) parameters[f.name] = {{"value", f.value}, {"unit", f.unit}};
-    return {{"name", s.name()},
-            {"description", s.description()},
-            {"contact", notes.contact},
-            {"parameters", parameters},
-            {"force_min_N", s.min_force()},
-            {"force_max_N", s.max_force()},
-            {"samples", s.samples()},
-            {"rate_Hz", s.clock().rate()},
-            {"t0_s", s.clock().t0},
-            {"touched_from_s", json_number(s.touch_start())},
-            {"phases", phases},
-            {"notes", notes.notes}};
+    return {{"name", s.input.name},       {"description", s.input.description},
+            {"contact", notes.contact},   {"parameters", parameters},
+            {"force_min_N", s.min_force}, {"force_max_N", s.max_force},
+            {"samples", s.samples},       {"rate_Hz", s.input.clock.rate()},
+            {"t0_s", s.input.clock.t0},   {"touched_from_s", json_number(s.touch_start)},
+            {"phases", phases},           {"notes", notes.notes}};
 }
 
 std::string region_name(const SkinSummary& s, const SkinSummaryRow& r) {
-    return r.region == SkinSummaryRow::all ? "all" : s.skin().plan.sites.regions[r.region];
+    return r.region == SkinSummaryRow::all ? "all" : s.skin->plan.sites.regions[r.region];
 }
 
 std::string phase_name(const SkinSummary& s, const SkinSummaryRow& r) {
-    return r.phase == SkinSummaryRow::all ? "all" : s.phases()[r.phase].name;
+    return r.phase == SkinSummaryRow::all ? "all" : s.input.phases[r.phase].name;
 }
 
 Json skin_row_document(const SkinSummary& s, const SkinSummaryRow& r) {
-    return {{"afferent", s.skin().plan.classes[r.class_index].name},
+    return {{"afferent", s.skin->plan.classes[r.class_index].name},
             {"region", region_name(s, r)},
             {"phase", phase_name(s, r)},
             {"afferents", r.afferents},
@@ -109,23 +103,20 @@ Json skin_row_document(const SkinSummary& s, const SkinSummaryRow& r) {
             {"median_first_spike_s", json_number(r.median_first_spike)}};
 }
 
-std::string hertz_cell(double x) { return std::isfinite(x) ? fmt::format("{:.1f}", x) : "-"; }
-std::string millisecond_cell(double x) { return std::isfinite(x) ? fmt::format("{:.2f}", 1e3 * x) : "-"; }
-
 }  // namespace
 
 Json SkinSummary::document(const RespondOptions& options, const SkinRunNotes& notes) const {
     Json out = {{"program", "corpuscle"}, {"version", version}};
     out["options"] = {{"method", options.method == Method::exact ? "exact" : "backward-euler"}, {"sampled", options.sampled}};
-    out["skin"] = skin_document(*skin_);
+    out["skin"] = skin_document(*skin);
     out["input"] = skin_input_document(*this, notes);
     out["classes"] = Json::array(), out["rates"] = Json::array(), out["first_spikes"] = Json::array();
-    for (std::size_t c = 0; c < skin_->plan.classes.size(); ++c) out["classes"].push_back(class_document(*skin_, c));
-    for (const auto& r : rows_) out["rates"].push_back(skin_row_document(*this, r));
+    for (std::size_t c = 0; c < skin->plan.classes.size(); ++c) out["classes"].push_back(class_document(*skin, c));
+    for (const auto& r : rows) out["rates"].push_back(skin_row_document(*this, r));
     for (const auto& f : first_spikes(max_first_spikes))
         out["first_spikes"].push_back({{"afferent_index", f.afferent_index},
-                                       {"afferent", skin_->afferent_name(f.afferent_index)},
-                                       {"region", skin_->plan.sites.regions[skin_->afferents[f.afferent_index].region]},
+                                       {"afferent", skin->afferent_name(f.afferent_index)},
+                                       {"region", skin->plan.sites.regions[skin->afferents[f.afferent_index].region]},
                                        {"time_s", f.time}});
     const auto& stats = notes.stats;
     out["work"] = {{"steps", stats.samples},
@@ -138,24 +129,24 @@ Json SkinSummary::document(const RespondOptions& options, const SkinRunNotes& no
 }
 
 std::vector<std::vector<std::string>> SkinSummary::table() const {
-    const bool phases = !phases_.empty(), regions = skin_->plan.sites.regions.size() > 1;
+    const bool phases = !input.phases.empty(), regions = skin->plan.sites.regions.size() > 1;
     std::vector<std::vector<std::string>> out = {{"afferent"}};
     if (regions) out[0].push_back("region");
     if (phases) out[0].push_back("phase");
     for (const auto* heading : {"afferents", "touched", "active", "spikes", "touched (Hz)", "max (Hz)", "first (ms)", "median first (ms)"})
         out[0].push_back(heading);
     const auto put = [&](const SkinSummaryRow& r) {
-        std::vector<std::string> cells = {skin_->plan.classes[r.class_index].name};
+        std::vector<std::string> cells = {skin->plan.classes[r.class_index].name};
         if (regions) cells.push_back(region_name(*this, r));
         if (phases) cells.push_back(phase_name(*this, r));
         for (const auto n : {r.afferents, r.touched, r.active, r.spikes}) cells.push_back(fmt::format("{}", n));
-        for (const auto x : {r.touched_rate, r.max_rate}) cells.push_back(hertz_cell(x));
-        for (const auto x : {r.first_spike, r.median_first_spike}) cells.push_back(millisecond_cell(x));
+        for (const auto x : {r.touched_rate, r.max_rate}) cells.push_back(std::isfinite(x) ? fmt::format("{:.1f}", x) : "-");
+        for (const auto x : {r.first_spike, r.median_first_spike}) cells.push_back(std::isfinite(x) ? fmt::format("{:.2f}", 1e3 * x) : "-");
         out.push_back(std::move(cells));
     };
     // The rows of all regions first, without and then with phases; then those of single regions over all phases, if afferents were active.
     const auto put_if = [&](auto wanted) {
-        for (const auto& r : rows_)
+        for (const auto& r : rows)
             if (wanted(r)) put(r);
     };
     put_if([](const SkinSummaryRow& r) { return r.region == SkinSummaryRow::all && r.phase == SkinSummaryRow::all; });

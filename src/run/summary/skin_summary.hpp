@@ -58,30 +58,23 @@ public:
     Result<void> block(const Input&, const RunBlock&) override;
     Result<void> end(const Input&, std::int64_t samples, std::span<const Spike> last) override;
 
-    /// Valid after end(), as all the following. For each class: all regions together, then region by region if the skin has several. For
-    /// each of these: all phases together, then phase by phase.
-    const std::vector<SkinSummaryRow>& rows() const { return rows_; }
+    // The following are valid after end().
+    const Innervation* skin = nullptr;
+    InputDescription input;
+    /// For each class: all regions together, then region by region if the skin has several. For each of these: all phases together, then
+    /// phase by phase.
+    std::vector<SkinSummaryRow> rows;
+    std::int64_t samples = 0, spikes = 0;  ///< of the force; of all afferents
+    double min_force = 0, max_force = 0;   ///< N, smallest and largest total force of all sites
+    double touch_start = no_value;     ///< time of the first sample with force, s since the start of the force; NaN if no sample has force
+    std::vector<std::int64_t> counts;  ///< spikes of each afferent
+    std::vector<double> first_times;   ///< first spike of each afferent, s since the start of the force; NaN without spikes
+    /// For each afferent, the time for which it was touched (with force at the site where it has its largest weight), s.
+    std::vector<double> touched_times;
+
+    double seconds() const { return input.since_start(samples); }  ///< duration of the force
     /// The `count` earliest of the first spikes of all afferents, in order of time, then afferent index.
     std::vector<FirstSpike> first_spikes(std::size_t count) const;
-
-    const Innervation& skin() const { return *skin_; }
-    const std::string& name() const { return name_; }
-    const std::string& description() const { return description_; }
-    const Clock& clock() const { return clock_; }
-    const std::vector<Phase>& phases() const { return phases_; }
-    std::int64_t samples() const { return samples_; }    ///< of the force
-    std::int64_t spikes() const { return all_spikes_; }  ///< of all afferents
-    double seconds() const;                              ///< duration of the force
-    double min_force() const { return min_force_; }      ///< N, smallest total force of all sites
-    double max_force() const { return max_force_; }      ///< N, largest total force of all sites
-    /// Time of the first sample with force, s since the start of the force; NaN if no sample has force.
-    double touch_start() const { return touch_start_; }
-    const std::vector<std::int64_t>& counts() const { return counts_; }  ///< spikes of each afferent
-    /// Time of the first spike of each afferent, s since the start of the force; NaN without spikes.
-    const std::vector<double>& first_times() const { return first_times_; }
-    /// For each afferent, the time for which it was touched (with force at the site where it has its largest weight), s.
-    const std::vector<double>& touched_times() const { return touched_times_; }
-
     /// The number of afferents of a class with an interspike interval shorter than 1 / rate, and one over the shortest interval of the
     /// class, Hz.
     std::pair<std::size_t, double> count_faster_than(std::size_t class_index, double rate) const;
@@ -93,21 +86,12 @@ public:
     std::vector<std::vector<std::string>> table() const;
 
 private:
-    const Innervation* skin_ = nullptr;
-    std::string name_, description_;
-    Clock clock_, since_start_;  // clock of the force; the same with the first sample at 0 s
-    std::vector<Phase> phases_;
-    std::int64_t samples_ = 0, all_spikes_ = 0;
-    double min_force_ = 0, max_force_ = 0, touch_start_ = no_value;
-    std::vector<std::int64_t> counts_;
-    std::vector<std::uint32_t> phase_counts_;  // spikes, [phase][afferent]
-    std::vector<double> first_times_, touched_times_;
+    std::vector<std::uint32_t> phase_counts_;         // spikes, [phase][afferent]
     std::vector<double> last_times_;                  // time of the last spike of each afferent, s since the start
     std::vector<double> shortest_intervals_;          // shortest interspike interval of each afferent, s
     std::vector<std::uint32_t> main_site_;            // for each afferent, the site with its largest weight
     std::vector<std::int64_t> site_touched_samples_;  // number of samples with force, see site_index()
     std::vector<std::int64_t> spikes_while_touched_;  // number of spikes that arrived at touched afferents, see group_index()
-    std::vector<SkinSummaryRow> rows_;
 
     void count_spikes(std::span<const Spike>, const RunBlock*);
     bool is_touched(const RunBlock&, std::size_t afferent_index, std::int64_t sample) const;

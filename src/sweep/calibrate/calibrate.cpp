@@ -206,22 +206,21 @@ Result<Trim> trim_of(const std::string& netlist, const std::vector<ParameterOver
                      double range, bool is_integer) {
     const auto read = TRY(circuit::apply_overrides(netlist, overrides));
     TRY(check_all_used(read.unused, std::array{std::string_view(netlist)}));
-    const auto circuit = read.result.elaborate();
-    if (!circuit) return circuit.error();
+    const auto circuit = TRY(read.result.elaborate());
     const auto full_name = lower(names.at(0));
-    if (const auto p = circuit->parameters.find(full_name); p != circuit->parameters.end())
+    if (const auto p = circuit.parameters.find(full_name); p != circuit.parameters.end())
         return Trim{std::move(names), p->second, range, is_integer};
     const auto dot = full_name.rfind('.');
     std::vector<std::string_view> known;
-    for (const auto& e : circuit->elements) known.push_back(e.name);
+    for (const auto& e : circuit.elements) known.push_back(e.name);
     const auto found = circuit::find_matching_names(known, full_name.substr(0, dot), circuit::LastPiece::element);
     if (dot != std::string::npos && found.size() == 1) {
-        const auto& values = circuit->elements[found[0]].values;
+        const auto& values = circuit.elements[found[0]].values;
         if (const auto v = values.find(full_name.substr(dot + 1)); v != values.end())
             return Trim{std::move(names), v->second, range, is_integer};
     }
     std::vector<std::string_view> parameters;
-    for (const auto& [parameter, value] : circuit->parameters) parameters.push_back(parameter);
+    for (const auto& [parameter, value] : circuit.parameters) parameters.push_back(parameter);
     return bad_input(
         fmt::format("trim '{}': {} has no such number; name a .param of the top level or a device parameter such as 'summer.n3b.m'{}",
                     names[0], netlist, did_you_mean(full_name, parameters)));

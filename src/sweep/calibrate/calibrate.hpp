@@ -1,9 +1,11 @@
 #pragma once
 // Calibration of chips: each chip is simulated under a press, its spikes are compared with limits, and its trims (parameters that can be
-// set on a finished chip) are set accordingly, as on a tester.
+// set on a finished chip) are set accordingly, as on a tester. The results are given as text and as JSON: for each number of bits, the
+// fraction of chips that meet the limits.
 
 #include <functional>
 #include <memory>
+#include <nlohmann/json_fwd.hpp>
 #include <string>
 #include <vector>
 
@@ -62,5 +64,27 @@ Result<std::vector<CalibratedChip>> calibrate(const ChipCalibration&, const std:
 /// Makes a trim. Its designed value is the value of names[0] in the netlist; an error if the netlist has no such number.
 Result<Trim> trim_of(const std::string& netlist, const std::vector<ParameterOverride>&, std::vector<std::string> names, double range,
                      bool is_integer);
+
+/// One set of trims, and the chips calibrated with it.
+struct CalibrationResult {
+    std::vector<Trim> trims;
+    std::vector<CalibratedChip> chips;
+
+    /// Number of chips that meet the limits with at most this many bits; 0: without calibration.
+    std::size_t count_within_limits(int bits) const;
+    long total_presses() const;  ///< of all chips
+    /// Mean number of presses of the chips that do not meet the limits without calibration; 0 if there are no such chips.
+    double mean_presses() const;
+    std::string names() const;  ///< the first name of each trim: "i_leak, rect.p1b.m"
+};
+
+/// A table with one row for each set of trims: percentage of chips that meet the limits without calibration and with at most 1, 2 ... bits,
+/// and mean_presses(). Then, of the first set, the values of each trim and the useful number of bits, see useful_bits().
+std::string format_calibration(const ChipCalibration&, const std::vector<CalibrationResult>&);
+/// The JSON document of the same results.
+nlohmann::ordered_json document_of(const ChipCalibration&, const std::vector<CalibrationResult>&);
+
+/// The smallest number of bits that is enough: with `max_bits` instead, at most 1 % of all chips meet the limits in addition.
+int useful_bits(const CalibrationResult&, int max_bits);
 
 }  // namespace corpuscle

@@ -1,4 +1,4 @@
-#include "sweep/calibrate/calibration_report.hpp"
+#include "sweep/calibrate/calibrate.hpp"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>

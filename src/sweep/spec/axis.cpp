@@ -9,7 +9,6 @@
 #include "core/text/ascii_text.hpp"
 #include "core/text/quantity.hpp"
 #include "sweep/spec/probability.hpp"
-#include "sweep/spec/sampling.hpp"
 
 namespace corpuscle::sweeps {
 namespace {
@@ -23,6 +22,8 @@ std::string method_of(const ConfigNode& spec) {
     if (spec.has("list")) return "list";
     return spec.has("mean") || spec.has("sigma") ? "normal" : "grid";
 }
+
+bool is_sobol(const SweepAxis& axis) { return axis.numbers && axis.numbers->method() == Sampling::sobol; }
 
 /// Interprets the text of one axis.
 class AxisReader {
@@ -40,10 +41,9 @@ class AxisReader {
     Result<double> number(const LocatedText& given) const { return given.located(quantity_.parse(given), name() + ": "); }
     /// Reads a number and checks that the subject allows it.
     Result<double> allowed_number(const LocatedText& given) const {
-        const auto value = number(given);
-        if (!value) return value;
-        if (!(*value >= quantity_.min && *value <= quantity_.max))
-            return error_at(given, fmt::format("{} is outside [{}, {}]", format_quantity(*value, quantity_.column.unit),
+        const auto value = TRY(number(given));
+        if (!(value >= quantity_.min && value <= quantity_.max))
+            return error_at(given, fmt::format("{} is outside [{}, {}]", format_quantity(value, quantity_.column.unit),
                                                format_quantity(quantity_.min, quantity_.column.unit),
                                                format_quantity(quantity_.max, quantity_.column.unit)));
         if (quantity_.check) TRY(given.located(quantity_.check(given.text)));
@@ -147,22 +147,22 @@ class AxisReader {
     }
 
     /// Latin hypercubes and Sobol points are normal if mean or sigma is given, otherwise uniform.
-    Result<void> sampled(SweepAxis& axis, SamplingSpec& sampling_spec) const {
+    Result<void> sampled(SweepAxis& axis, const SweepPlan& plan) const {
         const auto sampling = method_ == "latin" ? Sampling::latin : method_ == "sobol" ? Sampling::sobol : Sampling::random;
         const bool as_normal = method_ == "normal" || (method_ != "uniform" && (spec_.has("mean") || spec_.has("sigma")));
         if (!as_normal) TRY(accept_only({"from", "to", "log"}));
         TRY(as_normal ? normal(axis) : range(axis));
-        if (sampling == Sampling::sobol && sampling_spec.dimension == sobol_dimensions)
+        const auto dimension = sampling == Sampling::sobol ? static_cast<std::size_t>(std::ranges::count(plan.axes, true, is_sobol)) : 0;
+        if (dimension == sobol_dimensions)
             return error_at(*spec_.get("how"), fmt::format("Sobol points are available for at most {} axes", sobol_dimensions));
-        axis.numbers.emplace(sampling, sampling_spec.seed, axis.column.name, sampling == Sampling::sobol ? sampling_spec.dimension++ : 0,
-                             sampling_spec.samples);
+        axis.numbers.emplace(sampling, plan.chips.seed, axis.column.name, dimension, static_cast<std::uint64_t>(plan.samples));
         return {};
     }
 
 public:
     AxisReader(const ConfigNode& spec, const VariedQuantity& quantity) : spec_(spec), quantity_(quantity) {}
 
-    Result<SweepAxis> read(SamplingSpec& sampling_spec) const {
+    Result<SweepAxis> read(const SweepPlan& plan) const {
         SweepAxis axis{quantity_.column};
         if (std::find(std::begin(methods), std::end(methods), method_) == std::end(methods))
             return error_at(*spec_.get("how"), fmt::format("how = \"{}\" is unknown{} (there are {})", method_,
@@ -170,7 +170,7 @@ public:
         if (quantity_.labels_only && method_ != "list")
             return error_at_axis(
                 fmt::format("its values are labels: list = [\"{}\", ...]", quantity_.column.name == "corner" ? "ss" : "..."));
-        TRY(method_ == "grid" ? grid(axis) : method_ == "list" ? list(axis) : sampled(axis, sampling_spec));
+        TRY(method_ == "grid" ? grid(axis) : method_ == "list" ? list(axis) : sampled(axis, plan));
         return axis;
     }
 };
@@ -182,8 +182,8 @@ bool is_sampled(const ConfigNode& spec) {
     return method == "uniform" || method == "normal" || method == "latin" || method == "sobol";
 }
 
-Result<SweepAxis> axis_of(const ConfigNode& spec, const VariedQuantity& quantity, SamplingSpec& sampling_spec) {
-    return AxisReader(spec, quantity).read(sampling_spec);
+Result<SweepAxis> axis_of(const ConfigNode& spec, const VariedQuantity& quantity, const SweepPlan& plan) {
+    return AxisReader(spec, quantity).read(plan);
 }
 
 Result<std::int64_t> parse_integer(const LocatedText& given, std::string_view name, double min, double max) {

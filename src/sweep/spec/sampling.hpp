@@ -27,6 +27,7 @@ class UniformNumbers {
 public:
     /// `axis`: name of the axis; `dimension`: from 0, only for Sobol points; `count`: number of samples.
     UniformNumbers(Sampling method, std::uint64_t seed, std::string_view axis, std::size_t dimension, std::uint64_t count);
+    Sampling method() const { return method_; }
     /// The number of the sample with this index (from 0), in (0, 1).
     double at(std::uint64_t sample) const;
 };

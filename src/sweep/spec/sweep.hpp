@@ -1,6 +1,7 @@
 #pragma once
 // A sweep: one circuit, or one afferent, simulated many times with different values. A file defines what varies (doc/sweeps.md).
 
+#include <algorithm>
 #include <cstdint>
 #include <functional>
 #include <memory>
@@ -28,35 +29,44 @@ struct ItemOutcome {
     std::int64_t item = 0;  ///< index in the sweep, from 0
     ItemEnd end = ItemEnd::done;
     std::string reason = {};                       ///< why the item did not end normally; empty if it did
-    std::vector<double> measures = {};             ///< in the order of Sweep::measures(); NaN: the item has no value
+    std::vector<double> measures = {};             ///< in the order of SweepDescription::measures; NaN: the item has no value
     std::vector<std::vector<double>> spikes = {};  ///< [train][spike], s; 0 is the first sample of the force, or the start of a transient
-    std::vector<std::vector<float>> probes = {};   ///< [probe][sample], at the times Sweep::probe_times()
+    std::vector<std::vector<float>> probes = {};   ///< [probe][sample], at the times SweepDescription::probe_times
     std::int64_t steps = 0, iterations = 0;        ///< of a circuit: time steps and Newton iterations; of a model: 0
     bool ran_alone = false;  ///< true if a chip was simulated outside the SIMD lanes: it did not converge there, or its devices differ from
                              ///< those of the nominal circuit
 };
 
+/// A text on which the results of a sweep depend.
+struct MetadataText {
+    std::string name, text;  ///< name: for example "netlist circuits/sa1.cir"
+};
+
+/// The form of a sweep's results.
+struct SweepDescription {
+    std::int64_t item_count = 0;
+    std::vector<SweepColumn> axes, measures;            ///< axes: quantities that vary; mismatch is not among them
+    std::vector<std::string> train_names, probe_names;  ///< of the spike trains and probes that are written to the results
+    std::vector<double> probe_times;                    ///< times of the probes' samples, s; 0 is the first sample of the force
+    /// Everything on which the results depend: title, the sweep file, every netlist and model card that it reads. Two sweeps with equal
+    /// metadata have equal results; the first entry that differs shows what has changed.
+    std::vector<MetadataText> metadata;
+
+    /// The text of the metadata entry with this name; null if there is none.
+    const std::string* find_metadata(std::string_view name) const {
+        const auto at = std::ranges::find(metadata, name, &MetadataText::name);
+        return at == metadata.end() ? nullptr : &at->text;
+    }
+};
+
 /// A sweep that is ready to run. An item's outcome depends only on this object and the item's index: not on the thread or machine, nor on
 /// the other items that are computed with it.
-class Sweep {
+class Sweep : public SweepDescription {
 public:
     virtual ~Sweep() = default;
 
-    virtual std::int64_t item_count() const = 0;
-    virtual const std::vector<SweepColumn>& axes() const = 0;  ///< quantities that vary; mismatch is not among them
-    virtual const std::vector<SweepColumn>& measures() const = 0;
-    virtual const std::vector<std::string>& train_names() const = 0;  ///< names of the spike trains that are written to the results
-    virtual const std::vector<std::string>& probe_names() const = 0;  ///< names of the probes that are written to the results
-    virtual const std::vector<double>& probe_times() const = 0;  ///< times of the probes' samples, s; 0 is the first sample of the force
-    /// The values of an item, in the order of axes(); a label is given by its index.
+    /// The values of an item, in the order of `axes`; a label is given by its index.
     virtual std::vector<double> values(std::int64_t item) const = 0;
-
-    struct MetadataText {
-        std::string name, text;  ///< name: for example "netlist circuits/sa1.cir"
-    };
-    /// Everything on which the results depend, as text: title, the sweep file, every netlist and model card that it reads. Two sweeps with
-    /// equal metadata have equal results; the first entry that differs shows what has changed.
-    virtual const std::vector<MetadataText>& metadata() const = 0;
 
     using NextItem = std::function<std::optional<std::int64_t>()>;
     using OutcomeHandler = std::function<void(ItemOutcome&&)>;

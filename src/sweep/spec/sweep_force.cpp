@@ -88,7 +88,7 @@ bool ForceFactory::has_parameter(std::string_view name) const {
     return std::find(all.begin(), all.end(), name.substr(0, dot)) != all.end();
 }
 
-Result<VariedQuantity> ForceFactory::find_quantity(const LocatedText& quantity) const {
+Result<VariedQuantity> ForceFactory::find_quantity(const LocatedText& quantity) {
     const auto dot = quantity.text.find('.');
     const ParameterOverride parameter{quantity.text.substr(0, dot), quantity.text.substr(dot + 1), ""};
     for (const auto& stimulus : stimulus_catalog()) {
@@ -98,6 +98,7 @@ Result<VariedQuantity> ForceFactory::find_quantity(const LocatedText& quantity) 
         for (const auto& w : overrides_)
             if (w.target == parameter.target && w.parameter == parameter.parameter) out.nominal = *parse_quantity(w.value, row->unit);
         out.parse = [unit = std::string(row->unit)](const LocatedText& s) { return parse_quantity(s.text, unit); };
+        out.vary = [this, parameter](std::size_t axis, const auto&) { overrides_.push_back(parameter), axes_.push_back(axis); };
         return out;
     }
     return quantity.error_here(fmt::format("'{}' is not the stimulus of this sweep", parameter.target));
@@ -108,14 +109,8 @@ Result<void> ForceFactory::set(const LocatedSetting& setting) {
     for (const auto& stimulus : stimulus_catalog())
         if (stimulus.name == given.target) TRY(setting_of(given, stimulus.parameters));
     overrides_.push_back(std::move(given));
-    fixed_count_ = overrides_.size();  // vary() comes after all calls of set()
+    fixed_count_ = overrides_.size();  // varied settings come after all calls of set()
     return {};
-}
-
-void ForceFactory::vary(const std::string& name, std::size_t axis) {
-    const auto dot = name.find('.');
-    overrides_.push_back({name.substr(0, dot), name.substr(dot + 1), ""});
-    axes_.push_back(axis);
 }
 
 Result<SweepForcePointer> ForceFactory::make(std::span<const double> varied_values) const {

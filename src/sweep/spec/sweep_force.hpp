@@ -50,10 +50,11 @@ public:
 
 /// Makes the force of each item.
 class ForceFactory {
-    std::string text_;                                      // the stimulus, or the path of the recording, as in the sweep file
-    std::vector<ParameterOverride> overrides_;              // fixed settings, then varied ones, whose values make() fills in
-    std::size_t fixed_count_ = 0;                           // number of fixed settings
-    std::vector<std::size_t> axes_;                         // for each varied setting: index of its axis in the plan
+    std::string text_;                          // the stimulus, or the path of the recording, as in the sweep file
+    std::vector<ParameterOverride> overrides_;  // fixed settings, then varied ones, whose values make() fills in
+    std::size_t fixed_count_ = 0;               // number of fixed settings
+    std::vector<std::size_t> axes_;             // for each varied setting: index of its axis in the plan
+    bool is_recording_ = false;
     double rate_ = 10e3;                                    // of a stimulus, Hz
     std::uint64_t seed_ = 0;                                // of a random stimulus
     SweepForcePointer nominal_;                             // without varied values; of a recording: its only force
@@ -69,11 +70,10 @@ public:
     const std::string& name() const { return text_; }
     /// True if a name such as "press.F_max" means a parameter of this force.
     bool has_parameter(std::string_view name) const;
-    Result<VariedQuantity> find_quantity(const LocatedText& quantity) const;
+    /// VariedQuantity::vary() may be called after all calls of set().
+    Result<VariedQuantity> find_quantity(const LocatedText& quantity);
     /// Adds a fixed setting.
     Result<void> set(const LocatedSetting&);
-    /// Takes the values of this parameter from the axis with index `axis` in the plan. Call after all calls of set().
-    void vary(const std::string& name, std::size_t axis);
     bool varies() const { return !axes_.empty(); }
 
     /// Makes the nominal force. Call after all calls of set(), and before nominal() and at().
@@ -83,9 +83,6 @@ public:
     Result<SweepForcePointer> at(std::span<const double> values) const;
     /// Number of samples, rate and a hash of the recording, in one line; "" for a stimulus.
     std::string recording_summary() const;
-
-private:
-    bool is_recording_ = false;
 };
 
 }  // namespace corpuscle::sweeps

@@ -121,12 +121,12 @@ bool add_factors(Regression& regression, std::vector<Candidate>&& found, std::si
 
 }  // namespace
 
-Sensitivity sensitivity_of(std::span<const double> measure, std::span<const SweepFactor> factors) {
+Sensitivity sensitivity_of(std::span<const double> measure, std::span<const SweepFactor> factors, std::span<const SweepFactor> more) {
     std::vector<std::size_t> items;
     for (std::size_t k = 0; k < measure.size(); ++k)
         if (std::isfinite(measure[k])) items.push_back(k);
     const auto n = static_cast<double>(items.size());
-    Sensitivity out{items.size(), factors.size()};
+    Sensitivity out{items.size(), factors.size() + more.size()};
     const auto y = items.size() < 8 ? std::vector<double>() : standardised(measure, items);
     if (y.empty()) return out;
     double mean = 0, squares = 0;
@@ -142,9 +142,9 @@ Sensitivity sensitivity_of(std::span<const double> measure, std::span<const Swee
         if (degrees_of_freedom < 4 || unexplained < 1e-9) break;
         std::vector<Candidate> found;
         std::size_t tried = 0;
-        for (std::size_t f = 0; f < factors.size(); ++f) {
+        for (std::size_t f = 0; f < out.factors; ++f) {
             if (std::find(regression.selected.begin(), regression.selected.end(), f) != regression.selected.end()) continue;
-            auto x = standardised(factors[f], items);
+            auto x = standardised(f < factors.size() ? factors[f] : more[f - factors.size()], items);
             if (x.empty()) continue;
             ++tried;
             const double r = std::clamp(dot_product(x, regression.residual) / std::sqrt(unexplained), -1.0, 1.0);
@@ -174,16 +174,24 @@ Sensitivity sensitivity_of(std::span<const double> measure, std::span<const Swee
     return out;
 }
 
+GroupMeans group_means(std::span<const double> values, std::span<const std::size_t> group, std::size_t groups) {
+    GroupMeans out{std::vector<double>(groups), std::vector<double>(groups)};
+    for (std::size_t k = 0; k < values.size(); ++k)
+        if (group[k] < groups && std::isfinite(values[k])) out.means[group[k]] += values[k], ++out.counts[group[k]];
+    for (std::size_t g = 0; g < groups; ++g) out.means[g] = out.counts[g] > 0 ? out.means[g] / out.counts[g] : Estimate::none;
+    return out;
+}
+
 GroupEffect group_effect(std::span<const double> measure, std::span<const std::size_t> group, std::size_t groups) {
-    std::vector<double> sums(groups), counts(groups);
+    const auto [means, counts] = group_means(measure, group, groups);
     double sum = 0, n = 0, squares = 0, inside = 0;  // squares, inside: sums of squares in total, and inside the groups
-    for (std::size_t k = 0; k < measure.size(); ++k)
-        if (std::isfinite(measure[k])) sum += measure[k], ++n, sums[group[k]] += measure[k], ++counts[group[k]];
+    for (const double x : measure)
+        if (std::isfinite(x)) sum += x, ++n;
     const auto used_groups = static_cast<double>(std::count_if(counts.begin(), counts.end(), [](double c) { return c > 0; }));
     if (used_groups < 2 || n <= used_groups) return {};
     for (std::size_t k = 0; k < measure.size(); ++k) {
         if (!std::isfinite(measure[k])) continue;
-        const double deviation = measure[k] - sum / n, deviation_in_group = measure[k] - sums[group[k]] / counts[group[k]];
+        const double deviation = measure[k] - sum / n, deviation_in_group = measure[k] - means[group[k]];
         squares += deviation * deviation, inside += deviation_in_group * deviation_in_group;
     }
     if (!(squares > 0)) return {};

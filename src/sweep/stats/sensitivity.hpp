@@ -35,8 +35,15 @@ inline constexpr double false_discovery_rate = 0.01;
 /// `measure` and each factor have one number for each item; items whose measure is NaN are left out. In rounds, factors with a significant
 /// correlation with the residual are added, then a regression on all added factors is computed. The test is exact for normally distributed
 /// factors, and any distribution of the measure: the correlation of any given numbers with independent normal numbers, converted to t,
-/// follows Student's distribution.
-Sensitivity sensitivity_of(std::span<const double> measure, std::span<const SweepFactor> factors);
+/// follows Student's distribution. `more`: further factors, whose indexes follow those of `factors`.
+Sensitivity sensitivity_of(std::span<const double> measure, std::span<const SweepFactor> factors, std::span<const SweepFactor> more = {});
+
+/// For each group, the mean and the number of its values that are finite.
+struct GroupMeans {
+    std::vector<double> means, counts;  ///< the mean of no values is NaN
+};
+/// `group`: for each value, the index of its group; a value whose index is not below `groups` is left out.
+GroupMeans group_means(std::span<const double> values, std::span<const std::size_t> group, std::size_t groups);
 
 /// The effect of groups, such as the points of an axis, on a measure: the fraction of the measure's variance that lies between the groups
 /// (omega squared), and its p-value by Fisher's F.

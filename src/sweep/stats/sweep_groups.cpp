@@ -1,11 +1,13 @@
+// The rows of a sweep, grouped by the values of axes, and the effects of these values on a measure.
+
 #include <fmt/format.h>
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <utility>
 
 #include "core/parameter.hpp"
 #include "core/text/quantity.hpp"
-#include "sweep/spec/grid.hpp"
 #include "sweep/stats/sweep_summary.hpp"
 
 namespace corpuscle {
@@ -23,9 +25,10 @@ std::string value_label(const SweepColumn& axis, double value) {
     return is_label ? axis.labels[static_cast<std::size_t>(value)] : format_quantity(value, axis.unit);
 }
 
-/// One group for each of `values`, which are all distinct values of the axis, and one for rows without a value. `all`: the value in each
-/// row.
-AxisGroups points_of(const SweepColumn& axis, const std::vector<double>& all, const std::vector<double>& values) {
+/// One group for each point of an axis, and one for rows without a value.
+AxisGroups points_of(const SweepTable& table, std::size_t index) {
+    const auto& axis = table.axes[index];
+    const auto &all = table.axis_values[index], &values = table.points[index];
     AxisGroups out;
     out.group_of.reserve(all.size());
     for (const double x : all)
@@ -39,7 +42,9 @@ AxisGroups points_of(const SweepColumn& axis, const std::vector<double>& all, co
 }
 
 /// Bands with about equal numbers of rows. Rows without a value are in the last band.
-AxisGroups bands_of(const SweepColumn& axis, const std::vector<double>& all) {
+AxisGroups bands_of(const SweepTable& table, std::size_t index) {
+    const auto& axis = table.axes[index];
+    const auto& all = table.axis_values[index];
     auto sorted = all;
     std::erase_if(sorted, [](double x) { return std::isnan(x); });
     if (sorted.empty()) return {std::vector<std::size_t>(all.size()), {axis.name + " = none"}};
@@ -53,11 +58,6 @@ AxisGroups bands_of(const SweepColumn& axis, const std::vector<double>& all) {
         out.labels.push_back(fmt::format("{} {} ... {}", axis.name, format_quantity(b == 0 ? sorted.front() : edges[b - 1], axis.unit),
                                          format_quantity(b + 1 == SweepGroups::bands ? sorted.back() : edges[b], axis.unit)));
     return out;
-}
-
-AxisGroups groups_of_axis(const SweepTable& table, std::size_t axis) {
-    const auto& all = table.axis_values[axis];
-    return table.has_points(axis) ? points_of(table.axes[axis], all, table.points[axis]) : bands_of(table.axes[axis], all);
 }
 
 }  // namespace
@@ -76,7 +76,7 @@ SweepGroups group_rows_by_axes(const SweepTable& table, const std::vector<std::s
     out.axes = axes;
     if (table.rows() == 0) return out;
     std::vector<AxisGroups> axis_groups;
-    for (const auto a : axes) axis_groups.push_back(groups_of_axis(table, a));
+    for (const auto a : axes) axis_groups.push_back(table.has_points(a) ? points_of(table, a) : bands_of(table, a));
     std::vector<std::size_t> key(table.rows());  // of each row: its combination of groups, as one number
     for (const auto& p : axis_groups)
         for (std::size_t r = 0; r < key.size(); ++r) key[r] = key[r] * p.labels.size() + p.group_of[r];
@@ -116,6 +116,41 @@ Result<SweepGroups> group_rows(const SweepTable& table, const std::vector<std::s
         if (table.points[a].size() > 1) axes.push_back(a);
     auto out = group_rows_by_axes(table, axes);
     return out.groups.size() <= SweepGroups::max_groups ? out : group_rows_by_axes(table, {});
+}
+
+std::vector<AxisEffect> axis_effects(const SweepTable& table, const std::vector<double>& measure) {
+    double sum = 0, count = 0, squares = 0;
+    for (const double x : measure)
+        if (std::isfinite(x)) sum += x, ++count;
+    for (const double x : measure)
+        if (std::isfinite(x)) squares += (x - sum / count) * (x - sum / count);
+    std::vector<AxisEffect> out;
+    if (!(squares > 0)) return out;
+    for (std::size_t a = 0; a < table.axes.size(); ++a) {
+        if (table.points[a].size() < 2) continue;
+        const auto points = group_means(measure, points_of(table, a).group_of, table.points[a].size());
+        AxisEffect effect{a, 0, points.means};
+        for (std::size_t k = 0; k < points.means.size(); ++k) {
+            const double deviation = points.counts[k] > 0 ? points.means[k] - sum / count : 0;
+            effect.fraction += points.counts[k] * deviation * deviation / squares;
+        }
+        out.push_back(std::move(effect));
+    }
+    std::sort(out.begin(), out.end(),
+              [](const AxisEffect& x, const AxisEffect& y) { return std::pair(-x.fraction, x.axis) < std::pair(-y.fraction, y.axis); });
+    return out;
+}
+
+std::vector<std::vector<double>> means_over(const SweepTable& table, const std::vector<double>& measure, std::size_t a, std::size_t b) {
+    const auto rows = table.points[a].size(), columns = table.points[b].size();
+    auto cells = points_of(table, a).group_of;  // of each row of the table: row * columns + column
+    const auto column_of = points_of(table, b).group_of;
+    for (std::size_t r = 0; r < cells.size(); ++r) cells[r] = column_of[r] < columns ? cells[r] * columns + column_of[r] : rows * columns;
+    const auto means = group_means(measure, cells, rows * columns).means;
+    std::vector<std::vector<double>> out;
+    for (auto row = means.begin(); row != means.end(); row += static_cast<std::ptrdiff_t>(columns))
+        out.emplace_back(row, row + static_cast<std::ptrdiff_t>(columns));
+    return out;
 }
 
 }  // namespace corpuscle

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 #include <tuple>
 #include <unordered_map>
 
@@ -45,66 +46,49 @@ void put_measure(SweepSummary& out, const SweepTable& table, const SweepGroups& 
     put(out.all, sorted.size() == 1 ? sorted[0] : SortedSample::merged(sorted), table.rows(), total_passed);
 }
 
-/// Counts the items of a group by their ends. `passed`: for each row of the table.
+/// Counts the items of a group by their ends, and allocates the measures. `passed`: for each row of the table.
 PointSummary point_summary(const SweepTable& table, const SweepGroup& group, const std::vector<char>& passed) {
     PointSummary out;
-    out.label = group.label;
+    out.label = group.label, out.items = static_cast<std::int64_t>(group.rows.size());
     for (const auto r : group.rows) {
         ++(table.ends[r] == ItemEnd::done ? out.done : table.ends[r] == ItemEnd::iteration_limit ? out.iteration_limit : out.diverged);
         out.passed += passed[r];
     }
+    out.yield = estimate_proportion(out.passed, out.items);
+    out.measures.resize(table.measures.size());
     return out;
-}
-
-/// Computes the number of items and the yield of a point, and allocates its measures.
-void finish_point(PointSummary& point, std::size_t measures) {
-    point.items = point.done + point.iteration_limit + point.diverged;
-    point.yield = estimate_proportion(point.passed, point.items);
-    point.measures.resize(measures);
 }
 
 /// The value in each row, minus the mean over the rows of its group.
 std::vector<double> inside_groups(const std::vector<double>& values, const SweepGroups& points) {
-    std::vector<double> sums(points.groups.size()), counts(points.groups.size()), out(values.size());
-    for (std::size_t r = 0; r < values.size(); ++r)
-        if (std::isfinite(values[r])) sums[points.group_of[r]] += values[r], ++counts[points.group_of[r]];
-    for (std::size_t r = 0; r < values.size(); ++r) out[r] = values[r] - sums[points.group_of[r]] / counts[points.group_of[r]];
+    const auto means = group_means(values, points.group_of, points.groups.size()).means;
+    std::vector<double> out(values.size());
+    for (std::size_t r = 0; r < values.size(); ++r) out[r] = values[r] - means[points.group_of[r]];
     return out;
 }
 
-/// The first chips of a sweep, at most max_analysed_chips, and for each chip the mean of a measure over the points. Chip k is sample k: a
-/// chip is simulated at each point with the same mismatch and the same values of the sampled axes.
-class ChipMeans {
-    std::vector<std::size_t> chip_of_;  // for each row: index in chips_, or none
-    std::vector<std::uint64_t> chips_;  // numbers of the chips
-    static constexpr auto none = static_cast<std::size_t>(-1);
-
-public:
-    /// `samples`: number of samples of each point; 0: each item is a separate chip.
-    ChipMeans(const SweepTable& table, std::int64_t samples) {
-        std::unordered_map<std::uint64_t, std::size_t> index;  // by the number of the chip
-        for (const auto item : table.items) {
-            const auto chip = static_cast<std::uint64_t>(samples > 0 ? item % samples : item);
-            const auto known = index.find(chip);
-            if (known == index.end() && chips_.size() == max_analysed_chips) {
-                chip_of_.push_back(none);
-                continue;
-            }
-            if (known == index.end()) index[chip] = chips_.size(), chips_.push_back(chip);
-            chip_of_.push_back(index[chip]);
-        }
-    }
-    const std::vector<std::uint64_t>& chips() const { return chips_; }
+/// The first chips of a sweep, at most max_analysed_chips. Chip k is sample k: a chip is simulated at each point with the same mismatch and
+/// the same values of the sampled axes.
+struct Chips {
+    std::vector<std::uint64_t> numbers;
+    std::vector<std::size_t> of_row;  ///< for each row: index in `numbers`; max_analysed_chips if it is of another chip
 
     /// For each chip, the mean of the values in its rows; NaN if there are none.
-    std::vector<double> of(const std::vector<double>& values) const {
-        std::vector<double> out(chips_.size()), counts(chips_.size());
-        for (std::size_t r = 0; r < values.size(); ++r)
-            if (chip_of_[r] != none && std::isfinite(values[r])) out[chip_of_[r]] += values[r], ++counts[chip_of_[r]];
-        for (std::size_t c = 0; c < out.size(); ++c) out[c] = counts[c] > 0 ? out[c] / counts[c] : Estimate::none;
-        return out;
-    }
+    std::vector<double> means(const std::vector<double>& values) const { return group_means(values, of_row, numbers.size()).means; }
 };
+
+/// `samples`: number of samples of each point; 0: each item is a separate chip.
+Chips chips_of(const SweepTable& table, std::int64_t samples) {
+    Chips out;
+    std::unordered_map<std::uint64_t, std::size_t> index;  // by the number of the chip
+    for (const auto item : table.items) {
+        const auto chip = static_cast<std::uint64_t>(samples > 0 ? item % samples : item);
+        if (out.numbers.size() < max_analysed_chips && index.try_emplace(chip, out.numbers.size()).second) out.numbers.push_back(chip);
+        const auto known = index.find(chip);
+        out.of_row.push_back(known == index.end() ? max_analysed_chips : known->second);
+    }
+    return out;
+}
 
 /// The index of the subject of a measure: the only subject, or the one that is named in NAME.MEASURE; -1 if there is none.
 std::ptrdiff_t subject_of(const std::string& measure, const MismatchSamples& mismatch) {
@@ -114,39 +98,35 @@ std::ptrdiff_t subject_of(const std::string& measure, const MismatchSamples& mis
     return -1;
 }
 
-/// All factors that may influence a measure: sampled axes may influence every measure, devices only the measures of their subject. Each
-/// factor has a value for each chip, and a NamedInfluence whose `influence` is not yet set.
+/// Factors that may influence a measure. Each has a value for each chip, and a NamedInfluence whose `influence` is not yet set.
 struct Factors {
-    std::vector<SweepFactor> axes;
-    std::vector<NamedInfluence> axis_names;
-    struct SubjectFactors {
-        std::vector<SweepFactor> values;
-        std::vector<NamedInfluence> names;
-    };
-    std::vector<SubjectFactors> subjects;
+    std::vector<SweepFactor> values = {};
+    std::vector<NamedInfluence> names = {};
+
+    void add(SweepFactor factor, NamedInfluence name) { values.push_back(std::move(factor)), names.push_back(std::move(name)); }
 };
 
-Factors factors_of(const SweepTable& table, const std::optional<MismatchSamples>& mismatch, const ChipMeans& means) {
+/// The sampled axes, which may influence every measure.
+Factors axis_factors(const SweepTable& table, const Chips& chips) {
     Factors out;
-    for (std::size_t a = 0; a < table.axes.size(); ++a) {
-        if (table.has_points(a)) continue;
-        out.axes.push_back(means.of(table.axis_values[a]));
-        out.axis_names.push_back({table.axes[a].name, "", -1, -1, static_cast<std::ptrdiff_t>(a), {}});
-    }
-    if (!mismatch) return out;
-    for (std::size_t s = 0; s < mismatch->subjects.size(); ++s) {
-        auto& subject_factors = out.subjects.emplace_back();
-        const auto& devices = mismatch->subjects[s].devices;
+    for (std::size_t a = 0; a < table.axes.size(); ++a)
+        if (!table.has_points(a))
+            out.add(chips.means(table.axis_values[a]), {table.axes[a].name, "", -1, -1, static_cast<std::ptrdiff_t>(a), {}});
+    return out;
+}
+
+/// The devices of each subject, which may influence only the measures of this subject.
+std::vector<Factors> device_factors(const MismatchSamples& mismatch, const Chips& chips) {
+    std::vector<Factors> out(mismatch.subjects.size());
+    for (std::size_t s = 0; s < out.size(); ++s) {
+        const auto& devices = mismatch.subjects[s].devices;
         for (std::size_t d = 0; d < devices.size(); ++d) {
             if (devices[d].sigma_VT == 0 && devices[d].sigma_IS == 0) continue;
-            auto deviates = deviates_of(devices[d], mismatch->seed, means.chips());
-            const NamedInfluence name{devices[d].name, "", static_cast<std::ptrdiff_t>(d), static_cast<std::ptrdiff_t>(s), -1, {}};
-            const auto add = [&](double sigma, const char* quantity, SweepFactor& values) {
-                if (sigma == 0) return;
-                subject_factors.values.push_back(std::move(values)), subject_factors.names.push_back(name);
-                subject_factors.names.back().quantity = quantity;
-            };
-            add(devices[d].sigma_VT, "V_T", deviates.V_T), add(devices[d].sigma_IS, "I_S", deviates.I_S);
+            auto deviates = deviates_of(devices[d], mismatch.seed, chips.numbers);
+            NamedInfluence name{devices[d].name, "V_T", static_cast<std::ptrdiff_t>(d), static_cast<std::ptrdiff_t>(s), -1, {}};
+            if (devices[d].sigma_VT != 0) out[s].add(std::move(deviates.V_T), name);
+            name.quantity = "I_S";
+            if (devices[d].sigma_IS != 0) out[s].add(std::move(deviates.I_S), name);
         }
     }
     return out;
@@ -173,24 +153,26 @@ struct DependenceSearch {
     const std::optional<MismatchSamples>& mismatch;
     SweepGroups points;                                        // by all axes with points
     std::vector<std::pair<std::size_t, SweepGroups>> by_axis;  // index of an axis with two or more points, and its groups
-    ChipMeans means;
-    Factors factors;
+    Chips chips;
+    Factors axes;
+    std::vector<Factors> devices;  // of each subject
 };
 
 /// Adds the square of each factor, for the yield. A measure can have limits on both sides, so deviations in either direction lower the
 /// yield.
-void add_squares(Factors::SubjectFactors& subject_factors) {
-    const auto count = subject_factors.values.size();
+void add_squares(Factors& factors) {
+    const auto count = factors.values.size();
     for (std::size_t f = 0; f < count; ++f) {
-        SweepFactor squares;
-        for (const double x : subject_factors.values[f]) squares.push_back(x * x);
-        subject_factors.values.push_back(std::move(squares)), subject_factors.names.push_back(subject_factors.names[f]);
-        subject_factors.names.back().quantity += " squared";
+        auto squares = factors.values[f];
+        for (double& x : squares) x *= x;
+        auto name = factors.names[f];
+        name.quantity += " squared";
+        factors.add(std::move(squares), std::move(name));
     }
 }
 
-/// Finds what one measure depends on. During the search, the factors of its subject's devices are moved to the end of those of the axes.
-Dependence dependence_of(const std::string& name, const std::vector<double>& values, DependenceSearch& search) {
+/// Finds what one measure depends on.
+Dependence dependence_of(const std::string& name, const std::vector<double>& values, const DependenceSearch& search) {
     Dependence out{name, {}, {}, {}, {}, {}};
     for (const auto& [axis, groups] : search.by_axis) {
         const auto between = group_effect(values, groups.group_of, groups.groups.size());
@@ -198,20 +180,15 @@ Dependence dependence_of(const std::string& name, const std::vector<double>& val
     }
     std::sort(out.points.begin(), out.points.end(),
               [](const auto& a, const auto& b) { return std::pair(-a.second.fraction, a.first) < std::pair(-b.second.fraction, b.first); });
-    auto& all = search.factors.axes;
-    const auto axes = all.size();
     const auto subject = search.mismatch ? subject_of(name, *search.mismatch) : -1;
-    auto* subject_factors = subject >= 0 ? &search.factors.subjects[static_cast<std::size_t>(subject)] : nullptr;
-    if (subject_factors)
-        for (auto& f : subject_factors->values) all.push_back(std::move(f));
-    out.sensitivity = sensitivity_of(search.means.of(inside_groups(values, search.points)), all);
+    static const Factors none;
+    const auto& devices = subject >= 0 ? search.devices[static_cast<std::size_t>(subject)] : none;
+    const auto& axes = search.axes;
+    out.sensitivity = sensitivity_of(search.chips.means(inside_groups(values, search.points)), axes.values, devices.values);
     for (const auto& i : out.sensitivity.influences) {
-        out.influences.push_back(i.factor < axes ? search.factors.axis_names[i.factor] : subject_factors->names[i.factor - axes]);
+        out.influences.push_back(i.factor < axes.names.size() ? axes.names[i.factor] : devices.names[i.factor - axes.names.size()]);
         out.influences.back().influence = i;
     }
-    if (subject_factors)
-        for (std::size_t f = 0; f < subject_factors->values.size(); ++f) subject_factors->values[f] = std::move(all[axes + f]);
-    all.resize(axes);
     out.devices = device_contributions(out.influences);
     return out;
 }
@@ -225,15 +202,18 @@ std::vector<Dependence> dependences_of(const SweepTable& table, const std::optio
     auto points = group_rows_by_axes(table, point_axes);
     const auto count = static_cast<std::int64_t>(points.groups.size());
     // Without the description of the mismatch, the number of samples follows from the numbers of items and points.
-    const ChipMeans means(table, mismatch ? mismatch->chips : count > 0 && table.item_count % count == 0 ? table.item_count / count : 0);
-    analysed_chips = means.chips().size();
-    DependenceSearch search{table, mismatch, std::move(points), {}, means, factors_of(table, mismatch, means)};
+    const auto chips = chips_of(table, mismatch                                     ? mismatch->chips
+                                       : count > 0 && table.item_count % count == 0 ? table.item_count / count
+                                                                                    : 0);
+    analysed_chips = chips.numbers.size();
+    DependenceSearch search{table, mismatch, std::move(points), {}, chips, axis_factors(table, chips), {}};
+    if (mismatch) search.devices = device_factors(*mismatch, chips);
     for (const auto a : point_axes)
         if (auto groups = group_rows_by_axes(table, {a}); groups.groups.size() > 1) search.by_axis.emplace_back(a, std::move(groups));
     std::vector<Dependence> out;
     for (std::size_t m = 0; m < table.measures.size(); ++m)
         out.push_back(dependence_of(table.measures[m].name, table.measure_values[m], search));
-    for (auto& subject_factors : search.factors.subjects) add_squares(subject_factors);
+    for (auto& factors : search.devices) add_squares(factors);
     if (table.has_limits()) out.push_back(dependence_of("yield", {passed.begin(), passed.end()}, search));
     return out;
 }
@@ -268,13 +248,10 @@ Result<SweepSummary> summary_of(const SweepTable& table, const std::optional<Mis
     out.options = options, out.axes = groups.axes, out.mismatch = mismatch;
     std::vector<char> passed(table.rows());
     for (std::size_t r = 0; r < passed.size(); ++r) passed[r] = table.passes(r);
-    for (const auto& g : groups.groups) {
-        auto& point = out.points.emplace_back(point_summary(table, g, passed));
-        out.all.done += point.done, out.all.iteration_limit += point.iteration_limit, out.all.diverged += point.diverged,
-            out.all.passed += point.passed;
-        finish_point(point, table.measures.size());
-    }
-    finish_point(out.all, table.measures.size());
+    for (const auto& g : groups.groups) out.points.push_back(point_summary(table, g, passed));
+    SweepGroup all{"", std::vector<std::size_t>(table.rows())};
+    std::iota(all.rows.begin(), all.rows.end(), std::size_t{0});
+    out.all = point_summary(table, all, passed);
     ThreadPool pool(table.rows() > 100000 ? 0 : 1);
     pool.for_each(table.measures.size(), [&](std::size_t m, unsigned) { put_measure(out, table, groups, m); });
     if (!table.is_grid) {

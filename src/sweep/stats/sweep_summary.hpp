@@ -1,10 +1,9 @@
 #pragma once
 // Summary of a sweep's results: yield and distribution of each measure, at each point and over all points, and what the measures depend on.
 
-#include <map>
+#include <nlohmann/json_fwd.hpp>
 #include <optional>
 
-#include "sweep/spec/grid.hpp"
 #include "sweep/spec/mismatch_samples.hpp"
 #include "sweep/stats/sensitivity.hpp"
 #include "sweep/stats/sweep_table.hpp"
@@ -35,6 +34,23 @@ struct SweepGroups {
 Result<SweepGroups> group_rows(const SweepTable&, const std::vector<std::string>& by);
 /// Groups the rows by the axes with these indexes.
 SweepGroups group_rows_by_axes(const SweepTable&, const std::vector<std::size_t>& axes);
+
+/// The effect of one axis on a measure: the mean of the measure at each value of the axis, over all values of the other axes.
+struct AxisEffect {
+    std::size_t axis = 0;       ///< index in the table's axes
+    double fraction = 0;        ///< fraction of the measure's variance over the grid that lies between these means
+    std::vector<double> means;  ///< one for each value in SweepTable::points[axis]; NaN: no item with this value has the measure
+};
+
+/// Effects of all axes with at least two values, the largest fraction first; empty if the measure does not vary. `measure`: its value in
+/// each row of the table.
+std::vector<AxisEffect> axis_effects(const SweepTable&, const std::vector<double>& measure);
+
+/// Means of the measure at each pair of values of the axes with indexes a and b: [index of a's value][index of b's value].
+std::vector<std::vector<double>> means_over(const SweepTable&, const std::vector<double>& measure, std::size_t a, std::size_t b);
+
+/// The values of all axes in one row of the table, such as "press.F_max = 2 N, sa1.f_B = 20 Hz".
+std::string point_label(const SweepTable&, std::size_t row);
 
 /// One measure over the items of a point.
 struct MeasureSummary {
@@ -95,5 +111,8 @@ inline constexpr std::size_t max_analysed_chips = 4000;
 
 /// `options.axes` must be names of axes; otherwise an error. Without `mismatch`, the only random factors are the sampled axes.
 Result<SweepSummary> summary_of(const SweepTable&, const std::optional<MismatchSamples>&, const SweepSummaryOptions&);
+
+/// The JSON document of `corpuscle sweep show --json`. `title`: of the sweep.
+nlohmann::ordered_json document_of(const SweepTable&, const SweepSummary&, const std::string& title);
 
 }  // namespace corpuscle

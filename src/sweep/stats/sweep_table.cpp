@@ -7,8 +7,8 @@
 
 #include "core/parameter.hpp"
 #include "core/thread_pool.hpp"
-#include "sweep/spec/grid.hpp"
-#include "sweep/store/sqlite.hpp"
+#include "sweep/spec/axis.hpp"
+#include "sweep/spec/mismatch_samples.hpp"
 
 namespace corpuscle {
 namespace {
@@ -17,7 +17,7 @@ namespace {
 Result<std::vector<std::size_t>> find_measures(const SweepResults& results, const std::vector<std::string>& names) {
     std::vector<std::size_t> out;
     std::vector<std::string_view> known;
-    for (const auto& m : results.measures()) known.push_back(m.name);
+    for (const auto& m : results.measures) known.push_back(m.name);
     for (std::size_t k = 0; names.empty() && k < known.size(); ++k) out.push_back(k);
     for (const auto& name : names) {
         const auto at = std::find(known.begin(), known.end(), name);
@@ -56,15 +56,13 @@ struct ReadPart {
 /// Reads the rows of items [from, to). `columns_sql`: names of the columns, separated by commas; `columns`: their number.
 Result<ReadPart> read_part(const SweepResults& results, const std::string& columns_sql, std::size_t columns, std::int64_t from,
                            std::int64_t to) {
-    auto rows = TRY(sql::Statement::make(
-        results.handle(), results.path(),
+    auto rows = TRY(results.file().prepare(
         fmt::format("SELECT item, ended, {} FROM items WHERE item >= {} AND item < {} ORDER BY item", columns_sql, from, to)));
     ReadPart out;
     out.columns.resize(columns);
     while (TRY(rows.step())) {
         out.items.push_back(rows.integer(0));
-        const auto ended = rows.text(1);
-        out.end.push_back(ended == "done" ? ItemEnd::done : ended == "truncated" ? ItemEnd::iteration_limit : ItemEnd::diverged);
+        out.end.push_back(end_of_name(rows.text(1)));
         for (std::size_t k = 0; k < columns; ++k) out.columns[k].push_back(rows.number(static_cast<int>(k) + 2));
     }
     return out;
@@ -78,7 +76,7 @@ Result<std::vector<ReadPart>> read_parts(const SweepResults& results, const std:
     std::vector<std::optional<Error>> errors(parts);
     ThreadPool(parts == 1 ? 1 : 0).for_each(parts, [&](std::size_t k, unsigned) {
         const auto first_item = [&](std::size_t part) {
-            return part == parts ? std::numeric_limits<std::int64_t>::max() : results.item_count() / 4 * static_cast<std::int64_t>(part);
+            return part == parts ? std::numeric_limits<std::int64_t>::max() : results.item_count / 4 * static_cast<std::int64_t>(part);
         };
         const auto connection =  // not needed for one part
             parts == 1 ? Result<SweepResults>(Error{}) : SweepResults::open_read_only(results.path());
@@ -91,7 +89,31 @@ Result<std::vector<ReadPart>> read_parts(const SweepResults& results, const std:
     return out;
 }
 
+/// The stored text of the sweep file without the lines for options of the command line ("--seed 3").
+std::string file_text(const std::string& stored) {
+    std::string out;
+    for (std::size_t from = 0; from < stored.size();) {
+        const auto end = std::min(stored.find('\n', from), stored.size() - 1) + 1;
+        if (stored.compare(from, 2, "--") != 0) out += stored.substr(from, end - from);
+        from = end;
+    }
+    return out;
+}
+
 }  // namespace
+
+bool is_deterministic(const SweepResults& results) {
+    if (!results.about(mismatch_metadata_name).empty() || results.axes.empty()) return false;
+    for (const auto& axis : results.axes)
+        if (axis.name.starts_with("process.")) return false;
+    const auto stored = results.about("sweep file");  // empty if the sweep was a netlist with .step or .mc, without a sweep file
+    const auto text = sweeps::read_sweep_text(file_text(stored), results.path());
+    if (!text) return false;
+    const auto axes = text->axes();
+    return std::none_of(axes.begin(), axes.end(), [](const ConfigNode& axis) {
+        return sweeps::axis_name(axis).text == "process" || sweeps::axis_name(axis).text == "mismatch" || sweeps::is_sampled(axis);
+    });
+}
 
 bool SweepTable::meets_limits(std::size_t row, std::size_t measure) const {
     if (ends[row] != ItemEnd::done) return false;
@@ -101,9 +123,7 @@ bool SweepTable::meets_limits(std::size_t row, std::size_t measure) const {
 }
 
 bool SweepTable::has_limits() const {
-    for (std::size_t m = 0; m < measures.size(); ++m)
-        if (has_limits(m)) return true;
-    return false;
+    return std::ranges::any_of(measures, [](const SweepColumn& m) { return m.min || m.max; });
 }
 
 bool SweepTable::passes(std::size_t row) const {
@@ -116,14 +136,13 @@ bool SweepTable::passes(std::size_t row) const {
 Result<SweepTable> read_table(const SweepResults& results, const std::vector<std::string>& measure_names) {
     const auto wanted = TRY(find_measures(results, measure_names));
     SweepTable out;
-    out.item_count = results.item_count(), out.axes = results.axes();
+    out.item_count = results.item_count, out.axes = results.axes;
     std::vector<std::string> columns_sql;
-    for (std::size_t k = 0; k < results.axes().size(); ++k) columns_sql.push_back(sql::quoted_name(results.stored_column_names()[k]));
+    for (std::size_t k = 0; k < results.axes.size(); ++k) columns_sql.push_back(sql::quoted_name(results.stored_column_names[k]));
     for (const auto m : wanted)
-        columns_sql.push_back(sql::quoted_name(results.stored_column_names()[results.axes().size() + m])),
-            out.measures.push_back(results.measures()[m]);
-    const auto has_iterations =
-        TRY(sql::query_integer(results.handle(), results.path(), "SELECT EXISTS(SELECT 1 FROM items WHERE iterations > 0)"));
+        columns_sql.push_back(sql::quoted_name(results.stored_column_names[results.axes.size() + m])),
+            out.measures.push_back(results.measures[m]);
+    const auto has_iterations = TRY(results.file().query_integer("SELECT EXISTS(SELECT 1 FROM items WHERE iterations > 0)"));
     if (has_iterations && measure_names.empty()) {
         columns_sql.emplace_back("iterations");
         out.measures.push_back({"iterations", "", "Newton iterations of the circuit"});
@@ -149,8 +168,7 @@ Result<SweepTable> read_table(const SweepResults& results, const std::vector<std
 
 Result<std::vector<FailedItem>> failed_items(const SweepResults& results, std::size_t limit) {
     auto rows =
-        TRY(sql::Statement::make(results.handle(), results.path(),
-                                 fmt::format("SELECT item, ended, why FROM items WHERE ended <> 'done' ORDER BY item LIMIT {}", limit)));
+        TRY(results.file().prepare(fmt::format("SELECT item, ended, why FROM items WHERE ended <> 'done' ORDER BY item LIMIT {}", limit)));
     std::vector<FailedItem> out;
     while (TRY(rows.step())) out.push_back({rows.integer(0), rows.text(2).empty() ? rows.text(1) : rows.text(2)});
     return out;

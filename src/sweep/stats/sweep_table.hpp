@@ -20,7 +20,7 @@ struct SweepTable {
     std::vector<std::vector<double>> points;
     /// Largest number of points of an axis: in a sampled sweep, and in a grid.
     static constexpr std::size_t max_points = 64, max_grid_points = 10'000;
-    bool is_grid = false;  ///< true if the sweep samples nothing, see grid.hpp
+    bool is_grid = false;  ///< true if the sweep samples nothing: every combination of the listed values once, so that effects need no test
 
     std::size_t rows() const { return items.size(); }
     /// True if the item of this row ended normally and meets the limits of this measure, if it has limits. NaN does not meet a limit.
@@ -31,6 +31,9 @@ struct SweepTable {
     /// True if the item of this row ended normally and meets the limits of all measures.
     bool passes(std::size_t row) const;
 };
+
+/// True if the sweep samples neither chips nor values of an axis.
+bool is_deterministic(const SweepResults&);
 
 /// Reads all axes and the measures of these names. Without names: all measures, and for circuits also the Newton iterations as a last
 /// measure.

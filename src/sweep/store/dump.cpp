@@ -1,10 +1,7 @@
-#include "sweep/store/dump.hpp"
-
 #include <fmt/format.h>
 #include <cmath>
-#include <cstring>
 
-#include "sweep/store/results_layout.hpp"
+#include "sweep/store/sweep_results.hpp"
 
 namespace corpuscle {
 namespace {
@@ -33,8 +30,8 @@ class BlobReader {
 
 public:
     /// Starts a query whose columns are item, index of the train or probe, and blob, sorted by the first two.
-    Result<void> begin(const SweepResults& results, const std::string& query) {
-        rows_ = TRY(sql::Statement::make(results.handle(), results.path(), query));
+    Result<void> begin(const sql::Database& file, const std::string& query) {
+        rows_ = TRY(file.prepare(query));
         return advance();
     }
 
@@ -44,12 +41,7 @@ public:
         for (std::size_t k = 0; k < columns; ++k) {
             text += ",";
             if (!has_row_ || rows_.integer(0) != item || rows_.integer(1) != static_cast<std::int64_t>(k)) continue;
-            const auto bytes = rows_.bytes(2);
-            for (std::size_t at = 0; at + sizeof(T) <= bytes.size(); at += sizeof(T)) {
-                T x;
-                std::memcpy(&x, bytes.data() + at, sizeof x);
-                fmt::format_to(std::back_inserter(text), "{}{}", at ? " " : "", x);
-            }
+            text += fmt::format("{}", fmt::join(rows_.numbers<T>(2), " "));
             TRY(advance());
         }
         return {};
@@ -58,9 +50,9 @@ public:
 
 std::string header_line(const SweepResults& results) {
     auto text = fmt::format("{}", fmt::join(ResultsLayout::item_columns, ","));
-    for (const auto& name : results.stored_column_names()) text += "," + csv_field(name);
-    for (const auto& name : results.train_names()) text += "," + csv_field("spikes of " + name);
-    for (const auto& name : results.probe_names()) text += "," + csv_field("trace of " + name);
+    for (const auto& name : results.stored_column_names) text += "," + csv_field(name);
+    for (const auto& name : results.train_names) text += "," + csv_field("spikes of " + name);
+    for (const auto& name : results.probe_names) text += "," + csv_field("trace of " + name);
     return text + "\n";
 }
 
@@ -69,24 +61,25 @@ std::string header_line(const SweepResults& results) {
 Result<void> dump_results(const SweepResults& results, const std::function<bool(const std::string&)>& put) {
     BlobReader<double> spikes;
     BlobReader<float> probes;
-    TRY(sql::run(results.handle(), results.path(), "BEGIN"));  // one consistent state, also during a run
-    auto ok = spikes.begin(results, "SELECT item, train, times FROM spikes ORDER BY item, train");
-    if (ok) ok = probes.begin(results, "SELECT item, trace, samples FROM traces ORDER BY item, trace");
+    const auto& file = results.file();
+    TRY(file.run("BEGIN"));  // one consistent state, also during a run
+    auto ok = spikes.begin(file, "SELECT item, train, times FROM spikes ORDER BY item, train");
+    if (ok) ok = probes.begin(file, "SELECT item, trace, samples FROM traces ORDER BY item, trace");
     bool should_continue = ok && put(header_line(results));
     Result<void> row_result;
     if (should_continue)
-        row_result = results.for_each_row([&](const SweepResults::Row& row) {
+        row_result = results.for_each_row([&](const std::vector<double>& axes, const ItemOutcome& row) {
             auto text = fmt::format("{},{},{},{},{},{}", row.item, end_name(row.end), row.steps, row.iterations, row.ran_alone ? 1 : 0,
                                     csv_field(row.reason));
-            for (std::size_t k = 0; k < row.axes.size(); ++k) text += "," + value_text(row.axes[k], results.axes()[k]);
-            for (std::size_t k = 0; k < row.measures.size(); ++k) text += "," + value_text(row.measures[k], results.measures()[k]);
-            ok = spikes.append(row.item, results.train_names().size(), text);
-            if (ok) ok = probes.append(row.item, results.probe_names().size(), text);
+            for (std::size_t k = 0; k < axes.size(); ++k) text += "," + value_text(axes[k], results.axes[k]);
+            for (std::size_t k = 0; k < row.measures.size(); ++k) text += "," + value_text(row.measures[k], results.measures[k]);
+            ok = spikes.append(row.item, results.train_names.size(), text);
+            if (ok) ok = probes.append(row.item, results.probe_names.size(), text);
             should_continue = ok && put(text + "\n");
             return should_continue;
         });
     spikes = {}, probes = {};  // ends their queries, before the transaction
-    const auto ended = sql::run(results.handle(), results.path(), "END");
+    const auto ended = file.run("END");
     return !ok ? ok : !row_result ? row_result : ended;
 }
 

@@ -4,7 +4,7 @@
 #include <sqlite3.h>
 #include <filesystem>
 
-#include "sweep/store/results_impl.hpp"
+#include "sweep/store/sweep_results.hpp"
 
 namespace corpuscle {
 namespace {
@@ -31,9 +31,9 @@ std::string select_differing(const ResultsLayout& layout) {
     return text + " ORDER BY item";
 }
 
-/// Returns an error if an item has different results in the two files. `path`, `from`: paths of `main` and `source`.
-Result<void> check_differences(sqlite3* file, const ResultsLayout& layout, const std::string& path, const std::string& from) {
-    auto rows = TRY(sql::Statement::make(file, path, select_differing(layout)));
+/// Returns an error if an item has different results in the two files. `from`: path of `source`.
+Result<void> check_differences(const sql::Database& file, const ResultsLayout& layout, const std::string& from) {
+    auto rows = TRY(file.prepare(select_differing(layout)));
     std::string listed;
     for (int k = 0; k <= max_listed && TRY(rows.step()); ++k)
         listed += k == max_listed ? " ..." : fmt::format("{}{}", k > 0 ? ", " : "", rows.integer(0));
@@ -41,46 +41,39 @@ Result<void> check_differences(sqlite3* file, const ResultsLayout& layout, const
     return bad_input(
         fmt::format("the results of item {} differ from those in {}, although the sweep is the same: one of the two was changed or made by "
                     "another program; nothing was merged",
-                    listed, path),
+                    listed, file.path),
         {from});
 }
 
 }  // namespace
 
 Result<void> SweepResults::check_same_sweep(const SweepResults& other) const {
-    for (const auto* results : {this, &other})
-        if (!results->impl_->layout.is_current_format()) return results->impl_->layout.read_only_format(results->path());
-    const auto difference = impl_->layout.difference_from(other.impl_->layout);
-    if (difference.empty()) return {};
-    return bad_input(fmt::format("belongs to another sweep than {}: {}", other.path(), difference), {path()});
+    for (const auto* results : {this, &other}) TRY(results->check_current_format(results->path()));
+    const auto found = difference(*this, other);
+    if (found.empty()) return {};
+    return bad_input(fmt::format("belongs to another sweep than {}: {}", other.path(), found), {path()});
 }
 
 Result<std::int64_t> SweepResults::merge(const SweepResults& from) {
-    auto& impl = *impl_;
     TRY(from.check_same_sweep(*this));
     std::error_code status;
     if (std::filesystem::equivalent(path(), from.path(), status)) return bad_input("is also the file to merge into", {from.path()});
-    TRY(impl.begin_writing());
-    auto* file = impl.file.get();
-    auto attach = TRY(sql::Statement::make(file, path(), "ATTACH ? AS source"));
+    TRY(begin_writing());
+    auto attach = TRY(file_.prepare("ATTACH ? AS source"));
     if (auto ok = attach.set(1, std::string_view(from.path())).finish(); !ok)
         return Error{ok.error().code, ok.error().message, {from.path()}};
-    const auto before = impl.finished;
-    auto ok = check_differences(file, impl.layout, path(), from.path());
+    const auto before = finished_;
+    auto ok = check_differences(file_, *this, from.path());
     if (ok) {
-        ok = sql::run(file, path(),
-                      "BEGIN IMMEDIATE;" + insertion_of("items", impl.layout.columns(), item_count()) +
-                          insertion_of("spikes", "item, train, times", item_count()) +
-                          insertion_of("traces", "item, trace, samples", item_count()) + "COMMIT");
-        if (!ok && !sqlite3_get_autocommit(file)) (void)sql::run(file, path(), "ROLLBACK");
+        ok = file_.run("BEGIN IMMEDIATE;" + insertion_of("items", columns(), item_count) +
+                       insertion_of("spikes", "item, train, times", item_count) +
+                       insertion_of("traces", "item, trace, samples", item_count) + "COMMIT");
+        if (!ok && !sqlite3_get_autocommit(file_.file.get())) (void)file_.run("ROLLBACK");
     }
-    if (ok) {
-        const auto rows = sql::query_integer(file, path(), "SELECT count(*) FROM main.items");
-        rows ? void(impl.finished = *rows) : void(ok = rows.error());
-    }
-    if (auto detached = sql::run(file, path(), "DETACH source"); ok) ok = detached;
+    if (ok) ok = count_rows();
+    if (auto detached = file_.run("DETACH source"); ok) ok = detached;
     if (!ok) return ok.error();
-    return impl.finished - before;
+    return finished_ - before;
 }
 
 }  // namespace corpuscle

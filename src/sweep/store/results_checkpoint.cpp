@@ -14,7 +14,7 @@
 #include <fmt/format.h>
 
 #include "io/output/output_file.hpp"
-#include "sweep/store/results_impl.hpp"
+#include "sweep/store/sweep_results.hpp"
 
 namespace corpuscle {
 namespace {
@@ -43,19 +43,19 @@ Result<void> create_empty(const std::string& path) {
 
 /// Opens a file that no other process knows yet. If it is in WAL mode, this ends it, so that other programs can read the file in a
 /// read-only folder. Each transaction is written to disk at once. There is no journal: a file that cannot be completed is removed.
-Result<sql::Handle> open_new_file(const std::string& path) {
+Result<sql::Database> open_new_file(const std::string& path) {
     auto file = TRY(sql::open(path, SQLITE_OPEN_READWRITE));
-    TRY(sql::run(file.get(), path, "PRAGMA locking_mode = EXCLUSIVE; PRAGMA synchronous = FULL; PRAGMA journal_mode = OFF"));
+    TRY(file.run("PRAGMA locking_mode = EXCLUSIVE; PRAGMA synchronous = FULL; PRAGMA journal_mode = OFF"));
     return file;
 }
 
 /// Copies all pages of a database, including those in its -wal, to a new file.
-Result<void> copy_pages(sqlite3* from, const std::string& path) {
+Result<void> copy_pages(const sql::Database& from, const std::string& path) {
     const auto to = TRY(open_new_file(path));
-    auto* backup = sqlite3_backup_init(to.get(), "main", from, "main");
-    if (!backup) return sql::error_of(to.get(), path);
+    auto* backup = sqlite3_backup_init(to.file.get(), "main", from.file.get(), "main");
+    if (!backup) return to.error();
     sqlite3_backup_step(backup, -1);
-    if (sqlite3_backup_finish(backup) != SQLITE_OK) return sql::error_of(to.get(), path);
+    if (sqlite3_backup_finish(backup) != SQLITE_OK) return to.error();
     return {};
 }
 
@@ -69,46 +69,46 @@ Result<void> move_into_place(const std::string& from, const std::string& to) {
 }  // namespace
 
 /// Writes a new file with `write` and moves it to the path of the results.
-Result<void> SweepResults::Impl::replace_file(const std::function<Result<void>(const std::string& new_path)>& write) const {
+Result<void> SweepResults::replace_file(const std::function<Result<void>(const std::string& new_path)>& write) const {
     auto ok = create_empty(checkpoint_path());
     if (ok) ok = write(checkpoint_path());
-    if (ok) ok = move_into_place(checkpoint_path(), path);
+    if (ok) ok = move_into_place(checkpoint_path(), path());
     if (!ok) remove_new_file();
     return ok;
 }
 
-void SweepResults::Impl::remove_new_file() const { ::unlink(checkpoint_path().c_str()), ::unlink((checkpoint_path() + "-wal").c_str()); }
+void SweepResults::remove_new_file() const { ::unlink(checkpoint_path().c_str()), ::unlink((checkpoint_path() + "-wal").c_str()); }
 
-void SweepResults::Impl::remove_wal() const { ::unlink(wal_path().c_str()), ::unlink(shared_memory_path().c_str()); }
+void SweepResults::remove_wal() const { ::unlink(wal_path().c_str()), ::unlink(shared_memory_path().c_str()); }
 
-Result<void> SweepResults::Impl::create_file() const {
+Result<void> SweepResults::create_file() const {
     remove_wal();  // of a file that was removed; it must not be applied to this file
     return replace_file([&](const std::string& new_path) -> Result<void> {
-        const auto opened = TRY(open_new_file(new_path));
-        return layout.write(opened.get(), path);
+        auto opened = TRY(open_new_file(new_path));
+        opened.path = path();
+        return write(opened);
     });
 }
 
-void SweepResults::Impl::set_next_checkpoint_size() {
-    next_checkpoint_size = std::max({min_checkpoint_size, size_of(path), 2 * size_of(wal_path())});
+void SweepResults::set_next_checkpoint_size() {
+    next_checkpoint_size_ = std::max({min_checkpoint_size, size_of(path()), 2 * size_of(wal_path())});
 }
 
 // A kill between replacing the file and removing the -wal is safe: the new file with the old -wal has the same content. A copy of the old
 // file without its -wal has the content of the previous checkpoint.
-Result<void> SweepResults::Impl::checkpoint() {
-    if (std::error_code status; !fs::exists(wal_path(), status) && !is_writing) return {};  // no new rows
+Result<void> SweepResults::checkpoint() {
+    if (std::error_code status; !fs::exists(wal_path(), status) && !is_writing_) return {};  // no new rows
     auto ok = replace_file([&](const std::string& new_path) -> Result<void> {
-        TRY(copy_pages(file.get(), new_path));
+        TRY(copy_pages(file_, new_path));
         TRY(open_new_file(new_path));  // ends WAL mode
         return {};
     });
     if (!ok) return ok;
-    insert_item = {}, insert_spikes = {}, insert_probe = {}, is_writing = false;
-    file.reset();
+    insert_item_ = {}, insert_spikes_ = {}, insert_probe_ = {}, is_writing_ = false;
+    file_.file.reset();
     remove_wal();
-    return open_file(SQLITE_OPEN_READWRITE);
+    file_ = TRY(sql::open(path(), SQLITE_OPEN_READWRITE));
+    return {};
 }
-
-Result<void> SweepResults::checkpoint() { return impl_->checkpoint(); }
 
 }  // namespace corpuscle

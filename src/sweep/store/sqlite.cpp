@@ -39,8 +39,7 @@ bool is_full(sqlite3* file) {
     return sqlite3_errcode(file) == SQLITE_FULL || cause == ENOSPC || cause == EDQUOT;
 }
 
-}  // namespace
-
+/// The error of the last SQLite call on a file; null: it could not be opened.
 Error error_of(sqlite3* file, const std::string& path) {
     const auto error = [&](const std::string& sentence) { return bad_input(sentence, {path}); };
     if (!file) return error("there is not enough memory to open it");
@@ -81,37 +80,45 @@ Error error_of(sqlite3* file, const std::string& path) {
     }
 }
 
+}  // namespace
+
 std::string quoted_name(std::string_view text) {
     std::string out = "\"";
     for (const char c : text) out += c == '"' ? "\"\"" : std::string(1, c);
     return out + "\"";
 }
 
-void Deleter::operator()(sqlite3* file) const { sqlite3_close(file); }
+void Deleter::operator()(sqlite3* file) const { sqlite3_close_v2(file); }
 void Deleter::operator()(sqlite3_stmt* statement) const { sqlite3_finalize(statement); }
 
-Result<void> run(sqlite3* file, const std::string& path, const std::string& statements) {
-    if (sqlite3_exec(file, statements.c_str(), nullptr, nullptr, nullptr) != SQLITE_OK) return error_of(file, path);
+Error Database::error() const { return error_of(file.get(), path); }
+
+Result<void> Database::run(const std::string& statements) const {
+    if (sqlite3_exec(file.get(), statements.c_str(), nullptr, nullptr, nullptr) != SQLITE_OK) return error();
     return {};
 }
 
-Result<Handle> open(const std::string& path, int flags) {
+Result<Statement> Database::prepare(const std::string& text) const {
+    sqlite3_stmt* opened = nullptr;
+    if (sqlite3_prepare_v3(file.get(), text.c_str(), static_cast<int>(text.size()), SQLITE_PREPARE_PERSISTENT, &opened, nullptr) !=
+        SQLITE_OK)
+        return error();
+    return Statement(opened, path);
+}
+
+Result<std::int64_t> Database::query_integer(const std::string& query) const {
+    auto statement = TRY(prepare(query));
+    return TRY(statement.step()) ? statement.integer(0) : 0;
+}
+
+Result<Database> open(const std::string& path, int flags) {
     sqlite3* opened = nullptr;
     const int code = sqlite3_open_v2(path.c_str(), &opened, flags | SQLITE_OPEN_EXRESCODE, nullptr);
-    Handle file(opened);
-    if (code != SQLITE_OK) return error_of(opened, path);
+    Database out{path, std::unique_ptr<sqlite3, Deleter>(opened)};
+    if (code != SQLITE_OK) return out.error();
     sqlite3_busy_timeout(opened, wait_ms);
     sqlite3_db_config(opened, SQLITE_DBCONFIG_NO_CKPT_ON_CLOSE, 1, nullptr);
     restrict_connection(opened);
-    return file;
-}
-
-Result<Statement> Statement::make(sqlite3* file, const std::string& path, const std::string& text) {
-    Statement out;
-    sqlite3_stmt* opened = nullptr;
-    if (sqlite3_prepare_v3(file, text.c_str(), static_cast<int>(text.size()), SQLITE_PREPARE_PERSISTENT, &opened, nullptr) != SQLITE_OK)
-        return error_of(file, path);
-    out.statement_.reset(opened), out.database_ = file, out.path_ = &path;
     return out;
 }
 
@@ -130,7 +137,7 @@ Result<bool> Statement::step() {
     const int code = sqlite3_step(statement_.get());
     if (code == SQLITE_ROW) return true;
     if (code == SQLITE_DONE) return false;
-    const auto error = error_of(database_, *path_);
+    const auto error = error_of(sqlite3_db_handle(statement_.get()), path_);
     reset();
     return error;
 }
@@ -156,11 +163,6 @@ bool Statement::is_null(int column) const { return sqlite3_column_type(statement
 std::span<const std::byte> Statement::bytes(int column) const {
     const auto* data = static_cast<const std::byte*>(sqlite3_column_blob(statement_.get(), column));
     return {data, static_cast<std::size_t>(sqlite3_column_bytes(statement_.get(), column))};
-}
-
-Result<std::int64_t> query_integer(sqlite3* file, const std::string& path, const std::string& text) {
-    auto statement = TRY(Statement::make(file, path, text));
-    return TRY(statement.step()) ? statement.integer(0) : 0;
 }
 
 }  // namespace corpuscle::sql

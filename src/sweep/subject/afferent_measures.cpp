@@ -20,20 +20,26 @@ AfferentMeasures::AfferentMeasures(const SweepForce& nominal, bool is_circuit, s
         add(column_of(measures[m]), is_default, [](const Values& v, const Entry& entry) { return v.total[entry.index]; }, m);
     }
     add({"first_spike", "s", "time of the first spike"}, true,
-        [](const Values& v, const Entry&) { return v.response.spikes.empty() ? no_value : v.response.spikes.front(); });
+        [](const Values& v, const Entry&) { return v.spikes.empty() ? no_value : v.spikes.front(); });
     add({"last_spike", "s", "time of the last spike"}, true,
-        [](const Values& v, const Entry&) { return v.response.spikes.empty() ? no_value : v.response.spikes.back(); });
+        [](const Values& v, const Entry&) { return v.spikes.empty() ? no_value : v.spikes.back(); });
     if (is_circuit) {
-        add({"power", "W", "mean power of all sources"}, true, [](const Values& v, const Entry&) { return v.response.power; });
+        add({"power", "W", "mean power of all sources"}, true,
+            [](const Values& v, const Entry&) { return v.response->energy_use.supplies / v.response->energy_use.seconds; });
         add({"sensor_power", "W", "the part of the power due to the sensor's current"}, true,
-            [](const Values& v, const Entry&) { return v.response.sensor_power; });
+            [](const Values& v, const Entry&) { return v.response->energy_use.sensor / v.response->energy_use.seconds; });
         add({"outside", "s", "total time outside an operating range; with several ranges, the longest of their times"}, true,
-            [](const Values& v, const Entry&) { return v.response.time_outside; });
-        add({"iterations", "", "Newton iterations"}, false, [](const Values& v, const Entry&) { return v.response.iterations; });
+            [](const Values& v, const Entry&) {
+                double longest = 0;
+                for (std::size_t r = 0; r < v.response->range_violations.size(); ++r) longest = std::max(longest, v.time_outside(r));
+                return longest;
+            });
+        add({"iterations", "", "Newton iterations"}, false,
+            [](const Values& v, const Entry&) { return static_cast<double>(v.response->stats.iterations); });
         for (std::size_t r = 0; r < ranges.size(); ++r)
             add(
                 {"outside." + ranges[r], "s", fmt::format("total time that {} is outside its range", ranges[r])}, false,
-                [](const Values& v, const Entry& entry) { return v.response.time_outside_ranges[entry.index]; }, r);
+                [](const Values& v, const Entry& entry) { return v.time_outside(entry.index); }, r);
     }
     for (const auto& phase : nominal.phases)
         for (std::size_t m = 0; m < std::size(measures); ++m) {
@@ -82,18 +88,19 @@ Result<std::size_t> AfferentMeasures::require_column(const LocatedText& name) {
                                        did_you_mean(name.text, names), listed, names.back()));
 }
 
-std::vector<double> AfferentMeasures::values(const SweepForce& force, const ItemResponse& response) const {
+std::vector<double> AfferentMeasures::values(const SweepForce& force, std::span<const double> spikes,
+                                             const circuit::ChipResponse* response) const {
     std::vector<TimeWindow> windows;
     for (const auto& p : force.phases) windows.push_back({p.from, p.to, force.cycle_frequency});
     // The accumulators have one train, with index 0.
     MeasureAccumulator total({{.stimulus_frequency = force.cycle_frequency}}, 1), phases(std::move(windows), 1);
     const bool by_phase = std::any_of(selected_.begin(), selected_.end(), [](const Entry& entry) { return !entry.phase.empty(); });
-    for (const double t : response.spikes) {
+    for (const double t : spikes) {
         total.spike(0, t);
         if (by_phase) phases.spike(0, t);
     }
     total.set_end(force.end()), phases.set_end(force.end());
-    Values all{response, total.values(0, 0), {}};
+    Values all{force, spikes, response, total.values(0, 0), {}};
     for (std::size_t p = 0; by_phase && p < force.phases.size(); ++p) all.of_phases[force.phases[p].name] = phases.values(0, p);
     std::vector<double> out;
     for (const auto& entry : selected_) out.push_back(entry.value(all, entry));

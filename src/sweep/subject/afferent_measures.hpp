@@ -5,27 +5,26 @@
 #include <map>
 #include <span>
 
+#include "circuit/batch/chip_batch.hpp"
 #include "sweep/spec/sweep_force.hpp"
 
 namespace corpuscle::sweeps {
-
-/// The result of one simulated item.
-struct ItemResponse {
-    std::span<const double> spikes;  ///< times since the first sample of the force, s
-    // The following are of a circuit only.
-    double power = 0, sensor_power = 0;            ///< mean over the force, W; sensor_power is part of power
-    double time_outside = 0;                       ///< the largest of time_outside_ranges, s
-    std::vector<double> time_outside_ranges = {};  ///< for each operating range (.assert): total time outside it, s
-    double iterations = 0;                         ///< Newton iterations
-};
 
 /// The measures that are available for the items of a sweep, and those that are selected.
 class AfferentMeasures {
     /// The values from which the measures of an item follow.
     struct Values {
-        const ItemResponse& response;
+        const SweepForce& force;
+        std::span<const double> spikes;                        ///< times since the first sample of the force, s
+        const circuit::ChipResponse* response;                 ///< of a circuit
         std::vector<double> total;                             ///< of each of `measures`, over the complete force
         std::map<std::string, std::vector<double>> of_phases;  ///< the same for each phase, by its name; empty if they are not needed
+
+        /// Total time outside an operating range (.assert) of a circuit, s.
+        double time_outside(std::size_t range) const {
+            const auto& all = response->range_violations;
+            return range < all.size() ? static_cast<double>(all[range].samples) * force.clock.T() : 0;
+        }
     };
     struct Entry {
         SweepColumn column;
@@ -49,8 +48,9 @@ public:
     Result<std::size_t> require_column(const LocatedText& name);
     const std::vector<SweepColumn>& columns() const { return columns_; }
 
-    /// The values of the selected measures, in the order of columns(); NaN: no value.
-    std::vector<double> values(const SweepForce&, const ItemResponse&) const;
+    /// The values of the selected measures, in the order of columns(); NaN: no value. `spikes`: times since the first sample of the force,
+    /// s. `response`: of a circuit.
+    std::vector<double> values(const SweepForce&, std::span<const double> spikes, const circuit::ChipResponse* response = nullptr) const;
 };
 
 }  // namespace corpuscle::sweeps

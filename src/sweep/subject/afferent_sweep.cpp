@@ -5,6 +5,7 @@
 
 #include "core/text/quantity.hpp"
 #include "run/afferent_plan.hpp"
+#include "run/simulate.hpp"
 #include "sweep/subject/subject.hpp"
 
 namespace corpuscle::sweeps {
@@ -22,6 +23,16 @@ Result<std::size_t> probe_stride(const ConfigNode* given, double T) {
 
 }  // namespace
 
+Result<SimulatedResponse> simulate_afferent(const Afferent& afferent, const SweepForce& force, std::span<const std::size_t> probes,
+                                            std::size_t every, const std::function<bool()>& stop) {
+    const auto response = TRY(simulate(afferent, force.samples, {probes, every, stop}));
+    SimulatedResponse out;
+    for (const auto& values : response.probes) out.probe_samples.emplace_back(values.begin(), values.end());
+    for (const auto& s : response.spikes)
+        if (s.step <= static_cast<std::int64_t>(force.samples.size())) out.spikes.push_back(force.clock.time(s.step, s.offset));
+    return out;
+}
+
 Result<void> AfferentSweep::open_force(const SweepText& spec, const std::string& folder) {
     if (const auto* orders = spec.get("orders"))
         return orders->error_here("orders applies to netlist = ...; an afferent = ... responds to its force");
@@ -30,25 +41,21 @@ Result<void> AfferentSweep::open_force(const SweepText& spec, const std::string&
     return {};
 }
 
-Result<VariedQuantity> AfferentSweep::find_quantity(const LocatedText& quantity) const {
+Result<VariedQuantity> AfferentSweep::find_quantity(const LocatedText& quantity) {
     return force_.has_parameter(quantity.text) ? force_.find_quantity(quantity) : find_afferent_quantity(quantity);
-}
-
-void AfferentSweep::vary(const SweepAxis& a, const std::string& quantity, std::size_t axis) {
-    force_.has_parameter(quantity) ? force_.vary(quantity, axis) : vary_afferent(a, quantity, axis);
 }
 
 Result<void> AfferentSweep::select_measures(const SweepText& spec) {
     TRY(force_.prepare());
     afferent_measures_ = std::make_unique<AfferentMeasures>(*force_.nominal(), circuit() != nullptr, range_names());
     TRY(afferent_measures_->select(spec.get("measures")));
-    measures_ = afferent_measures_->columns();
+    measures = afferent_measures_->columns();
     return {};
 }
 
 Result<std::size_t> AfferentSweep::measure_column(const LocatedText& measure) {
     const auto column = TRY(afferent_measures_->require_column(measure));
-    if (column == measures_.size()) measures_.push_back(afferent_measures_->columns().back());
+    if (column == measures.size()) measures.push_back(afferent_measures_->columns().back());
     return column;
 }
 
@@ -59,19 +66,19 @@ Result<double> AfferentSweep::model_value(const LocatedText& model, std::size_t 
     const auto& force = *force_.nominal();
     const auto afferent = make_afferent(plan.result, {force.clock.T()});
     const auto response = TRY(simulate_afferent(*afferent, force));
-    AfferentMeasures measures(force, false, {});
-    const auto measure = TRY(measures.require_column({measures_[column].name, model.location}));
-    return measures.values(force, {response.spikes})[measure];
+    AfferentMeasures of_model(force, false, {});
+    const auto measure = TRY(of_model.require_column({measures[column].name, model.location}));
+    return of_model.values(force, response.spikes)[measure];
 }
 
 Result<void> AfferentSweep::select_outputs(const SweepText& spec, bool keeps_spikes) {
-    if (keeps_spikes) train_names_ = {subject_name()};
+    if (keeps_spikes) train_names = {subject_name()};
     const auto probes = spec.top.elements_of("traces");
     if (probes.empty()) return {};
     for (const auto& probe : probes) TRY(add_probe(probe));
     const auto& force = *force_.nominal();
     every_ = TRY(probe_stride(spec.get("every"), force.clock.T()));
-    for (std::size_t k = 0; k < force.samples.size(); k += every_) probe_times_.push_back(force.clock.time(static_cast<std::int64_t>(k)));
+    for (std::size_t k = 0; k < force.samples.size(); k += every_) probe_times.push_back(force.clock.time(static_cast<std::int64_t>(k)));
     return {};
 }
 

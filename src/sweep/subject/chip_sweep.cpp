@@ -29,141 +29,120 @@ class ChipSweep final : public AfferentSweep {
         DesignPointer design;
     };
 
-    Result<void> open(const SweepText&, const std::string& folder) override;
-    const circuit::Circuit* circuit() const override { return nominal_->circuit.get(); }
-    Result<VariedQuantity> find_afferent_quantity(const LocatedText& quantity) const override { return netlist_.find_quantity(quantity); }
-    void vary_afferent(const SweepAxis& a, const std::string& quantity, std::size_t axis) override {
-        netlist_.vary(quantity, axis, a.column.labels);
+    Result<void> open(const SweepText& spec, const std::string& folder) override {
+        netlist_ = TRY(NetlistFactory::of(*spec.get("afferent"), folder));
+        TRY(open_force(spec, folder));
+        for (const auto& s : spec.top.settings("set")) TRY(force_.has_parameter(s.name) ? force_.set(s) : netlist_.set(s));
+        nominal_ = TRY(CircuitAfferentFactory::create(TRY(netlist_.nominal())));
+        return {};
     }
-    std::vector<std::string> range_names() const override;
-    Result<void> add_probe(const LocatedText& probe) override;
-    Result<std::int64_t> nominal_iterations(const std::function<bool()>& stop) const override;
+
+    const circuit::Circuit* circuit() const override { return nominal_->circuit.get(); }
+    Result<VariedQuantity> find_afferent_quantity(const LocatedText& quantity) override { return netlist_.find_quantity(quantity); }
+    std::vector<std::string> range_names() const override {
+        std::vector<std::string> out;
+        for (const auto& w : nominal_->operating_ranges) out.emplace_back(w.range().quantity);
+        return out;
+    }
+
+    /// The probes that are written to the results replace those in the netlist's .save.
+    Result<void> add_probe(const LocatedText& probe) override {
+        const auto found = TRY(probe.located(circuit::resolve_probe(*nominal_->circuit, probe.text)));
+        if (!found)
+            return probe.error_here(fmt::format("traces: {} has no node or device '{}'{}", netlist_.name(), probe.text,
+                                                circuit::suggest_probe(*nominal_->circuit, probe.text)));
+        probe_names.push_back(*found);
+        netlist_.save(probe_names);
+        nominal_ = TRY(CircuitAfferentFactory::create(TRY(netlist_.nominal())));
+        return {};
+    }
+
+    /// Those of the nominal chip with the nominal force.
+    Result<std::int64_t> nominal_iterations(const std::function<bool()>& stop) const override {
+        const auto& force = *force_.nominal();
+        circuit::BatchOptions options;
+        options.should_stop = stop;
+        const auto response =
+            circuit::run_chip_scalar({0, nominal_, circuit::chip_sample_of(*nominal_->circuit), force.samples, force.clock.T()}, options);
+        return response.error ? Result<std::int64_t>(*response.error) : response.stats.iterations;
+    }
+
     /// The design for an item with these axis values.
-    Result<DesignPointer> design(std::span<const double> values) const;
+    Result<DesignPointer> design(std::span<const double> values) const {
+        if (!netlist_.varies()) return nominal_;
+        return designs_.get(netlist_.netlist_values(values),
+                            [&]() -> Result<DesignPointer> { return CircuitAfferentFactory::create(TRY(netlist_.at(values))); });
+    }
+
     /// The sample that the netlist itself fixes by its mismatch seed, otherwise the one that the sweep draws for the item.
-    std::optional<circuit::ChipSample> chip_sample(std::int64_t item, const CircuitAfferentFactory&) const;
-    ItemOutcome outcome(std::int64_t item, const ActiveChip&, ChipResponse&&) const;
+    std::optional<circuit::ChipSample> chip_sample(std::int64_t item, const CircuitAfferentFactory& design) const {
+        if (auto fixed_sample = circuit::chip_sample_of(*design.circuit)) return fixed_sample;
+        return plan_.chip_sample(item);
+    }
+
+    ItemOutcome outcome(std::int64_t item, const ActiveChip& chip, ChipResponse&& response) const {
+        auto out = failed_outcome(item, response.error ? response.error->text() : "");
+        out.ran_alone = response.is_scalar, out.steps = response.stats.steps, out.iterations = response.stats.iterations;
+        if (response.error) return out;
+        if (!train_names.empty()) out.spikes[0] = response.spikes;
+        out.probes = padded_probes(std::move(response.probes));
+        if (response.hit_iteration_limit) {
+            out.end = ItemEnd::iteration_limit, out.reason = fmt::format("stopped after {} iterations", response.stats.iterations);
+            return out;
+        }
+        out.end = ItemEnd::done;
+        out.measures = afferent_measures_->values(*chip.force, response.spikes, &response);
+        return out;
+    }
 
 public:
     void set_lanes(std::size_t lanes) override { lanes_ = lanes; }
-    Result<void> run_items(const NextItem&, const OutcomeHandler&, const std::function<bool()>& stop) const override;
+
+    Result<void> run_items(const NextItem& next, const OutcomeHandler& on_outcome, const std::function<bool()>& stop) const override {
+        circuit::BatchOptions options;
+        options.should_stop = stop, options.probe_every = every_, options.lanes = lanes_;
+        options.max_iterations = find_iteration_limit(stop);
+        std::map<std::int64_t, ActiveChip> active;  // by item; keeps forces and designs alive
+        std::optional<Error> sweep_error;
+        const auto chip_of = [&](std::int64_t item, ActiveChip& at) {
+            return Chip{item, at.design, chip_sample(item, *at.design), at.force->samples, at.force->clock.T()};
+        };
+        const auto next_chip = [&]() -> std::optional<Chip> {
+            while (!stop() && !sweep_error) {
+                const auto item = next();
+                if (!item) return {};
+                const auto values = plan_.values(*item);
+                const auto force = force_.at(values);
+                if (!force) return sweep_error = force.error(), std::nullopt;
+                const auto item_design = design(values);
+                if (!item_design) {
+                    on_outcome(failed_outcome(*item, item_design.error().text()));
+                    continue;
+                }
+                ActiveChip at{*force, *item_design};
+                if (at.design == nominal_ || same_devices(*at.design->circuit, *nominal_->circuit)) {
+                    auto& active_chip = active[*item] = std::move(at);
+                    return chip_of(*item, active_chip);
+                }
+                auto response = circuit::run_chip_scalar(chip_of(*item, at), options);  // a circuit with other devices cannot share lanes
+                if (response.error && response.error->code == ErrorCode::interrupted) return {};
+                response.is_scalar = true;
+                on_outcome(outcome(*item, at, std::move(response)));
+            }
+            return {};
+        };
+        const auto on_done = [&](const Chip& chip, ChipResponse&& response) {
+            const auto at = active.find(chip.id);  // next_chip() has inserted it
+            if (!response.error || response.error->code != ErrorCode::interrupted)
+                on_outcome(outcome(chip.id, at->second, std::move(response)));
+            active.erase(at);
+        };
+        const auto done = circuit::run_chips(nominal_, next_chip, on_done, options);
+        if (sweep_error) return *sweep_error;
+        if (!done && done.error().code == ErrorCode::interrupted) return {};
+        return done;
+    }
 };
-
-Result<void> ChipSweep::open(const SweepText& spec, const std::string& folder) {
-    netlist_ = TRY(NetlistFactory::of(*spec.get("afferent"), folder));
-    TRY(open_force(spec, folder));
-    for (const auto& s : spec.top.settings("set")) TRY(force_.has_parameter(s.name) ? force_.set(s) : netlist_.set(s));
-    nominal_ = TRY(CircuitAfferentFactory::create(TRY(netlist_.nominal())));
-    return {};
-}
-
-std::vector<std::string> ChipSweep::range_names() const {
-    std::vector<std::string> out;
-    for (const auto& w : nominal_->operating_ranges) out.emplace_back(w.range().quantity);
-    return out;
-}
-
-/// The probes that are written to the results replace those in the netlist's .save.
-Result<void> ChipSweep::add_probe(const LocatedText& probe) {
-    const auto found = TRY(probe.located(circuit::resolve_probe(*nominal_->circuit, probe.text)));
-    if (!found)
-        return probe.error_here(fmt::format("traces: {} has no node or device '{}'{}", netlist_.name(), probe.text,
-                                            circuit::suggest_probe(*nominal_->circuit, probe.text)));
-    probe_names_.push_back(*found);
-    netlist_.save(probe_names_);
-    nominal_ = TRY(CircuitAfferentFactory::create(TRY(netlist_.nominal())));
-    return {};
-}
-
-Result<DesignPointer> ChipSweep::design(std::span<const double> values) const {
-    if (!netlist_.varies()) return nominal_;
-    return designs_.get(netlist_.netlist_values(values),
-                        [&]() -> Result<DesignPointer> { return CircuitAfferentFactory::create(TRY(netlist_.at(values))); });
-}
-
-std::optional<circuit::ChipSample> ChipSweep::chip_sample(std::int64_t item, const CircuitAfferentFactory& design) const {
-    if (auto fixed_sample = circuit::chip_sample_of(*design.circuit)) return fixed_sample;
-    return plan_.chip_sample(item);
-}
-
-/// Those of the nominal chip with the nominal force.
-Result<std::int64_t> ChipSweep::nominal_iterations(const std::function<bool()>& stop) const {
-    const auto& force = *force_.nominal();
-    circuit::BatchOptions options;
-    options.should_stop = stop;
-    const auto response =
-        circuit::run_chip_scalar({0, nominal_, circuit::chip_sample_of(*nominal_->circuit), force.samples, force.clock.T()}, options);
-    return response.error ? Result<std::int64_t>(*response.error) : response.stats.iterations;
-}
-
-ItemOutcome ChipSweep::outcome(std::int64_t item, const ActiveChip& chip, ChipResponse&& response) const {
-    auto out = failed_outcome(item, response.error ? response.error->text() : "");
-    out.ran_alone = response.is_scalar, out.steps = response.stats.steps, out.iterations = response.stats.iterations;
-    if (response.error) return out;
-    if (!train_names_.empty()) out.spikes[0] = response.spikes;
-    out.probes = padded_probes(std::move(response.probes));
-    if (response.hit_iteration_limit) {
-        out.end = ItemEnd::iteration_limit, out.reason = fmt::format("stopped after {} iterations", response.stats.iterations);
-        return out;
-    }
-    out.end = ItemEnd::done;
-    ItemResponse measured;
-    measured.spikes = response.spikes, measured.iterations = static_cast<double>(response.stats.iterations);
-    const double T = chip.force->clock.T(), seconds = response.energy_use.seconds;
-    measured.power = response.energy_use.supplies / seconds, measured.sensor_power = response.energy_use.sensor / seconds;
-    for (const auto& o : response.range_violations) {
-        measured.time_outside_ranges.push_back(static_cast<double>(o.samples) * T);
-        measured.time_outside = std::max(measured.time_outside, measured.time_outside_ranges.back());
-    }
-    measured.time_outside_ranges.resize(nominal_->operating_ranges.size());
-    out.measures = afferent_measures_->values(*chip.force, measured);
-    return out;
-}
-
-Result<void> ChipSweep::run_items(const NextItem& next, const OutcomeHandler& on_outcome, const std::function<bool()>& stop) const {
-    circuit::BatchOptions options;
-    options.should_stop = stop, options.probe_every = every_, options.lanes = lanes_;
-    options.max_iterations = find_iteration_limit(stop);
-    std::map<std::int64_t, ActiveChip> active;  // by item; keeps forces and designs alive
-    std::optional<Error> sweep_error;
-    const auto chip_of = [&](std::int64_t item, ActiveChip& at) {
-        return Chip{item, at.design, chip_sample(item, *at.design), at.force->samples, at.force->clock.T()};
-    };
-    const auto next_chip = [&]() -> std::optional<Chip> {
-        while (!stop() && !sweep_error) {
-            const auto item = next();
-            if (!item) return {};
-            const auto values = plan_.values(*item);
-            const auto force = force_.at(values);
-            if (!force) return sweep_error = force.error(), std::nullopt;
-            const auto item_design = design(values);
-            if (!item_design) {
-                on_outcome(failed_outcome(*item, item_design.error().text()));
-                continue;
-            }
-            ActiveChip at{*force, *item_design};
-            if (at.design == nominal_ || same_devices(*at.design->circuit, *nominal_->circuit)) {
-                auto& active_chip = active[*item] = std::move(at);
-                return chip_of(*item, active_chip);
-            }
-            auto response = circuit::run_chip_scalar(chip_of(*item, at), options);  // a circuit with other devices cannot share lanes
-            if (response.error && response.error->code == ErrorCode::interrupted) return {};
-            response.is_scalar = true;
-            on_outcome(outcome(*item, at, std::move(response)));
-        }
-        return {};
-    };
-    const auto on_done = [&](const Chip& chip, ChipResponse&& response) {
-        const auto at = active.find(chip.id);  // next_chip() has inserted it
-        if (!response.error || response.error->code != ErrorCode::interrupted)
-            on_outcome(outcome(chip.id, at->second, std::move(response)));
-        active.erase(at);
-    };
-    const auto done = circuit::run_chips(nominal_, next_chip, on_done, options);
-    if (sweep_error) return *sweep_error;
-    if (!done && done.error().code == ErrorCode::interrupted) return {};
-    return done;
-}
 
 }  // namespace
 

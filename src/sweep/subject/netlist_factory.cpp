@@ -56,7 +56,7 @@ Result<double> any_number(const LocatedText& spec) {
 
 /// The source files, as they were first read, so that changes of a file during the sweep have no effect.
 struct NetlistFactory::Files {
-    std::mutex mutex;
+    std::recursive_mutex mutex;                              // a netlist includes other files
     std::vector<std::pair<std::string, std::string>> texts;  // path and text
     std::map<std::string, Netlist> by_corner;                // parsed netlists
 };
@@ -86,31 +86,22 @@ Result<NetlistFactory> NetlistFactory::of(const LocatedText& name_or_path, const
 }
 
 Result<std::string> NetlistFactory::text_of(const std::string& path) const {
-    {
-        const std::lock_guard lock(files_->mutex);
-        for (const auto& [name, text] : files_->texts)
-            if (name == path) return text;
-    }
+    const std::lock_guard lock(files_->mutex);
+    for (const auto& [name, text] : files_->texts)
+        if (name == path) return text;
     auto text = is_embedded_ ? embedded_text(path) : read_netlist_file(fs::path(folder_) / path, path);
     if (!text) return text;
-    const std::lock_guard lock(files_->mutex);
     files_->texts.emplace_back(path, *text);
     return text;
 }
 
 Result<Netlist> NetlistFactory::open(const std::string& corner) const {
-    {
-        const std::lock_guard lock(files_->mutex);
-        if (const auto at = files_->by_corner.find(corner); at != files_->by_corner.end()) return at->second;
-    }
-    auto text = text_of(file_);
-    if (!text) return text.error();
-    if (!directives_.empty()) text = with_directives(*text, directives_);
-    auto netlist = Netlist::parse(std::move(*text), file_, [this](const std::string& path) { return text_of(path); }, corner);
-    if (!netlist) return netlist;
     const std::lock_guard lock(files_->mutex);
-    files_->by_corner.emplace(corner, *netlist);
-    return netlist;
+    if (const auto at = files_->by_corner.find(corner); at != files_->by_corner.end()) return at->second;
+    auto text = TRY(text_of(file_));
+    if (!directives_.empty()) text = with_directives(text, directives_);
+    auto netlist = TRY(Netlist::parse(std::move(text), file_, [this](const std::string& path) { return text_of(path); }, corner));
+    return files_->by_corner.emplace(corner, std::move(netlist)).first->second;
 }
 
 ParameterOverride NetlistFactory::override_of(const std::string& name, std::string value) const {
@@ -119,12 +110,11 @@ ParameterOverride NetlistFactory::override_of(const std::string& name, std::stri
 }
 
 Result<Netlist> NetlistFactory::with_overrides(std::span<const ParameterOverride> overrides) const {
-    auto applied = circuit::apply_overrides([this](const std::string& corner) { return open(corner); }, file_, overrides);
-    if (!applied) return applied.error();
-    if (saved_curves_.empty()) return std::move(applied->result);
-    auto changes = applied->result.overrides();
+    auto applied = TRY(circuit::apply_overrides([this](const std::string& corner) { return open(corner); }, file_, overrides));
+    if (saved_curves_.empty()) return std::move(applied.result);
+    auto changes = applied.result.overrides();
     changes.replaces_saved = true, changes.saved = saved_curves_;
-    return applied->result.with_overrides(std::move(changes));
+    return applied.result.with_overrides(std::move(changes));
 }
 
 Result<void> NetlistFactory::set(const LocatedSetting& setting) {
@@ -136,7 +126,7 @@ Result<void> NetlistFactory::set(const LocatedSetting& setting) {
     return {};
 }
 
-Result<VariedQuantity> NetlistFactory::find_quantity(const LocatedText& quantity) const {
+Result<VariedQuantity> NetlistFactory::find_quantity(const LocatedText& quantity) {
     const auto check = [this, name = quantity.text](const std::string& value) -> Result<void> {
         auto extended = overrides_;
         extended.push_back(override_of(name, value));
@@ -145,6 +135,7 @@ Result<VariedQuantity> NetlistFactory::find_quantity(const LocatedText& quantity
     };
     VariedQuantity out{{quantity.text, "", ""}};
     out.parse = any_number, out.check = check, out.allows_labels = true;
+    out.vary = [this, name = quantity.text](std::size_t axis, const auto& labels) { varied_.push_back({name, axis, labels}); };
     const auto lowercase = lower(quantity.text);
     if (lowercase == "corner") {
         out.labels_only = true, out.column.description = "process corner";
@@ -167,10 +158,6 @@ Result<VariedQuantity> NetlistFactory::find_quantity(const LocatedText& quantity
     return out;
 }
 
-void NetlistFactory::vary(const std::string& quantity, std::size_t axis, std::vector<std::string> labels) {
-    varied_.push_back({quantity, axis, std::move(labels)});
-}
-
 Result<Netlist> NetlistFactory::at(std::span<const double> values) const {
     auto overrides = overrides_;
     for (const auto& v : varied_)
@@ -185,9 +172,9 @@ std::vector<double> NetlistFactory::netlist_values(std::span<const double> value
     return out;
 }
 
-std::vector<Sweep::MetadataText> NetlistFactory::metadata() const {
+std::vector<MetadataText> NetlistFactory::metadata() const {
     const std::lock_guard lock(files_->mutex);
-    std::vector<Sweep::MetadataText> out;
+    std::vector<MetadataText> out;
     for (const auto& [name, text] : files_->texts) {
         const fs::path path = name;
         out.push_back(

@@ -45,9 +45,7 @@ public:
     const std::string& name() const { return name_; }
     /// Adds a fixed setting.
     Result<void> set(const LocatedSetting&);
-    Result<VariedQuantity> find_quantity(const LocatedText& quantity) const;
-    /// Takes the values of this quantity from the axis with this index. `labels`: of the axis; empty if its values are numbers.
-    void vary(const std::string& quantity, std::size_t axis, std::vector<std::string> labels);
+    Result<VariedQuantity> find_quantity(const LocatedText& quantity);
     bool varies() const { return !varied_.empty(); }
     /// Replaces the curves of all .save lines.
     void save(std::vector<std::string> curves) { saved_curves_ = std::move(curves); }
@@ -60,7 +58,7 @@ public:
     std::vector<double> netlist_values(std::span<const double> values) const;
 
     /// One entry for each file that was read, with its text.
-    std::vector<Sweep::MetadataText> metadata() const;
+    std::vector<MetadataText> metadata() const;
 };
 
 /// True if two circuits have the same devices at the same nodes and differ at most in numbers.

@@ -36,7 +36,7 @@ Result<bool> keeps_spikes(const SweepText& spec) {
 /// Reads the limits of one measure, {at_least = ..., at_most = ...} or {like = "sa1", within = ...}, into its column.
 Result<void> PlannedSweep::set_limit(const ConfigNode& node, const LocatedText& measure) {
     const auto at = TRY(measure_column(measure));
-    auto& column = measures_[at];
+    auto& column = measures[at];
     const auto wrong = [&](const LocatedText& s, std::string why) { return s.error_here(fmt::format("{}: {}", measure.text, why)); };
     const auto read = [&](const LocatedText& s, const std::string& unit) {
         return s.located(parse_quantity(s.text, unit), measure.text + ": ");
@@ -89,6 +89,7 @@ Result<void> PlannedSweep::set_limits(const ConfigNode& table, const std::string
 Result<void> PlannedSweep::prepare(const SweepText& spec, const std::string& folder) {
     TRY(open(spec, folder));
     plan_ = TRY(read_plan(spec));
+    item_count = plan_.item_count(), axes = plan_.columns();
     if (plan_.samples_chips() && circuit()->mismatch_seed)
         return bad_input("[set] selects one chip by mismatch = ..., but the sweep samples others; remove one of the two", {spec.file()});
     if (const auto* given = spec.get("iterations"); given && circuit()) {
@@ -99,20 +100,18 @@ Result<void> PlannedSweep::prepare(const SweepText& spec, const std::string& fol
     const bool keeps = TRY(keeps_spikes(spec));
     TRY(select_outputs(spec, keeps));
     const auto* given_title = spec.get("title");
-    metadata_ = {{"title", given_title ? given_title->text : title()}, {"results format", fmt::format("{}", results_format)}};
-    if (!spec.canonical.empty()) metadata_.push_back({"sweep file", spec.canonical});
+    metadata = {{"title", given_title ? given_title->text : title()}, {"results format", fmt::format("{}", results_format)}};
+    if (!spec.canonical.empty()) metadata.push_back({"sweep file", spec.canonical});
     if (circuit())
-        for (auto& entry : netlist_.metadata()) metadata_.push_back(std::move(entry));
+        for (auto& entry : netlist_.metadata()) metadata.push_back(std::move(entry));
     if (auto recorded = force_.recording_summary(); !recorded.empty())
-        metadata_.push_back({"recording " + force_.name(), std::move(recorded)});
-    if (plan_.chips().has_mismatch) {
-        const MismatchSamples samples{plan_.chips().seed, plan_.samples(), {{subject_name(), mismatch_devices(*circuit())}}};
-        metadata_.push_back({mismatch_metadata_name, format_mismatch_samples(samples)});
+        metadata.push_back({"recording " + force_.name(), std::move(recorded)});
+    if (plan_.chips.has_mismatch) {
+        const MismatchSamples samples{plan_.chips.seed, plan_.samples, {{subject_name(), mismatch_devices(*circuit())}}};
+        metadata.push_back({mismatch_metadata_name, format_mismatch_samples(samples)});
     }
     return {};
 }
-
-Result<std::int64_t> PlannedSweep::nominal_iterations(const std::function<bool()>&) const { return 0; }
 
 long PlannedSweep::find_iteration_limit(const std::function<bool()>& stop) const {
     if (iteration_limit_ > 0) return iteration_limit_;
@@ -126,15 +125,15 @@ long PlannedSweep::find_iteration_limit(const std::function<bool()>& stop) const
 
 ItemOutcome PlannedSweep::failed_outcome(std::int64_t item, std::string reason, ItemEnd end) const {
     ItemOutcome out{item, end, std::move(reason)};
-    out.measures.assign(measures_.size(), no_value);
-    out.spikes.resize(train_names_.size());
+    out.measures.assign(measures.size(), no_value);
+    out.spikes.resize(train_names.size());
     out.probes = padded_probes({});
     return out;
 }
 
 std::vector<std::vector<float>> PlannedSweep::padded_probes(std::vector<std::vector<float>> samples) const {
-    samples.resize(probe_names_.size());
-    for (auto& probe : samples) probe.resize(probe_times_.size(), std::numeric_limits<float>::quiet_NaN());
+    samples.resize(probe_names.size());
+    for (auto& probe : samples) probe.resize(probe_times.size(), std::numeric_limits<float>::quiet_NaN());
     return samples;
 }
 

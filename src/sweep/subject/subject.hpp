@@ -29,10 +29,6 @@ class PlannedSweep : public Sweep {
 
 protected:
     SweepPlan plan_;
-    std::vector<SweepColumn> measures_;
-    std::vector<std::string> train_names_, probe_names_;
-    std::vector<double> probe_times_;
-    std::vector<MetadataText> metadata_;
     NetlistFactory netlist_{};  // of a circuit
     ForceFactory force_;        // of an afferent
 
@@ -42,9 +38,7 @@ protected:
     /// The nominal circuit, without varied values; null for a model.
     virtual const circuit::Circuit* circuit() const { return nullptr; }
     virtual const std::string& subject_name() const { return netlist_.name(); }
-    virtual Result<VariedQuantity> find_quantity(const LocatedText& quantity) const = 0;
-    /// Tells the subject that this quantity takes its values from the axis with index `axis` in the plan.
-    virtual void vary(const SweepAxis&, const std::string& quantity, std::size_t axis) = 0;
+    virtual Result<VariedQuantity> find_quantity(const LocatedText& quantity) = 0;
     /// Selects the measures of the sweep file, before their limits are set.
     virtual Result<void> select_measures(const SweepText&) = 0;
     /// The index of a measure's column, which is added if necessary.
@@ -57,7 +51,7 @@ protected:
     virtual std::string title() const { return circuit()->title; }
 
     /// Newton iterations of the nominal circuit; 0: no limit follows from it. An error of code `interrupted` if `stop` returned true.
-    virtual Result<std::int64_t> nominal_iterations(const std::function<bool()>& stop) const;
+    virtual Result<std::int64_t> nominal_iterations(const std::function<bool()>& /*stop*/) const { return 0; }
     /// The iteration limit of an item: from the sweep file, otherwise iteration_limit_factor times the iterations of the nominal circuit.
     /// 0: no limit, because the nominal circuit fails or `stop` returned true.
     long find_iteration_limit(const std::function<bool()>& stop) const;
@@ -68,14 +62,7 @@ protected:
 
 public:
     Result<void> prepare(const SweepText&, const std::string& folder);
-    std::int64_t item_count() const override { return plan_.item_count(); }
-    const std::vector<SweepColumn>& axes() const override { return plan_.columns(); }
-    const std::vector<SweepColumn>& measures() const override { return measures_; }
-    const std::vector<std::string>& train_names() const override { return train_names_; }
-    const std::vector<std::string>& probe_names() const override { return probe_names_; }
-    const std::vector<double>& probe_times() const override { return probe_times_; }
     std::vector<double> values(std::int64_t item) const override { return plan_.values(item); }
-    const std::vector<MetadataText>& metadata() const override { return metadata_; }
 };
 
 /// The common part of the sweeps over an afferent, which responds to a force.
@@ -86,11 +73,9 @@ protected:
 
     /// Reads the force, and refuses keys that do not apply to afferents.
     Result<void> open_force(const SweepText&, const std::string& folder);
-    Result<VariedQuantity> find_quantity(const LocatedText& quantity) const final;
-    void vary(const SweepAxis&, const std::string& quantity, std::size_t axis) final;
+    Result<VariedQuantity> find_quantity(const LocatedText& quantity) final;
     /// The same for quantities of the afferent.
-    virtual Result<VariedQuantity> find_afferent_quantity(const LocatedText& quantity) const = 0;
-    virtual void vary_afferent(const SweepAxis&, const std::string& quantity, std::size_t axis) = 0;
+    virtual Result<VariedQuantity> find_afferent_quantity(const LocatedText& quantity) = 0;
     virtual std::vector<std::string> range_names() const { return {}; }  ///< of the operating ranges of a circuit
     Result<void> select_measures(const SweepText&) override;
     Result<std::size_t> measure_column(const LocatedText& measure) final;

@@ -22,7 +22,7 @@ const OutputFormat names_format = {
     .names = {"names.txt"},
     .option = "--names",
     .help = "with --out, also write names.txt: the name of each afferent",
-    .make = make_in_directory<NamesFile>,
+    .make = make_file_sink<NamesFile>,
 };
 
 }  // namespace corpuscle

@@ -1,8 +1,9 @@
-#include "sweep/spec/sweep_document.hpp"
+// A sweep's results as a JSON document: `corpuscle sweep show --json`.
 
 #include <nlohmann/json.hpp>
 
 #include "run/summary/json_number.hpp"
+#include "sweep/stats/sweep_summary.hpp"
 
 namespace corpuscle {
 namespace {
