@@ -4,7 +4,7 @@
 
 #include "core/text/ascii_text.hpp"
 #include "model/catalog.hpp"
-#include "skin/plan/class_overrides.hpp"
+#include "skin/plan/skin_plan.hpp"
 #include "skin/plan/sites.hpp"
 
 namespace corpuscle {

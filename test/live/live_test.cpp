@@ -22,7 +22,7 @@
 #include "live/steady_clock.hpp"
 #include "live/stream_state.hpp"
 #include "model/catalog.hpp"
-#include "skin/plan/site_map.hpp"
+#include "skin/plan/sites.hpp"
 #include "support/property.hpp"
 #include "support/support.hpp"
 

@@ -1,10 +1,12 @@
 #pragma once
 // A value of a configuration file before it is parsed: its text and its location in the file.
+// Parameter overrides from the tables `set` and `spread` of sweep and population files.
 
 #include <optional>
 #include <string>
 
 #include "core/error.hpp"
+#include "core/parameter_override.hpp"
 
 namespace corpuscle {
 
@@ -27,5 +29,15 @@ struct LocatedSetting {
     std::string name;  ///< "press.F_max"
     LocatedText value;
 };
+
+/// The override that one entry of a table means: "adc.bits" has a target of its own, "f_B" is for `default_target`.
+inline ParameterOverride located_override(const LocatedSetting& entry, std::string_view default_target) {
+    const auto dot = entry.name.rfind('.');
+    const bool has_target = dot != std::string::npos;
+    ParameterOverride out{has_target ? entry.name.substr(0, dot) : std::string(default_target),
+                          has_target ? entry.name.substr(dot + 1) : entry.name, entry.value.text};
+    out.typed = out.text(), out.location = entry.value.location;
+    return out;
+}
 
 }  // namespace corpuscle

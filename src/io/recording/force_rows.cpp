@@ -2,8 +2,67 @@
 
 #include <fmt/format.h>
 #include <algorithm>
+#include <cmath>
 
 namespace corpuscle {
+namespace {
+
+/// The number of rows in a block of this many columns. It is smaller for many columns, so that a block needs at most about 32 MB.
+std::size_t rows_for(std::size_t columns) { return std::clamp<std::size_t>((std::size_t{1} << 22) / (columns + 1), 1, rows_per_block); }
+
+}  // namespace
+
+RowReader::RowReader(Table& table, const RecordingOptions& options, std::vector<std::size_t> channels, std::optional<std::size_t> time)
+    : table_(table), options_(options), columns_(std::move(channels)), channels_(columns_.size()) {
+    if (time) columns_.push_back(*time);
+    table_.allow_gaps(options_.bad_fields.value_or(BadFields::error) != BadFields::error);
+}
+
+/// Replaces the values outside --range by gaps (NaN). With --bad-fields error, such a value is an error.
+Result<void> RowReader::apply_range(std::size_t rows, std::vector<std::vector<double>>& block) {
+    if (!options_.range) return {};
+    const auto [low, high] = *options_.range;
+    for (std::size_t c = 0; c < channels_; ++c)
+        for (std::size_t k = 0; k < rows; ++k) {
+            double& x = block[c][k];
+            if (std::isnan(x) || (x >= low && x <= high)) continue;
+            if (options_.bad_fields == BadFields::error)
+                return bad_input(fmt::format("'{}': {:g} is outside --range {:g}..{:g}", table_.columns()[columns_[c]].name, x, low, high),
+                                 table_.location(k));
+            x = std::numeric_limits<double>::quiet_NaN();
+            ++out_of_range;
+        }
+    return {};
+}
+
+/// Removes rows with gaps from the block. Returns the number of remaining rows.
+std::size_t RowReader::drop_incomplete(std::size_t rows, std::vector<std::vector<double>>& block) {
+    std::size_t kept = 0;
+    table_rows_.clear();
+    for (std::size_t k = 0; k < rows; ++k) {
+        if (std::any_of(block.begin(), block.end(), [&](const auto& column) { return std::isnan(column[k]); })) continue;
+        for (auto& column : block) column[kept] = column[k];
+        table_rows_.push_back(k);
+        ++kept;
+    }
+    dropped += static_cast<std::int64_t>(rows - kept);
+    return kept;
+}
+
+Result<std::size_t> RowReader::next(std::vector<std::vector<double>>& block) {
+    block.resize(columns_.size());
+    for (;;) {
+        const auto read = TRY(table_.read(columns_, rows_for(columns_.size()), block));
+        if (options_.absolute)
+            for (std::size_t c = 0; c < channels_; ++c)
+                std::transform(block[c].begin(), block[c].begin() + static_cast<std::ptrdiff_t>(read), block[c].begin(),
+                               [](double x) { return std::abs(x); });
+        TRY(apply_range(read, block));
+        const std::size_t kept = drops_rows() ? drop_incomplete(read, block) : read;
+        for (auto& column : block) column.resize(kept);
+        if (kept > 0 || read == 0) return kept;
+    }
+}
 
 ForceRows::ForceRows(RowReader rows, std::vector<ChannelPipeline> pipelines, std::string path, std::vector<std::string> names, bool timed)
     : rows_(std::move(rows)), pipelines_(std::move(pipelines)), path_(std::move(path)), names_(std::move(names)),

@@ -7,7 +7,7 @@
 #include "core/text/quantity.hpp"
 #include "io/recording/clock_analysis.hpp"
 #include "io/recording/column_selection.hpp"
-#include "io/recording/row_reader.hpp"
+#include "io/recording/force_rows.hpp"
 #include "io/text/time_stamp.hpp"
 
 namespace corpuscle {

@@ -10,7 +10,7 @@
 
 #include "io/sandbox/helper_process.hpp"
 #include "io/sandbox/samples_message.hpp"
-#include "io/table/seekable_bytes.hpp"
+#include "io/table/archive.hpp"
 
 namespace corpuscle {
 namespace {

@@ -6,7 +6,6 @@
 #include "core/bytes.hpp"
 #include "core/text/ascii_text.hpp"
 #include "io/spikes/address_events.hpp"
-#include "io/spikes/event_time.hpp"
 #include "io/spikes/events.hpp"
 
 namespace corpuscle {

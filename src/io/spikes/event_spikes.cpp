@@ -10,7 +10,7 @@
 #include "core/bytes.hpp"
 #include "io/spikes/address_events.hpp"
 #include "io/spikes/train_collector.hpp"
-#include "io/table/seekable_bytes.hpp"
+#include "io/table/archive.hpp"
 
 namespace corpuscle {
 namespace {

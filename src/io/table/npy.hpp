@@ -5,7 +5,7 @@
 #include <string_view>
 #include <vector>
 
-#include "io/table/seekable_bytes.hpp"
+#include "io/table/archive.hpp"
 
 namespace corpuscle {
 

@@ -7,7 +7,6 @@
 #include <string_view>
 #include <vector>
 
-#include "live/input/frame_error.hpp"
 #include "live/input/frame_layout.hpp"
 #include "live/lanes/kernel.hpp"
 

@@ -8,7 +8,6 @@
 #include "core/force_source.hpp"
 #include "io/quality/biquad.hpp"
 #include "live/input/byte_source.hpp"
-#include "live/input/frame_error.hpp"
 #include "live/input/frame_layout.hpp"
 #include "live/input/frame_sequence.hpp"
 #include "live/steady_clock.hpp"

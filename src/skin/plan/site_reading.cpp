@@ -8,7 +8,7 @@
 
 #include "skin/plan/population_values.hpp"
 #include "skin/plan/regions.hpp"
-#include "skin/plan/site_table.hpp"
+#include "skin/plan/sites.hpp"
 
 namespace corpuscle::skins {
 namespace {

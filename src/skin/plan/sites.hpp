@@ -1,7 +1,8 @@
 #pragma once
-// The sites of a skin: the points of a plane at which force is felt.
+// The sites of a skin: the points of a plane at which force is felt. Also which channel of a recording or frame is at which site.
 
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
@@ -30,5 +31,23 @@ Result<Sites> grid_sites(std::size_t rows, std::size_t columns, double pitch);
 
 /// One site for each channel of a recording, at the channel's position in the layout. A channel without a position is an error.
 Result<Sites> channel_sites(std::span<const Channel>);
+
+/// The sites of a text table with the columns name, x and y with a unit ("x_mm", "y [m]"), and optionally region. Other columns are ignored.
+/// Errors name file, line and column.
+Result<Sites> read_site_table(const std::string& path);
+
+// The site of each channel. For the values of a live frame this is given by a layout file like that of a recording.
+
+/// The numbers of the sites with these names, in the order of the names. A name that is not a site, and one that occurs twice, are errors.
+Result<std::vector<std::uint32_t>> find_sites(const Sites&, std::span<const std::string> names);
+
+/// The sites of channels whose names may have units ("r1c1_N"). If no channel has the name of a site, nullopt is returned, and the
+/// channels are in the order of the sites. Otherwise all channels must have names of sites.
+Result<std::optional<std::vector<std::uint32_t>>> find_sites_if_named(const Sites&, std::span<const std::string> names);
+
+/// Reads a layout file: a table with the columns `channel` (or `sensor`), the number of a value in the frame from 1, and `name`, the name
+/// of its site. Other columns are ignored. Every channel from 1 to the highest must have exactly one row. The result has the site of each
+/// channel. Errors name file, line and column.
+Result<std::vector<std::uint32_t>> read_site_map(const std::string& path, const Sites&);
 
 }  // namespace corpuscle
