@@ -4,7 +4,6 @@
 #include <unistd.h>
 #include <algorithm>
 #include <array>
-#include <memory>
 
 namespace corpuscle::hdf5 {
 namespace {

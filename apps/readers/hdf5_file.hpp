@@ -3,9 +3,6 @@
 // files can crash the library or make it loop forever.
 
 #include <hdf5.h>
-#include <optional>
-#include <utility>
-#include <vector>
 
 #include "io/recording/samples.hpp"
 

@@ -1,12 +1,10 @@
 #include "helper_main.hpp"
 
 #include <fmt/format.h>
-#include <unistd.h>
 #include <algorithm>
 #include <cstdlib>
 #include <exception>
 #include <new>
-#include <string_view>
 
 #include "confinement.hpp"
 #include "io/sandbox/helper_process.hpp"

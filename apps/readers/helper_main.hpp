@@ -2,8 +2,6 @@
 // The helper programs: the main loop, which they share, and the reader of each file format. Only helper programs call the readers, because
 // damaged files have crashed the libraries of the formats, or could make them loop forever.
 
-#include <functional>
-
 #include "io/recording/samples.hpp"
 
 namespace corpuscle {

@@ -3,9 +3,7 @@
 #include <fmt/format.h>
 #include <algorithm>
 #include <array>
-#include <bit>
 #include <cmath>
-#include <cstring>
 
 #include "core/bytes.hpp"
 #include "core/text/quantity.hpp"

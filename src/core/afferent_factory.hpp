@@ -3,15 +3,7 @@
 // (model/catalog.cpp) and netlists (circuit/afferent/netlist_plan.cpp) are specified differently, and run/afferent_plan.cpp reads the text
 // of either. Other code asks the plan's factory what it needs to know; it never asks which of the two it has.
 
-#include <cstdint>
-#include <memory>
 #include <nlohmann/json_fwd.hpp>
-#include <optional>
-#include <span>
-#include <string>
-#include <string_view>
-#include <utility>
-#include <vector>
 
 #include "core/afferent.hpp"
 #include "core/parameter_override.hpp"

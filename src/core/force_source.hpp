@@ -1,15 +1,10 @@
 #pragma once
 // The interface of a source of force: a stimulus or a recording, read in blocks of samples.
 
-#include <cstdint>
-#include <memory>
-#include <optional>
-#include <string>
 #include <string_view>
 #include <vector>
 
 #include "core/clock.hpp"
-#include "core/error.hpp"
 
 namespace corpuscle {
 

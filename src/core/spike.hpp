@@ -2,7 +2,6 @@
 // A spike, and the times of a spike train.
 
 #include <compare>
-#include <cstdint>
 #include <span>
 #include <vector>
 

@@ -3,9 +3,6 @@
 #include <fmt/format.h>
 
 #include "core/text/ascii_text.hpp"
-#include "model/catalog.hpp"
-#include "skin/plan/skin_plan.hpp"
-#include "skin/plan/sites.hpp"
 
 namespace corpuscle {
 namespace {

@@ -2,9 +2,6 @@
 // Simulates a skin frame by frame: one frame of forces in, the spikes out that arrive at the recording point during this frame. It uses no
 // locks and allocates no memory after construction. The spikes are the same as those of a recording that contains these frames.
 
-#include <span>
-#include <vector>
-
 #include "skin/skin.hpp"
 
 namespace corpuscle {

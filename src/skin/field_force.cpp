@@ -1,6 +1,5 @@
 #include "skin/field_force.hpp"
 
-#include <algorithm>
 #include <array>
 #include <numeric>
 

@@ -1,12 +1,6 @@
 #pragma once
 // Applies receptive fields: computes the force on the afferents of one class from the force at the sites.
 
-#include <cstddef>
-#include <cstdint>
-#include <optional>
-#include <span>
-#include <vector>
-
 #include "model/lane_population.hpp"
 #include "model/lanes/aligned_buffer.hpp"
 #include "skin/lanes/kernel.hpp"

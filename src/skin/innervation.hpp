@@ -1,10 +1,6 @@
 #pragma once
 // A skin with its afferents placed: the position and class of each, and the sites in its receptive field.
 
-#include <memory>
-#include <string_view>
-
-#include "core/error.hpp"
 #include "skin/plan/skin_plan.hpp"
 
 namespace corpuscle {

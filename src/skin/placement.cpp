@@ -1,8 +1,6 @@
 #include "skin/placement.hpp"
 
 #include <fmt/format.h>
-#include <cmath>
-#include <utility>
 
 #include "core/random.hpp"
 

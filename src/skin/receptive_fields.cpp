@@ -2,7 +2,6 @@
 // then scaled so that their sum is 1 or, if the plan has a felt_area, felt_area / (area of a site).
 
 #include <fmt/format.h>
-#include <cmath>
 #include <numeric>
 
 #include "core/random.hpp"

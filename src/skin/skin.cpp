@@ -1,7 +1,6 @@
 #include "skin/skin.hpp"
 
 #include <fmt/format.h>
-#include <algorithm>
 #include <cmath>
 
 #include "skin/skin_impl.hpp"

@@ -1,12 +1,8 @@
 #pragma once
 // Implementation of Skin. Included only by skin.cpp and skin_state.cpp.
 
-#include <optional>
-
-#include "model/lane_population.hpp"
 #include "skin/conduction.hpp"
 #include "skin/field_force.hpp"
-#include "skin/skin.hpp"
 
 namespace corpuscle {
 

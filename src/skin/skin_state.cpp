@@ -2,7 +2,6 @@
 
 #include <fmt/format.h>
 #include <array>
-#include <cstring>
 
 #include "core/bytes.hpp"
 #include "skin/skin_impl.hpp"

@@ -2,10 +2,6 @@
 
 #include <fmt/format.h>
 #include <algorithm>
-#include <cmath>
-#include <functional>
-#include <optional>
-#include <utility>
 
 namespace corpuscle {
 namespace {

@@ -5,13 +5,6 @@
 // duration() is its length in s, phases() its phases, and at(t) the force in N at t s from its start. A periodic stimulus also has cycle(),
 // its frequency in Hz; a random stimulus has a member `seed`.
 
-#include <memory>
-#include <span>
-#include <string_view>
-#include <vector>
-
-#include "core/force_source.hpp"
-#include "core/parameter.hpp"
 #include "core/parameter_override.hpp"
 #include "core/stimulus/touch.hpp"
 #include "core/stimulus/vibration.hpp"

@@ -1,10 +1,7 @@
 #pragma once
 // Vibrations and textures: force that varies continuously around a mean.
 
-#include <vector>
-
 #include "core/force_source.hpp"
-#include "core/number/elementary.hpp"
 #include "core/parameter.hpp"
 #include "core/random.hpp"
 

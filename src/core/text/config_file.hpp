@@ -2,12 +2,6 @@
 // Configuration files: sweeps, populations and studies, in TOML. A file is read into nodes that know their location, so that every later
 // error can name it. Only config_file.cpp includes toml++, which is slow to compile.
 
-#include <optional>
-#include <span>
-#include <string_view>
-#include <utility>
-#include <vector>
-
 #include "core/text/located_text.hpp"
 
 namespace corpuscle {

@@ -2,10 +2,6 @@
 // A value of a configuration file before it is parsed: its text and its location in the file.
 // Parameter overrides from the tables `set` and `spread` of sweep and population files.
 
-#include <optional>
-#include <string>
-
-#include "core/error.hpp"
 #include "core/parameter_override.hpp"
 
 namespace corpuscle {

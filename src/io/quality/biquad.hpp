@@ -2,7 +2,6 @@
 // Causal filters for recordings. The output depends only on the current and earlier samples, so a stream and a file give the same result.
 
 #include "core/clock.hpp"
-#include "core/error.hpp"
 
 namespace corpuscle {
 

@@ -1,9 +1,7 @@
 #include "io/quality/quality_report.hpp"
 
 #include <fmt/format.h>
-#include <algorithm>
 #include <cmath>
-#include <functional>
 
 #include "core/text/quantity.hpp"
 

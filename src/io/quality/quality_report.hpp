@@ -2,9 +2,6 @@
 // The quality report of a recording: a message for each kind of fault, with a remedy. A message is a warning if the fault makes the
 // response of the afferents doubtful.
 
-#include <vector>
-
-#include "core/force_source.hpp"
 #include "io/recording/channel_pipeline.hpp"
 #include "io/recording/row_clock.hpp"
 

@@ -6,9 +6,7 @@
 
 #include <cstdint>
 #include <limits>
-#include <optional>
 #include <span>
-#include <utility>
 #include <vector>
 
 #include "core/error.hpp"

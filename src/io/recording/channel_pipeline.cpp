@@ -1,7 +1,6 @@
 #include "io/recording/channel_pipeline.hpp"
 
 #include <fmt/format.h>
-#include <algorithm>
 #include <cmath>
 
 namespace corpuscle {

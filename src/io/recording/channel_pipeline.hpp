@@ -2,14 +2,8 @@
 // The processing of one channel from the values in the file to newtons. The steps are, in this order: removal of outliers, filling of gaps,
 // offset and gain, filters. Fault detectors examine the samples between the steps.
 
-#include <optional>
-#include <span>
-#include <string>
-#include <vector>
-
 #include "io/quality/biquad.hpp"
 #include "io/quality/fault_detectors.hpp"
-#include "io/quality/repair.hpp"
 #include "io/recording/recording.hpp"
 
 namespace corpuscle {

@@ -1,7 +1,5 @@
 #include "io/recording/clock_analysis.hpp"
 
-#include <algorithm>
-
 namespace corpuscle {
 namespace {
 

@@ -2,7 +2,6 @@
 // Tests in one pass whether the times t_k of samples k = 0, 1, 2 ... are evenly spaced. Only points (k, t_k) on the convex hull of all
 // points can be farthest from a straight line, so only these are stored.
 
-#include <cstdint>
 #include <vector>
 
 #include "core/clock.hpp"

@@ -1,8 +1,6 @@
 #include "io/recording/column_selection.hpp"
 
 #include <fmt/format.h>
-#include <algorithm>
-#include <span>
 
 #include "core/parameter.hpp"
 #include "core/text/ascii_text.hpp"

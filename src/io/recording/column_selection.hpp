@@ -1,10 +1,6 @@
 #pragma once
 // Selects the channels and the time column of a table, and determines their units. `path` is the path of the file, for messages.
 
-#include <optional>
-#include <string>
-#include <vector>
-
 #include "io/recording/recording.hpp"
 
 namespace corpuscle {

@@ -1,7 +1,6 @@
 #include "io/recording/force_rows.hpp"
 
 #include <fmt/format.h>
-#include <algorithm>
 #include <cmath>
 
 namespace corpuscle {

@@ -1,12 +1,7 @@
 #pragma once
 // The rows of a recording: as they are in its table (RowReader), and with their forces in newtons (ForceRows).
 
-#include <optional>
-#include <string>
-#include <vector>
-
 #include "io/recording/channel_pipeline.hpp"
-#include "io/recording/recording.hpp"
 
 namespace corpuscle {
 

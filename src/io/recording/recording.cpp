@@ -1,10 +1,8 @@
 #include "io/recording/recording.hpp"
 
 #include <fmt/format.h>
-#include <algorithm>
 #include <filesystem>
 #include <unordered_map>
-#include <utility>
 
 #include "core/afferent.hpp"
 #include "core/text/ascii_text.hpp"
@@ -13,7 +11,6 @@
 #include "io/recording/column_selection.hpp"
 #include "io/recording/force_rows.hpp"
 #include "io/recording/recording_formats.hpp"
-#include "io/recording/row_clock.hpp"
 #include "io/recording/samples.hpp"
 #include "io/recording/sensor_layout.hpp"
 #include "io/table/foreign_format.hpp"

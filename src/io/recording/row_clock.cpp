@@ -1,7 +1,6 @@
 #include "io/recording/row_clock.hpp"
 
 #include <fmt/format.h>
-#include <algorithm>
 #include <cmath>
 
 #include "core/text/quantity.hpp"

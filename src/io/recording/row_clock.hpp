@@ -1,11 +1,6 @@
 #pragma once
 // Determines when each row of a table was sampled, from its time column, or from the rate that the user or the file states.
 
-#include <optional>
-#include <string>
-#include <vector>
-
-#include "core/clock.hpp"
 #include "io/recording/recording.hpp"
 
 namespace corpuscle {

@@ -1,14 +1,11 @@
 #include "io/recording/samples.hpp"
 
 #include <fmt/format.h>
-#include <algorithm>
 #include <cmath>
-#include <limits>
 #include <numeric>
 
 #include "core/parameter.hpp"
 #include "core/text/ascii_text.hpp"
-#include "io/table/column_roles.hpp"
 
 namespace corpuscle {
 namespace {

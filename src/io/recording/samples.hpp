@@ -3,11 +3,9 @@
 // contain several arrays. `path` is the path of the file, for messages.
 
 #include <cstdint>
-#include <memory>
 #include <span>
 
 #include "io/table/column_roles.hpp"
-#include "io/table/table.hpp"
 
 namespace corpuscle {
 

@@ -1,10 +1,6 @@
 #pragma once
 // Reads a layout file, which states which channels of a recording are sensors, with their names and positions.
 
-#include <optional>
-#include <string>
-#include <vector>
-
 #include "core/force_source.hpp"
 #include "io/table/table.hpp"
 

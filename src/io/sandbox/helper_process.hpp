@@ -4,8 +4,6 @@
 
 #include <sys/types.h>
 
-#include <string>
-
 #include "core/error.hpp"
 #include "io/output/descriptor.hpp"
 #include "io/sandbox/message.hpp"

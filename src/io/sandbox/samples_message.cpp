@@ -2,8 +2,6 @@
 
 #include "core/bytes.hpp"
 
-#include <optional>
-
 namespace corpuscle {
 namespace {
 

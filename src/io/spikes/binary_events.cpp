@@ -1,7 +1,4 @@
 #include <fmt/format.h>
-#include <algorithm>
-#include <utility>
-#include <vector>
 
 #include "core/bytes.hpp"
 #include "core/text/ascii_text.hpp"

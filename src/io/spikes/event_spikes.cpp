@@ -2,10 +2,7 @@
 
 #include <fmt/format.h>
 #include <algorithm>
-#include <span>
 #include <unordered_map>
-#include <utility>
-#include <vector>
 
 #include "core/bytes.hpp"
 #include "io/spikes/address_events.hpp"

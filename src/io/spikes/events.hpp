@@ -4,13 +4,8 @@
 
 #include <cmath>
 #include <cstddef>
-#include <memory>
-#include <span>
-#include <string>
 #include <string_view>
-#include <vector>
 
-#include "core/error.hpp"
 #include "core/spike.hpp"
 
 namespace corpuscle {

@@ -1,7 +1,6 @@
 #include "io/spikes/spike_files.hpp"
 
 #include <fmt/format.h>
-#include <algorithm>
 
 #include "core/text/ascii_text.hpp"
 #include "core/text/input_files.hpp"

@@ -1,15 +1,12 @@
 #include <fmt/format.h>
-#include <charconv>
 #include <cmath>
 #include <nlohmann/json.hpp>
-#include <optional>
 
 #include "core/text/ascii_text.hpp"
 #include "io/spikes/train_collector.hpp"
 #include "io/table/heading.hpp"
 #include "io/text/dialect.hpp"
 #include "io/text/json_records.hpp"
-#include "io/text/line_reader.hpp"
 
 namespace corpuscle {
 namespace {

@@ -2,7 +2,6 @@
 // Determines, from the headings and the first rows, which column is the time and which columns are not channels (row numbers, words).
 
 #include <limits>
-#include <optional>
 
 #include "io/table/heading.hpp"
 

@@ -1,8 +1,5 @@
 #include "io/table/heading.hpp"
 
-#include <algorithm>
-#include <utility>
-
 #include "core/text/ascii_text.hpp"
 #include "core/text/quantity.hpp"
 #include "io/text/utf8.hpp"

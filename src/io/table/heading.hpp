@@ -1,7 +1,6 @@
 #pragma once
 // Interprets the headings of columns: name, unit, and whether a column is a time, a row number or a trial number.
 
-#include <optional>
 #include <string_view>
 
 #include "io/table/table.hpp"

@@ -1,9 +1,7 @@
 #pragma once
 // The NumPy format NPY: a header with a Python dictionary, then the elements of the array as NumPy has them in memory.
 
-#include <string>
 #include <string_view>
-#include <vector>
 
 #include "io/table/archive.hpp"
 

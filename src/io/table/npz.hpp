@@ -1,12 +1,6 @@
 #pragma once
 // NumPy's NPZ format: a zip archive of named NPY arrays.
 
-#include <cstdint>
-#include <span>
-#include <string>
-#include <vector>
-
-#include "io/table/archive.hpp"
 #include "io/table/npy.hpp"
 
 namespace corpuscle {

@@ -4,9 +4,6 @@
 
 #include <cstddef>
 #include <functional>
-#include <memory>
-#include <optional>
-#include <string>
 #include <vector>
 
 #include "core/error.hpp"

@@ -1,7 +1,6 @@
 #include "io/text/json_records.hpp"
 
 #include <fmt/format.h>
-#include <algorithm>
 #include <cmath>
 #include <nlohmann/json.hpp>
 #include <unordered_map>

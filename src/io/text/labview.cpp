@@ -1,7 +1,6 @@
 #include "io/text/labview.hpp"
 
 #include <fmt/format.h>
-#include <algorithm>
 #include <cmath>
 
 #include "core/text/ascii_text.hpp"

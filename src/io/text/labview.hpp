@@ -1,11 +1,6 @@
 #pragma once
 // LabVIEW measurement files (.lvm): two headers of names and values, one of the file and one of its first segment, followed by a table.
 
-#include <optional>
-#include <string>
-#include <string_view>
-#include <vector>
-
 #include "io/table/table.hpp"
 #include "io/text/dialect.hpp"
 

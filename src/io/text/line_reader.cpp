@@ -1,10 +1,8 @@
 #include "io/text/line_reader.hpp"
 
 #include <fmt/format.h>
-#include <algorithm>
 #include <cstring>
 #include <filesystem>
-#include <utility>
 
 #include "core/text/ascii_text.hpp"
 #include "io/table/foreign_format.hpp"

@@ -1,11 +1,6 @@
 #pragma once
 // Reads a text file line by line. The memory needed is bounded by the longest allowed line.
 
-#include <memory>
-#include <string>
-#include <string_view>
-
-#include "core/error.hpp"
 #include "io/text/text_input.hpp"
 
 namespace corpuscle {

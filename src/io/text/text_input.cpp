@@ -4,10 +4,8 @@
 #include <zlib.h>
 #include <algorithm>
 #include <cerrno>
-#include <cstdio>
 #include <cstring>
 #include <filesystem>
-#include <vector>
 
 #include "core/text/input_files.hpp"
 #include "io/table/foreign_format.hpp"

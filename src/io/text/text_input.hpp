@@ -3,8 +3,6 @@
 // with the size of the file.
 
 #include <cstddef>
-#include <memory>
-#include <string>
 #include <string_view>
 #include <vector>
 

@@ -1,7 +1,6 @@
 #include "io/text/text_layout.hpp"
 
 #include <fmt/format.h>
-#include <algorithm>
 #include <cctype>
 #include <cmath>
 

@@ -1,10 +1,7 @@
 #include "io/recording/recording_formats.hpp"
 
 #include <fmt/format.h>
-#include <algorithm>
 #include <cmath>
-#include <cstring>
-#include <limits>
 
 #include "core/text/ascii_text.hpp"
 #include "io/recording/field_advice.hpp"

@@ -4,13 +4,11 @@
 #include <fmt/format.h>
 #include <poll.h>
 #include <sys/ioctl.h>
-#include <sys/socket.h>
 #include <sys/stat.h>
 #include <termios.h>
 #include <algorithm>
 #include <cerrno>
 #include <cstring>
-#include <optional>
 
 #include "live/input/sockets.hpp"
 

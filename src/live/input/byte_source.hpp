@@ -1,9 +1,7 @@
 #pragma once
 // Sources of bytes, which contain frames: standard input, a socket, a serial line.
 
-#include <memory>
 #include <span>
-#include <string>
 
 #include "core/error.hpp"
 #include "live/steady_clock.hpp"

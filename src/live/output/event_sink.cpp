@@ -5,11 +5,8 @@
 #include <fcntl.h>
 #include <fmt/format.h>
 #include <poll.h>
-#include <sys/socket.h>
 #include <sys/stat.h>
-#include <algorithm>
 #include <cerrno>
-#include <cstring>
 
 #include "live/steady_clock.hpp"
 

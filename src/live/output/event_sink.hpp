@@ -4,10 +4,7 @@
 // them.
 
 #include <functional>
-#include <memory>
-#include <string>
 
-#include "io/output/descriptor.hpp"
 #include "io/spikes/events.hpp"
 #include "live/input/byte_ring.hpp"
 #include "live/input/sockets.hpp"

@@ -1,10 +1,7 @@
 #include "skin/contact/contact.hpp"
 
 #include <fmt/format.h>
-#include <algorithm>
-#include <cmath>
 
-#include "core/number/number.hpp"
 #include "core/stimulus/touch.hpp"
 #include "core/text/quantity.hpp"
 #include "skin/contact/pressure_distribution.hpp"

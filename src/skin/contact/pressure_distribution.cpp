@@ -1,7 +1,6 @@
 #include "skin/contact/pressure_distribution.hpp"
 
 #include <algorithm>
-#include <cmath>
 
 #include "core/number/elementary.hpp"
 

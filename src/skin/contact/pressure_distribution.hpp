@@ -1,9 +1,6 @@
 #pragma once
 // The pressure distribution of each indenter, integrated over the cells of the skin: the fraction of the force on each cell.
 
-#include <memory>
-#include <span>
-
 #include "skin/contact/indenters.hpp"
 
 namespace corpuscle {

@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <array>
 
-#include "core/text/located_text.hpp"
 #include "skin/plan/population_values.hpp"
 
 namespace corpuscle::skins {

@@ -9,7 +9,6 @@
 #include "core/text/input_files.hpp"
 #include "skin/contact/skin_cells.hpp"
 #include "skin/innervation.hpp"
-#include "skin/plan/skin_plan.hpp"
 
 namespace corpuscle {
 namespace {

@@ -1,8 +1,6 @@
 #pragma once
 // A skin as a set of regions, each made of shapes. The regions are filled with sites.
 
-#include <string>
-
 #include "skin/plan/sites.hpp"
 
 namespace corpuscle {

@@ -8,7 +8,6 @@
 
 #include "skin/plan/population_values.hpp"
 #include "skin/plan/regions.hpp"
-#include "skin/plan/sites.hpp"
 
 namespace corpuscle::skins {
 namespace {

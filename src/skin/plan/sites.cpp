@@ -1,13 +1,10 @@
 #include "skin/plan/sites.hpp"
 
 #include <fmt/format.h>
-#include <algorithm>
 #include <cmath>
 #include <filesystem>
-#include <optional>
 #include <unordered_map>
 #include <unordered_set>
-#include <utility>
 
 #include "core/parameter.hpp"
 #include "core/text/ascii_text.hpp"

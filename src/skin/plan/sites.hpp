@@ -1,11 +1,7 @@
 #pragma once
 // The sites of a skin: the points of a plane at which force is felt. Also which channel of a recording or frame is at which site.
 
-#include <cstdint>
-#include <optional>
 #include <span>
-#include <string>
-#include <vector>
 
 #include "core/force_source.hpp"
 

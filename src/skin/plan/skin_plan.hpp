@@ -1,12 +1,6 @@
 #pragma once
 // The plan of a skin, as a population file defines it (doc/skin.md): sites, classes of afferents, and how receptive fields are made.
 
-#include <optional>
-#include <span>
-#include <string>
-#include <string_view>
-
-#include "core/parameter_override.hpp"
 #include "model/copies.hpp"
 #include "skin/plan/sites.hpp"
 
