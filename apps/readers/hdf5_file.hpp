@@ -71,7 +71,8 @@ struct StorageInfo {
 };
 
 /// Checks that the data of a dataset exist. HDF5 reads data that were never written, or that are in missing files, as the fill value, which
-/// is 0 by default. Fails if the data are in other files, if less than half of them were written, if a chunk is too large, or if a filter is not available.
+/// is 0 by default. Fails if the data are in other files, if less than half of them were written, if a chunk is too large, or if a filter
+/// is not available.
 Result<StorageInfo> check_storage(hid_t dataset, const ArrayInfo&, const std::string& path);
 
 /// True if the chunk that begins at element `offset` (an index in each dimension) was written.

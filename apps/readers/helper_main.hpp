@@ -14,6 +14,11 @@ SamplesResult open_hdf5_samples(int file, const std::string& path, const TableOp
 /// Opens a sound file with libsndfile. The options are not used.
 SamplesResult open_sound_samples(int file, const std::string& path, const TableOptions&);
 
+/// Forbids this process new privileges, descriptors, files, programs, connections and core dumps, and lets it use at most `memory` bytes
+/// more address space than now. Existing lower limits stay. Landlock and seccomp are used if the kernel has them. Descriptors up to
+/// `last_descriptor` stay usable.
+void confine(int last_descriptor, std::uint64_t memory);
+
 /// Serves the requests of the program `corpuscle` on `socket`: one that opens the samples of descriptor `file`, then those for rows.
 void serve(int socket, int file, const OpenSamples&);
 

@@ -43,7 +43,7 @@ private:
     /// The receptive fields sorted by afferent, for use when a large part of the skin is touched. The force on one afferent is then summed
     /// completely, in registers, which is faster than adding the contribution of each site to the sums of many afferents.
     struct FieldsByAfferent {
-        std::vector<std::size_t> begin;   ///< for each afferent: index of its first entry in `site` and `weight`; then the number of entries
+        std::vector<std::size_t> begin;  ///< for each afferent: index of its first entry in `site` and `weight`; then the number of entries
         std::vector<std::uint32_t> site;  ///< in ascending order for each afferent
         std::vector<double> weight;
     };

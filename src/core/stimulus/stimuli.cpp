@@ -1,7 +1,8 @@
 #include "core/stimulus/stimuli.hpp"
 
 #include <fmt/format.h>
-#include <algorithm>
+
+#include "core/text/ascii_text.hpp"
 
 namespace corpuscle {
 namespace {
@@ -100,15 +101,7 @@ public:
 
 }  // namespace
 
-std::vector<std::string_view> stimulus_members(std::string_view text) {
-    std::vector<std::string_view> out;
-    for (;;) {
-        const auto plus = text.find('+');
-        out.push_back(text.substr(0, plus));
-        if (plus == std::string_view::npos) return out;
-        text.remove_prefix(plus + 1);
-    }
-}
+std::vector<std::string_view> stimulus_members(std::string_view text) { return split(text, '+'); }
 
 std::vector<CatalogEntry> stimulus_catalog() { return catalog_of(Stimuli{}); }
 

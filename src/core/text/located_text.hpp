@@ -1,6 +1,6 @@
 #pragma once
-// A value of a configuration file before it is parsed: its text and its location in the file.
-// Parameter overrides from the tables `set` and `spread` of sweep and population files.
+// A value of a configuration file before it is parsed: its text and its location in the file. Also the parameter overrides from the tables
+// `set` and `spread` of sweep and population files.
 
 #include "core/parameter_override.hpp"
 

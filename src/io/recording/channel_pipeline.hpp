@@ -2,7 +2,6 @@
 // The processing of one channel from the values in the file to newtons. The steps are, in this order: removal of outliers, filling of gaps,
 // offset and gain, filters. Fault detectors examine the samples between the steps.
 
-#include "io/quality/biquad.hpp"
 #include "io/quality/fault_detectors.hpp"
 #include "io/recording/recording.hpp"
 

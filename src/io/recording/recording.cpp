@@ -9,7 +9,6 @@
 #include "core/text/input_files.hpp"
 #include "io/quality/quality_report.hpp"
 #include "io/recording/column_selection.hpp"
-#include "io/recording/force_rows.hpp"
 #include "io/recording/recording_formats.hpp"
 #include "io/recording/samples.hpp"
 #include "io/recording/sensor_layout.hpp"
@@ -242,8 +241,7 @@ public:
     }
     std::vector<std::string> notes() const override { return notes_; }
     RecordingQuality quality() const override {
-        auto found =
-            assess_quality(channels_, rows_->pipelines(), row_clock_, {rows_->rows().dropped, rows_->rows().out_of_range}, rows_->sums());
+        auto found = assess_quality(channels_, *rows_, row_clock_);
         warn_about_orientation(found);
         return found;
     }

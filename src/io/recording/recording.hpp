@@ -2,7 +2,7 @@
 // Opens a recording file as a source of force. The options select its columns, units and clock, and the repair of its samples.
 
 #include "core/force_source.hpp"
-#include "io/quality/repair.hpp"
+#include "io/quality/filters.hpp"
 #include "io/table/table.hpp"
 
 namespace corpuscle {

@@ -2,7 +2,6 @@
 // The messages between this process and a helper program that reads samples.
 
 #include "io/recording/samples.hpp"
-#include "io/sandbox/message.hpp"
 
 namespace corpuscle {
 
@@ -18,20 +17,21 @@ struct FetchRequest {
     std::vector<std::size_t> wanted = {};  ///< indices of the columns
 };
 
-Message encode(const OpenRequest&);
-Message encode(const FetchRequest&);
+std::string encode(const OpenRequest&);
+std::string encode(const FetchRequest&);
 // Return false if the message is not such a request.
-bool decode(const Message&, OpenRequest&);
-bool decode(const Message&, FetchRequest&);
+bool decode(const std::string&, OpenRequest&);
+bool decode(const std::string&, FetchRequest&);
 
 // Responses of the program. A response begins with 0; an error begins with its ErrorCode, which is not 0.
-Message encode(const Error&);
-Message encode(const SamplesInfo&);
-Message encode(const std::vector<std::vector<double>>& columns);
+std::string encode(const Error&);
+std::string encode(const SamplesInfo&);
+std::string encode(const std::vector<std::vector<double>>& columns);
 
 // Decode responses; `path` is the path of the file, for messages. The program is not trusted: any bytes give values or an error.
-Result<SamplesInfo> decode_info(const Message&, const std::string& path);
+Result<SamplesInfo> decode_info(const std::string&, const std::string& path);
 /// Decodes the response to a FetchRequest for `rows` rows, and stores the values of each column in `out` from position `at` on.
-Result<void> decode_rows(const Message&, std::size_t at, std::size_t rows, std::vector<std::vector<double>>& out, const std::string& path);
+Result<void> decode_rows(const std::string&, std::size_t at, std::size_t rows, std::vector<std::vector<double>>& out,
+                         const std::string& path);
 
 }  // namespace corpuscle

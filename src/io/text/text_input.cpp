@@ -1,4 +1,4 @@
-#include "io/text/text_input.hpp"
+#include "io/text/line_reader.hpp"
 
 #include <fmt/format.h>
 #include <zlib.h>

@@ -2,7 +2,7 @@
 // Sources of a stream's frames: bytes in a given layout, or a recording.
 
 #include "core/force_source.hpp"
-#include "io/quality/biquad.hpp"
+#include "io/quality/filters.hpp"
 #include "live/input/byte_source.hpp"
 #include "live/input/frame_layout.hpp"
 #include "live/input/frame_sequence.hpp"

@@ -82,62 +82,38 @@ std::string no_such_site(const Sites& sites, std::string_view name) {
                        fmt::join(some.begin(), some.begin() + static_cast<std::ptrdiff_t>(std::min<std::size_t>(some.size(), 3)), ", "));
 }
 
-/// Reads the layout of frames row by row.
-class SiteMapReader {
-    NamedColumns table_;
-    const Sites& sites_;
-    SiteIndex index_;
-    std::size_t channel_ = 0, name_ = 0;             // columns, counted from 0
-    std::vector<std::optional<std::uint32_t>> map_;  // for each channel its site, if its row has been read
-    std::vector<char> taken_;                        // for each site: 1 if a channel has it
-
-    Result<void> read_header() {
-        TRY(table_.read_header());
-        const auto channel = table_.find({"channel", "sensor"}), name = table_.find({"name"});
-        if (!channel || !name)
-            return table_.error_at(
-                "a layout of frames needs the columns channel and name: channel is the number of a value in the frame, from 1; name is a "
-                "site");
-        channel_ = *channel, name_ = *name;
-        return {};
-    }
-
-    Result<void> add_row() {
-        const auto& fields = table_.fields();
-        if (fields.size() <= std::max(channel_, name_)) return table_.error_at("this row has too few columns");
-        const auto number = fields[channel_], name = fields[name_];
-        const auto channel = parse_bare_number<std::size_t>(number).value_or(0);
-        if (channel < 1 || channel > sites_.size())
-            return table_.error_at(
-                fmt::format("channel '{}': must be a number from 1 to {}, the number of sites", number.substr(0, 64), sites_.size()),
-                channel_);
-        const auto entry = index_.find(name);
-        if (entry == index_.end()) return table_.error_at(no_such_site(sites_, name), name_);
-        if (map_.size() < channel) map_.resize(channel);
-        if (std::exchange(taken_[entry->second], 1)) return table_.error_at(fmt::format("site '{}' has two channels", name), name_);
-        if (map_[channel - 1]) return table_.error_at(fmt::format("channel {} has two rows", channel), channel_);
-        map_[channel - 1] = entry->second;
-        return {};
-    }
-
-public:
-    SiteMapReader(LineReader lines, const Sites& sites)
-        : table_(std::move(lines)), sites_(sites), index_(index_sites(sites)), taken_(sites.size()) {}
-
-    Result<std::vector<std::uint32_t>> read() {
-        TRY(read_header());
-        while (TRY(table_.next())) TRY(add_row());
-        std::vector<std::uint32_t> out;
-        for (const auto& site : map_) {
-            if (!site)
-                return bad_input(fmt::format("channel {} has no row, although channel {} has one", out.size() + 1, map_.size()),
-                                 {table_.path()});
-            out.push_back(*site);
-        }
-        if (out.empty()) return bad_input("no channels in this layout", {table_.path()});
-        return out;
-    }
+/// The columns of a layout of frames.
+struct LayoutColumns {
+    std::size_t channel, name;
 };
+
+Result<LayoutColumns> find_layout_columns(const NamedColumns& table) {
+    const auto channel = table.find({"channel", "sensor"}), name = table.find({"name"});
+    if (channel && name) return LayoutColumns{*channel, *name};
+    return table.error_at(
+        "a layout of frames needs the columns channel and name: channel is the number of a value in the frame, from 1; name is a site");
+}
+
+/// Stores the site of the channel in the current line in `map`, whose elements are the sites of all channels. `taken` has for each site 1
+/// if a channel has it.
+Result<void> add_channel(const NamedColumns& table, const LayoutColumns& columns, const Sites& sites, const SiteIndex& index,
+                         std::vector<std::optional<std::uint32_t>>& map, std::vector<char>& taken) {
+    const auto& fields = table.fields();
+    if (fields.size() <= std::max(columns.channel, columns.name)) return table.error_at("this row has too few columns");
+    const auto number = fields[columns.channel], name = fields[columns.name];
+    const auto channel = parse_bare_number<std::size_t>(number).value_or(0);
+    if (channel < 1 || channel > sites.size())
+        return table.error_at(
+            fmt::format("channel '{}': must be a number from 1 to {}, the number of sites", number.substr(0, 64), sites.size()),
+            columns.channel);
+    const auto entry = index.find(name);
+    if (entry == index.end()) return table.error_at(no_such_site(sites, name), columns.name);
+    if (map.size() < channel) map.resize(channel);
+    if (std::exchange(taken[entry->second], 1)) return table.error_at(fmt::format("site '{}' has two channels", name), columns.name);
+    if (map[channel - 1]) return table.error_at(fmt::format("channel {} has two rows", channel), columns.channel);
+    map[channel - 1] = entry->second;
+    return {};
+}
 
 }  // namespace
 
@@ -226,8 +202,20 @@ Result<std::optional<std::vector<std::uint32_t>>> find_sites_if_named(const Site
 Result<std::vector<std::uint32_t>> read_site_map(const std::string& path, const Sites& sites) {
     std::error_code status;
     if (!std::filesystem::is_regular_file(path, status)) return bad_input("cannot be read: there is no such file", {path});
-    auto lines = TRY(LineReader::open(path));
-    return SiteMapReader(std::move(lines), sites).read();
+    NamedColumns table(TRY(LineReader::open(path)));
+    TRY(table.read_header());
+    const auto columns = TRY(find_layout_columns(table));
+    const auto index = index_sites(sites);
+    std::vector<std::optional<std::uint32_t>> map;
+    std::vector<char> taken(sites.size());
+    while (TRY(table.next())) TRY(add_channel(table, columns, sites, index, map, taken));
+    std::vector<std::uint32_t> out;
+    for (const auto& site : map) {
+        if (!site) return bad_input(fmt::format("channel {} has no row, although channel {} has one", out.size() + 1, map.size()), {path});
+        out.push_back(*site);
+    }
+    if (out.empty()) return bad_input("no channels in this layout", {path});
+    return out;
 }
 
 }  // namespace corpuscle

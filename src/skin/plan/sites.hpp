@@ -28,8 +28,8 @@ Result<Sites> grid_sites(std::size_t rows, std::size_t columns, double pitch);
 /// One site for each channel of a recording, at the channel's position in the layout. A channel without a position is an error.
 Result<Sites> channel_sites(std::span<const Channel>);
 
-/// The sites of a text table with the columns name, x and y with a unit ("x_mm", "y [m]"), and optionally region. Other columns are ignored.
-/// Errors name file, line and column.
+/// The sites of a text table with the columns name, x and y with a unit ("x_mm", "y [m]"), and optionally region. Other columns are
+/// ignored. Errors name file, line and column.
 Result<Sites> read_site_table(const std::string& path);
 
 // The site of each channel. For the values of a live frame this is given by a layout file like that of a recording.
