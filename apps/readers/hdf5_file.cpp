@@ -1,6 +1,5 @@
 #include "hdf5_file.hpp"
 
-#include <fmt/format.h>
 #include <unistd.h>
 #include <algorithm>
 #include <array>

@@ -1,7 +1,6 @@
 #include "helper_main.hpp"
 
 #include <fmt/format.h>
-#include <algorithm>
 #include <cstdlib>
 #include <exception>
 #include <new>

@@ -3,8 +3,6 @@
 #include <fmt/format.h>
 #include <cmath>
 
-#include "core/text/quantity.hpp"
-
 namespace corpuscle {
 namespace {
 

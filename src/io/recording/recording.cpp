@@ -84,14 +84,6 @@ class Recording final : public ForceSource {
                              occurrence == 1 ? name : fmt::format("{} ({})", name, occurrence), placed.position});
     }
 
-    /// For each channel, the newtons per unit of its values. Computed before the file is read, so that a unit that is not a force is
-    /// reported at once.
-    Result<std::vector<double>> gains_of(const std::vector<SensorPlacement>& chosen) const {
-        std::vector<double> gains;
-        for (const auto& placed : chosen) gains.push_back(TRY(newtons_per_unit(table_->columns()[placed.column], options_, path_)));
-        return gains;
-    }
-
     /// Warns if there are more columns than samples and the columns have no names of their own: the table may have to be transposed.
     void warn_about_orientation(RecordingQuality& quality) const {
         const auto& columns = table_->columns();
@@ -201,9 +193,12 @@ public:
             return bad_input(fmt::format("{} channels are more than the limit of {}; select some, such as --channel 1-1000", chosen.size(),
                                          max_channels),
                              {path_});
-        const auto gains = TRY(gains_of(chosen));
         std::vector<std::size_t> columns;
-        for (const auto& p : chosen) columns.push_back(p.column);
+        std::vector<double> gains;  // N per unit; computed before the file is read, so that a unit that is not a force is reported at once
+        for (const auto& p : chosen) {
+            columns.push_back(p.column);
+            gains.push_back(TRY(newtons_per_unit(table_->columns()[p.column], options_, path_)));
+        }
         TRY(set_clock(time, columns));
         notes_.insert(notes_.end(), selection_notes_.begin(), selection_notes_.end());
         add_channels(chosen);

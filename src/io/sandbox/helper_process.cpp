@@ -8,7 +8,6 @@
 #include <sys/wait.h>
 #include <cerrno>
 #include <csignal>
-#include <cstdlib>
 #include <cstring>
 #include <vector>
 

@@ -4,7 +4,6 @@
 
 #include "io/recording/recording_formats.hpp"
 #include "io/spikes/train_collector.hpp"
-#include "io/table/foreign_format.hpp"
 #include "io/table/npz.hpp"
 
 namespace corpuscle {

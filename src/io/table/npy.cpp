@@ -1,4 +1,4 @@
-#include "io/table/npy.hpp"
+#include "io/table/npz.hpp"
 
 #include <fmt/format.h>
 #include <algorithm>

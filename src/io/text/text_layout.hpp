@@ -28,6 +28,14 @@ struct TextLayout {
 /// of its channel.
 Result<TextLayout> detect_text_layout(LineReader&, std::size_t skip, bool rows_are_channels);
 
+/// True if a file with this first line is a LabVIEW measurement file (.lvm). It has two headers of names and values, one of the file and
+/// one of its first segment, followed by a table.
+bool is_labview(std::string_view first_line);
+
+/// Reads the headers and the column names of a LabVIEW file. `lines` are the first lines of the file that are not empty. Sets dialect,
+/// columns and rate (only if the table has no times) in `out`. Returns the index in `lines` of the table's first row.
+Result<std::size_t> read_labview_header(const std::vector<std::string>& lines, const std::string& path, TextLayout& out);
+
 /// True if a line is blank, or if its first character that is not a blank is # or %.
 inline bool is_comment(std::string_view line) {
     for (const char c : line)

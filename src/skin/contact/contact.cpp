@@ -4,7 +4,7 @@
 
 #include "core/stimulus/touch.hpp"
 #include "core/text/quantity.hpp"
-#include "skin/contact/pressure_distribution.hpp"
+#include "skin/contact/indenters.hpp"
 #include "skin/contact/skin_cells.hpp"
 
 namespace corpuscle {

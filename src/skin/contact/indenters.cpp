@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 #include <algorithm>
 
-#include "core/number/number.hpp"
 #include "skin/contact/contact.hpp"
 
 namespace corpuscle {

@@ -1,4 +1,4 @@
-#include "skin/contact/pressure_distribution.hpp"
+#include "skin/contact/indenters.hpp"
 
 #include <algorithm>
 
