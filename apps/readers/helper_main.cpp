@@ -6,7 +6,7 @@
 #include <new>
 
 #include "io/sandbox/helper_process.hpp"
-#include "io/sandbox/samples_message.hpp"
+#include "io/sandbox/remote_samples.hpp"
 
 namespace corpuscle {
 namespace {

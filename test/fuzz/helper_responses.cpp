@@ -3,7 +3,7 @@
 #include <cstdint>
 #include <cstdlib>
 
-#include "io/sandbox/samples_message.hpp"
+#include "io/sandbox/remote_samples.hpp"
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
     using namespace corpuscle;

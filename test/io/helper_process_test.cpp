@@ -17,7 +17,6 @@
 #include <thread>
 
 #include "io/sandbox/remote_samples.hpp"
-#include "io/sandbox/samples_message.hpp"
 #include "readers/helper_main.hpp"
 #include "support/child_process.hpp"
 #include "support/sanitized.hpp"
@@ -114,7 +113,7 @@ std::string framed(const std::string& m) {
 
 TEST(HelperProcess, ACrashDuringReadingIsAnErrorInEveryLaterRead) {
     const TemporaryFolder folder;
-    folder.write("answers", framed(encode(SamplesInfo{.columns = {{"fz", "N"}}, .rows = 10, .rate = 100.0, .notes = {"a remark"}})) +
+    folder.write("answers", framed(encode(SamplesInfo{{.columns = {{"fz", "N"}}, .rate = 100.0, .notes = {"a remark"}}, 10})) +
                                 framed(encode(std::vector<std::vector<double>>{{7.0}})));
     const auto program = script(folder, "cat '" + folder / "answers" + "' >&3; kill -BUS $$");
     auto samples = test::value_or_throw(open_remote_samples_with(program, folder.write("x.h5", ""), {"", "it"}));
@@ -132,7 +131,7 @@ TEST(HelperProcess, ACrashDuringReadingIsAnErrorInEveryLaterRead) {
 
 TEST(HelperProcess, ADamagedMessageIsAnError) {
     const TemporaryFolder folder;
-    SamplesInfo info{{{"fz", "N"}}, 10, 100.0, 5};
+    SamplesInfo info{{.columns = {{"fz", "N"}}, .time_column = 5, .rate = 100.0}, 10};
     std::vector<std::string> messages = {framed(encode(info)), framed("xx"), framed(std::string(8, '\x7f'))};
     info.time_column.reset();
     const auto complete = encode(info);

@@ -11,7 +11,6 @@
 #include "io/recording/column_selection.hpp"
 #include "io/recording/recording_formats.hpp"
 #include "io/recording/samples.hpp"
-#include "io/recording/sensor_layout.hpp"
 #include "io/table/foreign_format.hpp"
 
 namespace corpuscle {

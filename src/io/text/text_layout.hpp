@@ -2,7 +2,7 @@
 // Detects the layout of a text table: its first row, separator and header. Data loggers write other lines before the table (a preamble), a
 // row of units below the header, or the header as a comment.
 
-#include "io/table/column_roles.hpp"
+#include "io/table/heading.hpp"
 #include "io/text/dialect.hpp"
 #include "io/text/line_reader.hpp"
 #include "io/text/time_stamp.hpp"

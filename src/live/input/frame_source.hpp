@@ -5,7 +5,6 @@
 #include "io/quality/filters.hpp"
 #include "live/input/byte_source.hpp"
 #include "live/input/frame_layout.hpp"
-#include "live/input/frame_sequence.hpp"
 
 namespace corpuscle {
 

@@ -8,7 +8,7 @@
 #include <sys/stat.h>
 #include <cerrno>
 
-#include "live/steady_clock.hpp"
+#include "live/input/byte_source.hpp"
 
 namespace corpuscle {
 namespace {
