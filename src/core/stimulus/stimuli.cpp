@@ -20,9 +20,10 @@ ErasedStimulus erase_stimulus(std::span<const Setting> settings, std::uint64_t s
     S s;
     s.p = with_settings<typename S::Params>(S::fields, settings);
     if constexpr (requires { s.seed; }) s.seed = seed;
-    double cycle_frequency = 0;
-    if constexpr (requires { s.cycle(); }) cycle_frequency = s.cycle();
-    return {s.duration(), cycle_frequency, s.phases(), [s](double t) { return s.at(t); }};
+    ErasedStimulus erased{s.duration(), 0, {}, [s](double t) { return s.at(t); }};
+    if constexpr (requires { s.cycle(); }) erased.cycle_frequency = s.cycle();
+    if constexpr (requires { s.phases(); }) erased.phases = s.phases();
+    return erased;
 }
 
 /// The stimulus with this name; nullopt if the list has none.

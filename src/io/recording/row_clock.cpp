@@ -173,7 +173,7 @@ Result<void> find_epoch(Table& table, std::size_t column, double unit, bool unit
 
 void ClockAnalysis::add(double t) {
     const Point p{static_cast<double>(count_), t};
-    if (!has_samples_) {
+    if (upper_.empty()) {
         first_ = p;
     } else {
         const double step = t - last_.t;
@@ -182,7 +182,6 @@ void ClockAnalysis::add(double t) {
         max_step_ = is_first_step ? step : std::max(max_step_, step);
         steps_.add(step);
     }
-    has_samples_ = true;
     // Adds p to one side of the hull. `sign` is 1 for the upper and -1 for the lower side.
     const auto push = [&](std::vector<Point>& side, double sign) {
         // True if b is not a corner of the hull of a, b and the new point p.

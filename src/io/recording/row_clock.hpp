@@ -17,7 +17,6 @@ class ClockAnalysis {
     std::vector<Point> upper_, lower_;    // the two sides of the hull
     Point first_{}, last_{};              // the first and the latest sample with a known time
     LogHistogram steps_;                  // intervals between samples with known times
-    bool has_samples_ = false;            // true after the first call of add()
     double min_step_ = 0, max_step_ = 0;  // s
     std::int64_t count_ = 0;              // all samples so far
 
