@@ -1,7 +1,6 @@
 #include "live/skin_stream.hpp"
 
 #include <fmt/format.h>
-#include <algorithm>
 #include <numeric>
 
 namespace corpuscle {

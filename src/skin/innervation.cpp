@@ -5,8 +5,6 @@
 #include <unistd.h>
 #include <cmath>
 
-#include "skin/placement.hpp"
-
 namespace corpuscle {
 namespace {
 

@@ -1,4 +1,4 @@
-#include "skin/placement.hpp"
+#include "skin/innervation.hpp"
 
 #include <fmt/format.h>
 #include <numeric>

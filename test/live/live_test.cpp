@@ -6,6 +6,7 @@
 #include <nlohmann/json.hpp>
 #include <thread>
 
+#include <fmt/format.h>
 #include <poll.h>
 #include <sys/socket.h>
 

@@ -10,10 +10,9 @@
 namespace corpuscle {
 
 Result<LineReader> LineReader::open(const std::string& path) {
-    auto input = TRY(open_text_input(path));
     LineReader lines;
     lines.path_ = path;
-    lines.input_ = std::move(input);
+    lines.input_ = TRY(open_text_input(path));
     return lines;
 }
 

@@ -1,7 +1,6 @@
 #include "skin/contact/indenters.hpp"
 
 #include <fmt/format.h>
-#include <algorithm>
 
 #include "skin/contact/contact.hpp"
 

@@ -48,11 +48,10 @@ Result<SkinPlan> plan_grid(std::string_view text) {
     const double count = static_cast<double>(size->first) * static_cast<double>(size->second);
     if (count <= static_cast<double>(max_sites))
         TRY(check_available_memory(fmt::format("grid {}x{}", size->first, size->second), count, 2 * count, 18 * count));
-    auto sites = TRY(grid_sites(size->first, size->second, grid_pitch));
     SkinPlan plan;
     plan.name = fmt::format("grid {}x{}", size->first, size->second);
     plan.description = fmt::format("{} by {} sensors, 2 mm apart; an SA-I and an FA-I at each", size->first, size->second);
-    plan.sites = std::move(sites);
+    plan.sites = TRY(grid_sites(size->first, size->second, grid_pitch));
     plan.classes = {class_with_one_per_site("sa1"), class_with_one_per_site("fa1")};
     return plan;
 }

@@ -1,4 +1,4 @@
-#include "skin/plan/regions.hpp"
+#include "skin/plan/sites.hpp"
 
 #include <fmt/format.h>
 #include <algorithm>

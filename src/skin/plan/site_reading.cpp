@@ -7,7 +7,6 @@
 #include <set>
 
 #include "skin/plan/population_values.hpp"
-#include "skin/plan/regions.hpp"
 
 namespace corpuscle::skins {
 namespace {
