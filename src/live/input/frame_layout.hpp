@@ -1,6 +1,6 @@
 #pragma once
-// The frames of a stream (doc/live.md): the layout of one frame of forces, binary or text; the reason why a frame could not be read; the
-// order of numbered frames.
+// The frames of a stream (doc/live.md): the layout of one frame of forces, binary or text, and the order of numbered frames. Also the
+// reason why a frame could not be read.
 
 #include <cstddef>
 #include <cstdint>
