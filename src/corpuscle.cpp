@@ -8,7 +8,7 @@
 #include "measure/measures.hpp"
 #include "run/afferent_plan.hpp"
 #include "run/simulate.hpp"
-#include "skin/plan/class_overrides.hpp"
+#include "skin/plan/skin_plan.hpp"
 
 namespace corpuscle {
 namespace {

@@ -1,4 +1,4 @@
-#include "confinement.hpp"
+// The rights that a helper program gives up before it reads the first byte of a file.
 
 #include <linux/audit.h>
 #include <linux/filter.h>
@@ -10,9 +10,9 @@
 #include <unistd.h>
 #include <algorithm>
 #include <cerrno>
-#include <cstddef>
 #include <cstdio>
-#include <vector>
+
+#include "helper_main.hpp"
 
 namespace corpuscle {
 namespace {

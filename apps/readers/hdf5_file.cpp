@@ -1,10 +1,8 @@
 #include "hdf5_file.hpp"
 
-#include <fmt/format.h>
 #include <unistd.h>
 #include <algorithm>
 #include <array>
-#include <memory>
 
 namespace corpuscle::hdf5 {
 namespace {

@@ -4,10 +4,6 @@
 
 #include <hdf5.h>
 
-#include <optional>
-#include <utility>
-#include <vector>
-
 #include "io/recording/samples.hpp"
 
 namespace corpuscle::hdf5 {
@@ -66,5 +62,20 @@ std::vector<std::string> attribute_names(hid_t object);
 
 /// The number in a dataset that contains exactly one; otherwise nullopt.
 std::optional<double> single_number(hid_t dataset);
+
+/// How the data of a dataset are stored.
+struct StorageInfo {
+    std::vector<hsize_t> chunk = {};      ///< elements of a chunk in each dimension of the dataset; empty if the dataset is not chunked
+    bool has_gaps = false;                ///< true if some chunks were never written and have no fill value defined by the file's author
+    std::vector<std::string> notes = {};  ///< for the user
+};
+
+/// Checks that the data of a dataset exist. HDF5 reads data that were never written, or that are in missing files, as the fill value, which
+/// is 0 by default. Fails if the data are in other files, if less than half of them were written, if a chunk is too large, or if a filter
+/// is not available.
+Result<StorageInfo> check_storage(hid_t dataset, const ArrayInfo&, const std::string& path);
+
+/// True if the chunk that begins at element `offset` (an index in each dimension) was written.
+bool is_chunk_written(hid_t dataset, std::span<const hsize_t> offset);
 
 }  // namespace corpuscle::hdf5

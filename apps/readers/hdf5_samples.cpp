@@ -3,12 +3,10 @@
 #include <fmt/format.h>
 #include <algorithm>
 #include <array>
-#include <limits>
 
-#include "hdf5_storage.hpp"
+#include "hdf5_file.hpp"
 #include "helper_main.hpp"
 #include "io/table/foreign_format.hpp"
-#include "io/table/heading.hpp"
 
 namespace corpuscle {
 namespace {

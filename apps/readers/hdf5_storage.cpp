@@ -1,4 +1,4 @@
-#include "hdf5_storage.hpp"
+#include "hdf5_file.hpp"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>

@@ -1,35 +1,31 @@
 #include "helper_main.hpp"
 
 #include <fmt/format.h>
-#include <unistd.h>
-#include <algorithm>
 #include <cstdlib>
 #include <exception>
 #include <new>
-#include <string_view>
 
-#include "confinement.hpp"
 #include "io/sandbox/helper_process.hpp"
-#include "io/sandbox/samples_message.hpp"
+#include "io/sandbox/remote_samples.hpp"
 
 namespace corpuscle {
 namespace {
 
 /// Receives a request and starts the time limit of its reply: an alarm that ends the program. Returns false if the socket was closed.
-bool next_request(int socket, Message& m) {
-    if (!m.receive(socket)) return false;
+bool next_request(int socket, std::string& m) {
+    if (!receive_message(socket, m)) return false;
     ::alarm(HelperProcess::response_timeout_s);
     return true;
 }
 
 /// Ends the time limit and sends the reply.
-bool send_reply(int socket, const Message& m) {
+bool send_reply(int socket, const std::string& m) {
     ::alarm(0);
-    return m.send(socket);
+    return send_message(socket, m);
 }
 
 /// The requested samples, or the error.
-Message reply_to(const FetchRequest& request, Samples& samples) {
+std::string reply_to(const FetchRequest& request, Samples& samples) {
     std::vector<std::vector<double>> out(request.wanted.size(), std::vector<double>(request.rows));
     if (auto ok = samples.fetch(static_cast<std::int64_t>(request.first), request.rows, request.wanted, out); !ok)
         return encode(ok.error());
@@ -41,14 +37,14 @@ void serve_requests(int socket, int file, const OpenRequest& first, const OpenSa
     auto samples = open(file, first.path, first.options);
     if (!send_reply(socket, samples ? encode((*samples)->info()) : encode(samples.error())) || !samples) return;
     FetchRequest request;
-    for (Message m; next_request(socket, m) && decode(m, request);)
+    for (std::string m; next_request(socket, m) && decode(m, request);)
         if (!send_reply(socket, reply_to(request, **samples))) return;
 }
 
 }  // namespace
 
 void serve(int socket, int file, const OpenSamples& open) {
-    Message m;
+    std::string m;
     OpenRequest first;
     if (!next_request(socket, m) || !decode(m, first)) return;
     try {

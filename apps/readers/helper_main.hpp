@@ -2,8 +2,6 @@
 // The helper programs: the main loop, which they share, and the reader of each file format. Only helper programs call the readers, because
 // damaged files have crashed the libraries of the formats, or could make them loop forever.
 
-#include <functional>
-
 #include "io/recording/samples.hpp"
 
 namespace corpuscle {
@@ -15,6 +13,11 @@ using OpenSamples = std::function<SamplesResult(int file, const std::string& pat
 SamplesResult open_hdf5_samples(int file, const std::string& path, const TableOptions&);
 /// Opens a sound file with libsndfile. The options are not used.
 SamplesResult open_sound_samples(int file, const std::string& path, const TableOptions&);
+
+/// Forbids this process new privileges, descriptors, files, programs, connections and core dumps, and lets it use at most `memory` bytes
+/// more address space than now. Existing lower limits stay. Landlock and seccomp are used if the kernel has them. Descriptors up to
+/// `last_descriptor` stay usable.
+void confine(int last_descriptor, std::uint64_t memory);
 
 /// Serves the requests of the program `corpuscle` on `socket`: one that opens the samples of descriptor `file`, then those for rows.
 void serve(int socket, int file, const OpenSamples&);

@@ -2,7 +2,6 @@
 
 #include <fmt/format.h>
 #include <sndfile.h>
-#include <algorithm>
 
 #include "helper_main.hpp"
 

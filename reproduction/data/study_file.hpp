@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "core/text/located_text.hpp"
+#include "core/text/config_file.hpp"
 
 namespace corpuscle {
 

@@ -2,13 +2,8 @@
 // The interface of an afferent: it responds to a block of force with spikes. One virtual call per block.
 
 #include <cstddef>
-#include <cstdint>
-#include <span>
-#include <string>
 #include <string_view>
-#include <vector>
 
-#include "core/error.hpp"
 #include "core/spike.hpp"
 
 namespace corpuscle {

@@ -1,16 +1,9 @@
 #pragma once
-// The plan of an afferent: everything that is known about it before its sampling interval. Equations (model/catalog.cpp) and netlists
-// (circuit/afferent/netlist_plan.cpp) make plans. Other code asks the plan's factory what it needs to know; it never asks which of the two
-// it has.
+// The plan of an afferent: everything that is known about it before its sampling interval; and its specification by the user. Equations
+// (model/catalog.cpp) and netlists (circuit/afferent/netlist_plan.cpp) are specified differently, and run/afferent_plan.cpp reads the text
+// of either. Other code asks the plan's factory what it needs to know; it never asks which of the two it has.
 
-#include <cstdint>
-#include <memory>
 #include <nlohmann/json_fwd.hpp>
-#include <optional>
-#include <string>
-#include <string_view>
-#include <utility>
-#include <vector>
 
 #include "core/afferent.hpp"
 #include "core/parameter_override.hpp"
@@ -98,5 +91,22 @@ struct PlannedAfferent : Applied<AfferentPlan> {
 inline std::unique_ptr<Afferent> make_afferent(const AfferentPlan& plan, const SimulationOptions& options) {
     return plan.factory->make(plan, options);
 }
+
+/// The specification of an afferent: the text of the user, already read, without the overrides.
+class AfferentSpec {
+    std::string text_;
+
+public:
+    explicit AfferentSpec(std::string_view text) : text_(text) {}
+    AfferentSpec(const AfferentSpec&) = delete;
+    AfferentSpec& operator=(const AfferentSpec&) = delete;
+    virtual ~AfferentSpec() = default;
+
+    /// The text: "SA1", "sa1b+izhikevich", "path/own.cir". It is one of the targets of overrides for this afferent.
+    const std::string& text() const { return text_; }
+    /// Plans the afferent with the overrides that are for it. `probes`: recorded instead of the .save quantities of a netlist that has at
+    /// least one of them.
+    virtual Result<PlannedAfferent> plan(std::span<const ParameterOverride>, std::span<const std::string> probes) const = 0;
+};
 
 }  // namespace corpuscle

@@ -3,14 +3,9 @@
 // on the same kind of machine.
 
 #include <bit>
-#include <cstddef>
-#include <cstdint>
-#include <cstring>
 #include <optional>
-#include <span>
 #include <string>
 #include <tuple>
-#include <type_traits>
 #include <vector>
 
 #include "core/checksum.hpp"

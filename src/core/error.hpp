@@ -24,7 +24,12 @@ struct Error {
     SourceLocation location = {};
 
     /// "file:line:column: message", without the unknown parts of the location.
-    std::string text() const;
+    std::string text() const {
+        std::string at = location.file;
+        if (location.line > 0) at += (at.empty() ? "line " : ":") + std::to_string(location.line);
+        if (location.line > 0 && location.column > 0) at += ":" + std::to_string(location.column);
+        return at.empty() ? message : at + ": " + message;
+    }
 };
 
 inline Error bad_input(std::string message, SourceLocation location = {}) {

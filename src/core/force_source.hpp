@@ -1,15 +1,10 @@
 #pragma once
 // The interface of a source of force: a stimulus or a recording, read in blocks of samples.
 
-#include <cstdint>
-#include <memory>
-#include <optional>
-#include <string>
 #include <string_view>
 #include <vector>
 
 #include "core/clock.hpp"
-#include "core/error.hpp"
 
 namespace corpuscle {
 
@@ -85,6 +80,13 @@ public:
 };
 
 /// Reads a source to its end: the force of its first channel, N.
-Result<std::vector<double>> read_channel(ForceSource&);
+inline Result<std::vector<double>> read_channel(ForceSource& source) {
+    std::vector<double> out;
+    for (Frames block(source.channels().size(), 4096);;) {
+        TRY(source.read(block));
+        if (block.count == 0) return out;
+        out.insert(out.end(), block.force[0].begin(), block.force[0].begin() + static_cast<std::ptrdiff_t>(block.count));
+    }
+}
 
 }  // namespace corpuscle

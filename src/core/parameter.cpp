@@ -1,7 +1,6 @@
 #include "core/parameter.hpp"
 
 #include <fmt/format.h>
-#include <algorithm>
 #include <numeric>
 
 #include "core/text/ascii_text.hpp"

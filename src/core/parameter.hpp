@@ -2,9 +2,7 @@
 // Each parameter is declared once, in a row of a table. Command line, JSON, reference pages and checks are generated from these rows.
 
 #include <iterator>
-#include <optional>
 #include <span>
-#include <string>
 #include <string_view>
 #include <vector>
 

@@ -9,17 +9,11 @@
 namespace corpuscle {
 namespace {
 
-std::string names_of(std::span<const ParameterInfo> parameters) {
-    std::string names;
-    for (const auto& r : parameters) names += (names.empty() ? "" : ", ") + std::string(r.name);
-    return names;
-}
-
 std::string unknown_parameter(const ParameterOverride& given, std::span<const ParameterInfo> parameters) {
     std::vector<std::string_view> names;
     for (const auto& r : parameters) names.push_back(r.name);
     return fmt::format("{}: unknown parameter '{}'{} (it has {})", given.target, given.parameter, did_you_mean(given.parameter, names),
-                       names_of(parameters));
+                       fmt::join(names, ", "));
 }
 
 }  // namespace

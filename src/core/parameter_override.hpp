@@ -5,10 +5,6 @@
 // keeps those that nothing has used, and at the end check_all_used() reports them.
 
 #include <functional>
-#include <span>
-#include <string>
-#include <string_view>
-#include <vector>
 
 #include "core/parameter.hpp"
 

@@ -4,8 +4,6 @@
 // matter.
 
 #include <array>
-#include <cstdint>
-#include <string_view>
 
 #include "core/checksum.hpp"
 #include "core/number/elementary.hpp"

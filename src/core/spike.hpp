@@ -2,7 +2,6 @@
 // A spike, and the times of a spike train.
 
 #include <compare>
-#include <cstdint>
 #include <span>
 #include <vector>
 
@@ -20,6 +19,11 @@ struct Spike {
 };
 
 /// The times of the spikes in s, in the order of `train`.
-std::vector<double> spike_times(std::span<const Spike> train, const Clock& clock);
+inline std::vector<double> spike_times(std::span<const Spike> train, const Clock& clock) {
+    std::vector<double> out;
+    out.reserve(train.size());
+    for (const Spike& s : train) out.push_back(clock.time(s.step, s.offset));
+    return out;
+}
 
 }  // namespace corpuscle

@@ -3,9 +3,6 @@
 #include <fmt/format.h>
 
 #include "core/text/ascii_text.hpp"
-#include "model/catalog.hpp"
-#include "skin/plan/class_overrides.hpp"
-#include "skin/plan/sites.hpp"
 
 namespace corpuscle {
 namespace {
@@ -28,11 +25,10 @@ bool is_afferent_list(std::string_view list) {
 
 Result<Applied<SkinPlan>> make_channel_plan(std::string_view afferents, std::size_t channels,
                                             std::span<const ParameterOverride> overrides) {
-    auto sites = TRY(grid_sites(1, channels, 1e-3));  // a site for each channel; the distance of 1 mm is arbitrary
     SkinPlan plan;
+    plan.sites = TRY(grid_sites(1, channels, 1e-3));  // a site for each channel; the distance of 1 mm is arbitrary
     plan.name = afferents, plan.is_by_channel = true;
     plan.description = fmt::format("{} on {} channel{}", afferents, channels, channels == 1 ? "" : "s");
-    plan.sites = std::move(sites);
     for (std::size_t c = 0; c < channels; ++c) plan.sites.names[c] = fmt::format("ch{}", c + 1);
     std::vector<ParameterOverride> unused(overrides.begin(), overrides.end());
     for (const auto name : split(afferents, ',')) {

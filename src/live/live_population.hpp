@@ -2,7 +2,6 @@
 // The population of a live stream: a skin by name or file, or named afferents on a number of channels. Also the names and addresses of its
 // afferents in the output.
 
-#include "core/parameter_override.hpp"
 #include "io/spikes/events.hpp"
 #include "skin/innervation.hpp"
 

@@ -1,17 +1,24 @@
 #include "live/skin_stream.hpp"
 
 #include <fmt/format.h>
-#include <algorithm>
 #include <numeric>
 
 namespace corpuscle {
+
+SkinStream::SkinStream(std::shared_ptr<const Innervation> innervation, const Clock& clock, std::unique_ptr<Skin> skin,
+                       std::size_t batch_frames)
+    : innervation_(std::move(innervation)), clock_(clock), skin_(std::move(skin)), touched_(sites()), all_sites_(sites()),
+      batch_frames_(batch_frames), block_(sites() * batch_frames), is_in_batch_(sites()) {
+    std::iota(all_sites_.begin(), all_sites_.end(), 0U);
+    spikes_.reserve(8 * innervation_->afferents.size() + 64);  // space for several spikes of each afferent in one frame or batch
+    batch_sites_.reserve(sites());
+}
 
 Result<std::unique_ptr<SkinStream>> SkinStream::make(std::shared_ptr<const Innervation> innervation, const Clock& clock,
                                                      bool spikes_on_samples, std::size_t batch_frames) {
     const auto set = TRY(instruction_set());
     auto skin = TRY(Skin::make(innervation, {.dt = clock.T(), .spikes_on_samples = spikes_on_samples}, set));
-    std::unique_ptr<SkinStream> stream(new SkinStream(std::move(innervation), clock, std::move(skin)));
-    stream->allocate(batch_frames);
+    std::unique_ptr<SkinStream> stream(new SkinStream(std::move(innervation), clock, std::move(skin), batch_frames));
     TRY(stream->warm_up());
     return stream;
 }
@@ -56,16 +63,6 @@ Result<std::span<const Spike>> SkinStream::push(std::span<const double> frame) {
     spikes_.clear();
     TRY(skin_->respond({frame.data(), 1, find_touched(frame), false}, 1, spikes_, pool_));
     return std::span<const Spike>(spikes_);
-}
-
-void SkinStream::allocate(std::size_t batch_frames) {
-    touched_.resize(sites()), all_sites_.resize(sites());
-    std::iota(all_sites_.begin(), all_sites_.end(), 0U);
-    spikes_.reserve(8 * innervation_->afferents.size() + 64);  // space for several spikes of each afferent in one frame or batch
-    batch_frames_ = batch_frames;
-    block_.assign(sites() * batch_frames, 0.0);
-    is_in_batch_.assign(sites(), 0);
-    batch_sites_.reserve(sites());
 }
 
 bool SkinStream::add_to_batch(std::span<const double> frame) {

@@ -2,9 +2,6 @@
 // Simulates a skin frame by frame: one frame of forces in, the spikes out that arrive at the recording point during this frame. It uses no
 // locks and allocates no memory after construction. The spikes are the same as those of a recording that contains these frames.
 
-#include <span>
-#include <vector>
-
 #include "skin/skin.hpp"
 
 namespace corpuscle {
@@ -21,9 +18,7 @@ class SkinStream {
     std::vector<std::uint32_t> batch_sites_;          // sites with force in a frame of the batch
     std::vector<std::uint8_t> is_in_batch_;           // for each site: 1 if it is in batch_sites_
 
-    SkinStream(std::shared_ptr<const Innervation> innervation, const Clock& clock, std::unique_ptr<Skin> skin)
-        : innervation_(std::move(innervation)), clock_(clock), skin_(std::move(skin)) {}
-    void allocate(std::size_t batch_frames);
+    SkinStream(std::shared_ptr<const Innervation>, const Clock&, std::unique_ptr<Skin>, std::size_t batch_frames);
     Result<void> warm_up();
     std::span<const std::uint32_t> find_touched(std::span<const double> frame);
 

@@ -1,8 +1,6 @@
 #include "live/stream_loop.hpp"
 
 #include <poll.h>
-#include <cmath>
-#include <utility>
 
 namespace corpuscle {
 namespace {

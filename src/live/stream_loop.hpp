@@ -2,8 +2,6 @@
 // The main loop of a live stream: waits for frames, simulates each, and writes its spikes. It runs in one thread. If the reader of the
 // spikes is slow, the loop waits for it only if the spikes go to a file, or if the frames can wait. Otherwise it drops spikes.
 
-#include <functional>
-
 #include "live/input/frame_source.hpp"
 #include "live/latency_histogram.hpp"
 #include "live/output/event_sink.hpp"

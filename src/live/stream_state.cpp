@@ -1,7 +1,6 @@
 #include "live/stream_state.hpp"
 
 #include <fmt/format.h>
-#include <cstring>
 
 #include "core/bytes.hpp"
 #include "core/text/input_files.hpp"

@@ -1,10 +1,7 @@
 #pragma once
 // The saved state of a live stream: the last frame with its number, and the state of the skin.
 
-#include <optional>
-#include <string>
-
-#include "live/input/frame_sequence.hpp"
+#include "live/input/frame_layout.hpp"
 #include "live/skin_stream.hpp"
 
 namespace corpuscle {

@@ -6,7 +6,7 @@
 #include <string_view>
 #include <vector>
 
-#include "core/afferent_spec.hpp"
+#include "core/afferent_factory.hpp"
 
 namespace corpuscle {
 

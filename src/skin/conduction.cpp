@@ -1,6 +1,5 @@
 #include "skin/conduction.hpp"
 
-#include <algorithm>
 #include <cmath>
 
 namespace corpuscle {

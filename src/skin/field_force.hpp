@@ -1,11 +1,8 @@
 #pragma once
 // Applies receptive fields: computes the force on the afferents of one class from the force at the sites.
 
-#include <optional>
-
 #include "model/lane_population.hpp"
 #include "model/lanes/aligned_buffer.hpp"
-#include "skin/fields_by_afferent.hpp"
 #include "skin/lanes/kernel.hpp"
 #include "skin/skin.hpp"
 
@@ -43,6 +40,13 @@ private:
         std::vector<std::ptrdiff_t> row;     ///< for each row the site of afferent 0; may be negative; empty: not built
         std::vector<std::uint32_t> weights;  ///< [row][u / 8]: index in weights_ of the first of eight weights
     };
+    /// The receptive fields sorted by afferent, for use when a large part of the skin is touched. The force on one afferent is then summed
+    /// completely, in registers, which is faster than adding the contribution of each site to the sums of many afferents.
+    struct FieldsByAfferent {
+        std::vector<std::size_t> begin;  ///< for each afferent: index of its first entry in `site` and `weight`; then the number of entries
+        std::vector<std::uint32_t> site;  ///< in ascending order for each afferent
+        std::vector<double> weight;
+    };
     /// The arguments of compute().
     struct Call {
         const SiteForce& force;
@@ -59,7 +63,7 @@ private:
     std::vector<std::size_t> responding_begin_;       // for each site: index of its first tile in responding_tiles_; built with one_step_
     std::vector<std::uint32_t> responding_tiles_;     // the tiles with afferents that respond to a site, site by site
     std::vector<double> padded_force_;                // for a single step: force at all sites, with zeros before and after
-    std::optional<FieldsByAfferent> by_afferent_;     // built when a large part of the skin is first touched
+    FieldsByAfferent by_afferent_;                    // built when a large part of the skin is first touched; empty before
     std::vector<const double*> site_rows_;            // for each site: its force in the steps of the call
     lanes::AlignedBuffer<double> rows_;               // result: ForceTiles::rows
     std::vector<std::uint8_t> zero_force_;            // result: ForceTiles::zero_force
@@ -68,6 +72,7 @@ private:
     void compute_piece(std::size_t piece, const Call&, double* sums);
     void build_by_afferent();
     void compute_by_afferent(const Call&, ThreadPool&);
+    void compute_tile(std::size_t tile, std::size_t steps);
     void build_one_step();
     class WeightGroups;
     void build_tile(std::size_t tile, std::size_t sites, WeightGroups&);

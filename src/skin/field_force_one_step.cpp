@@ -1,9 +1,7 @@
 // FieldForce for a single step. The sums equal those of several steps bit for bit, because the order of their terms is the same.
 
-#include <algorithm>
 #include <array>
 #include <map>
-#include <utility>
 
 #include "skin/field_force.hpp"
 

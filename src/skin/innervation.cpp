@@ -3,10 +3,7 @@
 #include <fmt/format.h>
 #include <sys/resource.h>
 #include <unistd.h>
-#include <algorithm>
 #include <cmath>
-
-#include "skin/placement.hpp"
 
 namespace corpuscle {
 namespace {

@@ -2,13 +2,7 @@
 // The simulation of a skin: force at the sites in, spikes of all its afferents out, block by block. The spikes are the same bit for bit for
 // all block lengths, numbers of threads and instruction sets. They are also the same if the simulation is saved and resumed in between.
 
-#include <cstddef>
-#include <memory>
-#include <span>
-#include <vector>
-
 #include "core/number/instruction_set.hpp"
-#include "core/simulation_options.hpp"
 #include "core/thread_pool.hpp"
 #include "skin/innervation.hpp"
 

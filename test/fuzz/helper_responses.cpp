@@ -3,20 +3,18 @@
 #include <cstdint>
 #include <cstdlib>
 
-#include "io/sandbox/samples_message.hpp"
+#include "io/sandbox/remote_samples.hpp"
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
     using namespace corpuscle;
     const std::string bytes(reinterpret_cast<const char*>(data), size);
-    Message first(bytes), second(bytes);
-    const auto info = decode_info(first, "x.h5");
+    const auto info = decode_info(bytes, "x.h5");
     if (info && info->time_column && *info->time_column >= info->columns.size()) std::abort();
     std::vector<std::vector<double>> out(2, std::vector<double>(3));
-    const auto rows = decode_rows(second, 1, 2, out, "x.h5");
+    const auto rows = decode_rows(bytes, 1, 2, out, "x.h5");
     if (!rows && rows.error().message.size() > size + 64) std::abort();
     OpenRequest open;
     FetchRequest fetch;
-    Message third(bytes), fourth(bytes);
-    (void)decode(third, open), (void)decode(fourth, fetch);
+    (void)decode(bytes, open), (void)decode(bytes, fetch);
     return 0;
 }

@@ -1,4 +1,4 @@
-#include "io/quality/biquad.hpp"
+#include "io/quality/filters.hpp"
 
 #include <cmath>
 #include <complex>

@@ -17,8 +17,6 @@
 #include <thread>
 
 #include "io/sandbox/remote_samples.hpp"
-#include "io/sandbox/samples_message.hpp"
-#include "readers/confinement.hpp"
 #include "readers/helper_main.hpp"
 #include "support/child_process.hpp"
 #include "support/sanitized.hpp"
@@ -108,14 +106,14 @@ TEST(HelperProcess, InheritsNoDescriptorsAndLeavesNothingBehind) {
 }
 
 /// A message with its length before it, as it is sent.
-std::string framed(const Message& m) {
-    const std::uint64_t size = m.bytes().size();
-    return std::string(reinterpret_cast<const char*>(&size), sizeof size) + m.bytes();
+std::string framed(const std::string& m) {
+    const std::uint64_t size = m.size();
+    return std::string(reinterpret_cast<const char*>(&size), sizeof size) + m;
 }
 
 TEST(HelperProcess, ACrashDuringReadingIsAnErrorInEveryLaterRead) {
     const TemporaryFolder folder;
-    folder.write("answers", framed(encode(SamplesInfo{.columns = {{"fz", "N"}}, .rows = 10, .rate = 100.0, .notes = {"a remark"}})) +
+    folder.write("answers", framed(encode(SamplesInfo{{.columns = {{"fz", "N"}}, .rate = 100.0, .notes = {"a remark"}}, 10})) +
                                 framed(encode(std::vector<std::vector<double>>{{7.0}})));
     const auto program = script(folder, "cat '" + folder / "answers" + "' >&3; kill -BUS $$");
     auto samples = test::value_or_throw(open_remote_samples_with(program, folder.write("x.h5", ""), {"", "it"}));
@@ -133,11 +131,11 @@ TEST(HelperProcess, ACrashDuringReadingIsAnErrorInEveryLaterRead) {
 
 TEST(HelperProcess, ADamagedMessageIsAnError) {
     const TemporaryFolder folder;
-    SamplesInfo info{{{"fz", "N"}}, 10, 100.0, 5};
-    std::vector<std::string> messages = {framed(encode(info)), framed(Message("xx")), framed(Message(std::string(8, '\x7f')))};
+    SamplesInfo info{{.columns = {{"fz", "N"}}, .time_column = 5, .rate = 100.0}, 10};
+    std::vector<std::string> messages = {framed(encode(info)), framed("xx"), framed(std::string(8, '\x7f'))};
     info.time_column.reset();
-    const auto complete = encode(info).bytes();
-    for (const std::size_t size : {9U, 20U, 33U, 50U}) messages.push_back(framed(Message(complete.substr(0, size))));
+    const auto complete = encode(info);
+    for (const std::size_t size : {9U, 20U, 33U, 50U}) messages.push_back(framed(complete.substr(0, size)));
     for (const auto& message : messages) {
         folder.write("answer", message);
         const auto program = script(folder, "cat '" + folder / "answer" + "' >&3; exec sleep 30");
@@ -153,8 +151,8 @@ std::string error_after_throw(const Thrown& thrown) {
     int ends[2];
     if (::socketpair(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC, 0, ends) != 0) return "no socket";
     std::thread program([&] { serve(ends[1], -1, [&](int, const std::string&, const TableOptions&) -> SamplesResult { throw thrown; }); });
-    Message message;
-    const bool has_message = encode(OpenRequest{"x.h5", {}}).send(ends[0]) && message.receive(ends[0]);
+    std::string message;
+    const bool has_message = send_message(ends[0], encode(OpenRequest{"x.h5", {}})) && receive_message(ends[0], message);
     program.join();
     ::close(ends[0]), ::close(ends[1]);
     const auto info = decode_info(message, "x.h5");

@@ -7,7 +7,7 @@
 #include <cmath>
 
 #include "io/table/archive.hpp"
-#include "io/table/npy.hpp"
+#include "io/table/npz.hpp"
 #include "support/file_writers.hpp"
 #include "support/loaded_recording.hpp"
 #include "support/property.hpp"

@@ -6,8 +6,8 @@
 
 #include <cmath>
 
-#include "io/recording/clock_analysis.hpp"
 #include "io/recording/recording_formats.hpp"
+#include "io/recording/row_clock.hpp"
 #include "support/loaded_recording.hpp"
 #include "support/property.hpp"
 

@@ -1,4 +1,4 @@
-#include "io/quality/repair.hpp"
+#include "io/quality/filters.hpp"
 
 #include <algorithm>
 #include <cmath>

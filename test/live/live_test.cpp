@@ -6,23 +6,23 @@
 #include <nlohmann/json.hpp>
 #include <thread>
 
+#include <fmt/format.h>
 #include <poll.h>
 #include <sys/socket.h>
 
 #include "corpuscle.h"
 #include "io/spikes/events.hpp"
 #include "io/spikes/spike_files.hpp"
-#include "live/input/byte_ring.hpp"
+#include "live/input/byte_source.hpp"
 #include "live/input/frame_decoder.hpp"
-#include "live/input/frame_sequence.hpp"
+#include "live/input/frame_layout.hpp"
 #include "live/input/frame_source.hpp"
 #include "live/latency_histogram.hpp"
 #include "live/live_population.hpp"
 #include "live/output/event_sink.hpp"
-#include "live/steady_clock.hpp"
 #include "live/stream_state.hpp"
 #include "model/catalog.hpp"
-#include "skin/plan/site_map.hpp"
+#include "skin/plan/sites.hpp"
 #include "support/property.hpp"
 #include "support/support.hpp"
 

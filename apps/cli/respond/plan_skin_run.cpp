@@ -5,7 +5,7 @@
 
 #include "cli/respond/skin_run.hpp"
 #include "core/text/ascii_text.hpp"
-#include "skin/plan/class_overrides.hpp"
+#include "skin/plan/skin_plan.hpp"
 
 namespace corpuscle {
 namespace {

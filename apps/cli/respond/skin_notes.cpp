@@ -7,7 +7,7 @@
 #include "core/stimulus/stimuli.hpp"
 #include "io/table/foreign_format.hpp"
 #include "run/channels/channel_warnings.hpp"
-#include "skin/plan/class_overrides.hpp"
+#include "skin/plan/skin_plan.hpp"
 
 namespace corpuscle {
 

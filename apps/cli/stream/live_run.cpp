@@ -18,8 +18,8 @@
 #include "live/live_population.hpp"
 #include "live/stream_state.hpp"
 #include "run/skin/skin_force.hpp"
-#include "skin/plan/class_overrides.hpp"
-#include "skin/plan/site_map.hpp"
+#include "skin/plan/sites.hpp"
+#include "skin/plan/skin_plan.hpp"
 
 namespace corpuscle {
 namespace {

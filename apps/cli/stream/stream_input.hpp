@@ -7,7 +7,7 @@
 
 #include "cli/stream/stream_arguments.hpp"
 #include "core/parameter_override.hpp"
-#include "io/quality/biquad.hpp"
+#include "io/quality/filters.hpp"
 #include "io/recording/recording.hpp"
 #include "live/input/byte_source.hpp"
 #include "live/input/frame_layout.hpp"

@@ -1,7 +1,7 @@
 #pragma once
 // The plan of an afferent that is a netlist.
 
-#include "core/afferent_spec.hpp"
+#include "core/afferent_factory.hpp"
 
 namespace corpuscle::circuit {
 

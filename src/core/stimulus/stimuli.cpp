@@ -1,11 +1,8 @@
 #include "core/stimulus/stimuli.hpp"
 
 #include <fmt/format.h>
-#include <algorithm>
-#include <cmath>
-#include <functional>
-#include <optional>
-#include <utility>
+
+#include "core/text/ascii_text.hpp"
 
 namespace corpuscle {
 namespace {
@@ -23,9 +20,10 @@ ErasedStimulus erase_stimulus(std::span<const Setting> settings, std::uint64_t s
     S s;
     s.p = with_settings<typename S::Params>(S::fields, settings);
     if constexpr (requires { s.seed; }) s.seed = seed;
-    double cycle_frequency = 0;
-    if constexpr (requires { s.cycle(); }) cycle_frequency = s.cycle();
-    return {s.duration(), cycle_frequency, s.phases(), [s](double t) { return s.at(t); }};
+    ErasedStimulus erased{s.duration(), 0, {}, [s](double t) { return s.at(t); }};
+    if constexpr (requires { s.cycle(); }) erased.cycle_frequency = s.cycle();
+    if constexpr (requires { s.phases(); }) erased.phases = s.phases();
+    return erased;
 }
 
 /// The stimulus with this name; nullopt if the list has none.
@@ -104,15 +102,7 @@ public:
 
 }  // namespace
 
-std::vector<std::string_view> stimulus_members(std::string_view text) {
-    std::vector<std::string_view> out;
-    for (;;) {
-        const auto plus = text.find('+');
-        out.push_back(text.substr(0, plus));
-        if (plus == std::string_view::npos) return out;
-        text.remove_prefix(plus + 1);
-    }
-}
+std::vector<std::string_view> stimulus_members(std::string_view text) { return split(text, '+'); }
 
 std::vector<CatalogEntry> stimulus_catalog() { return catalog_of(Stimuli{}); }
 

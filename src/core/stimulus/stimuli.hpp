@@ -2,16 +2,9 @@
 // The built-in stimuli. To add one, put its struct into stimulus/ and its name into the list below. The struct has a name, a description, a
 // source, a struct Params with defaults, a table `fields` of ParameterDef, and a member `p` of type Params.
 //
-// duration() is its length in s, phases() its phases, and at(t) the force in N at t s from its start. A periodic stimulus also has cycle(),
-// its frequency in Hz; a random stimulus has a member `seed`.
+// duration() is its length in s, and at(t) the force in N at t s from its start. A stimulus may have phases(), its phases; a periodic one
+// has cycle(), its frequency in Hz; a random one has a member `seed`.
 
-#include <memory>
-#include <span>
-#include <string_view>
-#include <vector>
-
-#include "core/force_source.hpp"
-#include "core/parameter.hpp"
 #include "core/parameter_override.hpp"
 #include "core/stimulus/touch.hpp"
 #include "core/stimulus/vibration.hpp"

@@ -1,8 +1,6 @@
 #pragma once
 // Stimuli of a single touch: press, hold, release.
 
-#include <vector>
-
 #include "core/force_source.hpp"
 #include "core/number/elementary.hpp"
 #include "core/parameter.hpp"

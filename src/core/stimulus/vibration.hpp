@@ -1,10 +1,7 @@
 #pragma once
 // Vibrations and textures: force that varies continuously around a mean.
 
-#include <vector>
-
 #include "core/force_source.hpp"
-#include "core/number/elementary.hpp"
 #include "core/parameter.hpp"
 #include "core/random.hpp"
 
@@ -24,7 +21,6 @@ struct Sine {
     };
     Params p;
     double duration() const { return p.duration; }
-    std::vector<Phase> phases() const { return {}; }
     double cycle() const { return p.f; }
     double at(double t) const { return p.F_mean + p.F_amp * num::sin_turns(p.f * t); }
 };
@@ -44,7 +40,6 @@ struct Chirp {
     };
     Params p;
     double duration() const { return p.duration; }
-    std::vector<Phase> phases() const { return {}; }
     double at(double t) const {
         const double sweep_rate = num::log(p.f_to / p.f_from) / p.duration;  // 1/s
         const double turns = p.f_from * t * num::exprel(sweep_rate * t);
@@ -67,7 +62,6 @@ struct Noise {
     Params p;
     std::uint64_t seed = 0;
     double duration() const { return p.duration; }
-    std::vector<Phase> phases() const { return {}; }
     double at(double t) const {
         constexpr std::uint32_t purpose = 0x6e6f6973;  // "nois" in ASCII: separates these random numbers from those of other purposes
         const double position = t * 2 * p.f_max;
@@ -95,7 +89,6 @@ struct Grating {
     };
     Params p;
     double duration() const { return p.duration; }
-    std::vector<Phase> phases() const { return {}; }
     double cycle() const { return p.speed / p.period; }
     double at(double t) const {
         const double ridge = 0.5 * (1 + num::cos_turns(p.speed * t / p.period));

@@ -6,8 +6,6 @@
 #include <algorithm>
 #include <sstream>
 
-#include "core/parameter.hpp"
-
 namespace corpuscle {
 namespace {
 

@@ -2,15 +2,40 @@
 // Configuration files: sweeps, populations and studies, in TOML. A file is read into nodes that know their location, so that every later
 // error can name it. Only config_file.cpp includes toml++, which is slow to compile.
 
-#include <optional>
-#include <span>
-#include <string_view>
-#include <utility>
-#include <vector>
-
-#include "core/text/located_text.hpp"
+#include "core/parameter_override.hpp"
 
 namespace corpuscle {
+
+/// A value of a configuration file before it is parsed: its text and its location in the file.
+struct LocatedText {
+    std::string text;
+    SourceLocation location;
+
+    /// An error at the location of this value.
+    Error error_here(std::string message) const { return bad_input(std::move(message), location); }
+    /// The same result, but with its error, if it is one, at the location of this value. `context` begins the message.
+    template <class T>
+    Result<T> located(Result<T> result, const std::string& context = "") const {
+        return result ? std::move(result) : Result<T>(error_here(context + result.error().message));
+    }
+};
+using OptionalLocatedText = std::optional<LocatedText>;
+
+/// A named value of a configuration file.
+struct LocatedSetting {
+    std::string name;  ///< "press.F_max"
+    LocatedText value;
+};
+
+/// The override that one entry of a table means: "adc.bits" has a target of its own, "f_B" is for `default_target`.
+inline ParameterOverride located_override(const LocatedSetting& entry, std::string_view default_target) {
+    const auto dot = entry.name.rfind('.');
+    const bool has_target = dot != std::string::npos;
+    ParameterOverride out{has_target ? entry.name.substr(0, dot) : std::string(default_target),
+                          has_target ? entry.name.substr(dot + 1) : entry.name, entry.value.text};
+    out.typed = out.text(), out.location = entry.value.location;
+    return out;
+}
 
 /// A value of a configuration file: a text or a number (both as text), a list, or a table. Its location is that of the value.
 struct ConfigNode : LocatedText {

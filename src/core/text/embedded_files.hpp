@@ -1,7 +1,6 @@
 #pragma once
 // Files embedded in the program when it was built: netlists, process cards, populations.
 
-#include <string>
 #include <string_view>
 #include <vector>
 

@@ -3,10 +3,7 @@
 // waits for a pipe or a terminal ends at an interruption, such as Ctrl-C.
 
 #include <cstdio>
-#include <memory>
-#include <optional>
 #include <span>
-#include <string>
 
 #include "core/error.hpp"
 

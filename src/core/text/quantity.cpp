@@ -1,10 +1,7 @@
 #include "core/text/quantity.hpp"
 
 #include <fmt/format.h>
-#include <algorithm>
-#include <charconv>
 #include <cmath>
-#include <optional>
 
 #include "core/text/ascii_text.hpp"
 

@@ -1,7 +1,6 @@
 #pragma once
 // Quantities as text: "10 ms", "0.5um", "1k", "8 uA/N".
 
-#include <string>
 #include <string_view>
 
 #include "core/error.hpp"

@@ -5,10 +5,8 @@
 #include <fmt/format.h>
 #include <sys/file.h>
 #include <sys/stat.h>
-#include <unistd.h>
 #include <algorithm>
 #include <filesystem>
-#include <memory>
 
 #include "core/text/input_files.hpp"
 #include "io/output/descriptor.hpp"

@@ -4,11 +4,9 @@
 #include <fmt/format.h>
 #include <sys/file.h>
 #include <sys/stat.h>
-#include <unistd.h>
 #include <cerrno>
 #include <cstring>
 #include <filesystem>
-#include <utility>
 
 #include "io/output/descriptor.hpp"
 

@@ -4,8 +4,6 @@
 
 #include <chrono>
 #include <cstdio>
-#include <memory>
-#include <string>
 #include <string_view>
 #include <vector>
 

@@ -1,9 +1,5 @@
 #include "io/quality/fault_detectors.hpp"
 
-#include <algorithm>
-#include <bit>
-#include <cmath>
-
 #include "core/number/elementary.hpp"
 
 namespace corpuscle {

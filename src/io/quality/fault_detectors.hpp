@@ -4,8 +4,6 @@
 // hum. They examine every chunk at first; later in a long recording they examine only one chunk in two, in four and so on. add() of a
 // detector adds the next samples of its channel.
 
-#include <array>
-#include <cstdint>
 #include <span>
 #include <vector>
 

@@ -1,11 +1,7 @@
 #include "io/quality/quality_report.hpp"
 
 #include <fmt/format.h>
-#include <algorithm>
 #include <cmath>
-#include <functional>
-
-#include "core/text/quantity.hpp"
 
 namespace corpuscle {
 namespace {
@@ -138,7 +134,7 @@ class ReportWriter {
             add(all, fmt::format("{} channels are constant{}", constant.channels.size(), all ? "; check the file and the channels" : ""));
     }
 
-    void repaired(const RowCounts& rows) {
+    void repaired(const RowReader& rows) {
         std::int64_t outliers = 0, filled = 0;  // numbers of samples, summed over all channels
         for (const auto& p : pipelines_) outliers += p.outliers_removed(), filled += p.filled();
         if (rows.dropped > 0) add(false, fmt::format("{} rows with a bad field were dropped", rows.dropped));
@@ -176,10 +172,10 @@ public:
     ReportWriter(const std::vector<Channel>& channels, const std::vector<ChannelPipeline>& pipelines)
         : channels_(channels), pipelines_(pipelines) {}
 
-    RecordingQuality write(const RowClock& rows, const RowCounts& counts, const SumDetector& sum_detector) {
-        clock(rows);
-        sums(sum_detector);
-        repaired(counts);
+    RecordingQuality write(const ForceRows& rows, const RowClock& row_clock) {
+        clock(row_clock);
+        sums(rows.sums());
+        repaired(rows.rows());
         outliers();
         hum();
         saturation();
@@ -192,9 +188,8 @@ public:
 
 }  // namespace
 
-RecordingQuality assess_quality(const std::vector<Channel>& channels, const std::vector<ChannelPipeline>& pipelines, const RowClock& rows,
-                                const RowCounts& counts, const SumDetector& sums) {
-    return ReportWriter(channels, pipelines).write(rows, counts, sums);
+RecordingQuality assess_quality(const std::vector<Channel>& channels, const ForceRows& rows, const RowClock& row_clock) {
+    return ReportWriter(channels, rows.pipelines()).write(rows, row_clock);
 }
 
 }  // namespace corpuscle

@@ -1,8 +1,6 @@
 #include "io/recording/column_selection.hpp"
 
 #include <fmt/format.h>
-#include <algorithm>
-#include <span>
 
 #include "core/parameter.hpp"
 #include "core/text/ascii_text.hpp"
@@ -163,11 +161,7 @@ struct ChannelSelector {
                 chosen.push_back(data[*k]);
                 continue;
             }
-            for (std::size_t at = 0; at <= list.size();) {
-                const auto end = std::min(list.find(',', at), list.size());
-                TRY(add(std::string_view(list).substr(at, end - at), chosen, notes));
-                at = end + 1;
-            }
+            for (const auto part : split(list, ',')) TRY(add(part, chosen, notes));
         }
         std::vector<std::size_t> unique;
         for (const auto c : chosen)

@@ -1,8 +1,5 @@
 #include "io/recording/field_advice.hpp"
 
-#include <algorithm>
-#include <charconv>
-
 #include "core/text/ascii_text.hpp"
 #include "io/table/heading.hpp"
 

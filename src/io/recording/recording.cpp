@@ -1,21 +1,16 @@
 #include "io/recording/recording.hpp"
 
 #include <fmt/format.h>
-#include <algorithm>
 #include <filesystem>
 #include <unordered_map>
-#include <utility>
 
 #include "core/afferent.hpp"
 #include "core/text/ascii_text.hpp"
 #include "core/text/input_files.hpp"
 #include "io/quality/quality_report.hpp"
 #include "io/recording/column_selection.hpp"
-#include "io/recording/force_rows.hpp"
 #include "io/recording/recording_formats.hpp"
-#include "io/recording/row_clock.hpp"
 #include "io/recording/samples.hpp"
-#include "io/recording/sensor_layout.hpp"
 #include "io/table/foreign_format.hpp"
 
 namespace corpuscle {
@@ -86,14 +81,6 @@ class Recording final : public ForceSource {
         const int occurrence = ++name_counts_[name];
         channels_.push_back({static_cast<std::uint32_t>(channels_.size()),
                              occurrence == 1 ? name : fmt::format("{} ({})", name, occurrence), placed.position});
-    }
-
-    /// For each channel, the newtons per unit of its values. Computed before the file is read, so that a unit that is not a force is
-    /// reported at once.
-    Result<std::vector<double>> gains_of(const std::vector<SensorPlacement>& chosen) const {
-        std::vector<double> gains;
-        for (const auto& placed : chosen) gains.push_back(TRY(newtons_per_unit(table_->columns()[placed.column], options_, path_)));
-        return gains;
     }
 
     /// Warns if there are more columns than samples and the columns have no names of their own: the table may have to be transposed.
@@ -205,9 +192,12 @@ public:
             return bad_input(fmt::format("{} channels are more than the limit of {}; select some, such as --channel 1-1000", chosen.size(),
                                          max_channels),
                              {path_});
-        const auto gains = TRY(gains_of(chosen));
         std::vector<std::size_t> columns;
-        for (const auto& p : chosen) columns.push_back(p.column);
+        std::vector<double> gains;  // N per unit; computed before the file is read, so that a unit that is not a force is reported at once
+        for (const auto& p : chosen) {
+            columns.push_back(p.column);
+            gains.push_back(TRY(newtons_per_unit(table_->columns()[p.column], options_, path_)));
+        }
         TRY(set_clock(time, columns));
         notes_.insert(notes_.end(), selection_notes_.begin(), selection_notes_.end());
         add_channels(chosen);
@@ -245,8 +235,7 @@ public:
     }
     std::vector<std::string> notes() const override { return notes_; }
     RecordingQuality quality() const override {
-        auto found =
-            assess_quality(channels_, rows_->pipelines(), row_clock_, {rows_->rows().dropped, rows_->rows().out_of_range}, rows_->sums());
+        auto found = assess_quality(channels_, *rows_, row_clock_);
         warn_about_orientation(found);
         return found;
     }

@@ -1,15 +1,8 @@
 #pragma once
 // Opens a recording file as a source of force. The options select its columns, units and clock, and the repair of its samples.
 
-#include <functional>
-#include <memory>
-#include <optional>
-#include <string>
-#include <utility>
-#include <vector>
-
 #include "core/force_source.hpp"
-#include "io/quality/repair.hpp"
+#include "io/quality/filters.hpp"
 #include "io/table/table.hpp"
 
 namespace corpuscle {

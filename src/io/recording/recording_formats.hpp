@@ -10,8 +10,8 @@ namespace corpuscle {
 
 /// Skips blank lines, lines that begin with # or %, and a preamble, whose lines differ from rows in their number of fields or their
 /// separator. The line above the rows is the header if at least one of its fields is not a number. A row of units may follow it. A comment
-/// with as many fields as the rows can also be the header. The time column is found by its name, unit or time stamps (column_roles.hpp).
-/// Without a header, the first of several columns is the time if it increases in similar steps over the first rows.
+/// with as many fields as the rows can also be the header. The time column is found by its name, unit or time stamps (assign_roles() in
+/// heading.hpp). Without a header, the first of several columns is the time if it increases in similar steps over the first rows.
 Result<std::unique_ptr<Table>> open_text_table(const std::string& path, const TableOptions& = {});
 
 /// Reads the array of an NPY file. It has one or two dimensions and any real type of numbers up to 64 bits. Each numeric field of a

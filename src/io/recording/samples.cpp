@@ -1,14 +1,11 @@
 #include "io/recording/samples.hpp"
 
 #include <fmt/format.h>
-#include <algorithm>
 #include <cmath>
-#include <limits>
 #include <numeric>
 
 #include "core/parameter.hpp"
 #include "core/text/ascii_text.hpp"
-#include "io/table/column_roles.hpp"
 
 namespace corpuscle {
 namespace {
@@ -37,9 +34,7 @@ class SamplesTable final : public Table {
 
     /// The time column and the columns that are not channels by their names and first rows, as for a text file.
     Result<ColumnRoles> find_roles() {
-        const auto& known = samples_->info();
-        if (known.roles) return *known.roles;
-        if (!has_named_columns(info_.columns)) return ColumnRoles{.time_column = known.time_column};
+        if (!has_named_columns(info_.columns)) return ColumnRoles{.time_column = info_.time_column};
         const auto count = std::min({inspected_rows, static_cast<std::size_t>(rows()), max_inspected_numbers / info_.columns.size()});
         std::vector<std::size_t> all(info_.columns.size());
         std::iota(all.begin(), all.end(), std::size_t{0});
@@ -48,16 +43,16 @@ class SamplesTable final : public Table {
         std::vector<FirstFields> first(info_.columns.size());
         for (std::size_t c = 0; c < first.size(); ++c)
             for (const double x : numbers[c]) first[c].add_number(x);
-        return assign_roles(info_.columns, first, true, known.time_column);
+        return assign_roles(info_.columns, first, true, info_.time_column);
     }
 
 public:
     SamplesTable(std::string path, std::unique_ptr<Samples> samples) : path_(std::move(path)), samples_(std::move(samples)) {}
 
     Result<void> open() {
-        const auto& known = samples_->info();
-        info_.columns = known.columns, info_.notes = known.notes, info_.is_orientation_known = known.is_orientation_known;
-        if (known.rate > 0.0) info_.rate = known.rate;
+        info_ = samples_->info();
+        if (!(info_.rate > 0.0)) info_.rate.reset();
+        if (samples_->info().has_roles) return {};
         auto roles = TRY(find_roles());
         info_.time_column = roles.time_column, info_.is_time_guessed = roles.is_time_guessed, info_.time_notes = std::move(roles.notes);
         return {};

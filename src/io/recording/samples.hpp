@@ -3,23 +3,16 @@
 // contain several arrays. `path` is the path of the file, for messages.
 
 #include <cstdint>
-#include <memory>
 #include <span>
 
-#include "io/table/column_roles.hpp"
-#include "io/table/table.hpp"
+#include "io/table/heading.hpp"
 
 namespace corpuscle {
 
-/// Properties that are known before the samples are read.
-struct SamplesInfo {
-    std::vector<Column> columns = {};
-    std::int64_t rows = 0;                        ///< number of rows
-    std::optional<double> rate = {};              ///< Hz; nullopt: the file does not state it
-    std::optional<std::size_t> time_column = {};  ///< index of the time column, if the format defines it
-    std::optional<ColumnRoles> roles = {};        ///< of the columns, if the reader has found them; by default they follow from the numbers
-    bool is_orientation_known = true;             ///< see Table
-    std::vector<std::string> notes = {};          ///< notes for the user about how the file is read
+/// Properties that are known before the samples are read. `time_column` is set if the format defines it.
+struct SamplesInfo : TableInfo {
+    std::int64_t rows = 0;   ///< number of rows
+    bool has_roles = false;  ///< true: the reader has determined the roles of the columns; by default they follow from the numbers
 };
 
 /// The rows of a recording, which can be read in any order.

@@ -1,10 +1,9 @@
-#include "io/recording/sensor_layout.hpp"
+#include "io/recording/column_selection.hpp"
 
 #include <fmt/format.h>
 #include <algorithm>
 
 #include "core/text/quantity.hpp"
-#include "io/recording/column_selection.hpp"
 #include "io/text/named_columns.hpp"
 
 namespace corpuscle {

@@ -6,16 +6,39 @@
 #include <sys/socket.h>
 #include <sys/time.h>
 #include <sys/wait.h>
-#include <unistd.h>
 #include <cerrno>
 #include <csignal>
-#include <cstdlib>
 #include <cstring>
-#include <utility>
 #include <vector>
 
 namespace corpuscle {
 namespace {
+
+constexpr std::uint64_t max_message = std::uint64_t{1} << 30;  // bytes
+constexpr std::size_t chunk_bytes = std::size_t{1} << 20;      // memory is allocated in chunks, in case the stated size is wrong
+
+/// Returns false and sets errno on failure.
+bool send_all(int socket, const void* data, std::size_t size) {
+    for (const char* at = static_cast<const char*>(data); size > 0;) {
+        const auto sent = ::send(socket, at, size, MSG_NOSIGNAL);
+        if (sent < 0 && errno == EINTR) continue;
+        if (sent <= 0) return false;
+        at += sent, size -= static_cast<std::size_t>(sent);
+    }
+    return true;
+}
+
+/// Returns false and sets errno on failure; ECONNRESET if the other end is closed.
+bool receive_all(int socket, void* data, std::size_t size) {
+    for (char* at = static_cast<char*>(data); size > 0;) {
+        const auto got = ::recv(socket, at, size, 0);
+        if (got < 0 && errno == EINTR) continue;
+        if (got == 0) errno = ECONNRESET;
+        if (got <= 0) return false;
+        at += got, size -= static_cast<std::size_t>(got);
+    }
+    return true;
+}
 
 /// `error` is a value of errno.
 Error cannot_start(const std::string& program, int error) {
@@ -64,6 +87,23 @@ int spawn(const std::string& program, const std::string& argument, int socket, i
 
 }  // namespace
 
+bool send_message(int socket, const std::string& message) {
+    const std::uint64_t size = message.size();
+    return send_all(socket, &size, sizeof size) && send_all(socket, message.data(), message.size());
+}
+
+bool receive_message(int socket, std::string& message) {
+    std::uint64_t size = 0;
+    message.clear();
+    if (!receive_all(socket, &size, sizeof size) || size > max_message) return false;
+    while (message.size() < size) {
+        const auto old_size = message.size();
+        message.resize(old_size + std::min<std::size_t>(chunk_bytes, size - old_size));
+        if (!receive_all(socket, message.data() + old_size, message.size() - old_size)) return false;
+    }
+    return true;
+}
+
 HelperProcess::HelperProcess(HelperProcess&& o) noexcept
     : socket_(std::move(o.socket_)), child_(std::exchange(o.child_, -1)), program_(std::move(o.program_)) {}
 
@@ -96,13 +136,13 @@ Result<HelperProcess> HelperProcess::start(const std::string& program, int file,
     return helper;
 }
 
-Result<Message> HelperProcess::receive(const std::string& path, const std::string& library) {
-    Message m;
-    if (m.receive(socket_.get())) return m;
+Result<std::string> HelperProcess::receive(const std::string& path, const std::string& library) {
+    std::string message;
+    if (receive_message(socket_.get(), message)) return message;
     return failure(path, library);
 }
 
-/// The error for a child that sent no message. Ends the child. errno must still be that of Message::receive().
+/// The error for a child that sent no message. Ends the child. errno must still be that of receive_message().
 Error HelperProcess::failure(const std::string& path, const std::string& library) {
     const bool timed_out = errno == EAGAIN || errno == EWOULDBLOCK;
     int status = 0;

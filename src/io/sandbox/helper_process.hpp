@@ -4,13 +4,16 @@
 
 #include <sys/types.h>
 
-#include <string>
-
 #include "core/error.hpp"
 #include "io/output/descriptor.hpp"
-#include "io/sandbox/message.hpp"
 
 namespace corpuscle {
+
+/// Sends a message over a socket: the size of its bytes, then the bytes (core/bytes.hpp). Returns false on failure.
+bool send_message(int socket, const std::string& message);
+/// Replaces `message` by the next one from the socket. Returns false if the other end is closed, sends nothing within the socket's timeout
+/// (errno is then EAGAIN), or states a size that is too large.
+bool receive_message(int socket, std::string& message);
 
 /// The child has two open descriptors: its end of a socket, and the file. The destructor kills it, and so does receive() if the child takes
 /// longer than response_timeout_s to respond.
@@ -37,12 +40,11 @@ public:
     static Result<HelperProcess> start(const std::string& program, int file, const std::string& argument = protocol);
     pid_t pid() const { return child_; }
 
-    void send(const Message& m) {
-        (void)m.send(socket_.get());
-    }  // an error is ignored, because receive() reports that the child has exited
+    /// Sends a message. An error is ignored, because receive() reports that the child has exited.
+    void send(const std::string& message) { (void)send_message(socket_.get(), message); }
     /// Receives the next message of the child. If the child crashes or does not respond in time, returns an error at the file `path`; its
     /// message names `library`, the library with which the child reads.
-    Result<Message> receive(const std::string& path, const std::string& library);
+    Result<std::string> receive(const std::string& path, const std::string& library);
 };
 
 /// The path of an installed helper program. If the environment variable CORPUSCLE_LIBEXEC is set, searches only the directory that it

@@ -2,7 +2,6 @@
 // CORPUSCLE_LIBEXEC_DIRECTORY (complete path) and CORPUSCLE_LIBEXEC_NAME (relative to the install prefix).
 
 #include <fmt/format.h>
-#include <unistd.h>
 #include <cstdlib>
 #include <filesystem>
 #include <vector>

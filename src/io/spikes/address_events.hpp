@@ -20,7 +20,6 @@
 #include <bit>
 #include <cmath>
 #include <cstring>
-#include <string>
 #include <string_view>
 
 #include "core/spike.hpp"

@@ -1,12 +1,8 @@
 #include <fmt/format.h>
-#include <algorithm>
-#include <utility>
-#include <vector>
 
 #include "core/bytes.hpp"
 #include "core/text/ascii_text.hpp"
 #include "io/spikes/address_events.hpp"
-#include "io/spikes/event_time.hpp"
 #include "io/spikes/events.hpp"
 
 namespace corpuscle {

@@ -2,15 +2,12 @@
 
 #include <fmt/format.h>
 #include <algorithm>
-#include <span>
 #include <unordered_map>
-#include <utility>
-#include <vector>
 
 #include "core/bytes.hpp"
 #include "io/spikes/address_events.hpp"
 #include "io/spikes/train_collector.hpp"
-#include "io/table/seekable_bytes.hpp"
+#include "io/table/archive.hpp"
 
 namespace corpuscle {
 namespace {

@@ -6,7 +6,6 @@
 #include <nlohmann/json.hpp>
 
 #include "core/parameter.hpp"
-#include "io/spikes/event_time.hpp"
 #include "io/spikes/spike_files.hpp"
 
 namespace corpuscle {

@@ -1,8 +1,6 @@
 #pragma once
 // Reads spike files: the CSV, NPZ and address events that Corpuscle writes, and spike files of other programs.
 
-#include <optional>
-#include <string>
 #include <vector>
 
 #include "core/error.hpp"

@@ -1,15 +1,12 @@
 #include <fmt/format.h>
-#include <charconv>
 #include <cmath>
 #include <nlohmann/json.hpp>
-#include <optional>
 
 #include "core/text/ascii_text.hpp"
 #include "io/spikes/train_collector.hpp"
 #include "io/table/heading.hpp"
 #include "io/text/dialect.hpp"
 #include "io/text/json_records.hpp"
-#include "io/text/line_reader.hpp"
 
 namespace corpuscle {
 namespace {
@@ -152,51 +149,41 @@ public:
     }
 };
 
-/// Reads JSON with one record for each spike.
-class JsonSpikes {
-    LineReader& lines_;
-    SpikeColumns wanted_;
-    std::vector<std::string> headings_;  // the names of the fields of the first record
-    ResolvedSpikeColumns found_;
-    TrainCollector trains_;
+/// A JSON value as the name of an afferent or channel.
+std::string word_of(const nlohmann::ordered_json& value) { return value.is_string() ? value.get<std::string>() : value.dump(); }
 
-    /// A JSON value as the name of an afferent or channel.
-    static std::string word_of(const nlohmann::ordered_json& value) { return value.is_string() ? value.get<std::string>() : value.dump(); }
-
-    /// Adds the spike of a record. The first record defines the columns.
-    Result<void> add(std::span<const JsonField> fields, long line) {
-        const auto error_here = [&](std::string message) { return bad_input(std::move(message), {lines_.path(), line}); };
-        if (headings_.empty()) {
-            for (const auto& f : fields) headings_.push_back(f.name == "ch1" && fields.size() == 1 ? "" : f.name);
+/// Reads JSON with one record for each spike. The first record defines the columns.
+Result<std::vector<NamedTrain>> read_json_spikes(LineReader& lines, const SpikeColumns& wanted) {
+    std::vector<std::string> headings;  // the names of the fields of the first record
+    ResolvedSpikeColumns found;
+    TrainCollector trains;
+    const auto add = [&](std::span<const JsonField> fields, long line) -> Result<void> {
+        const auto error_here = [&](std::string message) { return bad_input(std::move(message), {lines.path(), line}); };
+        if (headings.empty()) {
+            for (const auto& f : fields) headings.push_back(f.name == "ch1" && fields.size() == 1 ? "" : f.name);
             std::size_t column = 0;
-            const auto found = find_spike_columns(headings_, wanted_, column);
-            if (!found) return error_here(found.error().message);
-            found_ = *found;
+            const auto columns = find_spike_columns(headings, wanted, column);
+            if (!columns) return error_here(columns.error().message);
+            found = *columns;
         }
-        if (fields.size() != headings_.size())
-            return error_here(fmt::format("{} fields where {} are expected", fields.size(), headings_.size()));
-        const auto& time = *fields[found_.time].value;
-        const double t = time.is_number() ? time.get<double>() * found_.seconds_per_unit : std::nan("");
+        if (fields.size() != headings.size())
+            return error_here(fmt::format("{} fields where {} are expected", fields.size(), headings.size()));
+        const auto& time = *fields[found.time].value;
+        const double t = time.is_number() ? time.get<double>() * found.seconds_per_unit : std::nan("");
         if (!std::isfinite(t)) return error_here(fmt::format("{} where a time is expected", time.dump(-1, ' ', true).substr(0, 40)));
         const auto field_text = [&](const std::optional<std::size_t>& c) { return c ? word_of(*fields[*c].value) : std::string(); };
-        trains_.train(field_text(found_.afferent), field_text(found_.channel)).push_back(t);
+        trains.train(field_text(found.afferent), field_text(found.channel)).push_back(t);
         return {};
-    }
-
-public:
-    JsonSpikes(LineReader& lines, SpikeColumns wanted) : lines_(lines), wanted_(std::move(wanted)) {}
-
-    Result<std::vector<NamedTrain>> read() {
-        if (auto ok = read_json_records(lines_, [this](auto fields, long line) { return add(fields, line); }); !ok) return ok.error();
-        return std::move(trains_).sorted();
-    }
-};
+    };
+    TRY(read_json_records(lines, add));
+    return std::move(trains).sorted();
+}
 
 }  // namespace
 
 Result<std::vector<NamedTrain>> read_text_spikes(const std::string& path, const SpikeColumns& wanted) {
     auto lines = TRY(LineReader::open(path));
-    if (TRY(looks_like_json(lines))) return JsonSpikes(lines, wanted).read();
+    if (TRY(looks_like_json(lines))) return read_json_spikes(lines, wanted);
     return TextSpikes(std::move(lines), wanted).read();
 }
 

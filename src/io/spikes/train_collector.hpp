@@ -3,10 +3,6 @@
 
 #include <cstddef>
 #include <map>
-#include <optional>
-#include <string>
-#include <utility>
-#include <vector>
 
 #include "io/spikes/spike_files.hpp"
 

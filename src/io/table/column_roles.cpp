@@ -1,4 +1,4 @@
-#include "io/table/column_roles.hpp"
+#include "io/table/heading.hpp"
 
 #include <fmt/format.h>
 #include <algorithm>

@@ -1,7 +1,6 @@
 #include "io/table/foreign_format.hpp"
 
 #include <fmt/format.h>
-#include <algorithm>
 #include <cstring>
 #include <filesystem>
 

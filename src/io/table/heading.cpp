@@ -1,8 +1,5 @@
 #include "io/table/heading.hpp"
 
-#include <algorithm>
-#include <utility>
-
 #include "core/text/ascii_text.hpp"
 #include "core/text/quantity.hpp"
 #include "io/text/utf8.hpp"
@@ -19,11 +16,10 @@ bool contains_any(std::string_view text, std::initializer_list<std::string_view>
     return std::any_of(words.begin(), words.end(), [&](auto w) { return text.find(w) != text.npos; });
 }
 
-/// Units besides those that parse_unit() reads.
-constexpr std::string_view unit_words[] = {"counts",  "count",  "raw",  "adc",     "lsb",   "bits",    "ticks",  "digits",  "px",
-                                           "kg",      "g",      "Pa",   "kPa",     "mmHg",  "bar",     "psi",    "sec",     "seconds",
-                                           "msec",    "millis", "usec", "micros",  "nsec",  "nanos",   "newton", "newtons", "Newton",
-                                           "Newtons", "sek",    "Sek",  "minutes", "hours", "samples", "dB",     "kgf",     "gf"};
+/// Units besides those that parse_unit() reads, and units of time.
+constexpr std::string_view unit_words[] = {"counts", "count",   "raw",   "adc",     "lsb",  "bits", "ticks", "digits", "px",
+                                           "kg",     "g",       "Pa",    "kPa",     "mmHg", "bar",  "psi",   "newton", "newtons",
+                                           "Newton", "Newtons", "hours", "samples", "dB",   "kgf",  "gf"};
 /// Units that a force sensor never has, besides those whose dimension is_never_force() recognises.
 constexpr std::string_view never_force[] = {"hex",     "deg", "\u00b0", "rad",      "degC",   "degF",  "\u00b0C", "\u00b0F", "celsius",
                                             "Celsius", "C",   "K",      "kelvin",   "Kelvin", "Nm",    "Nmm",     "mNm",     "Ncm",
@@ -118,31 +114,10 @@ bool may_be_time_name(std::string_view name) {
 }
 
 bool is_index_name(std::string_view name) {
-    constexpr std::string_view words[] = {"index",
-                                          "idx",
-                                          "sample",
-                                          "samples",
-                                          "sample_index",
-                                          "sample_number",
-                                          "sample number",
-                                          "frame",
-                                          "frames",
-                                          "frame_id",
-                                          "seq",
-                                          "row",
-                                          "#",
-                                          "no",
-                                          "no.",
-                                          "nr",
-                                          "nr.",
-                                          "n",
-                                          "counter",
-                                          "packet",
-                                          "unnamed: 0",
-                                          "sample no",
-                                          "frameno",
-                                          "number",
-                                          "level_0"};
+    constexpr std::string_view words[] = {
+        "#",       "n",        "no",        "nr",         "idx",          "seq",           "row",          "no.",     "nr.",
+        "index",   "frame",    "sample",    "frames",     "packet",       "number",        "samples",      "counter", "frameno",
+        "level_0", "frame_id", "sample no", "unnamed: 0", "sample_index", "sample_number", "sample number"};
     auto word = lower(name);
     if (const auto dot = word.rfind('.'); dot != word.npos && dot + 1 < word.size()) word = word.substr(dot + 1);  // field.header.seq
     return in_list(words, word);
@@ -162,29 +137,13 @@ bool is_trial_name(std::string_view name) {
 }
 
 std::optional<double> seconds_per_time_unit(std::string_view unit) {
-    constexpr std::pair<std::string_view, double> words[] = {{"sec", 1},
-                                                             {"secs", 1},
-                                                             {"second", 1},
-                                                             {"seconds", 1},
-                                                             {"Sek", 1},
-                                                             {"sek", 1},
-                                                             {"Sekunden", 1},
-                                                             {"msec", 1e-3},
-                                                             {"msecs", 1e-3},
-                                                             {"millis", 1e-3},
-                                                             {"usec", 1e-6},
-                                                             {"usecs", 1e-6},
-                                                             {"nsec", 1e-9},
-                                                             {"nsecs", 1e-9},
-                                                             {"milliseconds", 1e-3},
-                                                             {"micros", 1e-6},
-                                                             {"microseconds", 1e-6},
-                                                             {"nanos", 1e-9},
-                                                             {"nanoseconds", 1e-9},
-                                                             {"minutes", 60},
-                                                             {"h", 3600}};
-    for (const auto& [word, factor] : words)
-        if (word == unit) return factor;
+    const auto is_one_of = [unit](std::initializer_list<std::string_view> words) { return in_list(words, unit); };
+    if (is_one_of({"sec", "secs", "second", "seconds", "Sek", "sek", "Sekunden"})) return 1;
+    if (is_one_of({"msec", "msecs", "millis", "milliseconds"})) return 1e-3;
+    if (is_one_of({"usec", "usecs", "micros", "microseconds"})) return 1e-6;
+    if (is_one_of({"nsec", "nsecs", "nanos", "nanoseconds"})) return 1e-9;
+    if (unit == "minutes") return 60;
+    if (unit == "h") return 3600;
     if (unit.empty()) return {};
     const auto parsed = parse_unit(unit);
     if (parsed && parsed->has_same_dimension(*parse_unit("s"))) return parsed->factor;

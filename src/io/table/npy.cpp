@@ -1,4 +1,4 @@
-#include "io/table/npy.hpp"
+#include "io/table/npz.hpp"
 
 #include <fmt/format.h>
 #include <algorithm>
@@ -7,7 +7,6 @@
 #include <cmath>
 #include <cstring>
 #include <nlohmann/json.hpp>
-#include <optional>
 
 #include "io/text/utf8.hpp"
 
@@ -169,13 +168,6 @@ Result<NpyHeader> parse_header(const std::string& text, const std::string& name)
     return header;
 }
 
-/// Reads the length of the dictionary in bytes.
-Result<std::size_t> header_length(SeekableBytes& bytes, int version) {
-    std::array<std::byte, 4> length{};
-    TRY(bytes.read(std::span(length).first(version == 1 ? 2 : 4)));
-    return static_cast<std::size_t>(stored<std::uint32_t, false>(length.data()));
-}
-
 }  // namespace
 
 bool NpyField::is_numeric() const {
@@ -199,7 +191,9 @@ Result<NpyHeader> read_npy_header(SeekableBytes& bytes) {
     const int version = static_cast<int>(start[6]);
     if (version < 1 || version > 3)
         return bad_input(fmt::format("NPY version {} is not supported (only 1, 2, 3)", version), {bytes.name()});
-    const auto length = TRY(header_length(bytes, version));
+    std::array<std::byte, 4> stored_length{};  // of the dictionary, bytes
+    TRY(bytes.read(std::span(stored_length).first(version == 1 ? 2 : 4)));
+    const std::size_t length = stored<std::uint32_t, false>(stored_length.data());
     if (length > max_header) return bad_input(fmt::format("the header is too long: {} bytes", length), {bytes.name()});
     std::string text(length, ' ');
     TRY(bytes.read(std::as_writable_bytes(std::span(text))));

@@ -2,7 +2,6 @@
 
 #include <fmt/format.h>
 #include <algorithm>
-#include <cmath>
 
 #include "io/recording/samples.hpp"
 #include "io/table/npz.hpp"

@@ -4,9 +4,6 @@
 
 #include <cstddef>
 #include <functional>
-#include <memory>
-#include <optional>
-#include <string>
 #include <vector>
 
 #include "core/error.hpp"
@@ -41,7 +38,7 @@ struct TableInfo {
     bool is_time_guessed = false;                 ///< true if the time column was recognised by its values, not by its name
     std::optional<double> rate = {};              ///< Hz; nullopt if the file does not state it
     bool is_orientation_known =
-        false;  ///< true if the reader of the format has determined whether the rows in the file are samples or channels
+        true;  ///< true if the reader of the format has determined whether the rows in the file are samples or channels
     std::vector<std::string> notes = {};       ///< for the user about how the file is read
     std::vector<std::string> time_notes = {};  ///< for the user about the time column
 };

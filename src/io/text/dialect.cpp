@@ -1,7 +1,5 @@
 #include "io/text/dialect.hpp"
 
-#include <algorithm>
-#include <charconv>
 #include <cmath>
 
 #include "core/text/ascii_text.hpp"

@@ -1,13 +1,11 @@
 #include "io/text/json_records.hpp"
 
 #include <fmt/format.h>
-#include <algorithm>
 #include <cmath>
 #include <nlohmann/json.hpp>
 
 #include "core/text/ascii_text.hpp"
 #include "io/recording/samples.hpp"
-#include "io/table/heading.hpp"
 
 namespace corpuscle {
 namespace {

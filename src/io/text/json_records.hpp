@@ -2,12 +2,8 @@
 // Reads JSON as records, which are the rows of a table. The text has one record on each line (JSON lines), or it is a document: a list
 // with one element for each record (an object, or a list of values), or an object of columns.
 
-#include <functional>
 #include <nlohmann/json_fwd.hpp>
-#include <optional>
 #include <span>
-#include <string>
-#include <vector>
 
 #include "io/table/table.hpp"
 #include "io/text/line_reader.hpp"

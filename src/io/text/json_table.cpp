@@ -1,7 +1,6 @@
 #include "io/text/json_records.hpp"
 
 #include <fmt/format.h>
-#include <algorithm>
 #include <cmath>
 #include <nlohmann/json.hpp>
 #include <unordered_map>
@@ -99,13 +98,14 @@ public:
             for (std::size_t k = v.first.numbers.size(); k < std::min(rows_, inspected_rows); ++k) v.first.add_other(v.first.empty_count);
             first.push_back(std::move(v.first));
         }
-        auto& roles = info_.roles.emplace(assign_roles(info_.columns, first, has_named_columns(info_.columns)));
+        auto roles = assign_roles(info_.columns, first, has_named_columns(info_.columns));
+        info_.time_column = roles.time_column, info_.is_time_guessed = roles.is_time_guessed, info_.time_notes = std::move(roles.notes);
+        info_.has_roles = true;
         for (std::size_t c = 0; c < info_.columns.size(); ++c)
-            if (info_.columns[c].unit.empty() && info_.columns[c].exclusion_reason.empty() && c != roles.time_column)
+            if (info_.columns[c].unit.empty() && info_.columns[c].exclusion_reason.empty() && c != info_.time_column)
                 info_.columns[c].unit = metadata_.unit;
-        if (roles.time_column && info_.columns[*roles.time_column].holds_time_stamps) {
-            roles.notes.push_back(origin_note(*values_[*roles.time_column].stamp, info_.columns[*roles.time_column].name));
-        }
+        if (const auto time = info_.time_column; time && info_.columns[*time].holds_time_stamps)
+            info_.time_notes.push_back(origin_note(*values_[*time].stamp, info_.columns[*time].name));
         info_.rows = static_cast<std::int64_t>(rows_), info_.is_orientation_known = false;
         info_.rate = metadata_.rate, info_.notes = std::move(metadata_.notes);
         return {};

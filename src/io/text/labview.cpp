@@ -1,8 +1,4 @@
-#include "io/text/labview.hpp"
-
-#include <fmt/format.h>
-#include <algorithm>
-#include <cmath>
+#include "io/text/text_layout.hpp"
 
 #include "core/text/ascii_text.hpp"
 
@@ -15,7 +11,7 @@ constexpr std::string_view end_of_header = "***End_of_Header***";
 class LabviewReader {
     const std::vector<std::string>& lines_;
     std::string path_;
-    LabviewHeader head_;
+    TextLayout& out_;
     Fields fields_;                   // of the current line
     std::vector<std::string> units_;  // of the channels
     double step_ = 0;                 // s, the sample period (Delta_X)
@@ -23,19 +19,19 @@ class LabviewReader {
     std::string x_columns_ = "One";   // "One": X_Value is one column; "Multi": each channel has its own; "No": it is empty
 
     /// Splits line k into fields_.
-    void split(std::size_t k) { head_.dialect.split(lines_[k], fields_); }
+    void split(std::size_t k) { out_.dialect.split(lines_[k], fields_); }
 
     /// Reads a line of the header: a name, followed by one value for the file or by one value for each channel.
     void read_entry(std::size_t k) {
         split(k);
         if (fields_.size() < 2) return;
         const auto name = fields_[0];
-        if (name == "Decimal_Separator") head_.dialect.decimal_comma = fields_[1] == ",";
+        if (name == "Decimal_Separator") out_.dialect.decimal_comma = fields_[1] == ",";
         if (name == "X_Columns") x_columns_ = fields_[1];
         if (name == "X_Dimension") is_time_axis_ = fields_[1] == "Time";
         if (name == "Y_Unit_Label") units_.assign(fields_.begin() + 1, fields_.end());
         if (name == "Delta_X") {
-            head_.dialect.parse_number(fields_[1], step_);
+            out_.dialect.parse_number(fields_[1], step_);
             has_delta_ = true;
         }
     }
@@ -49,7 +45,7 @@ class LabviewReader {
         for (const auto name : fields_) {
             Column column{std::string(name), ""};
             if (name == "X_Value") {
-                const bool first = head_.columns.empty();
+                const bool first = out_.columns.empty();
                 if (first && x_columns_ != "No")
                     column = {is_time_axis_ ? "time" : "X_Value", is_time_axis_ ? "s" : ""};
                 else
@@ -60,21 +56,22 @@ class LabviewReader {
                 if (channel < units_.size()) column.unit = units_[channel];
                 ++channel;
             }
-            head_.columns.push_back(std::move(column));
+            out_.columns.push_back(std::move(column));
         }
-        while (!head_.columns.empty() && head_.columns.back().name.empty()) head_.columns.pop_back();
-        if (x_columns_ == "No" && has_delta_ && step_ > 0) head_.rate = 1 / step_;
+        while (!out_.columns.empty() && out_.columns.back().name.empty()) out_.columns.pop_back();
+        if (x_columns_ == "No" && has_delta_ && step_ > 0) out_.rate = 1 / step_;
     }
 
 public:
-    LabviewReader(const std::vector<std::string>& lines, std::string path) : lines_(lines), path_(std::move(path)) {}
+    LabviewReader(const std::vector<std::string>& lines, std::string path, TextLayout& out)
+        : lines_(lines), path_(std::move(path)), out_(out) {}
 
-    Result<LabviewHeader> read() {
+    Result<std::size_t> read() {
         // The separator follows from the first line, unless an entry "Separator" among the first lines states it.
-        head_.dialect = {lines_[0].find(',') != std::string::npos && lines_[0].find('\t') == std::string::npos ? ',' : '\t', false};
+        out_.dialect = {lines_[0].find(',') != std::string::npos && lines_[0].find('\t') == std::string::npos ? ',' : '\t', false};
         for (std::size_t k = 1; k < std::min<std::size_t>(lines_.size(), 12); ++k)
             if (lines_[k].starts_with("Separator"))
-                head_.dialect.separator = lower(lines_[k]).find("comma") != std::string::npos ? ',' : '\t';
+                out_.dialect.separator = lower(lines_[k]).find("comma") != std::string::npos ? ',' : '\t';
         std::size_t ends = 0;  // number of lines ***End_of_Header*** so far: one after the file's header, one after that of the segment
         for (std::size_t k = 1; k < lines_.size(); ++k) {
             if (!trimmed(lines_[k]).starts_with(end_of_header)) {
@@ -84,9 +81,8 @@ public:
             if (++ends < 2) continue;
             if (k + 1 >= lines_.size()) break;
             read_names(k + 1);
-            head_.first_row = k + 2;
-            if (head_.columns.empty()) break;
-            return std::move(head_);
+            if (out_.columns.empty()) break;
+            return k + 2;
         }
         return bad_input(
             "this LabVIEW file has no table: expected two lines ***End_of_Header***, and the column names in the line after the second one",
@@ -98,8 +94,8 @@ public:
 
 bool is_labview(std::string_view first_line) { return first_line.starts_with("LabVIEW Measurement"); }
 
-Result<LabviewHeader> read_labview_header(const std::vector<std::string>& lines, const std::string& path) {
-    return LabviewReader(lines, path).read();
+Result<std::size_t> read_labview_header(const std::vector<std::string>& lines, const std::string& path, TextLayout& out) {
+    return LabviewReader(lines, path, out).read();
 }
 
 }  // namespace corpuscle

@@ -1,10 +1,8 @@
 #include "io/text/line_reader.hpp"
 
 #include <fmt/format.h>
-#include <algorithm>
 #include <cstring>
 #include <filesystem>
-#include <utility>
 
 #include "core/text/ascii_text.hpp"
 #include "io/table/foreign_format.hpp"
@@ -12,10 +10,9 @@
 namespace corpuscle {
 
 Result<LineReader> LineReader::open(const std::string& path) {
-    auto input = TRY(open_text_input(path));
     LineReader lines;
     lines.path_ = path;
-    lines.input_ = std::move(input);
+    lines.input_ = TRY(open_text_input(path));
     return lines;
 }
 

@@ -1,7 +1,5 @@
 #include "io/text/named_columns.hpp"
 
-#include <algorithm>
-
 #include "core/text/ascii_text.hpp"
 #include "io/table/heading.hpp"
 

@@ -1,11 +1,6 @@
 #pragma once
 // Reads a text table with a header row by row: the layout of a recording, the sites of a skin, the channels of frames.
 
-#include <optional>
-#include <string>
-#include <vector>
-
-#include "core/error.hpp"
 #include "io/table/table.hpp"
 #include "io/text/dialect.hpp"
 #include "io/text/line_reader.hpp"

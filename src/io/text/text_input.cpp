@@ -1,13 +1,11 @@
-#include "io/text/text_input.hpp"
+#include "io/text/line_reader.hpp"
 
 #include <fmt/format.h>
 #include <zlib.h>
 #include <algorithm>
 #include <cerrno>
-#include <cstdio>
 #include <cstring>
 #include <filesystem>
-#include <vector>
 
 #include "core/text/input_files.hpp"
 #include "io/table/foreign_format.hpp"

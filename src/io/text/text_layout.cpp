@@ -1,12 +1,9 @@
 #include "io/text/text_layout.hpp"
 
 #include <fmt/format.h>
-#include <algorithm>
 #include <cctype>
-#include <cmath>
 
 #include "core/text/ascii_text.hpp"
-#include "io/text/labview.hpp"
 
 namespace corpuscle {
 namespace {
@@ -365,10 +362,8 @@ public:
         if (is_labview(head_[0].text)) {
             std::vector<std::string> lines;
             for (const auto& h : head_) lines.push_back(h.text);
-            auto labview = TRY(read_labview_header(lines, path));
-            layout_.dialect = labview.dialect, layout_.columns = std::move(labview.columns), layout_.rate = labview.rate;
+            row_ = TRY(read_labview_header(lines, path, layout_));
             layout_.has_header = layout_.is_last_field_optional = true;
-            row_ = labview.first_row;
         } else if (rows_are_channels && use_named_rows()) {
             row_ = 0;
         } else if (!rows_are_channels && are_rows_channels()) {
@@ -380,9 +375,7 @@ public:
         layout_.first_row_line = row_ < head_.size() ? head_[row_].number : last + 1;
         resolve_letter_suffixes();
         const auto first = first_fields();
-        const auto rate = layout_.rate;
         layout_.roles = assign_roles(layout_.columns, first, layout_.has_header);
-        if (rate) layout_.rate = rate;
         if (row_ < head_.size()) {
             split_row(layout_.dialect, head_[row_].text, layout_.columns.size(), fields_);
             layout_.first_fields.assign(fields_.begin(), fields_.end());

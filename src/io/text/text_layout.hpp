@@ -2,7 +2,7 @@
 // Detects the layout of a text table: its first row, separator and header. Data loggers write other lines before the table (a preamble), a
 // row of units below the header, or the header as a comment.
 
-#include "io/table/column_roles.hpp"
+#include "io/table/heading.hpp"
 #include "io/text/dialect.hpp"
 #include "io/text/line_reader.hpp"
 #include "io/text/time_stamp.hpp"
@@ -27,6 +27,14 @@ struct TextLayout {
 /// Reads the beginning of the file and rewinds it. Ignores the first `skip` lines. If `rows_are_channels`, each row may begin with the name
 /// of its channel.
 Result<TextLayout> detect_text_layout(LineReader&, std::size_t skip, bool rows_are_channels);
+
+/// True if a file with this first line is a LabVIEW measurement file (.lvm). It has two headers of names and values, one of the file and
+/// one of its first segment, followed by a table.
+bool is_labview(std::string_view first_line);
+
+/// Reads the headers and the column names of a LabVIEW file. `lines` are the first lines of the file that are not empty. Sets dialect,
+/// columns and rate (only if the table has no times) in `out`. Returns the index in `lines` of the table's first row.
+Result<std::size_t> read_labview_header(const std::vector<std::string>& lines, const std::string& path, TextLayout& out);
 
 /// True if a line is blank, or if its first character that is not a blank is # or %.
 inline bool is_comment(std::string_view line) {

@@ -1,10 +1,7 @@
 #include "io/recording/recording_formats.hpp"
 
 #include <fmt/format.h>
-#include <algorithm>
 #include <cmath>
-#include <cstring>
-#include <limits>
 
 #include "core/text/ascii_text.hpp"
 #include "io/recording/field_advice.hpp"
@@ -281,6 +278,7 @@ public:
     Result<void> open() {
         layout_ = TRY(detect_text_layout(lines_, skip_, rows_are_channels_));
         dialect_ = layout_.dialect, info_.columns = layout_.columns, info_.time_column = layout_.roles.time_column;
+        info_.is_orientation_known = false;
         info_.rate = layout_.rate, info_.notes = layout_.notes, info_.time_notes = layout_.roles.notes;
         if (!layout_.has_header && !info_.time_column && !layout_.has_row_names) TRY(find_unnamed_time());
         info_.is_time_guessed = info_.time_column && (!layout_.has_header || layout_.roles.is_time_guessed);

@@ -4,8 +4,6 @@
 #include <algorithm>
 #include <numeric>
 
-#include "io/table/heading.hpp"
-
 namespace corpuscle {
 namespace {
 

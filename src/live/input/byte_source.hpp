@@ -1,14 +1,22 @@
 #pragma once
 // Sources of bytes, which contain frames: standard input, a socket, a serial line.
 
-#include <memory>
+#include <chrono>
+#include <cstdint>
+#include <limits>
 #include <span>
-#include <string>
 
 #include "core/error.hpp"
-#include "live/steady_clock.hpp"
 
 namespace corpuscle {
+
+/// The time of a clock that never jumps, in nanoseconds since an arbitrary time.
+inline std::int64_t steady_now() {
+    return std::chrono::duration_cast<std::chrono::nanoseconds>(std::chrono::steady_clock::now().time_since_epoch()).count();
+}
+
+/// A time that steady_now() does not reach: never.
+inline constexpr std::int64_t steady_never = std::numeric_limits<std::int64_t>::max();
 
 /// Result of a read.
 struct ReadResult {

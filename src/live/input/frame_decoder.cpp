@@ -1,12 +1,9 @@
 #include "live/input/frame_decoder.hpp"
 
-#include <algorithm>
 #include <bit>
-#include <charconv>
 #include <cmath>
 #include <cstring>
 #include <limits>
-#include <utility>
 
 #include "core/text/ascii_text.hpp"
 

@@ -1,13 +1,6 @@
 #pragma once
 // Decodes frames from bytes, which arrive in chunks of any size. After construction it allocates memory only if a header arrives.
 
-#include <optional>
-#include <span>
-#include <string>
-#include <string_view>
-#include <vector>
-
-#include "live/input/frame_error.hpp"
 #include "live/input/frame_layout.hpp"
 #include "live/lanes/kernel.hpp"
 

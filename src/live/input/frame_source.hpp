@@ -1,17 +1,10 @@
 #pragma once
 // Sources of a stream's frames: bytes in a given layout, or a recording.
 
-#include <memory>
-#include <optional>
-#include <span>
-
 #include "core/force_source.hpp"
-#include "io/quality/biquad.hpp"
+#include "io/quality/filters.hpp"
 #include "live/input/byte_source.hpp"
-#include "live/input/frame_error.hpp"
 #include "live/input/frame_layout.hpp"
-#include "live/input/frame_sequence.hpp"
-#include "live/steady_clock.hpp"
 
 namespace corpuscle {
 

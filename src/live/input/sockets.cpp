@@ -6,11 +6,9 @@
 #include <netinet/in.h>
 #include <netinet/tcp.h>
 #include <poll.h>
-#include <sys/socket.h>
 #include <cerrno>
 #include <charconv>
 #include <cstring>
-#include <memory>
 
 namespace corpuscle {
 namespace {

@@ -2,7 +2,6 @@
 // Opens and connects sockets by address and port.
 
 #include <sys/socket.h>
-#include <string>
 #include <vector>
 
 #include "core/error.hpp"

@@ -3,8 +3,6 @@
 
 #include "live/lanes/kernel.hpp"
 
-#include <cstdint>
-
 #include "core/number/number.hpp"
 
 namespace corpuscle::lanes {

@@ -4,15 +4,10 @@
 #include <fmt/format.h>
 #include <sys/stat.h>
 #include <cerrno>
-#include <chrono>
 #include <condition_variable>
-#include <cstring>
-#include <functional>
 #include <mutex>
-#include <optional>
 #include <thread>
 
-#include "io/output/descriptor.hpp"
 #include "io/output/output_file.hpp"
 #include "live/output/event_sink.hpp"
 

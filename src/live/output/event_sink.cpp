@@ -5,13 +5,10 @@
 #include <fcntl.h>
 #include <fmt/format.h>
 #include <poll.h>
-#include <sys/socket.h>
 #include <sys/stat.h>
-#include <algorithm>
 #include <cerrno>
-#include <cstring>
 
-#include "live/steady_clock.hpp"
+#include "live/input/byte_source.hpp"
 
 namespace corpuscle {
 namespace {

@@ -14,7 +14,7 @@
 #include "core/text/input_files.hpp"
 #include "io/output/output_check.hpp"
 #include "io/output/output_file.hpp"
-#include "io/table/seekable_bytes.hpp"
+#include "io/table/archive.hpp"
 
 namespace corpuscle {
 namespace {

@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <numeric>
 
-#include "skin/plan/site_map.hpp"
+#include "skin/plan/sites.hpp"
 
 namespace corpuscle {
 namespace {

@@ -1,12 +1,10 @@
 #include "skin/contact/contact.hpp"
 
 #include <fmt/format.h>
-#include <algorithm>
-#include <cmath>
 
+#include "core/stimulus/touch.hpp"
 #include "core/text/quantity.hpp"
-#include "skin/contact/contact_path.hpp"
-#include "skin/contact/pressure_distribution.hpp"
+#include "skin/contact/indenters.hpp"
 #include "skin/contact/skin_cells.hpp"
 
 namespace corpuscle {
@@ -20,13 +18,19 @@ struct SiteFraction {
 
 std::string in_mm(double x, double y) { return fmt::format("({:.4g}, {:.4g}) mm", x * 1e3, y * 1e3); }
 
+/// The duration of the movement to x1, y1, s.
+double move_duration(const ContactParams& p) {
+    const double dx = p.x1 - p.x, dy = p.y1 - p.y;
+    return is_moving(p) && p.speed > 0 ? num::sqrt(dx * dx + dy * dy) / p.speed : p.t_move;
+}
+
 class IndenterContact final : public Contact {
     const Indenter& indenter_;
     ContactParams p_;
     Clock clock_;
     const std::size_t sites_;  // number of sites
     SkinCells cells_;
-    ContactPath path_;
+    double move_duration_;  // s
     std::unique_ptr<PressureDistribution> pressure_;
 
     // The contact at the last sample: position, size, shift of the pattern, and the fractions of the force that follow from them. The
@@ -47,6 +51,16 @@ class IndenterContact final : public Contact {
     double pressed_ = 0, off_skin_ = 0;  // force on the indenter, and the part of it off the skin; N, summed over samples
     double max_size_ = 0;                // largest size of the contact, m
     std::int64_t negative_samples_ = 0;
+
+    /// The position of the contact's centre (m) at time t (s, on the clock of the force).
+    Position position_at(double t) const {
+        // Fraction of the way from the start to the end.
+        const double fraction = move_duration_ > 0 ? ramp_fraction(t, p_.t_start, move_duration_) : 0;
+        return {p_.x + (p_.x1 - p_.x) * fraction, p_.y + (p_.y1 - p_.y) * fraction, 0};
+    }
+
+    /// The distance (m) that a pattern, such as a grating's, has passed under a resting contact at time t.
+    double pattern_shift(double t) const { return !is_moving(p_) && t > p_.t_start ? p_.speed * (t - p_.t_start) : 0; }
 
     /// Computes the fraction of the force on each site, for the position and size of the contact and the shift of a pattern under it (m).
     void distribute(const Position& at, double size, double shift) {
@@ -97,7 +111,7 @@ class IndenterContact final : public Contact {
         }
         const double t = clock_.time(sample), size = pressure_->size(force);
         TRY(check(size, force));
-        distribute(path_.at(t), size, path_.pattern_shift(t));
+        distribute(position_at(t), size, pattern_shift(t));
         pressed_ += force, off_skin_ += force * (1 - on_skin_), max_size_ = std::max(max_size_, size);
         for (const auto& s : fractions_) {
             touch(s.site, steps);
@@ -108,7 +122,7 @@ class IndenterContact final : public Contact {
 
 public:
     IndenterContact(const Indenter& indenter, const ContactParams& p, const Sites& sites, const Clock& clock)
-        : indenter_(indenter), p_(p), clock_(clock), sites_(sites.size()), cells_(sites), path_(p),
+        : indenter_(indenter), p_(p), clock_(clock), sites_(sites.size()), cells_(sites), move_duration_(move_duration(p)),
           pressure_(make_pressure_distribution(indenter, p, cells_.side())), in_block_(sites.size(), 0) {}
 
     std::string description() const override {
@@ -120,7 +134,7 @@ public:
         if (!is_moving(p_) && p_.speed > 0) text += fmt::format(" moving past at {}", format_quantity(p_.speed, "m/s"));
         if (!is_moving(p_)) return text + fmt::format(", pressed at {}", in_mm(p_.x, p_.y));
         return text +
-               fmt::format(", moved from {} to {} in {}", in_mm(p_.x, p_.y), in_mm(p_.x1, p_.y1), format_quantity(path_.duration(), "s"));
+               fmt::format(", moved from {} to {} in {}", in_mm(p_.x, p_.y), in_mm(p_.x1, p_.y1), format_quantity(move_duration_, "s"));
     }
 
     std::vector<MetadataEntry> metadata() const override {

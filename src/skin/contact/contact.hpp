@@ -1,10 +1,6 @@
 #pragma once
 // Touch of a skin by an indenter. The indenter rests or moves on the skin; the force with which it presses is distributed over the sites.
 
-#include <optional>
-#include <string_view>
-
-#include "core/parameter_override.hpp"
 #include "skin/skin.hpp"
 
 namespace corpuscle {

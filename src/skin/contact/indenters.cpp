@@ -1,10 +1,7 @@
 #include "skin/contact/indenters.hpp"
 
 #include <fmt/format.h>
-#include <algorithm>
-#include <cmath>
 
-#include "core/number/number.hpp"
 #include "skin/contact/contact.hpp"
 
 namespace corpuscle {

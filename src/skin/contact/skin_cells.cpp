@@ -1,7 +1,5 @@
 #include "skin/contact/skin_cells.hpp"
 
-#include <cmath>
-
 #include "core/number/number.hpp"
 
 namespace corpuscle {

@@ -1,10 +1,7 @@
 #pragma once
 // The cells of a skin: the square of skin that each site represents. Finds the cells around a contact.
 
-#include <algorithm>
 #include <cmath>
-#include <memory>
-#include <span>
 
 #include "skin/plan/site_grid.hpp"
 

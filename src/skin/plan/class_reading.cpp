@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <array>
 
-#include "core/text/located_override.hpp"
 #include "skin/plan/population_values.hpp"
 
 namespace corpuscle::skins {
@@ -89,8 +88,7 @@ Result<void> read_numbers(const ConfigNode& in, const Sites& sites, const Popula
             fmt::format("[[class]] {}: a density needs sites with an area of skin. Give regions, or area = \"4 mm2\" in "
                         "[sites]. For sensors use per_site = 1",
                         out.name));
-    const auto per_site = TRY(values.integer(in, "per_site", 1, 1000, 0));
-    out.per_site = static_cast<std::uint32_t>(per_site);
+    out.per_site = static_cast<std::uint32_t>(TRY(values.integer(in, "per_site", 1, 1000, 0)));
     if (has_density) out.density = TRY(read_densities(in, sites, values));
     return {};
 }
@@ -101,8 +99,7 @@ Result<void> read_fields_and_velocity(const ConfigNode& in, const PopulationValu
     out.hot_spot_spread = TRY(values.number_of(in, "hot_spot_spread", "m", 0, max_width));
     out.velocity = TRY(values.number_of(in, "velocity", "m/s", min_velocity, max_velocity));
     out.velocity_spread = TRY(values.number_of(in, "velocity_spread", "m/s", 0, max_velocity));
-    const auto spots = TRY(values.integer(in, "hot_spots", 1, 100, 1));
-    out.hot_spots = static_cast<std::uint32_t>(spots);
+    out.hot_spots = static_cast<std::uint32_t>(TRY(values.integer(in, "hot_spots", 1, 100, 1)));
     if (out.hot_spots > 1 && !(out.sigma > 0 && out.hot_spot_spread > 0))
         return in.get("hot_spots")->error_here("several hot spots need a sigma and a hot_spot_spread");
     if (in.has("velocity_spread") && !in.has("velocity")) return in.get("velocity_spread")->error_here("velocity_spread needs a velocity");

@@ -1,6 +1,4 @@
-// Finds populations by name: grids, the built-in populations, and files.
-
-#include "skin/plan/skin_plan.hpp"
+// Finds populations by name (grids, the built-in populations, and files), and changes their plans as the user requests.
 
 #include <fmt/format.h>
 #include <filesystem>
@@ -9,11 +7,54 @@
 #include "core/text/config_file.hpp"
 #include "core/text/embedded_files.hpp"
 #include "core/text/input_files.hpp"
+#include "skin/contact/skin_cells.hpp"
+#include "skin/innervation.hpp"
 
 namespace corpuscle {
 namespace {
 
 namespace fs = std::filesystem;
+
+constexpr double grid_pitch = 2e-3;            // m; choice: between robot fingertip skins (1 to 2 mm) and palm skins
+constexpr double grid_sigma = grid_pitch / 2;  // m; choice: an afferent responds mainly to its own sensor
+
+/// Parses the two numbers of "8x8".
+std::optional<std::pair<std::size_t, std::size_t>> rows_by_columns(std::string_view text) {
+    const auto by = text.find_first_of("xX");
+    if (by == std::string_view::npos) return {};
+    const auto rows = parse_bare_number<std::size_t>(trimmed(text.substr(0, by))),
+               columns = parse_bare_number<std::size_t>(trimmed(text.substr(by + 1)));
+    return rows && columns ? std::optional(std::pair(*rows, *columns)) : std::nullopt;
+}
+
+/// A class of a named afferent (which must exist), with one afferent at each site.
+SkinClass class_with_one_per_site(std::string_view afferent) {
+    SkinClass c;
+    c.name = afferent, c.afferent = *plan_afferent(afferent);
+    c.per_site = 1, c.sigma = grid_sigma;
+    return c;
+}
+
+/// True if a text begins as the name of a grid, "grid ..." or "grid:...", in upper or lower case.
+bool is_grid_name(std::string_view text) {
+    text = trimmed(text);
+    return lower(text.substr(0, 4)) == "grid" && (text.size() == 4 || text[4] == ' ' || text[4] == ':');
+}
+
+/// The plan of a grid such as "grid 8x8" (8 rows by 8 columns).
+Result<SkinPlan> plan_grid(std::string_view text) {
+    const auto size = rows_by_columns(trimmed(text).substr(std::min<std::size_t>(5, trimmed(text).size())));
+    if (!size) return bad_usage(fmt::format("'{}' is not a grid; write rows and columns, such as 'grid 8x8'", text));
+    const double count = static_cast<double>(size->first) * static_cast<double>(size->second);
+    if (count <= static_cast<double>(max_sites))
+        TRY(check_available_memory(fmt::format("grid {}x{}", size->first, size->second), count, 2 * count, 18 * count));
+    SkinPlan plan;
+    plan.name = fmt::format("grid {}x{}", size->first, size->second);
+    plan.description = fmt::format("{} by {} sensors, 2 mm apart; an SA-I and an FA-I at each", size->first, size->second);
+    plan.sites = TRY(grid_sites(size->first, size->second, grid_pitch));
+    plan.classes = {class_with_one_per_site("sa1"), class_with_one_per_site("fa1")};
+    return plan;
+}
 
 constexpr std::size_t max_file_size = std::size_t{64} << 20;  // bytes
 
@@ -26,14 +67,14 @@ Error unknown_skin(std::string_view name) {
                                  did_you_mean(name, names), fmt::join(names.begin() + 1, names.end(), ", ")));
 }
 
-/// Names and titles of the built-in populations, which are embedded in the program as files.
-std::vector<std::pair<std::string, std::string>> embedded_skins() {
-    std::vector<std::pair<std::string, std::string>> out;
+/// The built-in populations, which are embedded in the program as files.
+std::vector<NamedSkin> embedded_skins() {
+    std::vector<NamedSkin> out;
     for (const auto file : embedded_files()) {
         if (!file.starts_with("skins/")) continue;
         const auto population = parse_toml(*embedded_text(std::string(file)), std::string(file));
         const auto* title = population ? population->get("title") : nullptr;
-        out.emplace_back(fs::path(file).stem().string(), title ? title->text : "");
+        out.push_back({fs::path(file).stem().string(), title ? title->text : ""});
     }
     return out;
 }
@@ -41,12 +82,7 @@ std::vector<std::pair<std::string, std::string>> embedded_skins() {
 }  // namespace
 
 std::span<const NamedSkin> named_skins() {
-    static const auto texts = embedded_skins();  // a NamedSkin refers to these strings
-    static const auto all = [] {
-        std::vector<NamedSkin> out;
-        for (const auto& [name, title] : texts) out.push_back({name, title});
-        return out;
-    }();
+    static const auto all = embedded_skins();
     return all;
 }
 
@@ -62,6 +98,33 @@ Result<SkinPlan> load_skin_plan(std::string_view name, std::span<const Channel> 
     }
     if (path.extension() == ".toml") return bad_input("cannot be read: there is no such file", {path.string()});
     return unknown_skin(name);
+}
+
+Result<Applied<SkinPlan>> apply_overrides(SkinPlan plan, std::span<const ParameterOverride> overrides) {
+    std::vector<ParameterOverride> unused(overrides.begin(), overrides.end());
+    for (auto& c : plan.classes) {
+        const auto settings = TRY(settings_for(c.name, parameter_infos(c.afferent), overrides));
+        keep_unused(unused, settings.unused);
+        set_values(c.afferent, settings.result);
+        TRY(check_plan(c.afferent));
+    }
+    return Applied<SkinPlan>{std::move(plan), std::move(unused)};
+}
+
+std::vector<std::string_view> override_targets(const SkinPlan& plan, std::vector<std::string_view> others) {
+    for (const auto& c : plan.classes) others.push_back(c.name);
+    return others;
+}
+
+std::string treat_as_skin(SkinPlan& plan) {
+    if (plan.sites.area > 0 || plan.felt_area > 0 || plan.sites.size() < 2) return "";
+    const SkinCells cells(plan.sites);
+    if (!cells.is_lattice()) return "";
+    plan.sites.area = cells.side() * cells.side(), plan.felt_area = default_felt_area;
+    return fmt::format(
+        "{} is pressed with an indenter, so each site represents {:.3g} mm2 of skin and an afferent responds to the force on {:.3g} cm2 "
+        "of it, as in hand and fingertip; felt_area in a population file changes this (doc/skin.md)",
+        plan.name, 1e6 * plan.sites.area, 1e4 * plan.felt_area);
 }
 
 }  // namespace corpuscle

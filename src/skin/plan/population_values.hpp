@@ -1,8 +1,6 @@
 #pragma once
 // Reads the values of a population file: numbers with their units and ranges, positions, sites and classes.
 
-#include <span>
-
 #include "core/text/config_file.hpp"
 #include "skin/plan/skin_plan.hpp"
 

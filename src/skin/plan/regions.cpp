@@ -1,8 +1,7 @@
-#include "skin/plan/regions.hpp"
+#include "skin/plan/sites.hpp"
 
 #include <fmt/format.h>
 #include <algorithm>
-#include <cmath>
 
 #include "core/number/elementary.hpp"
 

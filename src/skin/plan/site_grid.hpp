@@ -3,9 +3,7 @@
 // grid.
 
 #include <algorithm>
-#include <cstdint>
 #include <limits>
-#include <vector>
 
 #include "skin/plan/sites.hpp"
 

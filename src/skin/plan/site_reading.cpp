@@ -7,8 +7,6 @@
 #include <set>
 
 #include "skin/plan/population_values.hpp"
-#include "skin/plan/regions.hpp"
-#include "skin/plan/site_table.hpp"
 
 namespace corpuscle::skins {
 namespace {

@@ -1,9 +1,6 @@
 #pragma once
 // The plan of a skin, as a population file defines it (doc/skin.md): sites, classes of afferents, and how receptive fields are made.
 
-#include <optional>
-#include <string_view>
-
 #include "model/copies.hpp"
 #include "skin/plan/sites.hpp"
 
@@ -54,15 +51,23 @@ Result<SkinPlan> parse_skin_plan(std::string_view text, const std::string& file,
 
 /// A built-in population.
 struct NamedSkin {
-    std::string_view name, description;
+    std::string name, description;
 };
 /// All built-in populations except grids.
 std::span<const NamedSkin> named_skins();
 
-/// True if a text begins as the name of a grid, "grid ..." or "grid:...", in upper or lower case.
-bool is_grid_name(std::string_view text);
+/// Applies the overrides whose target is a class of the plan: "sa1.f_B=25Hz" sets the value around which f_B is sampled in the class sa1.
+/// A parameter that the class does not have, and a value outside its range, are errors.
+Result<Applied<SkinPlan>> apply_overrides(SkinPlan, std::span<const ParameterOverride>);
 
-/// The plan of a grid such as "grid 8x8" (8 rows by 8 columns).
-Result<SkinPlan> plan_grid(std::string_view text);
+/// The targets of overrides in a run of this skin: its classes, and `others`.
+std::vector<std::string_view> override_targets(const SkinPlan&, std::vector<std::string_view> others = {});
+
+/// Prepares a plan for an indenter: a sensor array that defines no area of its sites is treated as skin. Each site then represents a cell
+/// of the lattice of sites, and the plan gets the `felt_area` of the built-in skins. Returns a note that says so. If the plan defines the
+/// area of its sites or a felt_area, or if the sites are not on a lattice, nothing is changed, and the result is "".
+std::string treat_as_skin(SkinPlan&);
+
+inline constexpr double default_felt_area = 1e-4;  ///< m2, as in the built-in skins
 
 }  // namespace corpuscle

@@ -7,7 +7,7 @@
 
 #include "core/checksum.hpp"
 #include "core/stimulus/stimuli.hpp"
-#include "core/text/located_override.hpp"
+#include "core/text/config_file.hpp"
 #include "core/text/quantity.hpp"
 #include "io/recording/recording.hpp"
 

@@ -6,7 +6,7 @@
 #include <map>
 
 #include "core/stimulus/stimuli.hpp"
-#include "core/text/located_override.hpp"
+#include "core/text/config_file.hpp"
 #include "core/text/quantity.hpp"
 #include "model/lane_population.hpp"
 #include "run/afferent_plan.hpp"

@@ -1,15 +1,11 @@
-#include "io/recording/recording_formats.hpp"
+// The recording formats that helper programs read (io/sandbox): HDF5 and sound files.
 
 #include <fmt/format.h>
-
 #include <algorithm>
-#include <cstdint>
 #include <filesystem>
 #include <fstream>
-#include <optional>
-#include <string>
-#include <string_view>
 
+#include "io/recording/recording_formats.hpp"
 #include "io/sandbox/remote_samples.hpp"
 
 namespace corpuscle {
@@ -68,6 +64,10 @@ std::string missing_samples_note(const std::string& path) {
 }
 
 }  // namespace
+
+Result<std::unique_ptr<Table>> open_hdf5_table(const std::string& path, const TableOptions& options) {
+    return make_table(open_remote_samples(path, {"corpuscle-hdf5", "the HDF5 library"}, options), path);
+}
 
 Result<std::unique_ptr<Table>> open_wav_table(const std::string& path, const TableOptions& options) {
     if (options.dataset) return bad_usage(fmt::format("--dataset {}: a sound file has only one array", *options.dataset));

@@ -1,8 +1,6 @@
-#include "live/input/frame_error.hpp"
+#include "live/input/frame_layout.hpp"
 
 #include <fmt/format.h>
-
-#include "live/input/frame_layout.hpp"
 
 namespace corpuscle {
 namespace {
