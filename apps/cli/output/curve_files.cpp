@@ -4,7 +4,7 @@
 #include <algorithm>
 
 #include "circuit/analyses.hpp"
-#include "cli/arguments/own_files.hpp"
+#include "cli/output/output_files.hpp"
 #include "core/text/quantity.hpp"
 
 namespace corpuscle {

@@ -5,7 +5,6 @@
 #include <filesystem>
 #include <nlohmann/json.hpp>
 
-#include "cli/arguments/own_files.hpp"
 #include "cli/output/output_files.hpp"
 #include "cli/output/printable.hpp"
 #include "run/earlier_outputs.hpp"

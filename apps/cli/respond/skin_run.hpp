@@ -2,7 +2,7 @@
 // A run of a skin: the afferents of --population under the force of one input.
 
 #include "cli/respond/planned_run.hpp"
-#include "report/skin/skin_page.hpp"
+#include "report/skin/skin_report.hpp"
 #include "run/skin/skin_simulator.hpp"
 #include "run/summary/silent_afferents.hpp"
 #include "run/summary/skin_summary.hpp"

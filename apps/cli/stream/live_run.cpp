@@ -7,7 +7,7 @@
 #include <utility>
 
 #include "circuit/variant/embedded_netlists.hpp"
-#include "cli/arguments/own_files.hpp"
+#include "cli/output/output_files.hpp"
 #include "cli/output/printable.hpp"
 #include "cli/output/stream_report.hpp"
 #include "cli/output/terminal.hpp"

@@ -3,8 +3,7 @@
 #include <fmt/format.h>
 #include <charconv>
 
-#include "cli/arguments/force_argument.hpp"
-#include "cli/arguments/recording_arguments.hpp"
+#include "cli/arguments/force_arguments.hpp"
 #include "cli/output/terminal.hpp"
 #include "cli/stream/live_options.hpp"
 #include "io/recording/column_selection.hpp"

@@ -1,10 +1,9 @@
-#include "report/sweep/sweep_plots.hpp"
-
 #include <fmt/format.h>
 #include <algorithm>
 #include <cmath>
 
 #include "report/envelope.hpp"
+#include "report/sweep/sweep_page.hpp"
 #include "sweep/spec/probability.hpp"
 
 namespace corpuscle {
@@ -193,10 +192,7 @@ Result<PlotJson> rasters(const SweepResults& results, std::size_t train, const S
         shown.push_back(r), counts.push_back(spikes.size());
         for (const double t : spikes) times.push_back(static_cast<float>(t));
     }
-    return PlotJson{{"name", results.train_names()[train]},
-                    {"rows", shown},
-                    {"counts", counts},
-                    {"times", base64(times.data(), times.size() * sizeof(float))}};
+    return PlotJson{{"name", results.train_names()[train]}, {"rows", shown}, {"counts", counts}, {"times", base64(times)}};
 }
 
 }  // namespace corpuscle

@@ -1,11 +1,11 @@
-#include "model/sensor/front_end_factory.hpp"
+// Builds the front end of a plan and, if it has a converter, the complete digital afferent.
 
 #include <cstring>
 
 #include "model/chain.hpp"
 #include "model/components.hpp"
-#include "model/sensor/fixed_neuron.hpp"
-#include "model/sensor/fixed_receptor.hpp"
+#include "model/sensor/digital_afferent.hpp"
+#include "model/sensor/fixed_models.hpp"
 
 namespace corpuscle {
 namespace {

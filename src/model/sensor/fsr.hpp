@@ -1,7 +1,7 @@
 #pragma once
 
 #include "core/number/elementary.hpp"
-#include "model/sensor/front_end_stage.hpp"
+#include "model/sensor/front_end.hpp"
 
 namespace corpuscle {
 

@@ -10,7 +10,6 @@
 #include <iterator>
 
 #include "model/sensor/digital_afferent.hpp"
-#include "model/sensor/front_end_factory.hpp"
 #include "run/channels/channel_population.hpp"
 #include "run/sinks.hpp"
 
