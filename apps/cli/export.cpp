@@ -6,7 +6,6 @@
 #include "circuit/export/ngspice_deck.hpp"
 #include "circuit/variant/embedded_netlists.hpp"
 #include "cli/output/output_files.hpp"
-#include "cli/output/printable.hpp"
 #include "cli/output/terminal.hpp"
 #include "cli/verbs.hpp"
 #include "io/output/output_check.hpp"

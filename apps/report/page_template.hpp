@@ -3,9 +3,6 @@
 // values, any other {{name}} by the embedded file of that name.
 
 #include <nlohmann/json_fwd.hpp>
-#include <span>
-#include <string>
-#include <string_view>
 
 #include "model/copies.hpp"
 

@@ -4,7 +4,6 @@
 #include <algorithm>
 
 #include "core/text/ascii_text.hpp"
-#include "model/afferent_components.hpp"
 #include "model/chain.hpp"
 #include "model/components.hpp"
 #include "model/models.hpp"
@@ -58,41 +57,6 @@ Result<void> check_integers(const AfferentPlan& plan) {
     });
     return ok;
 }
-
-}  // namespace
-
-std::vector<ParameterOrder> order_constraints_of(const AfferentPlan& plan) {
-    std::vector<ParameterOrder> all;
-    for_each_component(plan, [&]<class M>() {
-        if constexpr (requires { M::order_constraints; })
-            all.insert(all.end(), std::begin(M::order_constraints), std::end(M::order_constraints));
-    });
-    return all;
-}
-
-Result<void> check_plan(const AfferentPlan& plan) {
-    for (const auto& order : order_constraints_of(plan))
-        TRY(check_order(plan.name, order, *plan.value(order.lower), *plan.value(order.upper)));
-    TRY(check_integers(plan));
-    const auto front = make_front_end(plan);
-    if (!plan.sensor.empty()) TRY(front.check_range(plan.name, 0, "F_cal", *plan.value("F_cal")));
-    if (plan.converter.empty()) return {};
-    TRY(front.check_range(plan.name, *plan.value("F_low"), "F_high", *plan.value("F_high")));
-    TRY(make_fixed_chain(plan));
-    return {};
-}
-
-std::vector<CatalogEntry> sensor_entries() {
-    auto all = entries_of_list(Sensors{});
-    for (auto& entry : all) entry.parameters.push_back(calibration_parameter);
-    return all;
-}
-std::vector<CatalogEntry> transducer_entries() { return entries_of_list(Transducers{}); }
-std::vector<CatalogEntry> converter_entries() { return entries_of_list(Converters{}); }
-std::vector<CatalogEntry> receptor_entries() { return entries_of_list(Receptors{}); }
-std::vector<CatalogEntry> neuron_entries() { return entries_of_list(Neurons{}); }
-
-namespace {
 
 /// Makes and describes the afferents of all plans that are made of components of the catalogue.
 class ModelFactory final : public AfferentFactory {
@@ -193,6 +157,37 @@ public:
 };
 
 }  // namespace
+
+std::vector<ParameterOrder> order_constraints_of(const AfferentPlan& plan) {
+    std::vector<ParameterOrder> all;
+    for_each_component(plan, [&]<class M>() {
+        if constexpr (requires { M::order_constraints; })
+            all.insert(all.end(), std::begin(M::order_constraints), std::end(M::order_constraints));
+    });
+    return all;
+}
+
+Result<void> check_plan(const AfferentPlan& plan) {
+    for (const auto& order : order_constraints_of(plan))
+        TRY(check_order(plan.name, order, *plan.value(order.lower), *plan.value(order.upper)));
+    TRY(check_integers(plan));
+    const auto front = make_front_end(plan);
+    if (!plan.sensor.empty()) TRY(front.check_range(plan.name, 0, "F_cal", *plan.value("F_cal")));
+    if (plan.converter.empty()) return {};
+    TRY(front.check_range(plan.name, *plan.value("F_low"), "F_high", *plan.value("F_high")));
+    TRY(make_fixed_chain(plan));
+    return {};
+}
+
+std::vector<CatalogEntry> sensor_entries() {
+    auto all = entries_of_list(Sensors{});
+    for (auto& entry : all) entry.parameters.push_back(calibration_parameter);
+    return all;
+}
+std::vector<CatalogEntry> transducer_entries() { return entries_of_list(Transducers{}); }
+std::vector<CatalogEntry> converter_entries() { return entries_of_list(Converters{}); }
+std::vector<CatalogEntry> receptor_entries() { return entries_of_list(Receptors{}); }
+std::vector<CatalogEntry> neuron_entries() { return entries_of_list(Neurons{}); }
 
 bool matches_name(const AfferentPlan& plan, std::string_view name) {
     if (name == plan.name || (plan.traits().ignores_case && equal_ignoring_case(name, plan.name))) return true;

@@ -109,13 +109,7 @@ std::unique_ptr<SharedReceptor> make_shared_receptor(const AfferentPlan& plan, c
 }
 
 template <class V>
-std::unique_ptr<LanePopulation> make_tiled(const PopulationPlan& p, const SimulationOptions& run, InstructionSet set) {
-    const auto& table = [set]() -> const KernelTable<V>& {
-        if constexpr (std::is_same_v<V, double>)
-            return kernels_in_double(set);
-        else
-            return kernels_in_float(set);
-    }();
+std::unique_ptr<LanePopulation> make_tiled(const PopulationPlan& p, const SimulationOptions& run, const KernelTable<V>& table) {
     const auto& plan = *p.plans[0];
     // Every catalogue name has a kernel, because both come from the lists in models.hpp.
     PopulationLayout<V> layout{.receptor = find_by_name(table.receptors, plan.receptor),
@@ -147,7 +141,8 @@ Result<std::unique_ptr<LanePopulation>> make_lane_population(const PopulationPla
     for (const auto* plan : p.plans)
         if (!can_use_lanes(*plan, run))
             return bad_input(fmt::format("{}: netlists, sensors, converters and noise cannot run on SIMD lanes", plan->name));
-    return p.precision == Precision::double_precision ? make_tiled<double>(p, run, set) : make_tiled<float>(p, run, set);
+    return p.precision == Precision::double_precision ? make_tiled(p, run, kernels_in_double(set))
+                                                      : make_tiled(p, run, kernels_in_float(set));
 }
 
 }  // namespace corpuscle

@@ -1,8 +1,6 @@
 #pragma once
 // Output files: the name of a report page, writing a complete file, and recognising the files of earlier runs.
 
-#include <string>
-
 #include "io/output/output_file.hpp"
 
 namespace corpuscle {

@@ -1,10 +1,6 @@
 #include "cli/respond/channel_run.hpp"
 
-#include <fmt/format.h>
 #include <algorithm>
-#include <iterator>
-#include <limits>
-#include <nlohmann/json.hpp>
 
 #include "cli/output/terminal.hpp"
 #include "run/afferent_plan.hpp"
@@ -166,7 +162,7 @@ std::size_t ChannelRun::netlist_count() const {
     return count;
 }
 
-Result<void> ChannelRun::verdict(const RunStats& stats) const {
+Result<void> ChannelRun::finish(const RunStats& stats) {
     if (stats.diverged.empty()) return {};
     auto error = stats.diverged[0];
     error.message = fmt::format("{} of {} netlists did not converge; the first: {}", stats.diverged.size(), netlist_count(), error.message);

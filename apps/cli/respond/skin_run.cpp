@@ -1,12 +1,9 @@
 #include "cli/respond/skin_run.hpp"
 
-#include <fmt/format.h>
-#include <algorithm>
 #include <filesystem>
 #include <nlohmann/json.hpp>
 
 #include "cli/output/terminal.hpp"
-#include "core/checksum.hpp"
 #include "core/text/ascii_text.hpp"
 #include "core/version.hpp"
 #include "skin/plan/class_overrides.hpp"
@@ -151,11 +148,6 @@ Result<std::vector<std::unique_ptr<BlockSimulator>>> SkinRun::simulators() {
     return inputs;
 }
 
-Error SkinRun::interruption(Error error) const {
-    if (checkpoint_) error.message = fmt::format("interrupted; the same command resumes from {}", args_.outputs.checkpoint);
-    return error;
-}
-
 nlohmann::ordered_json SkinRun::summarize(const RunStats& stats) {
     notes_.stats = stats;
     add_force_notes();
@@ -168,8 +160,9 @@ nlohmann::ordered_json SkinRun::summarize(const RunStats& stats) {
 
 std::string SkinRun::page(const nlohmann::ordered_json&) const { return skin_page(summary_, *report_, options_, notes_, common_.command); }
 
-void SkinRun::remove_checkpoint() {
+Result<void> SkinRun::finish(const RunStats&) {
     if (checkpoint_) checkpoint_->remove_files();
+    return {};
 }
 
 std::string SkinRun::table() const { return format_table(summary_.table()); }

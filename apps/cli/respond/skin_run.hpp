@@ -48,10 +48,9 @@ public:
     Sink& start_report() override { return report_.emplace(); }
     Result<std::vector<std::unique_ptr<BlockSimulator>>> simulators() override;
     std::vector<Sink*> summaries() override { return {&summary_, &silence_}; }
-    Error interruption(Error) const override;
     nlohmann::ordered_json summarize(const RunStats&) override;
     std::string page(const nlohmann::ordered_json& document) const override;
-    void remove_checkpoint() override;
+    Result<void> finish(const RunStats&) override;
     std::string table() const override;
 };
 

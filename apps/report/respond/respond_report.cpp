@@ -1,8 +1,6 @@
 #include "report/respond/respond_report.hpp"
 
-#include <fmt/format.h>
 #include <algorithm>
-#include <cmath>
 
 #include "report/page_template.hpp"
 #include "run/channels/channel_population.hpp"

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cstddef>
 #include <cstdint>
+#include <iterator>
 #include <vector>
 
 namespace corpuscle {
@@ -71,15 +72,13 @@ private:
     }
 
     static Frame sum(const Frame& a, const Frame& b) {
-        Frame out;
-        for (auto i = a.begin(), j = b.begin(); i != a.end() || j != b.end();) {
-            if (j == b.end() || (i != a.end() && i->place < j->place))
-                out.push_back(*i++);
-            else if (i == a.end() || j->place < i->place)
-                out.push_back(*j++);
+        Frame all, out;
+        std::ranges::merge(a, b, std::back_inserter(all), {}, &Entry::place, &Entry::place);  // at equal places, that of a is first
+        for (const auto& e : all)
+            if (!out.empty() && out.back().place == e.place)
+                out.back().value += e.value;
             else
-                out.push_back({i->place, i->value + j->value}), ++i, ++j;
-        }
+                out.push_back(e);
         return out;
     }
 

@@ -1,9 +1,7 @@
 #include "report/skin/skin_report.hpp"
 
-#include <algorithm>
 #include <cmath>
 #include <nlohmann/json.hpp>
-#include <utility>
 
 namespace corpuscle {
 namespace {

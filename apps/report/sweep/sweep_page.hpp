@@ -5,7 +5,6 @@
 #include <nlohmann/json.hpp>
 
 #include "sweep/stats/sweep_summary.hpp"
-#include "sweep/store/sweep_results.hpp"
 
 namespace corpuscle {
 

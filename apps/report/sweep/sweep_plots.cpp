@@ -17,13 +17,6 @@ constexpr std::size_t max_spikes = 200000;       // of a raster
 /// Rounds to five digits.
 double rounded(double x) { return std::isfinite(x) ? std::strtod(fmt::format("{:.5g}", x).c_str(), nullptr) : x; }
 
-std::vector<double> finite_of(const std::vector<double>& values) {
-    std::vector<double> out;
-    for (const double x : values)
-        if (std::isfinite(x)) out.push_back(x);
-    return out;
-}
-
 /// The quantile q (0 to 1) of the values, without interpolation. Reorders the values, which must not be empty.
 double quantile_of(std::vector<double>& values, double q) {
     const auto at = values.begin() + static_cast<std::ptrdiff_t>(q * static_cast<double>(values.size() - 1));
@@ -104,7 +97,8 @@ std::vector<std::size_t> thinned_rows(std::size_t rows, std::size_t max_rows) {
 }
 
 PlotJson histograms(const std::vector<double>& values, const SweepGroups& groups) {
-    auto known = finite_of(values);
+    auto known = values;
+    std::erase_if(known, [](double x) { return !std::isfinite(x); });
     if (known.empty()) return nullptr;
     const Bins bins = bins_for(std::move(known));
     PlotJson counts = PlotJson::array();

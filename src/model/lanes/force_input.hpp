@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <optional>
 
 #include "model/lane_population.hpp"
 #include "model/lanes/aligned_buffer.hpp"

@@ -2,11 +2,6 @@
 // The implementation of LanePopulation for one number type V, double or float. Models and states are in tiles of 64 afferents; blocks are
 // split into chunks of steps that fit the cache.
 
-#include <fmt/format.h>
-#include <cmath>
-#include <optional>
-
-#include "model/lane_population.hpp"
 #include "model/lanes/force_input.hpp"
 #include "model/lanes/spike_collector.hpp"
 #include "model/lanes/tile_states.hpp"
@@ -233,20 +228,16 @@ class TiledPopulation final : public LanePopulation {
     /// Steps between checks for states that are NaN or infinite. Such a state does not become finite again, so short blocks need not check
     /// each time.
     static constexpr std::int64_t check_interval = 64;
-    /// True if a multiple of check_interval is reached in the block.
-    bool is_check_due(const Block& b) const {
-        return step_ / check_interval != (step_ + static_cast<std::int64_t>(b.steps)) / check_interval;
-    }
-
     /// Simulates the tiles of job `number` over a block.
     void run_job(const Block& b, std::size_t number, Scratch& s) {
         auto& job = jobs_[number];
+        const bool is_check_due = step_ / check_interval != (step_ + static_cast<std::int64_t>(b.steps)) / check_interval;
         job.events.clear(), job.truncated_steps = job.extra_spikes = job.skipped_steps = job.firings = 0, job.non_finite = false;
         for (std::size_t tile = number * tiles_per_job; tile < std::min(tiles_, (number + 1) * tiles_per_job); ++tile) {
             if (const auto* profile = std::get_if<ForceProfile>(&b.force)) profile_gains(*profile, tile * tile_size, s.gain.data());
             const std::size_t steps = run_tile(b, tile, s, job);
             job.skipped_steps += static_cast<std::int64_t>(b.steps - steps) * tile_size_of(tile);
-            if (steps == 0 || !(is_check_due(b) || states_.is_at_rest(tile))) continue;
+            if (steps == 0 || !(is_check_due || states_.is_at_rest(tile))) continue;
             job.non_finite |= !states_.all_finite(tile);
         }
     }

@@ -3,8 +3,6 @@
 // rate.
 
 #include <array>
-#include <memory>
-#include <span>
 
 #include "core/clock.hpp"
 #include "model/sensor/adc.hpp"
@@ -62,21 +60,18 @@ public:
     };
     static constexpr std::size_t max_words = 12, max_recordables = 6;  ///< enough for the state and the recordables of every pair of models
 
-    FixedChain(Constants constants) : constants_(std::move(constants)) {}
-    virtual ~FixedChain() = default;
-    const Constants& constants() const { return constants_; }
+    Constants constants;
     /// Name and unit of each word that is recorded after a step: "I" or "I_+", "I_-", then the recordables of each neuron.
-    const std::vector<std::pair<std::string, std::string_view>>& recordables() const { return recordables_; }
+    std::vector<std::pair<std::string, std::string_view>> recordables = {};
+
+    FixedChain(WordFormat format) : constants(format) {}
+    virtual ~FixedChain() = default;
     virtual int outputs() const = 0;        ///< number of currents, each into a neuron of its own
     virtual std::size_t words() const = 0;  ///< number of words of the state
     /// Sets the state before the first step. F is the force of the first step; the force before it is assumed to be the same.
     virtual void start(Word F, std::span<Word> state) const = 0;
     /// One step with force F. Writes the recordable words to `shown`.
     virtual StepResult step(std::span<Word> state, Word F, std::span<Word> shown, Arithmetic&) const = 0;
-
-protected:
-    Constants constants_;
-    std::vector<std::pair<std::string, std::string_view>> recordables_;  // name, unit
 };
 
 /// Between two samples of the force (the source), the force is a straight line. The converter samples this line at its own times; spikes

@@ -6,7 +6,6 @@
 #include <limits>
 #include <vector>
 
-#include "core/afferent.hpp"
 #include "model/parameter_values.hpp"
 
 namespace corpuscle {

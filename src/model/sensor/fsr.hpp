@@ -1,6 +1,5 @@
 #pragma once
 
-#include "core/number/elementary.hpp"
 #include "model/sensor/front_end.hpp"
 
 namespace corpuscle {

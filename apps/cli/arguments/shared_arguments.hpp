@@ -1,16 +1,8 @@
 #pragma once
-// A FORCE of the command line: a stimulus by name, a touch of a skin, or a recording; and the options for reading a recording, which
-// respond and stream have in common.
-
-#include <memory>
-#include <span>
-#include <string>
-#include <string_view>
-#include <vector>
+// Arguments that several verbs have. A FORCE is a stimulus by name, a touch of a skin, or a recording. There are options for reading a
+// recording, and options of netlists.
 
 #include "cli/verb.hpp"
-#include "core/force_source.hpp"
-#include "core/parameter_override.hpp"
 #include "io/recording/recording.hpp"
 #include "skin/contact/contact.hpp"
 
@@ -40,5 +32,14 @@ std::vector<std::string> given_recording_options(const CommonArguments&);
 
 /// Returns an error if a recording option was given although all `forces` are stimuli.
 Result<void> check_recording_arguments(const CommonArguments&, std::span<const ForceArgument> forces);
+
+/// Options that apply to every netlist of the run.
+struct NetlistArguments {
+    std::vector<ParameterOverride> overrides;  ///< --supply, --temp, --corner and --mismatch
+    std::vector<std::string> probes;           ///< of all --probe options, each of which may have several
+};
+
+/// The netlist options of respond and run.
+OptionGroup netlist_options(NetlistArguments&);
 
 }  // namespace corpuscle
