@@ -1,11 +1,9 @@
 // corpuscle compare: compares two spike files, train by train.
 
 #include <fmt/format.h>
-#include <cmath>
 #include <cstdio>
 #include <nlohmann/json.hpp>
 
-#include "cli/output/printable.hpp"
 #include "cli/output/terminal.hpp"
 #include "cli/verbs.hpp"
 #include "core/text/quantity.hpp"
@@ -100,7 +98,7 @@ std::vector<std::string> line_of(const TrainDifference& d, const std::string& a,
 }
 
 std::string text(const CompareOptions& options, const std::vector<TrainDifference>& all, const TrainDifference& total) {
-    std::vector<std::vector<std::string>> rows = {
+    TableRows rows = {
         {"A", "B", "in A", "in B", "matched", "missing", "extra", "max (ms)", "RMS (ms)", "Victor-Purpura", "per spike", "van Rossum"}};
     const auto shown = [](const std::string& name) { return name.empty() ? "-" : name; };
     for (const auto& d : all) rows.push_back(line_of(d, shown(d.a), shown(d.b)));
@@ -163,10 +161,7 @@ Verb make_compare_verb() {
                             {"--cost", cost_reader(args->options.cost), "FREQUENCY", "Victor-Purpura distance: cost per second of shift"}),
                with_default("10ms", {"--tau", above_zero_reader(args->options.tau, "s"), "TIME", "van Rossum distance: time constant"})}}},
         .reports = true,
-        .run = [args](const CommonArguments& common) {
-            catch_interrupt();
-            return exit_status(compare_files(*args, common));
-        }};
+        .run = interruptible(args, compare_files)};
 }
 
 }  // namespace corpuscle

@@ -5,9 +5,7 @@
 
 #include "circuit/export/ngspice_deck.hpp"
 #include "circuit/variant/netlist_overrides.hpp"
-#include "cli/arguments/own_files.hpp"
 #include "cli/output/output_files.hpp"
-#include "cli/output/printable.hpp"
 #include "cli/output/terminal.hpp"
 #include "cli/verbs.hpp"
 #include "io/output/output_check.hpp"

@@ -4,8 +4,8 @@
 #include <algorithm>
 
 #include "cli/arguments/renamed_arguments.hpp"
-#include "cli/output/printable.hpp"
-#include "core/parameter.hpp"
+#include "cli/output/terminal.hpp"
+#include "core/text/ascii_text.hpp"
 
 namespace corpuscle {
 namespace {
@@ -60,12 +60,8 @@ Footer split_footer(const std::string& footer, std::size_t limit) {
     Footer out;
     bool in_examples = false;
     std::size_t count = 0;
-    for (std::size_t at = 0; at < footer.size();) {
-        const auto end = std::min(footer.find('\n', at), footer.size());
-        const std::string_view line(footer.data() + at, end - at);
-        at = end + 1;
-        bool is_title = false;
-        for (const std::string_view title : {"Examples:", "Example:", "First steps:"}) is_title = is_title || line == title;
+    for (const auto line : split(footer, '\n')) {
+        const bool is_title = line == "Examples:" || line == "Example:" || line == "First steps:";
         in_examples = (in_examples || is_title) && !line.empty();
         if (in_examples && !is_title && ++count > limit) {
             out.omits_examples = true;
@@ -77,6 +73,20 @@ Footer split_footer(const std::string& footer, std::size_t limit) {
     const auto text = out.prose.find_first_not_of('\n');
     out.prose.erase(0, std::min(text, out.prose.size()));
     return out;
+}
+
+/// True if argument k is `text`. For a text without blank, "--limit" or "transduction", the argument may have a value: "--limit=2N". For an
+/// option with a value, "--stamp count", the arguments are "--stamp=count", or "--stamp" and "count".
+bool is_at(const std::vector<std::string>& arguments, std::size_t k, std::string_view text) {
+    const auto blank = text.find(' ');
+    const auto name = text.substr(0, blank);
+    const std::string_view argument = arguments[k];
+    const bool is_joined =
+        argument.starts_with("--") && argument.size() > name.size() && argument[name.size()] == '=' && argument.starts_with(name);
+    if (blank == text.npos) return is_joined || argument == name;
+    const auto value = text.substr(blank + 1);
+    return is_joined ? argument.substr(name.size() + 1) == value
+                     : argument == name && k + 1 < arguments.size() && arguments[k + 1] == value;
 }
 
 }  // namespace
@@ -125,24 +135,6 @@ std::vector<std::string> normalize_help(std::vector<std::string> arguments) {
     arguments.emplace_back("--help");
     return arguments;
 }
-
-namespace {
-
-/// True if argument k is `text`. For a text without blank, "--limit" or "transduction", the argument may have a value: "--limit=2N". For an
-/// option with a value, "--stamp count", the arguments are "--stamp=count", or "--stamp" and "count".
-bool is_at(const std::vector<std::string>& arguments, std::size_t k, std::string_view text) {
-    const auto blank = text.find(' ');
-    const auto name = text.substr(0, blank);
-    const std::string_view argument = arguments[k];
-    const bool is_joined =
-        argument.starts_with("--") && argument.size() > name.size() && argument[name.size()] == '=' && argument.starts_with(name);
-    if (blank == text.npos) return is_joined || argument == name;
-    const auto value = text.substr(blank + 1);
-    return is_joined ? argument.substr(name.size() + 1) == value
-                     : argument == name && k + 1 < arguments.size() && arguments[k + 1] == value;
-}
-
-}  // namespace
 
 std::string unknown_option_error(const CLI::App& app, const std::vector<std::string>& arguments) {
     std::vector<std::string> known;

@@ -3,7 +3,6 @@
 // the common options; --help-all prints everything.
 
 #include <CLI/CLI.hpp>
-#include <span>
 
 #include "cli/verb.hpp"
 

@@ -143,7 +143,7 @@ std::string text_of(const ListEntry& e) {
     std::string text = fmt::format("  {}{}: {}\n", e.name, e.detail.empty() ? "" : fmt::format(" ({})", e.detail), e.description);
     if (!e.source.empty()) text += fmt::format("    source: {}\n", e.source);
     if (!e.other_names.empty()) text += fmt::format("    also called: {}\n", fmt::join(e.other_names, ", "));
-    std::vector<std::vector<std::string>> rows;
+    TableRows rows;
     for (const auto& p : e.parameters)
         rows.push_back({"    " + std::string(p.info.name), format_quantity(p.info.default_value, p.info.unit), range_text(p.info),
                         std::string(p.info.description) + (p.info.source.empty() ? "" : fmt::format(" ({})", p.info.source))});

@@ -1,9 +1,6 @@
 #pragma once
 // The sections and entries that `corpuscle list` prints.
 
-#include <string>
-#include <vector>
-
 #include "model/catalog.hpp"
 
 namespace corpuscle {

@@ -1,6 +1,5 @@
 // The program corpuscle: its verbs and the text of its help.
 
-#include "cli/program.hpp"
 #include "cli/verbs.hpp"
 
 namespace {
@@ -24,4 +23,4 @@ Exit status: 0 success, 1 bad input, 2 bad usage, 3 did not converge, 130 interr
 
 }  // namespace
 
-int main(int argc, char** argv) { return corpuscle::run_program({about, first_steps}, corpuscle::make_verbs(), argc, argv); }
+int main(int argc, char** argv) { return corpuscle::run_program(about, first_steps, corpuscle::make_verbs(), argc, argv); }

@@ -1,4 +1,4 @@
-#include "cli/program.hpp"
+// Parses a command line, prints help and errors, and runs the verb.
 
 #include <fmt/format.h>
 #include <CLI/CLI.hpp>
@@ -41,9 +41,8 @@ void add_verbs(CLI::App& app, const std::vector<Verb>& verbs, CommonArguments& c
 }
 
 /// The root of a command line: name, description, --help, --help-all and --version, and the verbs.
-std::unique_ptr<CLI::App> make_command_line(const ProgramTexts& texts, const std::vector<Verb>& verbs, CommonArguments& common) {
-    auto app = std::make_unique<CLI::App>(texts.about, "corpuscle");
-    app->footer(texts.first_steps);
+std::unique_ptr<CLI::App> make_command_line(const std::string& about, const std::vector<Verb>& verbs, CommonArguments& common) {
+    auto app = std::make_unique<CLI::App>(about, "corpuscle");
     app->formatter(std::make_shared<Help>(verbs));
     app->set_help_flag("--help,-h", "print help");
     app->set_help_all_flag("--help-all", "print help with all examples and options");
@@ -91,14 +90,16 @@ int run_command_line(CLI::App& app, const std::vector<Verb>& verbs, CommonArgume
 
 }  // namespace
 
-int run_program(const ProgramTexts& texts, const std::vector<Verb>& verbs, int argc, const char* const* argv) {
+int run_program(const std::string& about, const std::string& first_steps, const std::vector<Verb>& verbs, int argc,
+                const char* const* argv) {
     std::signal(SIGXFSZ, SIG_IGN);  // exceeding the file size limit is a write error
     CommonArguments common;
     common.command = quote_command(argc, argv), common.words = normalize_help({argv + 1, argv + argc});
     if (verbs.size() == 1 && common.words[0] != verbs[0].name) common.words.insert(common.words.begin(), verbs[0].name);
     for (const auto& verb : verbs)
         if (verb.is_program && common.words[0] == verb.name) return verb.run(common);
-    const auto app = make_command_line(texts, verbs, common);
+    const auto app = make_command_line(about, verbs, common);
+    app->footer(first_steps);
     int status = 0;
     try {
         status = run_command_line(*app, verbs, common);

@@ -1,13 +1,8 @@
 #pragma once
-// A verb of the program, such as "respond", and the arguments that all verbs have.
-
-#include <functional>
-#include <memory>
-#include <string>
-#include <vector>
+// A verb of the program, such as "respond", the arguments that all verbs have, and the function that runs a command line. The program of
+// the reproduction uses it, too.
 
 #include "cli/arguments/option_rows.hpp"
-#include "core/error.hpp"
 
 namespace corpuscle {
 
@@ -40,5 +35,10 @@ struct Verb {
     std::vector<Verb> sub_verbs = {};                ///< may follow this verb: show in "sweep show"
     bool is_program = false;                         ///< run() starts another program, which reads CommonArguments::words
 };
+
+/// Parses the command line and runs its verb. `about`, `first_steps`: texts of --help, the latter with examples. Prints help and errors.
+/// Returns the exit status. A program with only one verb may be started without its name.
+int run_program(const std::string& about, const std::string& first_steps, const std::vector<Verb>& verbs, int argc,
+                const char* const* argv);
 
 }  // namespace corpuscle

@@ -1,6 +1,7 @@
 #include "report/envelope.hpp"
 
 #include <algorithm>
+#include <nlohmann/json.hpp>
 
 namespace corpuscle {
 
@@ -40,19 +41,24 @@ void Envelope::double_bucket() {
     bucket_ *= 2;
 }
 
-std::string base64(const void* data, std::size_t bytes) {
+std::string base64(std::span<const std::byte> bytes) {
     static constexpr char letters[] = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
-    const auto* in = static_cast<const unsigned char*>(data);
     std::string out;
-    out.reserve((bytes + 2) / 3 * 4);
-    for (std::size_t k = 0; k < bytes; k += 3) {
-        const auto at = [&](std::size_t n) { return k + n < bytes ? static_cast<unsigned>(in[k + n]) : 0U; };
+    out.reserve((bytes.size() + 2) / 3 * 4);
+    for (std::size_t k = 0; k < bytes.size(); k += 3) {
+        const auto at = [&](std::size_t n) { return k + n < bytes.size() ? std::to_integer<unsigned>(bytes[k + n]) : 0U; };
         const unsigned word = at(0) << 16 | at(1) << 8 | at(2);
         for (std::size_t n = 0; n < 4; ++n) out.push_back(letters[word >> (18 - 6 * n) & 63]);
     }
-    const std::size_t padding = (3 - bytes % 3) % 3;
+    const std::size_t padding = (3 - bytes.size() % 3) % 3;
     out.replace(out.size() - padding, padding, padding, '=');
     return out;
+}
+
+nlohmann::ordered_json curve_document(std::uint32_t channel, const nlohmann::ordered_json& afferent, std::string_view quantity,
+                                      std::string_view unit, const Envelope& values) {
+    return {{"channel", channel},        {"afferent", afferent},    {"quantity", quantity},           {"unit", unit},
+            {"bucket", values.bucket()}, {"count", values.count()}, {"data", base64(values.values())}};
 }
 
 }  // namespace corpuscle

@@ -2,8 +2,10 @@
 // A signal of any length in bounded memory. Up to `max_points` samples are kept as they are. A longer signal is kept as the minimum and
 // maximum of each bucket of consecutive samples, in at most `max_points` buckets. The bucket size doubles as the signal grows.
 
-#include <cstdint>
+#include <nlohmann/json_fwd.hpp>
+#include <span>
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace corpuscle {
@@ -27,7 +29,17 @@ public:
     const std::vector<float>& values() const { return values_; }
 };
 
-/// Encodes `bytes` bytes at `data` as base64.
-std::string base64(const void* data, std::size_t bytes);
+/// Encodes bytes as base64.
+std::string base64(std::span<const std::byte> bytes);
+/// The bytes of the values of an array in base64.
+template <class Values>
+std::string base64(const Values& values) {
+    return base64(std::as_bytes(std::span(values)));
+}
+
+/// A trace in the format of class Trace in page-data.js. `channel`: its index, counted over all
+/// inputs of the run. `afferent`: the name of the afferent, or null if the trace is the force.
+nlohmann::ordered_json curve_document(std::uint32_t channel, const nlohmann::ordered_json& afferent, std::string_view quantity,
+                                      std::string_view unit, const Envelope& values);
 
 }  // namespace corpuscle

@@ -3,38 +3,39 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
+#include "core/version.hpp"
 #include "embedded_file_table.hpp"
 
 namespace corpuscle {
 
-std::string_view compiler_version() {
-#ifdef __clang__
-    return __VERSION__;
-#else
-    return "g++ " __VERSION__;
-#endif
-}
+namespace {
 
+using Json = nlohmann::ordered_json;
+
+/// The content of an embedded file of apps/report or of the chart library; "" if there is no such file.
 std::string_view asset(std::string_view name) {
     for (const auto& f : embedded_file_table)
         if (f.path.substr(f.path.rfind('/') + 1) == name) return f.text();
     return {};
 }
 
-std::string script_json(const nlohmann::ordered_json& document) {
-    const auto text = document.dump(-1, ' ', false, nlohmann::ordered_json::error_handler_t::replace);
+/// JSON for a script element: '<' is escaped, so that the data cannot end the element.
+std::string script_json(const Json& document) {
+    const auto text = document.dump(-1, ' ', false, Json::error_handler_t::replace);
     std::string out;
     out.reserve(text.size());
     for (const char c : text) c == '<' ? out += "\\u003c" : out += c;
     return out;
 }
 
+/// Text with < and & escaped for HTML.
 std::string escape_html(std::string_view text) {
     std::string out;
     for (const char c : text) c == '<' ? out += "&lt;" : c == '&' ? out += "&amp;" : out += c;
     return out;
 }
 
+/// Returns the template with all names replaced. `title` must be escaped HTML, and `data` the text of script_json().
 std::string fill_template(std::string_view page_template, std::string_view title, std::string_view data) {
     std::string out;
     for (;;) {
@@ -46,6 +47,40 @@ std::string fill_template(std::string_view page_template, std::string_view title
         out += value.empty() ? fmt::format("{{{{{}}}}}", name) : value;  // an unknown name stays visible as {{name}}
         page_template.remove_prefix(close + 2);
     }
+}
+
+}  // namespace
+
+Json versions_document() {
+#ifdef __clang__
+    return {{"corpuscle", version}, {"compiler", __VERSION__}};
+#else
+    return {{"corpuscle", version}, {"compiler", "g++ " __VERSION__}};
+#endif
+}
+
+Json parameters_document(const AfferentPlan& plan, std::span<const ParameterDistribution> spreads) {
+    Json out = Json::array();
+    for (std::size_t k = 0; k < plan.values.size(); ++k) {
+        const auto& p = (*plan.parameters)[k];
+        out.push_back({{"name", p.info.name},
+                       {"value", plan.values[k]},
+                       {"unit", p.info.unit},
+                       {"default", p.info.default_value},
+                       {"set", p.set_by_user},
+                       {"description", p.info.description},
+                       {"source", p.info.source},
+                       {"component", p.component}});
+        for (const auto& s : spreads)
+            if (s.afferent == plan.name && s.parameter == p.info.name) out.back()["spread"] = s.deviation;
+    }
+    return out;
+}
+
+std::string report_page(std::string_view page_template, const std::string& title, const std::string& command, const Json& document) {
+    Json data = {{"title", title}, {"program", fmt::format("corpuscle {}", version)}, {"command", command}};
+    data.update(document);
+    return fill_template(asset(page_template), escape_html(title), script_json(data));
 }
 
 }  // namespace corpuscle

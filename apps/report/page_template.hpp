@@ -1,26 +1,22 @@
 #pragma once
-// Fills the HTML templates of report pages: {{title}} and {{data}} are replaced by values, any other {{name}} by the embedded file of that
-// name.
+// Makes report pages from HTML templates, and documents that several pages contain. In a template, {{title}} and {{data}} are replaced by
+// values, any other {{name}} by the embedded file of that name.
 
 #include <nlohmann/json_fwd.hpp>
-#include <string>
-#include <string_view>
+
+#include "model/copies.hpp"
 
 namespace corpuscle {
 
-/// Name and version of the compiler that built this program.
-std::string_view compiler_version();
+/// Versions of the program and of the compiler that built it.
+nlohmann::ordered_json versions_document();
 
-/// The content of an embedded file of apps/report or of the chart library; "" if there is no such file.
-std::string_view asset(std::string_view name);
+/// The parameters of an afferent, each with its value, default, description, source and, if it is drawn at random, its standard deviation
+/// ("spread"). Distributions of other afferents' parameters are ignored.
+nlohmann::ordered_json parameters_document(const AfferentPlan&, std::span<const ParameterDistribution> spreads);
 
-/// JSON for a script element: '<' is escaped, so that the data cannot end the element.
-std::string script_json(const nlohmann::ordered_json&);
-
-/// Text with < and & escaped for HTML.
-std::string escape_html(std::string_view text);
-
-/// Returns the template with all names replaced. `title` must be escaped HTML, and `data` the text of script_json().
-std::string fill_template(std::string_view page_template, std::string_view title, std::string_view data);
+/// The page of a template ("page.html") as HTML. Its data are title, program and command line, then those of the document.
+std::string report_page(std::string_view page_template, const std::string& title, const std::string& command,
+                        const nlohmann::ordered_json& document);
 
 }  // namespace corpuscle

@@ -5,7 +5,6 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
-#include "core/version.hpp"
 #include "report/page_template.hpp"
 #include "reproduction/claims/study_document.hpp"
 
@@ -59,12 +58,7 @@ std::string study_page(std::span<const Study* const> studies, std::span<const St
     Json all = Json::array();
     for (std::size_t k = 0; k < studies.size(); ++k) all.push_back(page_document(*studies[k], outcomes[k]));
     const std::string title = studies.size() == 1 ? std::string(studies[0]->title) : "Reproduction of all figures and tables";
-    const Json document = {{"title", title},
-                           {"program", "corpuscle " + std::string(version)},
-                           {"command", command},
-                           {"tally", verdict_counts(outcomes)},
-                           {"studies", all}};
-    return fill_template(asset("study.html"), escape_html(title), script_json(document));
+    return report_page("study.html", title, command, {{"tally", verdict_counts(outcomes)}, {"studies", all}});
 }
 
 }  // namespace corpuscle

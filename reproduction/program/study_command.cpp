@@ -6,7 +6,6 @@
 #include <cstdlib>
 #include <nlohmann/json.hpp>
 
-#include "cli/arguments/own_files.hpp"
 #include "cli/output/output_files.hpp"
 #include "cli/output/terminal.hpp"
 #include "core/parameter.hpp"

@@ -3,7 +3,7 @@
 #include <fmt/format.h>
 
 #include "cli/output/output_files.hpp"
-#include "cli/program.hpp"
+#include "cli/verb.hpp"
 #include "reproduction/claims/studies.hpp"
 #include "reproduction/program/study_command.hpp"
 
@@ -38,4 +38,4 @@ Verb make_study_verb() {
 
 }  // namespace
 
-int main(int argc, char** argv) { return run_program({"Corpuscle: the reproduction of the thesis."}, {make_study_verb()}, argc, argv); }
+int main(int argc, char** argv) { return run_program("Corpuscle: the reproduction of the thesis.", "", {make_study_verb()}, argc, argv); }

@@ -1,7 +1,5 @@
 #include "measure/measures.hpp"
 
-#include <cmath>
-
 namespace corpuscle {
 namespace {
 

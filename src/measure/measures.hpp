@@ -7,9 +7,7 @@
 #include <tuple>
 #include <vector>
 
-#include "measure/adaptation.hpp"
-#include "measure/interval_variation.hpp"
-#include "measure/latency.hpp"
+#include "measure/intervals.hpp"
 #include "measure/phase_locking.hpp"
 #include "measure/rates.hpp"
 

@@ -2,8 +2,6 @@
 // Phase locking of spikes to a periodic stimulus. Only complete stimulus cycles count; the first one begins at the start of the time
 // window.
 
-#include <cmath>
-
 #include "core/number/elementary.hpp"
 #include "measure/measure_base.hpp"
 

@@ -1,10 +1,7 @@
 #pragma once
-// Numbers of spikes and firing rates.
+// Numbers of spikes, firing rates, and the latency of the first spike.
 
-#include <cmath>
-
-#include "measure/measure_base.hpp"
-#include "measure/pauses.hpp"
+#include "measure/intervals.hpp"
 
 namespace corpuscle {
 
@@ -23,10 +20,8 @@ struct SpikeCount : MeasureBase {
     double value(const TimeWindow&) const { return count; }
 };
 
-struct MeanRate : MeasureBase {
+struct MeanRate : SpikeCount {
     static constexpr MeasureInfo info{"mean_rate", "mean", "Hz", 1, "spikes in the phase divided by its length"};
-    double count = 0;
-    void spike(double, const TimeWindow&) { ++count; }
     double value(const TimeWindow& window) const { return window.to > window.from ? count / (window.to - window.from) : no_value; }
 };
 
@@ -58,6 +53,17 @@ struct LastRate : MeasureBase {
         if (inside) last = pauses.add(to - from) ? no_value : rate_between(from, to);
     }
     double value(const TimeWindow&) const { return last; }
+};
+
+/// First-spike latency: the time from the start of the phase to its first spike. Johansson & Birznieks (2004, Nat Neurosci 7:170) define it
+/// for the phase in which the force begins.
+struct Latency : MeasureBase {
+    static constexpr MeasureInfo info{"latency", "latency", "s", 4, "from the phase's start to its first spike"};
+    double first = no_value;  // time of the first spike, s; no_value: no spike so far
+    void spike(double t, const TimeWindow&) {
+        if (std::isnan(first)) first = t;
+    }
+    double value(const TimeWindow& window) const { return first - window.from; }
 };
 
 }  // namespace corpuscle

@@ -1,9 +1,10 @@
-#include "model/afferent_components.hpp"
+// Parses the text that specifies an afferent into components.
 
 #include <fmt/format.h>
 #include <algorithm>
 
 #include "core/text/ascii_text.hpp"
+#include "model/catalog.hpp"
 
 namespace corpuscle {
 namespace {
@@ -81,11 +82,8 @@ std::size_t read_front_end(std::span<const std::string_view> words, AfferentComp
 
 /// The named afferent with this name or alias, in upper or lower case; null if there is none.
 const NamedAfferent* find_named_afferent(std::string_view text) {
-    for (const auto& a : named_afferents()) {
-        if (equal_ignoring_case(a.name, text)) return &a;
-        for (const auto other : a.aliases)
-            if (equal_ignoring_case(other, text)) return &a;
-    }
+    for (const auto& a : named_afferents())
+        if (equal_ignoring_case(a.name, text) || !catalog_name(a.aliases, text).empty()) return &a;
     return nullptr;
 }
 

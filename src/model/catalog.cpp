@@ -4,11 +4,10 @@
 #include <algorithm>
 
 #include "core/text/ascii_text.hpp"
-#include "model/afferent_components.hpp"
+#include "model/chain.hpp"
 #include "model/components.hpp"
-#include "model/model_factory.hpp"
 #include "model/models.hpp"
-#include "model/sensor/front_end_factory.hpp"
+#include "model/sensor/digital_afferent.hpp"
 
 namespace corpuscle {
 namespace {
@@ -59,40 +58,33 @@ Result<void> check_integers(const AfferentPlan& plan) {
     return ok;
 }
 
-}  // namespace
-
-std::vector<ParameterOrder> order_constraints_of(const AfferentPlan& plan) {
-    std::vector<ParameterOrder> all;
-    for_each_component(plan, [&]<class M>() {
-        if constexpr (requires { M::order_constraints; })
-            all.insert(all.end(), std::begin(M::order_constraints), std::end(M::order_constraints));
-    });
-    return all;
-}
-
-Result<void> check_plan(const AfferentPlan& plan) {
-    for (const auto& order : order_constraints_of(plan))
-        TRY(check_order(plan.name, order, *plan.value(order.lower), *plan.value(order.upper)));
-    TRY(check_integers(plan));
-    const auto front = make_front_end(plan);
-    if (!plan.sensor.empty()) TRY(front.check_range(plan.name, 0, "F_cal", *plan.value("F_cal")));
-    if (plan.converter.empty()) return {};
-    TRY(front.check_range(plan.name, *plan.value("F_low"), "F_high", *plan.value("F_high")));
-    TRY(make_fixed_chain(plan));
-    return {};
-}
-
-std::vector<CatalogEntry> sensor_entries() {
-    auto all = entries_of_list(Sensors{});
-    for (auto& entry : all) entry.parameters.push_back(calibration_parameter);
-    return all;
-}
-std::vector<CatalogEntry> transducer_entries() { return entries_of_list(Transducers{}); }
-std::vector<CatalogEntry> converter_entries() { return entries_of_list(Converters{}); }
-std::vector<CatalogEntry> receptor_entries() { return entries_of_list(Receptors{}); }
-std::vector<CatalogEntry> neuron_entries() { return entries_of_list(Neurons{}); }
-
-namespace {
+/// Makes and describes the afferents of all plans that are made of components of the catalogue.
+class ModelFactory final : public AfferentFactory {
+public:
+    std::unique_ptr<Afferent> make(const AfferentPlan& plan, const SimulationOptions& run) const override {
+        if (!plan.converter.empty()) return make_digital(plan, run);
+        std::unique_ptr<Afferent> afferent;
+        visit_named(Receptors{}, plan.receptor, [&]<template <class> class R>(ModelTag<R>) {
+            visit_named(Neurons{}, plan.neuron, [&]<template <class> class N>(ModelTag<N>) {
+                afferent = std::make_unique<Chain<R, N>>(ParameterValues<R<double>>(plan), ParameterValues<N<double>>(plan), run);
+            });
+        });
+        // A plan with a transducer also has a sensor.
+        if (!plan.sensor.empty()) return make_behind_front_end(make_front_end(plan), std::move(afferent));
+        return afferent;
+    }
+    AfferentTraits traits(const AfferentPlan& plan) const override {
+        return {.can_use_lanes = plan.sensor.empty() && plan.transducer.empty() && plan.converter.empty(),
+                .lane_obstacles = "sensors, converters and noise",
+                .reason_no_noise = plan.converter.empty() ? "" : "behind a converter the membrane is digital"};
+    }
+    std::string composition(const AfferentPlan& plan) const override {
+        return join_components({plan.sensor, plan.transducer, plan.converter, plan.receptor, plan.neuron});
+    }
+    std::vector<std::pair<std::string, std::string>> labels(const AfferentPlan& plan) const override {
+        return {{"receptor", std::string(plan.receptor)}, {"neuron", std::string(plan.neuron)}};
+    }
+};
 
 /// The name of the afferent that `text` specifies.
 std::string name_of(std::string_view text, const AfferentComponents& parts) {
@@ -111,7 +103,8 @@ AfferentPlan plan_of_components(std::string_view text, const AfferentComponents&
     const auto entries = entries_of_components(plan);
     const auto& receptor = entries[entries.size() - 2];  // the neuron is last
     plan.description = named ? named->description : receptor.description, plan.source = named ? named->source : receptor.source;
-    plan.factory = model_factory();
+    static const auto factory = std::make_shared<const ModelFactory>();
+    plan.factory = factory;
     visit_named(Receptors{}, plan.receptor, [&]<template <class> class R>(ModelTag<R>) {
         if constexpr (requires { R<double>::min_rate; }) plan.min_rate = R<double>::min_rate;
     });
@@ -164,6 +157,37 @@ public:
 };
 
 }  // namespace
+
+std::vector<ParameterOrder> order_constraints_of(const AfferentPlan& plan) {
+    std::vector<ParameterOrder> all;
+    for_each_component(plan, [&]<class M>() {
+        if constexpr (requires { M::order_constraints; })
+            all.insert(all.end(), std::begin(M::order_constraints), std::end(M::order_constraints));
+    });
+    return all;
+}
+
+Result<void> check_plan(const AfferentPlan& plan) {
+    for (const auto& order : order_constraints_of(plan))
+        TRY(check_order(plan.name, order, *plan.value(order.lower), *plan.value(order.upper)));
+    TRY(check_integers(plan));
+    const auto front = make_front_end(plan);
+    if (!plan.sensor.empty()) TRY(front.check_range(plan.name, 0, "F_cal", *plan.value("F_cal")));
+    if (plan.converter.empty()) return {};
+    TRY(front.check_range(plan.name, *plan.value("F_low"), "F_high", *plan.value("F_high")));
+    TRY(make_fixed_chain(plan));
+    return {};
+}
+
+std::vector<CatalogEntry> sensor_entries() {
+    auto all = entries_of_list(Sensors{});
+    for (auto& entry : all) entry.parameters.push_back(calibration_parameter);
+    return all;
+}
+std::vector<CatalogEntry> transducer_entries() { return entries_of_list(Transducers{}); }
+std::vector<CatalogEntry> converter_entries() { return entries_of_list(Converters{}); }
+std::vector<CatalogEntry> receptor_entries() { return entries_of_list(Receptors{}); }
+std::vector<CatalogEntry> neuron_entries() { return entries_of_list(Neurons{}); }
 
 bool matches_name(const AfferentPlan& plan, std::string_view name) {
     if (name == plan.name || (plan.traits().ignores_case && equal_ignoring_case(name, plan.name))) return true;

@@ -1,11 +1,6 @@
 #pragma once
 // The named afferents, the catalogue of models and components, and the plan of an afferent of equations.
 
-#include <memory>
-#include <span>
-#include <string_view>
-#include <vector>
-
 #include "core/afferent_factory.hpp"
 
 namespace corpuscle {
@@ -25,6 +20,22 @@ std::vector<CatalogEntry> transducer_entries();
 std::vector<CatalogEntry> converter_entries();
 std::vector<CatalogEntry> receptor_entries();
 std::vector<CatalogEntry> neuron_entries();
+
+/// The names of components that an afferent has, "fsr+f2v", without those that are "".
+std::string join_components(std::initializer_list<std::string_view> names);
+
+/// The text that specifies an afferent, such as "fsr+f2v+adc+sa1a+lif-a", as components, in the order in which the signal passes them.
+struct AfferentComponents {
+    std::string_view sensor, transducer, converter;  ///< "": the afferent has none
+    const NamedAfferent* named = nullptr;            ///< null if the text names a receptor and a neuron instead of an afferent
+    std::string_view receptor, neuron;               ///< those of the named afferent, if there is one
+
+    /// The components before the receptor: "fsr+f2v+adc", or "".
+    std::string front_end() const { return join_components({sensor, transducer, converter}); }
+};
+
+/// Parses a text such as "fsr+f2v+sa1". The front end of a named afferent, if it has one, is among the components.
+Result<AfferentComponents> parse_components(std::string_view text);
 
 /// True if `name`, the target of an override, means this plan: if it is the plan's name, or a text that specifies the same afferent.
 bool matches_name(const AfferentPlan&, std::string_view name);

@@ -7,9 +7,7 @@
 #include <cstring>
 #include <type_traits>
 
-#include "core/afferent.hpp"
 #include "core/random.hpp"
-#include "core/simulation_options.hpp"
 #include "model/current.hpp"
 #include "model/parameter_values.hpp"
 

@@ -1,9 +1,11 @@
 #pragma once
-// The current from a receptor to a neuron.
+// The current from a receptor to a neuron. Also includes what the declaration of every model needs: Probe and ParameterInfo.
 
 #include <cstdint>
 
+#include "core/afferent.hpp"
 #include "core/number/elementary.hpp"
+#include "core/parameter.hpp"
 #include "core/simulation_options.hpp"
 
 namespace corpuscle {

@@ -3,6 +3,8 @@
 #include <fmt/format.h>
 
 #include "model/lanes/tiled_population.hpp"
+#include "model/models.hpp"
+#include "model/parameter_values.hpp"
 
 namespace corpuscle {
 namespace {
@@ -59,27 +61,63 @@ AlignedBuffer<std::byte> models_of(const Kernel& kernel, int width, std::span<co
     return models;
 }
 
+template <class R>
+class ReceptorRun final : public SharedReceptor {
+    R receptor_;
+    typename R::State state_ = {};
+    std::int64_t step_ = 0;  // number of samples simulated so far
+
+public:
+    explicit ReceptorRun(R receptor) : receptor_(std::move(receptor)) {}
+
+    std::vector<double> save() const override {
+        static_assert(std::is_trivially_copyable_v<typename R::State> && sizeof(state_) % sizeof(double) == 0);
+        std::vector<double> all(1 + sizeof(state_) / sizeof(double), static_cast<double>(step_));
+        std::memcpy(all.data() + 1, &state_, sizeof(state_));
+        return all;
+    }
+    bool resume(std::span<const double> saved) override {
+        if (saved.size() != 1 + sizeof(state_) / sizeof(double) || !(saved[0] >= 0 && saved[0] <= 0x1p53)) return false;
+        step_ = static_cast<std::int64_t>(saved[0]);
+        std::memcpy(&state_, saved.data() + 1, sizeof(state_));
+        return true;
+    }
+
+    void run(std::span<const double> force, bool first, std::array<ProfileCurrents, max_outputs>& out) override {
+        static_assert(R::outputs <= max_outputs);
+        if (force.empty()) return;
+        if (first) state_ = receptor_.start(force[0]);
+        for (auto& currents : out)
+            for (auto& part : currents) part.resize(force.size());
+        for (std::size_t t = 0; t < force.size(); ++t, ++step_) {
+            if constexpr (requires { receptor_.flush_decayed(state_); })
+                if (step_ % flush_interval == 0 && step_ > 0) receptor_.flush_decayed(state_);
+            Current<double> i[R::outputs];
+            receptor_.step(state_, force[t], i);
+            for (std::size_t k = 0; k < R::outputs; ++k) out[k][0][t] = i[k].from, out[k][1][t] = i[k].to, out[k][2][t] = i[k].sum();
+        }
+    }
+};
+
+/// The shared receptor of a plan.
+std::unique_ptr<SharedReceptor> make_shared_receptor(const AfferentPlan& plan, const SimulationOptions& run) {
+    std::unique_ptr<SharedReceptor> receptor;
+    visit_named(Receptors{}, plan.receptor, [&]<template <class> class R>(ModelTag<R>) {
+        receptor = std::make_unique<ReceptorRun<R<double>>>(R<double>(ParameterValues<R<double>>(plan), run.dt, run.method));
+    });
+    return receptor;
+}
+
 template <class V>
-std::unique_ptr<LanePopulation> make_tiled(const PopulationPlan& p, const SimulationOptions& run, InstructionSet set) {
-    const auto& table = [set]() -> const KernelTable<V>& {
-        if constexpr (std::is_same_v<V, double>)
-            return kernels_in_double(set);
-        else
-            return kernels_in_float(set);
-    }();
+std::unique_ptr<LanePopulation> make_tiled(const PopulationPlan& p, const SimulationOptions& run, const KernelTable<V>& table) {
     const auto& plan = *p.plans[0];
     // Every catalogue name has a kernel, because both come from the lists in models.hpp.
-    PopulationLayout<V> layout{find_by_name(table.receptors, plan.receptor),
-                               find_by_name(table.neurons, plan.neuron),
-                               nullptr,
-                               table.lanes,
-                               p.size,
-                               {},
-                               {},
-                               nullptr,
-                               scales_with_force(plan),
-                               {p.afferent_numbers.begin(), p.afferent_numbers.end()},
-                               fmt::format("{}+{}", plan.receptor, plan.neuron)};
+    PopulationLayout<V> layout{.receptor = find_by_name(table.receptors, plan.receptor),
+                               .neuron = find_by_name(table.neurons, plan.neuron),
+                               .lanes = table.lanes,
+                               .size = p.size,
+                               .afferent_numbers = {p.afferent_numbers.begin(), p.afferent_numbers.end()},
+                               .name = fmt::format("{}+{}", plan.receptor, plan.neuron)};
     layout.receptors = models_of(*layout.receptor, table.lanes, p.plans, p.size, run);
     layout.neurons = models_of(*layout.neuron, table.lanes, p.plans, p.size, run);
     // `fused` has one kernel for each neuron of the table, in the same order.
@@ -103,7 +141,8 @@ Result<std::unique_ptr<LanePopulation>> make_lane_population(const PopulationPla
     for (const auto* plan : p.plans)
         if (!can_use_lanes(*plan, run))
             return bad_input(fmt::format("{}: netlists, sensors, converters and noise cannot run on SIMD lanes", plan->name));
-    return p.precision == Precision::double_precision ? make_tiled<double>(p, run, set) : make_tiled<float>(p, run, set);
+    return p.precision == Precision::double_precision ? make_tiled(p, run, kernels_in_double(set))
+                                                      : make_tiled(p, run, kernels_in_float(set));
 }
 
 }  // namespace corpuscle

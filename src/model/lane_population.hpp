@@ -3,10 +3,7 @@
 // or shared. In double precision the spikes are bit-identical to those of the same afferents simulated one by one (chain.hpp), for any
 // number of lanes and threads.
 
-#include <memory>
-#include <span>
 #include <variant>
-#include <vector>
 
 #include "core/afferent_factory.hpp"
 #include "core/number/instruction_set.hpp"

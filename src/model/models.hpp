@@ -18,9 +18,7 @@ namespace corpuscle {
 
 /// A list of models. Each is a class template over its number type: double, SIMD lanes or dual numbers.
 template <template <class> class... M>
-struct ModelList {
-    static constexpr int size = sizeof...(M);
-};
+struct ModelList {};
 /// A model without its number type, to be passed to a function.
 template <template <class> class M>
 struct ModelTag {};

@@ -23,7 +23,7 @@ ADDITIONS = [
         kind="a measure",
         file="src/measure/longest_interval.hpp",
         list="src/measure/measures.hpp",
-        insertions=[included_after("measure/latency.hpp", "measure/longest_interval.hpp"), ("Entrainment>;", "Entrainment, LongestInterval>;")],
+        insertions=[included_after("measure/intervals.hpp", "measure/longest_interval.hpp"), ("Entrainment>;", "Entrainment, LongestInterval>;")],
         list_names="Measures|measures|MeasureAccumulator|measure_index",
     ),
     Addition(

@@ -4,7 +4,7 @@
 #include <nlohmann/json.hpp>
 #include <sstream>
 
-#include "cli/stream/live_options.hpp"
+#include "cli/stream/stream.hpp"
 #include "io/table/npz.hpp"
 #include "support/program.hpp"
 

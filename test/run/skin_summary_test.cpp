@@ -6,7 +6,7 @@
 #include <nlohmann/json.hpp>
 
 #include "report/skin/binned_frames.hpp"
-#include "report/skin/skin_page.hpp"
+#include "report/skin/skin_report.hpp"
 #include "run/skin/skin_population.hpp"
 #include "support/property.hpp"
 #include "support/sinks.hpp"

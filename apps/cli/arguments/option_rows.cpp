@@ -91,7 +91,6 @@ void add_options(CLI::App& part, const OptionGroup& group) {
         if (row.check.index() != 0) option.check(validator_of(row.check));
         if (row.count) option.expected(row.count->first, row.count->second);
         option.required(row.is_required);
-        if (row.needs) option.needs(part.get_option(row.needs));
         if (row.excludes) option.excludes(part.get_option(row.excludes));
     }
 }

@@ -6,8 +6,6 @@
 #include <optional>
 #include <stdexcept>
 #include <string>
-#include <string_view>
-#include <utility>
 #include <variant>
 #include <vector>
 
@@ -55,14 +53,12 @@ struct OptionRow {
     bool is_repeatable = false;           ///< with a reader: may be given several times
     bool splits_at_commas = false;        ///< with a reader: each part of a value is read
     const char* shown_default = nullptr;  ///< with a reader: the default that --help prints
-    const char* needs = nullptr;          ///< an option that must also be given
     const char* excludes = nullptr;       ///< an option that must not be given, too
 };
 
 /// A row with a further property; the properties are those of the members.
 inline OptionRow required(OptionRow row) { return row.is_required = true, row; }
 inline OptionRow counted(int lowest, int highest, OptionRow row) { return row.count = {lowest, highest}, row; }
-inline OptionRow needing(const char* option, OptionRow row) { return row.needs = option, row; }
 inline OptionRow excluding(const char* option, OptionRow row) { return row.excludes = option, row; }
 inline OptionRow repeatable(OptionRow row) { return row.is_repeatable = true, row; }
 inline OptionRow with_default(const char* text, OptionRow row) { return row.shown_default = text, row; }

@@ -1,7 +1,5 @@
 #pragma once
-// Output files: the name of a report page, and writing a complete file.
-
-#include <string>
+// Output files: the name of a report page, writing a complete file, and recognising the files of earlier runs.
 
 #include "io/output/output_file.hpp"
 
@@ -13,5 +11,15 @@ Result<void> write_file(const std::string& path, const std::string& text);
 
 /// Returns an error if a report page is requested by a name that does not end in .html. "": none, or the default name.
 Result<void> check_page_name(const std::string& name);
+
+// Recognises, by its first bytes, a file that an earlier run of the program wrote. Such a file may be replaced without --overwrite. Each
+// function is an OutputCheck::Signature for the outputs of one verb.
+bool is_own_raw(std::string_view beginning);         ///< .raw of 'run'; the .raw files of ngspice have a date line
+bool is_own_table(std::string_view beginning);       ///< CSV of 'run'
+bool is_own_events(std::string_view beginning);      ///< spikes of 'stream'
+bool is_own_state(std::string_view beginning);       ///< of 'stream --save-state'
+bool is_own_checkpoint(std::string_view beginning);  ///< of 'respond --checkpoint'
+bool is_own_deck(std::string_view beginning);        ///< ngspice deck of 'export'
+bool is_own_markdown(std::string_view beginning);    ///< Markdown of 'study'
 
 }  // namespace corpuscle

@@ -1,9 +1,9 @@
-#include "cli/output/printable.hpp"
+// Escapes text for a terminal, and measures it.
 
-#include <fmt/format.h>
+#include "cli/output/terminal.hpp"
+
 #include <algorithm>
 #include <cstdint>
-#include <iterator>
 #include <nlohmann/json.hpp>
 
 #include "io/text/utf8.hpp"
@@ -11,50 +11,37 @@
 namespace corpuscle {
 namespace {
 
-/// A decoded UTF-8 character. If it is not valid, `bytes` is 1 and `code` is meaningless.
-struct Character {
-    std::uint32_t code = 0;
-    std::size_t bytes = 1;
-    bool is_valid = false;
-};
-
-/// Decodes the first character of a non-empty text.
-Character first_character(std::string_view text) {
-    const auto byte = [&](std::size_t k) { return static_cast<std::uint32_t>(static_cast<unsigned char>(text[k])); };
-    if (byte(0) < 0x80) return {byte(0), 1, true};
-    const std::size_t bytes = byte(0) >= 0xf0 ? 4 : byte(0) >= 0xe0 ? 3 : 2;
-    if (!is_utf8(text.substr(0, bytes))) return {};
-    auto code = byte(0) & (0xffU >> (bytes + 1));
-    for (std::size_t k = 1; k < bytes; ++k) code = code << 6 | (byte(k) & 0x3fU);
-    return {code, bytes, true};
+/// Removes the first character of a text that is not empty, and returns its bytes; `code` is its code point, or none if they are not UTF-8.
+std::string_view take_character(std::string_view& text, std::optional<char32_t>& code) {
+    const auto before = text;
+    code = take_code_point(text);
+    return before.substr(0, before.size() - text.size());
 }
 
 /// C0, DEL, C1, bidirectional marks, line and paragraph separators, and the byte order mark.
-bool is_control(std::uint32_t c) {
+bool is_control(char32_t c) {
     return c < 0x20 || (c >= 0x7f && c < 0xa0) || c == 0x61c || c == 0x200e || c == 0x200f || (c >= 0x2028 && c <= 0x202e) ||
            (c >= 0x2066 && c <= 0x2069) || c == 0xfeff;
 }
 
-std::string escaped(std::uint32_t c) {
+std::string escaped(char32_t c) {
     if (c == '\n') return "\\n";
     if (c == '\t') return "\\t";
     if (c == '\r') return "\\r";
-    return c < 0x80 ? fmt::format("\\x{:02x}", c) : fmt::format("\\u{:04x}", c);
+    const auto number = static_cast<std::uint32_t>(c);
+    return c < 0x80 ? fmt::format("\\x{:02x}", number) : fmt::format("\\u{:04x}", number);
 }
 
 /// Escapes all control characters and invalid bytes, except the ASCII characters in `kept`.
 std::string escape_except(std::string_view text, std::string_view kept) {
     std::string out;
     out.reserve(text.size());
-    while (!text.empty()) {
-        const auto c = first_character(text);
-        if (!c.is_valid)
-            fmt::format_to(std::back_inserter(out), "\\x{:02x}", static_cast<unsigned char>(text[0]));
-        else if (is_control(c.code) && (c.bytes > 1 || kept.find(text[0]) == kept.npos))
-            out += escaped(c.code);
+    for (std::optional<char32_t> code; !text.empty();) {
+        const auto bytes = take_character(text, code);
+        if (!code)
+            for (const char byte : bytes) out += fmt::format("\\x{:02x}", static_cast<unsigned char>(byte));
         else
-            out += text.substr(0, c.bytes);
-        text.remove_prefix(c.bytes);
+            out += is_control(*code) && kept.find(bytes) == kept.npos ? escaped(*code) : bytes;
     }
     return out;
 }
@@ -72,13 +59,15 @@ std::size_t columns_of(std::string_view text) {
 std::string json_text(const nlohmann::ordered_json& document) {
     const auto text = document.dump(1, ' ', false, nlohmann::ordered_json::error_handler_t::replace);  // names may contain any bytes
     std::string out;
+    std::optional<char32_t> code;
     for (std::string_view left = text; !left.empty();) {
-        const auto c = first_character(left);
+        const auto bytes = take_character(left, code);
         // In one byte only DEL is left to escape: the writer has escaped C0 and replaced invalid bytes, and line breaks format the
         // document.
-        const bool is_kept = c.bytes == 1 ? left[0] != '\x7f' : !is_control(c.code);
-        is_kept ? out += left.substr(0, c.bytes) : out += fmt::format("\\u{:04x}", c.code);
-        left.remove_prefix(c.bytes);
+        if (bytes.size() == 1 ? bytes != "\x7f" : !is_control(*code))
+            out += bytes;
+        else
+            out += fmt::format("\\u{:04x}", static_cast<std::uint32_t>(*code));
     }
     return out;
 }

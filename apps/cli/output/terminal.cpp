@@ -1,6 +1,5 @@
 #include "cli/output/terminal.hpp"
 
-#include <fmt/format.h>
 #include <unistd.h>
 #include <algorithm>
 #include <cctype>
@@ -14,7 +13,6 @@
 #include <numeric>
 #include <sstream>
 
-#include "cli/output/printable.hpp"
 #include "core/text/input_files.hpp"
 
 namespace corpuscle {
@@ -53,7 +51,7 @@ std::vector<std::string> split_heading(const std::string& heading) {
 }
 
 /// Breaks the heading (the first row) of a table that is too wide into several rows. Returns the number of rows of the heading.
-std::size_t wrap_heading(std::vector<std::vector<std::string>>& rows) {
+std::size_t wrap_heading(TableRows& rows) {
     if (rows.size() < 2) return 1;
     std::vector<std::size_t> widths(rows[0].size());
     std::size_t total = 0;
@@ -63,7 +61,7 @@ std::size_t wrap_heading(std::vector<std::vector<std::string>>& rows) {
         total += std::max(widths[c], columns_of(rows[0][c])) + (c ? 2 : 0);
     }
     if (total <= max_table_width) return 1;
-    std::vector<std::vector<std::string>> lines;
+    TableRows lines;
     for (std::size_t c = 0; c < rows[0].size(); ++c) {
         std::vector<std::string> parts;
         for (const auto& word : split_heading(rows[0][c])) {
@@ -179,7 +177,7 @@ std::string time_text(double seconds) {
                       : fmt::format("{}:{:02} h", s / 3600, s / 60 % 60);
 }
 
-std::string format_table(const std::vector<std::vector<std::string>>& raw_rows, bool has_heading) {
+std::string format_table(const TableRows& raw_rows, bool has_heading) {
     auto rows = raw_rows;
     for (auto& row : rows)
         for (auto& cell : row) cell = printable(cell);

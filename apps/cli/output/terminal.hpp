@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 #include <chrono>
+#include <nlohmann/json_fwd.hpp>
 #include <string>
 #include <vector>
 
@@ -22,6 +23,22 @@ void print_warning(const std::string& message);
 /// Prints a message for each note about `name`, unless `quiet`.
 void print_notes(const std::string& name, const std::vector<std::string>& notes, bool quiet);
 
+// Names come from untrusted files: a control character in one could move the cursor, set the window title or forge a message. Control
+// characters are therefore never printed raw.
+
+/// Escapes control characters, line breaks, bidirectional marks and bytes that are not UTF-8: \x1b, \n, \u202e, \xff.
+std::string printable(std::string_view);
+
+/// The same, but keeps line breaks; for text of several lines that the program composed.
+std::string printable_lines(std::string_view);
+
+/// The width of a UTF-8 text in columns of a terminal, one per character.
+std::size_t columns_of(std::string_view);
+
+/// The text of a JSON document, in which the same characters are escaped as JSON does it (\u202e). The content is unchanged, except that
+/// bytes that are not UTF-8 are replaced.
+std::string json_text(const nlohmann::ordered_json&);
+
 /// Prints text of several lines on standard output. Control characters are escaped.
 void print_text(const std::string& text);
 
@@ -33,13 +50,25 @@ void catch_interrupt();
 /// True after Ctrl-C or another signal that ends the program.
 bool interrupted();
 
+/// The function of a verb that runs until it is done, fails or is interrupted, with arguments that are shared with its options.
+template <class Arguments, class Common>
+auto interruptible(std::shared_ptr<Arguments> args, Result<void> (*work)(const Arguments&, const Common&)) {
+    return [args, work](const Common& common) {
+        catch_interrupt();
+        return exit_status(work(*args, common));
+    };
+}
+
 /// A duration as text: "12 s", "3:05 min", "2:10 h".
 std::string time_text(double seconds);
+
+/// The rows of a table, each with its cells.
+using TableRows = std::vector<std::vector<std::string>>;
 
 /// Formats rows as a table: columns are padded to their widest cell, columns of numbers are aligned right, others left. If `has_heading`,
 /// the first row is the heading. In a table wider than 100 columns the heading is wrapped; if it is still too wide, the table is split into
 /// blocks.
-std::string format_table(const std::vector<std::vector<std::string>>& rows, bool has_heading = true);
+std::string format_table(const TableRows& rows, bool has_heading = true);
 
 /// A row of a table.
 template <class... T>

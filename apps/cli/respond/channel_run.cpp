@@ -1,12 +1,96 @@
 #include "cli/respond/channel_run.hpp"
 
-#include <fmt/format.h>
-#include <nlohmann/json.hpp>
+#include <algorithm>
 
 #include "cli/output/terminal.hpp"
+#include "run/afferent_plan.hpp"
 #include "run/channels/channel_warnings.hpp"
 
 namespace corpuscle {
+namespace {
+
+constexpr double default_rate = 10e3;  // Hz, sample rate of stimuli
+
+/// Returns an error if one of the requested probes is in none of the netlists. `found`: for each netlist, what became of the probes.
+Result<void> check_probes(std::span<const std::string> names, std::span<const std::vector<RequestedProbe>> found) {
+    for (std::size_t k = 0; k < names.size(); ++k) {
+        if (found.empty())
+            return bad_usage(fmt::format("--probe {}: there is no netlist in this run; try --afferent sa1-circuit", names[k]));
+        if (std::none_of(found.begin(), found.end(), [&](const auto& of_netlist) { return of_netlist[k].name.has_value(); }))
+            return bad_input(
+                fmt::format("--probe {}: no netlist of this run has such a node or device{}", names[k], found.front()[k].hint));
+    }
+    return {};
+}
+
+}  // namespace
+
+/// Makes the copies of the afferents. Each of spreads_ is for one afferent.
+Result<void> ChannelRun::add_copies() {
+    if (copy_spec_.count == 0) {
+        copies_ = afferents_;
+        return spreads_.empty() ? Result<void>() : bad_usage(fmt::format("{} needs --copies N, such as --copies 100", spreads_[0].typed));
+    }
+    std::vector<std::string_view> names;
+    for (const auto& afferent : afferents_) {
+        names.push_back(afferent.name);
+        auto applied = TRY(distributions_for(afferent, spreads_));
+        spreads_ = std::move(applied.unused);
+        auto copies = TRY(make_copies(afferent, copy_spec_.count, applied.result, options_.seed));
+        std::move(copies.begin(), copies.end(), std::back_inserter(copies_));
+        std::move(applied.result.begin(), applied.result.end(), std::back_inserter(copy_spec_.distributions));
+    }
+    return check_all_used(spreads_, names);
+}
+
+/// Returns an error if there are more afferents than 32-bit indexes.
+Result<void> ChannelRun::check_afferent_count() const {
+    std::uint64_t count = 0;
+    for (const auto& s : sources_) count += s->channels().size() * copies_.size();
+    if (count <= std::numeric_limits<std::uint32_t>::max()) return {};
+    return bad_usage(
+        fmt::format("--copies {}: {} afferents over all channels are too many; use fewer copies or channels", copy_spec_.count, count));
+}
+
+/// Returns an error if an override was not applied to any afferent or stimulus.
+Result<void> ChannelRun::check_overrides() const {
+    std::vector<std::string_view> names;
+    for (const auto& a : afferents_) names.push_back(a.name);
+    for (const auto& s : sources_) names.push_back(s->name());
+    return check_all_used(unused_, names);
+}
+
+Result<void> ChannelRun::plan_afferents() {
+    const auto& probes = args_.netlists.probes;
+    std::vector<std::vector<RequestedProbe>> found;
+    for (const auto& name : args_.afferents) {
+        auto planned = TRY(plan_any_afferent(name, overrides_, probes));
+        if (std::any_of(afferents_.begin(), afferents_.end(), [&](const auto& a) { return a.name == planned.result.name; }))
+            return bad_usage(fmt::format("--afferent {}: given twice", name));
+        keep_unused(unused_, planned.unused);
+        afferents_.push_back(std::move(planned.result));
+        if (!planned.probes.empty()) found.push_back(std::move(planned.probes));
+    }
+    return check_probes(probes, found);
+}
+
+Result<void> ChannelRun::plan() {
+    if (args_.forces.empty()) return bad_usage("respond: no FORCE given; try 'corpuscle respond press'");
+    spreads_ = args_.spreads;
+    copy_spec_.count = args_.copies;
+    overrides_ = args_.netlists.overrides;  // first, so that a setting for one netlist takes precedence
+    overrides_.insert(overrides_.end(), args_.settings.begin(), args_.settings.end());
+    unused_ = overrides_;
+    TRY(plan_afferents());
+    TRY(add_copies());
+    for (const auto& force : args_.forces) sources_.push_back(TRY(open_source(force, default_rate)));
+    TRY(check_overrides());
+    TRY(check_afferent_count());
+    warnings_ = rate_warnings(sources_, afferents_);
+    for (auto& warning : noise_warnings(afferents_, options_.noise)) warnings_.push_back(std::move(warning));
+    return {};
+}
+
 OutputRequest ChannelRun::output_request() const {
     OutputRequest request{.inputs = sources_.size(), .channels = 0, .plans = copies_, .copies = copy_spec_};
     for (const auto& s : sources_) request.channels += s->channels().size();
@@ -77,7 +161,7 @@ std::size_t ChannelRun::netlist_count() const {
     return count;
 }
 
-Result<void> ChannelRun::verdict(const RunStats& stats) const {
+Result<void> ChannelRun::finish(const RunStats& stats) {
     if (stats.diverged.empty()) return {};
     auto error = stats.diverged[0];
     error.message = fmt::format("{} of {} netlists did not converge; the first: {}", stats.diverged.size(), netlist_count(), error.message);

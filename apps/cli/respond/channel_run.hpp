@@ -37,7 +37,7 @@ public:
     nlohmann::ordered_json summarize(const RunStats&) override;
     std::string page(const nlohmann::ordered_json& document) const override;
     std::string table() const override;
-    Result<void> verdict(const RunStats&) const override;
+    Result<void> finish(const RunStats&) override;
 };
 
 }  // namespace corpuscle

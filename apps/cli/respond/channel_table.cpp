@@ -5,7 +5,6 @@
 #include <cmath>
 #include <map>
 
-#include "cli/output/printable.hpp"
 #include "cli/output/terminal.hpp"
 #include "cli/respond/channel_run.hpp"
 #include "core/text/quantity.hpp"
@@ -51,7 +50,7 @@ std::string rate_table(const RunSummary& summary) {
     std::map<std::pair<std::string, std::string>, double> spikes;  // by afferent and channel, over all phases
     for (const auto& r : summary.rows) spikes[{r.afferent, r.channel}] += r.values[measure_index<SpikeCount>];
     const bool shows_silent = summary.rows.size() <= max_rate_rows_with_silent;
-    std::vector<std::vector<std::string>> rows = {{"afferent", "channel", "phase"}};
+    TableRows rows = {{"afferent", "channel", "phase"}};
     const auto columns = summary.columns();
     for (const auto c : columns) rows[0].push_back(column_heading(measures[c]));
     std::size_t omitted = 0;
@@ -98,7 +97,7 @@ std::vector<std::string> reference_line(const ImplementationComparison& c) {
 /// A table that compares the implementations of each afferent type with its reference (ImplementationGroup). "" if no type has several
 /// implementations.
 std::string implementations_table(const ImplementationComparisons& comparisons) {
-    std::vector<std::vector<std::string>> rows = {
+    TableRows rows = {
         {"implementation", "channel", "spikes", "by phase", "change (%)", "matched", "shift (ms)", "Victor-Purpura", "van Rossum"}};
     const auto& all = comparisons.rows;
     std::size_t omitted = 0, silent = 0;

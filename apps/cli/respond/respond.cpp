@@ -4,11 +4,8 @@
 #include <algorithm>
 #include <nlohmann/json.hpp>
 
-#include "cli/arguments/netlist_arguments.hpp"
-#include "cli/output/printable.hpp"
 #include "cli/output/terminal.hpp"
 #include "cli/respond/channel_run.hpp"
-#include "cli/respond/run_outputs.hpp"
 #include "cli/respond/skin_run.hpp"
 #include "run/population_exceptions.hpp"
 #include "run/sink.hpp"
@@ -84,7 +81,8 @@ Result<std::unique_ptr<PlannedRun>> plan_run(const RespondArguments& args, const
 }
 
 /// Simulates the run with a progress bar.
-Result<RunStats> simulate_run(PlannedRun& run, std::span<Sink* const> sinks, std::uint32_t threads, bool quiet) {
+Result<RunStats> simulate_run(PlannedRun& run, std::span<Sink* const> sinks, const std::string& checkpoint, std::uint32_t threads,
+                              bool quiet) {
     ThreadPool pool(threads);
     auto simulators = TRY(run.simulators());
     auto options = run.options();
@@ -92,7 +90,8 @@ Result<RunStats> simulate_run(PlannedRun& run, std::span<Sink* const> sinks, std
     Progress progress(quiet);
     options.should_continue = [&](double fraction) { return progress.update(fraction), !interrupted(); };
     auto stats = corpuscle::run(std::move(simulators), sinks, options);
-    return stats || stats.error().code != ErrorCode::interrupted ? std::move(stats) : run.interruption(stats.error());
+    if (stats || stats.error().code != ErrorCode::interrupted || checkpoint.empty()) return stats;
+    return Error{ErrorCode::interrupted, fmt::format("interrupted; the same command resumes from {}", checkpoint)};
 }
 
 void print_result(const PlannedRun& run, const RunOutputs& outputs, nlohmann::ordered_json document, const SpikeTimes& times,
@@ -116,13 +115,13 @@ Result<void> respond_with(PlannedRun& run, const OutputArguments& args, std::uin
     auto sinks = run.summaries();
     outputs.add_sinks(sinks);
     if (common.json) sinks.push_back(&times);
-    const auto stats = TRY(simulate_run(run, sinks, threads, common.quiet));
+    const auto stats = TRY(simulate_run(run, sinks, args.checkpoint, threads, common.quiet));
     auto document = run.summarize(stats);
     document["files"] = outputs.file_names();
     TRY(outputs.commit(run, document));
-    run.remove_checkpoint();
+    const auto finished = run.finish(stats);
     print_result(run, outputs, std::move(document), times, common);
-    return run.verdict(stats);
+    return finished;
 }
 
 /// With --probe, the probes are recorded in probes.csv or on the report page.
@@ -138,6 +137,15 @@ Result<void> request_probes(RespondArguments& args) {
 int report_once(const Error& error) { return Ranks::reports_errors() ? report_error(error) : static_cast<int>(error.code); }
 
 }  // namespace
+
+Result<std::unique_ptr<ForceSource>> PlannedRun::open_source(const ForceArgument& force, double rate) {
+    auto recording = args_.recording;
+    Progress progress(common_.quiet);
+    recording.should_continue = [&](double fraction) { return progress.update(fraction), !interrupted(); };
+    auto source = TRY(force.open(recording, overrides_, rate, options_.seed));
+    keep_unused(unused_, source.unused);
+    return std::move(source.result);
+}
 
 int respond(const RespondArguments& given, const CommonArguments& common) {
     catch_interrupt();

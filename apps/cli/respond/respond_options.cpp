@@ -4,14 +4,11 @@
 #include <algorithm>
 #include <utility>
 
-#include "cli/arguments/force_argument.hpp"
 #include "cli/output/output_files.hpp"
-#include "cli/respond/respond_arguments.hpp"
+#include "cli/respond/planned_run.hpp"
 #include "cli/verbs.hpp"
 #include "io/table/foreign_format.hpp"
 #include "model/copies.hpp"
-#include "run/afferent_plan.hpp"
-#include "run/sinks.hpp"
 
 namespace corpuscle {
 namespace {

@@ -1,13 +1,11 @@
-#include "cli/respond/run_outputs.hpp"
-
-#include <fmt/format.h>
 #include <algorithm>
 #include <filesystem>
 #include <nlohmann/json.hpp>
 
-#include "cli/arguments/own_files.hpp"
 #include "cli/output/output_files.hpp"
-#include "cli/output/printable.hpp"
+#include "cli/output/terminal.hpp"
+#include "cli/respond/planned_run.hpp"
+#include "io/output/output_check.hpp"
 #include "run/earlier_outputs.hpp"
 
 namespace corpuscle {

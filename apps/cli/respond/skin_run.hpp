@@ -2,7 +2,7 @@
 // A run of a skin: the afferents of --population under the force of one input.
 
 #include "cli/respond/planned_run.hpp"
-#include "report/skin/skin_page.hpp"
+#include "report/skin/skin_report.hpp"
 #include "run/skin/skin_simulator.hpp"
 #include "run/summary/silent_afferents.hpp"
 #include "run/summary/skin_summary.hpp"
@@ -48,10 +48,9 @@ public:
     Sink& start_report() override { return report_.emplace(); }
     Result<std::vector<std::unique_ptr<BlockSimulator>>> simulators() override;
     std::vector<Sink*> summaries() override { return {&summary_, &silence_}; }
-    Error interruption(Error) const override;
     nlohmann::ordered_json summarize(const RunStats&) override;
     std::string page(const nlohmann::ordered_json& document) const override;
-    void remove_checkpoint() override;
+    Result<void> finish(const RunStats&) override;
     std::string table() const override;
 };
 

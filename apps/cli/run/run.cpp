@@ -8,9 +8,9 @@
 #include "circuit/devices.hpp"
 #include "circuit/output/saved_quantities.hpp"
 #include "circuit/variant/netlist_overrides.hpp"
-#include "cli/arguments/netlist_arguments.hpp"
-#include "cli/output/curve_files.hpp"
+#include "cli/arguments/shared_arguments.hpp"
 #include "cli/output/terminal.hpp"
+#include "cli/run/curve_files.hpp"
 #include "cli/run/variant_printer.hpp"
 #include "cli/verbs.hpp"
 
@@ -165,7 +165,7 @@ Result<void> run_netlist(const RunArguments& args, const CommonArguments& common
     auto variants = TRY(NetlistVariants::create(netlist));
     const bool has_steps = variants.count() > 1;
     VariantPrinter printer(common, has_steps, variants.has_chips());
-    CurveFiles files({args.out, args.ascii}, has_steps, common.overwrite);
+    CurveFiles files(args.out, args.ascii, has_steps, common.overwrite);
     const auto done = run_all(variants, args, common, printer, files);
     printer.finish();
     if (!done) return keep_partial_files(files), done;
@@ -207,10 +207,7 @@ Verb make_run_verb() {
                           {"--ascii", &args->ascii, "", "write the .raw file as text"}}}},
             .reports = true,
             .writes_files = true,
-            .run = [args](const CommonArguments& common) {
-                catch_interrupt();
-                return exit_status(run_netlist(*args, common));
-            }};
+            .run = interruptible(args, run_netlist)};
 }
 
 }  // namespace corpuscle

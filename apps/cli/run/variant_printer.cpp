@@ -1,12 +1,8 @@
 #include "cli/run/variant_printer.hpp"
 
-#include <fmt/format.h>
 #include <algorithm>
 #include <cmath>
 
-#include "circuit/cost/cost.hpp"
-#include "cli/output/budget_tables.hpp"
-#include "cli/output/printable.hpp"
 #include "cli/output/terminal.hpp"
 #include "run/summary/json_number.hpp"
 #include "sweep/stats/estimate.hpp"

@@ -2,7 +2,6 @@
 // The results of the variants of a netlist, as text or JSON on standard output.
 
 #include <nlohmann/json_fwd.hpp>
-#include <optional>
 
 #include "circuit/cost/cost.hpp"
 #include "circuit/run_directives.hpp"
@@ -18,6 +17,11 @@ struct VariantResult {
     std::vector<circuit::Plot> plots;  ///< for the JSON document; with --out, without the points of transients, which are only in the file
     std::optional<circuit::Cost> cost = {};  ///< with --budget
 };
+
+/// The power, area and leakage of a circuit (--budget) as tables and, for an afferent, the number of afferents per area and per power.
+std::string budget_tables(const circuit::Cost&);
+/// Power and area in one line, for a netlist with several variants.
+std::string budget_line(const circuit::Cost&);
 
 /// Prints each variant when it is finished, and for .mc statistics at the end. With several variants, the JSON document is an array.
 class VariantPrinter {

@@ -1,17 +1,14 @@
 #include <fmt/format.h>
 #include <poll.h>
 #include <unistd.h>
-#include <cmath>
 #include <nlohmann/json.hpp>
 #include <numeric>
 #include <utility>
 
 #include "circuit/variant/netlist_overrides.hpp"
-#include "cli/arguments/own_files.hpp"
-#include "cli/output/printable.hpp"
-#include "cli/output/stream_report.hpp"
+#include "cli/output/output_files.hpp"
 #include "cli/output/terminal.hpp"
-#include "cli/stream/stream_input.hpp"
+#include "cli/stream/stream.hpp"
 #include "core/text/ascii_text.hpp"
 #include "core/text/input_files.hpp"
 #include "io/output/output_check.hpp"
@@ -156,7 +153,6 @@ class LiveRun {
     void clear_status() {
         if (std::exchange(is_status_shown_, false)) fmt::print(stderr, "\r\033[K");
     }
-    void print(const std::string& text) { clear_status(), print_message(text); }
     void warn(const std::string& text) { clear_status(), print_warning(fmt::format("{}: {}", input_name(args_.in), text)); }
 
     /// Prints how a recording was read, and warns if the frame rate is too low.
@@ -265,7 +261,7 @@ public:
             options.on_second = [this] { show_status(); };
         loop_ = std::make_unique<StreamLoop>(*skin_, *format_, *frames_, *sink_, std::move(options));
         TRY(load_state());
-        if (is_live_input(args_.in) && args_.in != "-") print(frames_->description());
+        if (is_live_input(args_.in) && args_.in != "-") print_message(frames_->description());
         auto ended = loop_->run();
         print_quality();
         print_summary();

@@ -1,7 +1,7 @@
 // corpuscle stream: its options and the examples of its help.
 
+#include "cli/stream/stream.hpp"
 #include "cli/output/terminal.hpp"
-#include "cli/stream/stream_arguments.hpp"
 #include "cli/verbs.hpp"
 
 namespace corpuscle {

@@ -1,12 +1,9 @@
-#include "cli/stream/stream_input.hpp"
+#include "cli/stream/stream.hpp"
 
 #include <fmt/format.h>
-#include <charconv>
 
-#include "cli/arguments/force_argument.hpp"
-#include "cli/arguments/recording_arguments.hpp"
 #include "cli/output/terminal.hpp"
-#include "cli/stream/live_options.hpp"
+#include "core/text/ascii_text.hpp"
 #include "io/recording/column_selection.hpp"
 
 namespace corpuscle {
@@ -17,12 +14,10 @@ constexpr double stimulus_rate = 1e3;  // Hz, default sample rate of a stimulus
 /// The port of "tcp:PORT" or "udp:PORT".
 Result<int> port_of(const StreamArguments& args) {
     const auto scheme = args.in.substr(0, 4);
-    int port = 0;
-    const auto* const end = args.in.data() + args.in.size();
-    const auto [stop, status] = std::from_chars(args.in.data() + scheme.size(), end, port);
-    if (status != std::errc{} || stop != end || port < 0 || port > 65535)
+    const auto port = parse_bare_number<int>(args.in.substr(4));
+    if (!port || *port < 0 || *port > 65535)
         return bad_usage(fmt::format("--in {}: write {}PORT, such as {}7000 (--listen sets the address)", args.in, scheme, scheme));
-    return port;
+    return *port;
 }
 
 }  // namespace

@@ -2,11 +2,10 @@
 
 #include <fmt/format.h>
 #include <chrono>
-#include <cstdlib>
 #include <filesystem>
 
-#include "cli/output/sweep_status.hpp"
 #include "cli/output/terminal.hpp"
+#include "cli/sweep/sweep_output.hpp"
 #include "cli/verbs.hpp"
 #include "sweep/parallel/run_sweep.hpp"
 #include "sweep/store/writer_lock.hpp"
@@ -98,13 +97,11 @@ Result<void> run_and_report(Ranks* ranks, const Sweep& sweep, const SweepArgumen
         print_warning(fmt::format("the results are complete only if {} is kept together with {}-wal: {}", results.path(), results.path(),
                                   checkpointed.error().message));
     if (!done) return with_advice(done.error(), results);
-    const auto state = TRY(read_sweep_status(results, shard));
-    auto final_state = state;
-    final_state.finished_now = results.finished_count() - finished_before, final_state.sweep = args.file;
-    print_sweep_status(common, final_state);
-    if (results.finished_count() > 0 && final_state.diverged == results.finished_count())
-        return Error{ErrorCode::not_converged,
-                     fmt::format("none of {} items converged: {}", final_state.diverged, final_state.reasons.front().first)};
+    auto state = TRY(read_sweep_status(results, shard));
+    state.finished_now = results.finished_count() - finished_before, state.sweep = args.file;
+    print_sweep_status(common, state);
+    if (results.finished_count() > 0 && state.diverged == results.finished_count())
+        return Error{ErrorCode::not_converged, fmt::format("none of {} items converged: {}", state.diverged, state.reasons.front().first)};
     return {};
 }
 

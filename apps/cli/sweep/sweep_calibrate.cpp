@@ -1,7 +1,6 @@
 // corpuscle sweep calibrate: trims simulated chips of one netlist to match a model; prints the yield for each number of trim bits.
 
 #include <fmt/format.h>
-#include <cmath>
 #include <nlohmann/json.hpp>
 
 #include "circuit/variant/netlist_variants.hpp"
@@ -159,10 +158,7 @@ Verb make_sweep_calibrate_verb() {
                       {"--threads,-j", &args->threads, "N", "number of threads (0: one per core); results do not depend on it",
                        std::pair(0U, 1024U)}}}},
         .reports = true,
-        .run = [args](const CommonArguments& common) {
-            catch_interrupt();
-            return exit_status(calibrate_netlist(*args, common));
-        }};
+        .run = interruptible(args, calibrate_netlist)};
 }
 
 }  // namespace corpuscle

@@ -2,8 +2,8 @@
 
 #include <fmt/format.h>
 
-#include "cli/output/sweep_status.hpp"
 #include "cli/output/terminal.hpp"
+#include "cli/sweep/sweep_output.hpp"
 #include "cli/verbs.hpp"
 
 namespace corpuscle {
@@ -53,10 +53,7 @@ Verb make_sweep_merge_verb() {
                          {required({"OUT", &args->out, "", "the combined results file, created if it does not exist"}),
                           required({"IN", &args->in, "", "results files"})}}},
             .reports = true,
-            .run = [args](const CommonArguments& common) {
-                catch_interrupt();
-                return exit_status(merge(*args, common));
-            }};
+            .run = interruptible(args, merge)};
 }
 
 }  // namespace corpuscle

@@ -6,9 +6,8 @@
 #include <nlohmann/json.hpp>
 
 #include "cli/output/output_files.hpp"
-#include "cli/output/printable.hpp"
-#include "cli/output/sweep_tables.hpp"
 #include "cli/output/terminal.hpp"
+#include "cli/sweep/sweep_output.hpp"
 #include "cli/verbs.hpp"
 #include "core/text/input_files.hpp"
 #include "io/output/output_check.hpp"

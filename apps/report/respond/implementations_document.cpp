@@ -1,7 +1,6 @@
-#include "report/respond/implementations_document.hpp"
-
 #include <algorithm>
 
+#include "report/respond/respond_report.hpp"
 #include "run/summary/json_number.hpp"
 
 namespace corpuscle {

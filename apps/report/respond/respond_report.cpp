@@ -1,13 +1,8 @@
 #include "report/respond/respond_report.hpp"
 
-#include <fmt/format.h>
 #include <algorithm>
-#include <cmath>
 
-#include "core/version.hpp"
-#include "report/common_documents.hpp"
 #include "report/page_template.hpp"
-#include "report/respond/implementations_document.hpp"
 #include "run/channels/channel_population.hpp"
 #include "run/summary/json_number.hpp"
 
@@ -116,7 +111,7 @@ void RespondReport::add_spikes(const Input& input, std::size_t channel, std::siz
         spikes_.push_back({{"afferent", input.on_channels().plans()[groups_[group] + k].name},
                            {"channel", first_channel_ + channel},
                            {"count", train.size()},
-                           {"times", base64(train.data(), train.size() * sizeof(double))}});
+                           {"times", base64(train)}});
     }
 }
 
@@ -186,10 +181,7 @@ std::string RespondReport::page(const RunSummary& summary, std::span<const Affer
     for (const auto& w : warnings) notes.push_back(w);
     for (const auto& i : summary.inputs)
         for (const auto& r : i.notes) notes.push_back(i.name + ": " + r);
-    Json document = {{"title", title},
-                     {"program", fmt::format("corpuscle {}", version)},
-                     {"command", command},
-                     {"inputs", inputs_},
+    Json document = {{"inputs", inputs_},
                      {"afferents", afferents},
                      {"traces", traces_},
                      {"spikes", spikes_},
@@ -197,12 +189,12 @@ std::string RespondReport::page(const RunSummary& summary, std::span<const Affer
                      {"comparisons", implementations_document(summary.comparisons)},
                      {"quality", quality_document(summary)},
                      {"notes", notes},
-                     {"versions", {{"corpuscle", version}, {"compiler", compiler_version()}}}};
-    document["costs"] = costs;
+                     {"versions", versions_document()},
+                     {"costs", costs}};
     if (copies_.count > 0)
         document["copies"] = {
             {"count", copies_.count}, {"shown", std::min(copies_.count, max_copies)}, {"has_probes", wants_probes()}, {"rates", rates_}};
-    return fill_template(asset("page.html"), escape_html(title), script_json(document));
+    return report_page("page.html", title, command, document);
 }
 
 }  // namespace corpuscle

@@ -56,4 +56,7 @@ private:
     Json inputs_ = Json::array(), traces_ = Json::array(), spikes_ = Json::array(), rates_ = Json::array();
 };
 
+/// The table of implementations: for each afferent type and channel a row of the reference, then a row for each other implementation.
+nlohmann::ordered_json implementations_document(const ImplementationComparisons&);
+
 }  // namespace corpuscle

@@ -1,12 +1,11 @@
-#include "report/skin/skin_page.hpp"
+// The report page of a skin.
 
 #include <fmt/format.h>
 #include <cmath>
 #include <nlohmann/json.hpp>
 
-#include "core/version.hpp"
-#include "report/common_documents.hpp"
 #include "report/page_template.hpp"
+#include "report/skin/skin_report.hpp"
 
 namespace corpuscle {
 namespace {
@@ -23,14 +22,14 @@ std::string places64(std::size_t count, PositionOf position_of) {
         const Position p = position_of(k);
         for (const double v : {p.x, p.y}) xy.push_back(static_cast<float>(std::round(1e6 * v) * 1e-3));
     }
-    return base64(xy.data(), xy.size() * sizeof(float));
+    return base64(xy);
 }
 
 Json sites_document(const Sites& sites) {
     const std::vector<std::uint16_t> region(sites.region.begin(), sites.region.end());
     return {{"places", places64(sites.size(), [&](std::size_t s) { return sites.positions[s]; })},
             {"side", 1e3 * std::sqrt(sites.area)},
-            {"region", base64(region.data(), region.size() * sizeof(std::uint16_t))},
+            {"region", base64(region)},
             {"names", sites.size() <= max_named ? Json(sites.names) : Json(nullptr)}};
 }
 
@@ -52,11 +51,11 @@ Json marks_document(const SkinSummary& summary, std::span<const std::uint32_t> b
         positions.push_back(mean), first_spikes.push_back(static_cast<float>(earliest));
         region.push_back(static_cast<std::uint16_t>(afferents[begin[m]].region)), copy.push_back(afferents[begin[m]].number);
     }
-    return {{"begin", base64(begin.data(), begin.size_bytes())},
+    return {{"begin", base64(begin)},
             {"places", places64(positions.size(), [&](std::size_t m) { return positions[m]; })},
-            {"region", base64(region.data(), region.size() * sizeof(std::uint16_t))},
-            {"copy", base64(copy.data(), copy.size() * sizeof(std::uint32_t))},
-            {"first", base64(first_spikes.data(), first_spikes.size() * sizeof(float))}};
+            {"region", base64(region)},
+            {"copy", base64(copy)},
+            {"first", base64(first_spikes)}};
 }
 
 Json classes_document(const Innervation& skin) {
@@ -81,18 +80,15 @@ std::string skin_page(const SkinSummary& summary, const SkinReport& report, cons
     const auto title = fmt::format("{} on {}", summary.input.name, summary.skin->plan.name);
     Json notes = run_info.warnings;
     for (const auto& r : run_info.notes) notes.push_back(r);
-    const Json page = {{"title", title},
-                       {"program", fmt::format("corpuscle {}", version)},
-                       {"command", command},
-                       {"notes", notes},
-                       {"summary", summary.document(options, run_info)},
-                       {"regions", summary.skin->plan.sites.regions},
-                       {"sites", sites_document(summary.skin->plan.sites)},
-                       {"marks", marks_document(summary, report.marks())},
-                       {"classes", classes_document(*summary.skin)},
-                       {"over", report.document()},
-                       {"versions", {{"corpuscle", version}, {"compiler", compiler_version()}}}};
-    return fill_template(asset("skin.html"), escape_html(title), script_json(page));
+    return report_page("skin.html", title, command,
+                       {{"notes", notes},
+                        {"summary", summary.document(options, run_info)},
+                        {"regions", summary.skin->plan.sites.regions},
+                        {"sites", sites_document(summary.skin->plan.sites)},
+                        {"marks", marks_document(summary, report.marks())},
+                        {"classes", classes_document(*summary.skin)},
+                        {"over", report.document()},
+                        {"versions", versions_document()}});
 }
 
 }  // namespace corpuscle

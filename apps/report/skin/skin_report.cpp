@@ -1,12 +1,7 @@
 #include "report/skin/skin_report.hpp"
 
-#include <algorithm>
 #include <cmath>
 #include <nlohmann/json.hpp>
-#include <utility>
-
-#include "report/common_documents.hpp"
-#include "report/skin/skin_frames.hpp"
 
 namespace corpuscle {
 namespace {
@@ -18,6 +13,70 @@ constexpr int ticks_per_sample = 10;  // resolution of the spike times on the pa
 /// The number of neighbouring afferents or sites that share a mark, so that `count` of them have at most `max_marks` marks.
 std::uint32_t per_mark(std::size_t count, std::size_t max_marks) {
     return static_cast<std::uint32_t>((count + max_marks - 1) / std::max<std::size_t>(max_marks, 1));
+}
+
+/// Variable-length integers (LEB128): seven bits per byte, the lowest bits first; the byte's highest bit is set if more bytes follow.
+class PackedNumbers {
+public:
+    std::vector<unsigned char> bytes;
+    void append_number(std::uint64_t n) {
+        for (; n >= 128; n >>= 7) bytes.push_back(static_cast<unsigned char>(n | 128));
+        bytes.push_back(static_cast<unsigned char>(n));
+    }
+    /// Encodes a frame as one level per place: levels 1 to 254 as one byte, larger ones as 255 and the level as a number, runs of places
+    /// with level 0 as 0 and their number. `level` converts an entry's value to its level, at least 1.
+    template <class Frame, class Level>
+    void append_frame(const Frame& f, std::size_t places, Level level) {
+        std::size_t at = 0;
+        const auto zeros_to = [&](std::size_t place) {
+            if (place > at) bytes.push_back(0), append_number(place - at);
+            at = place + 1;
+        };
+        for (const auto& [place, value] : f) {
+            zeros_to(place);
+            const std::uint64_t n = level(value);
+            bytes.push_back(static_cast<unsigned char>(std::min<std::uint64_t>(n, 255)));
+            if (n >= 255) append_number(n);
+        }
+        zeros_to(places);
+    }
+};
+
+/// The frames of a map as compact base64 text for skin-data.js. `T`: sampling period, s. `level`: converts the value of a place in frame k
+/// to its level. `properties`: further members of the document.
+template <class V, class Level>
+Json frames_document(const BinnedFrames<V>& sums, double T, const Json& properties, Level level) {
+    PackedNumbers bytes;
+    const auto frames = sums.frames();
+    for (std::size_t k = 0; k < frames.size(); ++k) bytes.append_frame(frames[k], sums.places(), [&](V x) { return level(x, k); });
+    Json out = {{"count", frames.size()}, {"width", static_cast<double>(sums.width()) * T}, {"places", sums.places()}};
+    out.update(properties);
+    out["data"] = base64(bytes.bytes);
+    return out;
+}
+
+/// Spike counts in frames.
+Json counts_document(const BinnedFrames<std::uint32_t>& counts, double T) {
+    return frames_document(counts, T, Json::object(), [](std::uint32_t n, std::size_t) { return std::uint64_t{n}; });
+}
+
+/// Mean force of each mark of sites in each frame, in steps of 1/254 of the maximum ("max", N). `sites`: the force of each mark, summed
+/// over the samples of the frame. `samples`: length of the run, because the last frame may be incomplete.
+Json force_document(const BinnedFrames<double>& sites, double T, std::int64_t samples) {
+    // the number of samples in frame k
+    const auto length = [&](std::size_t k) {
+        return static_cast<double>(std::clamp<std::int64_t>(samples - static_cast<std::int64_t>(k) * sites.width(), 1, sites.width()));
+    };
+    double max = 0;  // mean force of a mark in a frame, N
+    std::size_t k = 0;
+    for (const auto& frame : sites.frames()) {
+        for (const auto& e : frame) max = std::max(max, e.value / length(k));
+        ++k;
+    }
+    return frames_document(sites, T, {{"max", max}}, [&](double sum, std::size_t frame) {
+        const double fraction = max > 0 ? sum / length(frame) / max : 0;
+        return fraction > 0 ? static_cast<std::uint64_t>(std::clamp(std::lround(254 * fraction), 1L, 254L)) : std::uint64_t{0};
+    });
 }
 
 }  // namespace
@@ -109,7 +168,7 @@ Json SkinReport::spikes_document() const {
             bytes.append_number(static_cast<std::uint64_t>(ticks[k] - std::exchange(before, ticks[k])));
         next = u + 1, ++trains;
     }
-    return {{"count", spikes_}, {"trains", trains}, {"tick", clock_.T() / ticks_per_sample}, {"data", array64(bytes.bytes)}};
+    return {{"count", spikes_}, {"trains", trains}, {"tick", clock_.T() / ticks_per_sample}, {"data", base64(bytes.bytes)}};
 }
 
 Json SkinReport::document() const {
@@ -118,8 +177,8 @@ Json SkinReport::document() const {
             {"samples", samples_},
             {"shown_samples", samples_with_delays_},
             {"force", curve_document(0, nullptr, "force", "N", forces_)},
-            {"classes", frames_document(classes_, clock_.T())},
-            {"marks", frames_document(marks_, clock_.T())},
+            {"classes", counts_document(classes_, clock_.T())},
+            {"marks", counts_document(marks_, clock_.T())},
             {"afferents_per_mark", afferents_per_mark_},
             {"sites", force_document(sites_, clock_.T(), samples_)},
             {"sites_per_mark", sites_per_mark_},

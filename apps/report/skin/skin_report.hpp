@@ -2,11 +2,9 @@
 // Collects the time-dependent data of a skin page in bounded memory: total force, spike counts of classes, maps of afferents and sites, and
 // the spike times if there are not too many.
 
-#include <nlohmann/json_fwd.hpp>
-
 #include "report/envelope.hpp"
 #include "report/skin/binned_frames.hpp"
-#include "run/sink.hpp"
+#include "run/summary/skin_summary.hpp"
 
 namespace corpuscle {
 
@@ -51,5 +49,9 @@ private:
     void add_force(const RunBlock&);
     nlohmann::ordered_json spikes_document() const;
 };
+
+/// The report page of a skin as self-contained HTML: animated maps, rasters, rates, first spikes. The summary and the report must be of the
+/// same run, whose Innervation must still exist. `command`: the command line.
+std::string skin_page(const SkinSummary&, const SkinReport&, const RespondOptions&, const SkinRunNotes&, const std::string& command);
 
 }  // namespace corpuscle

@@ -3,11 +3,9 @@
 #include <fmt/format.h>
 #include <algorithm>
 #include <cmath>
-#include <map>
+#include <set>
 
-#include "core/version.hpp"
 #include "report/page_template.hpp"
-#include "report/sweep/sweep_plots.hpp"
 #include "sweep/spec/mismatch_samples.hpp"
 
 namespace corpuscle {
@@ -22,41 +20,28 @@ constexpr std::size_t max_failed = 200;   // items in the table of failed items
 constexpr std::size_t max_extremes = 8;   // items listed with the smallest values of a measure, and with the largest
 constexpr std::size_t max_scatters = 4;   // scatter plots per measure
 
-/// The data of those rows of the sweep's table that the page's plots and tables refer to, each row once.
-class PageRows {
-    const SweepTable& table_;
-    std::map<std::size_t, std::size_t> number_;  // row of the table -> index on the page
-
-public:
-    explicit PageRows(const SweepTable& table) : table_(table) {}
-    /// Adds rows of the sweep's table.
-    void add(const std::vector<std::size_t>& rows) {
-        for (const auto r : rows) number_.emplace(r, 0);
+/// The data of those rows of the sweep's table that the page's plots and tables refer to. Every array of the result has one element for
+/// each of them.
+Json rows_document(const SweepTable& table, const std::set<std::size_t>& rows, const std::vector<Grouping>& groupings) {
+    Json out = {{"row", rows},           {"item", Json::array()},     {"end", Json::array()},   {"passes", Json::array()},
+                {"axes", Json::array()}, {"measures", Json::array()}, {"groups", Json::array()}};
+    const auto column = [&](const std::vector<double>& all) {
+        std::vector<double> selected;
+        for (const auto row : rows) selected.push_back(all[row]);
+        return rounded_numbers(selected);
+    };
+    for (const auto row : rows) {
+        out["item"].push_back(table.items[row]), out["end"].push_back(static_cast<int>(table.ends[row]));
+        out["passes"].push_back(table.passes(row) ? 1 : 0);
     }
-    /// Numbers the rows in ascending order. Every array of the result has one element for each of them.
-    Json document(const std::vector<Grouping>& groupings) {
-        std::size_t count = 0;
-        for (auto& [row, n] : number_) n = count++;
-        Json out = {{"row", Json::array()}, {"item", Json::array()}, {"end", Json::array()}, {"passes", Json::array()}};
-        const auto column = [&](const std::vector<double>& all) {
-            std::vector<double> selected;
-            for (const auto& [row, n] : number_) selected.push_back(all[row]);
-            return rounded_numbers(selected);
-        };
-        for (const auto& [row, n] : number_) {
-            out["row"].push_back(row), out["item"].push_back(table_.items[row]), out["end"].push_back(static_cast<int>(table_.ends[row]));
-            out["passes"].push_back(table_.passes(row) ? 1 : 0);
-        }
-        out["axes"] = Json::array(), out["measures"] = Json::array(), out["groups"] = Json::array();
-        for (const auto& a : table_.axis_values) out["axes"].push_back(column(a));
-        for (const auto& m : table_.measure_values) out["measures"].push_back(column(m));
-        for (const auto& g : groupings) {
-            out["groups"].push_back(Json::array());
-            for (const auto& [row, n] : number_) out["groups"].back().push_back(g.row_groups.group_of[row]);
-        }
-        return out;
+    for (const auto& a : table.axis_values) out["axes"].push_back(column(a));
+    for (const auto& m : table.measure_values) out["measures"].push_back(column(m));
+    for (const auto& g : groupings) {
+        out["groups"].push_back(Json::array());
+        for (const auto row : rows) out["groups"].back().push_back(g.row_groups.group_of[row]);
     }
-};
+    return out;
+}
 
 /// The rows with the smallest values of a measure (the smallest first), then those with the largest (the largest first).
 std::vector<std::size_t> extremes_of(const std::vector<double>& values) {
@@ -170,10 +155,7 @@ Json sizes_document(const SweepSummary& s) {
 Result<std::string> sweep_page(const SweepResults& results, const SweepTable& table, const SweepSummary& summary, const std::string& title,
                                const std::string& command) {
     const auto groupings = groupings_of(table);
-    Json page = {{"title", title},
-                 {"program", fmt::format("corpuscle {}", version)},
-                 {"command", command},
-                 {"summary", document_of(table, summary, title)}};
+    Json page = {{"summary", document_of(table, summary, title)}};
     page["groupings"] = Json::array();
     for (const auto& g : groupings) {
         Json labels = Json::array();
@@ -187,7 +169,7 @@ Result<std::string> sweep_page(const SweepResults& results, const SweepTable& ta
             samples->seed, samples->chips > 0 ? fmt::format(" modulo {}", samples->chips) : "");
     if (table.is_grid) page["grids"] = grids_document(table);
     page["histograms"] = Json::array(), page["normal_plots"] = Json::array(), page["extremes"] = Json::array();
-    PageRows shown(table);
+    std::set<std::size_t> shown;  // rows of the sweep's table
     for (const auto& values : table.measure_values) {
         page["histograms"].push_back(Json::array()), page["normal_plots"].push_back(Json::array());
         for (const auto& g : groupings) {
@@ -196,7 +178,7 @@ Result<std::string> sweep_page(const SweepResults& results, const SweepTable& ta
         }
         const auto extremes = extremes_of(values);
         page["extremes"].push_back(extremes);
-        shown.add(extremes);
+        shown.insert(extremes.begin(), extremes.end());
     }
     const auto points = thinned_rows(table.rows(), max_points), chips = thinned_rows(table.rows(), max_rasters);
     const auto traced = thinned_rows(table.rows(), max_traces), failed = failed_rows(table);
@@ -212,12 +194,12 @@ Result<std::string> sweep_page(const SweepResults& results, const SweepTable& ta
     const auto diverged = TRY(failed_items(results, max_failed));
     page["reasons"] = Json::object();
     for (const auto& failure : diverged) page["reasons"][fmt::format("{}", failure.item)] = failure.reason;
-    for (const auto* rows : {&points, &chips, &failed}) shown.add(*rows);
+    for (const auto* rows : {&points, &chips, &failed}) shown.insert(rows->begin(), rows->end());
     page["points"] = points, page["failed"] = failed;
     page["factors"] = factors_document(table, summary, points);
     page["sizes"] = sizes_document(summary);
-    page["rows"] = shown.document(groupings);
-    return fill_template(asset("sweep.html"), escape_html(title), script_json(page));
+    page["rows"] = rows_document(table, shown, groupings);
+    return report_page("sweep.html", title, command, page);
 }
 
 }  // namespace corpuscle

@@ -1,10 +1,9 @@
-#include "report/sweep/sweep_plots.hpp"
-
 #include <fmt/format.h>
 #include <algorithm>
 #include <cmath>
 
 #include "report/envelope.hpp"
+#include "report/sweep/sweep_page.hpp"
 #include "sweep/spec/probability.hpp"
 
 namespace corpuscle {
@@ -17,13 +16,6 @@ constexpr std::size_t max_spikes = 200000;       // of a raster
 
 /// Rounds to five digits.
 double rounded(double x) { return std::isfinite(x) ? std::strtod(fmt::format("{:.5g}", x).c_str(), nullptr) : x; }
-
-std::vector<double> finite_of(const std::vector<double>& values) {
-    std::vector<double> out;
-    for (const double x : values)
-        if (std::isfinite(x)) out.push_back(x);
-    return out;
-}
 
 /// The quantile q (0 to 1) of the values, without interpolation. Reorders the values, which must not be empty.
 double quantile_of(std::vector<double>& values, double q) {
@@ -105,7 +97,8 @@ std::vector<std::size_t> thinned_rows(std::size_t rows, std::size_t max_rows) {
 }
 
 PlotJson histograms(const std::vector<double>& values, const SweepGroups& groups) {
-    auto known = finite_of(values);
+    auto known = values;
+    std::erase_if(known, [](double x) { return !std::isfinite(x); });
     if (known.empty()) return nullptr;
     const Bins bins = bins_for(std::move(known));
     PlotJson counts = PlotJson::array();
@@ -193,10 +186,7 @@ Result<PlotJson> rasters(const SweepResults& results, std::size_t train, const S
         shown.push_back(r), counts.push_back(spikes.size());
         for (const double t : spikes) times.push_back(static_cast<float>(t));
     }
-    return PlotJson{{"name", results.train_names[train]},
-                    {"rows", shown},
-                    {"counts", counts},
-                    {"times", base64(times.data(), times.size() * sizeof(float))}};
+    return PlotJson{{"name", results.train_names[train]}, {"rows", shown}, {"counts", counts}, {"times", base64(times)}};
 }
 
 }  // namespace corpuscle

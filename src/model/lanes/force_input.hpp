@@ -5,11 +5,10 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <optional>
 
 #include "model/lane_population.hpp"
 #include "model/lanes/aligned_buffer.hpp"
-#include "model/lanes/shared_receptor.hpp"
+#include "model/lanes/kernel.hpp"
 
 namespace corpuscle::lanes {
 
@@ -41,11 +40,25 @@ void profile_gains(const ForceProfile& profile, std::size_t first, V* out) {
         out[u] = profile.gain.empty() ? V(1) : first + u < profile.gain.size() ? static_cast<V>(profile.gain[first + u]) : V(0);
 }
 
+/// For each step the current at its beginning and at its end, and their sum: of one output under a profile, A.
+using ProfileCurrents = std::array<std::vector<double>, 3>;
+
+/// If many afferents share one force and one set of receptor parameters, the current of their receptor is computed once: that of all
+/// afferents, apart from a gain, in double precision.
+class SharedReceptor {
+public:
+    virtual ~SharedReceptor() = default;
+    virtual std::vector<double> save() const = 0;
+    virtual bool resume(std::span<const double>) = 0;  ///< returns false if the values are not a state of this receptor
+    /// Simulates the next steps, one for each sample of force (N). `first`: true for the first block of a simulation.
+    virtual void run(std::span<const double> force, bool first, std::array<ProfileCurrents, max_outputs>& out) = 0;
+};
+
 /// The force of a profile, or the currents that it causes in the shared receptor, converted to V.
 template <class V>
 class ProfileBuffers {
     std::array<ProfileCurrents, max_outputs> in_double_;                 // the currents before conversion
-    std::array<std::array<AlignedBuffer<V>, 3>, max_outputs> currents_;  // of each output: from, to, end_sum as in ProfileCurrents
+    std::array<std::array<AlignedBuffer<V>, 3>, max_outputs> currents_;  // of each output, as ProfileCurrents
     AlignedBuffer<V> force_;
 
     static void convert(std::span<const double> values, AlignedBuffer<V>& out) {
@@ -58,10 +71,8 @@ public:
     /// `first`: true for the first block of a simulation; `outputs`: number of currents of the receptor.
     void compute_currents(SharedReceptor& receptor, std::span<const double> force, bool first, int outputs) {
         receptor.run(force, first, in_double_);
-        for (std::size_t k = 0; k < static_cast<std::size_t>(outputs); ++k) {
-            const auto& c = in_double_[k];
-            convert(c.from, currents_[k][0]), convert(c.to, currents_[k][1]), convert(c.end_sum, currents_[k][2]);
-        }
+        for (std::size_t k = 0; k < static_cast<std::size_t>(outputs); ++k)
+            for (std::size_t part = 0; part < 3; ++part) convert(in_double_[k][part], currents_[k][part]);
     }
     const V* force() const { return force_.data(); }
     const std::array<AlignedBuffer<V>, 3>& currents(int output) const { return currents_[static_cast<std::size_t>(output)]; }

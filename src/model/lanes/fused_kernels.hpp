@@ -100,11 +100,6 @@ void fused_tile(const ReceptorCall<V>& c, const NeuronCall<V>& to) {
     if (c.input == ForceInput::profile) fused_tile<V, R, N, ForceInput::profile>(c, to);
 }
 
-template <class V, class R>
-void flush_decayed_fused(const ReceptorCall<V>& c) {
-    flush_decayed<V, R, ReceptorCall<V>, stored_receptor_values<V, R>>(c);
-}
-
 /// True if t_ref is 0 in all `count` neuron models.
 template <class N>
 bool none_refractory(const std::byte* neurons, std::size_t count) {

@@ -13,60 +13,44 @@ namespace {
 template <class V, class R, class N>
 constexpr FusedKernel<V> fused_kernel() {
     if constexpr (can_fuse<R, N>)
-        return {none_refractory<N>, flush_decayed_fused<V, R>, fused_tile<V, R, N>};
+        return {none_refractory<N>, flush_decayed<V, R, stored_receptor_values<V, R>>, fused_tile<V, R, N>};
     else
         return {};
 }
-template <class V, class R, class Neurons>
-struct FusedKernels;
 template <class V, class R, template <class> class... N>
-struct FusedKernels<V, R, ModelList<N...>> {
-    static constexpr FusedKernel<V> with_each[] = {fused_kernel<V, R, N<Batch<V>>>()...};
-};
+constexpr std::array<FusedKernel<V>, sizeof...(N)> fused_kernels(ModelList<N...>) {
+    return {fused_kernel<V, R, N<Batch<V>>>()...};
+}
+template <class V, class R>
+constexpr auto fused_with_each = fused_kernels<V, R>(Neurons{});
 
+template <class V, class M, class Call>
+constexpr ModelKernel<V, Call> kernel_of(void (*run)(Call&)) {
+    return {M::name, sizeof(M), value_count<typename M::State, V>, build<V, M>, start_states<V, M>, flush_decayed<V, M>, run};
+}
+template <class V, template <class> class... N>
+constexpr std::array<NeuronKernel<V>, sizeof...(N)> neuron_kernels(ModelList<N...>) {
+    return {kernel_of<V, N<Batch<V>>>(run_neuron_tile<V, N<Batch<V>>>)...};
+}
 template <class V, class R>
 constexpr ReceptorKernel<V> receptor_kernel() {
-    return {R::name,
-            R::outputs,
-            continuous<R>,
-            sizeof(R),
-            sizeof(typename R::State) / sizeof(Batch<V>),
-            build<V, R>,
-            start_states<V, R>,
-            flush_decayed<V, R>,
-            run_receptor_tile<V, R>,
-            FusedKernels<V, R, Neurons>::with_each};
+    constexpr bool scales = requires { R::scales_with_force; };
+    return {kernel_of<V, R>(run_receptor_tile<V, R>), R::outputs, continuous<R>, scales, fused_with_each<V, R>};
 }
-template <class V, class N>
-constexpr NeuronKernel<V> neuron_kernel() {
-    return {N::name,
-            sizeof(N),
-            sizeof(typename N::State) / sizeof(Batch<V>),
-            build<V, N>,
-            start_states<V, N>,
-            flush_decayed<V, N>,
-            run_neuron_tile<V, N>};
+template <class V, template <class> class... R>
+constexpr std::array<ReceptorKernel<V>, sizeof...(R)> receptor_kernels(ModelList<R...>) {
+    return {receptor_kernel<V, R<Batch<V>>>()...};
 }
-
 template <class V>
-struct AllKernels {
-    template <template <class> class... R>
-    static constexpr auto receptors_of(ModelList<R...>) {
-        return std::array<ReceptorKernel<V>, sizeof...(R)>{receptor_kernel<V, R<Batch<V>>>()...};
-    }
-    template <template <class> class... N>
-    static constexpr auto neurons_of(ModelList<N...>) {
-        return std::array<NeuronKernel<V>, sizeof...(N)>{neuron_kernel<V, N<Batch<V>>>()...};
-    }
-    static constexpr auto receptors = receptors_of(Receptors{});
-    static constexpr auto neurons = neurons_of(Neurons{});
-};
+constexpr auto all_receptors = receptor_kernels<V>(Receptors{});
+template <class V>
+constexpr auto all_neurons = neuron_kernels<V>(Neurons{});
 
 }  // namespace
 
 namespace CORPUSCLE_ISA {
-const KernelTable<double> kernels_in_double{width<double>, AllKernels<double>::receptors, AllKernels<double>::neurons};
-const KernelTable<float> kernels_in_float{width<float>, AllKernels<float>::receptors, AllKernels<float>::neurons};
+const KernelTable<double> kernels_in_double{width<double>, all_receptors<double>, all_neurons<double>};
+const KernelTable<float> kernels_in_float{width<float>, all_receptors<float>, all_neurons<float>};
 }  // namespace CORPUSCLE_ISA
 
 }  // namespace corpuscle::lanes

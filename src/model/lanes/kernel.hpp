@@ -53,13 +53,19 @@ struct PrefetchRange {
     std::size_t bytes;
 };
 
-/// Arguments for the receptors of a tile over a chunk.
+/// Arguments of all functions of a kernel: the models and the state of a tile, of its receptors or of its neurons for one output.
 template <class V>
-struct ReceptorCall {
+struct TileCall {
     const std::byte* models;
     std::size_t stride;    ///< bytes from the model of a vector to that of the next vector; 0: one model for all
     V* state;              ///< of the tile: [state value][tile_size]
     int afferents, steps;  ///< afferents of the tile without padding; steps of the chunk
+    PrefetchRange prefetch;
+};
+
+/// Arguments for the receptors of a tile over a chunk.
+template <class V>
+struct ReceptorCall : TileCall<V> {
     Method method;
     ForceInput input;
     const V* rows;                   ///< ForceInput::rows: force [step][tile_size], N
@@ -69,57 +75,47 @@ struct ReceptorCall {
     const V* gain;                   ///< ForceInput::profile: factor of each afferent, [tile_size]
     V* from;  ///< result: currents at the beginning of each step, [output][current_rows][tile_size], A; if continuous, of step 0 only
     V* to;    ///< result: currents at the end of each step, in the same layout
-    PrefetchRange prefetch;
     bool has_non_finite;  ///< result: true if some force may be NaN or infinite
 };
 
 /// Arguments for the neurons of a tile over a chunk, for one output of the receptor.
 template <class V>
-struct NeuronCall {
-    const std::byte* models;  ///< this and the next four as in ReceptorCall
-    std::size_t stride;
-    V* state;
-    int afferents, steps;
+struct NeuronCall : TileCall<V> {
     const V* from;     ///< currents at the beginning of each step, A: [step][tile_size]; if `gain` is not null, [step]
     const V* to;       ///< currents at the end of each step, in the same layout
     const V* end_sum;  ///< from + to for each step; only used if `gain` is not null
     const V* gain;     ///< [tile_size]: factor of each afferent for currents that all share; null: every afferent has its own currents
     FiringList<V>* fired;
-    PrefetchRange prefetch;
 };
 
 /// The functions that simulate a receptor and a neuron in one loop. All are null for a pair that cannot be fused.
 template <class V>
 struct FusedKernel {
     bool (*is_usable)(const std::byte* neurons, std::size_t count);  ///< true if the loop can simulate these `count` neurons
-    void (*flush_decayed)(const ReceptorCall<V>&);                   ///< as ReceptorKernel::flush_decayed
+    void (*flush_decayed)(const TileCall<V>&);                       ///< as ModelKernel::flush_decayed
     void (*run)(const ReceptorCall<V>&, const NeuronCall<V>&);       ///< ignores from, to, end_sum and the neurons' gain
 };
 
-template <class V>
-struct ReceptorKernel {
+/// The functions of a receptor or a neuron.
+template <class V, class Call>
+struct ModelKernel {
     std::string_view name;
-    int outputs;                            ///< number of currents
-    bool continuous;                        ///< true if the current at the beginning of a step is that at the end of the step before
     std::size_t model_bytes, state_values;  ///< bytes of the model of one vector; number of state values of one afferent
     /// Builds the models of the `count` afferents of a tile, or one model for all if `count` is 1, from the values of
     /// all parameters, afferent by afferent.
     void (*build)(std::byte* at, const double* values, int count, double dt, Method);
-    void (*start)(const ReceptorCall<V>&);          ///< sets the state before the first step
-    void (*flush_decayed)(const ReceptorCall<V>&);  ///< as the models' flush_decayed(); reads only models and state
-    void (*run)(ReceptorCall<V>&);
-    std::span<const FusedKernel<V>> fused;  ///< this receptor with each neuron, in the order of KernelTable::neurons
+    void (*start)(Call&);                       ///< sets the state before the first step
+    void (*flush_decayed)(const TileCall<V>&);  ///< as the models' flush_decayed()
+    void (*run)(Call&);
 };
-
-/// As ReceptorKernel.
 template <class V>
-struct NeuronKernel {
-    std::string_view name;
-    std::size_t model_bytes, state_values;
-    void (*build)(std::byte* at, const double* values, int count, double dt, Method);
-    void (*start)(const NeuronCall<V>&);
-    void (*flush_decayed)(const NeuronCall<V>&);
-    void (*run)(const NeuronCall<V>&);
+using NeuronKernel = ModelKernel<V, const NeuronCall<V>>;
+template <class V>
+struct ReceptorKernel : ModelKernel<V, ReceptorCall<V>> {
+    int outputs;                            ///< number of currents
+    bool continuous;                        ///< true if the current at the beginning of a step is that at the end of the step before
+    bool scales_with_force;                 ///< true if the current is proportional to force
+    std::span<const FusedKernel<V>> fused;  ///< this receptor with each neuron, in the order of KernelTable::neurons
 };
 
 /// The kernels of one instruction set.

@@ -34,7 +34,7 @@ struct ForceReader {
 
 /// Sets the states of all receptors of a tile before the first step. The force before it is that of the first step.
 template <class V, class R>
-void start_states(const ReceptorCall<V>& c) {
+void start_states(ReceptorCall<V>& c) {
     for (int first = 0; first < tile_size; first += width<V>) {
         const auto& r = model<R>(c.models, c.stride, first / width<V>);
         const auto at = [&](ForceInput f) {

@@ -3,8 +3,6 @@
 
 #include <algorithm>
 #include <bit>
-#include <cstdint>
-#include <span>
 #include <vector>
 
 #include "core/spike.hpp"

@@ -101,8 +101,8 @@ template <class S, class V, std::size_t stored = value_count<S, V>>
 }
 
 /// Calls the model's flush_decayed(), if it has one, for all states in a tile. The tile contains the first `stored` values of each state.
-template <class V, class M, class Call, std::size_t stored = value_count<typename M::State, V>>
-void flush_decayed(const Call& c) {
+template <class V, class M, std::size_t stored = value_count<typename M::State, V>>
+void flush_decayed(const TileCall<V>& c) {
     if constexpr (requires(const M& m, typename M::State& s) { m.flush_decayed(s); })
         for (int first = 0; first < tile_size; first += width<V>) {
             auto s = read<typename M::State, V, stored>(c.state, first);
@@ -126,8 +126,8 @@ public:
 };
 
 /// Number of steps that the loops take together if each simulates J vectors of the tile over the chunk.
-template <class V, int J, class Call>
-int iteration_count(const Call& c) {
+template <class V, int J>
+int iteration_count(const TileCall<V>& c) {
     return (c.afferents + J * width<V> - 1) / (J * width<V>)*c.steps;
 }
 

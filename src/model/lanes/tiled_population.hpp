@@ -2,15 +2,7 @@
 // The implementation of LanePopulation for one number type V, double or float. Models and states are in tiles of 64 afferents; blocks are
 // split into chunks of steps that fit the cache.
 
-#include <fmt/format.h>
-#include <cmath>
-#include <optional>
-#include <tuple>
-
-#include "model/lane_population.hpp"
 #include "model/lanes/force_input.hpp"
-#include "model/lanes/kernel.hpp"
-#include "model/lanes/shared_receptor.hpp"
 #include "model/lanes/spike_collector.hpp"
 #include "model/lanes/tile_states.hpp"
 
@@ -21,14 +13,13 @@ template <class V>
 struct PopulationLayout {
     const ReceptorKernel<V>* receptor;
     const NeuronKernel<V>* neuron;
-    const FusedKernel<V>* fused;                      ///< receptor and neuron in one loop; null: not available
-    int lanes;                                        ///< afferents in a vector
-    std::size_t size;                                 ///< number of afferents
-    AlignedBuffer<std::byte> receptors, neurons;      ///< the models: one for all afferents, or those of tile 0, tile 1 ...
-    std::unique_ptr<SharedReceptor> shared_receptor;  ///< not null if all afferents have the same receptor parameters
-    bool scales_with_force;                           ///< true if the receptor's current is proportional to force
-    std::vector<std::uint32_t> afferent_numbers;      ///< Spike::afferent_index of each afferent; empty: 0, 1, 2 ...
-    std::string name;                                 ///< for messages: "sa1b+lif-b"
+    const FusedKernel<V>* fused = nullptr;                  ///< receptor and neuron in one loop; null: not available
+    int lanes;                                              ///< afferents in a vector
+    std::size_t size;                                       ///< number of afferents
+    AlignedBuffer<std::byte> receptors = {}, neurons = {};  ///< the models: one for all afferents, or those of tile 0, tile 1 ...
+    std::unique_ptr<SharedReceptor> shared_receptor = {};   ///< not null if all afferents have the same receptor parameters
+    std::vector<std::uint32_t> afferent_numbers;            ///< Spike::afferent_index of each afferent; empty: 0, 1, 2 ...
+    std::string name;                                       ///< for messages: "sa1b+lif-b"
 };
 
 template <class V>
@@ -67,17 +58,29 @@ class TiledPopulation final : public LanePopulation {
     AlignedBuffer<V> zero_rows_{chunk_steps<V> * 2 * tile_size};  // the force on a tile without force
     std::vector<std::size_t> begin_, at_;                         // scratch arrays of merge_spikes()
 
-    /// The models of a tile, and the bytes from one vector's model to the next. `all` are the models of all tiles for `kernel`.
-    template <class Kernel>
-    std::pair<const std::byte*, std::size_t> models_of(const AlignedBuffer<std::byte>& all, const Kernel& kernel, std::size_t tile) const {
-        if (all.size() == kernel.model_bytes) return {all.data(), 0};
-        return {all.data() + tile * (tile_size / static_cast<std::size_t>(layout_.lanes)) * kernel.model_bytes, kernel.model_bytes};
-    }
-
     /// Number of afferents of a tile, without padding.
     int tile_size_of(std::size_t tile) const { return static_cast<int>(std::min<std::size_t>(tile_size, layout_.size - tile * tile_size)); }
     /// One bit for each afferent of a tile: 1 unless it is padding.
     std::uint64_t valid_bits(std::size_t tile) const { return ~std::uint64_t{0} >> (tile_size - tile_size_of(tile)); }
+
+    /// A call for a tile with its models and its state. `models` are the models of all tiles for `kernel`, or one model for all afferents.
+    template <class Call, class Kernel>
+    Call tile_call(const AlignedBuffer<std::byte>& models, const Kernel& kernel, std::size_t tile, V* state, int steps) const {
+        const std::size_t stride = models.size() == kernel.model_bytes ? 0 : kernel.model_bytes;
+        Call c{};
+        c.models = models.data() + tile * (tile_size / static_cast<std::size_t>(layout_.lanes)) * stride, c.stride = stride;
+        c.state = state, c.afferents = tile_size_of(tile), c.steps = steps;
+        return c;
+    }
+    template <class Call>
+    Call receptor_tile(std::size_t tile, int steps) const {
+        return tile_call<Call>(layout_.receptors, *layout_.receptor, tile, states_.receptor(tile), steps);
+    }
+    template <class Call>
+    Call neuron_tile(std::size_t tile, int output, int steps) const {
+        const auto before = static_cast<std::size_t>(output) * layout_.neuron->state_values * tile_size;
+        return tile_call<Call>(layout_.neurons, *layout_.neuron, tile, states_.neuron(tile) + before, steps);
+    }
 
     /// Transposes the columns of force on a tile into rows, for `steps` steps from `step` of the block on. `first` is the tile's first
     /// afferent.
@@ -105,11 +108,8 @@ class TiledPopulation final : public LanePopulation {
     V* step_ends(Scratch& s) const { return layout_.receptor->continuous ? s.from.data() + tile_size : s.to.data(); }
 
     ReceptorCall<V> receptor_call(const Block& b, std::size_t tile, std::size_t step, int steps, Scratch& s) const {
-        const auto [models, stride] = this->models_of(layout_.receptors, *layout_.receptor, tile);
-        ReceptorCall<V> c{};
-        c.models = models, c.stride = stride, c.state = states_.receptor(tile);
-        c.afferents = tile_size_of(tile), c.steps = steps, c.method = method_;
-        c.from = s.from.data(), c.to = step_ends(s), c.gain = s.gain.data();
+        auto c = receptor_tile<ReceptorCall<V>>(tile, steps);
+        c.method = method_, c.from = s.from.data(), c.to = step_ends(s), c.gain = s.gain.data();
         const std::size_t row = (tile * b.steps + step) * tile_size;
         if (const auto* columns = std::get_if<ForceColumns>(&b.force)) {
             transpose_columns(*columns, tile * tile_size, step, steps, s.rows.data());
@@ -131,10 +131,8 @@ class TiledPopulation final : public LanePopulation {
 
     NeuronCall<V> neuron_call(const Block& b, std::size_t tile, int output, std::size_t step, int steps, Scratch& s,
                               SpikeCollector<V>& fired, PrefetchRange ahead) const {
-        const auto [models, stride] = this->models_of(layout_.neurons, *layout_.neuron, tile);
-        NeuronCall<V> c{};
-        c.models = models, c.stride = stride, c.afferents = tile_size_of(tile), c.steps = steps, c.fired = &fired, c.prefetch = ahead;
-        c.state = states_.neuron(tile) + static_cast<std::size_t>(output) * layout_.neuron->state_values * tile_size;
+        auto c = neuron_tile<NeuronCall<V>>(tile, output, steps);
+        c.fired = &fired, c.prefetch = ahead;
         if (b.shared_currents) {
             const auto& [from, to, end_sum] = profile_.currents(output);
             c.from = from.data() + step, c.to = to.data() + step, c.end_sum = end_sum.data() + step, c.gain = s.gain.data();
@@ -186,16 +184,8 @@ class TiledPopulation final : public LanePopulation {
 
     /// Calls the models' flush_decayed() for the state of a tile.
     void flush_decayed(std::size_t tile) const {
-        ReceptorCall<V> c{};
-        std::tie(c.models, c.stride) = models_of(layout_.receptors, *layout_.receptor, tile);
-        c.state = states_.receptor(tile);
-        (layout_.fused ? layout_.fused->flush_decayed : layout_.receptor->flush_decayed)(c);
-        NeuronCall<V> n{};
-        std::tie(n.models, n.stride) = models_of(layout_.neurons, *layout_.neuron, tile);
-        for (int k = 0; k < layout_.receptor->outputs; ++k) {
-            n.state = states_.neuron(tile) + static_cast<std::size_t>(k) * layout_.neuron->state_values * tile_size;
-            layout_.neuron->flush_decayed(n);
-        }
+        (layout_.fused ? layout_.fused->flush_decayed : layout_.receptor->flush_decayed)(receptor_tile<TileCall<V>>(tile, 0));
+        for (int k = 0; k < layout_.receptor->outputs; ++k) layout_.neuron->flush_decayed(neuron_tile<TileCall<V>>(tile, k, 0));
     }
 
     /// Takes one step of a tile without force. If no afferent fires, and neither this step nor flush_decayed() changes a bit of the tile's
@@ -238,20 +228,16 @@ class TiledPopulation final : public LanePopulation {
     /// Steps between checks for states that are NaN or infinite. Such a state does not become finite again, so short blocks need not check
     /// each time.
     static constexpr std::int64_t check_interval = 64;
-    /// True if a multiple of check_interval is reached in the block.
-    bool is_check_due(const Block& b) const {
-        return step_ / check_interval != (step_ + static_cast<std::int64_t>(b.steps)) / check_interval;
-    }
-
     /// Simulates the tiles of job `number` over a block.
     void run_job(const Block& b, std::size_t number, Scratch& s) {
         auto& job = jobs_[number];
+        const bool is_check_due = step_ / check_interval != (step_ + static_cast<std::int64_t>(b.steps)) / check_interval;
         job.events.clear(), job.truncated_steps = job.extra_spikes = job.skipped_steps = job.firings = 0, job.non_finite = false;
         for (std::size_t tile = number * tiles_per_job; tile < std::min(tiles_, (number + 1) * tiles_per_job); ++tile) {
             if (const auto* profile = std::get_if<ForceProfile>(&b.force)) profile_gains(*profile, tile * tile_size, s.gain.data());
             const std::size_t steps = run_tile(b, tile, s, job);
             job.skipped_steps += static_cast<std::int64_t>(b.steps - steps) * tile_size_of(tile);
-            if (steps == 0 || !(is_check_due(b) || states_.is_at_rest(tile))) continue;
+            if (steps == 0 || !(is_check_due || states_.is_at_rest(tile))) continue;
             job.non_finite |= !states_.all_finite(tile);
         }
     }
@@ -278,34 +264,25 @@ class TiledPopulation final : public LanePopulation {
         return {};
     }
 
-    /// The first afferent whose state is not finite; no value if only padding of the last tile has such states.
-    std::optional<std::size_t> first_non_finite_state() const {
-        for (std::size_t afferent = 0; afferent < layout_.size; ++afferent)
-            if (states_.has_non_finite(afferent)) return afferent;
-        return {};
-    }
-
-    Error non_finite_state(std::size_t afferent, const Block& b, PopulationResponse& response) const {
-        response.failed_afferent = afferent;
-        return {ErrorCode::not_converged,
-                fmt::format("{}: its state became NaN or infinite between samples {} and {}; the force or a gain is "
-                            "far too large, or the substep too long",
-                            layout_.name, step_ / check_interval * check_interval, step_ + static_cast<std::int64_t>(b.steps))};
-    }
-
     /// Returns an error if a job has met a force or a state that is NaN or infinite.
     Result<void> check_jobs(const Block& b, PopulationResponse& response) const {
         if (std::none_of(jobs_.begin(), jobs_.end(), [](const JobResult& job) { return job.non_finite; })) return {};
         TRY(check_finite_force(b, response));
-        const auto afferent = first_non_finite_state();
-        if (afferent) return non_finite_state(*afferent, b, response);
-        return {};
+        for (std::size_t afferent = 0; afferent < layout_.size; ++afferent) {
+            if (!states_.has_non_finite(afferent)) continue;
+            response.failed_afferent = afferent;
+            return Error{ErrorCode::not_converged,
+                         fmt::format("{}: its state became NaN or infinite between samples {} and {}; the force or a gain is far too "
+                                     "large, or the substep too long",
+                                     layout_.name, step_ / check_interval * check_interval, step_ + static_cast<std::int64_t>(b.steps))};
+        }
+        return {};  // only padding of the last tile has such states
     }
 
     /// True if the currents of a profile are computed once for all afferents.
     bool shares_currents(const PopulationForce& force) const {
         const auto* profile = std::get_if<ForceProfile>(&force);
-        return profile && layout_.shared_receptor && (profile->gain.empty() || layout_.scales_with_force);
+        return profile && layout_.shared_receptor && (profile->gain.empty() || layout_.receptor->scales_with_force);
     }
 
     /// Checks the force of a block, and that it has the same layout as in the blocks before.

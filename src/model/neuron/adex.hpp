@@ -1,8 +1,5 @@
 #pragma once
 
-#include "core/afferent.hpp"
-#include "core/parameter.hpp"
-#include "model/current.hpp"
 #include "model/neuron/substeps.hpp"
 
 namespace corpuscle {
@@ -42,9 +39,7 @@ struct AdexTraits {
 
 template <class T>
 struct Adex : AdexTraits {
-    struct State {
-        T v, w;  // V; A
-    };
+    using State = MembraneRecovery<T>;  // V; A
 
     template <class Values>
     Adex(const Values& value, double dt, Method)
@@ -70,14 +65,11 @@ struct Adex : AdexTraits {
     /// within the step. Returns an empty mask, because no limit of spikes truncates the step.
     template <class Fired>
     num::Mask<T> step(State& s, Current<T> i, Fired&& fired) const {
-        MembraneRecovery<T> y{s.v, s.w};
-        const auto slopes = [this](MembraneRecovery<T> at, T current) {
+        const auto slopes = [this](State at, T current) {
             const T upstroke = g_L * Delta_T * num::exp((num::min(at.v, V_peak) - V_T) / Delta_T);
-            return MembraneRecovery<T>{(g_L * (E_L - at.v) + upstroke - at.w + gain * current) / C_m, (a * (at.v - E_L) - at.w) / tau_w};
+            return State{(g_L * (E_L - at.v) + upstroke - at.w + gain * current) / C_m, (a * (at.v - E_L) - at.w) / tau_w};
         };
-        advance_substeps(
-            y, i, dt, count, V_peak, slopes, [this](MembraneRecovery<T> at) { return MembraneRecovery<T>{V_reset, at.w + b}; }, fired);
-        s = {y.v, y.w};
+        advance_substeps(s, i, dt, count, V_peak, slopes, [this](State at) { return State{V_reset, at.w + b}; }, fired);
         return num::empty_mask<T>();
     }
 

@@ -1,8 +1,5 @@
 #pragma once
 
-#include "core/afferent.hpp"
-#include "core/parameter.hpp"
-#include "model/current.hpp"
 #include "model/neuron/substeps.hpp"
 
 namespace corpuscle {
@@ -35,9 +32,7 @@ struct IzhikevichTraits {
 
 template <class T>
 struct Izhikevich : IzhikevichTraits {
-    struct State {
-        T v, w;  // V; V/s
-    };
+    using State = MembraneRecovery<T>;  // V; V/s
 
     template <class Values>
     Izhikevich(const Values& value, double dt, Method)
@@ -56,14 +51,11 @@ struct Izhikevich : IzhikevichTraits {
     /// within the step. Returns an empty mask, because no limit of spikes truncates the step.
     template <class Fired>
     num::Mask<T> step(State& s, Current<T> i, Fired&& fired) const {
-        MembraneRecovery<T> y{s.v, s.w};
-        const auto slopes = [this](MembraneRecovery<T> at, T current) {
+        const auto slopes = [this](State at, T current) {
             const T v = num::min(at.v, V_peak);  // the parabola is limited to its value at V_peak
-            return MembraneRecovery<T>{v * (T(4e4) * v + T(5e3)) + T(140.0) - at.w + gain * current, a * (b * v - at.w)};
+            return State{v * (T(4e4) * v + T(5e3)) + T(140.0) - at.w + gain * current, a * (b * v - at.w)};
         };
-        advance_substeps(
-            y, i, dt, count, V_peak, slopes, [this](MembraneRecovery<T> at) { return MembraneRecovery<T>{c, at.w + d}; }, fired);
-        s = {y.v, y.w};
+        advance_substeps(s, i, dt, count, V_peak, slopes, [this](State at) { return State{c, at.w + d}; }, fired);
         return num::empty_mask<T>();
     }
 

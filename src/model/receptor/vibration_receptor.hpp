@@ -1,7 +1,5 @@
 #pragma once
 
-#include "core/afferent.hpp"
-#include "core/parameter.hpp"
 #include "model/current.hpp"
 
 namespace corpuscle {

@@ -1,9 +1,5 @@
 #pragma once
 
-#include <cmath>
-#include <cstdint>
-#include <vector>
-
 #include "model/sensor/front_end.hpp"
 
 namespace corpuscle {

@@ -23,13 +23,13 @@ struct DigitalAfferent::TypedState {
 DigitalAfferent::DigitalAfferent(std::string name, Converter converter, std::unique_ptr<const FixedChain> chain, double f_s, bool shared,
                                  double dt)
     : name_(std::move(name)), converter_(std::move(converter)), chain_(std::move(chain)), source_rate_(1 / dt), f_s_(f_s), shared_(shared) {
-    const auto format = chain_->constants().format();
+    const auto format = chain_->constants.format();
     for (std::int64_t code = 0; code <= converter_.max_code(); ++code) rom_.push_back(format.nearest(converter_.force(code)));
     format_ = fmt::format("{} in words of {}.{}/1, T = {} s", name_, format.word, format.frac, dt);
     for (const auto& stage : converter_.front_end().stages()) probes_.push_back(stage.output);
     probes_.push_back({"code", ""});
     probes_.push_back({"F_read", "N"});
-    for (const auto& [shown, unit] : chain_->recordables()) probes_.push_back({shown, unit});
+    for (const auto& [shown, unit] : chain_->recordables) probes_.push_back({shown, unit});
 }
 
 ConversionTimes DigitalAfferent::conversion_times(std::uint32_t channels) const { return {source_rate_, f_s_, channels}; }
@@ -38,11 +38,11 @@ State DigitalAfferent::start(ChannelSlot slot) const {
     if (!shared_ || slot.channel_count == 0) slot = {};
     TypedState h{slot, conversion_times(slot.channel_count), {}};
     h.next = h.times.first(slot.channel);
-    Arithmetic a{chain_->constants().format()};
+    Arithmetic a{chain_->constants.format()};
     chain_->start(0, h.state);
     auto trial = h.state;  // the state after this step is discarded; h.shown gets the values at rest, shown until the first conversion
     chain_->step(trial, 0, h.shown, a);
-    State state{format_, 0, std::vector<double>(values_before_words + chain_->words() + chain_->recordables().size())};
+    State state{format_, 0, std::vector<double>(values_before_words + chain_->words() + chain_->recordables.size())};
     pack_state(h, state);
     return state;
 }
@@ -53,7 +53,7 @@ void DigitalAfferent::pack_state(const TypedState& h, State& state) const {
                            static_cast<double>(h.next.remainder), h.before, h.sensed, static_cast<double>(h.code)})
         *to++ = x;
     for (std::size_t w = 0; w < chain_->words(); ++w) *to++ = static_cast<double>(h.state[w]);
-    for (std::size_t w = 0; w < chain_->recordables().size(); ++w) *to++ = static_cast<double>(h.shown[w]);
+    for (std::size_t w = 0; w < chain_->recordables.size(); ++w) *to++ = static_cast<double>(h.shown[w]);
 }
 
 /// Returns nullopt if a value cannot have been written by pack_state().
@@ -67,7 +67,7 @@ std::optional<DigitalAfferent::TypedState> DigitalAfferent::unpack_state(const S
     TypedState h{slot, conversion_times(slot.channel_count), {static_cast<std::int64_t>(v[2]), static_cast<std::int64_t>(v[3])}, v[4],
                  v[5], static_cast<std::int64_t>(v[6])};
     if (h.next.remainder >= h.times.parts_per_sample()) return {};
-    const auto max_word = static_cast<double>(chain_->constants().format().max());
+    const auto max_word = static_cast<double>(chain_->constants.format().max());
     for (std::size_t w = 0; w < v.size() - values_before_words; ++w) {
         const double word = v[values_before_words + w];
         if (!is_count(word, -max_word - 1, std::max(max_word, 1e7))) return {};  // 1e7: refractory steps in 10 s at 1 MHz
@@ -82,7 +82,7 @@ Result<void> DigitalAfferent::respond(std::span<const double> force, State& stat
 
 Result<void> DigitalAfferent::respond_and_report(std::span<const double> force, State& state, ResponseBlock& response,
                                                  const ConversionCallback& on_conversion) const {
-    const auto size = values_before_words + chain_->words() + chain_->recordables().size();
+    const auto size = values_before_words + chain_->words() + chain_->recordables.size();
     TRY(check_block(name_, format_, size, state, force));
     auto unpacked = unpack_state(state);
     if (!unpacked) return bad_input(name_ + ": a saved state is damaged: it contains values that are neither words nor counts");
@@ -118,25 +118,25 @@ void DigitalAfferent::convert_once(TypedState& h, double sensed, Spike at, Respo
     const Word F = rom_[static_cast<std::size_t>(code)];
     if (h.code < 0) chain_->start(F, h.state);
     h.code = code;
-    Arithmetic a{chain_->constants().format()};
+    Arithmetic a{chain_->constants.format()};
     const auto stepped = chain_->step(h.state, F, h.shown, a);
     for (const bool spike : stepped.fired)
         if (spike) response.spikes.push_back(at);
     response.truncated_steps += stepped.truncated_neurons, response.saturated += saturated, response.overflowed += a.overflowed;
-    on_conversion({code, F, std::span(h.shown).first(chain_->recordables().size()),
+    on_conversion({code, F, std::span(h.shown).first(chain_->recordables.size()),
                    std::span(stepped.fired).first(static_cast<std::size_t>(chain_->outputs()))});
 }
 
 /// Records the probes at sample k of the block: the outputs of the front end for this sample's force, and the values of the last
 /// conversion.
 void DigitalAfferent::record(const TypedState& h, double sensed, std::size_t k, ResponseBlock& response) const {
-    const auto format = chain_->constants().format();
+    const auto format = chain_->constants.format();
     std::vector<double> shown(converter_.front_end().stages().size());
     (void)converter_.front_end().read(sensed, shown.data());
     shown.push_back(static_cast<double>(std::max<std::int64_t>(h.code, 0)));
     shown.push_back(h.code < 0 ? 0 : format.value(rom_[static_cast<std::size_t>(h.code)]));
-    for (std::size_t w = 0; w < chain_->recordables().size(); ++w)
-        shown.push_back(format.value(h.shown[w]) * (chain_->recordables()[w].second == "A" ? 1e-6 : 1));  // currents are in uA
+    for (std::size_t w = 0; w < chain_->recordables.size(); ++w)
+        shown.push_back(format.value(h.shown[w]) * (chain_->recordables[w].second == "A" ? 1e-6 : 1));  // currents are in uA
     for (std::size_t p = 0; p < shown.size(); ++p) response.probes[p][k] = shown[p];
 }
 

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "model/sensor/front_end_stage.hpp"
+#include "model/sensor/front_end.hpp"
 
 namespace corpuscle {
 

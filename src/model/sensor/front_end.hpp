@@ -2,11 +2,26 @@
 // Sensor and transducer of a front end: from force to the measured value, which is the transducer's output, and back to newtons by a
 // calibration.
 
+#include <functional>
+#include <limits>
 #include <vector>
 
-#include "model/sensor/front_end_stage.hpp"
+#include "model/parameter_values.hpp"
 
 namespace corpuscle {
+
+/// One stage of a front end: the sensor, or the transducer after it. The file of each component defines its stage.
+struct FrontEndStage {
+    std::string_view component;  ///< name of the component: "f2v"
+    Probe output;                ///< name and unit of its output
+    /// The output for an input, which is the force (N) or the output of the stage before. It never decreases, and is finite for finite
+    /// input.
+    std::function<double(double)> curve;
+    double limit = std::numeric_limits<double>::infinity();  ///< upper limit of the output, in its unit
+    std::string_view limit_name = {};                        ///< the parameter that sets the limit
+    std::string_view gain_name = {};                         ///< the parameter that messages advise to lower if the limit is exceeded
+    double hysteresis = 0;                                   ///< of a sensor, a fraction: see FrontEnd::apply_hysteresis
+};
 
 /// The parameter of every sensor for the calibration: measured values are converted to newtons by a straight line that is exact at zero
 /// force and at F_cal.
@@ -48,5 +63,12 @@ public:
     /// same measured value. `name` is the afferent's name, `parameter` the name of the parameter that sets `high`, for the message.
     Result<void> check_range(std::string_view name, double low, std::string_view parameter, double high) const;
 };
+
+/// The sensor and the transducer of a plan; without stages if it has none.
+FrontEnd make_front_end(const AfferentPlan&);
+
+/// An afferent behind a front end without a converter. The input of the inner afferent, which can be any, is not the force but the
+/// calibrated reading of the sensor, in newtons.
+std::unique_ptr<Afferent> make_behind_front_end(FrontEnd, std::unique_ptr<Afferent>);
 
 }  // namespace corpuscle

@@ -1,11 +1,11 @@
-#include "model/sensor/front_end_factory.hpp"
+// Builds the front end of a plan and, if it has a converter, the complete digital afferent.
 
 #include <cstring>
 
 #include "model/chain.hpp"
 #include "model/components.hpp"
-#include "model/sensor/fixed_neuron.hpp"
-#include "model/sensor/fixed_receptor.hpp"
+#include "model/sensor/digital_afferent.hpp"
+#include "model/sensor/fixed_models.hpp"
 
 namespace corpuscle {
 namespace {
@@ -27,10 +27,10 @@ class FixedModelChain final : public FixedChain {
 public:
     FixedModelChain(const ParameterValues<typename R::Traits>& r, const ParameterValues<typename N::Traits>& n, double f_s,
                     WordFormat format)
-        : FixedChain(Constants(format)), receptor_(r, f_s, constants_), neuron_(n, f_s, constants_) {
-        for (int k = 0; k < outputs_; ++k) recordables_.push_back({"I" + sign_suffix<typename R::Traits>(k), "A"});
+        : FixedChain(format), receptor_(r, f_s, constants), neuron_(n, f_s, constants) {
+        for (int k = 0; k < outputs_; ++k) recordables.push_back({"I" + sign_suffix<typename R::Traits>(k), "A"});
         for (int k = 0; k < outputs_; ++k)
-            for (const auto& p : N::recordables) recordables_.push_back({std::string(p.name) + sign_suffix<typename R::Traits>(k), p.unit});
+            for (const auto& p : N::recordables) recordables.push_back({std::string(p.name) + sign_suffix<typename R::Traits>(k), p.unit});
     }
 
     int outputs() const override { return outputs_; }
@@ -107,7 +107,7 @@ Result<std::unique_ptr<const FixedChain>> make_fixed_chain(const AfferentPlan& p
         return bad_input(fmt::format("{}: {}+{} has no fixed-point version; adc can be followed by {} with {}", plan.name, plan.receptor,
                                      plan.neuron, names_in(FixedReceptors{}), names_in(FixedNeurons{})));
     const Converter converter(make_front_end(plan), adc);
-    Constants constants = chain->constants();  // a copy, to check that the forces of the lowest and the highest code fit a word, too
+    Constants constants = chain->constants;  // a copy, to check that the forces of the lowest and the highest code fit a word, too
     for (const auto code : {std::int64_t{0}, converter.max_code()}) (void)constants.level("the force of a code", converter.force(code));
     if (const auto& misfit = constants.error()) return bad_input(plan.name + ": " + misfit->message);
     return chain;

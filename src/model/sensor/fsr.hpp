@@ -1,7 +1,6 @@
 #pragma once
 
-#include "core/number/elementary.hpp"
-#include "model/sensor/front_end_stage.hpp"
+#include "model/sensor/front_end.hpp"
 
 namespace corpuscle {
 

@@ -10,7 +10,6 @@
 #include <iterator>
 
 #include "model/sensor/digital_afferent.hpp"
-#include "model/sensor/front_end_factory.hpp"
 #include "run/channels/channel_population.hpp"
 #include "run/sinks.hpp"
 
@@ -20,7 +19,7 @@ namespace {
 /// The lines above the rows: comments with the afferent and every constant, then the names of the columns. For each neuron current I..., a
 /// column s... says whether the neuron fired.
 std::string header_text(const AfferentPlan& plan, const std::string& channel, const DigitalAfferent& afferent) {
-    const auto& constants = afferent.chain().constants();
+    const auto& constants = afferent.chain().constants;
     std::string text = "# corpuscle vectors 1, described in doc/fixed-point.md\n";
     text += fmt::format("# afferent {}\n# parts {}\n# channel {}\n", plan.name, plan.composition(), channel);
     text += fmt::format("# word {}\n# frac {}\n# bits {:g}\n# f_s {} Hz\n", constants.format().word, constants.format().frac,
@@ -29,7 +28,7 @@ std::string header_text(const AfferentPlan& plan, const std::string& channel, co
         text += c.shift < 0 ? fmt::format("# level {} {} {}\n", c.name, c.value, c.word)
                             : fmt::format("# factor {} {} {} {}\n", c.name, c.value, c.word, c.shift);
     std::string columns = "code,F", bits;
-    for (const auto& [name, unit] : afferent.chain().recordables()) {
+    for (const auto& [name, unit] : afferent.chain().recordables) {
         columns += "," + name;
         if (name.starts_with("I")) bits += ",s" + name.substr(1);
     }

@@ -3,8 +3,7 @@
 #include <cmath>
 #include <random>
 
-#include "model/sensor/fixed_neuron.hpp"
-#include "model/sensor/fixed_receptor.hpp"
+#include "model/sensor/fixed_models.hpp"
 #include "support/support.hpp"
 
 namespace corpuscle {
@@ -119,8 +118,7 @@ N any_neuron(WordFormat f) {
     Constants c(f);
     static const N defaults({}, 1e3, c);
     N n = defaults;
-    n.V_th = any_word(f), n.E_L = any_word(f), n.reset = defaults.reset;
-    n.reset.V_reset = any_word(f), n.reset.ref = between(0, 2);
+    n.V_th = any_word(f), n.E_L = any_word(f), n.V_reset = any_word(f), n.ref = between(0, 2);
     if constexpr (requires { n.k_c; }) n.k_a = any_factor(f), n.k_b = any_factor(f), n.k_c = any_word(f);
     if constexpr (requires { n.k; }) n.k = any_factor(f);
     if constexpr (requires { n.I_leak0; }) n.I_leak0 = any_word(f);
@@ -134,8 +132,8 @@ struct WideNeuron {
     bool spike = false;
     template <class N>
     void fire(const N& n, Wide theta, Reference& w) {
-        u = n.reset.ref > 0 ? Wide{n.reset.V_reset} : w.sat(u - theta + n.reset.V_reset);
-        wait = n.reset.ref, spike = true;
+        u = n.ref > 0 ? Wide{n.V_reset} : w.sat(u - theta + n.V_reset);
+        wait = n.ref, spike = true;
     }
     bool is_refractory() { return wait > 0 ? --wait, true : false; }
     void step(const FixedLifA& n, Word I, Reference& w) {

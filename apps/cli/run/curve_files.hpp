@@ -12,21 +12,15 @@
 
 namespace corpuscle {
 
-/// The options of the files.
-struct CurveFileOptions {
-    std::string path;    ///< x.raw or x.csv; "": no files
-    bool ascii = false;  ///< a .raw file is written as text
-};
-
 /// Writes curves while they are computed: either one .raw file, or one CSV table for each plot (x.csv, or x-1.csv, x-2.csv ... if there are
 /// several). With .step or .mc, each CSV row begins with the label of its variant (a step or a chip). The points of a transient are written
 /// in blocks; the files are readable at any time.
 class CurveFiles final : public circuit::PointSink {
     using Clock = std::chrono::steady_clock;
-    CurveFileOptions options_;
+    std::string path_;  // x.raw or x.csv; "": no files
     OutputCheck check_;
-    bool has_steps_, is_csv_;       // has_steps_: the netlist has several variants, by .step or .mc
-    std::deque<OutputFile> files_;  // all files so far; a deque keeps their addresses, which file_ and open() use
+    bool is_ascii_, has_steps_, is_csv_;  // is_ascii_: a .raw file is written as text; has_steps_: the netlist has several variants
+    std::deque<OutputFile> files_;        // all files so far; a deque keeps their addresses, which file_ and open() use
     // The current variant:
     std::string title_, label_;
     std::size_t expected_count_ = 0, plot_count_ = 0;  // number of plots of its analyses; number of its CSV tables begun so far
@@ -50,9 +44,8 @@ class CurveFiles final : public circuit::PointSink {
     Result<OutputFile*> open(std::size_t file_count, std::size_t index, const std::string& head);
 
 public:
-    /// `has_steps`: true if the netlist has several variants.
-    CurveFiles(CurveFileOptions options, bool has_steps, bool overwrite)
-        : options_(std::move(options)), check_(overwrite), has_steps_(has_steps), is_csv_(options_.path.ends_with(".csv")) {}
+    CurveFiles(const std::string& path, bool is_ascii, bool has_steps, bool overwrite)
+        : path_(path), check_(overwrite), is_ascii_(is_ascii), has_steps_(has_steps), is_csv_(path.ends_with(".csv")) {}
 
     /// Call before the analyses of each variant. The first call checks that the files may be written.
     Result<void> begin_variant(const circuit::Variant&);

@@ -1,10 +1,9 @@
-#include "cli/output/curve_files.hpp"
+#include "cli/run/curve_files.hpp"
 
-#include <fmt/format.h>
 #include <algorithm>
 
 #include "circuit/analyses.hpp"
-#include "cli/arguments/own_files.hpp"
+#include "cli/output/output_files.hpp"
 #include "core/text/quantity.hpp"
 
 namespace corpuscle {
@@ -36,14 +35,14 @@ Result<void> CurveFiles::begin(const Plot& head) {
     if (is_transient()) transient_file_ = file_;
     if (is_csv_) return {};
     if (!label_.empty()) head_.name += fmt::format(" ({})", label_);
-    const auto text = raw_header(title_, head_, !options_.ascii);
+    const auto text = raw_header(title_, head_, !is_ascii_);
     count_offset_ = file_->size() + text.count_offset;
     return file_->write(text.text);
 }
 
 Result<void> CurveFiles::add_point(const PlotRow& row) {
     if (is_csv_ && has_steps_) rows_ += label_ + ",";
-    is_csv_ ? append_csv_row(rows_, head_, row) : append_raw_point(rows_, point_count_, row, !options_.ascii);
+    is_csv_ ? append_csv_row(rows_, head_, row) : append_raw_point(rows_, point_count_, row, !is_ascii_);
     ++point_count_;
     if (is_transient()) newest_time_ = row.real[0], has_streamed_ = has_streamed_ || point_count_ > 1;
     return rows_.size() >= block || Clock::now() - last_write_ > max_delay ? write_pending() : Result<void>();
@@ -60,14 +59,14 @@ Result<void> CurveFiles::write_pending() {
 Result<void> CurveFiles::end() {
     has_complete_plots_ = has_complete_plots_ || !is_transient();
     if (auto ok = write_pending(); !ok || is_csv_) return ok;
-    return file_->write(raw_footer(!options_.ascii));
+    return file_->write(raw_footer(!is_ascii_));
 }
 
 Result<void> CurveFiles::finish() {
     for (auto& file : files_) TRY(file.commit());
     const bool is_any_synced = std::any_of(files_.begin(), files_.end(), [](const auto& f) { return f.is_synced(); });
     files_.clear();
-    return is_any_synced ? sync_directory_of(options_.path) : Result<void>();
+    return is_any_synced ? sync_directory_of(path_) : Result<void>();
 }
 
 Result<std::string> CurveFiles::finish_early(bool interrupted) {
@@ -76,14 +75,14 @@ Result<std::string> CurveFiles::finish_early(bool interrupted) {
     if (files_.empty()) return std::string();
     const bool in_transient = transient_file_ != nullptr;
     const auto note =
-        fmt::format("{} ends early{}{}", in_transient ? transient_file_->path() : options_.path, label_.empty() ? "" : ", in " + label_,
+        fmt::format("{} ends early{}{}", in_transient ? transient_file_->path() : path_, label_.empty() ? "" : ", in " + label_,
                     in_transient ? ", at " + format_quantity(written_time_, "s") : "");
     TRY(finish());
     return note;
 }
 
 std::string CurveFiles::path_of(std::size_t file_count, std::size_t index) const {
-    auto path = options_.path;
+    auto path = path_;
     if (file_count > 1) path.insert(path.size() - std::string_view(".csv").size(), fmt::format("-{}", index + 1));
     return path;
 }

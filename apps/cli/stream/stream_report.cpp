@@ -1,8 +1,9 @@
-#include "cli/output/stream_report.hpp"
+// Status line, summary and JSON document of a live stream.
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
+#include "cli/stream/stream.hpp"
 #include "core/text/quantity.hpp"
 
 namespace corpuscle {
@@ -12,7 +13,7 @@ namespace {
 std::string time_of(std::int64_t ns) { return format_quantity(static_cast<double>(ns) * 1e-9, "s"); }
 
 /// A number with its noun: "3 gaps", "1 gap".
-std::string counted(std::int64_t n, std::string_view noun) { return fmt::format("{} {}{}", n, noun, n == 1 ? "" : "s"); }
+std::string count_of(std::int64_t n, std::string_view noun) { return fmt::format("{} {}{}", n, noun, n == 1 ? "" : "s"); }
 
 std::string quantiles(const LatencyHistogram& histogram) {
     return fmt::format("median {}, 99 % {}, 99.9 % {}, max {}", time_of(histogram.quantile(0.5)), time_of(histogram.quantile(0.99)),
@@ -34,24 +35,25 @@ std::string problems(const StreamReportInput& parts) {
     const auto& order = counts.sequence;
     const auto& stats = parts.loop.stats();
     const std::pair<std::int64_t, std::string> all[] = {
-        {order.gaps, fmt::format("{}: {} filled by the last force, {} by zero force", counted(order.gaps, "gap"),
-                                 counted(order.held, "frame"), order.released)},
-        {order.duplicates, counted(order.duplicates, "duplicate frame") + " ignored"},
-        {order.late, counted(order.late, "late frame") + " ignored"},
+        {order.gaps, fmt::format("{}: {} filled by the last force, {} by zero force", count_of(order.gaps, "gap"),
+                                 count_of(order.held, "frame"), order.released)},
+        {order.duplicates, count_of(order.duplicates, "duplicate frame") + " ignored"},
+        {order.late, count_of(order.late, "late frame") + " ignored"},
         {order.restarts,
-         fmt::format("the sender's frame numbers restarted {}", order.restarts == 1 ? "once" : counted(order.restarts, "time"))},
-        {counts.unreadable, counted(counts.unreadable, "frame") + " unreadable: replaced by the last force"},
+         fmt::format("the sender's frame numbers restarted {}", order.restarts == 1 ? "once" : count_of(order.restarts, "time"))},
+        {counts.unreadable, count_of(counts.unreadable, "frame") + " unreadable: replaced by the last force"},
         {counts.invalid_values,
-         counted(counts.invalid_values, "reading") + " invalid or beyond --max-force: replaced by the last force of the site"},
-        {counts.partial_frames, counted(counts.partial_frames, "incomplete frame") + " at a disconnect"},
-        {counts.senders.idle, counted(counts.senders.idle, "sender") + " disconnected: idle while another was waiting"},
-        {counts.senders.ignored, counted(counts.senders.ignored, "datagram") + " from other senders ignored"},
-        {counts.senders.dropped, counted(counts.senders.dropped, "datagram") + " lost: they arrived faster than they were processed"},
-        {static_cast<std::int64_t>(stats.unread), counted(static_cast<std::int64_t>(stats.unread), "byte") + " of input unread at the end"},
-        {stats.dropped, counted(stats.dropped, "spike") + " dropped: the receiver was too slow and the buffer full"},
-        {parts.sink.dropped(), counted(parts.sink.dropped(), "spike") + " lost: the receiver disconnected or stopped reading"},
+         count_of(counts.invalid_values, "reading") + " invalid or beyond --max-force: replaced by the last force of the site"},
+        {counts.partial_frames, count_of(counts.partial_frames, "incomplete frame") + " at a disconnect"},
+        {counts.senders.idle, count_of(counts.senders.idle, "sender") + " disconnected: idle while another was waiting"},
+        {counts.senders.ignored, count_of(counts.senders.ignored, "datagram") + " from other senders ignored"},
+        {counts.senders.dropped, count_of(counts.senders.dropped, "datagram") + " lost: they arrived faster than they were processed"},
+        {static_cast<std::int64_t>(stats.unread),
+         count_of(static_cast<std::int64_t>(stats.unread), "byte") + " of input unread at the end"},
+        {stats.dropped, count_of(stats.dropped, "spike") + " dropped: the receiver was too slow and the buffer full"},
+        {parts.sink.dropped(), count_of(parts.sink.dropped(), "spike") + " lost: the receiver disconnected or stopped reading"},
         {parts.skin.stats().truncated_steps,
-         fmt::format("{} truncated at the spike limit of one step", counted(parts.skin.stats().truncated_steps, "step"))},
+         fmt::format("{} truncated at the spike limit of one step", count_of(parts.skin.stats().truncated_steps, "step"))},
     };
     std::string text;
     for (const auto& [count, message] : all)
@@ -75,11 +77,11 @@ std::string stream_summary(const StreamReportInput& parts) {
     const auto& stats = parts.loop.stats();
     const auto counts = parts.frames.counts();
     const double T = parts.skin.clock().T();
-    auto text = fmt::format("{} ({} of force), {} from {}\n", counted(counts.frames, "frame"),
-                            format_quantity(static_cast<double>(counts.frames + stats.filled) * T, "s"), counted(stats.spikes, "spike"),
-                            counted(static_cast<std::int64_t>(parts.skin.innervation().afferents.size()), "afferent"));
-    if (counts.sender_count != 1) text += fmt::format("  {}\n", counted(counts.sender_count, "client"));
-    if (parts.sink.connections() != 1) text += fmt::format("  {}\n", counted(parts.sink.connections(), "connection") + " to the receiver");
+    auto text = fmt::format("{} ({} of force), {} from {}\n", count_of(counts.frames, "frame"),
+                            format_quantity(static_cast<double>(counts.frames + stats.filled) * T, "s"), count_of(stats.spikes, "spike"),
+                            count_of(static_cast<std::int64_t>(parts.skin.innervation().afferents.size()), "afferent"));
+    if (counts.sender_count != 1) text += fmt::format("  {}\n", count_of(counts.sender_count, "client"));
+    if (parts.sink.connections() != 1) text += fmt::format("  {}\n", count_of(parts.sink.connections(), "connection") + " to the receiver");
     if (stats.latency.count() > 0) text += fmt::format("  latency from a frame to its written spikes: {}\n", quantiles(stats.latency));
     if (is_paced(parts)) text += fmt::format("  input rate {}; jitter: {}\n", format_quantity(stats.rate(), "Hz"), quantiles(stats.jitter));
     return text + problems(parts);

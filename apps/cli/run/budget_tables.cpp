@@ -1,11 +1,11 @@
-#include "cli/output/budget_tables.hpp"
+// The power, area and leakage of a circuit as printed tables.
 
 #include <fmt/format.h>
 #include <algorithm>
 #include <cmath>
-#include <functional>
 
 #include "cli/output/terminal.hpp"
+#include "cli/run/variant_printer.hpp"
 #include "core/text/quantity.hpp"
 
 namespace corpuscle {
@@ -19,8 +19,6 @@ constexpr std::string_view published_silicon =
     "doi:10.1109/TBCAS.2024.3387545). Its piezoelectric taxels generate their own charge and respond to changes only, so compare\n"
     "the power without the sensor current. Areas here exclude wells, wires and pads.\n";
 
-using Rows = std::vector<std::vector<std::string>>;
-
 /// A number with three significant digits below 100 and as an integer above, so that a column can be added up by eye.
 std::string cell(double x) { return x == 0 ? "0" : std::abs(x) < 100 ? fmt::format("{:.3g}", x) : fmt::format("{:.0f}", x); }
 /// An area in m^2 as a number in um^2.
@@ -29,13 +27,13 @@ std::string um2(double area) { return cell(area * 1e12); }
 using PowerOf = std::function<double(const PowerBreakdown&)>;
 
 /// Adds a row with a power in nW for each column of Cost::power: "op", "mean" ... `power_of` selects the power (W) from a PowerBreakdown.
-void add_row(Rows& rows, const Cost& cost, std::string name, const PowerOf& power_of) {
+void add_row(TableRows& rows, const Cost& cost, std::string name, const PowerOf& power_of) {
     rows.push_back({std::move(name)});
     for (const auto& [when, p] : cost.power) rows.back().push_back(cell(power_of(p) * 1e9));
 }
 
 /// Adds the row if its power exceeds 1e-6 of the delivered power in any column.
-void add_visible_row(Rows& rows, const Cost& cost, std::string name, const PowerOf& power_of) {
+void add_visible_row(TableRows& rows, const Cost& cost, std::string name, const PowerOf& power_of) {
     constexpr double visible = 1e-6;
     if (std::any_of(cost.power.begin(), cost.power.end(),
                     [&](const auto& column) { return std::abs(power_of(column.second)) > visible * std::abs(column.second.supplies); }))
@@ -43,7 +41,7 @@ void add_visible_row(Rows& rows, const Cost& cost, std::string name, const Power
 }
 
 std::string power_table(const Cost& cost) {
-    Rows rows = {{"power, nW"}};
+    TableRows rows = {{"power, nW"}};
     for (const auto& [when, p] : cost.power) rows[0].push_back(when == "op" ? ".op" : when);
     add_row(rows, cost, "delivered", &PowerBreakdown::supplies);
     for (std::size_t k = 0; k < cost.sources.size(); ++k)
@@ -58,7 +56,7 @@ std::string power_table(const Cost& cost) {
 }
 
 std::string area_table(const Cost& cost) {
-    Rows rows = {
+    TableRows rows = {
         {"area, um2", "transistors", "elements", "gates", "arrays", "capacitors", "total", "isolated", "leakage, pA", "largest leak"}};
     const auto row = [&](const std::string& name, std::size_t transistors, std::size_t elements, const Area& a) {
         rows.push_back(
@@ -86,7 +84,7 @@ std::string leaks_table(const Cost& cost) {
     const auto bias = format_quantity(cost.smallest_bias, "A");
     if (cost.leaks.empty())
         return fmt::format("\nNo transistor that is off leaks more than a tenth of the smallest bias current ({}).\n", bias);
-    Rows rows = {{"off in .op", "leakage, pA", "%", "into"}};
+    TableRows rows = {{"off in .op", "leakage, pA", "%", "into"}};
     for (std::size_t k = 0; k < cost.leaks.size(); ++k)
         rows.push_back({cost.leaks[k].name, cell(cost.leaks[k].current * 1e12), cell(100 * cost.leaks[k].current / cost.smallest_bias),
                         cost.leaks[k].capacitor_node});

@@ -1,4 +1,4 @@
-#include "cli/output/sweep_tables.hpp"
+#include "cli/sweep/sweep_output.hpp"
 
 #include <fmt/format.h>
 #include <algorithm>
@@ -9,8 +9,6 @@
 
 namespace corpuscle {
 namespace {
-
-using Rows = std::vector<std::vector<std::string>>;
 
 constexpr std::size_t max_devices = 5;  // listed for each measure
 constexpr const char* interval_heading = "95 % CI";
@@ -69,7 +67,7 @@ std::vector<NumberFormat> formats_of(const SweepTable& table, const SweepSummary
 }
 
 /// Formats a table. The values of a grid are exact, so that its tables have no confidence intervals.
-std::string table_text(const SweepTable& table, Rows rows) {
+std::string table_text(const SweepTable& table, TableRows rows) {
     for (auto c = static_cast<std::ptrdiff_t>(rows[0].size()); table.is_grid && c-- > 0;)
         if (rows[0].begin()[c] == interval_heading)
             for (auto& row : rows) row.erase(row.begin() + c);
@@ -98,7 +96,7 @@ std::string opening(const SweepTable& table, const SweepSummary& s, const std::s
 /// A table of the yield and of the yield of each measure with limits; "" for a grid of which all items passed.
 std::string yields(const SweepTable& table, const SweepSummary& s) {
     if (table.is_grid && s.all.passed == s.all.items) return "";
-    Rows rows = {{"yield", "limits", "passed", "of", "%", interval_heading}};
+    TableRows rows = {{"yield", "limits", "passed", "of", "%", interval_heading}};
     const auto line = [&](const std::string& name, const std::string& limits, std::int64_t passed, const Estimate& fraction) {
         rows.push_back(
             {name, limits, std::to_string(passed), std::to_string(s.all.items), percent(fraction.value), percent_interval(fraction)});
@@ -113,7 +111,7 @@ std::string yields(const SweepTable& table, const SweepSummary& s) {
 
 /// A table of the statistics of each measure over all items.
 std::string measures_text(const SweepTable& table, const SweepSummary& s) {
-    Rows rows = {{"measure", "items", "mean", interval_heading, "sigma", interval_heading, "min"}};
+    TableRows rows = {{"measure", "items", "mean", interval_heading, "sigma", interval_heading, "min"}};
     for (const double q : s.options.quantiles) rows[0].push_back(q == 0.5 ? "median" : fmt::format("{:g} %", 100 * q));
     for (const char* heading : {"max", "normality (r)"}) rows[0].emplace_back(heading);
     const auto formats = formats_of(table, s, false);
@@ -143,7 +141,7 @@ std::string points_text(const SweepTable& table, const SweepSummary& s) {
     if (s.points.size() < 2) return "";
     const bool shows_passed = table.is_grid && table.has_limits();
     const auto formats = formats_of(table, s, table.is_grid);
-    Rows rows = {{"point"}};
+    TableRows rows = {{"point"}};
     if (shows_passed) rows[0].emplace_back("passed");
     if (!table.is_grid) rows[0].insert(rows[0].end(), {"items", "yield %", interval_heading});
     for (const auto& format : formats) rows[0].push_back(format.heading());
@@ -168,7 +166,7 @@ std::string array_of(const MismatchDevice& d) {
 }
 
 /// Adds the parameters and devices on which a measure depends. Only the first line has the name of the measure.
-void add_dependence(Rows& rows, const SweepTable& table, const SweepSummary& s, const Dependence& d) {
+void add_dependence(TableRows& rows, const SweepTable& table, const SweepSummary& s, const Dependence& d) {
     auto name = d.measure;
     const auto line = [&](std::vector<std::string> cells) {
         rows.push_back({name}), name.clear();
@@ -192,7 +190,7 @@ void add_dependence(Rows& rows, const SweepTable& table, const SweepSummary& s, 
 
 /// A table of the parameters and devices on which each measure and the yield depend.
 std::string dependences_text(const SweepTable& table, const SweepSummary& s) {
-    Rows rows = {{"measure", "depends on", "size", "area (um^2)", "variance (%)", "by V_T", "by I_S", "sigma at 4x area (%)"}};
+    TableRows rows = {{"measure", "depends on", "size", "area (um^2)", "variance (%)", "by V_T", "by I_S", "sigma at 4x area (%)"}};
     std::vector<std::string> independent;
     std::string explained;
     for (const auto& d : s.dependences) {
@@ -233,7 +231,7 @@ std::string point_of(const SweepTable& table, std::size_t measure, double value)
 
 /// A table of the smallest and largest value of each measure, and the grid points at which they occur.
 std::string grid_measures(const SweepTable& table, const SweepSummary& s) {
-    Rows rows = {{"measure", "items", "min", "at", "max", "at", "mean"}};
+    TableRows rows = {{"measure", "items", "min", "at", "max", "at", "mean"}};
     const auto formats = formats_of(table, s, true);
     for (std::size_t m = 0; m < table.measures.size(); ++m) {
         const auto& one = s.all.measures[m];
@@ -246,7 +244,7 @@ std::string grid_measures(const SweepTable& table, const SweepSummary& s) {
 
 /// A table with the effect of every axis on each measure and on the yield.
 std::string effects_text(const SweepTable& table, const SweepSummary& s) {
-    Rows rows = {{"measure", "axis", "variance (%)", "from", "mean there", "to", "mean there"}};
+    TableRows rows = {{"measure", "axis", "variance (%)", "from", "mean there", "to", "mean there"}};
     const auto formats = formats_of(table, s, true);
     for (std::size_t d = 0; d < s.dependences.size(); ++d) {  // in the order of the measures; then the yield
         const auto& one = s.dependences[d];
@@ -275,7 +273,7 @@ std::string effects_text(const SweepTable& table, const SweepSummary& s) {
 
 /// A table of the requested quantiles, with confidence intervals unless the sweep is a grid.
 std::string quantiles_text(const SweepTable& table, const SweepSummary& s) {
-    Rows rows = {{"quantile"}};
+    TableRows rows = {{"quantile"}};
     for (const double q : s.options.quantiles) rows.push_back({fmt::format("{:g} %", 100 * q)});
     const auto formats = formats_of(table, s, false);
     for (std::size_t m = 0; m < formats.size(); ++m) {

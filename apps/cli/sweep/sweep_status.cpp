@@ -1,10 +1,8 @@
-#include "cli/output/sweep_status.hpp"
+#include "cli/sweep/sweep_output.hpp"
 
 #include <fmt/format.h>
-#include <filesystem>
 #include <nlohmann/json.hpp>
 
-#include "cli/output/printable.hpp"
 #include "cli/output/terminal.hpp"
 #include "sweep/store/sqlite.hpp"
 
@@ -46,8 +44,8 @@ std::string next_step(const SweepStatus& s) {
 /// The status as a table, with the next command.
 std::string sweep_status_text(const SweepStatus& s) {
     const auto completed = s.finished - s.truncated - s.diverged;
-    std::vector<std::vector<std::string>> rows = {{"items", "ended", "missing", "completed", "truncated", "diverged"},
-                                                  table_row(s.items, s.finished, s.missing(), completed, s.truncated, s.diverged)};
+    TableRows rows = {{"items", "ended", "missing", "completed", "truncated", "diverged"},
+                      table_row(s.items, s.finished, s.missing(), completed, s.truncated, s.diverged)};
     if (s.finished_now)
         rows[0].insert(rows[0].begin() + 2, "this run"), rows[1].insert(rows[1].begin() + 2, fmt::format("{}", *s.finished_now));
     if (s.iterations > 0) rows[0].push_back("iterations"), rows[1].push_back(fmt::format("{}", s.iterations));

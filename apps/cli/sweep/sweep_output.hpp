@@ -1,8 +1,9 @@
 #pragma once
-// The progress of a sweep, as text and JSON.
+// The progress of a sweep as text and JSON, and its results as text.
 
 #include "cli/verb.hpp"
 #include "sweep/parallel/run_sweep.hpp"
+#include "sweep/stats/sweep_summary.hpp"
 
 namespace corpuscle {
 
@@ -26,5 +27,9 @@ struct SweepStatus {
 Result<SweepStatus> read_sweep_status(const SweepResults&, const Shard&);
 /// Prints the status as a table with the next command, or as JSON, unless --quiet was given.
 void print_sweep_status(const CommonArguments&, const SweepStatus&);
+
+/// The results of a sweep as tables: yields, measures, then the parameters on which they depend.
+/// `quantiles`: also a table of the requested quantiles with their confidence intervals.
+std::string sweep_tables(const SweepTable&, const SweepSummary&, const std::string& title, bool quantiles);
 
 }  // namespace corpuscle
