@@ -12,7 +12,7 @@
 //     channels  only if bytes of the header remain: u32 number of runs of channels, and these runs. All addresses of such a run are
 //               afferents on one channel, and its name is the name of the channel.
 //
-//     spike     i64 step (sample index, see signal/spike.hpp), u32 fraction, u32 address
+//     spike     i64 step (sample index, see core/spike.hpp), u32 fraction, u32 address
 //
 // The offset of a spike in its step is (fraction + 1) / 2^32. Its time in s, counted from sample 0, is
 // (step - 1 + offset) * seconds / samples.
