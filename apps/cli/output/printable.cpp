@@ -61,13 +61,16 @@ std::string json_text(const nlohmann::ordered_json& document) {
     std::string out;
     std::optional<char32_t> code;
     for (std::string_view left = text; !left.empty();) {
+        // In ASCII only DEL is left to escape: the writer has escaped C0 and replaced invalid bytes, and line breaks format the document.
+        const auto plain = std::find_if(left.begin(), left.end(), [](char c) { return static_cast<unsigned char>(c) >= 0x7f; });
+        out.append(left.begin(), plain);
+        left.remove_prefix(static_cast<std::size_t>(plain - left.begin()));
+        if (left.empty()) break;
         const auto bytes = take_character(left, code);
-        // In one byte only DEL is left to escape: the writer has escaped C0 and replaced invalid bytes, and line breaks format the
-        // document.
-        if (bytes.size() == 1 ? bytes != "\x7f" : !is_control(*code))
-            out += bytes;
-        else
+        if (is_control(*code))
             out += fmt::format("\\u{:04x}", static_cast<std::uint32_t>(*code));
+        else
+            out += bytes;
     }
     return out;
 }

@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <cstddef>
 #include <cstdint>
-#include <iterator>
 #include <vector>
 
 namespace corpuscle {
@@ -39,7 +38,10 @@ public:
         }
         return end_;
     }
-    void add(std::uint32_t place, V value) { current_values_[place] += value; }
+    void add(std::uint32_t place, V value) {
+        if (current_values_[place] == V{}) nonzero_places_.push_back(place);
+        current_values_[place] += value;
+    }
 
     std::size_t places() const { return current_values_.size(); }
     /// The present length of a frame, samples.
@@ -53,14 +55,18 @@ public:
 
 private:
     std::size_t max_frames_ = 2;
-    std::int64_t width_ = 1;         // length of a frame, samples
-    std::int64_t end_ = 0;           // the first sample after the current frame; 0 before the first call of select_frame()
-    std::vector<Frame> completed_;   // the frames before the current one
-    std::vector<V> current_values_;  // values of the current frame
+    std::int64_t width_ = 1;                     // length of a frame, samples
+    std::int64_t end_ = 0;                       // the first sample after the current frame; 0 before the first call of select_frame()
+    std::vector<Frame> completed_;               // the frames before the current one
+    std::vector<V> current_values_;              // values of the current frame
+    std::vector<std::uint32_t> nonzero_places_;  // nonzero places of the current frame; may contain duplicates and places that are 0 again
 
     Frame current_frame() const {
+        auto places = nonzero_places_;
+        std::sort(places.begin(), places.end());
+        places.erase(std::unique(places.begin(), places.end()), places.end());
         Frame frame;
-        for (std::uint32_t p = 0; p < places(); ++p)
+        for (const auto p : places)
             if (current_values_[p] != V{}) frame.push_back({p, current_values_[p]});
         return frame;
     }
@@ -68,24 +74,31 @@ private:
     /// Completes the current frame and starts an empty one.
     void close() {
         completed_.push_back(current_frame());
-        std::fill(current_values_.begin(), current_values_.end(), V{});
+        for (const auto p : nonzero_places_) current_values_[p] = V{};
+        nonzero_places_.clear();
     }
 
     static Frame sum(const Frame& a, const Frame& b) {
-        Frame all, out;
-        std::ranges::merge(a, b, std::back_inserter(all), {}, &Entry::place, &Entry::place);  // at equal places, that of a is first
-        for (const auto& e : all)
-            if (!out.empty() && out.back().place == e.place)
-                out.back().value += e.value;
+        Frame out;
+        for (auto i = a.begin(), j = b.begin(); i != a.end() || j != b.end();) {
+            if (j == b.end() || (i != a.end() && i->place < j->place))
+                out.push_back(*i++);
+            else if (i == a.end() || j->place < i->place)
+                out.push_back(*j++);
             else
-                out.push_back(e);
+                out.push_back({i->place, i->value + j->value}), ++i, ++j;
+        }
         return out;
     }
 
     /// Doubles the length of the frames. If their number is odd, the last completed frame becomes the first half of the current one.
     void merge_pairs() {
         if (completed_.size() % 2 == 1) {
-            for (const auto& e : completed_.back()) current_values_[e.place] = e.value + current_values_[e.place];
+            for (const auto& e : completed_.back()) {
+                const V value = current_values_[e.place];
+                current_values_[e.place] = V{};
+                add(e.place, e.value), current_values_[e.place] += value;  // the earlier half is summed first
+            }
             completed_.pop_back();
         }
         std::vector<Frame> half;
