@@ -1,4 +1,4 @@
-# Compiles several files as one, about 75 kB together, which halves the time of a full build: common headers are read once. A larger unit
+# Compiles several files as one, about 60 kB together, which halves the time of a full build: common headers are read once. A larger unit
 # would take too long when one of its files is edited. Which files come together is decided when they are built (unity_units.cmake), so that names in anonymous namespaces need not differ between files.
 # A file with its own compile options is compiled alone.
 #   use_unity_build(TARGET file...)
@@ -18,7 +18,7 @@ function(use_unity_build target)
   if(NOT CORPUSCLE_UNITY OR NOT files)
     return()
   endif()
-  math(EXPR last "${bytes} / 75000")
+  math(EXPR last "${bytes} / 60000")
   set(folder ${CMAKE_CURRENT_BINARY_DIR}/${target}_units)
   string(JOIN "\n" lines ${files})
   file(CONFIGURE OUTPUT ${folder}/files.txt CONTENT "${lines}\n" @ONLY)

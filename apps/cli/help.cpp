@@ -172,8 +172,7 @@ std::string unknown_verb_error(const CLI::App& app, const std::vector<std::strin
     if (std::find(names.begin(), names.end(), arguments[0]) != names.end()) return "";
     const std::vector<std::string_view> known(names.begin(), names.end());
     const auto hint = did_you_mean(arguments[0], known);
-    return fmt::format("unknown verb '{}'{}", arguments[0],
-                       hint.empty() ? fmt::format("; the verbs are {}", fmt::join(names, ", ")) : hint);
+    return fmt::format("unknown verb '{}'{}", arguments[0], hint.empty() ? fmt::format("; the verbs are {}", joined(names)) : hint);
 }
 
 }  // namespace corpuscle

@@ -13,6 +13,7 @@
 #include "cli/output/terminal.hpp"
 #include "cli/verbs.hpp"
 #include "core/stimulus/stimuli.hpp"
+#include "core/text/ascii_text.hpp"
 #include "core/text/quantity.hpp"
 #include "io/recording/recording_formats.hpp"
 #include "measure/measures.hpp"
@@ -142,7 +143,7 @@ std::string range_text(const ParameterInfo& r) {
 std::string text_of(const ListEntry& e) {
     std::string text = fmt::format("  {}{}: {}\n", e.name, e.detail.empty() ? "" : fmt::format(" ({})", e.detail), e.description);
     if (!e.source.empty()) text += fmt::format("    source: {}\n", e.source);
-    if (!e.other_names.empty()) text += fmt::format("    also called: {}\n", fmt::join(e.other_names, ", "));
+    if (!e.other_names.empty()) text += fmt::format("    also called: {}\n", joined(e.other_names));
     TableRows rows;
     for (const auto& p : e.parameters)
         rows.push_back({"    " + std::string(p.info.name), format_quantity(p.info.default_value, p.info.unit), range_text(p.info),

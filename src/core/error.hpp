@@ -19,23 +19,24 @@ struct SourceLocation {
 };
 
 struct Error {
-    ErrorCode code = ErrorCode::bad_input;
+    ErrorCode code;
     std::string message;  ///< states what is wrong, its value, and what is expected
-    SourceLocation location = {};
+    SourceLocation location;
+
+    Error(ErrorCode code = ErrorCode::bad_input, std::string message = "", SourceLocation location = {});
+    // Not defined here: each TRY would contain the copying of two strings.
+    Error(const Error&);
+    Error(Error&&) noexcept;
+    Error& operator=(const Error&);
+    Error& operator=(Error&&) noexcept;
+    ~Error();
 
     /// "file:line:column: message", without the unknown parts of the location.
-    std::string text() const {
-        std::string at = location.file;
-        if (location.line > 0) at += (at.empty() ? "line " : ":") + std::to_string(location.line);
-        if (location.line > 0 && location.column > 0) at += ":" + std::to_string(location.column);
-        return at.empty() ? message : at + ": " + message;
-    }
+    std::string text() const;
 };
 
-inline Error bad_input(std::string message, SourceLocation location = {}) {
-    return {ErrorCode::bad_input, std::move(message), std::move(location)};
-}
-inline Error bad_usage(std::string message) { return {ErrorCode::bad_usage, std::move(message)}; }
+Error bad_input(std::string message, SourceLocation location = {});
+Error bad_usage(std::string message);
 
 /// A value, or the error that prevented it. Check with `if (result)` first: * and -> require a value, error() requires an error.
 /// Not a std::variant: that takes the compiler twice as long for each type of value, of which there are hundreds.

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <tuple>
 
+#include "core/text/ascii_text.hpp"
 #include "core/text/quantity.hpp"
 
 namespace corpuscle {
@@ -13,7 +14,7 @@ std::string unknown_parameter(const ParameterOverride& given, std::span<const Pa
     std::vector<std::string_view> names;
     for (const auto& r : parameters) names.push_back(r.name);
     return fmt::format("{}: unknown parameter '{}'{} (it has {})", given.target, given.parameter, did_you_mean(given.parameter, names),
-                       fmt::join(names, ", "));
+                       joined(names));
 }
 
 }  // namespace
@@ -81,7 +82,7 @@ Result<void> check_all_used(std::span<const ParameterOverride> unused, std::span
     if (given.target.empty()) return bad_usage(fmt::format("{}: there is no netlist in this run; try --afferent sa1-circuit", given.typed));
     return Error{given.location.line > 0 ? ErrorCode::bad_input : ErrorCode::bad_usage,
                  fmt::format("{}: nothing here is named '{}'{} (parameters of {} can be set)", given.typed, given.target,
-                             did_you_mean(given.target, targets), fmt::join(targets, ", ")),
+                             did_you_mean(given.target, targets), joined(targets)),
                  given.location};
 }
 

@@ -38,7 +38,7 @@ const std::vector<Kind>& kinds() {
 /// "the signal goes through a sensor (fsr), a transducer (f2v, f2i), a converter (adc), then the afferent"
 std::string order() {
     std::string text = "the signal goes through ";
-    for (const auto& kind : kinds()) text += fmt::format("{} ({}), ", kind.article_and_name, fmt::join(kind.names, ", "));
+    for (const auto& kind : kinds()) text += fmt::format("{} ({}), ", kind.article_and_name, joined(kind.names));
     return text + "then the afferent";
 }
 
@@ -53,8 +53,7 @@ Error unknown_afferent(std::string_view text) {
 Result<std::string_view> find_component(std::string_view text, std::string_view typed, const std::vector<std::string_view>& names,
                                         std::string_view kind) {
     if (std::find(names.begin(), names.end(), typed) != names.end()) return *std::find(names.begin(), names.end(), typed);
-    return bad_input(
-        fmt::format("{}: unknown {} '{}'{} (there are {})", text, kind, typed, did_you_mean(typed, names), fmt::join(names, ", ")));
+    return bad_input(fmt::format("{}: unknown {} '{}'{} (there are {})", text, kind, typed, did_you_mean(typed, names), joined(names)));
 }
 
 /// The error for a word of `text` that is a component in the wrong position, or not a component. `parts` are the components read before it.

@@ -4,8 +4,8 @@
 #include <algorithm>
 
 #include "core/text/ascii_text.hpp"
-#include "model/chain.hpp"
 #include "model/components.hpp"
+#include "model/model_factory.hpp"
 #include "model/models.hpp"
 #include "model/sensor/digital_afferent.hpp"
 
@@ -58,34 +58,6 @@ Result<void> check_integers(const AfferentPlan& plan) {
     return ok;
 }
 
-/// Makes and describes the afferents of all plans that are made of components of the catalogue.
-class ModelFactory final : public AfferentFactory {
-public:
-    std::unique_ptr<Afferent> make(const AfferentPlan& plan, const SimulationOptions& run) const override {
-        if (!plan.converter.empty()) return make_digital(plan, run);
-        std::unique_ptr<Afferent> afferent;
-        visit_named(Receptors{}, plan.receptor, [&]<template <class> class R>(ModelTag<R>) {
-            visit_named(Neurons{}, plan.neuron, [&]<template <class> class N>(ModelTag<N>) {
-                afferent = std::make_unique<Chain<R, N>>(ParameterValues<R<double>>(plan), ParameterValues<N<double>>(plan), run);
-            });
-        });
-        // A plan with a transducer also has a sensor.
-        if (!plan.sensor.empty()) return make_behind_front_end(make_front_end(plan), std::move(afferent));
-        return afferent;
-    }
-    AfferentTraits traits(const AfferentPlan& plan) const override {
-        return {.can_use_lanes = plan.sensor.empty() && plan.transducer.empty() && plan.converter.empty(),
-                .lane_obstacles = "sensors, converters and noise",
-                .reason_no_noise = plan.converter.empty() ? "" : "behind a converter the membrane is digital"};
-    }
-    std::string composition(const AfferentPlan& plan) const override {
-        return join_components({plan.sensor, plan.transducer, plan.converter, plan.receptor, plan.neuron});
-    }
-    std::vector<std::pair<std::string, std::string>> labels(const AfferentPlan& plan) const override {
-        return {{"receptor", std::string(plan.receptor)}, {"neuron", std::string(plan.neuron)}};
-    }
-};
-
 /// The name of the afferent that `text` specifies.
 std::string name_of(std::string_view text, const AfferentComponents& parts) {
     if (!parts.named) return std::string(text);
@@ -103,8 +75,7 @@ AfferentPlan plan_of_components(std::string_view text, const AfferentComponents&
     const auto entries = entries_of_components(plan);
     const auto& receptor = entries[entries.size() - 2];  // the neuron is last
     plan.description = named ? named->description : receptor.description, plan.source = named ? named->source : receptor.source;
-    static const auto factory = std::make_shared<const ModelFactory>();
-    plan.factory = factory;
+    plan.factory = model_factory();
     visit_named(Receptors{}, plan.receptor, [&]<template <class> class R>(ModelTag<R>) {
         if constexpr (requires { R<double>::min_rate; }) plan.min_rate = R<double>::min_rate;
     });

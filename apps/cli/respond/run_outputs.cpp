@@ -5,6 +5,7 @@
 #include "cli/output/output_files.hpp"
 #include "cli/output/terminal.hpp"
 #include "cli/respond/planned_run.hpp"
+#include "core/text/ascii_text.hpp"
 #include "io/output/output_check.hpp"
 #include "run/earlier_outputs.hpp"
 
@@ -101,10 +102,8 @@ Result<void> RunOutputs::commit(const PlannedRun& run, const nlohmann::ordered_j
 std::string RunOutputs::written_text() const {
     const auto all = paths();
     if (all.empty()) return "Nothing was written: --out DIR writes the spikes, --report writes a report page.\n";
-    const auto removed_text =
-        removed_.empty() ? ""
-                         : fmt::format("Removed files of an earlier run: {}\n", printable(fmt::format("{}", fmt::join(removed_, ", "))));
-    return fmt::format("Written: {}\n{}", printable(fmt::format("{}", fmt::join(all, ", "))), removed_text);
+    const auto removed_text = removed_.empty() ? "" : fmt::format("Removed files of an earlier run: {}\n", printable(joined(removed_)));
+    return fmt::format("Written: {}\n{}", printable(joined(all)), removed_text);
 }
 
 }  // namespace corpuscle

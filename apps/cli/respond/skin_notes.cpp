@@ -5,6 +5,7 @@
 
 #include "cli/respond/skin_run.hpp"
 #include "core/stimulus/stimuli.hpp"
+#include "core/text/ascii_text.hpp"
 #include "io/table/foreign_format.hpp"
 #include "run/channels/channel_warnings.hpp"
 #include "skin/plan/skin_plan.hpp"
@@ -80,7 +81,7 @@ void SkinRun::add_silence_notes() {
     if (silent.empty()) return;
     const bool any_force = std::any_of(silent.begin(), silent.end(), [](const SilentClass& s) { return s.max_force > 0; });
     const bool all = silent.size() == innervation_->plan.classes.size();
-    auto text = fmt::format("{}: {}", all ? "no afferent fired" : "never fired", fmt::join(messages, "; "));
+    auto text = fmt::format("{}: {}", all ? "no afferent fired" : "never fired", joined(messages, "; "));
     if (all && min_factor)
         if (const auto remedy = stronger_stimulus_advice(margin * *min_factor); !remedy.empty()) text += "; " + remedy;
     if (all && !any_force && contact_)

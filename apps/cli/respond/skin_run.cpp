@@ -105,7 +105,7 @@ Result<void> SkinRun::plan() {
 Result<RunFingerprint> SkinRun::fingerprint() const {
     RunFingerprint all = {{"the program", fmt::format("version {}", version)}, {"FORCE", args_.forces[0].text}};
     for (const auto& [name, values] : common_.typed)
-        if (name != "FORCE" && !is_output_option(name)) all.emplace_back(name, fmt::format("{}", fmt::join(values, " ")));
+        if (name != "FORCE" && !is_output_option(name)) all.emplace_back(name, joined(values, " "));
     if (const auto& force = args_.forces[0]; !force.is_stimulus && !force.touch) TRY(add_contents(all, "recording", force.text));
     TRY(add_contents(all, "population file", args_.population));
     TRY(add_contents(all, "layout file", args_.recording.layout));

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "cli/output/terminal.hpp"
+#include "core/text/ascii_text.hpp"
 #include "core/text/quantity.hpp"
 
 namespace corpuscle {
@@ -209,7 +210,7 @@ std::string dependences_text(const SweepTable& table, const SweepSummary& s) {
     if (!explained.empty())
         text += fmt::format("A linear model explains (%): {}. The rest is nonlinear, an interaction, or not significant.\n", explained);
     if (!independent.empty() && (s.mismatch || !table.axes.empty()))
-        text += fmt::format("No significant influence on: {}.\n", fmt::join(independent, ", "));
+        text += fmt::format("No significant influence on: {}.\n", joined(independent));
     return text;
 }
 

@@ -3,6 +3,7 @@
 #include "circuit/analyses.hpp"
 #include "circuit/devices.hpp"
 #include "circuit/export/element_text.hpp"
+#include "core/text/ascii_text.hpp"
 
 namespace corpuscle::circuit {
 namespace {
@@ -84,7 +85,7 @@ private:
                            [](const Element& e) { return has_role(e, Role::transistor); });
     }
     static std::string line(std::string_view name, const std::vector<std::string>& words) {
-        return fmt::format(".{}{}{}\n", name, words.empty() ? "" : " ", fmt::join(words, " "));
+        return fmt::format(".{}{}{}\n", name, words.empty() ? "" : " ", joined(words, " "));
     }
     std::string comment_out(const Directive& c, std::string_view why) const {
         auto text = line(c.name, c.words);

@@ -86,14 +86,14 @@ std::string CornerSelector::select_section(const std::string& section, std::stri
     if (corner_.empty()) return section;
     const auto known = sections_in(text);
     if (std::find(known.begin(), known.end(), corner_) != known.end()) return is_found_ = true, corner_;
-    libraries_.push_back(fmt::format("'{}' has {}{}", library, fmt::join(known, ", "), did_you_mean(corner_, known)));
+    libraries_.push_back(fmt::format("'{}' has {}{}", library, joined(known), did_you_mean(corner_, known)));
     return section;
 }
 
 Result<void> CornerSelector::check_found(const std::string& netlist) const {
     if (corner_.empty() || is_found_) return {};
     if (libraries_.empty()) return error_at({netlist}, "there is no corner '{}': the netlist has no line .lib 'file' section", corner_);
-    return error_at({netlist}, "no corner '{}': library {}", corner_, fmt::join(libraries_, "; "));
+    return error_at({netlist}, "no corner '{}': library {}", corner_, joined(libraries_, "; "));
 }
 
 }  // namespace corpuscle::circuit

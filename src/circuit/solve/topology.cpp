@@ -1,6 +1,7 @@
 #include "circuit/solve/system.hpp"
 
 #include "circuit/devices.hpp"
+#include "core/text/ascii_text.hpp"
 
 namespace corpuscle::circuit {
 namespace {
@@ -11,7 +12,7 @@ std::string elements_at(const Circuit& c, int node) {
     std::size_t more = 0;
     for (const auto& e : c.elements)
         if (std::find(e.nodes.begin(), e.nodes.end(), node) != e.nodes.end()) names.size() < 3 ? names.push_back(e.name) : void(++more);
-    return fmt::format("{}{}", fmt::join(names, ", "), more > 0 ? fmt::format(" and {} more", more) : "");
+    return fmt::format("{}{}", joined(names), more > 0 ? fmt::format(" and {} more", more) : "");
 }
 
 /// Rejects nodes without a DC path to ground. The message describes the part of the circuit with the first of these nodes.
@@ -35,7 +36,7 @@ Result<void> check_floating_nodes(const Circuit& c) {
         if (first_element == nullptr) first_element = &e;
         sources |= has_role(e, Role::current_source) || is_current_expression(e);
     }
-    const auto what = names.size() == 1 ? fmt::format("node '{}' has", names[0]) : fmt::format("nodes '{}' have", fmt::join(names, "', '"));
+    const auto what = names.size() == 1 ? fmt::format("node '{}' has", names[0]) : fmt::format("nodes '{}' have", joined(names, "', '"));
     const auto why = sources ? "is connected to ground only through current sources, so nothing sets its voltage"
                              : "is connected to ground through capacitors and gates at most, so nothing sets its voltage";
     const auto subject = names.size() == 1 ? "it" : "their part of the circuit";
@@ -46,23 +47,23 @@ Result<void> check_floating_nodes(const Circuit& c) {
 
 Result<void> check_voltage_loops(const Circuit& c) {
     NodeSets sets(c.nodes.size());
-    std::vector<const Element*> joined;  // elements that fix a voltage and close no loop
+    std::vector<const Element*> fixing;  // elements that fix a voltage and close no loop
     for (const auto& e : c.elements) {
         if (!has_branch_current(e)) continue;  // see DeviceKind
         if (sets.join(e.nodes[0], e.nodes[1])) {
-            joined.push_back(&e);
+            fixing.push_back(&e);
             continue;
         }
         if (e.nodes[0] == e.nodes[1])
             return error_at(e.location, "{}: both ends are connected to node '{}', so its voltage can only be 0", e.name,
                             c.nodes[static_cast<std::size_t>(e.nodes[0])]);
         std::vector<std::string> names;
-        for (const auto* other : joined)
+        for (const auto* other : fixing)
             if (sets.root(other->nodes[0]) == sets.root(e.nodes[0]) && names.size() < 5) names.push_back(other->name);
         return error_at(e.location,
                         "{}: closes a loop of elements that each fix a voltage ({}), so the loop current is not determined; add "
                         "a small series resistor",
-                        e.name, fmt::join(names, ", "));
+                        e.name, joined(names));
     }
     return {};
 }

@@ -61,7 +61,7 @@ std::string abbreviated_list(std::span<const std::string_view> names) {
     constexpr std::size_t max_shown = 6;
     const auto shown = names.first(std::min(names.size(), max_shown));
     const auto more = names.size() > max_shown ? fmt::format(" and {} more", names.size() - max_shown) : "";
-    return fmt::format("{}{}", fmt::join(shown, ", "), more);
+    return fmt::format("{}{}", joined(shown), more);
 }
 
 }  // namespace corpuscle::circuit

@@ -93,7 +93,7 @@ private:
         }
         return error_of(setting, "{} has no parameter or device '{}'{} (it has {}corner, temp, mismatch, and {} devices, such as {})",
                         circuit_.file, setting.parameter, did_you_mean(typed, known),
-                        parameters_.empty() ? "" : fmt::format("{}, ", fmt::join(parameters_, ", ")), names_.size(),
+                        parameters_.empty() ? "" : fmt::format("{}, ", joined(parameters_)), names_.size(),
                         names_.empty() ? "none" : short_name(names_.back(), piece_count(names_.back()), LastPiece::element));
     }
 
@@ -117,9 +117,8 @@ private:
         for (const auto& n : known)
             if (!n.name.empty()) names.push_back(n.name);
         if (names.empty()) return error_of(setting, "{} has an expression; its value is not a single number", e.name);
-        if (parameter.empty())
-            return error_of(setting, "{} has no single value; set one of its parameters ({})", e.name, fmt::join(names, ", "));
-        return error_of(setting, "{} has no '{}'{} (it has {})", e.name, parameter, did_you_mean(parameter, names), fmt::join(names, ", "));
+        if (parameter.empty()) return error_of(setting, "{} has no single value; set one of its parameters ({})", e.name, joined(names));
+        return error_of(setting, "{} has no '{}'{} (it has {})", e.name, parameter, did_you_mean(parameter, names), joined(names));
     }
 
     Result<void> override_array(const ParameterOverride& setting, const Element& e) {

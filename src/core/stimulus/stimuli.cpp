@@ -67,7 +67,7 @@ public:
         std::vector<std::string_view> all;
         for (const auto member : stimulus_members(name_))
             all.push_back(find_stimulus(member)->description);  // exists: make_stimulus() has checked the names
-        return fmt::format("{}", fmt::join(all, "; "));
+        return joined(all, "; ");
     }
     double progress() const override { return static_cast<double>(next_) / static_cast<double>(samples_); }
     std::vector<MetadataEntry> metadata() const override { return metadata_; }

@@ -1,9 +1,10 @@
 #pragma once
-// Functions for text that the user typed: removal of blanks around it, numbers, comparison without regard to case, and splitting.
+// Functions for text that the user typed: removal of blanks around it, numbers, comparison without regard to case, splitting and joining.
 
 #include <algorithm>
 #include <charconv>
 #include <optional>
+#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -45,5 +46,9 @@ inline std::vector<std::string_view> split(std::string_view text, char separator
     }
     return parts;
 }
+
+/// The texts with a separator between them.
+std::string joined(std::span<const std::string_view> texts, std::string_view separator = ", ");
+std::string joined(std::span<const std::string> texts, std::string_view separator = ", ");
 
 }  // namespace corpuscle

@@ -6,6 +6,8 @@
 #include <algorithm>
 #include <sstream>
 
+#include "core/text/ascii_text.hpp"
+
 namespace corpuscle {
 namespace {
 
@@ -160,7 +162,7 @@ Result<void> check_keys(const ConfigNode& table, std::span<const ConfigKey> know
         std::vector<std::string_view> names;
         for (const auto& k : known) names.push_back(k.name);
         return key.error_here(
-            fmt::format("{}there is no '{}'{} (there are {})", where, key.text, did_you_mean(key.text, names), fmt::join(names, ", ")));
+            fmt::format("{}there is no '{}'{} (there are {})", where, key.text, did_you_mean(key.text, names), joined(names)));
     }
     for (const auto& [key, value] : table.entries) TRY(check_kind(value, *find(key.text)));
     return {};

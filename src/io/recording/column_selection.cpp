@@ -55,7 +55,7 @@ struct ChannelSelector {
         for (const auto c : data) names.push_back(table.columns()[c].name);
         const auto shown = std::span(names).first(std::min<std::size_t>(names.size(), 24));
         return bad_input(fmt::format("no channel '{}'{}; there are {}: {}{}", wanted, did_you_mean(wanted, names), names.size(),
-                                     fmt::join(shown, ", "), shown.size() < names.size() ? " ..." : ""),
+                                     joined(shown), shown.size() < names.size() ? " ..." : ""),
                          {path});
     }
 
@@ -191,7 +191,7 @@ Result<std::optional<std::size_t>> select_time_column(const Table& table, const 
     for (const auto& c : columns) names.push_back(c.name);
     const auto shown = std::span(names).first(std::min<std::size_t>(names.size(), 12));
     return bad_input(fmt::format("no time column '{}'{}; give a name, a number or 'none' (columns: {}{})", *wanted,
-                                 did_you_mean(*wanted, names), fmt::join(shown, ", "), shown.size() < names.size() ? " ..." : ""),
+                                 did_you_mean(*wanted, names), joined(shown), shown.size() < names.size() ? " ..." : ""),
                      {path});
 }
 

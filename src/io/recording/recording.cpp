@@ -114,7 +114,7 @@ class Recording final : public ForceSource {
         std::vector<std::string> unitless;
         for (const auto& placed : chosen) add_channel(placed, unitless);
         if (unitless.size() > 6) unitless.resize(6), unitless.push_back("...");
-        if (!unitless.empty()) notes_.push_back(fmt::format("no unit for {}: assuming newtons", fmt::join(unitless, ", ")));
+        if (!unitless.empty()) notes_.push_back(fmt::format("no unit for {}: assuming newtons", joined(unitless)));
     }
 
     /// Creates the pipelines of all channels. The filters run on the rows if these are evenly spaced, otherwise on the resampled samples.

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 #include <cmath>
 
+#include "core/text/ascii_text.hpp"
 #include "core/text/quantity.hpp"
 #include "io/recording/column_selection.hpp"
 #include "io/recording/force_rows.hpp"
@@ -220,9 +221,9 @@ Result<RowClock> find_row_clock(Table& table, const RecordingOptions& options, c
             std::vector<std::string> names;
             for (const auto& c : table.columns()) names.push_back(c.name);
             if (names.size() > 12) names.resize(12), names.push_back("...");
-            return bad_input(fmt::format("no time column found (columns: {}); name one with --time, or give a rate, such as --rate 1kHz",
-                                         fmt::join(names, ", ")),
-                             {path});
+            return bad_input(
+                fmt::format("no time column found (columns: {}); name one with --time, or give a rate, such as --rate 1kHz", joined(names)),
+                {path});
         }
         out.clock = TRY(make_clock(*rate));
         return out;

@@ -110,7 +110,7 @@ std::string list_arrays(std::span<const ArrayInfo> arrays) {
     constexpr std::size_t limit = 24;
     std::vector<std::string> texts;
     for (const auto& a : arrays.first(std::min(arrays.size(), limit))) texts.push_back(describe(a));
-    return fmt::format("{}{}", fmt::join(texts, ", "), arrays.size() > limit ? " ..." : "");
+    return fmt::format("{}{}", joined(texts), arrays.size() > limit ? " ..." : "");
 }
 
 /// True if the array can be a recording, by its type and number of dimensions.

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 #include <algorithm>
 
+#include "core/text/ascii_text.hpp"
 #include "core/text/quantity.hpp"
 #include "io/text/named_columns.hpp"
 
@@ -40,7 +41,7 @@ class LayoutReader {
         const auto channel = layout_.find({"channel", "sensor"});
         if (!channel)
             return layout_.error_at(fmt::format("a layout needs a column 'channel' (and may have name, x, y, z); this header has: {}",
-                                                fmt::join(layout_.fields(), ", ")));
+                                                joined(layout_.fields())));
         channel_ = *channel, name_ = layout_.find({"name"});
         return {};
     }

@@ -6,6 +6,7 @@
 #include <nlohmann/json.hpp>
 
 #include "core/parameter.hpp"
+#include "core/text/ascii_text.hpp"
 #include "io/spikes/spike_files.hpp"
 
 namespace corpuscle {
@@ -102,7 +103,7 @@ Result<std::unique_ptr<EventFormat>> make_event_format(std::string_view name, Ev
     }
     std::vector<std::string_view> known;
     for (const auto& f : event_format_names) known.push_back(f.name);
-    return bad_usage(fmt::format("unknown event format '{}'{}; formats: {}", name, did_you_mean(name, known), fmt::join(known, ", ")));
+    return bad_usage(fmt::format("unknown event format '{}'{}; formats: {}", name, did_you_mean(name, known), joined(known)));
 }
 
 }  // namespace corpuscle

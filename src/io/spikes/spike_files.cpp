@@ -29,7 +29,7 @@ std::string listed_headings(const std::vector<std::string>& headings) {
     if (headings.empty()) return "none";
     for (const auto& h : headings) names.push_back("'" + h.substr(0, 40) + "'");
     if (names.size() > 12) names.resize(12), names.push_back("...");
-    return fmt::format("{}", fmt::join(names, ", "));
+    return joined(names);
 }
 
 /// The index of the column with this heading, name (the heading without its unit) or number (counted from 1). nullopt if there is none.

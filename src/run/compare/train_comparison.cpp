@@ -8,6 +8,7 @@
 #include <string_view>
 #include <utility>
 
+#include "core/text/ascii_text.hpp"
 #include "measure/train_distance.hpp"
 
 namespace corpuscle {
@@ -20,7 +21,7 @@ std::string list_names(const Trains& trains) {
     std::vector<std::string> names;
     for (const auto& t : trains)
         if (names.size() < 8) names.push_back(t.name().empty() ? "(unnamed)" : t.name());
-    return fmt::format("{}{}", fmt::join(names, "; "), names.size() < trains.size() ? " ..." : "");
+    return fmt::format("{}{}", joined(names, "; "), names.size() < trains.size() ? " ..." : "");
 }
 
 /// Looks up the trains of a file by name.

@@ -48,7 +48,7 @@ Result<void> check_event_format(const OutputRequest& request) {
     const auto& name = request.options.at("--events");
     std::vector<std::string_view> names;
     for (const auto& f : event_formats()) names.push_back(f.name);
-    return bad_usage(fmt::format("--events {}: expected one of {}{}", name, fmt::join(names, ", "), did_you_mean(name, names)));
+    return bad_usage(fmt::format("--events {}: expected one of {}{}", name, joined(names), did_you_mean(name, names)));
 }
 
 std::vector<std::string> event_file_names(const OutputRequest& request) {

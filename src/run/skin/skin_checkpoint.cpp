@@ -11,6 +11,7 @@
 #include <filesystem>
 
 #include "core/bytes.hpp"
+#include "core/text/ascii_text.hpp"
 #include "core/text/input_files.hpp"
 #include "io/output/output_check.hpp"
 #include "io/output/output_file.hpp"
@@ -56,7 +57,7 @@ std::string differences(const RunFingerprint& then, const RunFingerprint& now) {
     for (const auto& entry : then) compare(entry.first);
     for (const auto& entry : now)
         if (!value_in(then, entry.first)) compare(entry.first);
-    return fmt::format("{}", fmt::join(found, "; "));
+    return joined(found, "; ");
 }
 
 }  // namespace

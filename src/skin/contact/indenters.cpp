@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include "core/text/ascii_text.hpp"
 #include "skin/contact/contact.hpp"
 
 namespace corpuscle {
@@ -49,7 +50,7 @@ Result<const Indenter*> find_indenter(std::string_view name) {
         if (i.name == name) return &i;
         names.push_back(i.name);
     }
-    return bad_usage(fmt::format("there is no indenter '{}'{} (there are {})", name, did_you_mean(name, names), fmt::join(names, ", ")));
+    return bad_usage(fmt::format("there is no indenter '{}'{} (there are {})", name, did_you_mean(name, names), joined(names)));
 }
 
 Result<Applied<ContactParams>> read_contact_params(const Indenter& indenter, std::span<const ParameterOverride> overrides,
@@ -64,8 +65,8 @@ Result<Applied<ContactParams>> read_contact_params(const Indenter& indenter, std
         if (!has_parameter(indenter, s.name))
             return bad_input(fmt::format(
                 "contact.{}: {} has no such parameter (it has {}, and for its path {})", s.name, indenter.name,
-                fmt::join(indenter.parameters.begin(), std::find(indenter.parameters.begin(), indenter.parameters.end(), ""), ", "),
-                fmt::join(path_parameters, ", ")));
+                joined(std::span(indenter.parameters.begin(), std::find(indenter.parameters.begin(), indenter.parameters.end(), ""))),
+                joined(path_parameters)));
     auto p = with_settings<ContactParams>(contact_fields, settings);
     if (!is_set("x") && !is_set("y")) {
         const auto middle = centre_of_first_region(sites);

@@ -6,6 +6,8 @@
 
 #include "skin/plan/population_values.hpp"
 
+#include "core/text/ascii_text.hpp"
+
 namespace corpuscle::skins {
 namespace {
 
@@ -68,7 +70,7 @@ Result<std::vector<double>> read_densities(const ConfigNode& in, const Sites& si
         if (matched) continue;
         const std::vector<std::string_view> names(sites.regions.begin(), sites.regions.end());
         return s.value.error_here(
-            fmt::format("density: there is no region '{}'{} (there are {})", s.name, did_you_mean(s.name, names), fmt::join(names, ", ")));
+            fmt::format("density: there is no region '{}'{} (there are {})", s.name, did_you_mean(s.name, names), joined(names)));
     }
     for (std::size_t r = 0; r < out.size(); ++r)
         if (out[r] < 0)

@@ -64,7 +64,7 @@ Error unknown_skin(std::string_view name) {
     std::vector<std::string_view> names = {"grid 8x8"};
     for (const auto& s : named_skins()) names.push_back(s.name);
     return bad_usage(fmt::format("there is no population '{}'{} (there are {}, grid ROWSxCOLUMNS, and files: own.toml)", name,
-                                 did_you_mean(name, names), fmt::join(names.begin() + 1, names.end(), ", ")));
+                                 did_you_mean(name, names), joined(std::span(names).subspan(1))));
 }
 
 /// The built-in populations, which are embedded in the program as files.

@@ -6,6 +6,7 @@
 #include <filesystem>
 #include <set>
 
+#include "core/text/ascii_text.hpp"
 #include "skin/plan/population_values.hpp"
 
 namespace corpuscle::skins {
@@ -32,7 +33,7 @@ Result<std::size_t> shape_kind(const ConfigNode& shape) {
             return points->error_here(fmt::format("a shape must be a {} or a {}, not both", shape_kinds[*kind], shape_kinds[k]));
         if (points) kind = k;
     }
-    return kind ? Result(*kind) : shape.error_here(fmt::format("a shape must be one of {}", fmt::join(shape_kinds, ", ")));
+    return kind ? Result(*kind) : shape.error_here(fmt::format("a shape must be one of {}", joined(shape_kinds)));
 }
 
 /// The position of an ellipse, or the positions of another shape.

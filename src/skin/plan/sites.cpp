@@ -40,7 +40,7 @@ Result<SiteColumns> find_columns(const NamedColumns& table) {
     }
     if (!is_complete)
         return table.error_at(
-            fmt::format("a table of sites needs the columns name, x and y (x_mm, y_mm); this one has {}", fmt::join(table.fields(), ", ")));
+            fmt::format("a table of sites needs the columns name, x and y (x_mm, y_mm); this one has {}", joined(table.fields())));
     out.name = *name, out.region = table.find({"region"});
     return out;
 }
@@ -78,8 +78,7 @@ std::string no_such_site(const Sites& sites, std::string_view name) {
     const std::vector<std::string_view> some(sites.names.begin(),
                                              sites.names.begin() + static_cast<std::ptrdiff_t>(std::min<std::size_t>(sites.size(), 1000)));
     return fmt::format("there is no site '{}'{}; the first are {}; 'corpuscle list POPULATION --sites' prints all", name.substr(0, 64),
-                       did_you_mean(name, some),
-                       fmt::join(some.begin(), some.begin() + static_cast<std::ptrdiff_t>(std::min<std::size_t>(some.size(), 3)), ", "));
+                       did_you_mean(name, some), joined(std::span(some).first(std::min<std::size_t>(some.size(), 3))));
 }
 
 /// The columns of a layout of frames.

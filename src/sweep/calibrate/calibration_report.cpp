@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <nlohmann/json.hpp>
 
+#include "core/text/ascii_text.hpp"
+
 namespace corpuscle {
 
 std::size_t CalibrationResult::count_within_limits(int bits) const {
@@ -52,7 +54,7 @@ std::string format_calibration(const ChipCalibration& options, const std::vector
         out += fmt::format("  {:.1f}\n", set.mean_presses());
     }
     for (const auto& t : all.empty() ? std::vector<Trim>() : all[0].trims)
-        out += fmt::format("\n{}: {:g} as designed, {:g} to {:g} with {} bits{}", fmt::join(t.names, " and "), t.designed,
+        out += fmt::format("\n{}: {:g} as designed, {:g} to {:g} with {} bits{}", joined(t.names, " and "), t.designed,
                            t.value(1 - (1 << (options.bits - 1)), options.bits), t.value(1 << (options.bits - 1), options.bits),
                            options.bits, t.is_integer ? ", integer columns" : "");
     if (!all.empty()) out += fmt::format("\nuseful number of bits: {}\n", useful_bits(all[0], options.bits));

@@ -57,8 +57,8 @@ class AxisReader {
             if (key.text == "list")
                 return error_at(value.elements.empty() ? axis_name(spec_) : value.elements.front(),
                                 fmt::format("list and how = \"{}\" exclude each other", method_));
-            return error_at(
-                value, fmt::format("'{}' has no meaning for how = \"{}\" (which allows: {})", key.text, method_, fmt::join(known, ", ")));
+            return error_at(value,
+                            fmt::format("'{}' has no meaning for how = \"{}\" (which allows: {})", key.text, method_, joined(known)));
         }
         return {};
     }
@@ -166,7 +166,7 @@ public:
         SweepAxis axis{quantity_.column};
         if (std::find(std::begin(methods), std::end(methods), method_) == std::end(methods))
             return error_at(*spec_.get("how"), fmt::format("how = \"{}\" is unknown{} (there are {})", method_,
-                                                           did_you_mean(method_, methods), fmt::join(methods, ", ")));
+                                                           did_you_mean(method_, methods), joined(methods)));
         if (quantity_.labels_only && method_ != "list")
             return error_at_axis(
                 fmt::format("its values are labels: list = [\"{}\", ...]", quantity_.column.name == "corner" ? "ss" : "..."));

@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "core/parameter.hpp"
+#include "core/text/ascii_text.hpp"
 #include "core/text/quantity.hpp"
 #include "sweep/stats/sweep_summary.hpp"
 
@@ -106,9 +107,9 @@ Result<SweepGroups> group_rows(const SweepTable& table, const std::vector<std::s
     for (const auto& name : by) {
         const auto at = std::find(known.begin(), known.end(), name);
         if (at == known.end())
-            return bad_usage(known.empty() ? fmt::format("--by {}: this sweep has no axis with values", name)
-                                           : fmt::format("--by {}: unknown axis{} (known: {})", name, did_you_mean(name, known),
-                                                         fmt::join(known, ", ")));
+            return bad_usage(known.empty()
+                                 ? fmt::format("--by {}: this sweep has no axis with values", name)
+                                 : fmt::format("--by {}: unknown axis{} (known: {})", name, did_you_mean(name, known), joined(known)));
         axes.push_back(static_cast<std::size_t>(at - known.begin()));
     }
     if (!by.empty()) return group_rows_by_axes(table, axes);

@@ -6,6 +6,7 @@
 #include <limits>
 
 #include "core/parameter.hpp"
+#include "core/text/ascii_text.hpp"
 #include "core/thread_pool.hpp"
 #include "sweep/spec/axis.hpp"
 #include "sweep/spec/mismatch_samples.hpp"
@@ -22,8 +23,7 @@ Result<std::vector<std::size_t>> find_measures(const SweepResults& results, cons
     for (const auto& name : names) {
         const auto at = std::find(known.begin(), known.end(), name);
         if (at == known.end())
-            return bad_usage(
-                fmt::format("--measure {}: unknown measure{} (known: {})", name, did_you_mean(name, known), fmt::join(known, ", ")));
+            return bad_usage(fmt::format("--measure {}: unknown measure{} (known: {})", name, did_you_mean(name, known), joined(known)));
         if (const auto k = static_cast<std::size_t>(at - known.begin()); std::find(out.begin(), out.end(), k) == out.end())
             out.push_back(k);
     }
@@ -147,7 +147,7 @@ Result<SweepTable> read_table(const SweepResults& results, const std::vector<std
         columns_sql.emplace_back("iterations");
         out.measures.push_back({"iterations", "", "Newton iterations of the circuit"});
     }
-    auto parts = TRY(read_parts(results, fmt::format("{}", fmt::join(columns_sql, ", ")), columns_sql.size()));
+    auto parts = TRY(read_parts(results, joined(columns_sql), columns_sql.size()));
     out.axis_values.resize(out.axes.size()), out.measure_values.resize(out.measures.size());
     const auto append = [](auto& all, auto& part) {
         all.empty() ? void(all = std::move(part)) : void(all.insert(all.end(), part.begin(), part.end()));

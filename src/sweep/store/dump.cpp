@@ -3,6 +3,8 @@
 
 #include "sweep/store/sweep_results.hpp"
 
+#include "core/text/ascii_text.hpp"
+
 namespace corpuscle {
 namespace {
 
@@ -49,7 +51,7 @@ public:
 };
 
 std::string header_line(const SweepResults& results) {
-    auto text = fmt::format("{}", fmt::join(ResultsLayout::item_columns, ","));
+    auto text = joined(ResultsLayout::item_columns, ",");
     for (const auto& name : results.stored_column_names) text += "," + csv_field(name);
     for (const auto& name : results.train_names) text += "," + csv_field("spikes of " + name);
     for (const auto& name : results.probe_names) text += "," + csv_field("trace of " + name);

@@ -8,6 +8,7 @@
 #include "circuit/output/curve_view.hpp"
 #include "circuit/run_directives.hpp"
 #include "core/parameter.hpp"
+#include "core/text/ascii_text.hpp"
 #include "sweep/subject/subject.hpp"
 
 namespace corpuscle::sweeps {
@@ -123,8 +124,7 @@ class AnalysesSweep final : public PlannedSweep {
             for (std::size_t n = 1; n < nominal_->nodes.size(); ++n) all.push_back(fmt::format("v({})", nominal_->nodes[n]));
             const std::vector<std::string_view> names(all.begin(), all.end());
             return name.error_here(fmt::format("the netlist has no number '{}'{} (it has {}; voltages are v(NODE), currents i(SOURCE))",
-                                               name.text, did_you_mean(name.text, names),
-                                               known.empty() ? "none" : fmt::format("{}", fmt::join(known, ", "))));
+                                               name.text, did_you_mean(name.text, names), known.empty() ? "none" : joined(known)));
         }
         measures.push_back({name.text, unit_of(name.text), ""});
         return measures.size() - 1;

@@ -6,6 +6,7 @@
 #include <map>
 
 #include "core/stimulus/stimuli.hpp"
+#include "core/text/ascii_text.hpp"
 #include "core/text/config_file.hpp"
 #include "core/text/quantity.hpp"
 #include "model/lane_population.hpp"
@@ -89,7 +90,7 @@ class ModelSweep final : public AfferentSweep {
         const auto at = std::find(names.begin(), names.end(), probe.text);
         if (at == names.end())
             return probe.error_here(fmt::format("traces: {} has no '{}'{} (it has {})", nominal_.name, probe.text,
-                                                did_you_mean(probe.text, names), fmt::join(names, ", ")));
+                                                did_you_mean(probe.text, names), joined(names)));
         probes_.push_back(static_cast<std::size_t>(at - names.begin())), probe_names.push_back(probe.text);
         return {};
     }
