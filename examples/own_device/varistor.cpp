@@ -25,20 +25,22 @@ constexpr ParameterDef<VaristorCard> varistor_fields[] = {
 class Varistor final : public Device {
     VaristorCard c_;  // i0 and c of m varistors in parallel
 
+    /// i / u at the voltage u.
+    double conductance(double u) const { return c_.i0 / c_.v0 * std::pow(std::abs(u) / c_.v0, c_.alpha - 1); }
+
 public:
     Varistor(const VaristorCard& card, double m) : c_(card) { c_.i0 *= m, c_.c *= m; }
     bool is_linear() const override { return false; }
 
     void eval(std::span<const double> v, const EvalContext&, const Stamp& out) const override {
-        const double u = v[0] - v[1], x = std::abs(u) / c_.v0;
-        const double g = c_.i0 / c_.v0 * std::pow(x, c_.alpha - 1);  // i / u
+        const double u = v[0] - v[1], g = conductance(u);
         Stamp::add_between(out.f, 0, 1, g * u), Stamp::add_between(out.q, 0, 1, c_.c * u);
         out.add_conductance(0, 1, c_.alpha * g), out.add_capacitance(0, 1, c_.c);
     }
 
     std::vector<OperatingValue> operating_info(std::span<const double> v) const override {
-        const double u = v[0] - v[1], g = c_.i0 / c_.v0 * std::pow(std::abs(u) / c_.v0, c_.alpha - 1);
-        return {{"v", "V", u}, {"i", "A", g * u}};
+        const double u = v[0] - v[1];
+        return {{"v", "V", u}, {"i", "A", conductance(u) * u}};
     }
 };
 

@@ -4,8 +4,8 @@
 #include <fstream>
 #include <nlohmann/json.hpp>
 
+#include "core/text/utf8.hpp"
 #include "io/spikes/spike_files.hpp"
-#include "io/text/utf8.hpp"
 #include "support/program.hpp"
 #include "support/test_paths.hpp"
 

@@ -138,6 +138,10 @@ TEST(ClosedForm, AnAmplifierOfControlledSourcesHasItsGainAndResistances) {
     EXPECT_NEAR(inverting.number("output_impedance_at_v(out)"), R_o * (R1 + R2) / (R1 + R2 + R_o + A * R1), 1e-9);
     EXPECT_NEAR(inverting.number("v1#input_impedance"), R1 + (R2 + R_o) / (1 + A), 1e-8);
 
+    const auto from_ground = run_netlist("divider\nv1 in 0 1\nr1 in out 3k\nr2 out 0 1k\n.tf v(0,out) v1\n");
+    EXPECT_NEAR(from_ground.number("transfer_function"), -0.25, 1e-12);
+    EXPECT_NEAR(from_ground.number("output_impedance_at_v(0,out)"), 750, 1e-9);
+
     // a current copied by F and converted to a voltage by H
     const auto currents = run_netlist(
         "currents\ni1 0 a 1m\nva a b 0\nr1 b 0 50\nf1 0 c va 20\nr2 c 0 1k\nvc c d 0\nr3 d 0 1k\nh1 out 0 vc 300\nr4 out 0 1\n"

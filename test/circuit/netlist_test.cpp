@@ -94,6 +94,8 @@ TEST(NetlistLines, AreReadInTimeProportionalToTheirLength) {
 
 TEST(NetlistLines, HaveTheRightLocationAcrossContinuations) {
     EXPECT_EQ(error_of("R1 a 0\n* c\n+   {2*\n+ xyz}"), "dir/t.cir:5:3: unknown name 'xyz'");
+    for (const std::string comment : {"; size", "  $ size", "// size", ""})
+        EXPECT_EQ(error_of("R1 a 0\n" + comment + "\n+   xyz"), "dir/t.cir:4:5: r1: unknown model 'xyz'") << comment;
     EXPECT_EQ(error_of("+ R1 a 0 1"), "dir/t.cir:2:1: '+' continues the previous line, but there is none");
     EXPECT_EQ(error_of(".param a='2*3"), "dir/t.cir:2:10: this ' is not closed");
     EXPECT_EQ(error_of(".param a={2*3"), "dir/t.cir:2:10: this '{' is not closed");
@@ -105,7 +107,8 @@ TEST(NetlistLines, HaveTheRightLocationAcrossContinuations) {
 
 TEST(NetlistElements, RCLTakeTheirValuesInEveryNotation) {
     const auto c = circuit(
-        ".param rv=3k\nR1 a 0 1k\nR2 a 0 {rv*2}\nR3 a 0 'rv'\nR4 a 0 r=2k tc1=1m tc2=2u m=2\nR5 a 0 rv\nR6 a 0 rm 5k\nR7 a 0 rm scale=2\n"
+        ".param rv=3k\nR1 a 0 1k\nR2 a 0 {rv*2}\nR3 a 0 'rv'\nR4 a 0 r=2k tc1=1m tc2=2u m=2\nR5 a 0 rv\nR6 a 0 rm 5k\nR7 a 0 rm 1k "
+        "scale=2\n"
         "R8 a 0 2*rv\nC1 a 0 10pF ic=0.5\nC2 a 0 c={1p*2}\nL1 a 0 1m\nL2 a 0 l=2u\n.model rm r rsh=100\nC3 a 0 q='v(a)*1p'\n");
     EXPECT_EQ(element_in(c, "r1").value, 1e3);
     EXPECT_EQ(element_in(c, "r2").value, 6e3);
@@ -195,6 +198,8 @@ TEST(NetlistElements, AreRejectedWithLocationAndSuggestion) {
         const char *body, *message;
     } cases[] = {
         {"R1 a 0", "2:7: r1: its value is missing"},
+        {"C1 a 0 cm\n.model cm c", "2:10: c1: its value is missing; its model gives only tc1, tc2 and tnom"},
+        {"R1 a 0 rm 1k r=3\n.model rm r", "2:14: r1: its value is given twice"},
         {"R1 a", "2:5: r1: 1 node, but expected 2: plus, minus, then a value or a model"},
         {"R1 a 0 1k 2k", "2:11: r1: unexpected '2k'"},
         {"R1 a 0 1k5", "2:8: '1k5' is not a number"},

@@ -40,6 +40,9 @@ TEST(Run, WritesBinaryAndAsciiRawFilesWithTheSameContents) {
                 EXPECT_LE(std::abs(a[p].curves[c].values[k] - b[p].curves[c].values[k]), 1e-15 * std::abs(a[p].curves[c].values[k]));
     EXPECT_TRUE(read_file(folder / "c-1.csv").starts_with("frequency,v(in).re,v(in).im,v(out).re"));
     EXPECT_TRUE(read_file(folder / "c-2.csv").starts_with("v(in),v(out),i(v1)"));
+    folder.write("y.cir", "t\nv1 in 0 ac 1\nr1 in 0 1k\nr2 in b 1k\nr3 b 0 1k\n.ac dec 5 10 10k\n.print ac v(in,b)\n");
+    EXPECT_EQ(run_program(folder, "run y.cir -o d.csv").status, 0);
+    EXPECT_EQ(read_file(folder / "d.csv").find("\"v(in,b)\"."), std::string::npos) << "text after the closing quote is not CSV";
 }
 
 TEST(Run, JsonOutputIsOneDocumentAndReproducible) {
@@ -118,6 +121,24 @@ TEST(Run, AStepThatDoesNotConvergeIsReportedAndTheOthersContinue) {
     EXPECT_NE(document[1]["error"].get<std::string>().find("no operating point"), std::string::npos);
     EXPECT_NEAR(document[2]["plots"][0]["curves"]["v(x)"][0].get<double>(), std::sqrt(0.5), 1e-6);
     EXPECT_NE(ran.err.find("1 of 3 did not converge"), std::string::npos) << ran.err;
+}
+
+TEST(Run, ImpossibleTemperaturesAndAreasAreRefused) {
+    const TemporaryFolder folder;
+    const std::pair<const char*, const char*> cases[] = {
+        {"r1 a 0 1k\n.temp -300", "x.cir: the circuit's temperature of -300 C is outside (-273.15, 1000]"},
+        {"r1 a 0 1k temp=-274", "x.cir:3:1: r1: its temperature of -274 C is outside"},
+        {"r1 a 0 1k dtemp=2000", "x.cir:3:1: r1: its temperature of 2027 C is outside"},
+        {"r1 a 0 1k\n.dc temp -300 0 100", "temperature of -300 C is outside"},
+        {"d1 a 0 dm -1\n.model dm d", "x.cir:3:1: d1: area = -1 must be positive"},
+        {"d1 a 0 dm\n.model dm d cj0=-1p", "dm: cjo = -1e-12"},
+    };
+    for (const auto& [lines, message] : cases) {
+        folder.write("x.cir", std::string("t\nv1 a 0 1\n") + lines + "\n.op\n");
+        const auto ran = run_program(folder, "run x.cir");
+        EXPECT_EQ(ran.status, 1) << lines;
+        EXPECT_NE(ran.err.find(message), std::string::npos) << ran.err;
+    }
 }
 
 TEST(Run, LinesOfTenMegabytesAreReadOrRejected) {

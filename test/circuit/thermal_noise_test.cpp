@@ -30,6 +30,20 @@ TEST(ThermalNoise, OfManyResistorsIsTogetherKTByC) {
     EXPECT_NEAR(std::pow(run.number("onoise_total"), 2) / (boltzmann * kelvin(27) / 1e-9), 1, 5e-5);
 }
 
+TEST(ThermalNoise, OfAResistorIs4kTRTimesTheBandwidthFromZeroHertz) {
+    for (const int points : {2, 3, 101}) {
+        const auto run = run_netlist(fmt::format("white\nv1 in 0 0\nr1 in out 1k\n.noise v(out) v1 lin {} 0 1k\n", points));
+        EXPECT_NEAR(std::pow(run.number("onoise_total"), 2) / (4 * boltzmann * kelvin(27) * 1e3 * 1e3), 1, 1e-6) << points;
+        EXPECT_NEAR(run.number("inoise_total"), run.number("onoise_total"), 1e-15) << points;
+    }
+}
+
+TEST(ThermalNoise, ReferredToASourceThatDoesNotReachTheOutputIsFinite) {
+    const auto run = run_netlist("apart\nv1 in 0 1\nr0 in 0 1\nr1 out 0 1k\nr2 other 0 1k\n.noise v(out) v1 dec 2 1 1k\n");
+    EXPECT_GT(run.number("inoise_total"), 0);
+    EXPECT_TRUE(std::isfinite(run.number("inoise_total")));
+}
+
 /// A transistor of the card whose drain is connected only to a capacitor: at rest V_DS = 0. A current drives it in .ac, so v(d) is the
 /// impedance of the drain and the capacitor.
 std::string open_drain(const char* type, double gate, double bulk, double celsius, const std::string& more_lines, double from, double to) {

@@ -6,7 +6,7 @@
 #include <cstdint>
 #include <nlohmann/json.hpp>
 
-#include "io/text/utf8.hpp"
+#include "core/text/utf8.hpp"
 
 namespace corpuscle {
 namespace {

@@ -9,6 +9,8 @@
 namespace corpuscle::circuit {
 namespace {
 
+constexpr double min_gain = 1e-200;  // power gain: keeps the noise referred to a source finite if the source does not reach the output
+
 /// The integral of a density from the frequency f0 (Hz), where it is s0, to f1, where it is s1. In between it is a power of f; if that is
 /// impossible, a straight line.
 double integrated_density(double f0, double s0, double f1, double s1) {
@@ -26,9 +28,10 @@ struct NoiseContribution {
     double last = 0, last_in = 0;    // noise power densities at the previous frequency, likewise
     std::string name() const { return fmt::format("{} {}", device->name, noise.mechanism); }
 
-    /// Adds the densities at f (Hz). Each contribution is integrated separately, since each is nearly a power of f.
-    void add(double f_last, double f, double power, double in) {
-        if (f_last > 0) total += integrated_density(f_last, last, f, power), total_in += integrated_density(f_last, last_in, f, in);
+    /// Adds the densities at f (Hz); f_last is the frequency before, if there was one. Each contribution is integrated separately, since
+    /// each is nearly a power of f.
+    void add(std::optional<double> f_last, double f, double power, double in) {
+        if (f_last) total += integrated_density(*f_last, last, f, power), total_in += integrated_density(*f_last, last_in, f, in);
         last = power, last_in = in;
     }
 };
@@ -98,16 +101,16 @@ Result<AnalysisResult> analyse_noise(AnalysisContext& context, const Directive& 
     const auto evaluation = evaluate_operating_point(context, operating_point.x);
     auto contributions = noise_contributions(system, operating_point.x);
     AnalysisResult result{.plots = {expected_noise_plot(system, c)}};
-    double f_last = 0;
+    std::optional<double> f_last;
     TRY(for_each_frequency(context, c, evaluation, frequencies, [&](double f, const auto& solver) {
         const NoiseTransfer transfer(out, operating_point.x.size(), solver);
-        const double gain = std::norm(transfer.gain(*source));
+        const double gain = std::max(std::norm(transfer.gain(*source)), min_gain);
         double density = 0;
-        for (auto& k : contributions) {
-            const double power = std::norm(transfer.at(*k.device, k.noise.from) - transfer.at(*k.device, k.noise.to)) *
-                                 (k.noise.white + (f > 0 ? k.noise.flicker / f : 0));
+        for (auto& n : contributions) {
+            const double power = std::norm(transfer.at(*n.device, n.noise.from) - transfer.at(*n.device, n.noise.to)) *
+                                 (n.noise.white + (f > 0 ? n.noise.flicker / f : 0));
             density += power;
-            k.add(f_last, f, power, power / gain);
+            n.add(f_last, f, power, power / gain);
         }
         f_last = f;
         const double row[] = {std::sqrt(density), std::sqrt(density / gain)};

@@ -116,6 +116,19 @@ Result<void> report_spikes(AnalysisContext& context, const TranSetup& setup, std
     return {};
 }
 
+/// Gives the sources their waveforms and the force; its destructor sets them back to their DC values.
+class TransientSources {
+    System& system_;
+
+public:
+    explicit TransientSources(System& system) : system_(system) {}
+    TransientSources(const TransientSources&) = delete;
+    ~TransientSources() { system_.start_transient(0, 0), system_.set_force_input(nullptr); }
+    void start(const TransientTimes& times) { system_.start_transient(times.step, times.stop); }
+    /// Returns false if no source has a force input. The force must outlive this object.
+    bool set_force(const ForceWaveform& force) { return system_.set_force_input(&force); }
+};
+
 Result<AnalysisResult> analyse_tran(AnalysisContext& context, const Directive& c) {
     const auto times = TRY(read_transient_times(c));
     const auto plan = TRY(read_transient_plan(*context.circuit));
@@ -123,7 +136,8 @@ Result<AnalysisResult> analyse_tran(AnalysisContext& context, const Directive& c
     RangeMonitor range_monitor(TRY(read_operating_ranges(context.system)));
     context.hit_iteration_limit = false;
     const auto force = TRY(force_directive(*context.circuit));
-    if (force && !context.system.set_force_input(&*force))
+    TransientSources sources(context.system);
+    if (force && !sources.set_force(*force))
         return error_at({context.circuit->file}, ".force: no source has a force input; add one such as '{}' (60 nA/N)",
                         "iin 0 fin force 60n");
     TranSetup setup{times, plan, spike_output, {}};
@@ -133,7 +147,7 @@ Result<AnalysisResult> analyse_tran(AnalysisContext& context, const Directive& c
     PointSink& points = context.points ? *context.points : recorder;
     TRY(points.begin(make_plot(context.system, "Transient Analysis", "time", "time")));
 
-    context.system.start_transient(times.step, times.stop);
+    sources.start(times);
     AnalysisResult out;
     Transient transient(context.system, context.newton, setup.plan);
     Result<void> written;
@@ -151,7 +165,6 @@ Result<AnalysisResult> analyse_tran(AnalysisContext& context, const Directive& c
     const auto ended = points.end();
     const auto reported =
         spikes && written && ended && setup.spike_output ? report_spikes(context, setup, std::move(*spikes), out) : Result<void>();
-    context.system.start_transient(0, 0), context.system.set_force_input(nullptr);
     if (!spikes) return spikes.error();
     for (const auto& done : {written, ended, reported})
         if (!done) return done.error();

@@ -151,7 +151,7 @@ public:
         const double i = std::abs(current(v[junction_anode()] - v[1]).i);
         std::vector<NoiseSource> out = {{"shot", junction_anode(), 1, 2 * electron_charge * i, 0}};
         if (c_.kf > 0) out.push_back({"flicker", junction_anode(), 1, 0, c_.kf * std::pow(i, c_.af)});
-        if (c_.rs > 0) out.push_back({"thermal", 0, 2, 4 * boltzmann * (n_vt_ / c_.n * electron_charge / boltzmann) * area_ / c_.rs, 0});
+        if (c_.rs > 0) out.push_back({"thermal", 0, 2, 4 * electron_charge * (n_vt_ / c_.n) * area_ / c_.rs, 0});  // 4 k T / R
         return out;
     }
     std::vector<OperatingValue> operating_info(std::span<const double> v) const override {
@@ -163,12 +163,16 @@ public:
 
 Result<std::unique_ptr<Device>> make_diode(const Element& e, DeviceSetup& setup) {
     const auto& model = *setup.circuit().model_of(e);
+    if (const double area = value_or(e.values, "area", 1); !(area > 0))
+        return error_at(e.location, "{}: area = {:g} must be positive", e.name, area);
     if (value_or(e.values, "pj", 0) != 0)
         return error_at(e.location, "{}: pj is not supported (this level 1 diode has no sidewalls); remove it", e.name);
     if (const double level = value_or(model.values, "level", 1); level != 1)
         return error_at(model.location, "{}: diode level {:g} is not supported; use level=1", model.name, level);
     auto c = TRY(read_model_card<DiodeCard>(fields, model, {"level", "cj0", "jsw", "ikf", "trs", "rsw"}));
-    if (const auto alias = model.values.find("cj0"); alias != model.values.end()) c.cjo = alias->second;
+    if (const auto alias = model.values.find("cj0"); alias != model.values.end())
+        TRY(read_field(*std::ranges::find(fields, std::string_view("cjo"), &ParameterDef<DiodeCard>::name), c, model.name, alias->second,
+                       model.location));
     for (const std::string_view name : {"jsw", "ikf", "trs", "rsw"})
         if (value_or(model.values, name, 0) != 0)
             return error_at(model.location,

@@ -109,7 +109,7 @@ Result<void> read_passive(ElementReader& line) {
         TRY(is_name ? line.model(k, {letter}) : line.value(k));
         has_value = has_value || !is_name;
     }
-    if (const auto* pair = e.letter == 'l' || e.model < 0 || !has_value ? line.find(letter) : nullptr) {
+    if (const auto* pair = line.find(letter)) {
         if (has_value) return line.error_at(pair->name, "its value is given twice");
         TRY(line.value(*pair));
         has_value = true;
@@ -120,7 +120,8 @@ Result<void> read_passive(ElementReader& line) {
         if (has_value) return line.error_at(q->name, "has both a capacitance and a charge");
         return line.expression(*q);
     }
-    if (!has_value && e.model < 0) return line.error_at(line.word_count(), "its value is missing");
+    if (!has_value)
+        return line.error_at(line.word_count(), "its value is missing{}", e.model < 0 ? "" : "; its model gives only tc1, tc2 and tnom");
     return {};
 }
 
@@ -179,7 +180,7 @@ constexpr ElementParameter capacitor_parameters[] = {{.name = "c", .unit = "F", 
                                                      parameter_temp,
                                                      parameter_dtemp};
 constexpr ElementParameter inductor_parameters[] = {
-    {.name = "l", .unit = "", .low = 0, .is_value = true}, parameter_m, parameter_tc1, parameter_tc2, parameter_temp, parameter_dtemp};
+    {.name = "l", .unit = "H", .low = 0, .is_value = true}, parameter_m, parameter_tc1, parameter_tc2, parameter_temp, parameter_dtemp};
 constexpr std::string_view resistor_names[] = {"scale"}, capacitor_names[] = {"q", "ic", "scale"}, inductor_names[] = {"ic", "scale"},
                            charge_names[] = {"q"};
 

@@ -1,33 +1,12 @@
 #include "circuit/netlist/statement.hpp"
 
 #include "core/text/ascii_text.hpp"
+#include "core/text/utf8.hpp"
 
 namespace corpuscle::circuit {
 namespace {
 
 bool is_blank(char c) { return c == ' ' || c == '\t'; }
-
-/// True if all bytes form UTF-8 sequences of the right length; overlong sequences are not detected.
-bool is_utf8(std::string_view s) {
-    for (std::size_t k = 0; k < s.size();) {
-        const auto c = static_cast<unsigned char>(s[k++]);
-        int continuation_bytes = c < 0x80 ? 0 : c >= 0xc2 && c < 0xe0 ? 1 : c >= 0xe0 && c < 0xf0 ? 2 : c >= 0xf0 && c < 0xf5 ? 3 : -1;
-        if (continuation_bytes < 0) return false;
-        for (; continuation_bytes > 0; --continuation_bytes, ++k)
-            if (k >= s.size() || (static_cast<unsigned char>(s[k]) & 0xc0) != 0x80) return false;
-    }
-    return true;
-}
-
-std::string from_latin1(std::string_view s) {
-    std::string out;
-    for (const char c : s) {
-        const auto byte = static_cast<unsigned char>(c);
-        if (byte >= 0x80) out += static_cast<char>(0xc0 | byte >> 6);
-        out += byte >= 0x80 ? static_cast<char>(0x80 | (byte & 0x3f)) : c;
-    }
-    return out;
-}
 
 /// True for a tab and for the printable characters of ASCII.
 bool is_text(char c) { return c == '\t' || (c >= ' ' && c <= '~'); }
@@ -100,26 +79,27 @@ Result<std::string> LogicalLineReader::title() {
     if (!take(line)) return std::string();
     for (std::size_t k = 0; k < line.size(); ++k)
         if (!is_text(line[k]) && static_cast<unsigned char>(line[k]) < 0x80) return invalid_byte(line, k, {*file_, 1, 0});
-    return is_utf8(line) ? std::string(line) : from_latin1(line);
+    return to_utf8(line);
 }
 
 Result<bool> LogicalLineReader::next(LogicalLine& out) {
     std::string_view line;
     while (take(line)) {
         const auto first = std::min(line.find_first_not_of(" \t"), line.size());
-        if (first == line.size() || line[first] == '*') continue;
+        if (first == line.size() || line[first] == '*' || (quote_ == 0 && begins_comment(line, first))) continue;
         const bool is_continuation = line[first] == '+';
         if (is_continuation && !has_next_)
             return error_at({*file_, static_cast<long>(number_), static_cast<long>(first) + 1},
                             "'+' continues the previous line, but there is none");
         if (!is_continuation && has_next_) {  // the previous line is complete; this one begins the next
             put_back();
-            if (auto complete = finish_line(out); !complete || *complete) return complete;
-            continue;
+            break;
         }
         TRY(append(line, is_continuation ? first + 1 : first));
     }
-    return has_next_ ? finish_line(out) : Result<bool>(false);
+    if (!has_next_) return false;
+    TRY(finish_line(out));
+    return true;
 }
 
 /// Appends the text of a physical line, from offset `from` to its comment, to the logical line.
@@ -143,15 +123,15 @@ Result<void> LogicalLineReader::append(std::string_view physical, std::size_t fr
     return {};
 }
 
-/// Moves the completed logical line to `out`. Returns false if the line is empty because it contained only a comment.
-Result<bool> LogicalLineReader::finish_line(LogicalLine& out) {
+/// Moves the completed logical line to `out`.
+Result<void> LogicalLineReader::finish_line(LogicalLine& out) {
     has_next_ = false;
     out = std::exchange(next_, {});
     out.file = file_;
     if (std::exchange(quote_, '\0') != 0)
         return error_at(out.location(quote_at_), "this {} is not closed", out.text[quote_at_] == '"' ? "\"" : "'");
     while (!out.text.empty() && is_blank(out.text.back())) out.text.pop_back();
-    return !out.text.empty();
+    return {};
 }
 
 }  // namespace corpuscle::circuit

@@ -1,7 +1,8 @@
-#include "circuit/netlist/parsed_netlist.hpp"
-
 #include <algorithm>
 #include <limits>
+
+#include "circuit/device/physical_constants.hpp"
+#include "circuit/netlist/parsed_netlist.hpp"
 
 namespace corpuscle::circuit {
 namespace {
@@ -15,11 +16,16 @@ struct OptionRow {
     std::string_view example;  // of a value, for messages
 };
 constexpr OptionRow option_rows[] = {
-    {"reltol", false, 1e-15, 0.5, "1e-6"}, {"vntol", false, 1e-300, 1, "1n"},
-    {"abstol", false, 1e-300, 1, "1e-16"}, {"gmin", false, 0, 1, "1e-15"},
-    {"itl1", false, 1, 1e6, "500"},        {"temp", false, -273.15, 1000, "27"},
-    {"tnom", false, -273.15, 1000, "27"},  {"maxord", false, -no_limit, no_limit, "4"},
-    {"spikecheck", false, 0, 1, "0"},      {"accuracy", true, 0, 0, "fine"},
+    {"reltol", false, 1e-15, 0.5, "1e-6"},
+    {"vntol", false, 1e-300, 1, "1n"},
+    {"abstol", false, 1e-300, 1, "1e-16"},
+    {"gmin", false, 0, 1, "1e-15"},
+    {"itl1", false, 1, 1e6, "500"},
+    {"temp", false, -zero_celsius, max_celsius, "27"},
+    {"tnom", false, -zero_celsius, max_celsius, "27"},
+    {"maxord", false, -no_limit, no_limit, "4"},
+    {"spikecheck", false, 0, 1, "0"},
+    {"accuracy", true, 0, 0, "fine"},
     {"method", true, 0, 0, "gear"},
 };
 

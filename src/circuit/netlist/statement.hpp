@@ -51,7 +51,7 @@ private:
     bool take(std::string_view& physical);  // reads the next physical line; false at the end of the file
     void put_back();                        // undoes the last take()
     Result<void> append(std::string_view physical, std::size_t from);
-    Result<bool> finish_line(LogicalLine&);
+    Result<void> finish_line(LogicalLine&);
 };
 
 /// A part of the text of a logical line.

@@ -5,6 +5,8 @@
 #include <cstdint>
 #include <iterator>
 
+#include "core/text/csv_field.hpp"
+
 namespace corpuscle::circuit {
 namespace {
 
@@ -52,9 +54,8 @@ std::string_view raw_footer(bool binary) { return binary ? "" : "\n"; }
 std::string csv_header(const Plot& plot) {
     std::string out;
     for (const auto& c : plot.curves) {
-        const auto name = c.name.find(',') == std::string::npos ? c.name : '"' + c.name + '"';
-        out += &c == &plot.curves[0] ? "" : ",";
-        out += has_two_columns(plot, c) ? fmt::format("{}.re,{}.im", name, name) : name;
+        if (&c != &plot.curves[0]) out += ",";
+        out += has_two_columns(plot, c) ? quote_csv_field(c.name + ".re") + "," + quote_csv_field(c.name + ".im") : quote_csv_field(c.name);
     }
     return out + '\n';
 }

@@ -88,12 +88,13 @@ NewtonSolver::NewtonSolver(const System& s, const Tolerances& t)
     step.resize(static_cast<std::size_t>(s.size()));
 }
 
+double NewtonSolver::floor_of(std::size_t equation) const {
+    return equation < static_cast<std::size_t>(system.nodes()) ? tolerances.abstol : tolerances.vntol;
+}
+
 bool NewtonSolver::is_balanced() const {
-    // The equation of a node is a sum of currents, that of a branch current a sum of voltages.
-    for (std::size_t n = 0; n < evaluation.f.size(); ++n) {
-        const double floor = n < static_cast<std::size_t>(system.nodes()) ? tolerances.abstol : tolerances.vntol;
-        if (!(std::abs(evaluation.f[n]) <= tolerances.reltol * evaluation.scale[n] + evaluation.roundoff[n] + floor)) return false;
-    }
+    for (std::size_t n = 0; n < evaluation.f.size(); ++n)
+        if (!(std::abs(evaluation.f[n]) <= tolerances.reltol * evaluation.scale[n] + evaluation.roundoff[n] + floor_of(n))) return false;
     return true;
 }
 
@@ -134,15 +135,15 @@ bool NewtonSolver::solve(std::vector<double>& x, const NodeClamps& clamps, int m
     return false;
 }
 
-std::string NewtonSolver::describe_residual(std::span<const double> x) {
+std::string NewtonSolver::describe_residual(std::span<const double> x, double a, std::span<const double> history) {
     system.eval(x, context, limiting_state, evaluation);
+    const auto residual_of = [&](std::size_t n) { return evaluation.f[n] + (history.empty() ? 0 : a * evaluation.q[n] + history[n]); };
     std::size_t worst = 0;
     double largest = -1;
     for (std::size_t n = 0; n < evaluation.f.size(); ++n) {
-        const double relative_residual =
-            std::isfinite(evaluation.f[n])
-                ? std::abs(evaluation.f[n]) / (tolerances.reltol * evaluation.scale[n] + evaluation.roundoff[n] + tolerances.abstol)
-                : 1e300;
+        const double residual = std::abs(residual_of(n)), rate = history.empty() ? 0 : std::abs(a * evaluation.q[n]);
+        const double allowed = tolerances.reltol * std::max(evaluation.scale[n], rate) + evaluation.roundoff[n] + floor_of(n);
+        const double relative_residual = std::isfinite(residual) ? residual / allowed : 1e300;
         if (relative_residual > largest) largest = relative_residual, worst = n;
     }
     const Device* device = nullptr;
@@ -152,12 +153,13 @@ std::string NewtonSolver::describe_residual(std::span<const double> x) {
         const auto at = std::find(d->unknowns.begin(), d->unknowns.end(), static_cast<int>(worst));
         if (at == d->unknowns.end()) continue;
         const auto stamp = buffer.eval(*d, system.terminal_values(*d, x), context);
-        const double f = std::abs(stamp.f[static_cast<std::size_t>(at - d->unknowns.begin())]);
+        const auto k = static_cast<std::size_t>(at - d->unknowns.begin());
+        const double f = std::abs(stamp.f[k] + (history.empty() ? 0 : a * stamp.q[k]));
         if (!(f <= contribution)) contribution = f, device = d.get();
     }
     const bool is_current = worst < static_cast<std::size_t>(system.nodes());
     return fmt::format("largest residual: {1} at {0}{2}", system.names()[worst],
-                       format_quantity(evaluation.f[worst], is_current ? "A" : "V"),
+                       format_quantity(residual_of(worst), is_current ? "A" : "V"),
                        device ? fmt::format(", mostly from {}", device->name) : "");
 }
 

@@ -43,11 +43,13 @@ struct NewtonSolver {
     std::vector<double> step;   ///< the last Newton step
 
     NewtonSolver(const System&, const Tolerances&);
+    /// The smallest residual that counts: A for the equation of a node, which is a sum of currents; V for that of a branch current.
+    double floor_of(std::size_t equation) const;
     bool is_balanced() const;  ///< true if the residual of the last evaluation is below the tolerances
     /// Iterates from x; afterwards x is the last iterate. A max_iterations of 0 means itl1. Returns true if the iterations converged.
     bool solve(std::vector<double>& x, const NodeClamps& = {}, int max_iterations = 0);
-    /// Describes the largest residual at x as text: the unknown, the value and the device.
-    std::string describe_residual(std::span<const double> x);
+    /// Describes the largest residual at x as text: the unknown, the value and the device. In a transient dq/dt = a q + `history`.
+    std::string describe_residual(std::span<const double> x, double a = 0, std::span<const double> history = {});
 };
 
 /// Finds an operating point. The search starts from the unknowns in `start`; if it is empty, from 0 with the voltages of .nodeset. The

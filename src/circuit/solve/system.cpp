@@ -33,10 +33,14 @@ public:
 
 Result<System> System::make(std::shared_ptr<const Circuit> circuit) {
     TRY(check_solvable(*circuit));
+    if (!is_possible_temperature(circuit->temperature))
+        return error_at({circuit->file}, "the circuit's temperature of {:g} C is outside (-273.15, {:g}]", circuit->temperature, max_celsius);
     System system;
     system.circuit_ = std::move(circuit);
     Builder builder(system);
     for (const auto& e : system.circuit_->elements) {
+        if (const double celsius = celsius_of(*system.circuit_, e); !is_possible_temperature(celsius))
+            return error_at(e.location, "{}: its temperature of {:g} C is outside (-273.15, {:g}]", e.name, celsius, max_celsius);
         auto device = TRY(kind_of(e).make(e, builder));
         device->name = e.name, device->location = e.location;
         system.limiting_state_offset_.push_back(system.limiting_state_size_);

@@ -70,8 +70,8 @@ public:
     const Circuit& circuit() const { return *circuit_; }
     int size() const { return static_cast<int>(names_.size()); }  ///< number of unknowns
     int nodes() const { return nodes_; }                          ///< nodes of the circuit without ground; their voltages come first
-    /// True for a node voltage, also of a node that a device has added; false for a branch current.
-    bool is_voltage(int unknown) const { return names_[static_cast<std::size_t>(unknown)][0] == 'v'; }
+    /// True for a node voltage, also of ground (-1) and of a node that a device has added; false for a branch current.
+    bool is_voltage(int unknown) const { return unknown < 0 || names_[static_cast<std::size_t>(unknown)][0] == 'v'; }
     const std::vector<std::string>& names() const { return names_; }  ///< "v(out)", "i(v1)"
     int unknown(std::string_view name) const;                         ///< -1: no unknown has this name
     const SparsityPattern& pattern() const { return *pattern_; }

@@ -58,7 +58,7 @@ Result<void> Transient::make_consistent() {
     allowed_error_ = allowed;
     if (status != StepEquations::Status::converged) {
         history_points_.next_point() = std::move(point);  // for the residual in the message
-        return step_too_short(h);
+        return step_too_short(h, 1 / h, "");
     }
     history_points_.clear();
     history_points_.next_point() = std::move(point);
@@ -250,14 +250,27 @@ Result<void> Transient::reject_step(double h, double error) {
                          plan_.all_reported ? max_failures : 1))
         restart(false, plan_.all_reported);
     if (control_.h >= StepControl::min_step(plan_.stop)) return {};
-    return step_too_short(control_.h);
+    return step_too_short(control_.h, leading_, error > 0 ? describe_error() : "");
 }
 
-/// `h`: length of the step, s.
-Error Transient::step_too_short(double h) {
+/// Names the unknown whose error in the step just solved is largest, relative to the allowed error.
+std::string Transient::describe_error() {
+    error_of(control_.order);
+    std::size_t worst = 0;
+    for (std::size_t n = 1; n < error_.size(); ++n)
+        if (std::abs(error_[n]) * tolerance_[worst] > std::abs(error_[worst]) * tolerance_[n]) worst = n;
+    return fmt::format("{} has the largest error: {}, {:.2g} times the allowed one", system_.names()[worst],
+                       format_quantity(std::abs(error_[worst]), system_.is_voltage(static_cast<int>(worst)) ? "V" : "A"),
+                       std::abs(error_[worst]) / tolerance_[worst]);
+}
+
+/// `h`: length of the step, s. The equations of the last step are those of dq/dt = a q + history_. `reason`: "" if they could not be
+/// solved.
+Error Transient::step_too_short(double h, double a, std::string reason) {
+    if (reason.empty()) reason = newton_.describe_residual(history_points_.next_point().x, a, history_);
     return {ErrorCode::not_converged,
             fmt::format("transient stopped at {}: the step became too short ({}); {}", format_quantity(time(), "s"),
-                        format_quantity(h, "s"), newton_.describe_residual(history_points_.next_point().x)),
+                        format_quantity(h, "s"), reason),
             SourceLocation{system_.circuit().file}};
 }
 

@@ -93,7 +93,8 @@ private:
     bool take_breakpoint_step(double t0, double next_breakpoint);
     void restart(bool forget, bool exact = false);
     Result<void> make_consistent();
-    Error step_too_short(double h);
+    std::string describe_error();
+    Error step_too_short(double h, double a, std::string reason);
     bool attempt(double t, double& error);
     double error_of(int order);
     double worst_error();

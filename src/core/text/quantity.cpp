@@ -19,8 +19,8 @@ constexpr NamedUnit units[] = {
     {"Pa", {1, 0, -2, 1, 0, 0}},  {"gf", {9.80665e-3, 0, 0, 1, 0, 0}}, {"lbf", {4.4482216152605, 0, 0, 1, 0, 0}},
     {"V", {1, 0, 0, 0, 1, 0}},    {"A", {1, 0, 0, 0, 0, 1}},           {"ohm", {1, 0, 0, 0, 1, -1}},
     {"Ohm", {1, 0, 0, 0, 1, -1}}, {"\u03a9", {1, 0, 0, 0, 1, -1}},     {"S", {1, 0, 0, 0, -1, 1}},
-    {"F", {1, 1, 0, 0, -1, 1}},   {"W", {1, 0, 0, 0, 1, 1}},           {"%", {0.01, 0, 0, 0, 0, 0}},
-    {"1", {1, 0, 0, 0, 0, 0}},
+    {"F", {1, 1, 0, 0, -1, 1}},   {"H", {1, 1, 0, 0, 1, -1}},          {"W", {1, 0, 0, 0, 1, 1}},
+    {"%", {0.01, 0, 0, 0, 0, 0}}, {"1", {1, 0, 0, 0, 0, 0}},
 };
 
 struct Prefix {
@@ -67,10 +67,21 @@ std::string_view dimension_name(const Unit& u) {
     struct Kind {
         std::string_view unit, name;
     };
-    constexpr Kind kinds[] = {
-        {"s", "a time"},    {"Hz", "a frequency"},   {"m", "a length"},      {"N", "a force"},       {"V", "a voltage"},
-        {"A", "a current"}, {"ohm", "a resistance"}, {"S", "a conductance"}, {"F", "a capacitance"}, {"", "a number without a unit"},
-        {"m/s", "a speed"}, {"W", "a power"},        {"m2", "an area"},      {"Pa", "a pressure"}};
+    constexpr Kind kinds[] = {{"s", "a time"},
+                              {"Hz", "a frequency"},
+                              {"m", "a length"},
+                              {"N", "a force"},
+                              {"V", "a voltage"},
+                              {"A", "a current"},
+                              {"ohm", "a resistance"},
+                              {"S", "a conductance"},
+                              {"F", "a capacitance"},
+                              {"H", "an inductance"},
+                              {"", "a number without a unit"},
+                              {"m/s", "a speed"},
+                              {"W", "a power"},
+                              {"m2", "an area"},
+                              {"Pa", "a pressure"}};
     for (const auto& k : kinds)
         if (parse_unit(k.unit)->has_same_dimension(u)) return k.name;
     return {};

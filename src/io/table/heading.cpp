@@ -2,7 +2,7 @@
 
 #include "core/text/ascii_text.hpp"
 #include "core/text/quantity.hpp"
-#include "io/text/utf8.hpp"
+#include "core/text/utf8.hpp"
 
 namespace corpuscle {
 namespace {

@@ -8,7 +8,7 @@
 #include <cstring>
 #include <nlohmann/json.hpp>
 
-#include "io/text/utf8.hpp"
+#include "core/text/utf8.hpp"
 
 namespace corpuscle {
 namespace {

@@ -5,7 +5,7 @@
 #include <cstring>
 
 #include "core/parameter.hpp"
-#include "io/text/utf8.hpp"
+#include "core/text/utf8.hpp"
 
 namespace corpuscle {
 namespace {

@@ -123,9 +123,9 @@ class JsonReader {
         if (!builder.syntax_error_at) return error_at("this JSON contains a number that is too large", line);
         std::size_t at = 0;  // position of the syntax error in `text`; the parser's position is in `strict`
         static_cast<void>(strict_json(text, std::min(*builder.syntax_error_at, strict->size()), &at));
-        const auto before = text.substr(0, at);
+        const auto before = text.substr(0, at > 0 ? at - 1 : 0);            // without the unexpected byte, which may be a line break
         const auto above = std::count(before.begin(), before.end(), '\n');  // lines of `text` above the error
-        const auto column = at - (above > 0 ? before.rfind('\n', at - 1) + 1 : 0);
+        const auto column = at - (above > 0 ? before.rfind('\n') + 1 : 0);
         return bad_input("this JSON is not valid: unexpected text or end here",
                          {lines_.path(), std::max(line, 1L) + static_cast<long>(above), static_cast<long>(column)});
     }
@@ -246,9 +246,9 @@ class JsonReader {
     Result<void> emit_document(const OrderedJson& all) {
         if (all.is_array()) return emit_records(all);
         if (!all.is_object()) return error_at("no table in this JSON: it holds a single value");
+        if (metadata_) read_metadata(all);
         if (all.contains("columns") && all["columns"].is_array() && all.contains("data") && all["data"].is_array())
             return emit_split_records(all["columns"], all["data"]);
-        if (metadata_) read_metadata(all);
         const OrderedJson* records = nullptr;  // the last list whose elements are objects or lists
         std::size_t lists = 0;                 // number of lists that are not empty
         for (const auto& member : all)
@@ -266,10 +266,12 @@ class JsonReader {
         while (TRY(lines_.next(line))) {
             const auto text = trimmed(line);
             if (text.empty()) continue;
-            if (++lines == 1)
+            if (++lines == 1) {
                 first = text;
-            else if (same_bracket = text.front() == first.front(); true)
-                break;
+                continue;
+            }
+            same_bracket = text.front() == first.front();
+            break;
         }
         TRY(lines_.rewind());
         if (lines == 0 || !same_bracket || first.size() > max_document) return false;

@@ -8,8 +8,8 @@
 #include <filesystem>
 
 #include "core/text/input_files.hpp"
+#include "core/text/utf8.hpp"
 #include "io/table/foreign_format.hpp"
-#include "io/text/utf8.hpp"
 
 namespace corpuscle {
 namespace {

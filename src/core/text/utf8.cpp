@@ -1,4 +1,4 @@
-#include "io/text/utf8.hpp"
+#include "core/text/utf8.hpp"
 
 #include <array>
 #include <cstdint>
