@@ -181,7 +181,7 @@ Result<void> print_sections(const ListArguments& args, const CommonArguments& co
         Json out = Json::object();
         for (const auto& s : sections)
             for (const auto& e : s.entries) out[std::string(s.name)].push_back(document_of(e));
-        fmt::print("{}\n", out.dump(1));
+        fmt::print("{}\n", json_text(out));
         return {};
     }
     std::string text;

@@ -6,8 +6,9 @@
 #include <numeric>
 
 #include "cli/list_entry.hpp"
+#include "cli/output/terminal.hpp"
+#include "core/text/csv_field.hpp"
 #include "core/text/quantity.hpp"
-#include "io/spikes/spike_files.hpp"
 #include "skin/contact/contact.hpp"
 #include "skin/contact/indenters.hpp"
 #include "skin/innervation.hpp"
@@ -123,7 +124,7 @@ Result<std::string> sites_listing(const std::vector<std::string>& populations, b
                                     {"x_m", sites.positions[s].x},
                                     {"y_m", sites.positions[s].y},
                                     {"region", sites.regions[sites.region[s]]}});
-        return out.dump(1, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + "\n";
+        return json_text(out) + "\n";
     }
     std::string out = "name,x_mm,y_mm,region\n";
     for (std::size_t s = 0; s < sites.size(); ++s)

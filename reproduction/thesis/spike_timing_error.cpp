@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/median.hpp"
 #include "measure/train_distance.hpp"
 
 namespace corpuscle {
@@ -16,8 +17,7 @@ Result<SpikeTimingError> spike_timing_error(const std::vector<double>& exact, co
     out.rms = std::sqrt(out.rms);
     out.unmatched = static_cast<double>(exact.size() + other.size() - 2 * delays.size());
     if (delays.empty()) return out;
-    std::sort(delays.begin(), delays.end());
-    out.median = (delays[delays.size() / 2] + delays[(delays.size() - 1) / 2]) / 2;
+    out.median = median_of(delays);
     return out;
 }
 

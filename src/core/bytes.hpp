@@ -120,8 +120,8 @@ public:
     bool get(T&... x) {
         return (get_one(x) && ...);
     }
-    /// Removes a checksum from the end. Returns false if it is not that of all bytes before it, beginning with `all`, which these bytes are
-    /// the end of.
+    /// Removes a checksum, the last eight bytes. Returns false if it is not that of all bytes before it. `all`: the complete bytes, of
+    /// which this reader has read the beginning.
     bool check_checksum(std::span<const std::byte> all) {
         std::uint64_t sum = 0;
         if (in_.size() < sizeof sum) return false;

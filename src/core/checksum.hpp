@@ -14,7 +14,8 @@ namespace corpuscle {
 struct Fnv1a {
     std::uint64_t value = 0xcbf29ce484222325U;
 
-    /// Adds a byte, or a number of 64 bits as if it were one.
+    /// Adds a byte, or a number of 64 bits as if it were one. This changes only bits of the hash at or above the lowest bit set in the
+    /// number; many doubles have their lowest 40 bits 0. For them use add(T) or Checksum.
     constexpr void add_word(std::uint64_t x) { value = (value ^ x) * 0x100000001b3U; }
     constexpr void add(std::string_view text) {
         for (const char c : text) add_word(static_cast<unsigned char>(c));

@@ -1,5 +1,6 @@
 #pragma once
 // The lists of all components that can come before a receptor. To add a sensor, transducer or converter, add its include and its name here.
+// A second converter also needs its computation in front_end_factory.cpp.
 
 #include "model/sensor/adc.hpp"
 #include "model/sensor/f2i.hpp"

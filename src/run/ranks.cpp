@@ -3,6 +3,8 @@
 #include "run/ranks.hpp"
 
 #include <cstdlib>
+#include <exception>
+#include <new>
 
 #ifdef CORPUSCLE_MPI
 #include <dlfcn.h>
@@ -34,6 +36,16 @@ bool are_started() {
 }
 
 }  // namespace
+
+Result<void> without_exceptions(const std::function<Result<void>()>& work) {
+    try {
+        return work();
+    } catch (const std::bad_alloc&) {
+        return bad_input("not enough memory; use fewer ranks on this machine, or fewer afferents, sites or samples at a time");
+    } catch (const std::exception& e) {
+        return bad_input(e.what());
+    }
+}
 
 bool Ranks::reports_errors() { return launcher_variable("OMPI_COMM_WORLD_RANK") <= 0 && launcher_variable("PMIX_RANK") <= 0; }
 

@@ -2,6 +2,7 @@
 // Ranks: processes that mpirun starts together for one command, a sweep or a skin. Rank 0 (the coordinator) writes the files; the others
 // (the workers) send it what they have computed. If one of them dies, mpirun ends all. Only ranks.cpp uses MPI.
 
+#include <functional>
 #include <memory>
 #include <optional>
 #include <string>
@@ -38,5 +39,9 @@ public:
     /// Ends all ranks at once, with this exit status.
     [[noreturn]] virtual void abort(int exit_status) = 0;
 };
+
+/// The result of a rank's work; an exception becomes an error, to be sent or reported. The other ranks would wait for ever for one that
+/// only leaves them.
+Result<void> without_exceptions(const std::function<Result<void>()>& work);
 
 }  // namespace corpuscle

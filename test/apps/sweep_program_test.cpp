@@ -48,6 +48,9 @@ TEST(SweepProgram, ReportsItsProgressAndResumesWhereItStopped) {
     const auto status = Json::parse(run_program(folder, "sweep a.toml --status --json").out);
     EXPECT_EQ(status["finished"], 25);
     EXPECT_EQ(status["missing"], 75);
+    const auto of_next_shard = Json::parse(run_program(folder, "sweep a.toml --shard 2/4 -o a.sqlite --status --json").out);
+    EXPECT_EQ(of_next_shard["finished"], 0);
+    EXPECT_EQ(of_next_shard["missing"], 25);
     const auto ran = run_program(folder, "sweep a.toml -j 2");
     ASSERT_EQ(ran.status, 0) << ran.err;
     EXPECT_NE(ran.out.find("  100    100        75        0        100          0         0"), std::string::npos) << ran.out;
@@ -65,6 +68,19 @@ TEST(SweepProgram, ReportsItsProgressAndResumesWhereItStopped) {
     EXPECT_NE(other.err.find("a.sqlite: holds results of another sweep: sweep file"), std::string::npos) << other.err;
     EXPECT_EQ(run_program(folder, "sweep a.toml --shard 4/3").status, 2);
     EXPECT_EQ(run_program(folder, "sweep").status, 2);
+}
+
+TEST(SweepProgram, AChangedRecordingIsAnotherSweep) {
+    const TemporaryFolder folder;
+    folder.write("a.toml",
+                 "afferent = \"sa1\"\nforce = \"r.csv\"\nsamples = 2\nmeasures = [\"spikes\"]\n[[vary]]\nwhat = \"f_B\"\nsigma = \"5%\"\n");
+    folder.write("r.csv", "time_s,fz_N\n0,2\n0.1,0.5\n0.2,0\n0.3,2\n");
+    ASSERT_EQ(run_program(folder, "sweep a.toml --quiet").status, 0);
+    ASSERT_EQ(run_program(folder, "sweep a.toml --quiet").status, 0);
+    folder.write("r.csv", "time_s,fz_N\n0,2\n0.1,0.5\n0.2,2\n0.3,0\n");  // the low bits of all these numbers are 0
+    const auto ran = run_program(folder, "sweep a.toml --quiet");
+    EXPECT_EQ(ran.status, 1);
+    EXPECT_NE(ran.err.find("holds results of another sweep"), std::string::npos) << ran.err;
 }
 
 TEST(SweepProgram, AnInterruptedSweepKeepsTheFinishedItems) {

@@ -652,6 +652,9 @@ TEST(LoggerFiles, JsonIsReadAsLinesAListOrColumns) {
                                     "{\"stamp\":\"2026-03-01T12:00:01Z\",\"force\":{\"z\":2},\"taxels\":[4,5]}\n");
     EXPECT_EQ(nested.names, (std::vector<std::string>{"force.z", "taxels.1", "taxels.2"}));
     EXPECT_EQ(nested.force[2], (std::vector<double>{3, 5}));
+    const auto split = read_logged(folder, R"({"columns":["f"],"data":[[1],[2],[3]],"fs":4,"unit":"mN"})", {}, "x.json");
+    EXPECT_EQ(split.clock.rate(), 4);
+    EXPECT_EQ(split.force[0], (std::vector<double>{1e-3, 2e-3, 3e-3}));
     const auto rows = read_logged(folder, "[[1,2],[3,4],[5,6]]", {.rate = 10});
     EXPECT_EQ(rows.force, (std::vector<std::vector<double>>{{1, 3, 5}, {2, 4, 6}}));
 }
@@ -676,6 +679,7 @@ TEST(LoggerFiles, JsonThatIsNotATableIsRefusedWithItsLocation) {
         {std::string(1000, '[') + std::string(1000, ']'), "nested more than 16 deep"},
         {"{\"t\":0,\"F\":1e999}\n{\"t\":1,\"F\":1}\n", "a number that is too large"},
         {"[{\"t\":0,\"F\":1},{\"t\":1,", "this JSON is not valid"},
+        {"[{\"t\":0,\"F\":1},\n{\"t\":1,\"F\n\":2}]", "x.json:2:10: this JSON is not valid"},
     };
     for (const auto& [text, message] : cases)
         EXPECT_NE(error_of(folder, text, {}, "x.json").find(message), std::string::npos) << error_of(folder, text, {}, "x.json");

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 #include <map>
 
+#include "core/text/csv_field.hpp"
 #include "io/output/output_file.hpp"
 #include "io/table/npz.hpp"
 #include "support/property.hpp"

@@ -344,7 +344,8 @@ TEST(LanePopulation, AForceWithAnotherLayoutOrSizeIsRefused) {
     PopulationResponse response;
     std::vector<const double*> columns;
     for (const auto& f : c.force) columns.push_back(f.data());
-    ASSERT_TRUE(static_cast<bool>(p->respond(ForceColumns{columns}, 10, response, pool)));
+    EXPECT_FALSE(p->respond(ForceProfile{c.force[0]}, c.force[0].size() + 1, response, pool));
+    ASSERT_TRUE(static_cast<bool>(p->respond(ForceColumns{columns}, 10, response, pool))) << "a refused block does not fix the layout";
     EXPECT_FALSE(p->respond(ForceProfile{c.force[0]}, 10, response, pool));
     const float row[tile_width] = {};
     EXPECT_FALSE(population(c, {})->respond(ForceTiles<float>{row}, 1, response, pool));

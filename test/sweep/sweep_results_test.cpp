@@ -239,12 +239,13 @@ TEST(SweepResults, AtTheFileSizeLimitKeepTheirRowsAndNameTheRemedy) {
 TEST(SweepResults, InAReadOnlyFolderAreReadButNotWritten) {
     const TemporaryFolder folder;
     const PlainSweep sweep(50);
-    run_sweep_of(sweep, folder / "r.sqlite", {});
+    const auto odd_path = folder / "50% of #1, 100%41?.sqlite";  // SQLite's URIs give these characters a meaning
+    for (const auto& path : {folder / "r.sqlite", odd_path}) run_sweep_of(sweep, path, {});
     fs::permissions(folder.path(), fs::perms(0555));
     const auto id = child([&] {
         if (::geteuid() == 0 && ::seteuid(65534) != 0) throw std::runtime_error("root writes everywhere");
-        if (value_or_throw(SweepResults::open_read_only(folder / "r.sqlite")).finished_count() != 50)
-            throw std::runtime_error("rows are missing");
+        for (const auto& path : {folder / "r.sqlite", odd_path})
+            if (value_or_throw(SweepResults::open_read_only(path)).finished_count() != 50) throw std::runtime_error("rows are missing");
         for (const char* name : {"r.sqlite", "new.sqlite"}) {
             const auto results = SweepResults::open(folder / name, sweep);
             if (results || results.error().text().find("give a writable path with --out") == std::string::npos)

@@ -159,11 +159,16 @@ int respond(const RespondArguments& given, const CommonArguments& common) {
     if (group && group->rank() > 0) {
         auto quiet = common;
         quiet.quiet = true;
-        return SkinRun(args, quiet, group).work(), 0;
+        const auto worked = without_exceptions([&]() -> Result<void> { return SkinRun(args, quiet, group).work(), Result<void>(); });
+        if (!worked) group->send_error(worked.error());
+        return 0;
     }
-    const auto run = plan_run(args, common, group);
     const auto threads = group ? std::max(1U, args.threads) : args.threads;
-    const auto done = run ? respond_with(**run, args.outputs, threads, common) : run.error();
+    const auto respond_here = [&]() -> Result<void> {
+        const auto run = TRY(plan_run(args, common, group));
+        return respond_with(*run, args.outputs, threads, common);
+    };
+    const auto done = group ? without_exceptions(respond_here) : respond_here();
     if (done) return 0;
     const int code = report_error(done.error());
     if (group) group->abort(code);

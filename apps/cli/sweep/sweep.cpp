@@ -100,7 +100,7 @@ Result<void> run_and_report(Ranks* ranks, const Sweep& sweep, const SweepArgumen
     auto state = TRY(read_sweep_status(results, shard));
     state.finished_now = results.finished_count() - finished_before, state.sweep = args.file;
     print_sweep_status(common, state);
-    if (results.finished_count() > 0 && state.diverged == results.finished_count())
+    if (state.finished > 0 && state.diverged == state.finished)
         return Error{ErrorCode::not_converged, fmt::format("none of {} items converged: {}", state.diverged, state.reasons.front().first)};
     return {};
 }
@@ -131,7 +131,8 @@ int run_in_process(const SweepArguments& args, const CommonArguments& common) {
     const auto sweep = read_sweep(args.file, {args.seed, args.samples});
     if (sweep) (*sweep)->set_lanes(args.lanes);
     if (ranks && ranks->rank() > 0) return run_worker(*ranks, sweep, run_options_of(args, *shard, ranks)), 0;
-    const auto done = sweep ? run_and_report(ranks, **sweep, args, common, *shard) : Result<void>(sweep.error());
+    const auto run = [&] { return sweep ? run_and_report(ranks, **sweep, args, common, *shard) : sweep.error(); };
+    const auto done = ranks ? without_exceptions(run) : run();
     if (done) return 0;
     const int code = report_error(done.error());
     if (ranks) ranks->abort(code);
@@ -162,7 +163,7 @@ Verb make_sweep_verb() {
         .reports = true,
         .check = [args](const CommonArguments&) -> Result<void> {
             if (!args->file.empty()) return {};
-            return bad_usage("corpuscle sweep: needs FILE, or one of merge, show, dump, calibrate is required");
+            return bad_usage("corpuscle sweep: FILE is required, or one of merge, show, dump and calibrate");
         },
         .run =
             [args](const CommonArguments& common) {

@@ -127,7 +127,7 @@ Result<void> calibrate_netlist(const SweepCalibrateArguments& args, const Common
     }();
     if (!done) return done.error();
     if (common.json)
-        fmt::print("{}\n", document_of(calibration, *done).dump(1));
+        fmt::print("{}\n", json_text(document_of(calibration, *done)));
     else if (!common.quiet)
         print_text(format_calibration(calibration, *done));
     return {};

@@ -19,11 +19,12 @@ struct SweepStatus {
     std::vector<std::pair<std::string, std::int64_t>> reasons;
     std::optional<WriterLock::Writer> writer;  ///< the process that is writing the results, if there is one
     double running_for = 0;                    ///< s since that process started
+    std::int64_t saved = 0;                    ///< number of items in the file, of all shards
 
     std::int64_t missing() const { return items - finished; }
 };
 
-/// Reads the counts from a results file, which has the items of this shard. Sets neither the sweep file nor the writer.
+/// Reads the counts of a shard from a results file, which may have items of other shards too. Sets neither the sweep file nor the writer.
 Result<SweepStatus> read_sweep_status(const SweepResults&, const Shard&);
 /// Prints the status as a table with the next command, or as JSON, unless --quiet was given.
 void print_sweep_status(const CommonArguments&, const SweepStatus&);

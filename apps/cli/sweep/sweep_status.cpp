@@ -9,17 +9,14 @@
 namespace corpuscle {
 namespace {
 
+/// Items that the writer has finished since it started. Its shard may be another one, so all saved items are counted.
+double finished_by_writer(const SweepStatus& s) { return static_cast<double>(s.saved - s.writer->finished); }
+
 /// Items that the writer has finished per second since it started; 0 if there is no writer or it has just started.
-double rate_of(const SweepStatus& s) {
-    if (!s.writer || s.running_for < 1) return 0;
-    return static_cast<double>(s.finished - s.writer->finished) / s.running_for;
-}
+double rate_of(const SweepStatus& s) { return !s.writer || s.running_for < 1 ? 0 : finished_by_writer(s) / s.running_for; }
 
 /// Seconds until the writer has finished the items that it planned. Only if rate_of() is not 0.
-double seconds_left(const SweepStatus& s) {
-    const double items_left = static_cast<double>(s.writer->planned - (s.finished - s.writer->finished));
-    return items_left / rate_of(s);
-}
+double seconds_left(const SweepStatus& s) { return (static_cast<double>(s.writer->planned) - finished_by_writer(s)) / rate_of(s); }
 
 std::string writer_text(const SweepStatus& s) {
     auto text = fmt::format("Running: process {} on {}", s.writer->process, s.writer->host);
@@ -73,15 +70,16 @@ nlohmann::ordered_json document_of(const SweepStatus& s) {
 
 Result<SweepStatus> read_sweep_status(const SweepResults& results, const Shard& shard) {
     SweepStatus out;
-    out.results = results.path(), out.shard = shard, out.items = shard.count(0, results.item_count);
-    auto counts =
-        TRY(results.file().prepare("SELECT count(*), total(ended = 'truncated'), total(ended = 'diverged'), total(iterations) FROM items"));
+    out.results = results.path(), out.shard = shard, out.items = shard.count(0, results.item_count), out.saved = results.finished_count();
+    const auto of_shard = fmt::format("item % {} = {}", shard.shard_count, shard.index);
+    auto counts = TRY(results.file().prepare(fmt::format(
+        "SELECT count(*), total(ended = 'truncated'), total(ended = 'diverged'), total(iterations) FROM items WHERE {}", of_shard)));
     TRY(counts.step());
     out.finished = counts.integer(0), out.truncated = counts.integer(1), out.diverged = counts.integer(2),
     out.iterations = counts.integer(3);
     if (out.truncated + out.diverged == 0) return out;
-    auto reasons =
-        TRY(results.file().prepare("SELECT why, count(*) FROM items WHERE ended <> 'done' GROUP BY why ORDER BY 2 DESC, 1 LIMIT 3"));
+    auto reasons = TRY(results.file().prepare(
+        fmt::format("SELECT why, count(*) FROM items WHERE ended <> 'done' AND {} GROUP BY why ORDER BY 2 DESC, 1 LIMIT 3", of_shard)));
     while (TRY(reasons.step())) out.reasons.emplace_back(reasons.text(0), reasons.integer(1));
     return out;
 }

@@ -4,6 +4,7 @@
 
 #include "report/envelope.hpp"
 #include "report/sweep/sweep_page.hpp"
+#include "run/summary/json_number.hpp"
 #include "sweep/spec/probability.hpp"
 
 namespace corpuscle {
@@ -76,7 +77,7 @@ struct EnvelopeStats {
 
 PlotJson rounded_numbers(const std::vector<double>& values) {
     PlotJson out = PlotJson::array();
-    for (const double x : values) out.push_back(std::isfinite(x) ? PlotJson(rounded(x)) : PlotJson(nullptr));
+    for (const double x : values) out.push_back(json_number(rounded(x)));
     return out;
 }
 

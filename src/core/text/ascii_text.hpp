@@ -1,5 +1,5 @@
 #pragma once
-// Functions for text that the user typed: removal of blanks around it, numbers, comparison without regard to case, splitting and joining.
+// Short functions for ASCII text: blanks, case, numbers, splitting and joining.
 
 #include <algorithm>
 #include <charconv>

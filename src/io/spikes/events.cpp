@@ -7,7 +7,7 @@
 
 #include "core/parameter.hpp"
 #include "core/text/ascii_text.hpp"
-#include "io/spikes/spike_files.hpp"
+#include "core/text/csv_field.hpp"
 
 namespace corpuscle {
 namespace {
@@ -68,7 +68,7 @@ public:
 };
 
 /// The text as a JSON string. Bytes that are not UTF-8 are replaced.
-std::string json_text(const std::string& text) {
+std::string quoted_json(const std::string& text) {
     return nlohmann::json(text).dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);
 }
 
@@ -97,8 +97,8 @@ Result<std::unique_ptr<EventFormat>> make_event_format(std::string_view name, Ev
         auto lines = std::make_unique<TextEvents>("jsonl", addressing.clock, "");
         for (std::size_t u = 0; u < addressing.names.size(); ++u)
             lines->add(R"({"time_s":)",
-                       fmt::format(",\"afferent\":{}{},\"address\":{}}}\n", json_text(addressing.afferents[u]),
-                                   is_on_channels ? ",\"channel\":" + json_text(addressing.channels[u]) : "", addressing.addresses[u]));
+                       fmt::format(",\"afferent\":{}{},\"address\":{}}}\n", quoted_json(addressing.afferents[u]),
+                                   is_on_channels ? ",\"channel\":" + quoted_json(addressing.channels[u]) : "", addressing.addresses[u]));
         return Result<std::unique_ptr<EventFormat>>(std::move(lines));
     }
     std::vector<std::string_view> known;

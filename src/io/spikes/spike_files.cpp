@@ -4,10 +4,10 @@
 
 #include "core/text/ascii_text.hpp"
 #include "core/text/input_files.hpp"
+#include "core/text/utf8.hpp"
 #include "io/spikes/address_events.hpp"
 #include "io/spikes/train_collector.hpp"
 #include "io/table/heading.hpp"
-#include "io/text/utf8.hpp"
 
 namespace corpuscle {
 namespace {
@@ -110,16 +110,6 @@ std::vector<NamedTrain> TrainCollector::sorted() && {
         return a.channel == b.channel ? natural_less(a.afferent, b.afferent) : natural_less(a.channel, b.channel);
     });
     return out;
-}
-
-std::string quote_csv_field(const std::string& text) {
-    const auto name = to_utf8(text);
-    if (name.find_first_of(",;\t\"\r\n") == name.npos && trimmed(name).size() == name.size() && !name.starts_with('#') &&
-        !name.starts_with('%'))
-        return name;
-    std::string quoted = "\"";
-    for (const char c : name) quoted += c == '"' ? "\"\"" : std::string(1, c);
-    return quoted + "\"";
 }
 
 Result<std::vector<NamedTrain>> read_spikes(const std::string& path, const SpikeColumns& columns) {

@@ -17,9 +17,6 @@ struct NamedTrain {
     std::string name() const { return channel.empty() ? afferent : afferent + "," + channel; }
 };
 
-/// The text as a field of a CSV file in UTF-8, in quotes if necessary.
-std::string quote_csv_field(const std::string& text);
-
 /// The columns of a table of spikes that the user requests: that of the spike times, and that which identifies the train. Each is given by
 /// its name or its number (counted from 1). By default, a column is found by its heading.
 struct SpikeColumns {

@@ -55,8 +55,8 @@ class TiledPopulation final : public LanePopulation {
     ProfileBuffers<V> profile_;
     std::vector<Scratch> scratch_;
     std::vector<JobResult> jobs_;
-    AlignedBuffer<V> zero_rows_{chunk_steps<V> * 2 * tile_size};  // the force on a tile without force
-    std::vector<std::size_t> begin_, at_;                         // scratch arrays of merge_spikes()
+    AlignedBuffer<V> zero_rows_{long_chunk * tile_size};  // the force on a tile without force
+    std::vector<std::size_t> begin_, at_;                 // scratch arrays of merge_spikes()
 
     /// Number of afferents of a tile, without padding.
     int tile_size_of(std::size_t tile) const { return static_cast<int>(std::min<std::size_t>(tile_size, layout_.size - tile * tile_size)); }
@@ -219,8 +219,9 @@ class TiledPopulation final : public LanePopulation {
             }
             std::int64_t steps = std::min({max_steps, static_cast<std::int64_t>(b.steps - step), flush_interval - now % flush_interval});
             if (zero_force) steps = std::min(steps, to_check);
-            run_chunk(b, tile, step, now == 0 ? 1 : static_cast<int>(steps), s, job);
-            step += now == 0 ? 1 : static_cast<std::size_t>(steps);
+            if (now == 0) steps = 1;
+            run_chunk(b, tile, step, static_cast<int>(steps), s, job);
+            step += static_cast<std::size_t>(steps);
         }
         return step;
     }
@@ -290,8 +291,9 @@ class TiledPopulation final : public LanePopulation {
         const std::pair kind(force.index(), shares_currents(force));
         if (force_layout_ && *force_layout_ != kind)
             return bad_input(fmt::format("{}: the layout of its force must not change between blocks", layout_.name));
+        TRY(check_force<V>(force, steps, layout_.size, layout_.name));
         force_layout_ = kind;
-        return check_force<V>(force, steps, layout_.size, layout_.name);
+        return {};
     }
 
 public:

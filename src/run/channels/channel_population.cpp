@@ -3,7 +3,7 @@
 #include <fmt/format.h>
 #include <algorithm>
 
-#include "io/spikes/spike_files.hpp"
+#include "core/text/csv_field.hpp"
 #include "model/copies.hpp"
 
 namespace corpuscle {

@@ -4,6 +4,7 @@
 #include <filesystem>
 #include <nlohmann/json.hpp>
 
+#include "core/median.hpp"
 #include "core/text/ascii_text.hpp"
 #include "measure/train_distance.hpp"
 #include "run/channels/channel_population.hpp"
@@ -40,12 +41,6 @@ std::size_t count_spikes(std::span<const double> train, double from, double to) 
     return static_cast<std::size_t>(std::lower_bound(train.begin(), train.end(), to) - std::lower_bound(train.begin(), train.end(), from));
 }
 
-double median_shift_of(std::vector<double> shifts) {
-    std::sort(shifts.begin(), shifts.end());
-    const auto n = shifts.size();
-    return n == 0 ? NAN : n % 2 == 1 ? shifts[n / 2] : (shifts[n / 2 - 1] + shifts[n / 2]) / 2;
-}
-
 /// Fills in the distances and shifts. If there are too many pairs of close spikes to align the trains, only the van Rossum distance.
 void measure_distance(std::span<const double> reference, std::span<const double> train, ImplementationComparison& c) {
     c.van_rossum = std::sqrt(van_rossum_squared(reference, train, ImplementationComparisons::tau));
@@ -57,7 +52,7 @@ void measure_distance(std::span<const double> reference, std::span<const double>
     c.matched = shifts.size();
     c.victor_purpura = aligned->distance;
     c.mean_shift = shifts.empty() ? NAN : sum / static_cast<double>(shifts.size());
-    c.median_shift = median_shift_of(std::move(shifts));
+    c.median_shift = median_of(shifts);
 }
 
 }  // namespace

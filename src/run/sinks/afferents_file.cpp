@@ -4,7 +4,7 @@
 
 #include <cmath>
 
-#include "io/spikes/spike_files.hpp"
+#include "core/text/csv_field.hpp"
 #include "run/sinks.hpp"
 #include "run/summary/skin_summary.hpp"
 

@@ -6,7 +6,7 @@
 #include <cmath>
 #include <iterator>
 
-#include "io/spikes/spike_files.hpp"
+#include "core/text/csv_field.hpp"
 #include "run/channels/channel_population.hpp"
 #include "run/sinks.hpp"
 #include "run/summary/run_summary.hpp"

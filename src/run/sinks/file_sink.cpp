@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "io/spikes/spike_files.hpp"
+#include "core/text/csv_field.hpp"
 
 namespace corpuscle {
 

@@ -3,7 +3,7 @@
 
 #include <iterator>
 
-#include "io/spikes/spike_files.hpp"
+#include "core/text/csv_field.hpp"
 #include "run/sinks.hpp"
 
 namespace corpuscle {

@@ -3,7 +3,7 @@
 #include <fmt/format.h>
 #include <map>
 
-#include "io/spikes/spike_files.hpp"
+#include "core/text/csv_field.hpp"
 #include "live/live_population.hpp"
 
 namespace corpuscle {

@@ -2,9 +2,9 @@
 
 #include <fmt/format.h>
 #include <algorithm>
-#include <cstring>
-#include <type_traits>
 #include <utility>
+
+#include "core/bytes.hpp"
 
 namespace corpuscle {
 namespace {
@@ -12,10 +12,22 @@ namespace {
 /// Checkpoints are so far apart that the cost of saving is negligible.
 constexpr std::chrono::seconds save_interval{10};
 
-static_assert(std::is_trivially_copyable_v<Spike> && std::is_trivially_copyable_v<SkinStats>, "they are sent as their bytes");
+/// For a worker: sends a value to the coordinator.
+template <class T>
+void send_value(Ranks& ranks, const T& value) {
+    ByteWriter message;
+    message.put(value);
+    ranks.send(0, message.bytes());
+}
 
-void send_spikes(Ranks& ranks, const std::vector<Spike>& spikes) {
-    ranks.send(0, std::string(reinterpret_cast<const char*>(spikes.data()), spikes.size() * sizeof(Spike)));
+/// For the coordinator: the value that a worker has sent, or its error.
+template <class T>
+Result<T> receive_value(Ranks& ranks, int rank) {
+    const auto message = TRY(ranks.receive(rank));
+    ByteReader in(message);
+    T value{};
+    if (in.get(value) && in.ended()) return value;
+    return bad_input("the ranks run different versions of corpuscle; install the same one on all machines");
 }
 
 /// Simulates the afferents of this rank. Each block is a message of spikes; one more has the spikes that are still being conducted at the
@@ -27,22 +39,19 @@ Result<void> simulate_rank_afferents(Ranks& ranks, SkinForce& force, Skin& skin,
         const auto steps = block.total_force.size();
         if (steps == 0) break;
         TRY(skin.respond(block.force, steps, spikes, pool));
-        send_spikes(ranks, spikes);
+        send_value(ranks, spikes);
     }
     skin.finish(spikes);
-    send_spikes(ranks, spikes);
-    const auto stats = skin.stats();
-    ranks.send(0, std::string(reinterpret_cast<const char*>(&stats), sizeof stats));
+    send_value(ranks, spikes);
+    send_value(ranks, skin.stats());
     return {};
 }
 
 /// For rank 0: adds the spikes of all workers for one block to its own, and sorts them. Returns the error of a worker, if it had one.
 Result<void> gather_spikes(Ranks& ranks, std::vector<Spike>& spikes) {
     for (int rank = 1; rank < ranks.size(); ++rank) {
-        const auto message = TRY(ranks.receive(rank));
-        const auto before = spikes.size();
-        spikes.resize(before + message.size() / sizeof(Spike));
-        std::copy_n(message.data(), (spikes.size() - before) * sizeof(Spike), reinterpret_cast<char*>(spikes.data() + before));
+        const auto theirs = TRY(receive_value<std::vector<Spike>>(ranks, rank));
+        spikes.insert(spikes.end(), theirs.begin(), theirs.end());
     }
     std::sort(spikes.begin(), spikes.end());
     return {};
@@ -51,9 +60,7 @@ Result<void> gather_spikes(Ranks& ranks, std::vector<Spike>& spikes) {
 /// For rank 0, after the last block: adds the workers' statistics to its own.
 Result<void> gather_stats(Ranks& ranks, SkinStats& stats) {
     for (int rank = 1; rank < ranks.size(); ++rank) {
-        const auto message = TRY(ranks.receive(rank));
-        SkinStats worker;  // its `steps` are the same for all ranks
-        std::memcpy(&worker, message.data(), std::min(sizeof worker, message.size()));
+        const auto worker = TRY(receive_value<SkinStats>(ranks, rank));  // its `steps` are the same for all ranks
         stats.afferent_steps += worker.afferent_steps, stats.skipped_steps += worker.skipped_steps;
         stats.spikes += worker.spikes, stats.truncated_steps += worker.truncated_steps;
     }

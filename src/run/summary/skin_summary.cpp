@@ -4,6 +4,8 @@
 #include <cmath>
 #include <utility>
 
+#include "core/median.hpp"
+
 namespace corpuscle {
 namespace {
 
@@ -19,14 +21,6 @@ std::vector<std::uint32_t> main_sites(const Innervation& skin) {
                     weight[afferent_index] = field.weight[k], site[afferent_index] = s;
     }
     return site;
-}
-
-/// The median; changes the order of the values.
-double median_of(std::vector<double>& values) {
-    if (values.empty()) return no_value;
-    const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-    std::nth_element(values.begin(), middle, values.end());
-    return values.size() % 2 == 1 ? *middle : (*middle + *std::max_element(values.begin(), middle)) / 2;
 }
 
 }  // namespace

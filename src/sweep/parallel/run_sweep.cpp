@@ -61,7 +61,7 @@ Result<void> gather(Ranks& ranks, int& running, std::vector<ItemOutcome>& outcom
         bytes += message.size();
         if (message.empty()) --running;
         if (!unpack_outcomes(message, outcomes))
-            return bad_input("ranks run different versions of corpuscle: install the same one on all machines");
+            return bad_input("the ranks run different versions of corpuscle; install the same one on all machines");
     }
     return {};
 }
@@ -112,7 +112,7 @@ Result<void> run_sweep(const Sweep& sweep, SweepResults& results, const SweepRun
 }
 
 void run_worker(Ranks& ranks, const Result<std::unique_ptr<Sweep>>& sweep, const SweepRunOptions& run) {
-    const auto ok = [&]() -> Result<void> {
+    const auto ok = without_exceptions([&]() -> Result<void> {
         const auto start = TRY(ranks.receive(0));  // also if there is no sweep: rank 0 receives nothing before it has sent this
         if (!sweep) return sweep.error();
         auto missing = TRY(read_start(**sweep, start));
@@ -121,7 +121,7 @@ void run_worker(Ranks& ranks, const Result<std::unique_ptr<Sweep>>& sweep, const
             return Result<void>();
         };
         return compute_items(**sweep, {std::move(missing), run.shard, Shard{ranks.rank(), ranks.size()}}, run, send);
-    }();
+    });
     ok ? ranks.send(0, "") : ranks.send_error(ok.error());
 }
 

@@ -55,7 +55,7 @@ std::string format_mismatch_samples(const MismatchSamples& samples) {
         for (const auto& d : s.devices) devices.push_back(json_of(d));
         out["subjects"].push_back({{"name", s.name}, {"devices", std::move(devices)}});
     }
-    return out.dump();
+    return out.dump(-1, ' ', false, MismatchJson::error_handler_t::replace);  // a name may contain any bytes
 }
 
 Result<MismatchSamples> parse_mismatch_samples(const std::string& text) {

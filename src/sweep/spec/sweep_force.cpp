@@ -136,9 +136,9 @@ Result<SweepForcePointer> ForceFactory::at(std::span<const double> values) const
 
 std::string ForceFactory::recording_summary() const {
     if (!is_recording_) return "";
-    Fnv1a hash;
-    for (const double x : nominal_->samples) hash.add_word(std::bit_cast<std::uint64_t>(x));
-    return fmt::format("{} samples at {} Hz, {:016x}", nominal_->samples.size(), nominal_->clock.rate(), hash.value);
+    const auto& samples = nominal_->samples;
+    return fmt::format("{} samples at {} Hz, checksum {:016x}", samples.size(), nominal_->clock.rate(),
+                       checksum_of(std::as_bytes(std::span(samples))));
 }
 
 }  // namespace corpuscle::sweeps

@@ -1,21 +1,18 @@
 #include <fmt/format.h>
 #include <cmath>
 
-#include "sweep/store/sweep_results.hpp"
-
 #include "core/text/ascii_text.hpp"
+#include "core/text/csv_field.hpp"
+#include "sweep/store/sweep_results.hpp"
 
 namespace corpuscle {
 namespace {
-
-/// A text as a CSV field, quoted if necessary.
-std::string csv_field(const std::string& text) { return text.find_first_of(",\"\n\r") == text.npos ? text : sql::quoted_name(text); }
 
 /// The text of a value: its label if the column has labels, otherwise a number.
 std::string value_text(double x, const SweepColumn& column) {
     const auto& labels = column.labels;
     if (!labels.empty() && x >= 0 && x < static_cast<double>(labels.size()) && x == std::floor(x))
-        return csv_field(labels[static_cast<std::size_t>(x)]);
+        return quote_csv_field(labels[static_cast<std::size_t>(x)]);
     return std::isnan(x) ? "" : fmt::format("{}", x);
 }
 
@@ -52,9 +49,9 @@ public:
 
 std::string header_line(const SweepResults& results) {
     auto text = joined(ResultsLayout::item_columns, ",");
-    for (const auto& name : results.stored_column_names) text += "," + csv_field(name);
-    for (const auto& name : results.train_names) text += "," + csv_field("spikes of " + name);
-    for (const auto& name : results.probe_names) text += "," + csv_field("trace of " + name);
+    for (const auto& name : results.stored_column_names) text += "," + quote_csv_field(name);
+    for (const auto& name : results.train_names) text += "," + quote_csv_field("spikes of " + name);
+    for (const auto& name : results.probe_names) text += "," + quote_csv_field("trace of " + name);
     return text + "\n";
 }
 
@@ -72,7 +69,7 @@ Result<void> dump_results(const SweepResults& results, const std::function<bool(
     if (should_continue)
         row_result = results.for_each_row([&](const std::vector<double>& axes, const ItemOutcome& row) {
             auto text = fmt::format("{},{},{},{},{},{}", row.item, end_name(row.end), row.steps, row.iterations, row.ran_alone ? 1 : 0,
-                                    csv_field(row.reason));
+                                    quote_csv_field(row.reason));
             for (std::size_t k = 0; k < axes.size(); ++k) text += "," + value_text(axes[k], results.axes[k]);
             for (std::size_t k = 0; k < row.measures.size(); ++k) text += "," + value_text(row.measures[k], results.measures[k]);
             ok = spikes.append(row.item, results.train_names.size(), text);

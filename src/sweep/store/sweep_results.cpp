@@ -40,6 +40,13 @@ Result<void> make_folder(const std::string& path) {
     return {};
 }
 
+/// A path as part of a URI of SQLite, which gives these characters a meaning.
+std::string uri_path(std::string_view path) {
+    std::string out;
+    for (const char c : path) out += c == '%' || c == '?' || c == '#' ? fmt::format("%{:02X}", static_cast<int>(c)) : std::string(1, c);
+    return out;
+}
+
 Error needs_writable_folder(const std::string& path) {
     return bad_input(
         "was left by a run that was killed, and can be read only in a writable folder: copy it, together with "
@@ -132,7 +139,7 @@ Result<SweepResults> SweepResults::open_read_only(const std::string& path) {
         // SQLite needs a -shm file beside the results, which cannot be created in a read-only folder. Without rows in the -wal, the file
         // can be opened as immutable instead.
         if (fs::exists(out.wal_path(), status) && fs::file_size(out.wal_path(), status) > 0) return needs_writable_folder(path);
-        const auto uri = "file:" + fs::absolute(path).string() + "?immutable=1";
+        const auto uri = "file:" + uri_path(fs::absolute(path).string()) + "?immutable=1";
         out.file_ = TRY(sql::open(uri, SQLITE_OPEN_READONLY | SQLITE_OPEN_URI | SQLITE_OPEN_NOMUTEX));
         out.file_.path = path;
         ok = out.read_layout();
