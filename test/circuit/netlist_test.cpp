@@ -131,6 +131,23 @@ TEST(NetlistElements, RCLTakeTheirValuesInEveryNotation) {
     EXPECT_EQ(c.models[0].type, "r");
 }
 
+TEST(NetlistElements, RAndCTakeTheirValuesFromTheSizesAndTheSheetOfTheirModel) {
+    const auto c = circuit(
+        "R1 a 0 rm l=20u w=2u\nR2 a 0 rm l=20u\nR3 a 0 rv\nC1 a 0 cm l=10u w=4u\nC2 a 0 cv\nL1 a 0 lm\nR 1 0 2k\nR0 a 1 0\n"
+        ".model rm r rsh=100 defw=4u narrow=1u short=2u\n.model rv r r=5k\n.model cm c cj=1m cjsw=1n\n.model cv c cap=2p\n.model lm l "
+        "ind=3u\n");
+    EXPECT_DOUBLE_EQ(element_in(c, "r1").value, 100 * 18 / 1.0);
+    EXPECT_DOUBLE_EQ(element_in(c, "r2").value, 100 * 18 / 3.0);
+    EXPECT_EQ(element_in(c, "r3").value, 5e3);
+    EXPECT_DOUBLE_EQ(element_in(c, "c1").value, 1e-3 * 40e-12 + 2e-9 * 14e-6);
+    EXPECT_EQ(element_in(c, "c2").value, 2e-12);
+    EXPECT_EQ(element_in(c, "l1").value, 3e-6);
+    EXPECT_EQ(element_in(c, "r").value, 2e3);
+    EXPECT_EQ(element_in(c, "r0").value, 1e-3);
+    ASSERT_EQ(c.warnings.size(), 1U);
+    EXPECT_EQ(c.warnings[0].text(), "dir/t.cir:9:8: r0: 0 ohm is taken as 0.001 ohm; a 0 V source connects two nodes exactly");
+}
+
 TEST(NetlistElements, SourcesHaveTheirWaveforms) {
     using Shape = Waveform::Shape;
     const auto c = circuit(
@@ -198,12 +215,11 @@ TEST(NetlistElements, AreRejectedWithLocationAndSuggestion) {
         const char *body, *message;
     } cases[] = {
         {"R1 a 0", "2:7: r1: its value is missing"},
-        {"C1 a 0 cm\n.model cm c", "2:10: c1: its value is missing; its model gives only tc1, tc2 and tnom"},
+        {"C1 a 0 cm\n.model cm c", "2:10: c1: its value is missing; its model does not give one either"},
         {"R1 a 0 rm 1k r=3\n.model rm r", "2:14: r1: its value is given twice"},
         {"R1 a", "2:5: r1: 1 node, but expected 2: plus, minus, then a value or a model"},
         {"R1 a 0 1k 2k", "2:11: r1: unexpected '2k'"},
         {"R1 a 0 1k5", "2:8: '1k5' is not a number"},
-        {"R1 a 0 0", "2:8: r1: a resistor must not be 0 ohm; use a 0 V source to connect two nodes"},
         {"R1 a 0 1 k", "2:10: r1: unknown model 'k'; write a unit directly after its number, without a blank"},
         {"R1 a 0 rmodl\n.model rmod r\nR2 a 0 rmod", "2:8: r1: unknown model 'rmodl'; did you mean 'rmod'?"},
         {"R1 a 0 {1/0}", "2:9: '1/0' is inf, not a finite number"},
@@ -213,7 +229,6 @@ TEST(NetlistElements, AreRejectedWithLocationAndSuggestion) {
         {"R1 a 0 1k r=3", "2:11: r1: its value is given twice"},
         {"R1 a 0 1k tc1=", "2:14: '=' without a value after it"},
         {"R1 = 1k", "2:4: unexpected '=' after 'r1'; to define a parameter: .param name=value"},
-        {"R 1 0 1k", "2:1: r: the name of an element must be longer than its letter, such as r1"},
         {"R1 a 0 1k\nR2 a 0 1\nr1 b 0 2k", "4:1: element 'r1' is already defined at dir/t.cir:2"},
         {"Q1 c b e qm", "2:1: 'q1': unknown element letter q; known are R C L V I E F G H B D M X"},
         {"V1 a 0 PULS(0 1)", "2:8: v1: unknown word 'puls'; did you mean 'pulse'?"},
@@ -222,9 +237,13 @@ TEST(NetlistElements, AreRejectedWithLocationAndSuggestion) {
         {"V1 a 0 PWL(0 0 1m 1 1m 2)", "2:21: v1: pwl: time 0.001 must be later than 0.001"},
         {"V1 a 0 1 DC 2", "2:13: v1: dc is given twice"},
         {"V1 a 0 SIN(0 1) PULSE(0 1)", "2:17: v1: only one time waveform is allowed, not also 'pulse'"},
-        {"V1 a 0 SFFM(0 1)", "2:8: v1: sffm sources are not supported; known are pulse, sin, exp, pwl and force"},
+        {"V1 a 0 TRNOISE(1 1n 0 0)", "2:8: v1: trnoise sources are not supported; known are pulse, sin, exp, pwl, sffm, am and force"},
+        {"V1 a 0 PWL(0 0 1m 1) r=2m", "2:24: v1: pwl: r = 0.002 s is not the time of a point before the last"},
         {"V1 a 0 PULSE(0 vd)", "2:16: unknown name 'vd'"},
-        {"E1 a 0 POLY(1) b 0 1", "2:8: e1: poly is not supported; write value={...}"},
+        {"E1 a 0 POLY(1) b 0 1", "2:8: e1: unknown node 'b'; did you mean 'a'?"},
+        {"E1 a 0 POLY(1.5) a 0 1", "2:13: e1: poly: expected the number of inputs in parentheses, such as poly(2)"},
+        {"E1 a 0 POLY(2) a 0 1 2", "2:23: e1: poly(2): expected 2 pairs of nodes, then the coefficients"},
+        {"H1 a 0 POLY(1) V1", "2:18: h1: poly(1): expected 1 voltage sources, then the coefficients"},
         {"E1 a 0 b 0", "2:11: e1: its gain is missing"},
         {"G1 a 0 b", "2:9: g1: 3 nodes, but expected 4: plus, minus, the two controlling nodes, then the gain"},
         {"F1 a 0 V1 2\nR1 a 0 1\nVx a 0 1", "2:8: f1: unknown element 'v1'; did you mean 'vx'?"},
@@ -318,7 +337,6 @@ TEST(NetlistSubcircuits, AreRejectedWithLocationAndSuggestion) {
         {".ends", "2:1: .ends without .subckt"},
         {".subckt a x\n.ends b", "3:7: .ends b does not match .subckt a"},
         {".subckt a x x\n.ends", "2:13: .subckt a: node 'x' is given twice"},
-        {".subckt a 0\n.ends", "2:11: .subckt a: ground must not be one of its nodes"},
         {".subckt a x\n.ends\n.subckt a y\n.ends", "4:9: subcircuit 'a' is already defined at dir/t.cir:2"},
         {".subckt a x\n.tran 1n 1u\n.ends", "3:1: .tran is not allowed inside .subckt a; move it outside"},
         {"X1 a\n", "2:4: x1: unknown subcircuit 'a'"},

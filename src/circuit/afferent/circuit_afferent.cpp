@@ -29,6 +29,7 @@ std::uint64_t fingerprint_of(const Circuit& c) {
         number(static_cast<std::uint64_t>(e.model));
         for (const int n : e.nodes) number(static_cast<std::uint64_t>(n));
         for (const double x : e.waveform.numbers) real(x);
+        if (e.waveform.repeats_from) real(*e.waveform.repeats_from);
         if (e.expression) formula(*e.expression);
         // Hashed only if present, so that netlists without them keep the hash of earlier versions and their saved states stay valid.
         if (!e.control_source.empty()) text(e.control_source);

@@ -61,6 +61,52 @@ Result<void> read_gain(ElementReader& line, std::size_t word) {
     return line.value(word);
 }
 
+/// The products of a polynomial of n inputs in SPICE's order, as lists of inputs: 1, x0 .. x(n-1), x0 x0, x0 x1 .. up to `count`.
+std::vector<std::vector<std::size_t>> polynomial_terms(std::size_t n, std::size_t count) {
+    std::vector<std::vector<std::size_t>> out = {{}};
+    for (std::size_t from = 0; out.size() < count;) {  // each degree follows from the one before
+        const std::size_t to = out.size();
+        for (std::size_t first = 0; first < n; ++first)
+            for (std::size_t k = from; k < to; ++k)
+                if (out[k].empty() || first <= out[k].front()) {
+                    auto product = out[k];
+                    product.insert(product.begin(), first);
+                    out.push_back(std::move(product));
+                }
+        from = to;
+    }
+    out.resize(count);
+    return out;
+}
+
+/// Reads "poly(n)", from word 3 on: the n inputs, each of `words_each` words, then the coefficients. The polynomial becomes the element's
+/// expression.
+Result<void> read_polynomial(ElementReader& line, std::size_t words_each) {
+    constexpr double max_inputs = 1000;
+    const double n = line.word_count() > 4 ? TRY(line.number(4)) : 0;
+    if (!(n >= 1 && n <= max_inputs && n == std::floor(n)))
+        return line.error_at(4, "poly: expected the number of inputs in parentheses, such as poly(2)");
+    const auto inputs = static_cast<std::size_t>(n);
+    const std::size_t first_coefficient = 5 + inputs * words_each;
+    if (line.word_count() <= first_coefficient)
+        return line.error_at(line.word_count(), "poly({}): expected {}, then the coefficients", inputs,
+                             words_each == 2 ? fmt::format("{} pairs of nodes", inputs) : fmt::format("{} voltage sources", inputs));
+    std::vector<std::string> names;
+    for (std::size_t k = 0; k < inputs; ++k)
+        names.push_back(words_each == 2 ? fmt::format("v({},{})", line.text(5 + 2 * k), line.text(6 + 2 * k))
+                                        : fmt::format("i({})", line.text(5 + k)));
+    const std::size_t count = line.word_count() - first_coefficient;
+    const bool is_gain = inputs == 1 && count == 1;  // a single coefficient is that of the input, as in SPICE
+    const auto terms = polynomial_terms(inputs, is_gain ? 2 : count);
+    std::string text;
+    for (std::size_t k = 0; k < count; ++k) {
+        text += fmt::format("{}({:.17g})", k == 0 ? "" : "+", TRY(line.number(first_coefficient + k)));
+        for (const auto input : terms[k + is_gain]) text += "*" + names[input];
+    }
+    line.element.expression_is_voltage = has_branch_current(line.element);
+    return line.expression(std::move(text), line.word(3));
+}
+
 Result<void> read_voltage_controlled(ElementReader& line) {
     constexpr std::string_view expected = "plus, minus, the two controlling nodes, then the gain";
     TRY(line.nodes(2, expected));
@@ -71,8 +117,8 @@ Result<void> read_voltage_controlled(ElementReader& line) {
             return line.expression(*pair);
         }
     const auto word = line.text(3);
-    if (word == "poly" || word == "table" || word == "laplace" || word == "freq")
-        return line.error_at(3, "{} is not supported; write value={{...}}", word);
+    if (word == "poly") return read_polynomial(line, 2);
+    if (word == "table" || word == "laplace" || word == "freq") return line.error_at(3, "{} is not supported; write value={{...}}", word);
     line.element.nodes.clear();
     TRY(line.nodes(4, expected));
     return read_gain(line, 5);
@@ -80,7 +126,7 @@ Result<void> read_voltage_controlled(ElementReader& line) {
 
 Result<void> read_current_controlled(ElementReader& line) {
     TRY(line.nodes(2, "plus, minus, then the controlling voltage source and the gain"));
-    if (line.text(3) == "poly") return line.error_at(3, "poly is not supported; use a B source instead");
+    if (line.text(3) == "poly") return read_polynomial(line, 1);
     if (line.word_count() < 4) return line.error_at(3, "the controlling voltage source is missing");
     line.control_source(3);
     return read_gain(line, 4);
@@ -104,7 +150,11 @@ Result<std::string> write_controlled_source(const ElementExport& e) {
         return fmt::format("{}{} {}\n", e.head, control, e.element.value * (has_branch_current(e.element) ? 1 : e.value("m", 1)));
     }
     const auto text = TRY(e.expression());
-    return fmt::format("{} {}='{}'\n", e.head, has_branch_current(e.element) ? "vol" : "cur", text);
+    const bool is_voltage = has_branch_current(e.element);
+    if (e.element.letter == 'f' || e.element.letter == 'h')  // ngspice has no expression there
+        return fmt::format("b_{} {} {} {}={}\n", e.names.element(e.element.name), e.names.node(e.element.nodes[0]),
+                           e.names.node(e.element.nodes[1]), is_voltage ? "v" : "i", text);
+    return fmt::format("{} {}='{}'\n", e.head, is_voltage ? "vol" : "cur", text);
 }
 
 Result<std::string> write_expression_source(const ElementExport& e) {

@@ -105,6 +105,8 @@ public:
 
     /// Number of values that limit() keeps between Newton iterations.
     virtual std::size_t limiting_state_size() const { return 0; }
+    /// True if limit() must be called: it may change the voltages.
+    virtual bool limits() const { return limiting_state_size() > 0; }
     /// Limits the Newton step: changes v if it is too far from the voltages of the last evaluation, which `state` holds. Then stores the
     /// voltages of this evaluation in `state`. Returns true if v was changed.
     virtual bool limit(std::span<double> /*v*/, std::span<double> /*state*/) const { return false; }

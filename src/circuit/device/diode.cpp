@@ -16,7 +16,7 @@ struct DiodeCard {
 };
 
 constexpr ParameterDef<DiodeCard> fields[] = {
-    {"is", &DiodeCard::is, "A", 1e-40, 1, "saturation current"},
+    {"is", &DiodeCard::is, "A", 1e-40, 1e3, "saturation current"},
     {"n", &DiodeCard::n, "", 0.1, 100, "emission coefficient"},
     {"rs", &DiodeCard::rs, "ohm", 0, 1e12, "series resistance"},
     {"cjo", &DiodeCard::cjo, "F", 0, 1, "junction capacitance at 0 V"},
@@ -27,7 +27,7 @@ constexpr ParameterDef<DiodeCard> fields[] = {
     {"bv", &DiodeCard::bv, "V", 0, 1e6, "breakdown voltage; 0: none"},
     {"ibv", &DiodeCard::ibv, "A", 1e-15, 1e3, "current at the breakdown voltage"},
     {"eg", &DiodeCard::eg, "eV", 0.1, 10, "band gap"},
-    {"xti", &DiodeCard::xti, "", 0, 10, "temperature exponent of the saturation current"},
+    {"xti", &DiodeCard::xti, "", -100, 100, "temperature exponent of the saturation current"},
     {"kf", &DiodeCard::kf, "", 0, 1, "flicker noise coefficient"},
     {"af", &DiodeCard::af, "", 0.1, 10, "flicker noise exponent"},
     {"tnom", &DiodeCard::tnom, "C", -273, 1000, "temperature at which the parameters were measured"},

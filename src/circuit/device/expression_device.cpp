@@ -25,7 +25,7 @@ class ExpressionDevice final : public Device {
     ExpressionQuantity quantity_;
     double m_;
     std::vector<DeviceInput> inputs_;
-    bool has_jumps_ = expression_.has_jumps() && quantity_ != ExpressionQuantity::charge;
+    bool has_jumps_ = expression_.has_jumps() && quantity_ != ExpressionQuantity::charge, has_poles_ = expression_.has_poles();
 
     /// The index of an unknown of the system in `unknowns`, to which it is added if necessary; -1: ground.
     int local_index(int unknown) {
@@ -74,10 +74,34 @@ public:
         return {};
     }
 
+    /// Newton's method begins at 0 V, where 1/v or ln(v) has no value. There the expression is evaluated a little beside, and continued
+    /// along its tangent.
+    bool limits() const override { return has_poles_; }
+    bool limit(std::span<double> v, std::span<double>) const override {
+        std::vector<double> values;
+        const auto value_at = [&] {
+            values.clear();
+            for (const auto& in : inputs_) values.push_back(in.value(v, {}));
+            return expression_.value(values);
+        };
+        if (std::isfinite(value_at())) return false;
+        const std::vector<double> before(v.begin(), v.end());
+        for (const double distance : {1e-6, -1e-6, 1e-3, -1e-3, 1.0, -1.0}) {
+            double factor = 1;  // different for each input, so that differences change, too
+            for (const auto& in : inputs_)
+                if (in.plus >= 0)
+                    v[static_cast<std::size_t>(in.plus)] = before[static_cast<std::size_t>(in.plus)] + factor * distance, factor *= 1.1;
+            if (std::isfinite(value_at())) return true;
+        }
+        std::copy(before.begin(), before.end(), v.begin());
+        return false;
+    }
+
     void eval(std::span<const double> v, const EvalContext& context, const Stamp& out) const override {
         std::vector<double> values, slopes(inputs_.size());
         for (const auto& in : inputs_) values.push_back(in.value(v, context));
         const double value = expression_.value(values, slopes);
+        if (has_poles_) replace_infinite_slopes(values, value, slopes);
         if (quantity_ == ExpressionQuantity::voltage)
             out.add_branch(v), out.f[2] -= value * context.source_scale;
         else if (quantity_ == ExpressionQuantity::current)
@@ -89,6 +113,23 @@ public:
     }
 
 private:
+    /// Replaces infinite slopes, as that of sqrt(v) at 0, by those of a chord.
+    void replace_infinite_slopes(std::vector<double>& values, double value, std::span<double> slopes) const {
+        for (std::size_t k = 0; k < slopes.size(); ++k) {
+            if (std::isfinite(slopes[k]) || !std::isfinite(value)) continue;
+            const double at = values[k], length = 1e-6 * std::max(1.0, std::abs(at));
+            slopes[k] = 0;
+            for (const double h : {length, -length}) {
+                values[k] = at + h;
+                const double slope = (expression_.value(values) - value) / h;
+                if (std::isfinite(slope)) {
+                    slopes[k] = slope;
+                    break;
+                }
+            }
+            values[k] = at;
+        }
+    }
     static Result<int> node(const Element& e, const DeviceSetup& setup, const std::string& name) {
         const Circuit& c = setup.circuit();
         const int number = c.find_node(name);

@@ -14,6 +14,7 @@ namespace {
 double dc_value(const Waveform& w) {
     if (w.has_dc || w.numbers.empty()) return w.dc;
     if (w.shape == Waveform::Shape::piecewise_linear) return w.numbers.size() > 1 ? w.numbers[1] : 0;
+    if (w.shape == Waveform::Shape::amplitude_modulated) return 0;
     return w.shape == Waveform::Shape::force ? w.dc : w.numbers[0];
 }
 
@@ -102,6 +103,7 @@ Result<std::string> write_independent_source(const ElementExport& e) {
     if (w.has_dc || !has_shape || has_phase) out += fmt::format(" dc {}", w.has_dc || !has_phase ? w.dc : w.numbers[0]);
     if (w.ac_magnitude != 0 || w.ac_phase != 0) out += fmt::format(" ac {} {}", w.ac_magnitude, w.ac_phase);
     if (has_shape) out += fmt::format(" {}({:})", shape_name(w.shape), fmt::join(w.numbers, " "));
+    if (w.repeats_from) out += fmt::format(" r={}", *w.repeats_from);
     if (e.element.letter == 'i' && e.value("m", 1) != 1) out += fmt::format(" m={}", e.value("m", 1));
     if (!force) return out + '\n';
     const auto points = TRY(pwl_force(e.circuit, w.numbers.empty() ? 1 : w.numbers[0]));

@@ -20,7 +20,11 @@ double at_temperature(double value, const Element& e, const DeviceSetup& setup) 
 
 /// Rejects a scale of 0, and parameters that the model of a resistor, capacitor or inductor does not have.
 Result<void> check_parameters(const Element& e, const DeviceSetup& setup) {
-    static constexpr std::string_view model_values[] = {"tc1", "tc2", "tnom"};
+    static constexpr std::string_view model_values[] = {"tc1",   "tc2", "tnom", "rsh", "r",   "res", "defw", "defl", "narrow",
+                                                        "short", "cj",  "cjsw", "c",   "cap", "ind", "l",    "kf",   "af"};
+    for (const std::string_view noise : {"kf"})
+        if (const auto* m = setup.circuit().model_of(e); m && value_or(m->values, noise, 0) != 0)
+            return error_at(m->location, "{}: {} (flicker noise of a resistor) is not supported", m->name, noise);
     if (value_or(e.values, "scale", 1) == 0) return error_at(e.location, "{}: scale must not be 0", e.name);
     const Model* model = setup.circuit().model_of(e);
     return model ? check_value_names(model->name, model->values, model_values, model->location) : Result<void>();
@@ -66,6 +70,7 @@ public:
 
 Result<std::unique_ptr<Device>> make_resistor(const Element& e, DeviceSetup& setup) {
     TRY(check_parameters(e, setup));
+    if (e.expression) return make_expression_device(e, setup, ExpressionQuantity::current);
     const double r = at_temperature(e.value, e, setup), m = value_or(e.values, "m", 1);
     if (r == 0) return error_at(e.location, "{}: 0 ohm is not allowed; use a voltage source of 0 V as a wire", e.name);
     return make_device<Resistor>(setup.ends(e), r, m, setup.temperature(e));
@@ -97,6 +102,44 @@ bool names_model(const ElementReader& line, std::size_t word, bool has_value) {
     return begins_with_letter && (has_value || (!line.is_parameter(word) && text.find_first_of("*/+-") == std::string_view::npos));
 }
 
+/// A length or width of the line (m), else of its model, else 10 um, less what the process takes away at its edges; as in SPICE.
+Result<double> dimension(ElementReader& line, std::string_view name, std::string_view model_name, std::string_view reduction) {
+    const auto* pair = line.find(name);
+    const double drawn = pair ? TRY(line.number(*pair)) : line.model_value(model_name).value_or(10e-6);
+    const double left = drawn - line.model_value(reduction).value_or(0);
+    if (!(left > 0))
+        return line.error_at(pair ? pair->value : line.word(0), "{} = {:g} m leaves nothing of its length or width", name, left);
+    return left;
+}
+
+/// The value of an element from its model: a value there, or that of a sheet of the length l and the width w. nullopt: none.
+Result<std::optional<double>> value_of_model(ElementReader& line) {
+    const auto first_of = [&](std::initializer_list<std::string_view> names) -> std::optional<double> {
+        for (const auto name : names)
+            if (const auto value = line.model_value(name)) return value;
+        return {};
+    };
+    const char letter = line.element.letter;
+    if (letter == 'l') return first_of({"ind", "l"});
+    const auto sheet =
+        first_of(letter == 'r' ? std::initializer_list<std::string_view>{"rsh"} : std::initializer_list<std::string_view>{"cj", "cjsw"});
+    if (!sheet || *sheet == 0) return letter == 'r' ? first_of({"r", "res"}) : first_of({"cap", "c"});
+    const double l = TRY(dimension(line, "l", "defl", "short")), w = TRY(dimension(line, "w", "defw", "narrow"));
+    if (letter == 'r') return std::optional(*sheet * l / w);
+    return std::optional(line.model_value("cj").value_or(0) * l * w + 2 * line.model_value("cjsw").value_or(0) * (l + w));
+}
+
+/// True if a value depends on voltages, currents or the time.
+bool depends_on_solution(std::string_view text) {
+    return text.find("v(") != text.npos || text.find("i(") != text.npos || text.find("time") != text.npos;
+}
+
+/// Reads a word, or the value of a pair, as the value. A resistance that depends on the solution becomes an expression of the current.
+Result<void> read_passive_value(ElementReader& line, const Word& word, std::string_view text) {
+    if (line.element.letter != 'r' || word.kind != Word::Kind::expression || !depends_on_solution(text)) return line.value(word);
+    return line.expression(fmt::format("v({},{})/({})", line.text(1), line.text(2), text), word);
+}
+
 /// Reads nodes, then a model or a value or both. The value may be given as r=, c= or l=, and that of a capacitor as a charge q=.
 Result<void> read_passive(ElementReader& line) {
     TRY(line.nodes(2, "plus, minus, then a value or a model"));
@@ -106,22 +149,28 @@ Result<void> read_passive(ElementReader& line) {
     for (std::size_t k = 3; k < line.word_count(); ++k) {
         const bool is_name = names_model(line, k, has_value);
         if (is_name ? e.model >= 0 : has_value) return line.too_many(k);
-        TRY(is_name ? line.model(k, {letter}) : line.value(k));
+        TRY(is_name ? line.model(k, {letter}) : read_passive_value(line, line.word(k), line.text(k)));
         has_value = has_value || !is_name;
     }
     if (const auto* pair = line.find(letter)) {
         if (has_value) return line.error_at(pair->name, "its value is given twice");
-        TRY(line.value(*pair));
+        line.take(*pair);
+        TRY(read_passive_value(line, pair->value, line.text(*pair)));
         has_value = true;
     }
-    if (has_value && e.value == 0 && e.letter == 'r')
-        return line.error_at(3, "a resistor must not be 0 ohm; use a 0 V source to connect two nodes");
     if (const auto* q = e.letter == 'c' ? line.find("q") : nullptr) {
         if (has_value) return line.error_at(q->name, "has both a capacitance and a charge");
         return line.expression(*q);
     }
-    if (!has_value)
-        return line.error_at(line.word_count(), "its value is missing{}", e.model < 0 ? "" : "; its model gives only tc1, tc2 and tnom");
+    const auto computed = has_value || e.model < 0 ? std::nullopt : TRY(value_of_model(line));
+    if (computed) e.value = *computed;
+    if (!has_value && !computed)
+        return line.error_at(line.word_count(), "its value is missing{}", e.model < 0 ? "" : "; its model does not give one either");
+    if (e.letter == 'r' && e.value == 0 && !e.expression) {
+        constexpr double wire = 1e-3;  // ohm, as in ngspice
+        line.warn(3, fmt::format("0 ohm is taken as {:g} ohm; a 0 V source connects two nodes exactly", wire));
+        e.value = wire;
+    }
     return {};
 }
 
@@ -134,9 +183,17 @@ bool is_swept(const ElementExport& e) {
     });
 }
 
+/// A source of the current of a resistor whose resistance depends on the solution.
+Result<std::string> write_resistance_expression(const ElementExport& e) {
+    const auto current = TRY(e.expression());
+    return fmt::format("b_{} {} {} i='{}'\n", e.names.element(e.element.name), e.names.node(e.element.nodes[0]),
+                       e.names.node(e.element.nodes[1]), current);
+}
+
 /// An R, C or L; m parallel ones are merged into one. An element that .dc sweeps is written with its value at its temperature and without
 /// temperature coefficients, because ngspice would apply these to each value of the sweep.
 Result<std::string> write_passive(const ElementExport& e) {
+    if (e.element.expression && e.element.letter == 'r') return write_resistance_expression(e);
     if (e.element.expression) {
         const auto charge = TRY(e.expression());
         return fmt::format("{} q='{}'\n", e.head, charge);
@@ -181,8 +238,8 @@ constexpr ElementParameter capacitor_parameters[] = {{.name = "c", .unit = "F", 
                                                      parameter_dtemp};
 constexpr ElementParameter inductor_parameters[] = {
     {.name = "l", .unit = "H", .low = 0, .is_value = true}, parameter_m, parameter_tc1, parameter_tc2, parameter_temp, parameter_dtemp};
-constexpr std::string_view resistor_names[] = {"scale"}, capacitor_names[] = {"q", "ic", "scale"}, inductor_names[] = {"ic", "scale"},
-                           charge_names[] = {"q"};
+constexpr std::string_view resistor_names[] = {"scale", "l", "w"}, capacitor_names[] = {"q", "ic", "scale", "l", "w"},
+                           inductor_names[] = {"ic", "scale"}, charge_names[] = {"q"};
 
 }  // namespace
 

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <limits>
+#include <numbers>
 
 #include "circuit/expression/spice_number.hpp"
 #include "circuit/netlist/element_reader.hpp"
@@ -32,7 +33,7 @@ public:
     Result<void> read() {
         if (is_number_next()) TRY(dc());
         while (!is_done()) TRY(next_item());
-        for (const std::string_view name : {"dc", "ac", "td", "r"})
+        for (const std::string_view name : {"dc", "ac", "r", "td"})
             if (const auto* pair = line_.find(name)) TRY(named(name, *pair));
         return {};
     }
@@ -41,7 +42,7 @@ private:
     bool is_done() const { return k_ >= line_.word_count(); }
     bool is_keyword(std::size_t k) const {
         const auto w = line_.text(k);
-        return line_.is_plain(k) && (w == "dc" || w == "ac" || shape_of(w));
+        return line_.is_plain(k) && (w == "dc" || w == "ac" || w == "distof1" || w == "distof2" || shape_of(w));
     }
     bool is_number_next() const {
         if (is_done() || is_keyword(k_)) return false;
@@ -66,11 +67,19 @@ private:
         return {};
     }
 
+    /// Skips the magnitude and phase of an input of .disto, an analysis that we do not have.
+    Result<void> skip_distortion() {
+        ++k_;
+        for (int k = 0; k < 2 && is_number_next(); ++k) TRY(number());
+        return {};
+    }
+
     /// Reads dc, ac or a time waveform with its numbers.
     Result<void> next_item() {
         const auto w = line_.text(k_);
         if (w == "dc") return ++k_, dc();
         if (w == "ac") return ++k_, ac();
+        if (w == "distof1" || w == "distof2") return skip_distortion();
         const auto* row = shape_of(w);
         if (!row) return line_.error_at(k_, "{}", unknown(w));
         if (out_.shape != Shape::none) return line_.error_at(k_, "only one time waveform is allowed, not also '{}'", w);
@@ -79,9 +88,9 @@ private:
     }
 
     static std::string unknown(std::string_view w) {
-        constexpr std::string_view known[] = {"dc", "ac", "pulse", "sin", "exp", "pwl", "force"};
-        if (w == "sffm" || w == "am" || w == "trnoise" || w == "trrandom" || w == "external")
-            return fmt::format("{} sources are not supported; known are pulse, sin, exp, pwl and force", w);
+        constexpr std::string_view known[] = {"dc", "ac", "pulse", "sin", "exp", "pwl", "sffm", "am", "force"};
+        if (w == "trnoise" || w == "trrandom" || w == "external")
+            return fmt::format("{} sources are not supported; known are pulse, sin, exp, pwl, sffm, am and force", w);
         return fmt::format("unknown word '{}'{}", w, did_you_mean(w, known));
     }
 
@@ -109,7 +118,23 @@ private:
         return {};
     }
 
-    /// Reads dc=, ac=, or td= of a pwl.
+    void delay(double by) {
+        for (std::size_t k = 0; k < out_.numbers.size(); k += 2) out_.numbers[k] += by;
+        if (out_.repeats_from) *out_.repeats_from += by;
+    }
+
+    /// Reads r= of a pwl: the time from which it repeats, that of a point; -1 for none.
+    Result<void> repeat(double from, const NameValue& pair) {
+        if (from == -1) return {};
+        const auto& x = out_.numbers;
+        bool is_point = false;
+        for (std::size_t k = 0; k + 2 < x.size(); k += 2) is_point |= x[k] == from;
+        if (!is_point) return line_.error_at(pair.value, "pwl: r = {:g} s is not the time of a point before the last", from);
+        out_.repeats_from = from;
+        return {};
+    }
+
+    /// Reads dc=, ac=, or td= or r= of a pwl.
     Result<void> named(std::string_view name, const NameValue& pair) {
         const auto value = TRY(line_.number(pair));
         if (name == "dc" && !out_.has_dc)
@@ -117,9 +142,9 @@ private:
         else if (name == "ac" && out_.ac_magnitude == 0)
             out_.ac_magnitude = value;
         else if (name == "td" && out_.shape == Shape::piecewise_linear)
-            for (std::size_t k = 0; k < out_.numbers.size(); k += 2) out_.numbers[k] += value;
+            delay(value);
         else if (name == "r" && out_.shape == Shape::piecewise_linear)
-            return line_.error_at(pair.name, "a repeated pwl (r=) is not supported");
+            return repeat(value, pair);
         else if (name == "td" || name == "r")
             return line_.error_at(pair.name, "{}= is allowed only with pwl", name);
         else if (name == "dc" || name == "ac")
@@ -138,12 +163,15 @@ SourceWaveform::SourceWaveform(Waveform wave, double step, double stop) : wave_(
         breakpoints_ = {rise_delay, number(4, rise_delay + step_)};
     }
     if (wave_.shape == Shape::sine) breakpoints_ = {number(3, 0)};
+    if (wave_.shape == Shape::amplitude_modulated) breakpoints_ = {number(4, 0)};
 }
 
 double SourceWaveform::at(double t) const {
     if (wave_.shape == Shape::pulse) return pulse(t);
     if (wave_.shape == Shape::sine) return sine(t);
     if (wave_.shape == Shape::exponential) return exponential(t);
+    if (wave_.shape == Shape::frequency_modulated) return frequency_modulated(t);
+    if (wave_.shape == Shape::amplitude_modulated) return amplitude_modulated(t);
     return wave_.shape == Shape::piecewise_linear ? piecewise_linear(t) : wave_.dc;
 }
 
@@ -185,9 +213,32 @@ double SourceWaveform::exponential(double t) const {
     return v;
 }
 
+/// The arguments of SFFM are vo va fc mdi fs phasec phases.
+double SourceWaveform::frequency_modulated(double t) const {
+    const double carrier = positive_or(2, 1 / stop_) * t + number(5, 0) / 360, signal = positive_or(4, 1 / stop_) * t + number(6, 0) / 360;
+    const double turns = carrier + number(3, 0) / (2 * std::numbers::pi) * num::sin_turns(signal - std::floor(signal));
+    return number(0, 0) + number(1, 0) * num::sin_turns(turns - std::floor(turns));
+}
+
+/// The arguments of AM are va vo mf fc td phase.
+double SourceWaveform::amplitude_modulated(double t) const {
+    const double elapsed = t - number(4, 0);
+    if (elapsed <= 0) return 0;
+    const double phase = number(5, 0) / 360, signal = positive_or(2, 1 / stop_) * elapsed + phase,
+                 carrier = positive_or(3, 1 / stop_) * elapsed + phase;
+    return number(0, 0) * (number(1, 0) + num::sin_turns(signal - std::floor(signal))) * num::sin_turns(carrier - std::floor(carrier));
+}
+
+double SourceWaveform::in_first_cycle(double t) const {
+    if (!wave_.repeats_from || t <= breakpoints_.back()) return t;
+    const double from = *wave_.repeats_from, period = breakpoints_.back() - from;
+    return t - std::floor((t - from) / period) * period;
+}
+
 /// The netlist reader guarantees at least one point, and ascending times.
-double SourceWaveform::piecewise_linear(double t) const {
+double SourceWaveform::piecewise_linear(double time) const {
     const auto& x = wave_.numbers;
+    const double t = in_first_cycle(time);
     const auto after = static_cast<std::size_t>(std::upper_bound(breakpoints_.begin(), breakpoints_.end(), t) - breakpoints_.begin());
     if (after == 0) return x[1];
     if (after == breakpoints_.size()) return x[2 * after - 1];
@@ -195,12 +246,28 @@ double SourceWaveform::piecewise_linear(double t) const {
     return v0 + (v1 - v0) * ((t - t0) / (t1 - t0));
 }
 
-double SourceWaveform::max_step() const { return wave_.shape == Shape::sine ? 0.1 / frequency() : no_time; }
+double SourceWaveform::max_step() const {
+    if (wave_.shape == Shape::sine) return 0.1 / frequency();
+    if (wave_.shape == Shape::amplitude_modulated) return 0.1 / std::max(positive_or(2, 1 / stop_), positive_or(3, 1 / stop_));
+    if (wave_.shape != Shape::frequency_modulated) return no_time;
+    const double signal = positive_or(4, 1 / stop_);
+    return 0.1 / (positive_or(2, 1 / stop_) + std::abs(number(3, 0)) * signal + signal);
+}
+
+/// Of a repeated PWL, after its first cycle.
+double SourceWaveform::next_repeated_breakpoint(double t) const {
+    const double from = *wave_.repeats_from, period = breakpoints_.back() - from;
+    // From one cycle earlier, since the quotient is rounded.
+    for (double cycle = std::max(1.0, std::floor((t - from) / period) - 1);; ++cycle)
+        for (const double point : breakpoints_)
+            if (const double breakpoint = point + cycle * period; point > from && breakpoint > t) return breakpoint;
+}
 
 double SourceWaveform::next_breakpoint(double t) const {
     if (wave_.shape != Shape::pulse) {
         const auto next = std::upper_bound(breakpoints_.begin(), breakpoints_.end(), t);
-        return next == breakpoints_.end() ? no_time : *next;
+        if (next != breakpoints_.end()) return *next;
+        return wave_.repeats_from ? next_repeated_breakpoint(t) : no_time;
     }
     const auto [rise, fall, width, period] = pulse_times();
     const double delay = number(2, 0), cycles = number(7, 0);

@@ -17,6 +17,8 @@ inline constexpr WaveformSyntax waveform_syntaxes[] = {
     {"sin", Waveform::Shape::sine, 2, 6, "sin(vo va freq td theta phase)"},
     {"exp", Waveform::Shape::exponential, 2, 6, "exp(v1 v2 td1 tau1 td2 tau2)"},
     {"pwl", Waveform::Shape::piecewise_linear, 2, 2000000, "pwl(t1 v1 t2 v2 ...)"},
+    {"sffm", Waveform::Shape::frequency_modulated, 2, 7, "sffm(vo va fc mdi fs phasec phases)"},
+    {"am", Waveform::Shape::amplitude_modulated, 2, 6, "am(va vo mf fc td phase)"},
     {"force", Waveform::Shape::force, 0, 1, "force [scale]"},
 };
 
@@ -24,9 +26,9 @@ class ElementReader;
 /// Reads the DC value, AC value and waveform of a V or I source, which follow the nodes in its line.
 Result<void> read_waveform(ElementReader&);
 
-/// PULSE, SIN, EXP and PWL as in SPICE. Defaults depend on the step and the end time of .tran (s). Rise and fall times and the time
-/// constants of EXP are `step`. The pulse width is `stop`, and the period is `stop` or one complete pulse if that is longer. The frequency
-/// of a sine is 1 / `stop`.
+/// PULSE, SIN, EXP, PWL, SFFM and AM as in SPICE. Defaults depend on the step and the end time of .tran (s). Rise and fall times and the
+/// time constants of EXP are `step`. The pulse width is `stop`, and the period is `stop` or one complete pulse if that is longer. The
+/// frequency of a sine is 1 / `stop`.
 class SourceWaveform {
     Waveform wave_;
     double step_ = 0, stop_ = 0;
@@ -38,12 +40,17 @@ class SourceWaveform {
     struct PulseTimes {
         double rise, fall, width, period;  // s
     };
+    double next_repeated_breakpoint(double t) const;
     PulseTimes pulse_times() const;
     double pulse(double t) const;
     double sine(double t) const;
     /// The frequency of SIN, Hz.
     double frequency() const { return number(2, 0) > 0 ? number(2, 0) : 1 / stop_; }
     double exponential(double t) const;
+    double frequency_modulated(double t) const;
+    double amplitude_modulated(double t) const;
+    /// The time of the first cycle of a repeated PWL that corresponds to t.
+    double in_first_cycle(double t) const;
     double piecewise_linear(double t) const;
 
 public:
@@ -53,7 +60,7 @@ public:
     double at(double t) const;  ///< V or A, at t in s
     /// The first time after t (s) with a kink or a jump; infinity if there is none.
     double next_breakpoint(double t) const;
-    /// A tenth of a sine's period, s; infinity for the other waveforms.
+    /// A tenth of the shortest period of SIN, SFFM or AM, s; infinity for the other waveforms.
     double max_step() const;
 };
 

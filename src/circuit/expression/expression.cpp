@@ -76,6 +76,14 @@ bool Expression::has_jumps() const {
     return std::any_of(steps_.begin(), steps_.end(), [](const Step& s) { return s.operation && s.operation->has_jumps(); });
 }
 
+bool Expression::has_poles() const {
+    constexpr std::string_view with_poles[] = {"/",    "^",     "pow",  "pwr",   "ln",  "log10", "sqrt",
+                                               "acos", "acosh", "asin", "atanh", "tan", "hypot", "atan2"};
+    return std::any_of(steps_.begin(), steps_.end(), [&](const Step& s) {
+        return s.operation && std::ranges::find(with_poles, s.operation->name) != std::end(with_poles);
+    });
+}
+
 double Expression::value(std::span<const double> inputs) const {
     StepBuffer values(steps_.size());
     return evaluate(inputs, values);

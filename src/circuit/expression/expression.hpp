@@ -62,6 +62,9 @@ public:
 
     bool has_jumps() const;  ///< true if it contains a comparison, a condition or a rounding function
 
+    /// True if its value or a derivative may be infinite or NaN at some finite inputs: it has a quotient, a power, a root, a logarithm ...
+    bool has_poles() const;
+
     /// The value for these values of the inputs.
     double value(std::span<const double> inputs = {}) const;
     /// The same value; `slopes` receives its derivative with respect to each input.

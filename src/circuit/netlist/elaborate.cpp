@@ -122,7 +122,15 @@ private:
             return error_at(s.line.location(), "{}: {} node{}, but subcircuit '{}' has {}:{}", s.text(0), words.size(),
                             words.size() == 1 ? "" : "s", inner.definition->name, ports.size(), expected);
         }
-        for (std::size_t k = 0; k < words.size(); ++k) inner.ports.emplace(ports[k], builder_.find_or_add_node(scope, s.text(words[k])));
+        for (std::size_t k = 0; k < words.size(); ++k) {
+            const auto outside = s.text(words[k]);
+            // Ground is the same node everywhere, as in ngspice and Xyce, whatever the line connects to a port of this name.
+            if (is_ground(ports[k]) && !is_ground(outside))
+                builder_.circuit.warnings.push_back(error_at(s.location(words[k]),
+                                                             "{}: port {} of subcircuit '{}' is ground, so it is not connected to {}",
+                                                             s.text(0), ports[k], inner.definition->name, outside));
+            inner.ports.emplace(ports[k], builder_.find_or_add_node(scope, outside));
+        }
         return {};
     }
 
@@ -202,14 +210,26 @@ private:
         return {};
     }
 
+    /// True if an option of another simulator has no counterpart here; adds a warning.
+    bool is_ignored_option(std::string_view name, XycePackage package, const SourceLocation& location) {
+        if (package == XycePackage::none ? !is_foreign_option(name) : package == XycePackage::devices && is_option(name)) return false;
+        builder_.circuit.warnings.push_back(package == XycePackage::none
+                                                ? error_at(location, ".options: '{}' is not known and is ignored", name)
+                                                : error_at(location, ".options: '{}' belongs to Xyce's solver and is ignored", name));
+        return true;
+    }
+
     Result<void> read_options(const Statement& s) {
         Circuit& c = builder_.circuit;
-        for (std::size_t k = 1; k < s.words.size(); ++k) {
+        const auto package = s.words.size() > 1 ? xyce_package(s.text(1)) : XycePackage::none;
+        for (std::size_t k = package == XycePackage::none ? 1 : 2; k < s.words.size(); ++k) {
+            if (is_ignored_option(s.text(k), package, s.location(k))) continue;
             TRY(check_option(s.text(k), {}, {}, s.location(k)));
             c.options.insert_or_assign(std::string(s.text(k)), 1.0);
         }
         for (const auto& pair : s.pairs) {
             const std::string name(s.text(pair.name));
+            if (is_ignored_option(name, package, s.location(pair.name))) continue;
             const auto text = s.text(pair.value);
             const bool is_word = pair.value.kind == Word::Kind::quoted ||
                                  (pair.value.kind == Word::Kind::plain && text[0] >= 'a' && text[0] <= 'z' && !top_.parameter(text));

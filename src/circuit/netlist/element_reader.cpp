@@ -13,7 +13,6 @@ ElementReader::ElementReader(CircuitBuilder& builder, Scope& scope, const Statem
 }
 
 Result<void> ElementReader::read() {
-    if (name_.size() < 2) return error_at(0, "the name of an element must be longer than its letter, such as r1");
     TRY(kind_.read(*this));
     TRY(named_parameters());
     override_values();
@@ -41,6 +40,12 @@ Result<void> ElementReader::model(std::size_t word, std::initializer_list<std::s
 
 Result<double> ElementReader::number(std::size_t word) const { return scope_.evaluate({&s_, s_.words[word]}); }
 
+Result<double> ElementReader::number(const Word& word) const { return scope_.evaluate({&s_, word}); }
+
+void ElementReader::warn(std::size_t word, std::string_view message) {
+    builder_.circuit.warnings.push_back(error_in(s_.location(word), message));
+}
+
 Result<double> ElementReader::number(const NameValue& pair) {
     read_names_.push_back(s_.text(pair.name));
     return scope_.evaluate({&s_, pair.value});
@@ -51,9 +56,28 @@ void ElementReader::control_source(std::size_t word) {
     builder_.forward_refs.push_back({element.control_source, s_.location(word), std::string(name_), ForwardRef::Target::source});
 }
 
+std::optional<double> ElementReader::model_value(std::string_view name) const {
+    if (element.model < 0) return {};
+    const auto& values = builder_.circuit.models[static_cast<std::size_t>(element.model)].values;
+    const auto at = values.find(name);
+    return at == values.end() ? std::nullopt : std::optional(at->second);
+}
+
 Result<void> ElementReader::expression(const NameValue& pair) {
     read_names_.push_back(s_.text(pair.name));
-    const WordRef t{&s_, pair.value};
+    return parse_expression({&s_, pair.value});
+}
+
+Result<void> ElementReader::expression(std::string text, const Word& from) {
+    const auto location = s_.location(from);
+    Statement generated;
+    generated.line.file = s_.line.file;
+    generated.line.segments = {{0, static_cast<std::uint32_t>(location.line), static_cast<std::uint32_t>(location.column)}};
+    generated.line.text = std::move(text);
+    return parse_expression({&generated, {Word::Kind::expression, 0, static_cast<std::uint32_t>(generated.line.text.size())}});
+}
+
+Result<void> ElementReader::parse_expression(const WordRef& t) {
     ExpressionScope scope = scope_.expression_scope();
     scope.allows_inputs = true;
     scope.node = [this](std::string_view name) { return builder_.node_name(scope_, name); };

@@ -8,6 +8,7 @@ namespace corpuscle::circuit {
 
 class CircuitBuilder;
 struct Scope;
+struct WordRef;
 struct DeviceKind;
 
 /// Reads a line into `element`. Word 0 is the name of the element; the words after it are its nodes, models and values. Errors have the
@@ -40,14 +41,23 @@ public:
     Result<void> model(std::size_t word, std::initializer_list<std::string_view> types);
     Result<double> number(std::size_t word) const;
     Result<double> number(const NameValue&);
+    Result<double> number(const Word&) const;
     /// Reads a word, or the value of a pair, as the element's value.
     template <class Where>
     Result<void> value(const Where& word) {
         element.value = TRY(number(word));
         return {};
     }
+    std::string_view text(const NameValue& pair) const { return s_.text(pair.value); }
+    void take(const NameValue& pair) { read_names_.push_back(s_.text(pair.name)); }  ///< marks the pair as read
+    void warn(std::size_t word, std::string_view message);
     /// Reads the value of a pair as the expression of the element.
     Result<void> expression(const NameValue&);
+    /// Takes a text that the line gives in another form, at this word, as the expression of the element.
+    Result<void> expression(std::string text, const Word& from);
+    const Word& word(std::size_t k) const { return s_.words[k]; }
+    /// The value of this name in the element's model; nullopt if it has none.
+    std::optional<double> model_value(std::string_view name) const;
     /// Reads the word as the name of the voltage source whose current controls the element.
     void control_source(std::size_t word);
 
@@ -67,6 +77,7 @@ private:
         return circuit::error_at(std::move(location), "{}: {}", name_, message);
     }
     void add_forward_reference(const ExpressionInput&, const SourceLocation&);
+    Result<void> parse_expression(const WordRef&);
     Result<void> named_parameters();
     void override_values();
     Result<void> apply_multiplicity();

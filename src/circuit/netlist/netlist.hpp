@@ -14,11 +14,21 @@ using Values = std::map<std::string, double, std::less<>>;
 
 /// The specification of a source: DC value, AC stimulus and time waveform. Values are in V or A.
 struct Waveform {
-    enum class Shape { none, pulse, sine, exponential, piecewise_linear, force } shape = Shape::none;
+    enum class Shape {
+        none,
+        pulse,
+        sine,
+        exponential,
+        piecewise_linear,
+        force,
+        frequency_modulated,
+        amplitude_modulated
+    } shape = Shape::none;
     double dc = 0;
     bool has_dc = false;                    ///< true if the netlist or an override gives the DC value
     double ac_magnitude = 0, ac_phase = 0;  ///< phase in degrees
-    std::vector<double> numbers;            ///< the arguments of PULSE, SIN or EXP; for PWL t1 v1 t2 v2 ...; for FORCE the scale (per N)
+    std::vector<double> numbers;  ///< the arguments of PULSE, SIN, EXP, SFFM or AM; for PWL t1 v1 t2 v2 ...; for FORCE the scale (per N)
+    std::optional<double> repeats_from = {};  ///< s: a PWL repeats its part from this time on
 };
 
 /// An element with all its values evaluated.

@@ -50,7 +50,26 @@ bool contains_name(const Names& names, std::string_view name) {
     return std::find(std::begin(names), std::end(names), name) != std::end(names);
 }
 
+constexpr std::string_view xyce_packages[] = {
+    "timeint",         "nonlin",           "nonlin-tran", "linsol",          "linsol-ac", "output", "measure", "diagnostic", "topology",
+    "parser",          "sensitivity",      "restart",     "hbint",           "loca",      "fft",    "dist",    "nonlin-hb",  "linsol-hb",
+    "nonlin-twolevel", "timeint-twolevel", "samples",     "embeddedsamples", "pces"};
+
+auto option_names() { return option_rows | std::views::transform(&OptionRow::name); }
+
 }  // namespace
+
+bool is_option(std::string_view name) { return std::ranges::find(option_rows, name, &OptionRow::name) != std::end(option_rows); }
+
+bool is_foreign_option(std::string_view name) {
+    return !is_option(name) && !contains_name(without_effect, name) && !contains_name(unsupported, name) &&
+           did_you_mean(name, option_names()).empty();
+}
+
+XycePackage xyce_package(std::string_view word) {
+    if (word == "device") return XycePackage::devices;
+    return contains_name(xyce_packages, word) ? XycePackage::other : XycePackage::none;
+}
 
 Result<void> check_option(std::string_view name, std::optional<double> number, std::optional<std::string_view> word,
                           const SourceLocation& location) {
@@ -59,11 +78,8 @@ Result<void> check_option(std::string_view name, std::optional<double> number, s
         if (contains_name(without_effect, name)) return {};
         if (contains_name(unsupported, name))
             return error_at(location, ".options {}: not supported, because it changes the circuit; set it at the elements instead", name);
-        const auto hint = did_you_mean(name, option_rows | std::views::transform(&OptionRow::name));
-        return error_at(location, "unknown option '{}'{}", name,
-                        hint.empty() ? "; known are reltol, vntol, abstol, gmin, itl1, temp, tnom, accuracy, method, maxord, "
-                                       "spikecheck"
-                                     : hint);
+        const auto hint = did_you_mean(name, option_names());
+        return error_at(location, "unknown option '{}'{}", name, hint);
     }
     if (row->takes_word && word) return {};
     if (row->takes_word) return error_at(location, ".options {0}: expected a word, such as {0}={1}", name, row->example);

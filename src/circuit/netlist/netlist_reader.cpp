@@ -14,12 +14,15 @@ namespace {
 constexpr std::size_t max_include_depth = 50, max_definition_depth = 200;  // of files; of nested .subckt
 
 // Directives that determine the circuit; they do not appear in Circuit::directives.
-constexpr std::string_view structural_directives[] = {".subckt", ".ends",    ".param",  ".func",    ".include", ".inc",    ".lib",
-                                                      ".endl",   ".model",   ".global", ".temp",    ".options", ".option", ".opt",
-                                                      ".ic",     ".nodeset", ".end",    ".control", ".endc",    ".title"};
+constexpr std::string_view structural_directives[] = {
+    ".subckt", ".ends", ".param",   ".global_param", ".func", ".include", ".incl",    ".inc", ".lib",     ".endl", ".model",
+    ".global", ".temp", ".options", ".option",       ".opt",  ".ic",      ".nodeset", ".end", ".control", ".endc", ".title"};
 // Directives that become Circuit::directives, as those of the analyses do; .four is refused.
 constexpr std::string_view circuit_directives[] = {".meas", ".measure", ".print", ".plot",  ".probe",  ".save", ".step",
                                                    ".mc",   ".expect",  ".force", ".spike", ".assert", ".four"};
+
+// Directives of other simulators about listings and scripts, which change no result.
+constexpr std::string_view directives_without_effect[] = {".width", ".list", ".nolist", ".backanno", ".csparam"};
 
 /// The names of all directives, with the dot.
 std::vector<std::string> directive_names() {
@@ -135,16 +138,17 @@ private:
         const std::string word = lower(std::string_view(line.text).substr(0, line.text.find_first_of(" \t('\"{")));
         if (word == ".end") return ended_ = true, Result<void>();
         if (word == ".control") return skip_control(lines, line);
-        if (word == ".param") return parameters(std::move(line));
+        if (word == ".param" || word == ".global_param") return parameters(std::move(line));
         if (word == ".func") return function(std::move(line));
         if (word == ".model") return model(std::move(line));
         if (word == ".subckt") return subcircuit(std::move(line));
         if (word == ".ends") return end_of_subcircuit(std::move(line));
-        if (word == ".include" || word == ".inc") return include(std::move(line));
+        if (word == ".include" || word == ".incl" || word == ".inc") return include(std::move(line));
         if (word == ".lib") return library(lines, std::move(line));
         if (word == ".endl" || word == ".endc")
             return error_at(line.location(), "{} without {}", word, word == ".endl" ? ".lib" : ".control");
         if (word == ".ic" || word == ".nodeset") return store_directive(std::move(line), body_->ics);
+        if (std::ranges::find(directives_without_effect, word) != std::end(directives_without_effect)) return {};
         if (!is_directive(word)) return unknown(word, line.location());
         if (word == ".four")
             return error_at(line.location(),
@@ -208,7 +212,7 @@ private:
 
     Result<void> parameters(LogicalLine line) {
         const Statement& s = store(TRY(split_assignments(std::move(line))));
-        if (s.pairs.empty()) return error_at(s.line.location(), ".param: expected name=value");
+        if (s.pairs.empty()) return error_at(s.line.location(), "{}: expected name=value", s.text(0));
         for (const auto& pair : s.pairs) {
             const std::string name(s.text(pair.name));
             if (const auto open = name.find('('); open != std::string::npos) {
@@ -216,7 +220,8 @@ private:
                 continue;
             }
             const auto [at, is_new] = body_->parameters.insert_or_assign(name, WordRef{&s, pair.value});
-            if (!is_new) out_.warnings.push_back(error_at(s.location(pair.name), ".param {} is given twice; this value is used", name));
+            if (!is_new)
+                out_.warnings.push_back(error_at(s.location(pair.name), "{} {} is given twice; this value is used", s.text(0), name));
         }
         return {};
     }
@@ -301,7 +306,6 @@ private:
         for (std::size_t k = 2; k < s.words.size(); ++k) {
             const auto port = s.text(k);
             if (port == "params:") continue;
-            if (is_ground(port)) return error_at(s.location(k), ".subckt {}: ground must not be one of its nodes", body.name);
             if (!seen.insert(port).second) return error_at(s.location(k), ".subckt {}: node '{}' is given twice", body.name, port);
             body.ports.emplace_back(port);
         }

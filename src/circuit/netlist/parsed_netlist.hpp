@@ -79,6 +79,14 @@ inline bool is_ground(std::string_view node) { return node == "0" || node == "gn
 Result<void> check_option(std::string_view name, std::optional<double> number, std::optional<std::string_view> word,
                           const SourceLocation& location);
 
+bool is_option(std::string_view name);  ///< true for an option that has an effect here
+/// True for a name that is no option of ours or of ngspice and does not resemble one of ours, so that it is not a typing error.
+bool is_foreign_option(std::string_view name);
+
+/// The first word of Xyce's .options, which says to what they belong.
+enum class XycePackage { none, devices, other };
+XycePackage xyce_package(std::string_view word);
+
 struct RenamedDirective {
     std::string_view old_name, new_name;
 };

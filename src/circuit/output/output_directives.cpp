@@ -67,8 +67,8 @@ private:
                 warnings_.push_back(error_at(c.location_of(k), ".{}: '{}' has no effect here", c.name, c.words[k]));
             else if (c.words[k] == "all")
                 continue;
-            else if (auto ok = check_curve(c, k, names_analysis); !ok)
-                return ok;
+            else if (const auto ok = check_curve(c, k, names_analysis); !ok)
+                warnings_.push_back(ok.error());
         return {};
     }
     /// Checks that word k is a curve. If `names_analysis` is true, only the analysis that the first word names may have it.
@@ -92,7 +92,7 @@ private:
             is_device_current
                 ? fmt::format("; '.save {}' records the current of an M, D or R; for any other element, put a 0 V source in series", word)
                 : did_you_mean(word, known);
-        return error_at(c.location_of(k), ".{}: there is no curve '{}'{}", c.name, word, hint);
+        return error_at(c.location_of(k), ".{}: there is no curve '{}', so the column is left out{}", c.name, word, hint);
     }
 
     /// Returns an error if the name in an .expect is neither a measurement, a number of an analysis nor a curve.

@@ -52,7 +52,7 @@ void StepEquations::linearize_device(ScalarDevice& scalar) {
     for (std::size_t j = 0; j < n; ++j) scalar.v[j] = x_[static_cast<std::size_t>(scalar.unknowns[j])];
     scalar.linearized_at = scalar.v;
     scalar.limited =
-        d.limiting_state_size() > 0 && d.limit(scalar.linearized_at, system_.limiting_state_of(scalar.device, newton_.limiting_state));
+        d.limits() && d.limit(scalar.linearized_at, system_.limiting_state_of(scalar.device, newton_.limiting_state));
     limited_ |= scalar.limited;
     const Stamp stamp = scalar.stamp = scalar.buffer.eval(d, scalar.linearized_at, newton_.context);
     const auto entries = system_.entries(scalar.device);

@@ -152,7 +152,7 @@ void System::add_device(std::size_t k, std::span<const double> x, const EvalCont
     v.resize(n);
     for (std::size_t j = 0; j < n; ++j) v[j] = value_of(x, d.unknowns[j]);
     limited_v = v;
-    const bool limited = d.limiting_state_size() > 0 && d.limit(limited_v, limiting_state_of(k, limiting_state));
+    const bool limited = d.limits() && d.limit(limited_v, limiting_state_of(k, limiting_state));
     sums.is_limited |= limited;
     const Stamp stamp = sums.stamp_.eval(d, limited_v, context);
     const auto& device_entries = entries_[k];

@@ -1,0 +1,92 @@
+// Forms that other simulators' netlists have: they are read as meant, or named in a warning, and the circuit runs.
+
+#include <fmt/format.h>
+#include <numbers>
+
+#include "netlist_runner.hpp"
+
+namespace corpuscle::circuit {
+namespace {
+
+std::string warnings_in(const NetlistRun& run) {
+    std::string out;
+    for (const auto& w : run.warnings()) out += w.text() + "\n";
+    return out;
+}
+
+TEST(ForeignNetlist, PolynomialsOfControlledSourcesHaveSpicesOrderOfTerms) {
+    const std::string inputs = "poly\nva a 0 2\nvb b 0 3\nvc c 0 5\nr1 x 0 1\n";
+    // 1 + 2 a + 3 b + 4 c + 5 aa + 6 ab + 7 ac + 8 bb + 9 bc + 10 cc + 11 aaa + 12 aab
+    const double expected = 1 + 2 * 2 + 3 * 3 + 4 * 5 + 5 * 4 + 6 * 6 + 7 * 10 + 8 * 9 + 9 * 15 + 10 * 25 + 11 * 8 + 12 * 12;
+    EXPECT_NEAR(run_netlist(inputs + "e1 x 0 poly(3) a 0 b 0 c 0 1 2 3 4 5 6 7 8 9 10 11 12\n.op\n").number("v(x)"), expected, 1e-9);
+    EXPECT_NEAR(run_netlist(inputs + "g1 0 x POLY(2) (a,0) (b,a) 0 {1+1} 3 0 0 1\n.op\n").number("v(x)"), 2 * 2 + 3 * 1 + 1 * 1, 1e-9);
+    EXPECT_NEAR(run_netlist(inputs + "e1 x 0 poly(1) b 0 7\n.op\n").number("v(x)"), 21, 1e-9) << "one coefficient is the gain";
+    // i(va) and i(vb) are minus the currents of the loads
+    const std::string loads = inputs + "ra a 0 2\nrb b 0 1\n";
+    EXPECT_NEAR(run_netlist(loads + "h1 x 0 poly(2) va vb 1 10 100 0 1000\n.op\n").number("v(x)"), 1 - 10 - 300 + 3000, 1e-6);
+    EXPECT_NEAR(run_netlist(loads + "f1 0 x poly(1) va 0 0 4\n.op\n").number("v(x)"), 4, 1e-9);
+}
+
+TEST(ForeignNetlist, AResistanceMayDependOnVoltages) {
+    const auto run = run_netlist("divider\nv1 in 0 6\nr1 in x 1k\nr2 x 0 R={1k*v(c)}\nvc c 0 2\n.op\n");
+    EXPECT_NEAR(run.number("v(x)"), 4, 1e-9);
+}
+
+// Newton's method begins at 0 V, where these expressions or their slopes are infinite.
+TEST(OperatingPoint, OfExpressionsWithPolesAndPowersAtZeroIsFound) {
+    const std::string source = "poles\nv1 a 0 100\nr1 x 0 1\nr2 a 0 1k\n";
+    EXPECT_NEAR(run_netlist(source + "b1 x 0 v=log(v(a))\n.op\n").number("v(x)"), std::log(100), 1e-6);
+    EXPECT_NEAR(run_netlist(source + "b1 x 0 v=1/v(a)\n.op\n").number("v(x)"), 0.01, 1e-9);
+    EXPECT_NEAR(run_netlist(source + "b1 x 0 v=sqrt(v(a))+ln(v(a)/v(a,0))\n.op\n").number("v(x)"), 10, 1e-6);
+    // a sensor by a formula, g = 1 uS F^0.9, from 0 N on
+    const auto sensor = run_netlist("sensor\nvf f 0 0\nvdd d 0 1\nb1 d x i=1u*v(f)^0.9*v(d,x)\nr1 x 0 1meg\n.op\n.dc vf 0 4 1\n");
+    const auto x = sensor.curve("v(x)", "dc");
+    ASSERT_EQ(x.size(), 5U);
+    for (int k = 0; k < 5; ++k) EXPECT_NEAR(x[static_cast<std::size_t>(k)], std::pow(k, 0.9) / (1 + std::pow(k, 0.9)), 1e-6) << k << " N";
+    const auto press =
+        run_netlist("sensor\nvf f 0 pwl(0 0 1m 0 2m 4)\nvdd d 0 1\nb1 d x i=1u*v(f)^0.9*v(d,x)\nr1 x 0 1meg\nc1 x 0 1p\n.tran 10u 4m\n");
+    EXPECT_NEAR(press.curve("v(x)").back(), std::pow(4, 0.9) / (1 + std::pow(4, 0.9)), 1e-5);
+}
+
+TEST(ForeignNetlist, GroundMayBeAPortOfASubcircuit) {
+    const std::string divider = "ports\n.subckt half in out 0\nr1 in out 1k\nr2 out 0 1k\n.ends\nv1 a 0 2\n";
+    const auto run = run_netlist(divider + "x1 a b 0 half\n.op\n");
+    EXPECT_NEAR(run.number("v(b)"), 1, 1e-9);
+    EXPECT_EQ(warnings_in(run), "");
+    const auto other = run_netlist(divider + "x1 a b c half\nr3 c 0 1k\n.op\n");
+    EXPECT_NEAR(other.number("v(b)"), 1, 1e-9);
+    EXPECT_NE(warnings_in(other).find("port 0 of subcircuit 'half' is ground, so it is not connected to c"), std::string::npos);
+}
+
+TEST(ForeignNetlist, DirectivesAndOptionsWithoutEffectAreRead) {
+    const auto run = run_netlist(
+        "Xyce\n.width out=80\n.list\n.backanno\n.csparam n=3\n.global_param vin=2\n.options timeint reltol=1e-3 method=gear\n"
+        ".options device temp=60\n.options fooo=3 acct\nv1 a 0 {vin} distof1 1 0\nr1 a 0 1k tc1=1m\n.op\n");
+    EXPECT_NEAR(run.number("i(v1)"), -2e-3 / 1.033, 1e-9) << "the temperature of .options device holds";
+    const auto warnings = warnings_in(run);
+    for (const char* text :
+         {"'reltol' belongs to Xyce's solver and is ignored", "'method' belongs to Xyce's", "'fooo' is not known and is ignored"})
+        EXPECT_NE(warnings.find(text), std::string::npos) << warnings;
+}
+
+TEST(ForeignNetlist, ModulatedAndRepeatedWaveformsHaveTheirClosedForms) {
+    constexpr double turn = 2 * std::numbers::pi;
+    const auto at = [](const std::string& source, double t) {
+        return run_netlist(fmt::format("wave\nv1 a 0 {}\nr1 a 0 1\n.tran 1u 4m\n.meas tran x find v(a) at={:.9g}\n", source, t))
+            .number("x");
+    };
+    for (const double t : {0.3e-3, 1.1e-3, 3.7e-3}) {
+        EXPECT_NEAR(at("sffm(0.5 2 1k 1.5 200)", t), 0.5 + 2 * std::sin(turn * 1e3 * t + 1.5 * std::sin(turn * 200 * t)), 2e-3) << t;
+        EXPECT_NEAR(at("am(2 1 200 2k 1m)", t),
+                    t < 1e-3 ? 0 : 2 * (1 + std::sin(turn * 200 * (t - 1e-3))) * std::sin(turn * 2e3 * (t - 1e-3)), 4e-3)
+            << t;
+    }
+    const std::string teeth = "pwl(0 0 0.2m 5 0.5m 1 1m 3) r=0.5m";  // then 1 to 3 within 0.5 ms, again and again
+    EXPECT_NEAR(at(teeth, 0.75e-3), 2, 1e-6);
+    EXPECT_NEAR(at(teeth, 1.25e-3), 2, 1e-6);
+    EXPECT_NEAR(at(teeth, 3.625e-3), 1.5, 1e-6);
+    EXPECT_NEAR(at(teeth + " td=0.1m", 3.725e-3), 1.5, 1e-6);
+}
+
+}  // namespace
+}  // namespace corpuscle::circuit
