@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 #include <algorithm>
+#include <numbers>
+#include <random>
 
 #include "circuit/analysis/equilibria.hpp"
 #include "circuit/netlist_runner.hpp"
@@ -114,6 +116,50 @@ TEST(RestStates, AreCountedByOp) {
         ASSERT_FALSE(refused) << wrong;
         EXPECT_GT(refused.error().location.column, 0) << refused.error().text();
     }
+}
+
+/// The fastest growing disturbance of the operating point of a netlist.
+std::optional<UnstableMode> unstable_mode_of(const std::string& text) {
+    auto context = AnalysisContext::make(make_circuit(text));
+    if (!context) return ADD_FAILURE() << context.error().text(), std::nullopt;
+    const auto point = find_operating_point((*context)->newton);
+    if (!point) return ADD_FAILURE() << point.error().text(), std::nullopt;
+    return find_unstable_mode((*context)->newton, point->x);
+}
+
+// Values over many decades make nearly singular matrices and tanks of high quality, whose disturbances turn many times before they end.
+TEST(Stability, OfAPassiveCircuitIsNeverDenied) {
+    std::mt19937 random(7);
+    const auto pick = [&](int n) { return static_cast<int>(random() % static_cast<unsigned>(n)); };
+    const auto value = [&](int low, int high) { return std::pow(10.0, low + pick(high - low + 1)) * (1 + 0.1 * pick(80)); };
+    for (int k = 0; k < 300; ++k) {
+        std::string text = fmt::format("passive {}\nv1 n0 0 1\n", k);
+        const int nodes = 2 + pick(5);
+        for (int e = 0; e < 3 * nodes; ++e) {
+            const int a = pick(nodes), b = pick(nodes + 1) - 1;
+            if (a == b) continue;
+            const auto ends = fmt::format("n{} {}", a, b < 0 ? "0" : fmt::format("n{}", b));
+            const int kind = pick(3);
+            if (kind == 0) text += fmt::format("r{} {} {}\n", e, ends, value(-6, 6));
+            if (kind == 1) text += fmt::format("c{} {} {}\n", e, ends, value(-15, -4));
+            if (kind == 2)
+                text += fmt::format("l{0} m{0} {1} {2}\nr{0}l {3} m{0} {4}\n", e, ends.substr(ends.find(' ') + 1), value(-9, -2),
+                                    ends.substr(0, ends.find(' ')), value(-3, 3));
+        }
+        for (int n = 1; n < nodes; ++n) text += fmt::format("rg{0} n{0} 0 1g\n", n);
+        EXPECT_FALSE(unstable_mode_of(text + ".op\n")) << text;
+    }
+}
+
+TEST(Stability, OfATankWithANegativeConductanceIsDenied) {
+    for (const double q : {0.7, 3.0})
+        for (const double f : {1e2, 1e6, 1e10}) {
+            const double c = 1e-3 / (2 * std::numbers::pi * f), l = 1e3 / (2 * std::numbers::pi * f);
+            EXPECT_TRUE(unstable_mode_of(fmt::format("tank\nl1 a 0 {}\nc1 a 0 {}\nb1 a 0 i=-{}*v(a)\n.op\n", l, c, 1e-3 / q)))
+                << q << " " << f;
+            EXPECT_FALSE(unstable_mode_of(fmt::format("tank\nl1 a 0 {}\nc1 a 0 {}\nb1 a 0 i={}*v(a)\n.op\n", l, c, 1e-3 / q)))
+                << q << " " << f;
+        }
 }
 
 }  // namespace

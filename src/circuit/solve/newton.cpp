@@ -1,3 +1,4 @@
+#include <complex>
 
 #include "circuit/devices.hpp"
 #include "circuit/solve/operating_point.hpp"
@@ -22,8 +23,9 @@ double max_voltage_step(const System& system) {
 class Disturbance {
     const System& system_;
     std::span<const double> G_, C_;
-    std::vector<double> sum_, v_, next_;  // sum_ = G + a C; v_: present disturbance; next_: buffer for M v
-    double ratio_ = 0;                    // factor of the largest element of v in the last multiplication, with its sign
+    std::vector<double> sum_, v_, next_;      // sum_ = G + a C; v_: present disturbance; next_: buffer for M v
+    double ratio_ = 0;                        // factor of the largest element of v in the last multiplication, with its sign
+    std::vector<double> last_, second_last_;  // the disturbances one and two multiplications before, on the scale of v_
 
     double largest_voltage(const std::vector<double>& x) const {
         double largest = 0;
@@ -45,11 +47,17 @@ class Disturbance {
         for (std::size_t n = 0; n < v_.size(); ++n)
             if (std::abs(next_[n]) > std::abs(next_[peak])) peak = n;
         ratio_ = v_[peak] == 0 ? 0 : next_[peak] / v_[peak];
+        std::swap(second_last_, last_);
+        last_ = v_;
+        for (auto* before : {&last_, &second_last_})
+            for (double& x : *before) x /= length;
         for (std::size_t n = 0; n < v_.size(); ++n) v_[n] = next_[n] / length;
         return length;
     }
 
 public:
+    static constexpr double least_growth = 1.02;  // smaller growth per multiplication is not counted
+
     Disturbance(const System& system, std::span<const double> G, std::span<const double> C) : system_(system), G_(G), C_(C) {
         sum_.resize(G.size()), next_.resize(static_cast<std::size_t>(system.size()));
     }
@@ -61,7 +69,7 @@ public:
         for (std::size_t k = 0; k < sum_.size(); ++k) sum_[k] = G_[k] + a * C_[k];
         LinearSolver<double> solver(system_.pattern());
         if (!solver.factor(sum_)) return 0;
-        v_.assign(next_.size(), 0);
+        v_.assign(next_.size(), 0), last_ = second_last_ = v_;
         // Start with different numbers for all unknowns.
         for (std::size_t n = 0; n < v_.size(); ++n) v_[n] = 1 - 2 * std::fmod(0.6180339887498949 * static_cast<double>(n + 1), 1.0);
         double length = 1;
@@ -74,6 +82,35 @@ public:
             if (k >= steps / 2) length *= factor;
         }
         return std::pow(length, 2.0 / steps);
+    }
+    /// The complex factor z by which a multiplication changes the disturbance now, that of the larger magnitude: the last three
+    /// disturbances satisfy w2 = p w1 - q w0, where z^2 = p z - q. nullopt: they do not, since more than one pair is left.
+    std::optional<std::complex<double>> factor() const {
+        double s00 = 0, s01 = 0, s11 = 0, s02 = 0, s12 = 0, s22 = 0;
+        for (std::size_t n = 0; n < v_.size(); ++n) {
+            const double w0 = second_last_[n], w1 = last_[n], w2 = v_[n];
+            s00 += w0 * w0, s01 += w0 * w1, s11 += w1 * w1, s02 += w0 * w2, s12 += w1 * w2, s22 += w2 * w2;
+        }
+        const double determinant = s00 * s11 - s01 * s01;
+        if (!(determinant > 1e-10 * s00 * s11)) return ratio_;  // w0 and w1 are parallel: z is real
+        const double p = (s12 * s00 - s02 * s01) / determinant, q = (s12 * s01 - s02 * s11) / determinant;
+        const double error = s22 - 2 * p * s12 + 2 * q * s02 + p * p * s11 - 2 * p * q * s01 + q * q * s00;
+        if (!(error < 1e-6 * s22)) return {};
+        const auto root = std::sqrt(std::complex<double>(p * p / 4 - q));
+        return p > 0 ? p / 2 + root : p / 2 - root;
+    }
+    /// True if the disturbance found with this a really grows. A pair of factors that only turns it can make its voltages larger for a
+    /// while, and rounding errors can make it longer where the matrices are nearly singular. So its rate must be found again with another
+    /// a.
+    bool grows(double a) {
+        const auto z = factor();
+        if (!z) return true;  // several disturbances grow
+        if (!(std::abs(*z) > least_growth)) return false;
+        const auto rate = a * (*z - 1.0) / (*z + 1.0);
+        const double other_a = 1.7 * a, expected = std::abs((other_a + rate) / (other_a - rate));
+        if (growth_per_step(other_a) == 0) return false;
+        const auto other = factor();
+        return !other || std::abs(std::abs(*other) / expected - 1) < 0.05;
     }
     const std::vector<double>& direction() const { return v_; }
     /// The last growth factor with its sign.
@@ -171,9 +208,9 @@ std::optional<UnstableMode> find_unstable_mode(NewtonSolver& newton, std::span<c
     system.eval(x, context, limiting_state, newton.evaluation);
     const auto entries = system.pattern().entries();
     Disturbance disturbance(system, std::span(newton.evaluation.G).first(entries), std::span(newton.evaluation.C).first(entries));
-    double largest = 1.02, best = 0;  // smaller growth per multiplication is not counted; best: a of the largest growth
+    double largest = Disturbance::least_growth, best = 0;  // best: a of the largest growth
     for (double a = 1e-2; a < 1e13; a *= 10)
-        if (const double growth = disturbance.growth_per_step(a); growth > largest) largest = growth, best = a;
+        if (const double growth = disturbance.growth_per_step(a); growth > largest && disturbance.grows(a)) largest = growth, best = a;
     if (best == 0) return {};
     (void)disturbance.growth_per_step(best);  // for direction() and ratio()
     const double z = disturbance.ratio(), rate = best * (z - 1) / (z + 1);
