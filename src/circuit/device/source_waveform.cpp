@@ -254,7 +254,7 @@ double SourceWaveform::max_step() const {
     return 0.1 / (positive_or(2, 1 / stop_) + std::abs(number(3, 0)) * signal + signal);
 }
 
-/// Of a repeated PWL, after its first cycle.
+/// The next breakpoint of a repeated PWL after its first cycle.
 double SourceWaveform::next_repeated_breakpoint(double t) const {
     const double from = *wave_.repeats_from, period = breakpoints_.back() - from;
     // From one cycle earlier, since the quotient is rounded.

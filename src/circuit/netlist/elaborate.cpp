@@ -124,7 +124,7 @@ private:
         }
         for (std::size_t k = 0; k < words.size(); ++k) {
             const auto outside = s.text(words[k]);
-            // Ground is the same node everywhere, as in ngspice and Xyce, whatever the line connects to a port of this name.
+            // A port that is named as ground is ground, as in ngspice and Xyce; the node that the line gives for it has no effect.
             if (is_ground(ports[k]) && !is_ground(outside))
                 builder_.circuit.warnings.push_back(error_at(s.location(words[k]),
                                                              "{}: port {} of subcircuit '{}' is ground, so it is not connected to {}",

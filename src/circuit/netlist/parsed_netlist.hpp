@@ -80,7 +80,7 @@ Result<void> check_option(std::string_view name, std::optional<double> number, s
                           const SourceLocation& location);
 
 bool is_option(std::string_view name);  ///< true for an option that has an effect here
-/// True for a name that is no option of ours or of ngspice and does not resemble one of ours, so that it is not a typing error.
+/// True for a name that is not an option of ours or of ngspice, and does not resemble one, so that it is not a typing error.
 bool is_foreign_option(std::string_view name);
 
 /// The first word of Xyce's .options, which says to what they belong.

@@ -84,7 +84,7 @@ public:
         return std::pow(length, 2.0 / steps);
     }
     /// The complex factor z by which a multiplication changes the disturbance now, that of the larger magnitude: the last three
-    /// disturbances satisfy w2 = p w1 - q w0, where z^2 = p z - q. nullopt: they do not, since more than one pair is left.
+    /// disturbances satisfy w2 = p w1 - q w0, where z^2 = p z - q. If they do not, more than one pair is left, and there is no factor.
     std::optional<std::complex<double>> factor() const {
         double s00 = 0, s01 = 0, s11 = 0, s02 = 0, s12 = 0, s22 = 0;
         for (std::size_t n = 0; n < v_.size(); ++n) {
