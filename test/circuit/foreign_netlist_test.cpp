@@ -69,6 +69,36 @@ TEST(ForeignNetlist, DirectivesAndOptionsWithoutEffectAreRead) {
         EXPECT_NE(warnings.find(text), std::string::npos) << warnings;
 }
 
+TEST(ForeignNetlist, AnalysesOfAControlScriptAreRun) {
+    const std::string deck = "script\nv1 a 0 dc 1 ac 1 sin(0 1 1k)\nr1 a b 1k\nc1 b 0 1u\n.tran 10u 1m\n";
+    const auto run = run_netlist(deck +
+                                 ".control\n* a comment\nset noaskquit\nrun\nac dec 2 10 1k\nTRAN 10u 1m\n"
+                                 "meas tran top MAX v(b)\nprint v(b)\nplot v(b)\nplot v(a)\nwrite x.raw\n.endc\n.end\n");
+    ASSERT_EQ(run.analyses().size(), 2U) << "the transient is not run twice";
+    EXPECT_EQ(run.analyses()[0].directive->name, "tran");
+    EXPECT_EQ(run.analyses()[1].directive->name, "ac");
+    EXPECT_GT(run.number("top"), 0.1);
+    EXPECT_NE(warnings_in(run).find("test.cir:6:1: .control: these commands have no effect here: set, plot, write"), std::string::npos)
+        << warnings_in(run);
+    const auto altered = run_netlist(deck + ".control\nop\nalter r1 2k\nac dec 2 10 1k\n.endc\n");
+    EXPECT_EQ(altered.analyses().size(), 2U) << "not the .ac of another circuit";
+    EXPECT_NE(warnings_in(altered).find("test.cir:8:1: .control: 'alter' is not supported; the rest of this script is not run"),
+              std::string::npos)
+        << warnings_in(altered);
+}
+
+TEST(ForeignNetlist, AParameterOfAnXLineMayUseAnEarlierOne) {
+    const std::string deck = "arguments\n.subckt res a b p=1 q=1\nr1 a b {p+q}\n.ends\nv1 in 0 1\n";
+    EXPECT_NEAR(run_netlist(deck + "x1 in 0 res p=2 q={10*p}\n.op\n").number("i(v1)"), -1.0 / 22, 1e-12);
+    EXPECT_NEAR(run_netlist(deck + ".param p=3\nx1 in 0 res p=2 q={10*p}\n.op\n").number("i(v1)"), -1.0 / 32, 1e-12)
+        << "the line's scope first";
+}
+
+TEST(ForeignNetlist, AStepOfZeroIsChosen) {
+    const auto run = run_netlist("LTspice\nv1 a 0 pulse(0 1 1m)\nr1 a b 1k\nc1 b 0 1\xc2\xb5\n.tran 0 5m\n.meas tran x find v(b) at=3m\n");
+    EXPECT_NEAR(run.number("x"), 1 - std::exp(-2.0), 2e-3);
+}
+
 TEST(ForeignNetlist, ModulatedAndRepeatedWaveformsHaveTheirClosedForms) {
     constexpr double turn = 2 * std::numbers::pi;
     const auto at = [](const std::string& source, double t) {

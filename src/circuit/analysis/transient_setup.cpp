@@ -127,9 +127,11 @@ Result<TransientTimes> read_transient_times(const Directive& directive) {
     out.stop = TRY(read_number(c, 1, "the stop time"));
     if (c.words.size() > 2) out.start = TRY(read_number(c, 2, "the start time"));
     if (c.words.size() > 3) out.max_step = TRY(read_number(c, 3, "the maximum step"));
+    // A step of 0 is common in LTspice and Xyce, which use it only for what they print.
+    if (out.step == 0 && out.stop > 0) out.step = (out.stop - out.start) / 1000;
     if (!(out.step > 0 && out.stop > 0 && out.start >= 0 && out.start < out.stop && out.max_step.value_or(1) > 0))
         return error_at(c.location,
-                        ".tran: step {:g}, stop {:g}, start {:g}{} s: step, stop and maximum step must be above 0, the start "
+                        ".tran: step {:g}, stop {:g}, start {:g}{} s: stop and maximum step must be above 0, the step and the start "
                         "at least 0 and below the stop",
                         out.step, out.stop, out.start, out.max_step ? fmt::format(", maximum step {:g}", *out.max_step) : "");
     return out;

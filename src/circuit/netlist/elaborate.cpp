@@ -151,7 +151,7 @@ private:
         for (const auto& pair : s.pairs) {
             auto name = s.text(pair.name);
             if (name.starts_with("params:")) name.remove_prefix(7);
-            const auto value = TRY(scope.evaluate({&s, pair.value}));
+            const auto value = TRY(evaluate_argument(scope, {&s, pair.value}, given));
             if (inner.definition->defaults.contains(name))
                 given.insert_or_assign(std::string(name), value);
             else if (name != "m")
@@ -162,6 +162,15 @@ private:
                 inner.m *= value;
         }
         return {};
+    }
+    /// The value of a parameter of an X line. It may use names of the scope that contains the line, else parameters to its left in the
+    /// line.
+    static Result<double> evaluate_argument(const Scope& scope, const WordRef& text, const Values& given) {
+        auto value = scope.evaluate(text);
+        if (value || given.empty()) return value;
+        Scope with_given{.definition = scope.definition, .caller = &scope, .enclosing = scope.enclosing, .parameters = given};
+        const auto other = with_given.evaluate(text);
+        return other ? other : value;
     }
     static Error unknown_parameter(const Statement& s, const NameValue& pair, std::string_view name, const SubcktDef& body) {
         return error_at(s.location(pair.name), "{}: subcircuit '{}' has no parameter '{}'{}", s.text(0), body.name, name,

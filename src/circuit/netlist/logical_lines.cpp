@@ -8,16 +8,20 @@ namespace {
 
 bool is_blank(char c) { return c == ' ' || c == '\t'; }
 
+/// The number of bytes of a micro sign at the beginning of a text, which LTspice writes for u: in UTF-8, a Greek mu, or in Latin-1. 0:
+/// none.
+std::size_t length_of_micro_sign(std::string_view s) {
+    if (s.starts_with("\xc2\xb5") || s.starts_with("\xce\xbc")) return 2;
+    return s.starts_with("\xb5") ? 1 : 0;
+}
+
 /// True for a tab and for the printable characters of ASCII.
 bool is_text(char c) { return c == '\t' || (c >= ' ' && c <= '~'); }
 
 Error invalid_byte(std::string_view line, std::size_t at, SourceLocation location) {
     const auto byte = static_cast<unsigned char>(line[at]);
     location.column = static_cast<long>(at) + 1;
-    const bool is_micro = byte == 0xb5 || (byte == 0xc2 && at + 1 < line.size() && static_cast<unsigned char>(line[at + 1]) == 0xb5);
-    const char* hint = is_micro    ? "write u for micro"
-                       : byte == 0 ? "a netlist is text; is this UTF-16? Save it as UTF-8"
-                                   : "a netlist must be plain ASCII outside comments";
+    const char* hint = byte == 0 ? "a netlist is text; is this UTF-16? Save it as UTF-8" : "a netlist must be plain ASCII outside comments";
     return error_at(location, "byte 0x{:02X}: {}", byte, hint);
 }
 
@@ -34,7 +38,7 @@ bool begins_comment(std::string_view line, std::size_t k) {
 bool names_a_file(std::string_view text) {
     text = text.substr(0, 9);
     const auto word = lower(text.substr(0, text.find_first_of(" \t'\"")));
-    return word == ".include" || word == ".inc" || word == ".lib";
+    return word == ".include" || word == ".incl" || word == ".inc" || word == ".lib";
 }
 
 }  // namespace
@@ -74,6 +78,14 @@ bool LogicalLineReader::skip_past(std::string_view word) {
     return false;
 }
 
+bool LogicalLineReader::next_command(LogicalLine& out) {
+    std::string_view line;
+    if (!take(line)) return false;
+    const auto first = std::min(line.find_first_not_of(" \t"), line.size());
+    out = {"." + lower(trimmed(line)), {{0, number_, static_cast<std::uint32_t>(first)}}, file_, {}};
+    return true;
+}
+
 Result<std::string> LogicalLineReader::title() {
     std::string_view line;
     if (!take(line)) return std::string();
@@ -111,6 +123,11 @@ Result<void> LogicalLineReader::append(std::string_view physical, std::size_t fr
     for (std::size_t k = from; k < physical.size(); ++k) {
         char c = physical[k];
         if (quote_ == 0 && begins_comment(physical, k)) break;
+        if (const auto length = length_of_micro_sign(physical.substr(k)); length > 0 && quote_ != '"') {
+            next_.text += 'u', k += length - 1;
+            next_.segments.push_back({static_cast<std::uint32_t>(next_.text.size()), number_, static_cast<std::uint32_t>(k) + 2});
+            continue;
+        }
         if (!is_text(c)) return invalid_byte(physical, k, {*file_, static_cast<long>(number_), 0});
         const auto at = static_cast<std::uint32_t>(next_.text.size());
         if (c == quote_)

@@ -24,6 +24,15 @@ constexpr std::string_view circuit_directives[] = {".meas", ".measure", ".print"
 // Directives of other simulators about listings and scripts, which change no result.
 constexpr std::string_view directives_without_effect[] = {".width", ".list", ".nolist", ".backanno", ".csparam"};
 
+constexpr std::string_view commands_that_change_the_circuit[] = {"alter",  "altermod", "alterparam", "reset",     "foreach", "while",
+                                                                 "repeat", "dowhile",  "if",         "source",    "load",    "stop",
+                                                                 "step",   "resume",   "remcirc",    "mc_source", "option"};
+
+template <class Words>
+bool contains_word(const Words& words, std::string_view word) {
+    return std::ranges::find(words, word) != std::end(words);
+}
+
 /// The names of all directives, with the dot.
 std::vector<std::string> directive_names() {
     std::vector<std::string> out(std::begin(structural_directives), std::end(structural_directives));
@@ -64,8 +73,9 @@ class NetlistReader {
     SubcktDef* body_;                 // the definition being read
     SubcktDef* file_body_;  // the definition that was being read when the present file began; .ends in this file must not close it
     std::size_t bytes_read_ = 0, files_opened_ = 0;
-    std::size_t subcircuit_depth_ = 0;  // number of .subckt lines that are not yet closed
-    bool ended_ = false;                // true after .end, until the present file is left
+    std::size_t subcircuit_depth_ = 0;               // number of .subckt lines that are not yet closed
+    std::vector<const Statement*> script_analyses_;  // of .control
+    bool ended_ = false;                             // true after .end, until the present file is left
     CornerSelector corner_;
 
 public:
@@ -75,6 +85,7 @@ public:
     /// Reads the netlist, then checks that a library had the requested corner.
     Result<void> read_all(std::string_view text, const std::string& path) {
         TRY(read(text, path, ""));
+        remove_repeated_analyses();
         return corner_.check_found(path);
     }
 
@@ -137,7 +148,7 @@ private:
         if (line.text[0] != '.') return element(std::move(line));
         const std::string word = lower(std::string_view(line.text).substr(0, line.text.find_first_of(" \t('\"{")));
         if (word == ".end") return ended_ = true, Result<void>();
-        if (word == ".control") return skip_control(lines, line);
+        if (word == ".control") return control(lines, line);
         if (word == ".param" || word == ".global_param") return parameters(std::move(line));
         if (word == ".func") return function(std::move(line));
         if (word == ".model") return model(std::move(line));
@@ -148,7 +159,7 @@ private:
         if (word == ".endl" || word == ".endc")
             return error_at(line.location(), "{} without {}", word, word == ".endl" ? ".lib" : ".control");
         if (word == ".ic" || word == ".nodeset") return store_directive(std::move(line), body_->ics);
-        if (std::ranges::find(directives_without_effect, word) != std::end(directives_without_effect)) return {};
+        if (contains_word(directives_without_effect, word)) return {};
         if (!is_directive(word)) return unknown(word, line.location());
         if (word == ".four")
             return error_at(line.location(),
@@ -329,10 +340,48 @@ private:
 
     // ---- .control, .include, .lib ----
 
-    Result<void> skip_control(LogicalLineReader& lines, const LogicalLine& from) {
-        out_.warnings.push_back(error_at(from.location(), ".control ... .endc is an ngspice script and is ignored"));
-        if (!lines.skip_past(".endc")) return error_at(from.location(), ".control is not closed by .endc");
+    /// Reads a script of ngspice. Its analyses, measurements and prints are taken as directives; commands that only show results have no
+    /// effect. A command that changes the circuit or repeats others ends the reading, since what follows would mean something else.
+    Result<void> control(LogicalLineReader& lines, const LogicalLine& from) {
+        std::vector<std::string> ignored;
+        std::string analysis;
+        for (LogicalLine line; lines.next_command(line);) {
+            const std::string word = line.text.substr(0, line.text.find_first_of(" \t("));
+            if (word == ".." || word == "." || word[1] == '*' || word[1] == '#' || word[1] == '$' || word[1] == ';') continue;
+            if (line.text.starts_with("..endc")) return warn_of_ignored_commands(ignored, from);
+            if (contains_word(commands_that_change_the_circuit, word.substr(1))) {
+                out_.warnings.push_back(
+                    error_at(line.location(1), ".control: '{}' is not supported; the rest of this script is not run", word.substr(1)));
+                TRY(warn_of_ignored_commands(ignored, from));
+                return lines.skip_past(".endc") ? Result<void>() : unclosed_control(from);
+            }
+            const bool is_analysis = find_analysis(word.substr(1)) != nullptr;
+            if (is_analysis) analysis = word.substr(1);
+            if (word == ".print") line.text.insert(6, " " + analysis);
+            if (is_analysis || word == ".meas" || word == ".measure" || word == ".print") {
+                TRY(store_directive(std::move(line), out_.directives));
+                if (is_analysis) script_analyses_.push_back(out_.directives.back());
+            } else if (word != ".run" && std::find(ignored.begin(), ignored.end(), word.substr(1)) == ignored.end()) {
+                ignored.push_back(word.substr(1));
+            }
+        }
+        return unclosed_control(from);
+    }
+    static Error unclosed_control(const LogicalLine& from) { return error_at(from.location(), ".control is not closed by .endc"); }
+    Result<void> warn_of_ignored_commands(const std::vector<std::string>& commands, const LogicalLine& from) {
+        if (!commands.empty())
+            out_.warnings.push_back(error_at(from.location(), ".control: these commands have no effect here: {}", joined(commands)));
         return {};
+    }
+
+    /// Removes each analysis of a script that the netlist also has as a directive.
+    void remove_repeated_analyses() {
+        for (const auto* script : script_analyses_) {
+            const bool is_repeated = std::ranges::any_of(out_.directives, [&](const Statement* s) {
+                return s != script && std::ranges::find(script_analyses_, s) == script_analyses_.end() && s->line.text == script->line.text;
+            });
+            if (is_repeated) std::erase(out_.directives, script);
+        }
     }
 
     Result<void> include(LogicalLine line) {
