@@ -94,6 +94,16 @@ TEST(ForeignNetlist, AParameterOfAnXLineMayUseAnEarlierOne) {
         << "the line's scope first";
 }
 
+TEST(ForeignNetlist, ADiodeHasTheCurrentAndChargeOfItsSidewall) {
+    const std::string model = ".model dm d(is=1f js=2f jsw=3f cjo=1p cjp=2p php=0.8 mjsw=0.3 fcs=0.4)\n";
+    const auto dc = run_netlist("diode\nv1 a 0 0.6\nd1 a 0 dm 2 pj=5\n" + model + ".options gmin=0\n.op\n");
+    const double vt = 1.380649e-23 * 300.15 / 1.602176634e-19;
+    EXPECT_NEAR(dc.number("i(v1)") / ((2 * 2e-15 + 5 * 3e-15) * std::expm1(0.6 / vt)), -1, 1e-6) << "js is another name of is";
+    const auto ac = run_netlist("diode\nv1 a 0 dc -1 ac 1\nd1 a 0 dm 2 pj=5\n" + model + ".options gmin=0\n.ac lin 1 1meg 1meg\n");
+    const double c = 2e-12 * std::pow(2, -0.5) + 5 * 2e-12 * std::pow(1 + 1 / 0.8, -0.3);
+    EXPECT_NEAR(-ac.complex_curve("i(v1)")[0].imag() / (2 * std::numbers::pi * 1e6 * c), 1, 1e-6);
+}
+
 TEST(ForeignNetlist, AStepOfZeroIsChosen) {
     const auto run = run_netlist("LTspice\nv1 a 0 pulse(0 1 1m)\nr1 a b 1k\nc1 b 0 1\xc2\xb5\n.tran 0 5m\n.meas tran x find v(b) at=3m\n");
     EXPECT_NEAR(run.number("x"), 1 - std::exp(-2.0), 2e-3);

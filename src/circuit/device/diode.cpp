@@ -12,7 +12,7 @@ namespace {
 /// Parameters of a .model line; see `fields`.
 struct DiodeCard {
     double is = 1e-14, n = 1, rs = 0, cjo = 0, vj = 1, m = 0.5, fc = 0.5, tt = 0, bv = 0, ibv = 1e-3, eg = 1.11, xti = 3, kf = 0, af = 1,
-           tnom = 27;
+           tnom = 27, jsw = 0, cjsw = 0, vjsw = 1, mjsw = 0.33, fcs = 0.5;
 };
 
 constexpr ParameterDef<DiodeCard> fields[] = {
@@ -31,26 +31,43 @@ constexpr ParameterDef<DiodeCard> fields[] = {
     {"kf", &DiodeCard::kf, "", 0, 1, "flicker noise coefficient"},
     {"af", &DiodeCard::af, "", 0.1, 10, "flicker noise exponent"},
     {"tnom", &DiodeCard::tnom, "C", -273, 1000, "temperature at which the parameters were measured"},
+    {"jsw", &DiodeCard::jsw, "A", 0, 1e3, "saturation current of the sidewall, for a perimeter of 1"},
+    {"cjsw", &DiodeCard::cjsw, "F", 0, 1, "sidewall capacitance at 0 V, for a perimeter of 1"},
+    {"vjsw", &DiodeCard::vjsw, "V", 0.1, 10, "junction potential of the sidewall"},
+    {"mjsw", &DiodeCard::mjsw, "", 0, 0.95, "grading coefficient of the sidewall"},
+    {"fcs", &DiodeCard::fcs, "", 0, 0.95, "fraction of vjsw above which the sidewall capacitance is extrapolated linearly"},
 };
+
+/// Other names of parameters, as in ngspice and Xyce.
+constexpr std::pair<std::string_view, std::string_view> aliases[] = {{"cj0", "cjo"},  {"cj", "cjo"},  {"js", "is"},
+                                                                     {"pb", "vj"},    {"mj", "m"},    {"cjp", "cjsw"},
+                                                                     {"php", "vjsw"}, {"isw", "jsw"}, {"tref", "tnom"}};
 
 /// Band gap of silicon, eV (Thurmond 1975, as SPICE has it).
 double band_gap(double kelvin) { return 1.16 - 7.02e-4 * kelvin * kelvin / (kelvin + 1108); }
 
-/// Changes is, vj and cjo to their values at another temperature, after SPICE.
-void adjust_to_temperature(DiodeCard& c, double kelvin) {
-    constexpr double reference = 300.15;                                                                   // K
-    const double nominal = c.tnom + zero_celsius, ratio = kelvin / nominal, vt = thermal_voltage(kelvin);  // nominal: K
-    c.is *= num::exp((ratio - 1) * c.eg / (c.n * vt) + c.xti / c.n * num::log(ratio));
-    const auto pb = [](double t) {  // temperature-dependent part of the built-in potential, V
+/// Changes the capacitance at 0 V and the potential of a junction to their values at another temperature, after SPICE. nominal: K.
+void adjust_junction(double& capacitance, double& potential, double grading, double nominal, double kelvin) {
+    constexpr double reference = 300.15;  // K
+    const auto pb = [](double t) {        // temperature-dependent part of the built-in potential, V
         const double v = thermal_voltage(t);
         const double arg = -band_gap(t) / (2 * v) + 1.1150877 / (2 * thermal_voltage(reference));
         return -2 * v * (1.5 * num::log(t / reference) + arg);
     };
-    const double base = (c.vj - pb(nominal)) / (nominal / reference);  // V: vj at the reference temperature
-    const double nominal_part = 1 + c.m * (4e-4 * (nominal - reference) - (c.vj - base) / base);
-    const double vj = base * kelvin / reference + pb(kelvin);
-    c.cjo = c.cjo / nominal_part * (1 + c.m * (4e-4 * (kelvin - reference) - (vj - base) / base));
-    c.vj = vj;
+    const double base = (potential - pb(nominal)) / (nominal / reference);  // V: at the reference temperature
+    const double nominal_part = 1 + grading * (4e-4 * (nominal - reference) - (potential - base) / base);
+    const double adjusted = base * kelvin / reference + pb(kelvin);
+    capacitance = capacitance / nominal_part * (1 + grading * (4e-4 * (kelvin - reference) - (adjusted - base) / base));
+    potential = adjusted;
+}
+
+/// Changes the card to its values at another temperature, after SPICE.
+void adjust_to_temperature(DiodeCard& c, double kelvin) {
+    const double nominal = c.tnom + zero_celsius, ratio = kelvin / nominal, vt = thermal_voltage(kelvin);  // nominal: K
+    const double growth = num::exp((ratio - 1) * c.eg / (c.n * vt) + c.xti / c.n * num::log(ratio));
+    c.is *= growth, c.jsw *= growth;
+    adjust_junction(c.cjo, c.vj, c.m, nominal, kelvin);
+    adjust_junction(c.cjsw, c.vjsw, c.mjsw, nominal, kelvin);
 }
 
 /// Limits a Newton step that ends at the junction voltage v (V), after Nagel's SPICE2. A large forward step is shortened to the voltage at
@@ -74,7 +91,8 @@ bool limit_junction(double& v, double v_before, double n_vt, double v_crit) {
 /// Unknowns: anode, cathode and, if rs > 0, the node between rs and the junction.
 class Diode final : public Device {
     DiodeCard c_;
-    double area_;           // area factor
+    double area_, perimeter_;
+    double is_;             // A: saturation current of area and sidewall
     double n_vt_, v_crit_;  // V: see limit_junction()
     double v_breakdown_;    // V: breakdown below -v_breakdown_
 
@@ -83,7 +101,7 @@ class Diode final : public Device {
     };
     /// Current and conductance at the junction voltage v.
     CurrentSlope current(double v) const {
-        const double is = c_.is * area_;
+        const double is = is_;
         if (v >= -3 * n_vt_) {
             const double e = std::exp(v / n_vt_);
             return {is * (e - 1), is * e / n_vt_};
@@ -95,26 +113,34 @@ class Diode final : public Device {
         const double e = std::exp(-(v_breakdown_ + v) / n_vt_);
         return {-is * e, is * e / n_vt_};
     }
-    /// Charge, C, and capacitance, F, of the depletion layer at the junction voltage v.
+    /// Charge, C, and capacitance, F, of the depletion layers of area and sidewall at the junction voltage v.
     std::pair<double, double> depletion(double v) const {
-        const double c0 = c_.cjo * area_, knee = c_.fc * c_.vj;
+        auto out = depletion(v, c_.cjo * area_, c_.vj, c_.m, c_.fc);
+        if (perimeter_ == 0) return out;
+        const auto sidewall = depletion(v, c_.cjsw * perimeter_, c_.vjsw, c_.mjsw, c_.fcs);
+        return {out.first + sidewall.first, out.second + sidewall.second};
+    }
+    /// The same of a layer with capacitance c0 (F) at 0 V, potential vj, grading coefficient m and knee at fc vj.
+    static std::pair<double, double> depletion(double v, double c0, double vj, double m, double fc) {
+        const double knee = fc * vj;
         if (c0 == 0) return {0, 0};
-        const auto charge = [&](double u) { return c0 * c_.vj * (1 - std::pow(1 - u / c_.vj, 1 - c_.m)) / (1 - c_.m); };
-        if (v < knee) return {charge(v), c0 * std::pow(1 - v / c_.vj, -c_.m)};
-        const double f2 = std::pow(1 - c_.fc, 1 + c_.m), f3 = 1 - c_.fc * (1 + c_.m), slope = c_.m / c_.vj;
+        const auto charge = [&](double u) { return c0 * vj * (1 - std::pow(1 - u / vj, 1 - m)) / (1 - m); };
+        if (v < knee) return {charge(v), c0 * std::pow(1 - v / vj, -m)};
+        const double f2 = std::pow(1 - fc, 1 + m), f3 = 1 - fc * (1 + m), slope = m / vj;
         return {charge(knee) + c0 / f2 * (f3 * (v - knee) + slope / 2 * (v * v - knee * knee)), c0 / f2 * (f3 + slope * v)};
     }
     /// Index of the junction's anode among the unknowns; the cathode is unknown 1.
     std::size_t junction_anode() const { return c_.rs > 0 ? 2 : 0; }
 
 public:
-    Diode(DiodeCard card, double area, double kelvin) : c_(card), area_(area) {
+    Diode(DiodeCard card, double area, double perimeter, double kelvin) : c_(card), area_(area), perimeter_(perimeter) {
         adjust_to_temperature(c_, kelvin);
+        is_ = c_.is * area_ + c_.jsw * perimeter_;
         n_vt_ = c_.n * thermal_voltage(kelvin);
-        v_crit_ = n_vt_ * std::log(n_vt_ / (1.4142135623730951 * c_.is * area_));
+        v_crit_ = n_vt_ * std::log(n_vt_ / (1.4142135623730951 * is_));
         v_breakdown_ = c_.bv;
-        if (c_.bv > 0 && c_.ibv > c_.is * area_)  // so that the current at bv is ibv
-            v_breakdown_ = c_.bv - n_vt_ * std::log(c_.ibv / (c_.is * area_));
+        if (c_.bv > 0 && c_.ibv > is_)  // so that the current at bv is ibv
+            v_breakdown_ = c_.bv - n_vt_ * std::log(c_.ibv / is_);
     }
     bool is_linear() const override { return false; }
     std::size_t limiting_state_size() const override { return 1; }
@@ -165,22 +191,25 @@ Result<std::unique_ptr<Device>> make_diode(const Element& e, DeviceSetup& setup)
     const auto& model = *setup.circuit().model_of(e);
     if (const double area = value_or(e.values, "area", 1); !(area > 0))
         return error_at(e.location, "{}: area = {:g} must be positive", e.name, area);
-    if (value_or(e.values, "pj", 0) != 0)
-        return error_at(e.location, "{}: pj is not supported (this level 1 diode has no sidewalls); remove it", e.name);
+    const double perimeter = value_or(e.values, "pj", 0);
+    if (!(perimeter >= 0)) return error_at(e.location, "{}: pj = {:g} must not be negative", e.name, perimeter);
     if (const double level = value_or(model.values, "level", 1); level != 1)
         return error_at(model.location, "{}: diode level {:g} is not supported; use level=1", model.name, level);
-    auto c = TRY(read_model_card<DiodeCard>(fields, model, {"level", "cj0", "jsw", "ikf", "trs", "rsw"}));
-    if (const auto alias = model.values.find("cj0"); alias != model.values.end())
-        TRY(read_field(*std::ranges::find(fields, std::string_view("cjo"), &ParameterDef<DiodeCard>::name), c, model.name, alias->second,
-                       model.location));
-    for (const std::string_view name : {"jsw", "ikf", "trs", "rsw"})
+    auto c = TRY(read_model_card<DiodeCard>(fields, model,
+                                            {"level", "cj0", "cj", "js", "pb", "mj", "cjp", "php", "isw", "tref", "ikf", "trs", "rsw"}));
+    for (const auto& [alias, name] : aliases)
+        if (const auto given = model.values.find(alias); given != model.values.end())
+            TRY(read_field(*std::ranges::find(fields, name, &ParameterDef<DiodeCard>::name), c, model.name, given->second, model.location));
+    for (const std::string_view name : {"ikf", "trs", "rsw"})
         if (value_or(model.values, name, 0) != 0)
             return error_at(model.location,
-                            "{}: {} is not supported (this level 1 diode has no sidewalls and no high injection); remove it", model.name,
-                            name);
+                            "{}: {} is not supported (this level 1 diode has no high injection, and its resistance no temperature "
+                            "coefficient); remove it",
+                            model.name, name);
     auto unknowns = setup.ends(e);
     if (c.rs > 0) unknowns.push_back(setup.add_unknown(e.name + "#junction"));
-    return make_device<Diode>(std::move(unknowns), c, value_or(e.values, "area", 1) * value_or(e.values, "m", 1), setup.temperature(e));
+    return make_device<Diode>(std::move(unknowns), c, value_or(e.values, "area", 1) * value_or(e.values, "m", 1),
+                              perimeter * value_or(e.values, "m", 1), setup.temperature(e));
 }
 
 Result<void> read_diode(ElementReader& line) {
@@ -199,7 +228,9 @@ Result<void> read_diode(ElementReader& line) {
 }
 
 Result<std::string> write_diode(const ElementExport& e) {
-    return fmt::format("{} {} area={}{}\n", e.head, e.names.model(e.element.model), e.value("area", 1) * e.value("m", 1), e.temperature());
+    const double perimeter = e.value("pj", 0) * e.value("m", 1);
+    return fmt::format("{} {} area={}{}{}\n", e.head, e.names.model(e.element.model), e.value("area", 1) * e.value("m", 1),
+                       perimeter > 0 ? fmt::format(" pj={}", perimeter) : "", e.temperature());
 }
 
 constexpr ElementParameter diode_parameters[] = {{"area", "", above_zero, unlimited, 1}, parameter_m, parameter_temp, parameter_dtemp};
