@@ -9,6 +9,7 @@
 #include <cstdio>
 #include <cstdlib>
 
+#include "core/text/csv_field.hpp"
 #include "io/spikes/spike_files.hpp"
 #include "run/compare/train_comparison.hpp"
 
