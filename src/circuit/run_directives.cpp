@@ -135,7 +135,9 @@ Result<RunOutcome> run_directives(AnalysisContext& context, const RunOptions& op
     }
     const auto saved = TRY(resolve_saved_quantities(context.system));
     for (const auto& curve : saved) out.saved_curves.push_back(curve.name);
-    const DeviceCurrents currents(context.system, saved);
+    auto all_currents = saved;
+    for (auto& current : mentioned_device_currents(context.system, saved)) all_currents.push_back(std::move(current));
+    const DeviceCurrents currents(context.system, all_currents);
     // Checked in the first run of the context only.
     if (!std::exchange(context.output_directives_checked, true)) TRY(check_output_directives(context.system, currents, out.warnings));
     MeasurementSet measures(*circuit);

@@ -104,6 +104,16 @@ TEST(ForeignNetlist, ADiodeHasTheCurrentAndChargeOfItsSidewall) {
     EXPECT_NEAR(-ac.complex_curve("i(v1)")[0].imag() / (2 * std::numbers::pi * 1e6 * c), 1, 1e-6);
 }
 
+TEST(ForeignNetlist, TheCurrentOfADeviceThatAPrintOrAMeasureNamesIsComputed) {
+    const auto run = run_netlist(
+        "currents\nv1 a 0 1\nr1 a b 1k\nr2 b 0 1k\n.dc v1 0 2 0.5\n.print dc i(r1)\n.meas dc top max i(r2)\n"
+        ".meas dc at when i(r2)=0.4m cross=-1\n");
+    EXPECT_NEAR(run.number("top"), 1e-3, 1e-12);
+    EXPECT_NEAR(run.number("at"), 0.8, 1e-9);
+    EXPECT_NEAR(run.curve("i(r1)").back(), 1e-3, 1e-12);
+    EXPECT_EQ(warnings_in(run), "");
+}
+
 TEST(ForeignNetlist, AStepOfZeroIsChosen) {
     const auto run = run_netlist("LTspice\nv1 a 0 pulse(0 1 1m)\nr1 a b 1k\nc1 b 0 1\xc2\xb5\n.tran 0 5m\n.meas tran x find v(b) at=3m\n");
     EXPECT_NEAR(run.number("x"), 1 - std::exp(-2.0), 2e-3);

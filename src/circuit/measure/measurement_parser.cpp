@@ -131,7 +131,7 @@ private:
     /// Reads rise=, fall= or cross=, if it is next. Returns true if there was one of them.
     Result<bool> numbered_edge(EdgeSelection& edges) {
         for (const auto& e : edge_words) {
-            const bool last = peek() == fmt::format("{}=last", e.word);
+            const bool last = peek() == fmt::format("{}=last", e.word) || peek() == fmt::format("{}=-1", e.word);
             if (last) ++at_;
             const auto number = TRY(last ? Result<std::optional<double>>(0.0) : option(e.word));
             if (!number) continue;

@@ -88,10 +88,7 @@ private:
         if (is_axis_limit) return {};
         const bool is_device_current =
             word.starts_with("i(") && circuit_.find_element(word.size() > 3 ? word.substr(2, word.size() - 3) : "") >= 0;
-        const auto hint =
-            is_device_current
-                ? fmt::format("; '.save {}' records the current of an M, D or R; for any other element, put a 0 V source in series", word)
-                : did_you_mean(word, known);
+        const auto hint = is_device_current ? "; put a 0 V source in series to measure its current" : did_you_mean(word, known);
         return error_at(c.location_of(k), ".{}: there is no curve '{}', so the column is left out{}", c.name, word, hint);
     }
 

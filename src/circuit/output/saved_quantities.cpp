@@ -141,6 +141,23 @@ Result<std::vector<SavedQuantity>> resolve_saved_quantities(const System& system
     return all ? std::vector<SavedQuantity>{} : out;
 }
 
+std::vector<SavedQuantity> mentioned_device_currents(const System& system, std::span<const SavedQuantity> saved) {
+    constexpr std::string_view directives[] = {"print", "plot", "meas", "measure"};
+    std::unordered_set<std::string> seen;
+    for (const auto& quantity : saved) seen.insert(quantity.name);
+    std::vector<SavedQuantity> out;
+    for (const auto& c : system.circuit().directives) {
+        if (std::ranges::find(directives, c.name) == std::end(directives)) continue;
+        for (const auto& word : c.words) {
+            if (!word.starts_with("i(")) continue;
+            const auto name = word.substr(0, std::min(word.find(')'), word.size() - 1) + 1);  // also of "i(r1)=1m"
+            if (const int device = device_of_current(system, name); device >= 0 && seen.insert(name).second)
+                out.push_back({name, {}, device});
+        }
+    }
+    return out;
+}
+
 DeviceCurrents::DeviceCurrents(const System& system, std::span<const SavedQuantity> all) : system_(system) {
     for (const auto& s : all)
         if (s.device_index >= 0) currents_.push_back(s);

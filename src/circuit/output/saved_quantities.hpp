@@ -37,6 +37,9 @@ inline bool has_device_current(const Element& e) { return kind_of(e).saves_termi
 /// .save nor .probe.
 Result<std::vector<SavedQuantity>> resolve_saved_quantities(const System&);
 
+/// The device currents, i(r1), that .print, .plot and .meas name and `saved` does not have.
+std::vector<SavedQuantity> mentioned_device_currents(const System&, std::span<const SavedQuantity> saved);
+
 /// True if the directive is a .probe and this word of it is not supported: the current of a capacitor, vd(r2), p(x1).
 bool is_unsupported_probe(const Circuit&, const Directive&, std::string_view word);
 
