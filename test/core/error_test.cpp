@@ -68,7 +68,8 @@ TEST(AsciiText, JoinsTextsAndSplitsThemAgain) {
     EXPECT_EQ(joined(names, " or "), "sa1 or  or fa1");
     EXPECT_EQ(joined(std::vector<std::string>{}), "");
     EXPECT_EQ(joined(std::vector<std::string>{"sa1"}), "sa1");
-    const auto parts = split(joined(names, ","), ',');
+    const auto text = joined(names, ",");
+    const auto parts = split(text, ',');
     EXPECT_EQ(std::vector<std::string>(parts.begin(), parts.end()), names);
     EXPECT_EQ(joined(parts, ","), "sa1,,fa1");
     EXPECT_EQ(split("", ',').size(), 1u);

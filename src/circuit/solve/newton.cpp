@@ -102,9 +102,9 @@ public:
     /// True if the disturbance found with this a really grows. A pair of factors that only turns it can make its voltages larger for a
     /// while, and rounding errors can make it longer where the matrices are nearly singular. So its rate must be found again with another
     /// a.
-    bool grows(double a) {
+    bool grows(double a, double growth) {
         const auto z = factor();
-        if (!z) return true;  // several disturbances grow
+        if (!z) return growth > 1.2;  // several disturbances are left
         if (!(std::abs(*z) > least_growth)) return false;
         const auto rate = a * (*z - 1.0) / (*z + 1.0);
         const double other_a = 1.7 * a, expected = std::abs((other_a + rate) / (other_a - rate));
@@ -210,7 +210,8 @@ std::optional<UnstableMode> find_unstable_mode(NewtonSolver& newton, std::span<c
     Disturbance disturbance(system, std::span(newton.evaluation.G).first(entries), std::span(newton.evaluation.C).first(entries));
     double largest = Disturbance::least_growth, best = 0;  // best: a of the largest growth
     for (double a = 1e-2; a < 1e13; a *= 10)
-        if (const double growth = disturbance.growth_per_step(a); growth > largest && disturbance.grows(a)) largest = growth, best = a;
+        if (const double growth = disturbance.growth_per_step(a); growth > largest && disturbance.grows(a, growth))
+            largest = growth, best = a;
     if (best == 0) return {};
     (void)disturbance.growth_per_step(best);  // for direction() and ratio()
     const double z = disturbance.ratio(), rate = best * (z - 1) / (z + 1);
