@@ -30,6 +30,11 @@ TEST(ForeignNetlist, PolynomialsOfControlledSourcesHaveSpicesOrderOfTerms) {
 TEST(ForeignNetlist, AResistanceMayDependOnVoltages) {
     const auto run = run_netlist("divider\nv1 in 0 6\nr1 in x 1k\nr2 x 0 R={1k*v(c)}\nvc c 0 2\n.op\n");
     EXPECT_NEAR(run.number("v(x)"), 4, 1e-9);
+    // Only the names v, i and time mean the solution: these resistors keep their noise.
+    const auto noisy = run_netlist(
+        "names\n.param runtime=2k\n.func conv(x) {x*0.5}\nv1 in 0 0\nr1 in x {runtime}\nr2 x 0 {conv(4k)}\n"
+        ".noise v(x) v1 lin 2 1 2\n");
+    EXPECT_NEAR(std::pow(noisy.number("onoise_total"), 2) / (4 * 1.380649e-23 * 300.15 * 1e3), 1, 1e-6);
 }
 
 // Newton's method begins at 0 V, where these expressions or their slopes are infinite.

@@ -67,7 +67,7 @@ std::vector<std::vector<std::size_t>> polynomial_terms(std::size_t n, std::size_
     for (std::size_t from = 0; out.size() < count;) {  // each degree follows from the one before
         const std::size_t to = out.size();
         for (std::size_t first = 0; first < n; ++first)
-            for (std::size_t k = from; k < to; ++k)
+            for (std::size_t k = from; k < to && out.size() < count; ++k)
                 if (out[k].empty() || first <= out[k].front()) {
                     auto product = out[k];
                     product.insert(product.begin(), first);
@@ -75,7 +75,6 @@ std::vector<std::vector<std::size_t>> polynomial_terms(std::size_t n, std::size_
                 }
         from = to;
     }
-    out.resize(count);
     return out;
 }
 

@@ -75,8 +75,8 @@ public:
     }
 
     /// Newton's method begins at 0 V, where 1/v or ln(v) has no value. There the expression is evaluated a little beside, and continued
-    /// along its tangent.
-    bool limits() const override { return has_poles_; }
+    /// along its tangent. Not if the expression has the time, which limit() does not know.
+    bool limits() const override { return has_poles_ && std::ranges::none_of(inputs_, &DeviceInput::is_time); }
     bool limit(std::span<double> v, std::span<double>) const override {
         std::vector<double> values;
         const auto value_at = [&] {

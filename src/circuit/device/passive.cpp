@@ -131,7 +131,15 @@ Result<std::optional<double>> value_of_model(ElementReader& line) {
 
 /// True if a value depends on voltages, currents or the time.
 bool depends_on_solution(std::string_view text) {
-    return text.find("v(") != text.npos || text.find("i(") != text.npos || text.find("time") != text.npos;
+    const auto is_in_name = [&](std::size_t k) {
+        return k < text.size() && (std::isalnum(static_cast<unsigned char>(text[k])) || text[k] == '_');
+    };
+    for (const std::string_view word : {"v(", "i(", "time"})
+        for (auto at = text.find(word); at != text.npos; at = text.find(word, at + 1)) {
+            const bool begins_name = at == 0 || !is_in_name(at - 1), ends_name = word.back() == '(' || !is_in_name(at + word.size());
+            if (begins_name && ends_name) return true;
+        }
+    return false;
 }
 
 /// Reads a word, or the value of a pair, as the value. A resistance that depends on the solution becomes an expression of the current.
