@@ -23,21 +23,28 @@ inline constexpr const DeviceKind* device_kinds[] = {&resistor_kind,
                                                      &diode_kind,
                                                      &transistor_kind};
 
-/// The kind of device of this letter; null if there is none.
-inline const DeviceKind* find_device_kind(char letter) {
-    const auto* const found = std::ranges::find(device_kinds, letter, &DeviceKind::letter);
-    return found == std::end(device_kinds) ? nullptr : *found;
+/// The kind of device of this letter whose models have this level. Without a level, or if no kind has it, the first one of the letter. Null
+/// if there is none.
+inline const DeviceKind* find_device_kind(char letter, std::optional<double> level = {}) {
+    const DeviceKind* first = nullptr;
+    for (const auto* kind : device_kinds) {
+        if (kind->letter != letter) continue;
+        if (level && kind->level == *level) return kind;
+        if (first == nullptr) first = kind;
+    }
+    return first;
 }
 
 /// "R C L ... X": the letters of all elements, subcircuits included.
 inline std::string element_letters() {
     std::string out;
-    for (const auto* kind : device_kinds) (out += static_cast<char>(kind->letter - 'a' + 'A')) += ' ';
+    for (const auto* kind : device_kinds)
+        if (find_device_kind(kind->letter) == kind) (out += static_cast<char>(kind->letter - 'a' + 'A')) += ' ';
     return out + 'X';
 }
 
 /// The kind of device of an element of a circuit.
-inline const DeviceKind& kind_of(const Element& e) { return *find_device_kind(e.letter); }
+inline const DeviceKind& kind_of(const Element& e) { return *e.kind; }
 
 /// True if the current through the element is an unknown of the system.
 inline bool has_branch_current(const Element& e) { return kind_of(e).has_branch_current(e); }

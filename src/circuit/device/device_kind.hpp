@@ -44,9 +44,10 @@ enum class Role { other, voltage_source, current_source, capacitor, inductor, tr
 inline void multiply_m(Element& e, double m) { e.values.try_emplace("m", 1).first->second *= m; }
 inline void keep_value(Element&, double) {}
 
-/// A kind of device, chosen by the first letter of an element's name.
+/// A kind of device, chosen by the first letter of an element's name and, where several kinds share it, by the level of the model.
 struct DeviceKind {
     char letter;
+    double level = 0;  ///< level of its models; 0: all levels
     std::string_view description;
     Role role = Role::other;
     /// Reads the words of a line after the name: nodes, then a model or a value.

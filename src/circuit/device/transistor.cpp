@@ -212,6 +212,7 @@ const UicmConstants& transistor_constants(const Device& device) { return static_
 Result<const lanes::ChipKernels*> chip_kernels() { return select_table(lanes::scalar_chip_kernels, lanes::chip_kernel_table); }
 
 extern constexpr DeviceKind transistor_kind = {.letter = 'm',
+                                               .level = UicmCard::level,
                                                .description = "MOS transistor, UICM",
                                                .role = Role::transistor,
                                                .read = read_transistor,

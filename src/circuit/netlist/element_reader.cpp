@@ -5,8 +5,21 @@
 
 namespace corpuscle::circuit {
 
+namespace {
+
+/// The kind of device of a line: by its letter, and by the level of its model if it has one.
+const DeviceKind& find_kind(Scope& scope, const Statement& s) {
+    const char letter = s.text(0)[0];
+    std::optional<double> level;
+    for (std::size_t k = s.words.size() - 1; k > 0 && !level; --k) level = scope.model_level(s.text(k));
+    return *find_device_kind(letter, level);
+}
+
+}  // namespace
+
 ElementReader::ElementReader(CircuitBuilder& builder, Scope& scope, const Statement& s)
-    : builder_(builder), scope_(scope), s_(s), kind_(*find_device_kind(s.text(0)[0])), name_(s.text(0)) {
+    : builder_(builder), scope_(scope), s_(s), kind_(find_kind(scope, s)), name_(s.text(0)) {
+    element.kind = &kind_;
     element.name = scope.path + std::string(name_);
     element.letter = name_[0];
     element.location = s.line.location();

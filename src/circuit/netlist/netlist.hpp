@@ -31,11 +31,14 @@ struct Waveform {
     std::optional<double> repeats_from = {};  ///< s: a PWL repeats its part from this time on
 };
 
+struct DeviceKind;
+
 /// An element with all its values evaluated.
 struct Element {
-    std::string name;        ///< in small letters, with the path of its subcircuit: "x1.xinv.m1"
-    char letter = 0;         ///< r c l v i e f g h b d m
-    std::vector<int> nodes;  ///< indices in Circuit::nodes, in netlist order; for E and G including the controlling nodes
+    std::string name;                  ///< in small letters, with the path of its subcircuit: "x1.xinv.m1"
+    const DeviceKind* kind = nullptr;  ///< the row of its kind of device
+    char letter = 0;                   ///< of its name; of a device inside a subcircuit, that of the name after the path
+    std::vector<int> nodes;            ///< indices in Circuit::nodes, in netlist order; for E and G including the controlling nodes
     SourceLocation location;
     int model = -1;                        ///< index in Circuit::models; -1 if the element has no model
     double value = 0;                      ///< for R, C, L in ohm, farad, henry; for E, F, G, H the gain

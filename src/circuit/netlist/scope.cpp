@@ -174,6 +174,16 @@ Result<void> Scope::define(const std::string& first, ByName<WordRef>& pending) {
     return {};
 }
 
+std::optional<double> Scope::model_level(std::string_view name) {
+    const Scope* definer = definer_of_model(name);
+    if (definer == nullptr) return {};
+    const Statement& s = *definer->definition->models.find(name)->second;
+    const auto* level = s.find("level");
+    if (level == nullptr) return 1;
+    const auto value = definer->evaluate({&s, level->value});
+    return value ? std::optional(*value) : std::nullopt;
+}
+
 std::string CircuitBuilder::node_name(const Scope& scope, std::string_view name) const {
     if (is_ground(name)) return "0";
     if (const auto port = scope.ports.find(name); port != scope.ports.end()) return circuit.nodes[static_cast<std::size_t>(port->second)];

@@ -76,7 +76,7 @@ Result<std::optional<std::string>> resolve_node(const Circuit& c, std::string_vi
 std::string recordable_letters() {
     std::string out;
     for (const auto* kind : device_kinds)
-        if (kind->saves_terminal_current)
+        if (kind->saves_terminal_current && find_device_kind(kind->letter) == kind)
             out = fmt::format("{}{}{}", static_cast<char>(kind->letter - 'a' + 'A'), out.empty() ? " " : ", ", out);
     return out;
 }

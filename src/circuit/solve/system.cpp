@@ -34,7 +34,8 @@ public:
 Result<System> System::make(std::shared_ptr<const Circuit> circuit) {
     TRY(check_solvable(*circuit));
     if (!is_possible_temperature(circuit->temperature))
-        return error_at({circuit->file}, "the circuit's temperature of {:g} C is outside (-273.15, {:g}]", circuit->temperature, max_celsius);
+        return error_at({circuit->file}, "the circuit's temperature of {:g} C is outside (-273.15, {:g}]", circuit->temperature,
+                        max_celsius);
     System system;
     system.circuit_ = std::move(circuit);
     Builder builder(system);
@@ -70,7 +71,7 @@ Result<void> System::make_groups() {
     for (const auto* kind : device_kinds) {
         std::vector<std::size_t> members;
         for (std::size_t k = 0; k < devices_.size(); ++k)
-            if (circuit_->elements[k].letter == kind->letter) members.push_back(k);
+            if (circuit_->elements[k].kind == kind) members.push_back(k);
         if (members.empty()) continue;
         if (kind->make_batch == nullptr) {
             scalar_devices_.insert(scalar_devices_.end(), members.begin(), members.end());

@@ -5,7 +5,7 @@
 #include <nlohmann/json.hpp>
 
 #include "circuit/device/uicm_card.hpp"
-#include "circuit/netlist/netlist.hpp"
+#include "circuit/devices.hpp"
 
 namespace corpuscle {
 namespace {
@@ -34,7 +34,7 @@ std::vector<MismatchDevice> mismatch_devices(const circuit::Circuit& circuit) {
     const circuit::UicmCard card_defaults;
     std::vector<MismatchDevice> out;
     for (const auto& e : circuit.elements) {
-        if (e.letter != 'm' || e.model < 0) continue;
+        if (!has_role(e, circuit::Role::transistor)) continue;
         const auto& model = circuit.models[static_cast<std::size_t>(e.model)];
         MismatchDevice d{e.name, static_cast<std::uint32_t>(out.size()), model.type == "pmos"};
         d.W = number_or(e.values, "w", instance_defaults.W), d.L = number_or(e.values, "l", instance_defaults.L);
