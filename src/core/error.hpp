@@ -5,6 +5,7 @@
 #include <optional>
 #include <string>
 #include <utility>
+#include <vector>
 
 namespace corpuscle {
 
@@ -22,6 +23,7 @@ struct Error {
     ErrorCode code;
     std::string message;  ///< states what is wrong, its value, and what is expected
     SourceLocation location;
+    std::shared_ptr<const std::vector<Error>> further;  ///< more errors of the same input, less important than this one; null if none
 
     Error(ErrorCode code = ErrorCode::bad_input, std::string message = "", SourceLocation location = {});
     // Not defined here: each TRY would contain the copying of two strings.

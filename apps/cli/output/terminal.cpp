@@ -147,6 +147,8 @@ Result<void> finish_output() {
 
 int report_error(const Error& error) {
     print_message(error.text());
+    if (error.further)
+        for (const auto& other : *error.further) print_message(other.text());
     return static_cast<int>(error.code);
 }
 

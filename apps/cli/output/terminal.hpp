@@ -11,7 +11,7 @@
 
 namespace corpuscle {
 
-/// Prints an error on standard error. Returns the exit status of its code.
+/// Prints an error, and the further ones that it holds, on standard error. Returns the exit status of its code.
 int report_error(const Error&);
 /// The exit status of a verb; prints the error, if there is one.
 int exit_status(const Result<void>& done);

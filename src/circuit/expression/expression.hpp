@@ -30,8 +30,10 @@ struct ExpressionScope {
         std::string text;
     };
     std::function<const Function*(std::string_view)> function{};  ///< returns null if no function has this name
-    bool allows_inputs = false;                                   ///< true if voltages, currents and time are allowed; false in .param
-    std::vector<std::string> suggestions{};                       ///< known names, for "did you mean" in the error about an unknown name
+    /// Returns the value of a random function with constant arguments. If null, it is the first argument.
+    std::function<double(std::string_view, std::span<const double>)> random{};
+    bool allows_inputs = false;              ///< true if voltages, currents and time are allowed; false in .param
+    std::vector<std::string> suggestions{};  ///< known names, for "did you mean" in the error about an unknown name
     /// Return the name in the circuit of a node or an element of this scope ("x1.n3" for "n3" inside x1). If null, the name is kept.
     std::function<std::string(std::string_view)> node{}, element{};
 };
@@ -53,7 +55,8 @@ public:
     ///
     ///  - exp(x) and its derivative stay at e^700 beyond x = 700.
     ///  - limit(x,a,b) limits x to the range from a to b.
-    ///  - agauss, gauss, unif, aunif and limit(x,d) return their nominal value x.
+    ///  - agauss, gauss, unif, aunif and limit(x,d) are drawn once, when the expression is parsed, if the scope has random values. Else,
+    ///    and with an argument that depends on an input, they are x.
     static Result<Expression> parse(std::string_view text, const SourceLocation& location, const ExpressionScope&);
 
     /// The inputs, in the order in which value() takes their values.

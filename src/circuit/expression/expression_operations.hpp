@@ -44,7 +44,7 @@ struct OperatorSpelling {
 };
 OperatorSpelling leading_operator(std::string_view text);
 
-/// A random function of ngspice, whose value here is its first argument.
+/// A random function of ngspice. Its mean is its first argument.
 struct RandomFunction {
     std::string_view name;
     int arguments;

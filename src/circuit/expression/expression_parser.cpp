@@ -303,11 +303,18 @@ private:
         if (!read_arguments(values)) return no_index;
         if (user_function) return expand_function(name, *user_function, values, from);
         const int count = static_cast<int>(values.size());
-        if (random && count == random->arguments) return values[0];
+        if (random && count == random->arguments) return random_value(name, values);
         if (row && count == row->operands) return apply(*row, values);
         const auto expected = row && random ? fmt::format("{} or {}", random->arguments, row->operands)
                                             : fmt::format("{}", row ? row->operands : random->arguments);
         return fail(from, "{}", argument_count_message(name, expected, values.size()));
+    }
+
+    Index random_value(std::string_view name, const std::vector<Index>& values) {
+        std::vector<double> arguments;
+        for (const Index k : values)
+            if (is_number(k)) arguments.push_back(step(k).number);
+        return scope_.random && arguments.size() == values.size() ? number(scope_.random(name, arguments)) : values[0];
     }
 
     static std::string argument_count_message(std::string_view name, std::string_view expected, std::size_t count) {

@@ -24,8 +24,9 @@ class CircuitElaborator {
     std::vector<NodeVoltage> node_voltages_;
 
 public:
-    CircuitElaborator(const ParsedNetlist& parsed, const ResolvedOverrides& overrides) : parsed_(parsed), builder_(parsed, overrides) {
-        top_.definition = &parsed.top;
+    CircuitElaborator(const ParsedNetlist& parsed, const ResolvedOverrides& overrides, std::optional<RandomDraws> draws)
+        : parsed_(parsed), builder_(parsed, overrides, draws) {
+        top_.definition = &parsed.top, top_.random = &builder_.random;
     }
 
     /// Makes the flat circuit. `given` has values for .param lines of the top level.
@@ -37,14 +38,28 @@ public:
         c.parameters = top_.parameters;
         TRY(read_settings());
         TRY(elaborate_contents(top_));
+        if (!builder_.refusals.empty()) return builder_.refusals.combined();
         TRY(check_references());
         TRY(resolve_node_voltages());
         for (const auto* s : parsed_.directives) add_directive(*s);
         apply_overrides_to_directives(c);
+        c.has_random_values = builder_.random.is_used();
+        warn_of_means(c);
         return std::move(c);
     }
 
+    /// The errors of a run.
+    const Refusals& refusals() const { return builder_.refusals; }
+
 private:
+    /// Warns if the netlist has random values, but nothing draws them.
+    void warn_of_means(Circuit& c) const {
+        const auto is_mc = [](const Directive& directive) { return directive.name == "mc"; };
+        if (c.has_random_values && !builder_.random.draws() && std::ranges::none_of(c.directives, is_mc))
+            c.warnings.push_back(
+                error_at({c.file}, "random values and tolerances are at their means; .mc COUNT or --mismatch SEED draws them"));
+    }
+
     /// Evaluates the parameters of the top level.
     Result<void> define_top(const Values& given) {
         auto all = given;
@@ -63,7 +78,9 @@ private:
         for (const auto* s : scope.definition->elements) {
             TRY(builder_.count_statement(scope, *s));
             const auto ok = s->line.text[0] == 'x' ? elaborate_instance(scope, *s) : read_element(builder_, scope, *s);
-            if (!ok) return ok;
+            if (!ok && builder_.is_limit_exceeded()) return ok;
+            if (!ok) builder_.refusals.add(ok.error());
+            if (builder_.refusals.is_full()) return {};
         }
         for (const auto* s : scope.definition->ics) {
             TRY(builder_.count_statement(scope, *s));
@@ -82,7 +99,8 @@ private:
         Scope inner;
         TRY(find_body(scope, s, subcircuit_name, inner));
         TRY(connect(scope, s, words, inner));
-        inner.caller = &scope, inner.depth = scope.depth + 1, inner.path = fmt::format("{}{}.", scope.path, name);
+        inner.caller = &scope, inner.random = scope.random, inner.depth = scope.depth + 1,
+        inner.path = fmt::format("{}{}.", scope.path, name);
         if (inner.depth > max_subcircuit_depth)
             return error_at(s.line.location(), "{}: subcircuits are nested deeper than the limit of {}", name, max_subcircuit_depth);
         TRY(check_recursion(inner, s));
@@ -168,7 +186,8 @@ private:
     static Result<double> evaluate_argument(const Scope& scope, const WordRef& text, const Values& given) {
         auto value = scope.evaluate(text);
         if (value || given.empty()) return value;
-        Scope with_given{.definition = scope.definition, .caller = &scope, .enclosing = scope.enclosing, .parameters = given};
+        Scope with_given{
+            .definition = scope.definition, .caller = &scope, .enclosing = scope.enclosing, .parameters = given, .random = scope.random};
         const auto other = with_given.evaluate(text);
         return other ? other : value;
     }
@@ -356,9 +375,17 @@ private:
 
 }  // namespace
 
-Result<Circuit> Netlist::elaborate(const Values& parameters) const {
+Refusals find_missing_devices(const ParsedNetlist& parsed) {
+    const ResolvedOverrides none;
+    CircuitElaborator elaborator(parsed, none, {});
+    static_cast<void>(elaborator.run({}));
+    return elaborator.refusals();
+}
+
+Result<Circuit> Netlist::elaborate(const Values& parameters, std::optional<RandomDraws> draws) const {
     if (!impl_) return Circuit{};
-    return CircuitElaborator(*impl_, overrides()).run(parameters);
+    if (!draws && overrides().mismatch_seed) draws = RandomDraws{*overrides().mismatch_seed, overrides().chip};
+    return CircuitElaborator(*impl_, overrides(), draws).run(parameters);
 }
 
 }  // namespace corpuscle::circuit

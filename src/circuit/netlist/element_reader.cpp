@@ -2,17 +2,23 @@
 
 #include "circuit/devices.hpp"
 #include "circuit/netlist/scope.hpp"
+#include "core/text/ascii_text.hpp"
 
 namespace corpuscle::circuit {
 
 namespace {
 
+/// The last word of a line that names a model; 0 if none does.
+std::size_t find_model_word(Scope& scope, const Statement& s) {
+    std::size_t k = s.words.size() - 1;
+    while (k > 0 && scope.definer_of_model(s.text(k)) == nullptr) --k;
+    return k;
+}
+
 /// The kind of device of a line: by its letter, and by the level of its model if it has one.
 const DeviceKind& find_kind(Scope& scope, const Statement& s) {
-    const char letter = s.text(0)[0];
-    std::optional<double> level;
-    for (std::size_t k = s.words.size() - 1; k > 0 && !level; --k) level = scope.model_level(s.text(k));
-    return *find_device_kind(letter, level);
+    const auto model = find_model_word(scope, s);
+    return *find_device_kind(s.text(0)[0], model == 0 ? std::nullopt : scope.model_level(s.text(model)));
 }
 
 }  // namespace
@@ -26,11 +32,26 @@ ElementReader::ElementReader(CircuitBuilder& builder, Scope& scope, const Statem
 }
 
 Result<void> ElementReader::read() {
+    if (refuse_level()) return {};
     TRY(kind_.read(*this));
     TRY(named_parameters());
     override_values();
+    TRY(apply_tolerances());
     TRY(apply_multiplicity());
     return builder_.add_element(std::move(element));
+}
+
+bool ElementReader::refuse_level() {
+    const auto word = find_model_word(scope_, s_);
+    const auto level = word == 0 ? std::nullopt : scope_.model_level(text(word));
+    if (!level || kind_.level == 0 || *level == kind_.level) return false;
+    std::vector<std::string> levels;
+    for (const auto* kind : device_kinds)
+        if (kind->letter == kind_.letter) levels.push_back(fmt::format("{:g} ({})", kind->level, kind->description));
+    auto error =
+        error_at(word, "model '{}' has level {:g}, which is not supported; supported levels: {}", text(word), *level, joined(levels));
+    builder_.refusals.add_device(std::move(error), fmt::format("level {:g} of {}", *level, kind_.letter), element.name);
+    return true;
 }
 
 Error ElementReader::too_many(std::size_t word) const { return error_at(word, "unexpected '{}'", text(word)); }
@@ -118,6 +139,7 @@ Result<void> ElementReader::named_parameters() {
     known.insert(known.end(), kind_.other_names.begin(), kind_.other_names.end());
     for (const auto& pair : s_.pairs) {
         const auto name = s_.text(pair.name);
+        if (find_tolerance(name) != nullptr) continue;  // see apply_tolerances()
         if (std::find(known.begin(), known.end(), name) == known.end())
             return error_at(pair.name, "unknown parameter '{}'{}", name, did_you_mean(name, known));
         if (std::find(read_names_.begin(), read_names_.end(), name) != read_names_.end()) continue;
@@ -135,6 +157,35 @@ void ElementReader::override_values() {
     if (overrides == builder_.overrides.numbers.end()) return;
     for (const auto& [name, value] : overrides->second)
         name.empty() ? set_main_value(element, value) : void(element.values.insert_or_assign(name, value));
+}
+
+/// Multiplies the value by the factors that dev= and lot= of the line, or of its model, draw.
+Result<void> ElementReader::apply_tolerances() {
+    for (const auto& t : tolerance_names) {
+        const auto given = TRY(tolerance(t.name));
+        if (!given) continue;
+        if (element.expression || (is_independent_source(element) && element.waveform.shape != Waveform::Shape::none))
+            return error_at(0, "{}= needs a constant value", t.name);
+        auto& random = builder_.random;
+        const auto lot = element.model < 0 ? element.name : builder_.circuit.models[static_cast<std::size_t>(element.model)].name;
+        const double factor = t.is_lot ? random.lot_factor(lot, *given, t.is_normal) : random.element_factor(*given, t.is_normal);
+        set_main_value(element, main_value(element) * factor);
+    }
+    return {};
+}
+
+/// The tolerance of this name in the line, else in the model.
+Result<std::optional<double>> ElementReader::tolerance(std::string_view name) {
+    std::optional<double> out;
+    if (element.model >= 0) {
+        const auto& tolerances = builder_.circuit.models[static_cast<std::size_t>(element.model)].tolerances;
+        if (const auto at = tolerances.find(name); at != tolerances.end()) out = at->second;
+    }
+    if (const auto* pair = s_.find(name)) out = TRY(scope_.evaluate_tolerance({&s_, pair->value}));
+    const auto has_value = [](const ElementParameter& p) { return p.is_value; };
+    if (out && std::ranges::none_of(kind_.parameters, has_value))
+        return error_at(0, "{} is not supported for a {}, only for an element with a value", name, kind_.description);
+    return out;
 }
 
 /// Applies the m= of the subcircuits around the element.

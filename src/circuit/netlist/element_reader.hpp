@@ -76,10 +76,14 @@ private:
     Error error_in(SourceLocation location, std::string_view message) const {
         return circuit::error_at(std::move(location), "{}: {}", name_, message);
     }
+    /// Adds a refusal and returns true if no device has the level of the line's model.
+    bool refuse_level();
     void add_forward_reference(const ExpressionInput&, const SourceLocation&);
     Result<void> parse_expression(const WordRef&);
     Result<void> named_parameters();
     void override_values();
+    Result<void> apply_tolerances();
+    Result<std::optional<double>> tolerance(std::string_view name);
     Result<void> apply_multiplicity();
 };
 

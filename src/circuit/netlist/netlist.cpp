@@ -52,7 +52,12 @@ int Circuit::find_element(std::string_view name) const {
 
 Result<Netlist> Netlist::parse(std::string text, std::string file, const FileOpener& open, const std::string& corner) {
     auto parsed = std::make_shared<Impl>();
-    TRY(read_netlist(text, file, open, corner, *parsed));
+    Refusals refusals;
+    if (const auto ok = read_netlist(text, file, open, corner, *parsed, refusals); !ok)
+        refusals.add(ok.error());
+    else if (!refusals.empty())
+        refusals.add_devices_of(find_missing_devices(*parsed));
+    if (!refusals.empty()) return refusals.combined();
     Netlist out;
     out.impl_ = std::move(parsed);
     return out;

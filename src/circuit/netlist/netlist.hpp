@@ -54,6 +54,7 @@ struct Model {
     std::string name, type;  ///< types are d, nmos, pmos, r, c, ...; the name of a local model has the path of its subcircuit
     SourceLocation location;
     Values values;
+    Values tolerances;                                      ///< dev and lot; see RandomValues
     std::map<std::string, std::string, std::less<>> texts;  ///< values that are not numbers: text in double quotes, and version=3.3.0
 };
 
@@ -83,6 +84,7 @@ struct Circuit {
     Values parameters;                                             ///< values of the top level's .param lines
     std::optional<std::uint64_t> mismatch_seed;                    ///< seed of the mismatch override; empty for the nominal circuit
     std::uint64_t chip = 0;                                        ///< number of the chip among those of this seed, from 0
+    bool has_random_values = false;                                ///< true if values differ from chip to chip; see RandomValues
 
     std::unordered_map<std::string, int> node_numbers, element_numbers;  ///< indices by name, filled by Netlist::elaborate()
 
@@ -116,6 +118,13 @@ struct ResolvedOverrides {
     bool replaces_saved = false;  ///< true: `saved` replaces every .save and .probe
 };
 
+/// Selects the chip whose random values a netlist takes; see RandomValues.
+struct RandomDraws {
+    std::uint64_t seed = 0, chip = 0;
+    bool has_process = true;   ///< the values of all elements of a model vary together
+    bool has_mismatch = true;  ///< each value varies by itself
+};
+
 /// The statements of a netlist and of all files that it includes.
 class Netlist {
     struct Impl;
@@ -142,8 +151,9 @@ public:
     /// All parameters of the top level, by name.
     std::map<std::string, Parameter, std::less<>> parameters() const;
 
-    /// The flat circuit. `parameters` replace .param lines of the top level, even those that the netlist's overrides set.
-    Result<Circuit> elaborate(const Values& parameters = {}) const;
+    /// The flat circuit. `parameters` replace .param lines of the top level, even those that the netlist's overrides set. Random values are
+    /// their means, unless `draws` or the mismatch override selects a chip.
+    Result<Circuit> elaborate(const Values& parameters = {}, std::optional<RandomDraws> draws = {}) const;
 };
 
 }  // namespace corpuscle::circuit

@@ -46,6 +46,24 @@ bool is_directive(std::string_view word) {
     return std::ranges::find(names, word) != names.end();
 }
 
+/// The device that other simulators have for a letter that is unknown here; "" if there is none.
+std::string_view foreign_device(char letter) {
+    constexpr std::pair<char, std::string_view> names[] = {{'a', "code model of XSPICE"},
+                                                           {'j', "junction field-effect transistor"},
+                                                           {'n', "compiled Verilog-A model"},
+                                                           {'o', "lossy line"},
+                                                           {'p', "coupled lines"},
+                                                           {'q', "bipolar transistor"},
+                                                           {'s', "switch"},
+                                                           {'t', "lossless line"},
+                                                           {'u', "RC line or gate"},
+                                                           {'w', "current-controlled switch"},
+                                                           {'y', "device of Xyce"},
+                                                           {'z', "MESFET"}};
+    const auto* found = std::ranges::find(names, letter, &std::pair<char, std::string_view>::first);
+    return found == std::end(names) ? "" : found->second;
+}
+
 bool is_element_letter(char letter) { return letter == 'x' || find_device_kind(letter) != nullptr; }
 
 /// True for the values that may contain blanks: the expressions of sources and of a capacitor's charge. See split_element().
@@ -66,6 +84,7 @@ class NetlistReader {
         bool operator==(const Source&) const = default;
     };
     ParsedNetlist& out_;
+    Refusals& refusals_;
     const Opener& open_;
     // Texts of the files by path, kept because a library is often read for several sections.
     std::map<std::string, std::shared_ptr<const std::string>> texts_;
@@ -79,10 +98,11 @@ class NetlistReader {
     CornerSelector corner_;
 
 public:
-    NetlistReader(ParsedNetlist& out, const Opener& open, std::string corner)
-        : out_(out), open_(open), body_(&out.top), file_body_(body_), corner_(std::move(corner)) {}
+    NetlistReader(ParsedNetlist& out, Refusals& refusals, const Opener& open, std::string corner)
+        : out_(out), refusals_(refusals), open_(open), body_(&out.top), file_body_(body_), corner_(std::move(corner)) {}
 
-    /// Reads the netlist, then checks that a library had the requested corner.
+    /// Reads the netlist, then checks that a library had the requested corner. An error that leaves the meaning of the following lines
+    /// clear is added to the refusals; any other one is returned.
     Result<void> read_all(std::string_view text, const std::string& path) {
         TRY(read(text, path, ""));
         remove_repeated_analyses();
@@ -108,6 +128,12 @@ public:
     }
 
 private:
+    /// Keeps the error of a statement for later, so that the following statements are also read.
+    Result<void> keep(Result<void> ok, Refusals::Kind kind = Refusals::Kind::other) {
+        if (!ok) refusals_.add(ok.error(), kind);
+        return {};
+    }
+
     Result<void> take_title(LogicalLineReader& lines) {
         auto title = TRY(lines.title());
         out_.title = std::string(trimmed(title));
@@ -145,27 +171,28 @@ private:
     Result<void> statement(LogicalLineReader& lines, LogicalLine line) {
         if (out_.statements.size() >= max_elements)
             return error_at(line.location(), "the netlist exceeds the limit of {} statements", max_elements);
-        if (line.text[0] != '.') return element(std::move(line));
+        if (line.text[0] != '.') return keep(element(std::move(line)));
         const std::string word = lower(std::string_view(line.text).substr(0, line.text.find_first_of(" \t('\"{")));
         if (word == ".end") return ended_ = true, Result<void>();
         if (word == ".control") return control(lines, line);
-        if (word == ".param" || word == ".global_param") return parameters(std::move(line));
-        if (word == ".func") return function(std::move(line));
-        if (word == ".model") return model(std::move(line));
+        if (word == ".param" || word == ".global_param") return keep(parameters(std::move(line)));
+        if (word == ".func") return keep(function(std::move(line)));
+        if (word == ".model") return keep(model(std::move(line)));
         if (word == ".subckt") return subcircuit(std::move(line));
         if (word == ".ends") return end_of_subcircuit(std::move(line));
         if (word == ".include" || word == ".incl" || word == ".inc") return include(std::move(line));
         if (word == ".lib") return library(lines, std::move(line));
         if (word == ".endl" || word == ".endc")
             return error_at(line.location(), "{} without {}", word, word == ".endl" ? ".lib" : ".control");
-        if (word == ".ic" || word == ".nodeset") return store_directive(std::move(line), body_->ics);
+        if (word == ".ic" || word == ".nodeset") return keep(store_directive(std::move(line), body_->ics));
         if (contains_word(directives_without_effect, word)) return {};
-        if (!is_directive(word)) return unknown(word, line.location());
+        if (!is_directive(word)) return keep(unknown(word, line.location()), Refusals::Kind::directive);
         if (word == ".four")
-            return error_at(line.location(),
-                            ".four: spectra of a transient are not supported; --out x.csv writes the curve for another program");
+            return keep(error_at(line.location(),
+                                 ".four: spectra of a transient are not supported; --out x.csv writes the curve for another program"),
+                        Refusals::Kind::directive);
         if (body_->head) return error_at(line.location(), "{} is not allowed inside .subckt {}; move it outside", word, body_->name);
-        return top_level_directive(word, std::move(line));
+        return keep(top_level_directive(word, std::move(line)));
     }
 
     Result<void> top_level_directive(std::string_view word, LogicalLine line) {
@@ -195,14 +222,20 @@ private:
     }
 
     Result<void> element(LogicalLine line) {
-        if (!is_element_letter(line.text[0]))
-            return error_at(line.location(), "'{}': unknown element letter {}; known are {}",
-                            std::string_view(line.text).substr(0, std::min<std::size_t>(line.text.find_first_of(" \t"), 20)), line.text[0],
-                            element_letters());
+        if (!is_element_letter(line.text[0])) return refuse_letter(line);
         auto read = TRY(split_element(std::move(line), is_long_value));
         TRY(check_duplicates(read));
         body_->elements.push_back(&store(std::move(read)));
         warn_about_units(*body_->elements.back(), out_.warnings);
+        return {};
+    }
+
+    Result<void> refuse_letter(const LogicalLine& line) {
+        const std::string name = line.text.substr(0, std::min<std::size_t>(line.text.find_first_of(" \t"), 20));
+        const auto device = foreign_device(name[0]);
+        refusals_.add_device(error_at(line.location(), "'{}': unknown element letter {}{}; known are {}", name, name[0],
+                                      device.empty() ? "" : fmt::format(" ({})", device), element_letters()),
+                             fmt::format("letter {}", name[0]), name);
         return {};
     }
 
@@ -272,11 +305,14 @@ private:
         auto read = TRY(split_element(std::move(line), nullptr));
         if (read.words.size() < 3)
             return error_at(read.location(read.words.size()), ".model: expected a name and a type, such as .model nm nmos (vto=0.5)");
-        if (read.words.size() > 3) return error_at(read.location(3), "expected name=value, not '{}'", read.text(3));
-        TRY(check_duplicates(read));
         const std::string name(read.text(1));
-        if (const auto known = body_->models.find(name); known != body_->models.end())
-            return error_at(read.location(1), "model '{}' is already defined at {}", name, location_text(*known->second));
+        if (const auto known = body_->models.find(name); known != body_->models.end()) {
+            const auto place = location_text(*known->second);
+            if (known->second->line.text != read.line.text)
+                return error_at(read.location(1), "model '{}' is already defined at {}", name, place);
+            out_.warnings.push_back(error_at(read.location(1), "model '{}' is also defined at {}, in the same words", name, place));
+            return {};
+        }
         body_->models.emplace(name, &store(std::move(read)));
         return {};
     }
@@ -421,7 +457,7 @@ private:
         auto& text = texts_[path];
         if (!text) {
             auto opened = open_(path);
-            if (!opened) return error_at(location, "'{}': {}", name, opened.error().message);
+            if (!opened) return keep(error_at(location, "'{}': {}", name, opened.error().message));
             text = std::make_shared<const std::string>(std::move(*opened));
         }
         const auto shared_text = text;
@@ -469,9 +505,9 @@ private:
 }  // namespace
 
 Result<void> read_netlist(const std::string& text, const std::string& file, const Netlist::FileOpener& open, const std::string& corner,
-                          ParsedNetlist& out) {
+                          ParsedNetlist& out, Refusals& refusals) {
     out.file = file;
-    return NetlistReader(out, open, corner).read_all(text, file);
+    return NetlistReader(out, refusals, open, corner).read_all(text, file);
 }
 
 }  // namespace corpuscle::circuit

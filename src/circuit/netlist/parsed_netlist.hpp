@@ -6,6 +6,7 @@
 
 #include "circuit/netlist/netlist.hpp"
 #include "circuit/netlist/statement.hpp"
+#include "circuit/refusals.hpp"
 
 namespace corpuscle::circuit {
 
@@ -66,9 +67,13 @@ public:
     Result<void> check_found(const std::string& netlist) const;
 };
 
-/// Reads the text and all files that it includes. For `corner`, see Netlist::parse().
+/// Reads the text and all files that it includes. For `corner`, see Netlist::parse(). Errors in single statements are added to the
+/// refusals; an error after which nothing more can be read is returned.
 Result<void> read_netlist(const std::string& text, const std::string& file, const Netlist::FileOpener&, const std::string& corner,
-                          ParsedNetlist&);
+                          ParsedNetlist&, Refusals&);
+
+/// The devices of a netlist with errors that do not exist here.
+Refusals find_missing_devices(const ParsedNetlist&);
 
 /// Appends a warning for each number of an element line that users often take for another one: 1F is 1 femtofarad, 5M is 5 milli.
 void warn_about_units(const Statement& element, std::vector<Error>& warnings);

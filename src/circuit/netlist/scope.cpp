@@ -93,6 +93,7 @@ ExpressionScope Scope::expression_scope() const {
     ExpressionScope s;
     s.parameter = [this](std::string_view name) { return parameter(name); };
     s.function = [this](std::string_view name) { return function(name); };
+    s.random = [this](std::string_view name, std::span<const double> arguments) { return random->function(name, arguments); };
     return s;
 }
 
@@ -124,6 +125,15 @@ Result<double> Scope::evaluate(const WordRef& text) const {
     }
     if (std::isnan(value)) return error_at(text.location(), "'{}' is not a number", text.view().substr(0, 60));
     if (!std::isfinite(value)) return error_at(text.location(), "'{}' is {}, not a finite number", text.view().substr(0, 60), value);
+    return value;
+}
+
+Result<double> Scope::evaluate_tolerance(const WordRef& text) const {
+    auto number = text;
+    const bool is_percent = text.view().ends_with('%');
+    if (is_percent) --number.word.size;
+    const double value = TRY(evaluate(number)) * (is_percent ? 0.01 : 1);
+    if (!(value >= 0)) return error_at(text.location(), "a tolerance of {:g} must not be negative", value);
     return value;
 }
 
@@ -211,14 +221,21 @@ Result<int> CircuitBuilder::find_or_add_model(Scope& scope, const WordRef& name,
     if (std::find(types.begin(), types.end(), type) == types.end())
         return error_at(name.location(), "{}: model '{}' has type {}; expected {}", user, name.view(), s.text(2), alternatives(types));
     if (const auto existing = f->models.find(name.view()); existing != f->models.end()) return existing->second;
-    Model model{f->path + std::string(name.view()), std::string(type), s.line.location(), {}, {}};
+    Values tolerances;
+    for (std::size_t k = 3; k < s.words.size(); k += 2) {  // PSpice writes dev and lot without "="
+        if (find_tolerance(s.text(k)) == nullptr || k + 1 == s.words.size())
+            return error_at(s.location(k), "expected name=value, not '{}'", s.text(k));
+        tolerances.insert_or_assign(std::string(s.text(k)), TRY(f->evaluate_tolerance({&s, s.words[k + 1]})));
+    }
+    Model model{f->path + std::string(name.view()), std::string(type), s.line.location(), {}, std::move(tolerances), {}};
     for (const auto& pair : s.pairs) {
         if (pair.value.kind == Word::Kind::quoted || (s.text(pair.name) == "version" && !parse_number(s.text(pair.value)))) {
             model.texts.emplace(s.text(pair.name), s.text(pair.value));
             continue;
         }
-        const auto value = TRY(f->evaluate({&s, pair.value}));
-        model.values.emplace(s.text(pair.name), value);
+        const bool is_tolerance = find_tolerance(s.text(pair.name)) != nullptr;
+        const double value = TRY(is_tolerance ? f->evaluate_tolerance({&s, pair.value}) : f->evaluate({&s, pair.value}));
+        (is_tolerance ? model.tolerances : model.values).emplace(s.text(pair.name), value);
     }
     if (const auto tnom = circuit.options.find("tnom"); tnom != circuit.options.end()) model.values.try_emplace("tnom", tnom->second);
     const int k = static_cast<int>(circuit.models.size());
@@ -238,9 +255,10 @@ Result<void> CircuitBuilder::add_element(Element e) {
 }
 
 Result<void> CircuitBuilder::count_statement(const Scope& scope, const Statement& s) {
-    if (++statement_count_ > max_elements)
-        return error_at(s.line.location(), "the circuit has more elements than the limit of {}", max_elements);
     name_bytes_ += 2 * (scope.path.size() + s.text(0).size()) + s.line.file->size();
+    is_limit_exceeded_ = ++statement_count_ > max_elements || name_bytes_ > max_name_bytes;
+    if (statement_count_ > max_elements)
+        return error_at(s.line.location(), "the circuit has more elements than the limit of {}", max_elements);
     if (name_bytes_ > max_name_bytes)
         return error_at(s.line.location(), "the names of all elements and nodes exceed the limit of {} MB", max_name_bytes >> 20);
     return {};

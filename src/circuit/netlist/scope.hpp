@@ -3,19 +3,21 @@
 // circuit/netlist only.
 
 #include "circuit/netlist/parsed_netlist.hpp"
+#include "circuit/netlist/random_values.hpp"
 
 namespace corpuscle::circuit {
 
 struct Scope {
     const SubcktDef* definition = nullptr;  ///< the subcircuit, or the top level
     const Scope* caller = nullptr;          ///< the scope of the X line; as in ngspice, names that are unknown here are looked up there
-    Scope* enclosing = nullptr;  ///< the scope that contains the subcircuit's definition; its models and subcircuits are visible here
-    std::string path = {};       ///< prefix of its names in the circuit: "x1.x2."; "" for the top level
-    ByName<int> ports = {};      ///< indices in the circuit of the nodes that the ports are connected to
-    ByName<int> models = {};     ///< indices in the circuit of the models of this scope that were used so far
-    Values parameters = {};      ///< values of .param and of the .subckt line
-    double m = 1;                ///< number of parallel instances; the product of m= of this X line and of all around it
-    int depth = 0;               ///< 0 for the top level
+    Scope* enclosing = nullptr;      ///< the scope that contains the subcircuit's definition; its models and subcircuits are visible here
+    std::string path = {};           ///< prefix of its names in the circuit: "x1.x2."; "" for the top level
+    ByName<int> ports = {};          ///< indices in the circuit of the nodes that the ports are connected to
+    ByName<int> models = {};         ///< indices in the circuit of the models of this scope that were used so far
+    Values parameters = {};          ///< values of .param and of the .subckt line
+    double m = 1;                    ///< number of parallel instances; the product of m= of this X line and of all around it
+    int depth = 0;                   ///< 0 for the top level
+    RandomValues* random = nullptr;  ///< gives the values of random functions
 
     /// The scope that defines the model of this name: this one or one that encloses it; null if there is none.
     Scope* definer_of_model(std::string_view name) {
@@ -35,6 +37,8 @@ struct Scope {
 
     /// The value of a number or an expression of parameters. A value that is not finite is an error.
     Result<double> evaluate(const WordRef&) const;
+    /// The same for a tolerance, which may be in percent.
+    Result<double> evaluate_tolerance(const WordRef&) const;
     /// Parses an expression, which may also use voltages and currents if the ExpressionScope allows inputs.
     Result<Expression> parse_expression(const WordRef&, ExpressionScope) const;
     /// The parameters and functions of this scope, for parse_expression().
@@ -58,13 +62,17 @@ struct ForwardRef {
 class CircuitBuilder {
     const ParsedNetlist& parsed_;
     std::size_t statement_count_ = 0, name_bytes_ = 0;  // elaborated statements; estimated memory of all names
+    bool is_limit_exceeded_ = false;
 
 public:
     Circuit circuit;
     std::vector<ForwardRef> forward_refs;
+    RandomValues random;
+    Refusals refusals;
     const ResolvedOverrides& overrides;
 
-    CircuitBuilder(const ParsedNetlist& parsed, const ResolvedOverrides& resolved) : parsed_(parsed), overrides(resolved) {}
+    CircuitBuilder(const ParsedNetlist& parsed, const ResolvedOverrides& resolved, std::optional<RandomDraws> draws)
+        : parsed_(parsed), random(draws), overrides(resolved) {}
 
     /// The name in the circuit of a node that the scope calls `name`; ground is "0".
     std::string node_name(const Scope&, std::string_view name) const;
@@ -77,6 +85,7 @@ public:
 
     /// Counts an elaborated statement and the memory of its name. Exceeding the limit of either is an error.
     Result<void> count_statement(const Scope&, const Statement&);
+    bool is_limit_exceeded() const { return is_limit_exceeded_; }
 };
 
 /// Reads the element of a line, except of an X line, and adds it to the circuit.

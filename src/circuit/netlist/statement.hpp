@@ -44,8 +44,8 @@ public:
     Result<std::string> title();
     /// Reads the next logical line. Returns false at the end of the file.
     Result<bool> next(LogicalLine&);
-    /// Reads the next physical line, a command of a .control block, as if it were a directive: with a dot before it. Returns false at the end
-    /// of the file.
+    /// Reads the next physical line, a command of a .control block, as if it were a directive: with a dot before it. Returns false at the
+    /// end of the file.
     bool next_command(LogicalLine&);
     /// Skips all physical lines up to and including the first that begins with `word`. Returns false if no line does.
     bool skip_past(std::string_view word);

@@ -17,6 +17,26 @@ double max_voltage_step(const System& system) {
     return limit;
 }
 
+/// Limits the change of each node voltage in one iteration. The limit of a voltage that has reached it several times in the same direction
+/// doubles with each further time, since the solution may be far away: an amplifier model may have megavolts inside.
+class VoltageStepLimit {
+    static constexpr int usual_steps = 8;  // steps of the first limit: more than a circuit without internal gain needs
+    double first_;                         // V; 0: no limit
+    std::vector<int> limited_;             // by unknown: how often the limit was reached in a row, negative for falling voltages
+
+public:
+    VoltageStepLimit(double first, std::size_t unknowns) : first_(first), limited_(first > 0 ? unknowns : 0) {}
+    double limit(double step, std::size_t unknown) {
+        if (first_ == 0) return step;
+        int& count = limited_[unknown];
+        const int steps_so_far = step > 0 ? std::max(count, 0) : std::max(-count, 0);
+        const double most = std::ldexp(first_, std::clamp(steps_so_far - usual_steps, 0, 1000));
+        if (std::abs(step) <= most) return count = 0, step;
+        count = step > 0 ? steps_so_far + 1 : -steps_so_far - 1;
+        return std::copysign(most, step);
+    }
+};
+
 /// Power iteration. A disturbance v exp(lambda t) satisfies (G + lambda C) v = 0. M = (G + a C)^-1 (a C - G) maps v to
 /// v (a + lambda) / (a - lambda), which is longer than v if the disturbance grows, and longest for a near |lambda|. So repeated
 /// multiplication by M, with a in each decade, finds the growing disturbance.
@@ -107,6 +127,9 @@ public:
         if (!z) return growth > 1.2;  // several disturbances are left
         if (!(std::abs(*z) > least_growth)) return false;
         const auto rate = a * (*z - 1.0) / (*z + 1.0);
+        // A faster disturbance is found, more clearly, with a larger a. Unless it is none: where a current source feeds an inductor, a
+        // disturbance becomes longer by the same amount, not by the same factor, in each multiplication.
+        if (std::abs(rate) > 10 * a) return false;
         const double other_a = 1.7 * a, expected = std::abs((other_a + rate) / (other_a - rate));
         if (growth_per_step(other_a) == 0) return false;
         const auto other = factor();
@@ -138,7 +161,7 @@ bool NewtonSolver::is_balanced() const {
 bool NewtonSolver::solve(std::vector<double>& x, const NodeClamps& clamps, int max_iterations) {
     const auto count = static_cast<std::size_t>(system.size()), nodes = static_cast<std::size_t>(system.nodes());
     const bool linear = system.is_linear();
-    const double limit = linear ? 0 : max_voltage_step(system);
+    VoltageStepLimit voltage_limit(linear ? 0 : max_voltage_step(system), count);
     bool is_close = false;  // the last step was below the tolerances
     singular_unknown = -1;
     for (int k = 0; k < (max_iterations > 0 ? max_iterations : tolerances.itl1); ++k) {
@@ -163,7 +186,7 @@ bool NewtonSolver::solve(std::vector<double>& x, const NodeClamps& clamps, int m
         is_close = true;
         for (std::size_t n = 0; n < count; ++n) {
             const bool voltage = system.is_voltage(static_cast<int>(n));
-            if (voltage && limit > 0 && std::abs(step[n]) > limit) step[n] = std::copysign(limit, step[n]);
+            if (voltage) step[n] = voltage_limit.limit(step[n], n);
             const double floor = voltage ? tolerances.vntol : tolerances.abstol + 1e-13 * largest_current;
             is_close &= std::abs(step[n]) <= tolerances.reltol * std::max(std::abs(x[n]), std::abs(x[n] + step[n])) + floor;
             x[n] += step[n];

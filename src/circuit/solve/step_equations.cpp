@@ -51,8 +51,7 @@ void StepEquations::linearize_device(ScalarDevice& scalar) {
     const auto n = scalar.terminals;
     for (std::size_t j = 0; j < n; ++j) scalar.v[j] = x_[static_cast<std::size_t>(scalar.unknowns[j])];
     scalar.linearized_at = scalar.v;
-    scalar.limited =
-        d.limits() && d.limit(scalar.linearized_at, system_.limiting_state_of(scalar.device, newton_.limiting_state));
+    scalar.limited = d.limits() && d.limit(scalar.linearized_at, system_.limiting_state_of(scalar.device, newton_.limiting_state));
     limited_ |= scalar.limited;
     const Stamp stamp = scalar.stamp = scalar.buffer.eval(d, scalar.linearized_at, newton_.context);
     const auto entries = system_.entries(scalar.device);
@@ -169,6 +168,12 @@ void StepEquations::read_charges(std::span<double> q) {
     }
     batched_devices_.add_charges(step_, r_);
     std::copy(r_.begin(), r_.begin() + static_cast<std::ptrdiff_t>(count), q.begin());
+}
+
+void StepEquations::add_rounding(std::span<const double> x, std::span<double> out) const {
+    constexpr double roundoff = 1e-16;
+    system_.pattern().for_each_entry(
+        [&](std::size_t e, std::size_t row, std::size_t column) { out[row] += roundoff * std::abs(J_[e] * x[column]); });
 }
 
 void StepEquations::evaluate_static(double t, std::span<const double> x, std::span<double> f, std::span<double> q) {

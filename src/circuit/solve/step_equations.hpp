@@ -123,6 +123,8 @@ public:
     void read_charges(std::span<double> q);
     /// Solves (G + a C) e = r in place, with the last matrix: the effect e of a perturbation r of the equations on the unknowns.
     void solve_perturbation(std::span<double> r) const { solver_.solve(r); }
+    /// Adds the rounding error of the terms of each equation at x, A or V, to `out`.
+    void add_rounding(std::span<const double> x, std::span<double> out) const;
     /// Evaluates f(x, t) and q(x).
     void evaluate_static(double t, std::span<const double> x, std::span<double> f, std::span<double> q);
     /// Fixes the pivot order of all later matrices to that of the matrix at x with dq/dt = a q.

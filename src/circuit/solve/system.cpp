@@ -3,6 +3,7 @@
 #include "circuit/device/named_values.hpp"
 #include "circuit/device/physical_constants.hpp"
 #include "circuit/devices.hpp"
+#include "circuit/refusals.hpp"
 
 namespace corpuscle::circuit {
 
@@ -31,6 +32,16 @@ public:
     const Circuit& circuit() const override { return *system_.circuit_; }
 };
 
+namespace {
+
+Result<std::unique_ptr<Device>> make_checked_device(const Element& e, DeviceSetup& setup) {
+    if (const double celsius = celsius_of(setup.circuit(), e); !is_possible_temperature(celsius))
+        return error_at(e.location, "{}: its temperature of {:g} C is outside (-273.15, {:g}]", e.name, celsius, max_celsius);
+    return kind_of(e).make(e, setup);
+}
+
+}  // namespace
+
 Result<System> System::make(std::shared_ptr<const Circuit> circuit) {
     TRY(check_solvable(*circuit));
     if (!is_possible_temperature(circuit->temperature))
@@ -39,15 +50,18 @@ Result<System> System::make(std::shared_ptr<const Circuit> circuit) {
     System system;
     system.circuit_ = std::move(circuit);
     Builder builder(system);
+    Refusals refusals;
     for (const auto& e : system.circuit_->elements) {
-        if (const double celsius = celsius_of(*system.circuit_, e); !is_possible_temperature(celsius))
-            return error_at(e.location, "{}: its temperature of {:g} C is outside (-273.15, {:g}]", e.name, celsius, max_celsius);
-        auto device = TRY(kind_of(e).make(e, builder));
+        auto made = make_checked_device(e, builder);
+        if (!made) refusals.add(made.error());
+        if (!refusals.empty()) continue;
+        auto device = *std::move(made);
         device->name = e.name, device->location = e.location;
         system.limiting_state_offset_.push_back(system.limiting_state_size_);
         system.limiting_state_size_ += device->limiting_state_size();
         system.devices_.push_back(std::move(device));
     }
+    if (!refusals.empty()) return refusals.combined();
     std::vector<std::pair<int, int>> entries;
     for (int k = 0; k < system.size(); ++k)
         entries.emplace_back(k, k), system.numbers_.try_emplace(system.names_[static_cast<std::size_t>(k)], k);

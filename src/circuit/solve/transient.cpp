@@ -168,13 +168,26 @@ double Transient::rounding_error(int unknown) const {
 /// and `curve_error` again with tolerances that are larger by this. It grows as the step gets shorter, most at nodes that are connected
 /// only to capacitors.
 void Transient::measure_rounding(double& error, double& curve_error) {
-    constexpr double roundoff = 1e-15;
     if (!converged_ || !plan_.all_reported || std::max(error, curve_error) <= 1) return;
+    measure_rounding();
+    error = error_of(control_.order), curve_error = interpolation_error();
+}
+
+/// Computes rounding_ for the step just solved.
+void Transient::measure_rounding() {
+    constexpr double roundoff = 1e-15;
     for (std::size_t n = 0; n < rounding_.size(); ++n) rounding_[n] = roundoff * std::abs(leading_) * capacitance_[n] * voltage_scale_;
+    equations_.add_rounding(history_points_.next_point().x, rounding_);
     equations_.solve_perturbation(rounding_);
     rounding_measured_ = true;
     for (double& r : rounding_) r = std::abs(r);
-    error = error_of(control_.order), curve_error = interpolation_error();
+}
+
+/// True if the rounding error that measure_rounding() has found exceeds the tolerance of an unknown.
+bool Transient::is_rounding_visible() const {
+    for (std::size_t n = 0; n < rounding_.size(); ++n)
+        if (tolerance_[n] > 0 && rounding_[n] > tolerance_[n]) return true;
+    return false;
 }
 
 /// The interpolation error at the middle of the step just solved, relative to the allowed error. Sets curve_points_ to the number of points
@@ -307,14 +320,20 @@ void Transient::accept_step() {
 /// without charge after their jump. Returns false if there is no such step at t0, or if it failed.
 bool Transient::take_breakpoint_step(double t0, double next_breakpoint) {
     // Length relative to the next step, longer for a small reltol: a shorter step has more rounding error at nodes with only capacitors.
-    const double fraction = 1e-8 * std::clamp(1e-5 / plan_.reltol, 1.0, 10.0);
+    double fraction = 1e-8 * std::clamp(1e-5 / plan_.reltol, 1.0, 10.0);
+    // Where the rounding error is still visible, as at an inductor whose current a source gives, the step is made longer.
+    constexpr double longer = 30, longest = 1e-3;
     if (start_phase_ != StartPhase::breakpoint) return false;
     start_phase_ = StartPhase::first_step;
     restart(true, true);
-    const double t = t0 + fraction * std::min({control_.h, plan_.max_step, next_breakpoint - t0});
-    double error = 0;
     may_jump_ = true;
-    if (t - t0 < min_relative_gap * t0 || !attempt(t, error) || !(error <= 1)) return false;
+    for (;; fraction *= longer) {
+        const double t = t0 + fraction * std::min({control_.h, plan_.max_step, next_breakpoint - t0});
+        double error = 0;
+        if (t - t0 < min_relative_gap * t0 || !attempt(t, error) || !(error <= 1)) return false;
+        measure_rounding();
+        if (!is_rounding_visible() || fraction > longest) break;
+    }
     curve_points_ = 2;
     accept_step();
     return restart_pending_ = true;

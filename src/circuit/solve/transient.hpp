@@ -88,7 +88,9 @@ private:
     void find_source_nodes();
     double source_node_voltage(const SourceNode&, double t) const;
     double rounding_error(int unknown) const;
+    void measure_rounding();
     void measure_rounding(double& error, double& curve_error);
+    bool is_rounding_visible() const;
     double interpolation_error();
     bool take_breakpoint_step(double t0, double next_breakpoint);
     void restart(bool forget, bool exact = false);

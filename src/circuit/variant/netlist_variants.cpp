@@ -121,7 +121,7 @@ std::size_t NetlistVariants::count() const {
 Result<void> NetlistVariants::elaborate_step(std::size_t number) {
     if (last_ && last_->number == number) return {};
     if (axes_.empty()) {
-        last_ = {number, "", nominal_};
+        last_ = {number, "", {}, {}, nominal_};
         return {};
     }
     Values parameters;
@@ -134,10 +134,21 @@ Result<void> NetlistVariants::elaborate_step(std::size_t number) {
         axis->name == "temp" ? void(temperature = value) : void(parameters[axis->name] = value);
         label = fmt::format("{}={:g}{}{}", axis->name, value, label.empty() ? "" : " ", label);
     }
-    auto circuit = TRY(netlist_.elaborate(parameters));
-    if (temperature) circuit.temperature = *temperature;
-    last_ = {number, std::move(label), std::make_shared<const Circuit>(std::move(circuit))};
+    last_ = {number, std::move(label), std::move(parameters), temperature, nullptr};
+    last_->circuit = TRY(elaborate_last({}));
     return {};
+}
+
+/// The circuit of the combination `last_`.
+Result<std::shared_ptr<const Circuit>> NetlistVariants::elaborate_last(std::optional<RandomDraws> draws) const {
+    auto circuit = TRY(netlist_.elaborate(last_->parameters, draws));
+    if (last_->temperature) circuit.temperature = *last_->temperature;
+    return std::make_shared<const Circuit>(std::move(circuit));
+}
+
+/// The circuit of the combination `last_` with the random values of a chip.
+Result<std::shared_ptr<const Circuit>> NetlistVariants::draw_chip(const ChipSample& chip) const {
+    return elaborate_last(RandomDraws{chip.seed, chip.chip, chips_.has_process, chips_.has_mismatch});
 }
 
 Result<Variant> NetlistVariants::at(std::size_t number) {
@@ -147,6 +158,7 @@ Result<Variant> NetlistVariants::at(std::size_t number) {
     out.sample = chip_sample_of(*out.circuit);
     if (!this->has_chips()) return out;
     out.sample = chips_.sample(chip);
+    if (out.circuit->has_random_values) out.circuit = TRY(draw_chip(*out.sample));
     out.label += fmt::format("{}mc={}", out.label.empty() ? "" : " ", chip + 1);
     return out;
 }

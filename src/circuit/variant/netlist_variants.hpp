@@ -8,7 +8,7 @@ namespace corpuscle::circuit {
 /// One variant of a netlist.
 struct Variant {
     std::string label;                       ///< such as "r=1000 temp=85 mc=17" (chips counted from 1); "" without .step and .mc
-    std::shared_ptr<const Circuit> circuit;  ///< variants that differ only in their chip share one circuit
+    std::shared_ptr<const Circuit> circuit;  ///< variants that differ only in their chip share one circuit, unless it has random values
     std::optional<ChipSample> sample;        ///< of the variant's chip; empty: nominal
 };
 
@@ -52,12 +52,16 @@ private:
     struct StepCircuit {
         std::size_t number;  // of the combination, from 0; the last .step line varies fastest
         std::string label;   // "r=1000 temp=85"
+        Values parameters;   // of the .step lines
+        std::optional<double> temperature;
         std::shared_ptr<const Circuit> circuit;
     };
     std::optional<StepCircuit> last_;  // the combination that was elaborated last
 
     /// Makes `last_` the combination of this number.
     Result<void> elaborate_step(std::size_t number);
+    Result<std::shared_ptr<const Circuit>> elaborate_last(std::optional<RandomDraws>) const;
+    Result<std::shared_ptr<const Circuit>> draw_chip(const ChipSample&) const;
 
 public:
     static Result<NetlistVariants> create(const Netlist&);

@@ -176,12 +176,18 @@ class AnalysesSweep final : public PlannedSweep {
     };
 
     /// Makes the context for an item with these axis values, unless the present context fits. The chip's sample is applied later.
-    Result<void> prepare_thread(ThreadContext& thread, std::span<const double> values) const {
+    Result<void> prepare_thread(ThreadContext& thread, std::span<const double> values,
+                                const std::optional<circuit::ChipSample>& chip) const {
         auto netlist_values = netlist_.netlist_values(values);
-        if (thread.context && thread.values == netlist_values) return {};
+        const bool draws_values = nominal_->has_random_values && chip;
+        if (thread.context && thread.values == netlist_values && !draws_values) return {};
         thread.context.reset();
         std::shared_ptr<const Circuit> circuit = nominal_;
-        if (netlist_.varies()) circuit = std::make_shared<const Circuit>(TRY(TRY(netlist_.at(values)).elaborate()));
+        if (netlist_.varies() || draws_values) {
+            const auto draws =
+                draws_values ? std::optional(circuit::RandomDraws{chip->seed, chip->chip, true, chip->has_mismatch}) : std::nullopt;
+            circuit = std::make_shared<const Circuit>(TRY(TRY(netlist_.at(values)).elaborate({}, draws)));
+        }
         thread.context = TRY(AnalysisContext::make(std::move(circuit)));
         thread.context->is_brief = true, thread.values = std::move(netlist_values);
         return {};
@@ -195,7 +201,8 @@ public:
         while (!stop()) {
             const auto item = next();
             if (!item) return {};
-            if (const auto ok = prepare_thread(thread, plan_.values(*item)); !ok) {
+            const auto sample = plan_.chip_sample(*item);
+            if (const auto ok = prepare_thread(thread, plan_.values(*item), sample); !ok) {
                 on_outcome(failed_outcome(*item, ok.error().text()));
                 continue;
             }
@@ -203,7 +210,7 @@ public:
             // A netlist may select one chip by its mismatch seed; otherwise the sweep samples the chip.
             if (const auto fixed_sample = circuit::chip_sample_of(*context.circuit))
                 context.apply_variation(*fixed_sample);
-            else if (const auto sample = plan_.chip_sample(*item))
+            else if (sample)
                 context.apply_variation(*sample);
             context.max_iterations = limit, context.hit_iteration_limit = false;
             const auto result = circuit::run_directives(context, run_options);

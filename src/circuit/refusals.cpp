@@ -1,0 +1,56 @@
+#include "circuit/refusals.hpp"
+
+#include <fmt/format.h>
+#include <algorithm>
+
+#include "core/text/ascii_text.hpp"
+
+namespace corpuscle::circuit {
+
+void Refusals::add(Error error, Kind kind) {
+    if (is_full() || !texts_.insert(error.text()).second) return;
+    refusals_.push_back({kind, std::move(error), "", {}, 0});
+}
+
+void Refusals::add_device(Error error, const std::string& subject, std::string name) {
+    const auto same = std::ranges::find(refusals_, subject, &Refusal::subject);
+    if (same == refusals_.end()) {
+        add(std::move(error), Kind::device);
+        if (!refusals_.empty() && refusals_.back().subject.empty()) refusals_.back().subject = subject;
+        return;
+    }
+    ++same->other_count;
+    if (same->others.size() < max_names) same->others.push_back(std::move(name));
+}
+
+void Refusals::add_devices_of(const Refusals& other) {
+    for (const auto& refusal : other.refusals_)
+        if (refusal.kind == Kind::device) refusals_.push_back(refusal);
+}
+
+std::string Refusals::message_of(const Refusal& refusal) {
+    if (refusal.others.empty()) return refusal.error.message;
+    const auto more = refusal.other_count - refusal.others.size();
+    return fmt::format("{}; also {}{}", refusal.error.message, joined(refusal.others), more == 0 ? "" : fmt::format(" and {} more", more));
+}
+
+Error Refusals::combined() const {
+    auto sorted = refusals_;
+    std::ranges::stable_sort(sorted, {}, &Refusal::kind);
+    std::vector<Error> errors;
+    for (auto& refusal : sorted) {
+        refusal.error.message = message_of(refusal);
+        errors.push_back(std::move(refusal.error));
+    }
+    if (errors.size() > max_told) {
+        const auto more = errors.size() - max_told;
+        errors.resize(max_told);
+        errors.push_back(bad_input(fmt::format("{} further errors", more)));
+    }
+    Error out = std::move(errors.front());
+    errors.erase(errors.begin());
+    if (!errors.empty()) out.further = std::make_shared<const std::vector<Error>>(std::move(errors));
+    return out;
+}
+
+}  // namespace corpuscle::circuit

@@ -1,0 +1,95 @@
+// Transients of random circuits beside runs with a thousandth of the tolerance: every written point and every measure must agree.
+
+#include <gtest/gtest.h>
+
+#include <fmt/format.h>
+
+#include <map>
+
+#include "circuit/netlist_runner.hpp"
+#include "circuit/random_networks.hpp"
+
+namespace corpuscle::circuit {
+namespace {
+
+constexpr double reltol = 1e-5, factor = 10, floor_of_voltages = 1e-5, floor_of_currents = 1e-12;  // V, A
+/// Two runs draw a jump as ramps of different lengths. Within this time, as a part of the stop time, a point may be on the ramp.
+constexpr double ramp = 3e-7;
+
+/// The range of a curve between the times from and to.
+struct Range {
+    double low = 1e300, high = -1e300;
+    void add(double v) { low = std::min(low, v), high = std::max(high, v); }
+};
+
+Range range_of(const std::vector<double>& t, const std::vector<double>& v, double from, double to) {
+    Range out;
+    const auto value_at = [&](double at) {
+        const auto after = std::clamp<std::ptrdiff_t>(std::ranges::upper_bound(t, at) - t.begin(), 1, std::ssize(t) - 1);
+        const auto k = static_cast<std::size_t>(after);
+        return v[k - 1] + (v[k] - v[k - 1]) * std::clamp((at - t[k - 1]) / (t[k] - t[k - 1]), 0.0, 1.0);
+    };
+    out.add(value_at(from)), out.add(value_at(to));
+    for (auto at = std::ranges::lower_bound(t, from); at != t.end() && *at <= to; ++at)
+        out.add(v[static_cast<std::size_t>(at - t.begin())]);
+    return out;
+}
+
+struct Deviation {
+    double relative = 0;  // to the allowed one
+    std::string text;
+};
+
+Deviation worst_deviation(const NetlistRun& usual, const NetlistRun& tight) {
+    Deviation worst;
+    const auto& plot = usual.analyses().front().result.plots.front();
+    const auto t = usual.curve("time"), exact_t = tight.curve("time");
+    std::map<std::string, double> allowed;
+    const auto compare = [&](const std::string& what, double value, const Range& exact, double limit) {
+        const double deviation = std::max({exact.low - value, value - exact.high, 0.0}) / limit;
+        if (!(deviation > worst.relative)) return;
+        worst = {deviation,
+                 fmt::format("{} is {:.9g} instead of {:.9g}, allowed are {:.2g}", what, value, (exact.low + exact.high) / 2, limit)};
+    };
+    for (const auto& curve : plot.curves) {
+        const auto& name = curve.name;
+        if (name == "time") continue;
+        const auto v = usual.curve(name), exact = tight.curve(name);
+        const auto [low, high] = std::ranges::minmax(exact);
+        allowed[name] = factor * reltol * (high - low) + (name[0] == 'v' ? floor_of_voltages : floor_of_currents);
+        for (std::size_t k = 0; k < t.size(); ++k)
+            compare(fmt::format("{} at {:.9g} s", name, t[k]), v[k],
+                    range_of(exact_t, exact, t[k] - ramp * t.back(), t[k] + ramp * t.back()), allowed[name]);
+    }
+    for (const auto& [name, value] : usual.numbers()) {
+        const auto node = fmt::format("v(n{})", name.substr(name.find_first_of("0123456789")));
+        const double exact = tight.number(name);
+        compare(name, value, {exact, exact}, allowed.at(node));
+    }
+    return worst;
+}
+
+class RandomAccuracy : public testing::TestWithParam<int> {};
+
+/// If CORPUSCLE_FAILURES names a folder, netlists that fail are written there.
+TEST_P(RandomAccuracy, IsThatOfARunWithAThousandthOfTheTolerance) {
+    const char* folder = std::getenv("CORPUSCLE_FAILURES");
+    for (int k = 0; k < GetParam(); ++k) {
+        RandomSource dice(static_cast<std::uint64_t>(k + 1));
+        const auto text = fmt::format("network {}\n", k) + make_random_network(dice);
+        const auto usual = run_netlist(text);
+        const auto tight = run_netlist(text + fmt::format(".options reltol={} vntol=1n abstol=1e-16\n", reltol / 1000));
+        ASSERT_TRUE(usual.is_complete() && tight.is_complete()) << text;
+        const auto worst = worst_deviation(usual, tight);
+        if (worst.relative <= 1) continue;
+        ADD_FAILURE() << "network " << k << ": " << worst.text << "\n" << (folder ? "" : text);
+        if (folder)
+            std::ofstream(fmt::format("{}/network_{}.cir", folder, k)) << fmt::format("{}: {}\n", k, worst.text) << text << ".end\n";
+    }
+}
+
+INSTANTIATE_TEST_SUITE_P(Few, RandomAccuracy, testing::Values(40));
+INSTANTIATE_TEST_SUITE_P(Thousand, RandomAccuracy, testing::Values(1000));
+
+}  // namespace
+}  // namespace corpuscle::circuit
