@@ -35,6 +35,14 @@ inline const DeviceKind* find_device_kind(char letter, std::optional<double> lev
     return first;
 }
 
+/// The levels of the models of a letter whose devices exist, as text: "1 (...), 80 (MOS transistor, UICM)".
+inline std::string supported_levels(char letter) {
+    std::string out;
+    for (const auto* kind : device_kinds)
+        if (kind->letter == letter) out += fmt::format("{}{:g} ({})", out.empty() ? "" : ", ", kind->level, kind->description);
+    return out;
+}
+
 /// "R C L ... X": the letters of all elements, subcircuits included.
 inline std::string element_letters() {
     std::string out;

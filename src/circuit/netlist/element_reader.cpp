@@ -45,11 +45,8 @@ bool ElementReader::refuse_level() {
     const auto word = find_model_word(scope_, s_);
     const auto level = word == 0 ? std::nullopt : scope_.model_level(text(word));
     if (!level || kind_.level == 0 || *level == kind_.level) return false;
-    std::vector<std::string> levels;
-    for (const auto* kind : device_kinds)
-        if (kind->letter == kind_.letter) levels.push_back(fmt::format("{:g} ({})", kind->level, kind->description));
-    auto error =
-        error_at(word, "model '{}' has level {:g}, which is not supported; supported levels: {}", text(word), *level, joined(levels));
+    auto error = error_at(word, "model '{}' has level {:g}, which is not supported; supported levels: {}", text(word), *level,
+                          supported_levels(kind_.letter));
     builder_.refusals.add_device(std::move(error), fmt::format("level {:g} of {}", *level, kind_.letter), element.name);
     return true;
 }

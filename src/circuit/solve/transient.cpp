@@ -330,9 +330,12 @@ bool Transient::take_breakpoint_step(double t0, double next_breakpoint) {
     for (;; fraction *= longer) {
         const double t = t0 + fraction * std::min({control_.h, plan_.max_step, next_breakpoint - t0});
         double error = 0;
-        if (t - t0 < min_relative_gap * t0 || !attempt(t, error) || !(error <= 1)) return false;
-        measure_rounding();
-        if (!is_rounding_visible() || fraction > longest) break;
+        if (t - t0 < min_relative_gap * t0) return false;
+        const bool solved = attempt(t, error);  // with a very short step, the matrix can be singular
+        if (solved) measure_rounding();
+        if (fraction < longest && (solved ? is_rounding_visible() : system_.is_linear())) continue;
+        if (!solved || (!(error <= 1) && !(error_of(control_.order) <= 1))) return false;
+        break;
     }
     curve_points_ = 2;
     accept_step();
