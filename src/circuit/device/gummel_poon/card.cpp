@@ -39,7 +39,7 @@ constexpr ParameterDef<BipolarCard> fields[] = {
     {"cjs", &BipolarCard::cjs, "F", 0, 1, "substrate capacitance at 0 V"},
     {"vjs", &BipolarCard::vjs, "V", 0.1, 10, "substrate potential"},
     {"mjs", &BipolarCard::mjs, "", 0, 0.95, "substrate grading coefficient"},
-    {"fc", &BipolarCard::fc, "", 0, 0.95, "fraction of vje and vjc above which the capacitances are extrapolated linearly"},
+    {"fc", &BipolarCard::fc, "", 0, 0.9999, "fraction of vje and vjc above which the capacitances are extrapolated linearly"},
     {"tf", &BipolarCard::tf, "s", 0, 1, "forward transit time"},
     {"xtf", &BipolarCard::xtf, "", 0, 1e6, "coefficient of the dependence of tf on the bias"},
     {"vtf", &BipolarCard::vtf, "V", 0, 1e12, "dependence of tf on the base-collector voltage; 0: none"},
