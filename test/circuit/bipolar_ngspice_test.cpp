@@ -4,8 +4,8 @@
 
 #include <fmt/format.h>
 #include <cmath>
-#include <map>
 
+#include "circuit/bipolar/bipolar_cards.hpp"
 #include "support/ngspice.hpp"
 
 namespace corpuscle::circuit::test {
@@ -15,31 +15,6 @@ bool has_ngspice() {
     static const bool found = std::system("ngspice --version >/dev/null 2>&1") == 0;
     return found;
 }
-
-/// The cards that manufacturers and textbooks publish for the types of these names.
-const std::map<std::string, std::string> bipolar_cards = {
-    {"2n2222",
-     "npn(is=14.34f xti=3 eg=1.11 vaf=74.03 bf=255.9 ne=1.307 ise=14.34f ikf=.2847 xtb=1.5 br=6.092 nc=2 isc=0 ikr=0 rc=1 cjc=7.306p "
-     "mjc=.3416 vjc=.75 fc=.5 cje=22.01p mje=.377 vje=.75 tr=46.91n tf=411.1p itf=.6 vtf=1.7 xtf=3 rb=10)"},
-    {"2n3904",
-     "npn(is=6.734f xti=3 eg=1.11 vaf=74.03 bf=416.4 ne=1.259 ise=6.734f ikf=66.78m xtb=1.5 br=.7371 nc=2 isc=0 ikr=0 rc=1 cjc=3.638p "
-     "mjc=.3085 vjc=.75 fc=.5 cje=4.493p mje=.2593 vje=.75 tr=239.5n tf=301.2p itf=.4 vtf=4 xtf=2 rb=10)"},
-    {"2n3906",
-     "pnp(is=1.41f xti=3 eg=1.11 vaf=18.7 bf=180.7 ne=1.5 ise=0 ikf=80m xtb=1.5 br=4.977 nc=2 isc=0 ikr=0 rc=2.5 cjc=9.728p mjc=.5776 "
-     "vjc=.75 fc=.5 cje=8.063p mje=.3677 vje=.75 tr=33.42n tf=179.3p itf=.4 vtf=4 xtf=6 rb=10)"},
-    {"bc847",
-     "npn(is=1.822e-14 nf=0.9932 ise=2.894e-16 ne=1.4 bf=324.4 ikf=0.109 vaf=82 nr=0.9931 isc=9.982e-12 nc=1.763 br=8.29 ikr=0.09 "
-     "var=17.9 rb=10 irb=5e-06 rbm=5 re=0.649 rc=0.7014 xtb=0 eg=1.11 xti=3 cje=1.244e-11 vje=0.7579 mje=0.3656 tf=4.908e-10 xtf=9.51 "
-     "vtf=2.927 itf=0.3131 cjc=3.347e-12 vjc=0.5463 mjc=0.391 xcjc=0.6193 tr=9e-08 cjs=1e-12 vjs=0.75 mjs=0.333 fc=0.979)"},
-    // every parameter that has an effect
-    {"complete",
-     "npn(is=1.8e-14 nf=0.9955 bf=400 ise=5e-14 ne=1.46 ikf=0.14 vaf=80 br=35.5 nr=1.005 isc=1.72e-13 nc=1.27 ikr=0.03 var=12.5 "
-     "nkf=0.55 rb=30 rbm=20 re=0.6 rc=0.25 cje=13p vje=0.654 mje=0.35 cjc=4p vjc=0.54 mjc=0.33 xcjc=0.62 tf=0.64n xtf=6 vtf=2.2 "
-     "itf=0.3 tr=50n cjs=2p vjs=0.6 mjs=0.4 iss=1e-14 ns=1.1 xtb=1.4 eg=1.15 xti=3.5 fc=0.85 kf=1e-12 af=1.2)"},
-    {"mirrored",
-     "pnp(is=1.8e-14 nf=0.9955 bf=400 ise=5e-14 ne=1.46 ikf=0.14 vaf=80 br=35.5 nr=1.005 isc=1.72e-13 nc=1.27 ikr=0.03 var=12.5 "
-     "rb=30 irb=4u rbm=5 re=0.6 rc=0.25 cje=13p cjc=4p xcjc=0.62 tf=0.64n xtf=6 itf=0.3 tr=50n cjs=2p mjs=0.4 iss=1e-14 xtb=1.4)"},
-};
 
 /// The plots of a deck in ngspice.
 std::vector<Plot> reference_plots(const TemporaryFolder& folder, const std::string& deck) {
@@ -94,7 +69,7 @@ constexpr std::string_view tight = ".options reltol=1e-9 abstol=1e-16 vntol=1e-1
 
 class BipolarCards : public testing::TestWithParam<std::string> {
 protected:
-    const std::string& card() const { return bipolar_cards.at(GetParam()); }
+    std::string card() const { return bipolar_card(GetParam()); }
     double sign() const { return card().starts_with("pnp") ? -1 : 1; }
     /// One transistor with a source at each terminal, at the temperature in C; `vb` and `vc`: names of the nodes of the sources.
     std::string transistor(double celsius, std::string_view vc = "c", std::string_view vb = "b") const {
@@ -135,17 +110,15 @@ TEST_P(BipolarCards, HaveTheSameSmallSignalsAndNoise) {
                      {5e-5, 1e-6});
 }
 
-INSTANTIATE_TEST_SUITE_P(Ngspice, BipolarCards, testing::Values("2n2222", "2n3904", "2n3906", "bc847", "complete", "mirrored"),
-                         [](const auto& one) { return "Of" + one.param; });
+INSTANTIATE_TEST_SUITE_P(Ngspice, BipolarCards, testing::Values("n2222", "n3904", "n3906", "bc847", "complete", "mirrored"),
+                         [](const auto& one) { return one.param; });
 
 class BipolarCircuits : public testing::Test {
 protected:
     void SetUp() override {
         if (!has_ngspice()) GTEST_SKIP() << "ngspice is not installed";
     }
-    static std::string models() {
-        return fmt::format(".model n {}\n.model p {}\n", bipolar_cards.at("2n2222"), bipolar_cards.at("2n3906"));
-    }
+    static std::string models() { return ".model n " + bipolar_card("n2222") + "\n.model p " + bipolar_card("n3906") + "\n"; }
 };
 
 TEST_F(BipolarCircuits, HaveTheSameOperatingPoints) {
@@ -165,6 +138,14 @@ TEST_F(BipolarCircuits, HaveTheSameOperatingPoints) {
         for (const double celsius : temperatures)
             compare_deck(circuit + models() + std::string(tight) + fmt::format(".temp {}\n.end\n", celsius),
                          {5e-5, 1e-6});  // two junctions in series
+}
+
+TEST_F(BipolarCircuits, HaveTheSameResponseInAnOperationalAmplifier) {
+    for (const double celsius : temperatures)
+        compare_deck("a 741\nvcc vcc 0 15\nvee vee 0 -15\nvin inp 0 0.5 ac 1\n.include " + source_root() +
+                         "/test/circuit/bipolar/ua741.inc\n" + std::string(tight) +
+                         fmt::format(".temp {}\n.op\n.dc vin -10 10 1\n.ac dec 5 1 10meg\n.end\n", celsius),
+                     {5e-5, 1e-6});
 }
 
 /// The times at which a curve crosses a level upwards, in a transient.

@@ -4,6 +4,7 @@
 
 #include <cmath>
 
+#include "circuit/bipolar/bipolar_cards.hpp"
 #include "circuit/device/gummel_poon/equations.hpp"
 #include "circuit/device/physical_constants.hpp"
 #include "circuit/netlist_runner.hpp"
@@ -11,12 +12,8 @@
 namespace corpuscle::circuit {
 namespace {
 
-/// A card with every parameter that has an effect.
-constexpr std::string_view complete_card =
-    "is=1.8e-14 nf=0.9955 bf=400 ise=5e-14 ne=1.46 ikf=0.14 vaf=80 br=35.5 nr=1.005 isc=1.72e-13 nc=1.27 ikr=0.03 var=12.5 nkf=0.55 rb=30 "
-    "irb=4u rbm=5 re=0.6 rc=0.25 cje=13p vje=0.654 mje=0.35 cjc=4p vjc=0.54 mjc=0.33 xcjc=0.62 tf=0.64n xtf=6 vtf=2.2 itf=0.3 tr=50n "
-    "cjs=2p "
-    "vjs=0.6 mjs=0.4 iss=1e-14 ns=1.1 xtb=1.4 eg=1.15 xti=3.5 fc=0.85 kf=1e-12 af=1.2";
+/// The model "complete" of cards.lib with a base resistance that depends on the current, as an NPN or a PNP.
+std::string complete_model(const std::string& type = "npn") { return type + changed_card("complete", "rbm=20", "rbm=5 irb=4u").substr(3); }
 
 /// One transistor of a netlist, which can be evaluated at any voltages.
 class OneTransistor {
@@ -56,22 +53,13 @@ constexpr double bias_points[][4] = {{3, 0.1, 0, -1},      {3, 0.45, 0, -0.4},  
                                      {0.08, 0.7, 0, -0.3}, {0.02, 0.81, 0, 0.1},   {0, 0.62, 1.7, -0.2}, {-0.1, 0.75, 2, 0.3},
                                      {4, -3, 0, -1},       {-0.5, -1.5, -0.7, 0.1}};
 
-/// The complete card with one of its values changed.
-std::string changed_card(const std::string& before, const std::string& after, const std::string& more = "") {
-    std::string card(complete_card);
-    const auto at = card.find(before);
-    EXPECT_NE(at, std::string::npos) << before;
-    return "(" + card.replace(at, before.size(), after) + more + ")";
-}
-
-std::vector<std::string> cards() {
-    return {"(is=1e-16)",
-            "(is=1e-16 vaf=20 var=3 ikf=1m tf=1n cje=1p)",
-            changed_card("irb=4u ", ""),
-            changed_card("rb=30", "rb=35"),
-            changed_card("itf=0.3", "itf=0", " subs=-1"),
-            changed_card("vtf=2.2", "vtf=0", " subs=1"),
-            changed_card("nkf=0.55 ", "")};
+/// Parameters of different kinds of transistors.
+std::vector<std::string> parameter_lists() {
+    std::vector<std::string> out = {"(is=1e-16)", "(is=1e-16 vaf=20 var=3 ikf=1m tf=1n cje=1p)", complete_model().substr(3)};
+    const std::pair<const char*, const char*> changes[] = {
+        {"rb=30", "rb=30"}, {"itf=0.3", "itf=0 subs=-1"}, {"vtf=2.2", "vtf=0 subs=1"}, {"nkf=0.55 ", ""}, {"rbm=20 ", ""}};
+    for (const auto& [before, after] : changes) out.push_back(changed_card("complete", before, after).substr(3));
+    return out;
 }
 
 /// Expects the slopes to be central differences of the values, for one row and column.
@@ -83,7 +71,7 @@ TEST(Bipolar, ItsSlopesAreTheDerivativesOfItsCurrentsAndCharges) {
     const double h = 1e-5;  // V
     int compared = 0;
     for (const std::string type : {"npn", "pnp"})
-        for (const auto& card : cards())
+        for (const auto& card : parameter_lists())
             for (const double celsius : {-40.0, 27.0, 125.0}) {
                 OneTransistor one(type + card, "area=2 m=1.5", celsius);
                 for (const auto& point : bias_points) {
@@ -117,7 +105,7 @@ TEST(Bipolar, ItsSlopesAreTheDerivativesOfItsCurrentsAndCharges) {
 
 TEST(Bipolar, ItsCurrentsAndItsChargesAddUpToZero) {
     for (const std::string type : {"npn", "pnp"})
-        for (const auto& card : cards()) {
+        for (const auto& card : parameter_lists()) {
             OneTransistor one(type + card);
             for (const auto& point : bias_points) {
                 const auto out = one.eval(one.voltages(point[0], point[1], point[2], point[3]));
@@ -133,7 +121,7 @@ TEST(Bipolar, ItsCurrentsAndItsChargesAddUpToZero) {
 }
 
 TEST(Bipolar, APnpIsTheMirrorImageOfAnNpn) {
-    OneTransistor npn("npn(" + std::string(complete_card) + " subs=1)"), pnp("pnp(" + std::string(complete_card) + " subs=1)");
+    OneTransistor npn(complete_model()), pnp(complete_model("pnp") + " subs=1");
     for (const auto& point : bias_points) {
         const auto n = npn.eval(npn.voltages(point[0], point[1], point[2], point[3]));
         auto v = npn.voltages(point[0], point[1], point[2], point[3]);
@@ -201,7 +189,7 @@ TEST(Bipolar, TheBaseResistanceFallsToItsSmallestValue) {
 }
 
 TEST(Bipolar, AreaAndMMultiplyCurrentsAndChargesAndDivideResistances) {
-    const std::string model = "npn(" + std::string(complete_card) + ")";
+    const std::string model = complete_model();
     OneTransistor one(model), six(model, "2 m=3");
     for (const auto& point : bias_points) {
         const auto v = one.voltages(point[0], point[1], point[2], point[3]);
@@ -247,8 +235,8 @@ TEST(Bipolar, ItsNoiseIsShotAndThermalNoise) {
 }
 
 TEST(Bipolar, ItsSmallSignalsAreTheSlopesOfItsOperatingPoints) {  // also with a base resistance that depends on the current
-    const std::string circuit = "slope\nvc cc 0 3\nrc cc c 100\nvb bb 0 {vb} ac 1\nrb bb b 100\nq1 c b 0 m\n.param vb=0.8\n.model m npn(" +
-                                std::string(complete_card) + ")\n.op\n.ac lin 1 1m 1m\n.end\n";
+    const std::string circuit = "slope\nvc cc 0 3\nrc cc c 100\nvb bb 0 {vb} ac 1\nrb bb b 100\nq1 c b 0 m\n.param vb=0.8\n.model m " +
+                                complete_model() + "\n.op\n.ac lin 1 1m 1m\n.end\n";
     const double h = 1e-5;
     const auto up = run_netlist(circuit, {{"vb", 0.8 + h}}), down = run_netlist(circuit, {{"vb", 0.8 - h}}), here = run_netlist(circuit);
     for (const std::string node : {"v(c)", "v(b)"}) {

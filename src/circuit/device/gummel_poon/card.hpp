@@ -20,8 +20,8 @@ struct BipolarCard {
 /// Reads the card. Refuses levels other than 1, and parameters whose effect is not implemented.
 Result<BipolarCard> read_bipolar_card(const Model&);
 
-/// The card of a transistor of this area at its temperature: currents and capacitances are multiplied by the area, resistances are divided
-/// by it, and everything is converted from tnom to `kelvin` by the laws of SPICE (tlev = tlevc = 0 of ngspice). ibe and ibc are then the
+/// The card of a transistor of this area at its temperature. Currents and capacitances are multiplied by the area, resistances are divided
+/// by it. Everything is converted from tnom to `kelvin` by the laws of SPICE (tlev = tlevc = 0 of ngspice). ibe and ibc are then the
 /// saturation currents of the two junctions.
 BipolarCard adjust_bipolar_card(BipolarCard, double area, double kelvin);
 
