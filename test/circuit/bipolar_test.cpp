@@ -264,6 +264,25 @@ TEST(Bipolar, ItsCollectorCurrentCanBeSaved) {
     }
 }
 
+TEST(Bipolar, ASubstrateJunctionWithoutCurrentHasNoneFarForwardEither) {  // 0 exp(v) is not a number there
+    OneTransistor one("npn(is=1e-15 cjs=1p)");
+    const std::vector<double> v = {-40, -40, -40, 0};
+    const auto out = one.eval(v, 1e-12);
+    EXPECT_NEAR(out.f[3], 40e-12, 1e-20);
+    for (const double slope : out.df) EXPECT_TRUE(std::isfinite(slope));
+}
+
+TEST(Bipolar, NewtonsMethodFindsTheOperatingPointOfAnAmplifierFromZero) {
+    for (const std::string celsius : {"-40", "27", "125"}) {
+        const auto run =
+            run_netlist("a 741\nvcc vcc 0 15\nvee vee 0 -15\nvin inp 0 0.5\n.include ../test/circuit/bipolar/ua741.inc\n.temp " + celsius +
+                        "\n.op\n.end\n");
+        ASSERT_TRUE(run.is_complete());
+        EXPECT_TRUE(run.analyses()[0].result.table.starts_with("found by newton (1")) << run.analyses()[0].result.table.substr(0, 60);
+        EXPECT_NEAR(run.number("v(out)"), 0.5, 2e-3);
+    }
+}
+
 // ---- lines and cards ----
 
 /// The error of a netlist with this line and this model, or its first warning.

@@ -64,7 +64,8 @@ class Bipolar final : public Device {
         out.add_capacitance(base, inner_collector_, outer.slope);
     }
     void add_substrate(double v, const EvalContext& context, const Stamp& out) const {
-        const auto i = junction_current(v, c_.iss, c_.ns * v_t_), q = depletion_charge(v, c_.cjs, c_.vjs, c_.mjs, 0);
+        const auto i = c_.iss > 0 ? junction_current(v, c_.iss, c_.ns * v_t_) : ValueSlope{};
+        const auto q = depletion_charge(v, c_.cjs, c_.vjs, c_.mjs, 0);
         Stamp::add_between(out.f, substrate, substrate_side(), substrate_sign() * (i.value + context.gmin * v));
         out.add_conductance(substrate, substrate_side(), i.slope + context.gmin);
         Stamp::add_between(out.q, substrate, substrate_side(), substrate_sign() * q.value);
@@ -80,18 +81,27 @@ public:
         inner_emitter_ = c_.re > 0 ? next++ : std::size_t{emitter};
     }
     bool is_linear() const override { return false; }
-    std::size_t limiting_state_size() const override { return 3; }
+    std::size_t limiting_state_size() const override { return 4; }
+    bool bounds_steps() const override { return true; }
 
+    /// The state has the three junction voltages, then 1 after the first evaluation. As in SPICE, a search from 0 V begins with a
+    /// conducting base-emitter junction: otherwise the first iterations would see a circuit of gmin only.
     bool limit(std::span<double> v, std::span<double> state) const override {
-        bool limited = false;
-        // Moves one side of a junction, where `sign` is that of its forward voltage u from this side.
-        const auto limit_one = [&](double u, std::size_t k, std::size_t moved, double sign, double is, double n_vt) {
-            const double before = u;
-            if (limit_junction(u, state[k], n_vt, critical_voltage(is, n_vt))) v[moved] += sign * (u - before), limited = true;
-            state[k] = u;
-        };
         const auto u = junctions(v);
-        limit_one(u.be, 0, inner_emitter_, -sign_, c_.ibe, c_.nf * v_t_);
+        const double v_crit = critical_voltage(c_.ibe, c_.nf * v_t_);
+        const bool is_first = state[3] == 0;
+        bool limited = false;
+        if (is_first) state[0] = std::min(u.be, v_crit), state[1] = std::min(u.bc, critical_voltage(c_.ibc, c_.nr * v_t_)), state[3] = 1;
+        // Moves one side of a junction, where `sign` is that of its forward voltage u from this side.
+        const auto limit_one = [&](double x, std::size_t k, std::size_t moved, double sign, double is, double n_vt) {
+            const double before = x;
+            if (limit_junction(x, state[k], n_vt, critical_voltage(is, n_vt))) v[moved] += sign * (x - before), limited = true;
+            state[k] = x;
+        };
+        if (is_first && u.be == 0)
+            v[inner_emitter_] -= sign_ * v_crit, state[0] = v_crit, limited = true;
+        else
+            limit_one(u.be, 0, inner_emitter_, -sign_, c_.ibe, c_.nf * v_t_);
         limit_one(u.bc, 1, inner_collector_, -sign_, c_.ibc, c_.nr * v_t_);
         if (c_.iss > 0) limit_one(junctions(v).sub, 2, substrate, substrate_sign(), c_.iss, c_.ns * v_t_);
         return limited;

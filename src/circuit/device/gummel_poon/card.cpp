@@ -8,7 +8,7 @@
 namespace corpuscle::circuit {
 namespace {
 
-constexpr ParameterDef<BipolarCard> fields[] = {
+constexpr ParameterDef<BipolarCard> bipolar_fields[] = {
     {"is", &BipolarCard::is, "A", 1e-40, 1e3, "saturation current of the transport between collector and emitter"},
     {"bf", &BipolarCard::bf, "", 1e-6, 1e6, "forward current gain"},
     {"nf", &BipolarCard::nf, "", 0.1, 100, "emission coefficient of the base-emitter junction"},
@@ -59,27 +59,28 @@ constexpr ParameterDef<BipolarCard> fields[] = {
 };
 
 /// Other names of parameters, as in ngspice.
-constexpr std::pair<std::string_view, std::string_view> aliases[] = {{"va", "vaf"}, {"ik", "ikf"},  {"vb", "var"},   {"pe", "vje"},
-                                                                     {"me", "mje"}, {"pc", "vjc"},  {"mc", "mjc"},   {"ps", "vjs"},
-                                                                     {"ms", "mjs"}, {"ccs", "cjs"}, {"csub", "cjs"}, {"tref", "tnom"}};
+constexpr std::pair<std::string_view, std::string_view> bipolar_aliases[] = {
+    {"va", "vaf"}, {"ik", "ikf"}, {"vb", "var"}, {"pe", "vje"},  {"me", "mje"},   {"pc", "vjc"},
+    {"mc", "mjc"}, {"ps", "vjs"}, {"ms", "mjs"}, {"ccs", "cjs"}, {"csub", "cjs"}, {"tref", "tnom"}};
 
 /// Names that are accepted because ngspice knows them, but only with the value 0: temperature coefficients, and the choice of other
 /// temperature laws.
-constexpr std::string_view only_zero[] = {"tlev",  "tlevc", "tbf1",  "tbf2",  "tbr1",  "tbr2",  "tikf1", "tikf2", "tikr1", "tikr2", "tirb1",
-                                          "tirb2", "tnc1",  "tnc2",  "tne1",  "tne2",  "tnf1",  "tnf2",  "tnr1",  "tnr2",  "trb",   "trb1",
-                                          "trb2",  "trc",   "trc1",  "trc2",  "tre",   "tre1",  "tre2",  "trm1",  "trm2",  "tvaf1", "tvaf2",
-                                          "tvar1", "tvar2", "ctc",   "cte",   "cts",   "tvjc",  "tvje",  "tvjs",  "titf1", "titf2", "ttf1",
-                                          "ttf2",  "ttr1",  "ttr2",  "tmje1", "tmje2", "tmjc1", "tmjc2", "tmjs1", "tmjs2", "tns1",  "tns2",
-                                          "tis1",  "tis2",  "tise1", "tise2", "tisc1", "tisc2", "tiss1", "tiss2"};
+constexpr std::string_view zero_parameters[] = {
+    "tlev",  "tlevc", "tbf1",  "tbf2",  "tbr1", "tbr2",  "tikf1", "tikf2", "tikr1", "tikr2", "tirb1", "tirb2", "tnc1",
+    "tnc2",  "tne1",  "tne2",  "tnf1",  "tnf2", "tnr1",  "tnr2",  "trb",   "trb1",  "trb2",  "trc",   "trc1",  "trc2",
+    "tre",   "tre1",  "tre2",  "trm1",  "trm2", "tvaf1", "tvaf2", "tvar1", "tvar2", "ctc",   "cte",   "cts",   "tvjc",
+    "tvje",  "tvjs",  "titf1", "titf2", "ttf1", "ttf2",  "ttr1",  "ttr2",  "tmje1", "tmje2", "tmjc1", "tmjc2", "tmjs1",
+    "tmjs2", "tns1",  "tns2",  "tis1",  "tis2", "tise1", "tise2", "tisc1", "tisc2", "tiss1", "tiss2"};
 
 /// Names without effect on the simulation: ratings, and parameters of the collector's quasi-saturation, which rco turns on.
-constexpr std::string_view ignored[] = {"vbe_max", "vbc_max", "vce_max", "pd_max", "ic_max", "ib_max",   "te_max", "vceo", "icrating",
-                                        "rth0",    "cth0",    "vo",      "gamma",  "qco",    "quasimod", "vg",     "cn",   "d"};
+constexpr std::string_view ignored_parameters[] = {"vbe_max", "vbc_max", "vce_max",  "pd_max", "ic_max", "ib_max",
+                                                   "te_max",  "vceo",    "icrating", "rth0",   "cth0",   "vo",
+                                                   "gamma",   "qco",     "quasimod", "vg",     "cn",     "d"};
 
 Result<void> check_unsupported(const Model& model) {
     if (const double level = value_or(model.values, "level", 1); level != 1)
         return error_at(model.location, "{}: bipolar transistor level {:g} is not supported; use level=1", model.name, level);
-    for (const auto name : only_zero)
+    for (const auto name : zero_parameters)
         if (const double value = value_or(model.values, name, 0); value != 0)
             return error_at(model.location, "{}: {} = {:g} is not supported (the temperature laws are those of SPICE); remove it",
                             model.name, name, value);
@@ -92,16 +93,17 @@ Result<void> check_unsupported(const Model& model) {
 }
 
 /// The rows of the card with the parameters of the model; see read_model_card().
-Result<BipolarCard> read_fields(const Model& model) {
+Result<BipolarCard> read_rows(const Model& model) {
     Model known = model;
-    for (const auto& names : {std::span<const std::string_view>(only_zero), std::span<const std::string_view>(ignored)})
+    for (const auto& names : {std::span<const std::string_view>(zero_parameters), std::span<const std::string_view>(ignored_parameters)})
         for (const auto name : names)
             if (const auto at = known.values.find(name); at != known.values.end()) known.values.erase(at);
     auto c = TRY(read_model_card<BipolarCard>(
-        fields, known, {"level", "subs", "rco", "c2", "c4", "va", "ik", "vb", "pe", "me", "pc", "mc", "ps", "ms", "ccs", "csub", "tref"}));
-    for (const auto& [alias, name] : aliases)
+        bipolar_fields, known,
+        {"level", "subs", "rco", "c2", "c4", "va", "ik", "vb", "pe", "me", "pc", "mc", "ps", "ms", "ccs", "csub", "tref"}));
+    for (const auto& [alias, name] : bipolar_aliases)
         if (const auto given = model.values.find(alias); given != model.values.end())
-            TRY(read_field(*std::ranges::find(fields, name, &ParameterDef<BipolarCard>::name), c, model.name, given->second,
+            TRY(read_field(*std::ranges::find(bipolar_fields, name, &ParameterDef<BipolarCard>::name), c, model.name, given->second,
                            model.location));
     return c;
 }
@@ -110,7 +112,7 @@ Result<BipolarCard> read_fields(const Model& model) {
 
 Result<BipolarCard> read_bipolar_card(const Model& model) {
     TRY(check_unsupported(model));
-    auto c = TRY(read_fields(model));
+    auto c = TRY(read_rows(model));
     const auto has = [&](std::string_view name) { return model.values.contains(name); };
     if (!has("rbm")) c.rbm = c.rb;
     if (c.rbm > c.rb && c.rb > 0)
