@@ -76,7 +76,7 @@ ADDITIONS = [
         kind="a netlist device",
         file="src/circuit/device/varistor.cpp",
         list="src/circuit/devices.hpp",
-        insertions=[("diode_kind, transistor_kind;", "diode_kind, transistor_kind, varistor_kind;"), ("&transistor_kind};", "&transistor_kind, &varistor_kind};")],
+        insertions=[(", transistor_kind;", ", transistor_kind, varistor_kind;"), ("&transistor_kind};", "&transistor_kind, &varistor_kind};")],
         list_names="device_kinds|find_device_kind|kind_of|has_branch_current|has_role|is_independent_source|is_current_expression|main_value|element_letters",
         text="examples/own_device/varistor.cpp",
     ),

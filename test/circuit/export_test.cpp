@@ -76,7 +76,8 @@ void compare_with_export(const ExportNames& names, bool diodes, const Plot& resu
 void compare_all_with_export(const Circuit& circuit, const std::vector<Plot>& result, std::vector<Plot> reference, bool is_reversed) {
     if (is_reversed) std::reverse(reference.begin(), reference.end());
     const ExportNames names(circuit);
-    const bool diodes = std::any_of(circuit.elements.begin(), circuit.elements.end(), [](const Element& e) { return e.letter == 'd'; });
+    const bool diodes =
+        std::any_of(circuit.elements.begin(), circuit.elements.end(), [](const Element& e) { return e.letter == 'd' || e.letter == 'q'; });
     std::map<std::string, std::size_t> seen;
     for (const auto& plot : result) {
         std::size_t skip = seen[plot.name]++;

@@ -111,6 +111,9 @@ public:
     /// voltages of this evaluation in `state`. Returns true if v was changed.
     virtual bool limit(std::span<double> /*v*/, std::span<double> /*state*/) const { return false; }
 
+    /// True if limit() keeps the currents in bounds for any node voltages, so that these need no limit of their own.
+    virtual bool bounds_steps() const { return false; }
+
     /// The value that .dc sweeps: DC value of a source, resistance, gain ... A device without such a value returns false, or nothing.
     virtual bool set_principal_value(double) { return false; }
     virtual std::optional<double> principal_value() const { return {}; }

@@ -1,6 +1,7 @@
 // The junction diode of SPICE, level 1.
 
 #include "circuit/device/device_kind.hpp"
+#include "circuit/device/junction.hpp"
 #include "circuit/device/named_values.hpp"
 #include "circuit/device/physical_constants.hpp"
 #include "circuit/export/element_text.hpp"
@@ -43,24 +44,6 @@ constexpr std::pair<std::string_view, std::string_view> aliases[] = {{"cj0", "cj
                                                                      {"pb", "vj"},    {"mj", "m"},    {"cjp", "cjsw"},
                                                                      {"php", "vjsw"}, {"isw", "jsw"}, {"tref", "tnom"}};
 
-/// Band gap of silicon, eV (Thurmond 1975, as SPICE has it).
-double band_gap(double kelvin) { return 1.16 - 7.02e-4 * kelvin * kelvin / (kelvin + 1108); }
-
-/// Changes the capacitance at 0 V and the potential of a junction to their values at another temperature, after SPICE. nominal: K.
-void adjust_junction(double& capacitance, double& potential, double grading, double nominal, double kelvin) {
-    constexpr double reference = 300.15;  // K
-    const auto pb = [](double t) {        // temperature-dependent part of the built-in potential, V
-        const double v = thermal_voltage(t);
-        const double arg = -band_gap(t) / (2 * v) + 1.1150877 / (2 * thermal_voltage(reference));
-        return -2 * v * (1.5 * num::log(t / reference) + arg);
-    };
-    const double base = (potential - pb(nominal)) / (nominal / reference);  // V: at the reference temperature
-    const double nominal_part = 1 + grading * (4e-4 * (nominal - reference) - (potential - base) / base);
-    const double adjusted = base * kelvin / reference + pb(kelvin);
-    capacitance = capacitance / nominal_part * (1 + grading * (4e-4 * (kelvin - reference) - (adjusted - base) / base));
-    potential = adjusted;
-}
-
 /// Changes the card to its values at another temperature, after SPICE.
 void adjust_to_temperature(DiodeCard& c, double kelvin) {
     const double nominal = c.tnom + zero_celsius, ratio = kelvin / nominal, vt = thermal_voltage(kelvin);  // nominal: K
@@ -68,22 +51,6 @@ void adjust_to_temperature(DiodeCard& c, double kelvin) {
     c.is *= growth, c.jsw *= growth;
     adjust_junction(c.cjo, c.vj, c.m, nominal, kelvin);
     adjust_junction(c.cjsw, c.vjsw, c.mjsw, nominal, kelvin);
-}
-
-/// Limits a Newton step that ends at the junction voltage v (V), after Nagel's SPICE2. A large forward step is shortened to the voltage at
-/// which the exponential reaches the current that the linearization predicts. v_before: voltage of the last evaluation; n_vt: n kT/q;
-/// v_crit: voltage at which the curve of the current over the voltage bends most (all in V). Returns true if the step was shortened.
-bool limit_junction(double& v, double v_before, double n_vt, double v_crit) {
-    const double unlimited = v;
-    if (v > v_crit && std::abs(v - v_before) > 2 * n_vt) {
-        if (v_before > 0) {
-            const double arg = 1 + (v - v_before) / n_vt;
-            v = arg > 0 ? v_before + n_vt * std::log(arg) : v_crit;
-        } else {
-            v = n_vt * std::log(v / n_vt);
-        }
-    }
-    return v != unlimited;
 }
 
 /// Current from anode to cathode: i = is (exp(v / (n V_t)) - 1), nearly constant below -3 n V_t as in SPICE, breakdown at -bv.
@@ -96,38 +63,18 @@ class Diode final : public Device {
     double n_vt_, v_crit_;  // V: see limit_junction()
     double v_breakdown_;    // V: breakdown below -v_breakdown_
 
-    struct CurrentSlope {
-        double i, g;  // A, S
-    };
     /// Current and conductance at the junction voltage v.
-    CurrentSlope current(double v) const {
-        const double is = is_;
-        if (v >= -3 * n_vt_) {
-            const double e = std::exp(v / n_vt_);
-            return {is * (e - 1), is * e / n_vt_};
-        }
-        if (c_.bv == 0 || v >= -v_breakdown_) {
-            const double arg = 3 * n_vt_ / (v * 2.718281828459045), cube = arg * arg * arg;
-            return {-is * (1 + cube), is * 3 * cube / v};
-        }
+    ValueSlope current(double v) const {
+        if (c_.bv == 0 || v >= -v_breakdown_ || v >= -3 * n_vt_) return junction_current(v, is_, n_vt_);
         const double e = std::exp(-(v_breakdown_ + v) / n_vt_);
-        return {-is * e, is * e / n_vt_};
+        return {-is_ * e, is_ * e / n_vt_};
     }
-    /// Charge, C, and capacitance, F, of the depletion layers of area and sidewall at the junction voltage v.
-    std::pair<double, double> depletion(double v) const {
-        auto out = depletion(v, c_.cjo * area_, c_.vj, c_.m, c_.fc);
+    /// Charge and capacitance of the depletion layers of area and sidewall at the junction voltage v.
+    ValueSlope depletion(double v) const {
+        auto out = depletion_charge(v, c_.cjo * area_, c_.vj, c_.m, c_.fc);
         if (perimeter_ == 0) return out;
-        const auto sidewall = depletion(v, c_.cjsw * perimeter_, c_.vjsw, c_.mjsw, c_.fcs);
-        return {out.first + sidewall.first, out.second + sidewall.second};
-    }
-    /// The same of a layer with capacitance c0 (F) at 0 V, potential vj, grading coefficient m and knee at fc vj.
-    static std::pair<double, double> depletion(double v, double c0, double vj, double m, double fc) {
-        const double knee = fc * vj;
-        if (c0 == 0) return {0, 0};
-        const auto charge = [&](double u) { return c0 * vj * (1 - std::pow(1 - u / vj, 1 - m)) / (1 - m); };
-        if (v < knee) return {charge(v), c0 * std::pow(1 - v / vj, -m)};
-        const double f2 = std::pow(1 - fc, 1 + m), f3 = 1 - fc * (1 + m), slope = m / vj;
-        return {charge(knee) + c0 / f2 * (f3 * (v - knee) + slope / 2 * (v * v - knee * knee)), c0 / f2 * (f3 + slope * v)};
+        const auto sidewall = depletion_charge(v, c_.cjsw * perimeter_, c_.vjsw, c_.mjsw, c_.fcs);
+        return {out.value + sidewall.value, out.slope + sidewall.slope};
     }
     /// Index of the junction's anode among the unknowns; the cathode is unknown 1.
     std::size_t junction_anode() const { return c_.rs > 0 ? 2 : 0; }
@@ -137,7 +84,7 @@ public:
         adjust_to_temperature(c_, kelvin);
         is_ = c_.is * area_ + c_.jsw * perimeter_;
         n_vt_ = c_.n * thermal_voltage(kelvin);
-        v_crit_ = n_vt_ * std::log(n_vt_ / (1.4142135623730951 * is_));
+        v_crit_ = critical_voltage(is_, n_vt_);
         v_breakdown_ = c_.bv;
         if (c_.bv > 0 && c_.ibv > is_)  // so that the current at bv is ibv
             v_breakdown_ = c_.bv - n_vt_ * std::log(c_.ibv / is_);
@@ -174,7 +121,7 @@ public:
         out.add_conductance(0, 2, series);
     }
     std::vector<NoiseSource> noise(std::span<const double> v) const override {
-        const double i = std::abs(current(v[junction_anode()] - v[1]).i);
+        const double i = std::abs(current(v[junction_anode()] - v[1]).value);
         std::vector<NoiseSource> out = {{"shot", junction_anode(), 1, 2 * electron_charge * i, 0}};
         if (c_.kf > 0) out.push_back({"flicker", junction_anode(), 1, 0, c_.kf * std::pow(i, c_.af)});
         if (c_.rs > 0) out.push_back({"thermal", 0, 2, 4 * electron_charge * (n_vt_ / c_.n) * area_ / c_.rs, 0});  // 4 k T / R
@@ -183,7 +130,7 @@ public:
     std::vector<OperatingValue> operating_info(std::span<const double> v) const override {
         const double u = v[junction_anode()] - v[1];
         const auto [i, g] = current(u);
-        return {{"v", "V", u}, {"i", "A", i}, {"g", "S", g}, {"c", "F", depletion(u).second + c_.tt * g}};
+        return {{"v", "V", u}, {"i", "A", i}, {"g", "S", g}, {"c", "F", depletion(u).slope + c_.tt * g}};
     }
 };
 

@@ -141,11 +141,13 @@ std::string model_text(const Circuit& circuit, std::size_t k, const ExportNames&
         const double tnom = value_or(m.values, "tnom", 27);
         return m.values.contains("tnom") ? fmt::format(".model {} {}(tnom={})\n", names.model(static_cast<int>(k)), m.type, tnom) : "";
     }
-    if (m.type != "d") return "";
-    std::string out = fmt::format(".model {} d(", names.model(static_cast<int>(k)));
+    if (m.type != "d" && m.type != "npn" && m.type != "pnp") return "";
+    std::string out = fmt::format(".model {} {}(", names.model(static_cast<int>(k)), m.type);
     for (const auto& [name, value] : m.values) {
-        const bool is_left_out = name == "level" || name == "jsw" || name == "ikf" || name == "trs" || name == "rsw" ||
-                                 (name == "bv" && value == 0) || (name == "cjo" && m.values.contains("cj0"));
+        const bool is_left_out =
+            name == "level" ||
+            (m.type == "d" && (name == "jsw" || name == "ikf" || name == "trs" || name == "rsw" || (name == "bv" && value == 0))) ||
+            (name == "cjo" && m.values.contains("cj0"));
         if (!is_left_out) out += fmt::format("{}{}={}", out.back() == '(' ? "" : " ", name == "cj0" ? "cjo" : name, value);
     }
     return out + ")\n";

@@ -77,6 +77,13 @@ void ElementReader::warn(std::size_t word, std::string_view message) {
     builder_.circuit.warnings.push_back(error_in(s_.location(word), message));
 }
 
+void ElementReader::warn_about_model(std::string_view message) {
+    const auto& model = builder_.circuit.models[static_cast<std::size_t>(element.model)];
+    auto warning = circuit::error_at(model.location, "{}: {}", model.name, message);
+    auto& warnings = builder_.circuit.warnings;
+    if (std::ranges::find(warnings, warning.text(), &Error::text) == warnings.end()) warnings.push_back(std::move(warning));
+}
+
 Result<double> ElementReader::number(const NameValue& pair) {
     read_names_.push_back(s_.text(pair.name));
     return scope_.evaluate({&s_, pair.value});

@@ -51,6 +51,7 @@ public:
     std::string_view text(const NameValue& pair) const { return s_.text(pair.value); }
     void take(const NameValue& pair) { read_names_.push_back(s_.text(pair.name)); }  ///< marks the pair as read
     void warn(std::size_t word, std::string_view message);
+    void warn_about_model(std::string_view message);  ///< one warning for the element's model, however many elements have it
     /// Reads the value of a pair as the expression of the element.
     Result<void> expression(const NameValue&);
     /// Takes a text that the line gives in another form, at this word, as the expression of the element.

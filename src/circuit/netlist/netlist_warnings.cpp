@@ -79,7 +79,9 @@ void warn_about_initial_conditions(std::vector<Error>& out, const Circuit& c) {
             });
     warn(
         out, c, [](const Element& e) { return has_value(e, "ic") && !has_initial_value(e); },
-        [](const Element&) { return "ic= of a diode has no effect; use ic= of a parallel capacitor, or .ic v(node)=... with uic"; });
+        [](const Element&) {
+            return "ic= of a diode or bipolar transistor has no effect; use ic= of a parallel capacitor, or .ic v(node)=... with uic";
+        });
     warn(
         out, c, [](const Element& e) { return has_value(e, "off"); },
         [](const Element&) { return "off has no effect; .nodeset v(node)=... sets where the search for the operating point begins"; });
