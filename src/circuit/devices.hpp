@@ -5,7 +5,7 @@
 
 namespace corpuscle::circuit {
 
-extern const DeviceKind resistor_kind, capacitor_kind, inductor_kind, voltage_source_kind, current_source_kind,
+extern const DeviceKind resistor_kind, capacitor_kind, inductor_kind, coupling_kind, voltage_source_kind, current_source_kind,
     voltage_controlled_voltage_kind, current_controlled_current_kind, voltage_controlled_current_kind, current_controlled_voltage_kind,
     expression_source_kind, diode_kind, transistor_kind;
 
@@ -13,6 +13,7 @@ extern const DeviceKind resistor_kind, capacitor_kind, inductor_kind, voltage_so
 inline constexpr const DeviceKind* device_kinds[] = {&resistor_kind,
                                                      &capacitor_kind,
                                                      &inductor_kind,
+                                                     &coupling_kind,
                                                      &voltage_source_kind,
                                                      &current_source_kind,
                                                      &voltage_controlled_voltage_kind,

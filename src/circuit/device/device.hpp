@@ -97,6 +97,8 @@ public:
     std::vector<int> unknowns;  ///< indices of its unknowns in the system; -1: ground
 
     virtual ~Device() = default;
+    /// Called once, when all devices of the circuit exist; `all` has them by element. A device may keep pointers to others.
+    virtual void connect(std::span<const std::unique_ptr<Device>> /*all*/) {}
     /// Writes f, q and their derivatives to a stamp that is zero. v: values of the device's unknowns.
     virtual void eval(std::span<const double> v, const EvalContext&, const Stamp&) const = 0;
     virtual bool is_linear() const { return true; }

@@ -48,6 +48,7 @@ Result<System> System::make(std::shared_ptr<const Circuit> circuit) {
         system.limiting_state_size_ += device->limiting_state_size();
         system.devices_.push_back(std::move(device));
     }
+    for (const auto& d : system.devices_) d->connect(system.devices_);
     std::vector<std::pair<int, int>> entries;
     for (int k = 0; k < system.size(); ++k)
         entries.emplace_back(k, k), system.numbers_.try_emplace(system.names_[static_cast<std::size_t>(k)], k);
