@@ -3,6 +3,7 @@
 // another, since a plot may be too long to be kept in memory.
 
 #include <complex>
+#include <functional>
 #include <span>
 #include <string_view>
 #include <vector>
@@ -79,8 +80,8 @@ public:
         for (const auto& c : plot_.curves) plot_.is_complex ? complex_.push_back(c.values[point]) : real_.push_back(c.values[point].real());
         return plot_.is_complex ? PlotRow(complex_) : PlotRow(real_);
     }
-    /// Passes them to a sink.
-    Result<void> send_to(PointSink&);
+    /// Passes them to a sink. Calls prepare(k), if it is not empty, before point k.
+    Result<void> send_to(PointSink&, const std::function<void(std::size_t)>& prepare = {});
 };
 
 }  // namespace corpuscle::circuit

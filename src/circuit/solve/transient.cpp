@@ -30,6 +30,7 @@ Result<void> Transient::begin(std::vector<double> x, bool settled, std::span<con
     first.t = 0, first.x = std::move(x), first.q.assign(count, 0);
     history_points_.accept();
     control_.h = plan_.max_step, control_.recent_max_step = 0, restart_pending_ = false;
+    last_change_ = 0, changes_at_once_ = 0;
     curve_points_ = 0, start_phase_ = plan_.all_reported ? StartPhase::breakpoint : StartPhase::none;
     equations_.evaluate_static(0, history_points_[0].x, rate_, first.q);
     for (std::size_t n = 0; n < charge.size(); ++n) first.q[n] += charge[n];
@@ -43,16 +44,16 @@ Result<void> Transient::begin(std::vector<double> x, bool settled, std::span<con
     return ok;
 }
 
-/// Computes the unknowns without charge from the charges, by a step so short that no charge changes.
+/// Computes the unknowns without charge at the newest point from the charges, by a step so short that no charge changes.
 Result<void> Transient::make_consistent() {
     const double h = 1e-15 * plan_.max_step;
     auto point = history_points_[0];
     for (std::size_t n = 0; n < point.q.size(); ++n) history_[n] = -point.q[n] / h;
-    equations_.prepare(0, 1 / h, history_);
+    equations_.prepare(point.t, 1 / h, history_);
     const auto allowed = std::exchange(allowed_error_, std::vector<double>(point.x.size(), plan_.vntol));
     auto status = StepEquations::Status::iterating;
     for (int k = 0; k < 100 && status != StepEquations::Status::converged; ++k) {
-        if (k % 10 == 9) equations_.prepare(0, 1 / h, history_);  // resets the iteration count
+        if (k % 10 == 9) equations_.prepare(point.t, 1 / h, history_);  // resets the iteration count
         status = equations_.iterate(point.x, allowed_error_);
     }
     allowed_error_ = allowed;
@@ -320,13 +321,75 @@ bool Transient::take_breakpoint_step(double t0, double next_breakpoint) {
     return restart_pending_ = true;
 }
 
+/// Changes the states of the devices whose controls are beyond their levels at the newest point. For an afferent, the unknowns without
+/// charge are computed again, which may change other states. In .tran a very short step gives their values after the change.
+Result<void> Transient::change_states() {
+    constexpr double same_time = 1e-9;  // relative to the longest step
+    constexpr int max_changes = 1000;
+    while (const Device* changed = system_.change_states(history_points_[0].x)) {
+        changes_at_once_ = time() - last_change_ <= same_time * plan_.max_step ? changes_at_once_ + 1 : 0, last_change_ = time();
+        if (changes_at_once_ > max_changes)
+            return Error{ErrorCode::not_converged,
+                         fmt::format("transient stopped at {}: {} changes its state again and again, since each state leads to the other; "
+                                     "give it hysteresis, or the node of its control a capacitor",
+                                     format_quantity(time(), "s"), changed->name),
+                         changed->location};
+        restart_pending_ = true;
+        if (plan_.all_reported) return start_phase_ = StartPhase::breakpoint, Result<void>();
+        TRY(make_consistent());
+    }
+    return {};
+}
+
+/// By device with states: how far its control may be beyond the level when its state changes, V or A. Far below the allowed error.
+std::vector<double> Transient::state_tolerances() const {
+    constexpr double fraction = 0.01;
+    std::vector<double> out;
+    for (const auto k : system_.devices_with_states()) {
+        const auto& d = *system_.devices()[k];
+        const auto change = *d.next_change();
+        const auto tolerance = [&](std::size_t u) { return d.unknowns[u] < 0 ? 0 : tolerance_[static_cast<std::size_t>(d.unknowns[u])]; };
+        out.push_back(fraction * std::max(tolerance(change.plus), change.minus ? tolerance(*change.minus) : 0));
+    }
+    return out;
+}
+
+/// True if a device changes its state within the step just solved, so that the step must be solved again with another end.
+bool Transient::must_locate_change() {
+    constexpr double shortest = 1e-9;  // interval that need not be divided, relative to the longest step
+    const auto& next = history_points_.next_point();
+    const auto tolerances = state_tolerances();
+    if (state_change_.must_try_again(next.t, next.x, std::max(shortest * plan_.max_step, min_relative_gap * next.t), tolerances))
+        return true;
+    if (state_change_.trial()) return false;
+    // A control may pass its level and return within a step.
+    const int points = std::min(3, history_points_.smooth_count());
+    std::array<double, History::max_points + 1> times{next.t};
+    const auto before = history_points_.times();
+    std::copy(before.begin(), before.end(), times.begin() + 1);
+    std::vector<double> x(next.x.size());
+    for (const double part : {0.25, 0.5, 0.75}) {
+        const double t = times[1] + part * (next.t - times[1]);
+        const auto w = weights_of_value(std::span(times).first(static_cast<std::size_t>(points) + 1), t);
+        for (std::size_t n = 0; n < x.size(); ++n) {
+            x[n] = w[0] * next.x[n];
+            for (int k = 0; k < points; ++k) x[n] += w[static_cast<std::size_t>(k) + 1] * history_points_[k].x[n];
+        }
+        for (const auto& node : source_nodes_) x[static_cast<std::size_t>(node.unknown)] = source_node_voltage(node, t);
+        if (state_change_.changes_within(t, x, tolerances)) return true;
+    }
+    return false;
+}
+
 Result<bool> Transient::step(double until) {
     constexpr double first_part = 1.0 / 256;  // (first step after a breakpoint) / (planned step): short, since the curvature is not known
     // If the error does not fall as the first step is shortened, it comes from the rounding of the start point. After three such attempts
     // the step is accepted.
     constexpr double min_reduction = 0.9;
     constexpr int max_not_reduced = 3;
+    if (state_change_.is_needed()) TRY(change_states());
     if (std::exchange(restart_pending_, false)) restart(true, plan_.all_reported);
+    if (state_change_.is_needed()) state_change_.begin(time(), x());
     double rejected = 0;  // error of the last attempt, relative to the allowed error; 0: none, or not solved
     int not_reduced = 0;  // number of successive attempts that did not reduce the error
     for (;;) {
@@ -336,7 +399,7 @@ Result<bool> Transient::step(double until) {
         if (take_breakpoint_step(t0, breakpoint)) return true;
         if (std::exchange(start_phase_, StartPhase::none) == StartPhase::first_step)
             h = std::max(first_part * std::min(h, breakpoint - t0), min_relative_gap * t0);
-        const auto next = StepControl::plan_step(t0, h, breakpoint);
+        const auto next = StepControl::plan_step(t0, h, std::min(breakpoint, state_change_.trial().value_or(breakpoint)));
         double error = 0;
         may_jump_ = !interpolated_unknowns_.empty() && next.length() <= control_.jump_step_limit(plan_.reltol, plan_.max_step);
         const bool solved = attempt(next.end, error);
@@ -349,6 +412,11 @@ Result<bool> Transient::step(double until) {
         rejected = solved ? worst : 0;
         if (!solved || (!(worst <= 1) && not_reduced < max_not_reduced)) {
             TRY(reject_step(next.length(), solved ? worst : 0));
+            if (state_change_.is_needed()) state_change_.begin(t0, x());
+            continue;
+        }
+        if (state_change_.is_needed() && must_locate_change()) {
+            rejected = 0, not_reduced = 0;
             continue;
         }
         const bool jumped = may_jump_ && (uncharged_error_ > 1 || curve_error > 1);
@@ -384,6 +452,9 @@ void Transient::archive(StateArchive& a) {
     for (auto* values : {&scale_, &rate_, &rate_change_, &max_rate_}) a.numbers(*values, size);
     a.numbers(newton_.limiting_state, newton_.limiting_state.size());
     for (int& n : alternations_) a.integer(n, 0, max_count);
+    auto states = system_.states();
+    for (char& state : states) a.integer(state, 0, 1);
+    system_.set_states(states);
     a.is_valid &= control_.h > 0 && quadratic_factor > 0 && control_.recent_max_step >= 0;
     if (a.is_valid) update_tolerances();
 }
