@@ -60,12 +60,16 @@ std::vector<double> charge_of_ics(const AnalysisContext& context, std::vector<do
 }
 
 /// True if no unknown jumps when the clamps of .ic at the operating point x are released. A node jumps if no charge at it takes over the
-/// current of its clamp: if a step of dq/dt = a q, for a very large a, changes its voltage.
+/// current of its clamp: if a short step, of length 1/a, changes its voltage.
 bool keeps_released_voltages(AnalysisContext& context, std::span<const double> x) {
-    constexpr double a = 1e21;                            // 1/s
+    constexpr double of_conductance = 1e9;                // a C, relative to G, so that the matrix is not singular to rounding
     constexpr double relative = 1e-6, v_smallest = 1e-6;  // of a jump that counts; V
     auto sums = evaluate_operating_point(context, x);
     const auto entries = context.system.pattern().entries();
+    double largest_G = 0, largest_C = 0;
+    for (std::size_t e = 0; e < entries; ++e)
+        largest_G = std::max(largest_G, std::abs(sums.G[e])), largest_C = std::max(largest_C, std::abs(sums.C[e]));
+    const double a = largest_C > 0 ? of_conductance * largest_G / largest_C : 0;  // 1/s
     for (std::size_t e = 0; e < entries; ++e) sums.G[e] += a * sums.C[e];
     LinearSolver<double> solver(context.system.pattern());
     if (!solver.factor(std::span<const double>(sums.G).first(entries))) return true;

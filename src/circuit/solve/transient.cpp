@@ -7,6 +7,8 @@ namespace {
 
 constexpr double min_relative_gap = 1e-12;  // minimum distance of the first point after a breakpoint, relative to the breakpoint's time
 
+constexpr int max_shortest_steps = 3;  // successive steps of the shortest length that are accepted with any error
+
 }  // namespace
 
 Result<void> Transient::begin(std::vector<double> x, bool settled, std::span<const double> charge) {
@@ -44,23 +46,54 @@ Result<void> Transient::begin(std::vector<double> x, bool settled, std::span<con
     return ok;
 }
 
-/// Computes the unknowns without charge at the newest point from the charges, by a step so short that no charge changes.
-Result<void> Transient::make_consistent() {
-    const double h = 1e-15 * plan_.max_step;
-    auto point = history_points_[0];
-    for (std::size_t n = 0; n < point.q.size(); ++n) history_[n] = -point.q[n] / h;
-    equations_.prepare(point.t, 1 / h, history_);
-    const auto allowed = std::exchange(allowed_error_, std::vector<double>(point.x.size(), plan_.vntol));
+/// The unknowns at the newest point after a step of length h (s) with its charges. Nothing if the equations could not be solved.
+std::optional<std::vector<double>> Transient::solve_with_charges_kept(double h) {
+    auto x = history_points_[0].x;
+    const auto& q = history_points_[0].q;
+    for (std::size_t n = 0; n < q.size(); ++n) history_[n] = -q[n] / h;
+    equations_.prepare(time(), 1 / h, history_);
+    const std::vector<double> allowed(x.size(), plan_.vntol);
     auto status = StepEquations::Status::iterating;
     for (int k = 0; k < 100 && status != StepEquations::Status::converged; ++k) {
-        if (k % 10 == 9) equations_.prepare(point.t, 1 / h, history_);  // resets the iteration count
-        status = equations_.iterate(point.x, allowed_error_);
+        if (k % 10 == 9) equations_.prepare(time(), 1 / h, history_);  // resets the iteration count
+        status = equations_.iterate(x, allowed);
     }
-    allowed_error_ = allowed;
-    if (status != StepEquations::Status::converged) {
-        history_points_.next_point() = std::move(point);  // for the residual in the message
-        return step_too_short(h, 1 / h, "");
+    auto& next = history_points_.next_point();  // for the residual in a message
+    next = history_points_[0], next.x = x;
+    return status == StepEquations::Status::converged ? std::optional(std::move(x)) : std::nullopt;
+}
+
+/// True if the difference of two solutions is well below the allowed error.
+bool Transient::are_close(std::span<const double> a, std::span<const double> b) const {
+    constexpr double fraction = 0.1;
+    double current = 0;  // A: the largest
+    for (std::size_t n = 0; n < a.size(); ++n)
+        if (!system_.is_voltage(static_cast<int>(n))) current = std::max(current, std::abs(a[n]));
+    for (std::size_t n = 0; n < a.size(); ++n) {
+        const bool voltage = system_.is_voltage(static_cast<int>(n));
+        const double allowed = voltage ? plan_.reltol * std::abs(a[n]) + plan_.vntol : plan_.reltol * current + plan_.abstol;
+        if (!(std::abs(a[n] - b[n]) <= fraction * allowed)) return false;
     }
+    return true;
+}
+
+/// Computes the unknowns without charge at the newest point from the charges: the limit of a short step, extrapolated from two lengths. The
+/// lengths fall until the limit no longer changes. The shortest ones have rounding errors, at nodes that are connected by capacitors only.
+Result<void> Transient::make_consistent() {
+    constexpr double longest = 1e-4, shortest = 1e-15, factor = 10;  // relative to the longest step; between two lengths
+    std::optional<std::vector<double>> found, last, last_limit;
+    double h = longest * plan_.max_step;
+    for (; !found && h > shortest * plan_.max_step; h /= factor) {
+        auto x = solve_with_charges_kept(h);
+        auto limit = x && last ? x : std::nullopt;
+        for (std::size_t n = 0; limit && n < limit->size(); ++n) (*limit)[n] += ((*x)[n] - (*last)[n]) / (factor - 1);
+        if (limit && last_limit && are_close(*limit, *last_limit)) found = limit;
+        last = std::move(x), last_limit = std::move(limit);
+    }
+    if (!found) found = std::move(last);
+    if (!found) return step_too_short(h, 1 / h, "");
+    auto point = history_points_[0];
+    point.x = std::move(*found);
     history_points_.clear();
     history_points_.next_point() = std::move(point);
     history_points_.accept();
@@ -126,7 +159,7 @@ bool Transient::attempt(double t, double& error) {
     equations_.prepare(t, leading_, history_);
     equations_.check_expressions(!may_jump_, {plan_.reltol, plan_.vntol, plan_.abstol});
     // The error of a first step includes rounding_error(), which needs the converged solution.
-    const bool must_converge = plan_.all_reported && history_points_.count() == 1;
+    const bool must_converge = (plan_.all_reported && history_points_.count() == 1) || is_shortest(h);
     for (;;) {
         using Status = StepEquations::Status;
         const auto status = equations_.iterate(next.x, allowed_error_);
@@ -250,7 +283,9 @@ Result<void> Transient::reject_step(double h, double error) {
     if (control_.shorten(h, error, history_points_.count() > 1 ? history_points_[0].t - history_points_[1].t : 0,
                          plan_.all_reported ? max_failures : 1))
         restart(false, plan_.all_reported);
-    if (control_.h >= StepControl::min_step(plan_.stop)) return {};
+    const double shortest = StepControl::min_step(plan_.stop);
+    if (control_.h >= shortest) return {};
+    if (error > 0 && h > shortest && shortest_steps_ < max_shortest_steps) return control_.h = shortest, Result<void>();
     return step_too_short(control_.h, leading_, error > 0 ? describe_error() : "");
 }
 
@@ -387,6 +422,7 @@ Result<bool> Transient::step(double until) {
     // the step is accepted.
     constexpr double min_reduction = 0.9;
     constexpr int max_not_reduced = 3;
+    constexpr double after_shortest = 1e-3;  // the next step, relative to the longest of the recent ones
     if (state_change_.is_needed()) TRY(change_states());
     if (std::exchange(restart_pending_, false)) restart(true, plan_.all_reported);
     if (state_change_.is_needed()) state_change_.begin(time(), x());
@@ -410,7 +446,11 @@ Result<bool> Transient::step(double until) {
         const bool is_first_step = converged_ && plan_.all_reported && history_points_.count() == 1;
         not_reduced = solved && is_first_step && worst > min_reduction * rejected && rejected > 0 ? not_reduced + 1 : 0;
         rejected = solved ? worst : 0;
-        if (!solved || (!(worst <= 1) && not_reduced < max_not_reduced)) {
+        // A jump changes the rate of a charge at once. No step is short enough for a tolerance far below the later values of its unknown.
+        const bool shortest = solved && converged_ && is_shortest(next.length());
+        shortest_steps_ = shortest ? shortest_steps_ + 1 : 0;
+        const bool accepts_error = not_reduced >= max_not_reduced || (shortest && shortest_steps_ <= max_shortest_steps);
+        if (!solved || (!(worst <= 1) && !accepts_error)) {
             TRY(reject_step(next.length(), solved ? worst : 0));
             if (state_change_.is_needed()) state_change_.begin(t0, x());
             continue;
@@ -419,10 +459,11 @@ Result<bool> Transient::step(double until) {
             rejected = 0, not_reduced = 0;
             continue;
         }
-        const bool jumped = may_jump_ && (uncharged_error_ > 1 || curve_error > 1);
+        const bool jumped = (may_jump_ && (uncharged_error_ > 1 || curve_error > 1)) || (shortest && worst > 1);
         const double planned = control_.h;
         choose_step(next.length(), error);
         control_.limit_next_step(next, planned, plan_.max_step, may_jump_, curve_error, curve_points_);
+        if (shortest && worst > 1) control_.h = std::max(control_.h, after_shortest * control_.recent_max_step);
         if (jumped) curve_points_ = 2;
         accept_step();
         restart_pending_ = next.ends_at_breakpoint || jumped;

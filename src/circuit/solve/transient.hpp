@@ -53,6 +53,7 @@ private:
     StepControl control_;
     StateChangeSearch state_change_;
     double last_change_ = 0;          // s: time of the last change of a state
+    int shortest_steps_ = 0;          // number of successive steps of the shortest length
     int changes_at_once_ = 0;         // number of changes of states since the time last advanced
     double leading_ = 0;              // 1/s: dq/dt = leading_ q + history_ in the current step
     bool pivot_order_fixed_ = false;  // true after the first begin(), which fixes the pivot order of the matrix
@@ -86,6 +87,7 @@ private:
 
     TransientStats stats_;
 
+    bool is_shortest(double h) const { return h <= 1.5 * StepControl::min_step(plan_.stop); }  // h: length of a step, s
     bool uses_trapezoidal() const { return plan_.method == Integration::trapezoidal && damping_steps_ == 0; }
     void detect_ringing();
     int interpolation_points() const { return control_.interpolation_points(curve_points_, history_points_.count()); }
@@ -96,6 +98,8 @@ private:
     double interpolation_error();
     bool take_breakpoint_step(double t0, double next_breakpoint);
     void restart(bool forget, bool exact = false);
+    std::optional<std::vector<double>> solve_with_charges_kept(double h);
+    bool are_close(std::span<const double> a, std::span<const double> b) const;
     Result<void> make_consistent();
     Result<void> change_states();
     bool must_locate_change();
