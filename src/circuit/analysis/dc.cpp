@@ -115,6 +115,7 @@ Result<AnalysisResult> analyse_dc(AnalysisContext& original, const Directive& c)
         return error_at(c.location, ".dc: {} times {} points; the maximum is 10000000", values.size(), outer_values.size());
 
     Plot plot = plot_of_sweep(original.system, inner.variable);
+    if (outer) plot.inner_points = values.size();
     AnalysisResult result;
     SweptCircuit swept(original);
     for (std::size_t k = 0; k < outer_values.size(); ++k) {

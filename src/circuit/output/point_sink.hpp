@@ -24,6 +24,9 @@ struct Plot {
     std::string name;  ///< "DC transfer characteristic"
     bool is_complex = false, has_sweep = true;
     std::vector<Curve> curves;
+    /// Number of points of each inner sweep of a .dc with two sources. Between two inner sweeps the curves are not continuous. 0: one
+    /// sweep.
+    std::size_t inner_points = 0;
 
     std::size_t point_count() const { return curves.empty() ? 0 : curves[0].values.size(); }
     /// The curve of this name; null if there is none.
