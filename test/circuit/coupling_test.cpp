@@ -49,7 +49,8 @@ TEST(Coupling, TransformersHaveTheirClosedFormFromOpenToShortCircuit) {
 /// Two equal tanks of 1 mH and 1 uF; the first begins at 1 V. Their sum and their difference oscillate at f / sqrt(1 + k), f / sqrt(1 - k).
 TEST(Coupling, CoupledTanksExchangeTheirEnergyAndKeepIt) {
     const double L = 1e-3, C = 1e-6, k = 0.2;
-    for (const char* method : {"gear", "trap"}) {
+    // The phase error of the trapezoidal rule, which has order 2, is larger.
+    for (const auto& [method, error] : {std::pair{"gear", 2e-5}, std::pair{"trap", 1e-4}}) {
         const auto run = run_netlist(fmt::format(
             "tanks\nc1 a 0 1u ic=1\nl1 a 0 1m\nc2 b 0 1u\nl2 b 0 1m\nk1 l1 l2 {}\n.options accuracy=finest method={}\n.tran 1u 2m uic\n", k,
             method));
@@ -57,8 +58,8 @@ TEST(Coupling, CoupledTanksExchangeTheirEnergyAndKeepIt) {
         ASSERT_GT(t.size(), 100U);
         const double sum = 1 / std::sqrt(L * C * (1 + k)), difference = 1 / std::sqrt(L * C * (1 - k));
         for (std::size_t n = 0; n < t.size(); ++n) {
-            ASSERT_NEAR(a[n], (std::cos(sum * t[n]) + std::cos(difference * t[n])) / 2, 2e-5) << method << t[n];
-            ASSERT_NEAR(b[n], (std::cos(sum * t[n]) - std::cos(difference * t[n])) / 2, 2e-5) << method << t[n];
+            ASSERT_NEAR(a[n], (std::cos(sum * t[n]) + std::cos(difference * t[n])) / 2, error) << method << t[n];
+            ASSERT_NEAR(b[n], (std::cos(sum * t[n]) - std::cos(difference * t[n])) / 2, error) << method << t[n];
             const double energy = (C * (a[n] * a[n] + b[n] * b[n]) + L * (i1[n] * i1[n] + i2[n] * i2[n])) / 2 + k * L * i1[n] * i2[n];
             ASSERT_NEAR(energy, C / 2, 1e-5 * C) << method << t[n];
         }
@@ -77,8 +78,8 @@ TEST(Coupling, AnIdealTransformerKeepsItsFluxWhenItsCurrentChangesWindings) {
 
 TEST(Coupling, AnIdealTransformerHasAnOperatingPointAndATransient) {
     const auto run = run_netlist(
-        "ideal\nv1 in 0 sin(1 10 1k)\nr1 in a 1\nl1 a 0 10m\nl2 b 0 40m\nr2 b 0 1k\nk1 l1 l2 1\n.op\n.tran 10u 20m\n"
-        ".meas tran high max v(b) from=19m\n");
+        "ideal\nv1 in 0 sin(1 10 1k)\nr1 in a 1\nl1 a 0 10m\nl2 b 0 40m\nr2 b 0 1k\nk1 l1 l2 1\n.op\n.tran 10u 100m\n"
+        ".meas tran high max v(b) from=99m\n");
     EXPECT_NEAR(run.curve("i(l1)", "op").back(), 1, 1e-9);
     EXPECT_NEAR(run.number("high"), 10 * std::abs(Transformer{.k = 1}.output(1e3)), 1e-3);
 }
@@ -133,7 +134,8 @@ TEST(Coupling, OneLineCouplesAllItsPairs) {
 }
 
 std::string error_of(const std::string& body) {
-    const auto netlist = Netlist::parse("title\n" + body + "\nr1 a 0 1\nr2 b 0 1\nl1 a 0 1m\nl2 b 0 1m\nl3 a b 1m\n.op\n", "t.cir", {});
+    const auto netlist =
+        Netlist::parse("title\n" + body + "\nr1 a 0 1\nr2 b 0 1\nl1 a 0 1m\nl2 b 0 1m\nl3 a c 1m\nr3 c b 1\n.op\n", "t.cir", {});
     if (!netlist) return netlist.error().text();
     auto circuit = netlist->elaborate();
     if (!circuit) return circuit.error().text();
@@ -175,14 +177,20 @@ TEST(Coupling, AgreesWithNgspice) {
         auto deck = ngspice_deck(make_circuit(text + analysis));
         EXPECT_TRUE(deck) << (deck ? "" : deck.error().text());
         folder.write("deck.cir", deck ? deck->text : "");
-        const auto log = run_ngspice(folder / "deck.cir", "");
+        const auto log = run_ngspice(folder / "deck.cir", analysis.starts_with(".ac") ? folder / "deck.raw" : std::string());
         return std::pair(here, log);
     };
-    const std::string ac = ".ac lin 1 10k 10k\n.meas ac bb find vm(b) at=10k\n.meas ac cc find vm(c) at=10k\n";
-    const auto [here, log] = run_both(ac);
-    if (log.find("not found") != std::string::npos) GTEST_SKIP() << "ngspice is not installed";
-    EXPECT_NEAR(here.number("bb"), logged_number(log, "bb"), 1e-5) << log;
-    EXPECT_NEAR(here.number("cc"), logged_number(log, "cc"), 1e-5) << log;
+    const auto [here, log] = run_both(".ac dec 5 100 1meg\n");
+    if (log.find("ngspice: not found") != std::string::npos) GTEST_SKIP() << "ngspice is not installed";
+    const auto reference = read_raw_file(folder / "deck.raw");
+    ASSERT_EQ(reference.size(), 1U) << log;
+    for (const char* name : {"v(b)", "v(c)"}) {
+        const auto values = here.complex_curve(name);
+        const auto* other = reference[0].find_curve(name);
+        ASSERT_TRUE(other && other->values.size() == values.size()) << name;
+        for (std::size_t k = 0; k < values.size(); ++k)
+            EXPECT_LT(std::abs(values[k] - other->values[k]), 1e-6 * std::abs(values[k])) << name << k;
+    }
     const auto [tran, tran_log] =
         run_both(".tran 0.1u 500u 0 0.1u\n.meas tran bb find v(b) at=150u\n.meas tran cc find v(c) at=400u\n.meas tran high max v(b)\n");
     for (const char* name : {"bb", "cc", "high"}) EXPECT_NEAR(tran.number(name), logged_number(tran_log, name), 3e-3) << name << tran_log;

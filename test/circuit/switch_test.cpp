@@ -258,14 +258,14 @@ std::pair<NetlistRun, std::string> run_both(const std::string& text, const std::
 
 TEST(Switch, AgreesWithNgspiceInASweep) {
     const auto [here, log] = run_both(
-        divider(
-            "sw(vt=1 vh=0.25 ron=7 roff=1meg)",
-            "w1 d q vd wm off\nrq q 0 1k\n.model wm csw(it=-1.5m ih=0.2m ron=3 roff=1k)\nx1 o d sw2\n.subckt sw2 o d\ns1 o z d 0 smooth\n"
-            "rz z 0 100\n.ends\n.model smooth vswitch(von=2 voff=0 ron=10 roff=10k)\n.dc v1 0 2 0.1\n.meas dc edge when v(o)=0.2\n"
-            ".meas dc low find v(o) at=2\n.meas dc high find v(o) at=1\n.meas dc current find v(q) at=1"),
+        divider("sw(vt=1 vh=0.25 ron=7 roff=1meg)",
+                "ra a 0 1k\nw1 d q v1 wm off\nrq q 0 1k\n.model wm csw(it=-1m ih=0.2m ron=3 roff=1k)\nx1 o d sw2\n.subckt sw2 o d\ns1 o z "
+                "d 0 smooth\n"
+                "rz z 0 100\n.ends\n.model smooth vswitch(von=2 voff=0 ron=10 roff=10k)\n.dc v1 0 2 0.1\n.meas dc edge when v(o)=0.2\n"
+                ".meas dc low find v(o) at=2\n.meas dc high find v(o) at=1\n.meas dc current find v(q) at=1\n.meas dc off find v(q) at=2"),
         "", ".options reltol=1e-6");
-    if (log.find("not found") != std::string::npos) GTEST_SKIP() << "ngspice is not installed";
-    for (const char* name : {"edge", "low", "high", "current"})
+    if (log.find("ngspice: not found") != std::string::npos) GTEST_SKIP() << "ngspice is not installed";
+    for (const char* name : {"edge", "low", "high", "current", "off"})
         EXPECT_NEAR(here.number(name), logged_number(log, name), 1e-5 * std::abs(here.number(name)) + 1e-9) << name << log;
 }
 
@@ -277,7 +277,7 @@ TEST(Switch, AFlybackConverterAgreesWithNgspice) {
         "vg g 0 pulse(0 5 0 50n 50n 4u 10u)\n.tran 50n 200u\n.meas tran vout find v(out) at=195u\n.meas tran peak max i(l1)\n"
         ".meas tran mean avg i(l2) from=100u to=200u\n",
         ".tran 5n 200u 0 5n", ".options reltol=1e-6 abstol=1e-12 vntol=1e-8");
-    if (log.find("not found") != std::string::npos) GTEST_SKIP() << "ngspice is not installed";
+    if (log.find("ngspice: not found") != std::string::npos) GTEST_SKIP() << "ngspice is not installed";
     for (const char* name : {"vout", "peak", "mean"})
         EXPECT_NEAR(here.number(name), logged_number(log, name), 5e-4 * std::abs(here.number(name))) << name << log;
 }

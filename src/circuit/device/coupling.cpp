@@ -41,6 +41,7 @@ private:
 /// The coefficients between the inductors that the couplings of a circuit connect, directly or through others, to those of one coupling.
 class CouplingGroup {
     std::vector<std::string> names_;
+    const Element* last_ = nullptr;
     std::vector<double> matrix_;  // row by row: 1 on the diagonal, else the coefficient of a pair
 
     bool contains(const std::string& name) const { return std::ranges::find(names_, name) != names_.end(); }
@@ -48,11 +49,12 @@ class CouplingGroup {
     double& at(std::size_t a, std::size_t b) { return matrix_[a * names_.size() + b]; }
 
 public:
-    /// `couplings` end with the one whose group is wanted.
-    explicit CouplingGroup(std::span<const Element* const> couplings) : names_(couplings.back()->inductors) {
+    /// The group of `one` among all couplings.
+    CouplingGroup(const Element& one, std::span<const Element* const> couplings) : names_(one.inductors) {
         for (bool grows = true; std::exchange(grows, false);)
             for (const auto* e : couplings) {
-                if (std::ranges::none_of(e->inductors, [&](const auto& name) { return contains(name); })) continue;
+                if (!has(*e)) continue;
+                last_ = e;
                 for (const auto& name : e->inductors)
                     if (!contains(name)) names_.push_back(name), grows = true;
             }
@@ -63,7 +65,11 @@ public:
                 for (const auto& b : e->inductors)
                     if (a != b && contains(a)) at(index(a), index(b)) = e->value;
     }
+    bool has(const Element& e) const {
+        return std::ranges::any_of(e.inductors, [&](const auto& name) { return contains(name); });
+    }
     const std::vector<std::string>& names() const { return names_; }
+    const Element* last() const { return last_; }  ///< the last coupling of the group in the netlist
 
     /// False if some currents would give the inductors a negative energy: Cholesky's decomposition of the matrix fails. Coefficients of 1
     /// leave it singular, so a little is added to the diagonal.
@@ -84,36 +90,39 @@ public:
     }
 };
 
-/// The couplings of a circuit up to this one.
-std::vector<const Element*> couplings_until(const Circuit& circuit, const Element& last) {
+/// All couplings of a circuit.
+std::vector<const Element*> couplings_of(const Circuit& circuit, const DeviceKind* kind) {
     std::vector<const Element*> out;
-    for (const auto& e : circuit.elements) {
-        if (e.kind == last.kind) out.push_back(&e);
-        if (e.name == last.name) break;
-    }
+    for (const auto& e : circuit.elements)
+        if (e.kind == kind) out.push_back(&e);
     return out;
 }
 
+/// Rejects an inductor that the line has twice, and a pair that an earlier line couples, too.
 Result<void> check_pairs(const Element& e, std::span<const Element* const> couplings) {
-    for (const auto* other : couplings)
-        for (std::size_t a = 0; a < e.inductors.size(); ++a)
-            for (std::size_t b = 0; b < a; ++b) {
-                const auto has = [&](const std::string& name) { return std::ranges::find(other->inductors, name) != other->inductors.end(); };
-                if (e.inductors[a] == e.inductors[b]) return error_at(e.location, "{}: {} is named twice", e.name, e.inductors[a]);
-                if (other->name != e.name && has(e.inductors[a]) && has(e.inductors[b]))
+    for (std::size_t a = 0; a < e.inductors.size(); ++a)
+        for (std::size_t b = 0; b < a; ++b) {
+            if (e.inductors[a] == e.inductors[b]) return error_at(e.location, "{}: {} is named twice", e.name, e.inductors[a]);
+            for (const auto* other : couplings) {
+                if (other->name == e.name) break;
+                const auto has = [&](std::size_t k) {
+                    return std::ranges::find(other->inductors, e.inductors[k]) != other->inductors.end();
+                };
+                if (has(a) && has(b))
                     return error_at(e.location, "{}: {} and {} are coupled already, by {}; remove one of the two lines", e.name,
                                     e.inductors[b], e.inductors[a], other->name);
             }
+        }
     return {};
 }
 
 Result<std::unique_ptr<Device>> make_coupling(const Element& e, DeviceSetup& setup) {
     const auto& circuit = setup.circuit();
     if (!(std::abs(e.value) <= 1)) return error_at(e.location, "{}: k = {:g} is outside [-1, 1]", e.name, e.value);
-    const auto couplings = couplings_until(circuit, e);
+    const auto couplings = couplings_of(circuit, e.kind);
     TRY(check_pairs(e, couplings));
-    CouplingGroup group(couplings);
-    if (!group.stores_energy())
+    CouplingGroup group(e, couplings);
+    if (group.last() == &e && !group.stores_energy())
         return error_at(e.location,
                         "{}: k = {:g} between {} and {} does not fit the other couplings of {}: for some currents their energy would be "
                         "negative, because the matrix of the coefficients is not positive definite. Use a smaller magnitude of k",
@@ -152,8 +161,7 @@ Result<void> read_coupling(ElementReader& line) {
         if (word + 1 < line.word_count()) return line.too_many(word + 1);
     }
     if (const double k = line.element.value; !(std::abs(k) <= 1))
-        return pair ? line.error_at(pair->value, "k = {:g} is outside [-1, 1]", k)
-                    : line.error_at(word, "k = {:g} is outside [-1, 1]", k);
+        return pair ? line.error_at(pair->value, "k = {:g} is outside [-1, 1]", k) : line.error_at(word, "k = {:g} is outside [-1, 1]", k);
     return {};
 }
 

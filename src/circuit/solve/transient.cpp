@@ -359,7 +359,7 @@ bool Transient::take_breakpoint_step(double t0, double next_breakpoint) {
 /// Changes the states of the devices whose controls are beyond their levels at the newest point. For an afferent, the unknowns without
 /// charge are computed again, which may change other states. In .tran a very short step gives their values after the change.
 Result<void> Transient::change_states() {
-    constexpr double same_time = 1e-9;  // relative to the longest step
+    constexpr double same_time = 1e-6;  // relative to the longest step; more than a step after a breakpoint
     constexpr int max_changes = 1000;
     while (const Device* changed = system_.change_states(history_points_[0].x)) {
         changes_at_once_ = time() - last_change_ <= same_time * plan_.max_step ? changes_at_once_ + 1 : 0, last_change_ = time();
