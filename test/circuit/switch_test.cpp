@@ -7,6 +7,7 @@
 
 #include "circuit/afferent/circuit_afferent.hpp"
 #include "circuit/analysis/analysis_context.hpp"
+#include "circuit/batch/chip_batch.hpp"
 #include "circuit/export/ngspice_deck.hpp"
 #include "circuit/netlist_runner.hpp"
 #include "run/run_inputs.hpp"
@@ -211,6 +212,30 @@ TEST(Switch, AnAfferentContinuesBitForBitInBlocksAndAfterAPause) {
         ASSERT_TRUE(second->respond(std::span(force).subspan(at), copy, response));
         EXPECT_EQ(spikes, undivided) << at;
     }
+}
+
+/// Chips on SIMD lanes have no states, so chips with switches are simulated one by one.
+TEST(Switch, ChipsOfABatchRespondAsOneChipDoes) {
+    const auto text =
+        std::string(oscillating_afferent) + ".lib 'tsmc180.lib' tt\nvdd vdd 0 0.7\nr9 vdd q 1meg\nm1 q a 0 0 nch w=1.5u l=0.5u\n";
+    const auto netlist = corpuscle::test::value_or_throw(parse_netlist_text(text));
+    const auto factory = corpuscle::test::value_or_throw(
+        CircuitAfferentFactory::create(std::make_shared<const Circuit>(corpuscle::test::value_or_throw(netlist.elaborate()))));
+    const auto force = force_wave();
+    const ChipSpec chips{3, 1};
+    std::uint64_t next = 0, done = 0;
+    const auto make_chip = [&](std::uint64_t k) { return Chip{static_cast<std::int64_t>(k), factory, chips.sample(k), force, 1e-3}; };
+    const auto ran = run_chips(
+        factory, [&]() -> std::optional<Chip> { return next < 3 ? std::optional(make_chip(next++)) : std::nullopt; },
+        [&](const Chip& chip, ChipResponse&& response) {
+            const auto alone = run_chip_scalar(make_chip(static_cast<std::uint64_t>(chip.id)), {});
+            EXPECT_GT(response.spikes.size(), 20U);
+            EXPECT_EQ(response.spikes, alone.spikes);
+            ++done;
+        },
+        {});
+    ASSERT_TRUE(ran);
+    EXPECT_EQ(done, 3U);
 }
 
 std::string error_of(const std::string& body) {
