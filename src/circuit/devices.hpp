@@ -5,14 +5,15 @@
 
 namespace corpuscle::circuit {
 
-extern const DeviceKind resistor_kind, capacitor_kind, inductor_kind, voltage_source_kind, current_source_kind,
+extern const DeviceKind resistor_kind, capacitor_kind, inductor_kind, coupling_kind, voltage_source_kind, current_source_kind,
     voltage_controlled_voltage_kind, current_controlled_current_kind, voltage_controlled_current_kind, current_controlled_voltage_kind,
-    expression_source_kind, diode_kind, bipolar_kind, transistor_kind;
+    expression_source_kind, voltage_switch_kind, current_switch_kind, diode_kind, bipolar_kind, transistor_kind;
 
 /// In the order of messages and catalogues.
 inline constexpr const DeviceKind* device_kinds[] = {&resistor_kind,
                                                      &capacitor_kind,
                                                      &inductor_kind,
+                                                     &coupling_kind,
                                                      &voltage_source_kind,
                                                      &current_source_kind,
                                                      &voltage_controlled_voltage_kind,
@@ -20,6 +21,8 @@ inline constexpr const DeviceKind* device_kinds[] = {&resistor_kind,
                                                      &voltage_controlled_current_kind,
                                                      &current_controlled_voltage_kind,
                                                      &expression_source_kind,
+                                                     &voltage_switch_kind,
+                                                     &current_switch_kind,
                                                      &diode_kind,
                                                      &bipolar_kind,
                                                      &transistor_kind};

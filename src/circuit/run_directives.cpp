@@ -113,7 +113,11 @@ Result<void> analyse(AnalysisContext& context, const Analysis& analysis, const D
     run.result = std::move(*result);
     for (const auto& number : run.result.numbers) out.numbers.push_back(number);
     for (const auto& warning : run.result.warnings) out.warnings.push_back(warning);
-    for (const auto& plot : run.result.plots) TRY(PlotPoints(plot).send_to(dispatcher));
+    const auto& states = run.result.states;
+    const auto set_states = [&](std::size_t point) {
+        if (dispatcher.plot_count == 0 && point < states.size()) context.system.set_states(states[point]);  // for the currents of devices
+    };
+    for (const auto& plot : run.result.plots) TRY(PlotPoints(plot).send_to(dispatcher, set_states));
     run.result.plots = std::move(dispatcher.plots);
     out.analyses.push_back(std::move(run));
     return {};

@@ -110,6 +110,45 @@ TEST(DifficultTransient, AChipAtRestForAnHourCostsFewSteps) {
     EXPECT_GT(v.back(), 0.65);
 }
 
+/// A coil of 1 mH and 10 ohm, switched on for 0.3 ms. Without current the switch has no conductance at all, or one, or is an S.
+TEST(DifficultTransient, ACoilIsSwitchedWithAFreewheelDiode) {
+    for (const char* element : {"b1 e 0 i=v(e)*(v(g)>2.5 ? 10 : 0)", "b1 e 0 i=v(e)*(v(g)>2.5 ? 10 : 1n)",
+                                "s1 e 0 g 0 sm\n.model sm sw(vt=2.5 ron=0.1 roff=1g)"}) {
+        const auto run =
+            run_netlist(fmt::format("coil\nvdd vdd 0 12\nl1 vdd d 1m\nrl d e 10\n{}\nd1 e vdd dm\n.model dm d(is=1e-14)\n"
+                                    "vg g 0 pulse(0 5 0.1m 1u 1u 0.3m 1m)\n.tran 1u 3m\n.meas tran peak max i(l1)\n"
+                                    ".meas tran kick max v(e)\n",
+                                    element));
+        // On from 100.5 us to 401.5 us, through 10.1 ohm.
+        EXPECT_NEAR(run.number("peak"), 12 / 10.1 * (1 - std::exp(-301e-6 * 10.1 / 1e-3)), 2e-5) << element;
+        EXPECT_NEAR(run.number("kick"), 12 + 0.025865 * std::log(run.number("peak") / 1e-14), 1e-3) << element;
+    }
+}
+
+/// The node of .ic is between a capacitor and a resistor. Released, it jumps to the voltage that the charge of the capacitor allows.
+TEST(DifficultTransient, ANodeOfIcWithoutAChargeToGroundJumpsWhenItIsReleased) {
+    const auto run = run_netlist(
+        "released\nc1 x a 1u\nr1 a 0 1k\nr2 x 0 1k\n.ic v(a)=3\n.tran 10u 5m\n.meas tran begin find v(a) at=0\n"
+        ".meas tran later find v(a) at=1m\n");
+    EXPECT_NEAR(run.number("begin"), 1.5, 1e-5);
+    EXPECT_NEAR(run.number("later"), 1.5 * std::exp(-0.5), 1e-4);
+    const auto diode = run_netlist(
+        "with a diode\nv1 in 0 1\nd1 in x dm\n.model dm d(is=1e-14)\nc1 x a 1u\nr1 a 0 1k\nr2 x 0 1k\n"
+        ".ic v(a)=3\n.tran 10u 5m\n.meas tran begin find v(x,a) at=0\n");
+    EXPECT_TRUE(diode.is_complete());
+}
+
+/// A bridge of four diodes without capacitance, with and without a capacitor behind it.
+TEST(DifficultTransient, ABridgeOfDiodesWithoutCapacitanceRuns) {
+    for (const char* capacitor : {"", "c1 p n 100u\n"}) {
+        const auto run =
+            run_netlist(fmt::format("bridge\nv1 a b sin(0 10 50)\nd1 a p dm\nd2 b p dm\nd3 n a dm\nd4 n b dm\nr1 p n 1k\n{}"
+                                    "rg n 0 1meg\n.model dm d(is=1e-14)\n.tran 10u 60m\n.meas tran high max v(p,n)\n",
+                                    capacitor));
+        EXPECT_NEAR(run.number("high"), 10 - 2 * 0.72, 0.05);
+    }
+}
+
 /// 1 fA into 1 fF: 1 V/s.
 TEST(DifficultTransient, AFemtoampereChargesAFemtofarad) {
     const auto circuit = TransientRunner::from_text("tiny\ni1 0 a 1f\nc1 a 0 1f\nr1 a 0 1e21\n.ic v(a)=0\n.tran 1m 1\n");

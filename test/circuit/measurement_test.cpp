@@ -56,6 +56,21 @@ TEST(Measurement, DistinguishesCrossings) {
     EXPECT_DOUBLE_EQ(measured("count v(a)=7", times, values), 0);
 }
 
+/// v(a) = v1 + v2 - 3.5 rises in each inner sweep, and falls only between the end of one sweep and the beginning of the next.
+TEST(Measurement, NothingHappensBetweenTheInnerSweepsOfANestedSweep) {
+    const auto run = run_netlist(
+        "nested\nv1 b 0 0\nv2 c 0 0\ne1 a 0 value={v(b)+v(c)-3.5}\nr1 a 0 1\n.dc v1 0 5 1 v2 0 2 1\n"
+        ".meas dc edges count v(a)=0\n.meas dc falls count v(a)=0 fall\n.meas dc last when v(a)=0 cross=3\n"
+        ".meas dc area integ v(a)\n.meas dc second trig v(a) val=0 rise=1 targ v(a) val=0 rise=2\n"
+        ".meas dc slope deriv v(a) when v(a)=0 cross=2\n");
+    EXPECT_EQ(run.number("edges"), 3);
+    EXPECT_EQ(run.number("falls"), 0);
+    EXPECT_NEAR(run.number("last"), 1.5, 1e-9);
+    EXPECT_NEAR(run.number("second"), -1, 1e-9);
+    EXPECT_NEAR(run.number("slope"), 1, 1e-9);
+    EXPECT_NEAR(run.number("area"), 3 * 12.5 + 5 * (-3.5 - 2.5 - 1.5), 1e-6) << "the sum of the three sweeps";
+}
+
 TEST(Measurement, MeasuresTheTimeBetweenTwoEdges) {
     EXPECT_DOUBLE_EQ(measured("trig v(a) val=1 rise=1 targ v(a) val=1 rise=2", times, values), 5.5);
     EXPECT_DOUBLE_EQ(measured("trig at=1 targ v(a) td=2.5 val=0 cross=1", times, values), 4);

@@ -33,6 +33,7 @@ std::uint64_t fingerprint_of(const Circuit& c) {
         if (e.expression) formula(*e.expression);
         // Hashed only if present, so that netlists without them keep the hash of earlier versions and their saved states stay valid.
         if (!e.control_source.empty()) text(e.control_source);
+        for (const auto& inductor : e.inductors) text(inductor);
         if (e.expression && e.expression_is_voltage) number(1);
     }
     for (const auto& m : c.models) text(m.type), values(m.values);

@@ -25,13 +25,15 @@ NodeClamps AnalysisContext::initial_clamps() const {
 }
 
 Result<OperatingPoint> AnalysisContext::operating_point() {
-    if (operating_point_) return *operating_point_;
+    if (operating_point_) return system.set_states(operating_point_->states), *operating_point_;
+    system.reset_states();
     auto found = find_operating_point(newton, nominal_x_);
     if (found) operating_point_ = *found;
     return found;
 }
 
 Result<OperatingPoint> AnalysisContext::initial_operating_point() {
+    system.reset_states();
     return find_operating_point(newton, circuit->ic.empty() ? nominal_x_ : nominal_initial_x_, initial_clamps());
 }
 

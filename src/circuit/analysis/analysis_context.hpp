@@ -13,6 +13,8 @@ struct AnalysisResult {
     std::vector<std::pair<std::string, double>> stats = {};    ///< counters: steps, iterations ...
     std::string table = {};                                    ///< text to print, such as the table of .op
     std::vector<Error> warnings = {};
+    /// By point of the first plot, the states of the devices with states; empty: those at the end hold for all points.
+    std::vector<std::vector<char>> states = {};
     std::optional<std::vector<double>> spikes = {};  ///< spike times of .tran, s; nothing if the netlist has no .spike
 };
 

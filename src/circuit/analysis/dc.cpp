@@ -76,12 +76,15 @@ public:
     }
 
 private:
+    /// The new circuit keeps the states of the devices.
     Result<void> set_temperature(double value) {
+        const auto states = context().system.states();
         auto copy = std::make_shared<Circuit>(*original_.circuit);
         copy->temperature = value;
         copy_ = TRY(AnalysisContext::make(std::move(copy)));
         if (original_.chip_sample()) copy_->apply_variation(*original_.chip_sample());
         for (const auto& s : elements_) copy_->system.device(s.name)->set_principal_value(s.present);
+        copy_->system.set_states(states);
         return {};
     }
     Result<void> set_element(const std::string& name, double value) {
@@ -112,9 +115,12 @@ Result<AnalysisResult> analyse_dc(AnalysisContext& original, const Directive& c)
         return error_at(c.location, ".dc: {} times {} points; the maximum is 10000000", values.size(), outer_values.size());
 
     Plot plot = plot_of_sweep(original.system, inner.variable);
+    if (outer) plot.inner_points = values.size();
+    AnalysisResult result;
     SweptCircuit swept(original);
     for (std::size_t k = 0; k < outer_values.size(); ++k) {
         if (outer) TRY(swept.set(outer->variable, outer_values[k]));
+        swept.context().system.reset_states();
         std::vector<double> x;
         for (std::size_t j = 0; j < values.size(); ++j) {
             if (original.is_stopped(static_cast<double>(k * values.size() + j) / static_cast<double>(outer_values.size() * values.size())))
@@ -130,9 +136,9 @@ Result<AnalysisResult> analyse_dc(AnalysisContext& original, const Directive& c)
             }
             x = found->x;
             append(plot, values[j], x);
+            if (!found->states.empty()) result.states.push_back(found->states);
         }
     }
-    AnalysisResult result;
     result.plots.push_back(std::move(plot));
     return result;
 }

@@ -43,6 +43,7 @@ public:
     }
     /// Searches from x with a node clamped to the voltage `to`, then from the result without the clamp.
     void add_from_clamped(const std::vector<double>& x, std::size_t node, double to) {
+        context_.system.reset_states();
         NodeClamps clamps{std::vector<double>(nodes()), std::vector<double>(x.size())};
         clamps.conductance[node] = 1, clamps.voltage[node] = to;
         auto clamped = find_operating_point(context_.newton, x, clamps);
@@ -81,7 +82,7 @@ std::shared_ptr<const Circuit> with_rising_sources(const AnalysisContext& contex
 }
 
 /// The unknowns at the end of a transient that starts at 0 V everywhere, without .ic, while all V and I sources rise from 0 within `rise`
-/// (s). Returns nothing if the circuit keeps oscillating.
+/// (s). The original circuit gets the states of its devices. Returns nothing if the circuit keeps oscillating.
 Result<std::optional<std::vector<double>>> power_on_state(const AnalysisContext& original, double rise) {
     auto copy = TRY(AnalysisContext::make(with_rising_sources(original, rise)));
     auto& context = *copy;
@@ -100,6 +101,7 @@ Result<std::optional<std::vector<double>>> power_on_state(const AnalysisContext&
         else if (!*stepped)
             break;
     }
+    original.system.set_states(context.system.states());
     return std::optional(std::vector<double>(transient.x().begin(), transient.x().end()));
 }
 
@@ -143,6 +145,7 @@ Result<std::vector<Equilibrium>> find_equilibria(AnalysisContext& context, doubl
     if (power_on && *power_on)
         if (auto* reached = states.add_from(**power_on)) reached->is_power_on = true;
     const auto stable = states.stable();
+    context.system.reset_states();
     for (std::size_t a = 0; a < stable.size(); ++a)
         for (std::size_t b = 0; b < a; ++b) {
             auto midpoint = stable[a];

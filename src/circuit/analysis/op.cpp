@@ -87,7 +87,9 @@ std::optional<Error> check_second_state(AnalysisContext& context, const Operatin
     for (std::size_t n = 0; n < nodes; ++n) high = std::max(high, std::abs(found.x[n]));
     std::vector<double> start(found.x.size());
     std::fill_n(start.begin(), nodes, high);
+    context.system.reset_states();
     const auto again = find_operating_point(context.newton, std::move(start));
+    context.system.set_states(found.states);
     if (!again) return {};
     for (std::size_t n = 0; n < nodes; ++n)
         if (std::abs(again->x[n] - found.x[n]) > 1e-3)
@@ -137,6 +139,7 @@ Result<AnalysisResult> analyse_op(AnalysisContext& context, const Directive& c) 
     for (std::size_t n = 0; n < found.x.size(); ++n) plot.curves[n].values.emplace_back(found.x[n]);
     out.plots.push_back(std::move(plot));
     if (options.states) TRY(report_states(context, options, out));
+    context.system.set_states(found.states);
     if (context.is_brief) return out;
     out.table = fmt::format("found by {} ({} iterations, gmin {:g} S)\n{}{}", found.method, found.iterations, context.tolerances.gmin,
                             out.table, operating_point_table(context.system, found.x));

@@ -60,6 +60,7 @@ Result<std::vector<double>> run_transient(AnalysisContext& context, const TranSe
                                           const Transient::PointCallback& each) {
     std::vector<double> out;
     bool stopped = false;
+    context.system.set_states(setup.initial.states);
     const auto done = t.run(
         setup.initial.x, setup.initial.is_consistent,
         [&](double time, std::span<const double> x) {

@@ -59,6 +59,30 @@ std::vector<double> charge_of_ics(const AnalysisContext& context, std::vector<do
     return out;
 }
 
+/// True if no unknown jumps when the clamps of .ic at the operating point x are released. A node jumps if no charge at it takes over the
+/// current of its clamp: if a short step, of length 1/a, changes its voltage.
+bool keeps_released_voltages(AnalysisContext& context, std::span<const double> x) {
+    constexpr double of_conductance = 1e9;                // a C, relative to G, so that the matrix is not singular to rounding
+    constexpr double relative = 1e-6, v_smallest = 1e-6;  // of a jump that counts; V
+    auto sums = evaluate_operating_point(context, x);
+    const auto entries = context.system.pattern().entries();
+    double largest_G = 0, largest_C = 0;
+    for (std::size_t e = 0; e < entries; ++e)
+        largest_G = std::max(largest_G, std::abs(sums.G[e])), largest_C = std::max(largest_C, std::abs(sums.C[e]));
+    const double a = largest_C > 0 ? of_conductance * largest_G / largest_C : 0;  // 1/s
+    for (std::size_t e = 0; e < entries; ++e) sums.G[e] += a * sums.C[e];
+    LinearSolver<double> solver(context.system.pattern());
+    if (!solver.factor(std::span<const double>(sums.G).first(entries))) return true;
+    auto change = sums.f;  // the currents of the clamps; zero elsewhere, up to the tolerances
+    const auto clamps = context.initial_clamps();
+    for (std::size_t n = 0; n < change.size(); ++n)
+        if (n >= clamps.conductance.size() || clamps.conductance[n] == 0) change[n] = 0;
+    solver.solve(change);
+    for (std::size_t n = 0; n < change.size(); ++n)
+        if (context.system.is_voltage(static_cast<int>(n)) && std::abs(change[n]) > relative * std::abs(x[n]) + v_smallest) return false;
+    return true;
+}
+
 Result<SpikeOutput> parse_spike(const System& system, const Directive& c) {
     const auto unknowns = TRY(read_output_variable(system, c, 0));
     if (c.words.size() < 2)
@@ -142,14 +166,18 @@ Result<InitialCondition> find_initial_condition(AnalysisContext& context, bool u
     const bool has_ic = !context.circuit->ic.empty();
     auto clamps = context.initial_clamps();
     clamps.voltage.resize(static_cast<std::size_t>(context.system.size()));
+    context.system.reset_states();
     if (uic) {
         InitialCondition out{std::move(clamps.voltage), false};
         out.charge = charge_of_ics(context, out.x);
+        out.states = context.system.states();
         return out;
     }
     auto rest = TRY(guess.empty() ? context.initial_operating_point()
                                   : find_operating_point(context.newton, std::move(guess), has_ic ? clamps : NodeClamps{}));
     InitialCondition out{std::move(rest.x)};
+    out.states = std::move(rest.states);
+    if (has_ic) out.is_consistent = keeps_released_voltages(context, out.x);
     if (has_ic || context.system.is_linear()) return out;
     const auto mode = find_unstable_mode(context.newton, out.x);
     if (!mode) return out;

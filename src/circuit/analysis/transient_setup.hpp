@@ -23,6 +23,7 @@ struct InitialCondition {
     std::vector<double> x;
     bool is_consistent = true;       ///< true: x solves the equations; false (uic): only the charges at x are valid
     std::vector<double> charge{};    ///< C, by equation: charge that ic= of elements adds to the charges at x; empty: none
+    std::vector<char> states{};      ///< of the devices with states
     std::optional<Error> warning{};  ///< says that the operating point is unstable, so that the transient starts beside it
 };
 

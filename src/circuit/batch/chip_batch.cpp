@@ -224,7 +224,7 @@ Result<void> run_chips(const std::shared_ptr<const CircuitAfferentFactory>& nomi
     auto simulation = TRY(StreamingTransient::make(*nominal, 1e-4, {}));  // its sample time does not matter here
     const auto& system = simulation->context().system;
     const auto* list = simulation->transient().elimination();
-    if (list == nullptr || system.groups().empty() || nominal->plan.method != Integration::bdf)
+    if (list == nullptr || system.groups().empty() || !system.devices_with_states().empty() || nominal->plan.method != Integration::bdf)
         return run_all_scalar(next, on_done, options);
     return Batch(*kernels, system, *list, linearization_radius(nominal->plan),
                  static_cast<std::size_t>(std::max(nominal->plan.max_order + 1, StepControl::max_curve_points)),

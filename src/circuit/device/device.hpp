@@ -82,6 +82,17 @@ struct OperatingValue {
     double value;
 };
 
+/// The next change of the state of a device with two states, such as a switch with hysteresis: the state changes when the difference of two
+/// of the device's unknowns passes a level.
+struct StateChange {
+    std::size_t plus;                  ///< index into the device's unknowns
+    std::optional<std::size_t> minus;  ///< the same; nothing: 0
+    double level;                      ///< V or A
+    bool upwards;
+    /// How far the difference is beyond the level; negative: it has not passed it.
+    double excess(double value_plus, double value_minus) const { return (upwards ? 1 : -1) * (value_plus - value_minus - level); }
+};
+
 /// The random process and mismatch sample of one chip. The deviations of each device are computed from (seed, chip, index of the device).
 struct ChipSample {
     std::uint64_t seed = 0, chip = 0;  ///< chip: its number among the chips of this seed
@@ -97,11 +108,20 @@ public:
     std::vector<int> unknowns;  ///< indices of its unknowns in the system; -1: ground
 
     virtual ~Device() = default;
+    /// Called once, when all devices of the circuit exist; `all` has them by element. A device may keep pointers to others.
+    virtual void connect(std::span<const std::unique_ptr<Device>> /*all*/) {}
     /// Writes f, q and their derivatives to a stamp that is zero. v: values of the device's unknowns.
     virtual void eval(std::span<const double> v, const EvalContext&, const Stamp&) const = 0;
     virtual bool is_linear() const { return true; }
     /// True if the currents may be discontinuous in v, as those of an expression with conditions.
     virtual bool has_jumps() const { return false; }
+
+    // A device may have two states, between which its equations change. The state is kept while equations are solved. It changes after an
+    // accepted time step at the end of which next_change() has happened, and in the search for an operating point.
+    virtual std::optional<StateChange> next_change() const { return {}; }  ///< nothing: the device has no states
+    virtual bool state() const { return false; }
+    virtual bool initial_state() const { return false; }  ///< at which the search for an operating point begins
+    virtual void set_state(bool) {}
 
     /// Number of values that limit() keeps between Newton iterations.
     virtual std::size_t limiting_state_size() const { return 0; }

@@ -88,7 +88,7 @@ MeasurementSet::MeasurementSet(const Circuit& circuit) {
 }
 
 Result<void> MeasurementSet::begin(std::string_view analysis, const Plot& head) {
-    active_.clear(), has_sweep_ = head.has_sweep;
+    active_.clear(), has_sweep_ = head.has_sweep, inner_points_ = head.inner_points, points_ = 0;
     for (auto& entry : entries_) {
         // A line that has a measurement already measured an earlier analysis of this kind.
         const auto& c = *entry.directive;

@@ -49,6 +49,8 @@ public:
     virtual ~Measurement() = default;
     /// The next point of the plot; x is the swept quantity.
     virtual void add_point(double x, const PlotRow&) = 0;
+    /// The next point begins another sweep: no curve leads to it from the last point.
+    virtual void begin_sweep() = 0;
     /// The result after the last point; NaN if nothing was found.
     virtual double value() const = 0;
 };
@@ -64,9 +66,10 @@ struct CurveFollower {
     CurveView curve;
     double level = 0;
     std::optional<CurveView> other{};      ///< replaces the level
-    std::optional<LineSegment> segment{};  ///< the newest one; after the first point a segment of length 0
+    std::optional<LineSegment> segment{};  ///< the newest one; after the first point of a sweep a segment of length 0
 
-    /// Returns false at the first point, which does not complete a segment.
+    void begin_sweep() { segment.reset(); }
+    /// Returns false at the first point of a sweep, which does not complete a segment.
     bool add_point(double x, const PlotRow& row) {
         const double y = curve.measured_value(row) - (other ? other->measured_value(row) : level);
         const bool first = !segment;
@@ -92,6 +95,7 @@ struct CrossingCounter {
 
     /// Returns true if the newest segment has the selected crossing. If the last crossing is selected, returns true at every crossing.
     bool add_point(double x, const PlotRow&);
+    void begin_sweep() { follower.begin_sweep(); }
     double result() const { return edges.is_counted ? count : position; }
 };
 
@@ -102,6 +106,9 @@ struct EventPoint {
 
     /// Returns true if the newest segment has the crossing.
     bool add_point(double x, const PlotRow& row) { return crossing && crossing->add_point(x, row); }
+    void begin_sweep() {
+        if (crossing) crossing->begin_sweep();
+    }
     double position() const { return crossing ? crossing->result() : at; }
 };
 
@@ -115,6 +122,10 @@ public:
     void add_point(double x, const PlotRow& row) override {
         if (trigger_) trigger_->add_point(x, row);
         target_.add_point(x, row);
+    }
+    void begin_sweep() override {
+        if (trigger_) trigger_->begin_sweep();
+        target_.begin_sweep();
     }
     double value() const override { return trigger_ ? target_.position() - trigger_->position() : target_.position(); }
 };
@@ -133,6 +144,7 @@ public:
     ValueMeasurement(CurveFollower curve, bool is_slope, EventPoint event)
         : curve_(std::move(curve)), is_slope_(is_slope), event_(std::move(event)) {}
     void add_point(double x, const PlotRow&) override;
+    void begin_sweep() override { curve_.begin_sweep(), event_.begin_sweep(); }
     double value() const override;
 };
 
@@ -168,6 +180,7 @@ public:
     SummaryMeasurement(Statistic statistic, CurveFollower curve, Interval interval)
         : statistic_(statistic), curve_(std::move(curve)), interval_(interval) {}
     void add_point(double x, const PlotRow&) override;
+    void begin_sweep() override { curve_.begin_sweep(); }
     double value() const override { return summary_.any ? statistic_(summary_) : not_found; }
 };
 
@@ -192,6 +205,8 @@ class MeasurementSet {
     std::vector<Entry> entries_;
     std::vector<Measurement*> active_;  // measurements of the plot that was begun last
     bool has_sweep_ = true;             // of that plot
+    std::size_t inner_points_ = 0;      // of that plot
+    std::size_t points_ = 0;            // number of points of that plot so far
 
 public:
     explicit MeasurementSet(const Circuit&);
@@ -204,7 +219,11 @@ public:
     Result<void> check(const std::vector<std::string>& number_names) const;
     /// Adds a point of the plot.
     void add_point(const PlotRow& row) {
-        for (auto* measurement : active_) measurement->add_point(has_sweep_ ? row[0].real() : 0, row);
+        const bool begins_sweep = inner_points_ > 0 && points_++ % inner_points_ == 0;
+        for (auto* measurement : active_) {
+            if (begins_sweep) measurement->begin_sweep();
+            measurement->add_point(has_sweep_ ? row[0].real() : 0, row);
+        }
     }
 
     /// Call this after all analyses. `numbers` contains the numbers of the analyses, which param= expressions may use. Appends the results

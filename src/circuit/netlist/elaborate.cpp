@@ -196,7 +196,7 @@ private:
                         did_you_mean(name, std::views::keys(body.defaults)));
     }
 
-    /// Checks that all nodes and elements that expressions, F and H lines name exist.
+    /// Checks that all nodes and elements that expressions, F, H and K lines name exist.
     Result<void> check_references() const {
         const Circuit& c = builder_.circuit;
         for (const auto& p : builder_.forward_refs) {
@@ -205,8 +205,15 @@ private:
                 return error_at(p.location, "{}: unknown node '{}'{}", p.user, p.name, did_you_mean(p.name, c.nodes | std::views::drop(1)));
             }
             const int k = c.find_element(p.name);
-            if (k < 0) return error_at(p.location, "{}: unknown element '{}'{}", p.user, p.name, did_you_mean(p.name, voltage_sources()));
+            const bool is_coupled = p.target == ForwardRef::Target::inductor;
+            if (k < 0)
+                return error_at(p.location, "{}: unknown element '{}'{}", p.user, p.name,
+                                did_you_mean(p.name, elements_with(is_coupled ? Role::inductor : Role::voltage_source)));
             const Element& e = c.elements[static_cast<std::size_t>(k)];
+            if (is_coupled) {
+                if (has_role(e, Role::inductor)) continue;
+                return error_at(p.location, "{}: '{}' is not an inductor", p.user, p.name);
+            }
             const bool has_current = p.target == ForwardRef::Target::current ? has_branch_current(e) : has_role(e, Role::voltage_source);
             if (!has_current)
                 return error_at(p.location, "{}: '{}' is not a voltage source; put a 0 V source in series to measure its current", p.user,
@@ -214,10 +221,10 @@ private:
         }
         return {};
     }
-    std::vector<std::string_view> voltage_sources() const {
+    std::vector<std::string_view> elements_with(Role role) const {
         std::vector<std::string_view> names;
         for (const auto& e : builder_.circuit.elements)
-            if (has_role(e, Role::voltage_source)) names.push_back(e.name);
+            if (has_role(e, role)) names.push_back(e.name);
         return names;
     }
 

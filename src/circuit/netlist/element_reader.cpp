@@ -94,6 +94,11 @@ void ElementReader::control_source(std::size_t word) {
     builder_.forward_refs.push_back({element.control_source, s_.location(word), std::string(name_), ForwardRef::Target::source});
 }
 
+void ElementReader::inductor(std::size_t word) {
+    element.inductors.push_back(scope_.path + std::string(text(word)));
+    builder_.forward_refs.push_back({element.inductors.back(), s_.location(word), std::string(name_), ForwardRef::Target::inductor});
+}
+
 std::optional<double> ElementReader::model_value(std::string_view name) const {
     if (element.model < 0) return {};
     const auto& values = builder_.circuit.models[static_cast<std::size_t>(element.model)].values;

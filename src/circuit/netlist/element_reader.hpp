@@ -61,6 +61,8 @@ public:
     std::optional<double> model_value(std::string_view name) const;
     /// Reads the word as the name of the voltage source whose current controls the element.
     void control_source(std::size_t word);
+    /// Reads the word as the name of an inductor that the element couples.
+    void inductor(std::size_t word);
 
     /// An error at a word, given by its number or as a Word.
     template <class... Arguments>

@@ -47,6 +47,7 @@ struct Element {
     std::optional<Expression> expression;  ///< for B (v= or i=), C (q=), E and G (value=)
     bool expression_is_voltage = false;  ///< for B, E and G: true if the expression gives a voltage (v=, or value= of E), false: a current
     std::string control_source;          ///< for F and H: the controlling voltage source, with its path
+    std::vector<std::string> inductors;  ///< for K: the coupled inductors, with their paths
 };
 
 /// A .model line with all its values evaluated.

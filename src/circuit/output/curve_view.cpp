@@ -104,11 +104,14 @@ std::optional<std::vector<std::complex<double>>> find_curve_values(const Plot& p
     return out;
 }
 
-Result<void> PlotPoints::send_to(PointSink& sink) {
+Result<void> PlotPoints::send_to(PointSink& sink, const std::function<void(std::size_t)>& prepare) {
     Plot head = plot_;
     for (auto& c : head.curves) c.values.clear();
     TRY(sink.begin(head));
-    for (std::size_t k = 0; k < plot_.point_count(); ++k) TRY(sink.add_point((*this)[k]));
+    for (std::size_t k = 0; k < plot_.point_count(); ++k) {
+        if (prepare) prepare(k);
+        TRY(sink.add_point((*this)[k]));
+    }
     return sink.end();
 }
 

@@ -3,6 +3,7 @@
 // another, since a plot may be too long to be kept in memory.
 
 #include <complex>
+#include <functional>
 #include <span>
 #include <string_view>
 #include <vector>
@@ -23,6 +24,9 @@ struct Plot {
     std::string name;  ///< "DC transfer characteristic"
     bool is_complex = false, has_sweep = true;
     std::vector<Curve> curves;
+    /// Number of points of each inner sweep of a .dc with two sources. Between two inner sweeps the curves are not continuous. 0: one
+    /// sweep.
+    std::size_t inner_points = 0;
 
     std::size_t point_count() const { return curves.empty() ? 0 : curves[0].values.size(); }
     /// The curve of this name; null if there is none.
@@ -79,8 +83,8 @@ public:
         for (const auto& c : plot_.curves) plot_.is_complex ? complex_.push_back(c.values[point]) : real_.push_back(c.values[point].real());
         return plot_.is_complex ? PlotRow(complex_) : PlotRow(real_);
     }
-    /// Passes them to a sink.
-    Result<void> send_to(PointSink&);
+    /// Passes them to a sink. Calls prepare(k), if it is not empty, before point k.
+    Result<void> send_to(PointSink&, const std::function<void(std::size_t)>& prepare = {});
 };
 
 }  // namespace corpuscle::circuit

@@ -223,7 +223,24 @@ Tolerances Tolerances::from_options(const Circuit& c) {
 }
 
 Result<OperatingPoint> find_operating_point(NewtonSolver& newton, std::vector<double> start, NodeClamps clamps) {
-    return OperatingPointSearch(newton, std::move(start), std::move(clamps)).run();
+    constexpr std::size_t max_joint_changes = 20;  // afterwards, one state is changed at a time, since some may depend on each other
+    const System& system = newton.system;
+    const auto max_changes = max_joint_changes + 4 * system.devices_with_states().size();
+    const Device* changed = nullptr;
+    int iterations = 0;
+    for (std::size_t changes = 0; changes <= max_changes; ++changes) {
+        auto found = OperatingPointSearch(newton, std::move(start), clamps).run();
+        if (!found) return found;
+        iterations = found->iterations += iterations;
+        changed = system.change_states(found->x, changes >= max_joint_changes);
+        if (changed == nullptr) return found->states = system.states(), found;
+        start = std::move(found->x);
+    }
+    return Error{ErrorCode::not_converged,
+                 fmt::format("no operating point found: {} has no state that agrees with its control: each of the two leads to the other. "
+                             "Set the voltage at which a transient begins with .ic, or with uic",
+                             changed->name),
+                 changed->location};
 }
 
 }  // namespace corpuscle::circuit

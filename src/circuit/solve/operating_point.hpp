@@ -20,8 +20,9 @@ struct Tolerances {
 
 struct OperatingPoint {
     std::vector<double> x;
-    std::string_view method;  ///< that found it: "newton", "gmin", "source", "pseudo-transient"
-    int iterations = 0;       ///< Newton iterations of all attempts
+    std::string_view method;     ///< that found it: "newton", "gmin", "source", "pseudo-transient"
+    int iterations = 0;          ///< Newton iterations of all attempts
+    std::vector<char> states{};  ///< of the devices with states
 };
 
 /// Conductances (S) that pull nodes to given voltages (V), by node: the current conductance * (x - voltage) is added to the equation of
@@ -53,7 +54,8 @@ struct NewtonSolver {
 };
 
 /// Finds an operating point. The search starts from the unknowns in `start`; if it is empty, from 0 with the voltages of .nodeset. The
-/// solution includes the effect of `clamps`.
+/// solution includes the effect of `clamps`. Devices with states begin in their present states, which change until they agree with the
+/// solution; they keep those of the last solution found.
 Result<OperatingPoint> find_operating_point(NewtonSolver&, std::vector<double> start = {}, NodeClamps clamps = {});
 
 /// The fastest growing disturbance of an unstable operating point.

@@ -77,14 +77,15 @@ void StepEquations::linearize(std::span<const double> x) {
     batched_devices_.evaluate(newton_.context, a_, x_, J_, r_);
 }
 
-/// In a nonlinear circuit, limits the voltages of the Newton step to 0.5 V. Returns the largest component of the step, relative to the
-/// allowed error. Sets `clamped` if a voltage was limited.
+/// In a circuit with transistors that are evaluated together, which do not limit their voltages themselves, limits the voltages of the
+/// Newton step to 0.5 V. Elsewhere a voltage may jump by any number of volts, as where a switch opens at a coil. Returns the largest
+/// component of the step, relative to the allowed error. Sets `clamped` if a voltage was limited.
 double StepEquations::largest_step(std::span<const double> allowed, bool& clamped) {
     double largest = 0;
     for (std::size_t n = 0; n < allowed.size(); ++n) {
         double& d = step_[n];
         if (!std::isfinite(d)) return d;
-        if (is_voltage_[n] && !system_.is_linear() && std::abs(d) > 0.5) d = std::copysign(0.5, d), clamped = true;
+        if (is_voltage_[n] && !system_.groups().empty() && std::abs(d) > 0.5) d = std::copysign(0.5, d), clamped = true;
         if (allowed[n] > 0) largest = std::max(largest, std::abs(d) / allowed[n]);
     }
     return largest;

@@ -62,6 +62,10 @@ Result<System> System::make(std::shared_ptr<const Circuit> circuit) {
         system.devices_.push_back(std::move(device));
     }
     if (!refusals.empty()) return refusals.combined();
+    for (const auto& d : system.devices_) d->connect(system.devices_);
+    for (std::size_t k = 0; k < system.devices_.size(); ++k)
+        if (system.devices_[k]->next_change()) system.devices_with_states_.push_back(k);
+    system.reset_states();
     std::vector<std::pair<int, int>> entries;
     for (int k = 0; k < system.size(); ++k)
         entries.emplace_back(k, k), system.numbers_.try_emplace(system.names_[static_cast<std::size_t>(k)], k);
@@ -103,6 +107,37 @@ Result<void> System::make_groups() {
         groups_.push_back(std::move(group));
     }
     return {};
+}
+
+std::vector<char> System::states() const {
+    std::vector<char> out;
+    for (const auto k : devices_with_states_) out.push_back(devices_[k]->state());
+    return out;
+}
+
+void System::set_states(std::span<const char> states) const {
+    for (std::size_t k = 0; k < states.size(); ++k) devices_[devices_with_states_[k]]->set_state(states[k] != 0);
+}
+
+void System::reset_states() const {
+    for (const auto k : devices_with_states_) devices_[k]->set_state(devices_[k]->initial_state());
+}
+
+double System::excess(std::size_t device, std::span<const double> x) const {
+    const Device& d = *devices_[device];
+    const auto change = *d.next_change();
+    return change.excess(value_of(x, d.unknowns[change.plus]), change.minus ? value_of(x, d.unknowns[*change.minus]) : 0);
+}
+
+const Device* System::change_states(std::span<const double> x, bool first_only) const {
+    const Device* changed = nullptr;
+    for (const auto k : devices_with_states_) {
+        if (!(excess(k, x) > 0)) continue;
+        devices_[k]->set_state(!devices_[k]->state());
+        changed = devices_[k].get();
+        if (first_only) break;
+    }
+    return changed;
 }
 
 void System::start_transient(double step, double stop) {

@@ -54,6 +54,7 @@ class System {
     std::vector<std::vector<std::size_t>> entries_;  // by device, matrix entry of each derivative; for ground the number of entries
     std::vector<DeviceGroup> groups_;
     std::vector<std::size_t> scalar_devices_;  // indices of the devices in no group
+    std::vector<std::size_t> devices_with_states_;
     int nodes_ = 0;
     bool is_linear_ = true;
 
@@ -88,6 +89,17 @@ public:
     bool is_linear() const { return is_linear_; }  ///< true if all devices are linear
     /// Zeros, for the values that Device::limit() of all devices keeps between Newton iterations.
     std::vector<double> initial_limiting_state() const { return std::vector<double>(limiting_state_size_); }
+
+    std::span<const std::size_t> devices_with_states() const { return devices_with_states_; }  ///< their indices
+    /// The states of these devices. They belong to the devices, so the functions that change them are const.
+    std::vector<char> states() const;
+    void set_states(std::span<const char>) const;
+    void reset_states() const;  ///< to the initial states
+    /// How far the control of a device with states is beyond the level at which its state changes, at x.
+    double excess(std::size_t device, std::span<const double> x) const;
+    /// Changes the state of each device whose control is beyond its level at x, or of the first one only. Returns the last device whose
+    /// state was changed; null: none.
+    const Device* change_states(std::span<const double> x, bool first_only = false) const;
 
     /// Evaluates all devices at x and sums their contributions. Updates the limiting state.
     void eval(std::span<const double> x, const EvalContext&, std::vector<double>& limiting_state, SystemEvaluation&) const;

@@ -7,6 +7,8 @@ namespace {
 
 constexpr double min_relative_gap = 1e-12;  // minimum distance of the first point after a breakpoint, relative to the breakpoint's time
 
+constexpr int max_shortest_steps = 3;  // successive steps of the shortest length that are accepted with any error
+
 }  // namespace
 
 Result<void> Transient::begin(std::vector<double> x, bool settled, std::span<const double> charge) {
@@ -30,6 +32,7 @@ Result<void> Transient::begin(std::vector<double> x, bool settled, std::span<con
     first.t = 0, first.x = std::move(x), first.q.assign(count, 0);
     history_points_.accept();
     control_.h = plan_.max_step, control_.recent_max_step = 0, restart_pending_ = false;
+    last_change_ = 0, changes_at_once_ = 0;
     curve_points_ = 0, start_phase_ = plan_.all_reported ? StartPhase::breakpoint : StartPhase::none;
     equations_.evaluate_static(0, history_points_[0].x, rate_, first.q);
     for (std::size_t n = 0; n < charge.size(); ++n) first.q[n] += charge[n];
@@ -43,23 +46,54 @@ Result<void> Transient::begin(std::vector<double> x, bool settled, std::span<con
     return ok;
 }
 
-/// Computes the unknowns without charge from the charges, by a step so short that no charge changes.
-Result<void> Transient::make_consistent() {
-    const double h = 1e-15 * plan_.max_step;
-    auto point = history_points_[0];
-    for (std::size_t n = 0; n < point.q.size(); ++n) history_[n] = -point.q[n] / h;
-    equations_.prepare(0, 1 / h, history_);
-    const auto allowed = std::exchange(allowed_error_, std::vector<double>(point.x.size(), plan_.vntol));
+/// The unknowns at the newest point after a step of length h (s) with its charges. Nothing if the equations could not be solved.
+std::optional<std::vector<double>> Transient::solve_with_charges_kept(double h) {
+    auto x = history_points_[0].x;
+    const auto& q = history_points_[0].q;
+    for (std::size_t n = 0; n < q.size(); ++n) history_[n] = -q[n] / h;
+    equations_.prepare(time(), 1 / h, history_);
+    const std::vector<double> allowed(x.size(), plan_.vntol);
     auto status = StepEquations::Status::iterating;
     for (int k = 0; k < 100 && status != StepEquations::Status::converged; ++k) {
-        if (k % 10 == 9) equations_.prepare(0, 1 / h, history_);  // resets the iteration count
-        status = equations_.iterate(point.x, allowed_error_);
+        if (k % 10 == 9) equations_.prepare(time(), 1 / h, history_);  // resets the iteration count
+        status = equations_.iterate(x, allowed);
     }
-    allowed_error_ = allowed;
-    if (status != StepEquations::Status::converged) {
-        history_points_.next_point() = std::move(point);  // for the residual in the message
-        return step_too_short(h, 1 / h, "");
+    auto& next = history_points_.next_point();  // for the residual in a message
+    next = history_points_[0], next.x = x;
+    return status == StepEquations::Status::converged ? std::optional(std::move(x)) : std::nullopt;
+}
+
+/// True if the difference of two solutions is well below the allowed error.
+bool Transient::are_close(std::span<const double> a, std::span<const double> b) const {
+    constexpr double fraction = 0.1;
+    double current = 0;  // A: the largest
+    for (std::size_t n = 0; n < a.size(); ++n)
+        if (!system_.is_voltage(static_cast<int>(n))) current = std::max(current, std::abs(a[n]));
+    for (std::size_t n = 0; n < a.size(); ++n) {
+        const bool voltage = system_.is_voltage(static_cast<int>(n));
+        const double allowed = voltage ? plan_.reltol * std::abs(a[n]) + plan_.vntol : plan_.reltol * current + plan_.abstol;
+        if (!(std::abs(a[n] - b[n]) <= fraction * allowed)) return false;
     }
+    return true;
+}
+
+/// Computes the unknowns without charge at the newest point from the charges: the limit of a short step, extrapolated from two lengths. The
+/// lengths fall until the limit no longer changes. The shortest ones have rounding errors, at nodes that are connected by capacitors only.
+Result<void> Transient::make_consistent() {
+    constexpr double longest = 1e-4, shortest = 1e-15, factor = 10;  // relative to the longest step; between two lengths
+    std::optional<std::vector<double>> found, last, last_limit;
+    double h = longest * plan_.max_step;
+    for (; !found && h > shortest * plan_.max_step; h /= factor) {
+        auto x = solve_with_charges_kept(h);
+        auto limit = x && last ? x : std::nullopt;
+        for (std::size_t n = 0; limit && n < limit->size(); ++n) (*limit)[n] += ((*x)[n] - (*last)[n]) / (factor - 1);
+        if (limit && last_limit && are_close(*limit, *last_limit)) found = limit;
+        last = std::move(x), last_limit = std::move(limit);
+    }
+    if (!found) found = std::move(last);
+    if (!found) return step_too_short(h, 1 / h, "");
+    auto point = history_points_[0];
+    point.x = std::move(*found);
     history_points_.clear();
     history_points_.next_point() = std::move(point);
     history_points_.accept();
@@ -125,7 +159,7 @@ bool Transient::attempt(double t, double& error) {
     equations_.prepare(t, leading_, history_);
     equations_.check_expressions(!may_jump_, {plan_.reltol, plan_.vntol, plan_.abstol});
     // The error of a first step includes rounding_error(), which needs the converged solution.
-    const bool must_converge = plan_.all_reported && history_points_.count() == 1;
+    const bool must_converge = (plan_.all_reported && history_points_.count() == 1) || is_shortest(h);
     for (;;) {
         using Status = StepEquations::Status;
         const auto status = equations_.iterate(next.x, allowed_error_);
@@ -262,7 +296,9 @@ Result<void> Transient::reject_step(double h, double error) {
     if (control_.shorten(h, error, history_points_.count() > 1 ? history_points_[0].t - history_points_[1].t : 0,
                          plan_.all_reported ? max_failures : 1))
         restart(false, plan_.all_reported);
-    if (control_.h >= StepControl::min_step(plan_.stop)) return {};
+    const double shortest = StepControl::min_step(plan_.stop);
+    if (control_.h >= shortest) return {};
+    if (error > 0 && h > shortest && shortest_steps_ < max_shortest_steps) return control_.h = shortest, Result<void>();
     return step_too_short(control_.h, leading_, error > 0 ? describe_error() : "");
 }
 
@@ -342,13 +378,76 @@ bool Transient::take_breakpoint_step(double t0, double next_breakpoint) {
     return restart_pending_ = true;
 }
 
+/// Changes the states of the devices whose controls are beyond their levels at the newest point. For an afferent, the unknowns without
+/// charge are computed again, which may change other states. In .tran a very short step gives their values after the change.
+Result<void> Transient::change_states() {
+    constexpr double same_time = 1e-6;  // relative to the longest step; more than a step after a breakpoint
+    constexpr int max_changes = 1000;
+    while (const Device* changed = system_.change_states(history_points_[0].x)) {
+        changes_at_once_ = time() - last_change_ <= same_time * plan_.max_step ? changes_at_once_ + 1 : 0, last_change_ = time();
+        if (changes_at_once_ > max_changes)
+            return Error{ErrorCode::not_converged,
+                         fmt::format("transient stopped at {}: {} changes its state again and again, since each state leads to the other; "
+                                     "give it hysteresis, or the node of its control a capacitor",
+                                     format_quantity(time(), "s"), changed->name),
+                         changed->location};
+        restart_pending_ = true;
+        if (plan_.all_reported) return start_phase_ = StartPhase::breakpoint, Result<void>();
+        TRY(make_consistent());
+    }
+    return {};
+}
+
+/// By device with states: how far its control may be beyond the level when its state changes, V or A. Far below the allowed error.
+std::vector<double> Transient::state_tolerances() const {
+    constexpr double fraction = 0.01;
+    std::vector<double> out;
+    for (const auto k : system_.devices_with_states()) {
+        const auto& d = *system_.devices()[k];
+        const auto change = *d.next_change();
+        const auto tolerance = [&](std::size_t u) { return d.unknowns[u] < 0 ? 0 : tolerance_[static_cast<std::size_t>(d.unknowns[u])]; };
+        out.push_back(fraction * std::max(tolerance(change.plus), change.minus ? tolerance(*change.minus) : 0));
+    }
+    return out;
+}
+
+/// True if a device changes its state within the step just solved, so that the step must be solved again with another end.
+bool Transient::must_locate_change() {
+    constexpr double shortest = 1e-9;  // interval that need not be divided, relative to the longest step
+    const auto& next = history_points_.next_point();
+    const auto tolerances = state_tolerances();
+    if (state_change_.must_try_again(next.t, next.x, std::max(shortest * plan_.max_step, min_relative_gap * next.t), tolerances))
+        return true;
+    if (state_change_.trial()) return false;
+    // A control may pass its level and return within a step.
+    const int points = std::min(3, history_points_.smooth_count());
+    std::array<double, History::max_points + 1> times{next.t};
+    const auto before = history_points_.times();
+    std::copy(before.begin(), before.end(), times.begin() + 1);
+    std::vector<double> x(next.x.size());
+    for (const double part : {0.25, 0.5, 0.75}) {
+        const double t = times[1] + part * (next.t - times[1]);
+        const auto w = weights_of_value(std::span(times).first(static_cast<std::size_t>(points) + 1), t);
+        for (std::size_t n = 0; n < x.size(); ++n) {
+            x[n] = w[0] * next.x[n];
+            for (int k = 0; k < points; ++k) x[n] += w[static_cast<std::size_t>(k) + 1] * history_points_[k].x[n];
+        }
+        for (const auto& node : source_nodes_) x[static_cast<std::size_t>(node.unknown)] = source_node_voltage(node, t);
+        if (state_change_.changes_within(t, x, tolerances)) return true;
+    }
+    return false;
+}
+
 Result<bool> Transient::step(double until) {
     constexpr double first_part = 1.0 / 256;  // (first step after a breakpoint) / (planned step): short, since the curvature is not known
     // If the error does not fall as the first step is shortened, it comes from the rounding of the start point. After three such attempts
     // the step is accepted.
     constexpr double min_reduction = 0.9;
     constexpr int max_not_reduced = 3;
+    constexpr double after_shortest = 1e-3;  // the next step, relative to the longest of the recent ones
+    if (state_change_.is_needed()) TRY(change_states());
     if (std::exchange(restart_pending_, false)) restart(true, plan_.all_reported);
+    if (state_change_.is_needed()) state_change_.begin(time(), x());
     double rejected = 0;  // error of the last attempt, relative to the allowed error; 0: none, or not solved
     int not_reduced = 0;  // number of successive attempts that did not reduce the error
     for (;;) {
@@ -358,7 +457,7 @@ Result<bool> Transient::step(double until) {
         if (take_breakpoint_step(t0, breakpoint)) return true;
         if (std::exchange(start_phase_, StartPhase::none) == StartPhase::first_step)
             h = std::max(first_part * std::min(h, breakpoint - t0), min_relative_gap * t0);
-        const auto next = StepControl::plan_step(t0, h, breakpoint);
+        const auto next = StepControl::plan_step(t0, h, std::min(breakpoint, state_change_.trial().value_or(breakpoint)));
         double error = 0;
         may_jump_ = !interpolated_unknowns_.empty() && next.length() <= control_.jump_step_limit(plan_.reltol, plan_.max_step);
         const bool solved = attempt(next.end, error);
@@ -369,14 +468,24 @@ Result<bool> Transient::step(double until) {
         const bool is_first_step = converged_ && plan_.all_reported && history_points_.count() == 1;
         not_reduced = solved && is_first_step && worst > min_reduction * rejected && rejected > 0 ? not_reduced + 1 : 0;
         rejected = solved ? worst : 0;
-        if (!solved || (!(worst <= 1) && not_reduced < max_not_reduced)) {
+        // A jump changes the rate of a charge at once. No step is short enough for a tolerance far below the later values of its unknown.
+        const bool shortest = solved && converged_ && is_shortest(next.length());
+        shortest_steps_ = shortest ? shortest_steps_ + 1 : 0;
+        const bool accepts_error = not_reduced >= max_not_reduced || (shortest && shortest_steps_ <= max_shortest_steps);
+        if (!solved || (!(worst <= 1) && !accepts_error)) {
             TRY(reject_step(next.length(), solved ? worst : 0));
+            if (state_change_.is_needed()) state_change_.begin(t0, x());
             continue;
         }
-        const bool jumped = may_jump_ && (uncharged_error_ > 1 || curve_error > 1);
+        if (state_change_.is_needed() && must_locate_change()) {
+            rejected = 0, not_reduced = 0;
+            continue;
+        }
+        const bool jumped = (may_jump_ && (uncharged_error_ > 1 || curve_error > 1)) || (shortest && worst > 1);
         const double planned = control_.h;
         choose_step(next.length(), error);
         control_.limit_next_step(next, planned, plan_.max_step, may_jump_, curve_error, curve_points_);
+        if (shortest && worst > 1) control_.h = std::max(control_.h, after_shortest * control_.recent_max_step);
         if (jumped) curve_points_ = 2;
         accept_step();
         restart_pending_ = next.ends_at_breakpoint || jumped;
@@ -406,6 +515,9 @@ void Transient::archive(StateArchive& a) {
     for (auto* values : {&scale_, &rate_, &rate_change_, &max_rate_}) a.numbers(*values, size);
     a.numbers(newton_.limiting_state, newton_.limiting_state.size());
     for (int& n : alternations_) a.integer(n, 0, max_count);
+    auto states = system_.states();
+    for (char& state : states) a.integer(state, 0, 1);
+    system_.set_states(states);
     a.is_valid &= control_.h > 0 && quadratic_factor > 0 && control_.recent_max_step >= 0;
     if (a.is_valid) update_tolerances();
 }

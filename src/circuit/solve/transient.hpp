@@ -3,6 +3,7 @@
 
 #include "circuit/solve/history.hpp"
 #include "circuit/solve/state_archive.hpp"
+#include "circuit/solve/state_change_search.hpp"
 #include "circuit/solve/step_equations.hpp"
 
 namespace corpuscle::circuit {
@@ -38,7 +39,7 @@ struct TransientStats {
 /// of each reported unknown, estimated with the next higher degree, is allowed as well. A jump has no such polynomial. The steps shrink
 /// until the jump is in a step so short that the values between its ends do not matter, and interpolation is linear. A node voltage that is
 /// defined by sources only is computed exactly from their waveforms. Integration restarts with order 1 at the beginning, at every
-/// breakpoint of a source, and when the step must shrink tenfold.
+/// breakpoint of a source, where a device changes its state, and when the step must shrink tenfold.
 class Transient {
 public:
     using PointCallback = std::function<bool(double t, std::span<const double> x)>;
@@ -50,6 +51,10 @@ private:
     StepEquations equations_;
     History history_points_;
     StepControl control_;
+    StateChangeSearch state_change_;
+    double last_change_ = 0;          // s: time of the last change of a state
+    int shortest_steps_ = 0;          // number of successive steps of the shortest length
+    int changes_at_once_ = 0;         // number of changes of states since the time last advanced
     double leading_ = 0;              // 1/s: dq/dt = leading_ q + history_ in the current step
     bool pivot_order_fixed_ = false;  // true after the first begin(), which fixes the pivot order of the matrix
     bool restart_pending_ = false;    // the last point is a breakpoint of a source or the end of a jump: integration restarts there
@@ -82,6 +87,7 @@ private:
 
     TransientStats stats_;
 
+    bool is_shortest(double h) const { return h <= 1.5 * StepControl::min_step(plan_.stop); }  // h: length of a step, s
     bool uses_trapezoidal() const { return plan_.method == Integration::trapezoidal && damping_steps_ == 0; }
     void detect_ringing();
     int interpolation_points() const { return control_.interpolation_points(curve_points_, history_points_.count()); }
@@ -94,7 +100,12 @@ private:
     double interpolation_error();
     bool take_breakpoint_step(double t0, double next_breakpoint);
     void restart(bool forget, bool exact = false);
+    std::optional<std::vector<double>> solve_with_charges_kept(double h);
+    bool are_close(std::span<const double> a, std::span<const double> b) const;
     Result<void> make_consistent();
+    Result<void> change_states();
+    bool must_locate_change();
+    std::vector<double> state_tolerances() const;
     std::string describe_error();
     Error step_too_short(double h, double a, std::string reason);
     bool attempt(double t, double& error);
@@ -108,7 +119,7 @@ private:
 
 public:
     Transient(System& system, NewtonSolver& newton, const TransientPlan& plan)
-        : system_(system), newton_(newton), plan_(plan), equations_(system, newton) {}
+        : system_(system), newton_(newton), plan_(plan), equations_(system, newton), state_change_(system) {}
 
     /// Calls begin() with these arguments and simulates until `each` returns false or the end time is reached. Calls each(t, x) at t = 0,
     /// at the end of every step, and at points within a step if linear interpolation across it would have an error of more than twice the
