@@ -2,7 +2,7 @@
 
 #include "circuit/analyses.hpp"
 #include "circuit/expression/spice_number.hpp"
-#include "circuit/measure/measurement.hpp"
+#include "circuit/measure/measurement_set.hpp"
 #include "circuit/output/output_directives.hpp"
 
 namespace corpuscle::circuit {
@@ -157,7 +157,8 @@ Result<RunOutcome> run_directives(AnalysisContext& context, const RunOptions& op
         for (const auto* a : analyses) known += fmt::format("\n  {}", a->usage);
         return error_at({circuit->file}, "the netlist has no analysis directive; add one of these:{}", known);
     }
-    TRY(measures.finish(out.numbers, out.warnings));
+    TRY(measures.finish(out.numbers, out.warnings, out.left_out));
+    out.warnings.insert(out.warnings.end(), out.left_out.begin(), out.left_out.end());
     TRY(check_expectations(*circuit, out));
     return out;
 }

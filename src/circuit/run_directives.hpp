@@ -28,6 +28,7 @@ struct RunOutcome {
     std::vector<std::pair<std::string, double>> numbers;  ///< named numbers of analyses, then of .meas; NaN: nothing was found
     std::vector<Expectation> expectations;
     std::vector<Error> warnings;
+    std::vector<Error> left_out;  ///< the reason for each .meas that is left out; `warnings` has them, too
 
     std::vector<std::string> saved_curves;  ///< names of the curves to save: v(a), v(a,b), i(v1) ... An empty list means all curves.
 

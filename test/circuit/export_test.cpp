@@ -5,6 +5,7 @@
 #include <map>
 #include <set>
 
+#include "circuit/devices.hpp"
 #include "circuit/export/element_text.hpp"
 #include "circuit/export/ngspice_deck.hpp"
 #include "circuit/expression/spice_number.hpp"

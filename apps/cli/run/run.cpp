@@ -176,6 +176,7 @@ Result<void> run_netlist(const RunArguments& args, const CommonArguments& common
         return error;
     }
     if (printer.failed_expectation) return *printer.failed_expectation;
+    if (printer.left_out) return *printer.left_out;
     return {};
 }
 

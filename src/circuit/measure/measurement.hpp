@@ -146,6 +146,7 @@ struct CurveSummary {
     double integral = 0;             // integral over dx
     double squares = 0;              // integral of the square over |dx|
     double first_value = 0;          // first value in the interval, the result of avg and rms if length is 0
+    double last_value = 0;           // last value in the interval
 
     void add(const LineSegment&);
 
@@ -153,7 +154,8 @@ private:
     void add_extreme(double x, double y);
 };
 
-/// min max pp avg rms integ min_at max_at of a curve over an interval. pp is max - min; min_at and max_at are positions x.
+/// min max pp avg rms integ min_at max_at of a curve over an interval, and its last value there. pp is max - min; min_at and max_at are
+/// positions x.
 class SummaryMeasurement final : public Measurement {
 public:
     using Statistic = double (*)(const CurveSummary&);
@@ -169,47 +171,6 @@ public:
         : statistic_(statistic), curve_(std::move(curve)), interval_(interval) {}
     void add_point(double x, const PlotRow&) override;
     double value() const override { return summary_.any ? statistic_(summary_) : not_found; }
-};
-
-/// Parses the words of a .meas line that follow NAME, for a plot with the curves of `head`, which needs no values:
-///
-///     find CURVE at=X | find CURVE when EDGE | deriv CURVE at=X | deriv CURVE when EDGE | when EDGE | count EDGE [rise|fall|cross]
-///
-///     min|max|pp|min_at|max_at|avg|rms|integ CURVE [from=A] [to=B]
-///
-///     trig POSITION targ POSITION
-///
-/// EDGE is CURVE=VALUE or CURVE=CURVE, then SELECTION: [rise=N|last] [fall=N|last] [cross=N|last] [td=T] [from=A] [to=B]. POSITION is at=X,
-/// CURVE val=V SELECTION, or EDGE. For an operating point, only `find CURVE` is possible.
-Result<std::unique_ptr<Measurement>> parse_measurement(const Directive&, const Plot& head);
-
-/// All .meas lines of a circuit. Each line names a kind of analysis (tran, ac ...) and measures the first plot of the first such analysis.
-class MeasurementSet {
-    struct Entry {
-        const Directive* directive;                // the .meas line
-        std::unique_ptr<Measurement> measurement;  // null: its analysis has not begun, or the line is a param= expression
-    };
-    std::vector<Entry> entries_;
-    std::vector<Measurement*> active_;  // measurements of the plot that was begun last
-    bool has_sweep_ = true;             // of that plot
-
-public:
-    explicit MeasurementSet(const Circuit&);
-
-    /// Begins the first plot of an analysis of this kind; `head` has its curves without values. An ill-formed .meas line or an unknown
-    /// curve is an error.
-    Result<void> begin(std::string_view analysis, const Plot& head);
-    /// Call this after begin() for every analysis. Reports the errors of finish() that depend on names only. `number_names` are the names
-    /// of the numbers that the analyses may produce.
-    Result<void> check(const std::vector<std::string>& number_names) const;
-    /// Adds a point of the plot.
-    void add_point(const PlotRow& row) {
-        for (auto* measurement : active_) measurement->add_point(has_sweep_ ? row[0].real() : 0, row);
-    }
-
-    /// Call this after all analyses. `numbers` contains the numbers of the analyses, which param= expressions may use. Appends the results
-    /// in the order of the .meas lines. A measurement that found nothing is NaN and adds a warning.
-    Result<void> finish(std::vector<std::pair<std::string, double>>& numbers, std::vector<Error>& warnings) const;
 };
 
 }  // namespace corpuscle::circuit

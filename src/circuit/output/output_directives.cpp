@@ -1,7 +1,8 @@
 #include "circuit/output/output_directives.hpp"
 
 #include "circuit/analyses.hpp"
-#include "circuit/measure/measurement.hpp"
+#include "circuit/measure/measure_line.hpp"
+#include "circuit/measure/measurement_set.hpp"
 
 namespace corpuscle::circuit {
 namespace {
@@ -81,8 +82,8 @@ private:
         for (const auto& head : heads_)
             if (!names_analysis || head.directive->name == c.words[0])
                 for (const auto& curve : head.plot.curves) known.push_back(curve.name);
-        if (word.starts_with("par("))
-            if (const auto expression = parse_par_expression(word, c.location); !expression)
+        if (const auto text = curve_expression_text(word))
+            if (const auto expression = Expression::parse(*text, c.location, curve_scope()); !expression)
                 return error_at(c.location_of(k), "{}", expression.error().message);
         const bool is_axis_limit = c.name == "plot" && word.starts_with("(");  // (0,5)
         if (is_axis_limit) return {};
@@ -96,9 +97,11 @@ private:
     Result<void> check_expectation(const Directive& c, const std::vector<std::string>& analysis_numbers) const {
         if (c.words.empty()) return {};  // run_directives() reports the syntax
         const auto name = c.words[0].substr(0, c.words.size() == 2 ? c.words[0].find('=') : std::string::npos);
-        std::vector<std::string_view> known(analysis_numbers.begin(), analysis_numbers.end());
+        std::vector<Directive> measures;
         for (const auto& other : circuit_.directives)
-            if ((other.name == "meas" || other.name == "measure") && other.words.size() > 1) known.push_back(other.words[1]);
+            if (is_measure(other)) measures.push_back(TRY(normalized_measure(other, circuit_)));
+        std::vector<std::string_view> known(analysis_numbers.begin(), analysis_numbers.end());
+        for (const auto& measure : measures) known.push_back(measure.words[1]);
         if (std::find(known.begin(), known.end(), name) != known.end()) return {};
         for (std::size_t h = 0; h < heads_.size(); ++h)
             if (CurveView::find(heads_[h].plot, name, &indices_[h])) return {};
