@@ -13,9 +13,9 @@ namespace corpuscle::circuit {
 
 struct Operation;
 
-/// An input of an expression: v(a), v(a,b), i(vx), time (s) or temper (the temperature in degrees Celsius).
+/// An input of an expression: v(a), v(a,b), i(vx), time (s), temper (the temperature in degrees Celsius) or frequency (Hz).
 struct ExpressionInput {
-    enum class Kind { voltage, current, time, temperature } kind;
+    enum class Kind { voltage, current, time, temperature, frequency } kind;
     std::string name, minus;     ///< voltage: the node and its reference ("" is ground); current: the element
     std::string_view part = {};  ///< of a complex value: "m", "db", "p", "r" or "i", as in vdb(out); "" is the value itself
     bool operator==(const ExpressionInput&) const = default;
@@ -32,7 +32,7 @@ struct ExpressionScope {
     };
     std::function<const Function*(std::string_view)> function{};  ///< returns null if no function has this name
     bool allows_inputs = false;                                   ///< true if voltages, currents and time are allowed; false in .param
-    bool allows_parts = false;                                    ///< true if vdb(a), ip(v1) ... are allowed, too
+    bool allows_parts = false;                                    ///< true if vdb(a), ip(v1) ... and the frequency are allowed, too
     std::vector<std::string> suggestions{};                       ///< known names, for "did you mean" in the error about an unknown name
     /// Return the name in the circuit of a node or an element of this scope ("x1.n3" for "n3" inside x1). If null, the name is kept.
     std::function<std::string(std::string_view)> node{}, element{};

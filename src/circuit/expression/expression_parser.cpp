@@ -272,6 +272,8 @@ private:
         if (scope_.parameter)
             if (const auto value = scope_.parameter(name)) return number(*value);
         if (name == "time" || name == "temper") return time_or_temperature(name, from);
+        const bool is_frequency = name == "hertz" || name == "freq" || name == "frequency";
+        if (is_frequency && scope_.allows_parts) return input(ExpressionInput::Kind::frequency);
         if (name == "hertz") return fail(from, "an expression must not depend on the frequency (hertz)");
         for (const auto& constant : all_constants())
             if (constant.name == name) return number(constant.value);

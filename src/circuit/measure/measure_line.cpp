@@ -1,5 +1,6 @@
 #include "circuit/measure/measure_line.hpp"
 
+#include "circuit/expression/spice_number.hpp"
 #include "core/text/ascii_text.hpp"
 
 namespace corpuscle::circuit {
@@ -24,6 +25,7 @@ constexpr Spelling spellings[] = {{"derivative", "deriv"}, {"int", "integ"}, {"i
 constexpr std::string_view equation_words[] = {"param", "eqn", "equation"};
 // A number may follow these without '='.
 constexpr std::string_view keys[] = {"at", "val", "td", "from", "to", "on", "off", "minval"};
+constexpr std::string_view edge_keys[] = {"rise", "fall", "cross"};
 constexpr std::string_view without_effect[] = {"goal", "weight", "precision", "print", "default_val", "default", "failvalue"};
 
 template <class Names>
@@ -54,6 +56,7 @@ public:
     Directive run() {
         if (at_ < from_.words.size() && contains(equation_words, name_before_equals(from_.words[at_]))) equation();
         while (at_ < from_.words.size()) word();
+        move_interval_behind_curve();
         return std::move(out_);
     }
 
@@ -77,12 +80,34 @@ private:
         append("param=" + text, at);
     }
 
+    /// "avg from=1m to=2m v(a)" becomes "avg v(a) from=1m to=2m".
+    void move_interval_behind_curve() {
+        const auto is_bound = [](std::string_view w) { return w.starts_with("from=") || w.starts_with("to=") || w.starts_with("td="); };
+        const auto first =
+            std::ranges::find_if_not(out_.words.begin() + std::min<std::ptrdiff_t>(3, std::ssize(out_.words)), out_.words.end(), is_bound);
+        if (first == out_.words.end() || std::ssize(out_.words) < 4) return;
+        const auto k = first - out_.words.begin();
+        std::rotate(out_.words.begin() + 3, first, first + 1);
+        if (out_.columns.size() == out_.words.size())
+            std::rotate(out_.columns.begin() + 3, out_.columns.begin() + k, out_.columns.begin() + k + 1);
+    }
+
+    /// True if a value for this key follows without '='.
+    bool has_value_after(std::string_view key) const {
+        if (at_ >= from_.words.size() || from_.words[at_].find('=') != std::string::npos) return false;
+        const auto& value = from_.words[at_];
+        return contains(keys, key) || (contains(edge_keys, key) && (value == "last" || parse_number(value)));
+    }
+
     void word() {
         const auto at = at_;
         auto text = next();
+        if (const auto brace = text.find('{'); at == 2 && brace != std::string::npos && is_measurement(text.substr(0, brace))) {
+            append(text.substr(0, brace), at);  // "max{v(a)}"
+            text.erase(0, brace);
+        }
         if (contains(without_effect, name_before_equals(text)) && text.find('=') != std::string::npos) return;
-        const bool is_key = contains(keys, text) && at_ < from_.words.size() && from_.words[at_].find('=') == std::string::npos;
-        if (is_key) text += "=" + next();
+        if (has_value_after(text)) text += "=" + next();
         while (continues_here(text)) text += next();
         const auto* spelling = std::ranges::find(spellings, text, &Spelling::other);
         append(spelling == std::end(spellings) || at != 2 ? text : std::string(spelling->ours), at);

@@ -8,7 +8,10 @@ bool CrossingCounter::add_point(double x, const PlotRow& row) {
     const double zero = segment.zero();
     if (!edges.interval.contains(zero)) return false;
     ++count;
-    if (edges.number != 0 && count != edges.number) return false;
+    if (is_from_end())
+        positions.add(zero, -edges.number);
+    else if (count != edges.number)
+        return false;
     position = zero;
     return true;
 }
@@ -20,12 +23,16 @@ void ValueMeasurement::add_point(double x, const PlotRow& row) {
     if (!first_segment_) first_segment_ = segment;
     // With at=X, the first segment that contains X counts.
     const bool is_here = event_.crossing ? is_crossing : std::isnan(value_) && segment.contains(event_.at);
-    if (is_here) value_ = value_in(segment, event_.position());
+    if (!is_here) return;
+    value_ = value_in(segment, event_.crossing ? event_.crossing->position : event_.at);
+    if (event_.crossing && event_.crossing->is_from_end()) values_.add(value_, -event_.crossing->edges.number);
 }
 
 /// at=X that lies beyond an end of the curve only by rounding counts as that end.
 double ValueMeasurement::value() const {
-    if (!std::isnan(value_) || event_.crossing || !curve_.segment) return value_;
+    if (event_.crossing) return event_.crossing->is_from_end() ? values_.value(-event_.crossing->edges.number) : value_;
+    if (!interval_.contains(event_.at)) return not_found;
+    if (!std::isnan(value_) || !curve_.segment) return value_;
     const auto& last = *curve_.segment;
     const auto& first = first_segment_ ? *first_segment_ : last;
     const double tolerance = 1e-9 * std::abs(last.x1 - first.x0);

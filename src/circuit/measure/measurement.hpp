@@ -78,9 +78,21 @@ struct CurveFollower {
 /// Selects some zero crossings of a curve.
 struct EdgeSelection {
     bool rising = true, falling = true;
-    double number = 1;        ///< of the crossing among those that count: 1 is the first; 0 is the last
+    double number = 1;        ///< of the crossing among those that count: 1 is the first, -1 the last, -2 the one before it
     Interval interval;        ///< only crossings in this interval count
     bool is_counted = false;  ///< true: the result is the number of crossings, not the position of one
+};
+
+/// The last values of a sequence: value() is the n-th from its end.
+class LastValues {
+    std::vector<double> values_;  // at most n
+
+public:
+    void add(double x, double n) {
+        if (static_cast<double>(values_.size()) >= n) values_.erase(values_.begin());
+        values_.push_back(x);
+    }
+    double value(double n) const { return static_cast<double>(values_.size()) < n ? not_found : values_.front(); }
 };
 
 /// Counts the zero crossings of a CurveFollower that count for the selection, and keeps the position of the selected one.
@@ -88,11 +100,13 @@ struct CrossingCounter {
     CurveFollower follower;
     EdgeSelection edges;
     double count = 0;             ///< crossings so far
-    double position = not_found;  ///< x of the selected one; NaN if it was not found yet
+    double position = not_found;  ///< x of the newest one that may be the selected one; NaN if there was none yet
+    LastValues positions{};       ///< if the number counts from the end
 
-    /// Returns true if the newest segment has the selected crossing. If the last crossing is selected, returns true at every crossing.
+    /// Returns true if the newest segment has the selected crossing. If its number counts from the end, returns true at every crossing.
     bool add_point(double x, const PlotRow&);
-    double result() const { return edges.is_counted ? count : position; }
+    bool is_from_end() const { return edges.number < 0; }
+    double result() const { return edges.is_counted ? count : is_from_end() ? positions.value(-edges.number) : position; }
 };
 
 /// A position x: that of at=X, or that of a crossing.
@@ -124,14 +138,16 @@ class ValueMeasurement final : public Measurement {
     CurveFollower curve_;
     bool is_slope_;  // true for deriv
     EventPoint event_;
+    Interval interval_;  // with at=X, X must be in it
     std::optional<LineSegment> first_segment_;
     double value_ = not_found;
+    LastValues values_;  // if the number of the crossing counts from the end
 
     double value_in(const LineSegment& segment, double x) const { return is_slope_ ? segment.slope() : segment.at(x); }
 
 public:
-    ValueMeasurement(CurveFollower curve, bool is_slope, EventPoint event)
-        : curve_(std::move(curve)), is_slope_(is_slope), event_(std::move(event)) {}
+    ValueMeasurement(CurveFollower curve, bool is_slope, EventPoint event, Interval interval = {})
+        : curve_(std::move(curve)), is_slope_(is_slope), event_(std::move(event)), interval_(interval) {}
     void add_point(double x, const PlotRow&) override;
     double value() const override;
 };

@@ -144,6 +144,8 @@ private:
     Result<CurveView> curve(std::string_view name) {
         if (const auto text = curve_expression_text(name)) return expression(name, *text);
         if (const auto view = CurveView::find(head_, name)) return *view;
+        if (std::ranges::find(scope_.results, name, &std::pair<std::string, double>::first) != scope_.results.end())
+            return left_out("'{}' is a measure, which has no curve", name);
         if (parse_number(name)) return expression(name, name);  // {x} of a parameter x
         return no_curve(name);
     }
@@ -195,6 +197,12 @@ private:
         return value;
     }
 
+    /// Reads a number of this name, which has no effect here. Returns true if it was next.
+    Result<bool> ignored(std::string_view name) {
+        const auto number = TRY(option(name));
+        return number.has_value();
+    }
+
     /// Reads from= and to=, if they are next. Returns true if there was at least one of them.
     Result<bool> bounds(Interval& interval) {
         const auto from = TRY(option("from"));
@@ -221,11 +229,11 @@ private:
     /// Reads rise=, fall= or cross=, if it is next. Returns true if there was one of them.
     Result<bool> numbered_edge(EdgeSelection& edges) {
         for (const auto& e : edge_words) {
-            const bool last = peek() == fmt::format("{}=last", e.word) || peek() == fmt::format("{}=-1", e.word);
+            const bool last = peek() == fmt::format("{}=last", e.word);
             if (last) ++at_;
-            const auto number = TRY(last ? Result<std::optional<double>>(0.0) : option(e.word));
+            const auto number = TRY(last ? Result<std::optional<double>>(-1.0) : option(e.word));
             if (!number) continue;
-            if (!last && !(*number >= 1 && *number == std::floor(*number)))
+            if (!(*number != 0 && std::abs(*number) <= 1e6 && *number == std::floor(*number)))
                 return --at_, error_here("'{}' must be 1, 2 ... or last", peek());
             edges.rising = e.rising, edges.falling = e.falling, edges.number = *number;
             return true;
@@ -248,7 +256,8 @@ private:
             if (delay) out.interval.from = *delay;
             const auto value = TRY(level ? option("val") : Result<std::optional<double>>(std::nullopt));
             if (value) *level = value;
-            more = more || chosen || bounded || delay || value;
+            const auto minval = TRY(ignored("minval"));  // Xyce's tolerance; crossings are located exactly here
+            more = more || chosen || bounded || delay || value || minval;
         }
         return out;
     }
@@ -298,7 +307,7 @@ private:
         const auto interval = TRY(interval_and([&]() -> Result<bool> {
             const auto above = TRY(option("on"));
             const auto below = TRY(option("off"));
-            const auto minval = TRY(option("minval"));  // Xyce's tolerance; crossings are located exactly here
+            const auto minval = TRY(ignored("minval"));  // Xyce's tolerance; crossings are located exactly here
             if (above) on = above;
             if (below) off = below;
             return above || below || minval;
@@ -328,7 +337,10 @@ private:
     ParseResult find_or_deriv(bool is_slope) {
         const auto view = TRY(curve());
         const auto at = TRY(option("at"));
-        if (at) return ParseResult(std::make_unique<ValueMeasurement>(CurveFollower{view}, is_slope, EventPoint{*at, {}}));
+        if (at) {
+            const auto interval = TRY(interval_and([this] { return ignored("minval"); }));
+            return ParseResult(std::make_unique<ValueMeasurement>(CurveFollower{view}, is_slope, EventPoint{*at, {}}, interval));
+        }
         if (peek() != "when") return error_here("'{}': expected at=VALUE or when CURVE=VALUE", peek());
         ++at_;
         auto crossings = TRY(edge());
@@ -346,7 +358,10 @@ private:
     /// Reads the position after trig or targ: at=X, CURVE val=LEVEL with a selection of edges, or CURVE=VALUE as after when.
     Result<EventPoint> position() {
         const auto at = TRY(option("at"));
-        if (at) return EventPoint{*at, {}};
+        if (at) {
+            TRY(ignored("td"));  // as in Xyce
+            return EventPoint{*at, {}};
+        }
         const auto name = peek();
         if (equals_in(name) != std::string::npos) {
             auto crossings = TRY(edge());
@@ -354,7 +369,9 @@ private:
         }
         const auto view = TRY(curve());
         std::optional<double> level;
+        if (peek().find('=') == std::string::npos && parse_number(peek())) level = parse_number(next())->value;
         const auto selection = TRY(edges(false, &level));
+        if (!level && has_foreign_qualifier()) return left_out("{} is not supported", peek());
         if (!level) return error_here("expected val= after '{}'", name);
         return EventPoint{not_found, CrossingCounter{CurveFollower{view, *level}, selection}};
     }
@@ -378,7 +395,10 @@ Result<ParsedMeasurement> parse_measurement(const Directive& c, const Plot& head
 
 bool is_expression_of_results(const Directive& c) {
     if (!c.words[2].starts_with("param=")) return false;
-    const auto parsed = parse_equation(c, true, [](std::string_view name) { return name == "time" ? std::nullopt : std::optional(1.0); });
+    const auto parsed = parse_equation(c, true, [](std::string_view name) {
+        constexpr std::string_view swept[] = {"time", "freq", "frequency", "hertz"};
+        return std::ranges::find(swept, name) == std::end(swept) ? std::optional(1.0) : std::nullopt;
+    });
     if (parsed) return parsed->is_constant();
     return c.words[2].find('(') == std::string::npos;  // a function such as id(m1) is unknown; the parser reports it
 }

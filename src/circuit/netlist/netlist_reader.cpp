@@ -17,7 +17,7 @@ constexpr std::size_t max_include_depth = 50, max_definition_depth = 200;  // of
 constexpr std::string_view structural_directives[] = {
     ".subckt", ".ends", ".param",   ".global_param", ".func", ".include", ".incl",    ".inc", ".lib",     ".endl", ".model",
     ".global", ".temp", ".options", ".option",       ".opt",  ".ic",      ".nodeset", ".end", ".control", ".endc", ".title"};
-// Directives that become Circuit::directives, as those of the analyses do; .four is refused.
+// Directives that become Circuit::directives, as those of the analyses do.
 constexpr std::string_view circuit_directives[] = {".meas", ".measure", ".print", ".plot",  ".probe",  ".save", ".step",
                                                    ".mc",   ".expect",  ".force", ".spike", ".assert", ".four"};
 
@@ -161,9 +161,6 @@ private:
         if (word == ".ic" || word == ".nodeset") return store_directive(std::move(line), body_->ics);
         if (contains_word(directives_without_effect, word)) return {};
         if (!is_directive(word)) return unknown(word, line.location());
-        if (word == ".four")
-            return error_at(line.location(),
-                            ".four: spectra of a transient are not supported; --out x.csv writes the curve for another program");
         if (body_->head) return error_at(line.location(), "{} is not allowed inside .subckt {}; move it outside", word, body_->name);
         return top_level_directive(word, std::move(line));
     }

@@ -63,6 +63,7 @@ std::optional<std::string_view> curve_expression_text(std::string_view name) {
     const auto is_enclosed = [&](char open, char close) { return name.size() > 2 && name.front() == open && name.back() == close; };
     const bool is_par = name.starts_with("par(") && name.ends_with(')');
     if (is_par) name = name.substr(4, name.size() - 5);
+    if (!is_par && name.starts_with("('") && name.ends_with("')")) name = name.substr(1, name.size() - 2);
     if (is_enclosed('{', '}') || is_enclosed('\'', '\'')) return name.substr(1, name.size() - 2);
     return is_par || has_operator(name) ? std::optional(name) : std::nullopt;
 }
@@ -76,6 +77,7 @@ ExpressionScope curve_scope() {
 std::string curve_name(const ExpressionInput& input) {
     using Kind = ExpressionInput::Kind;
     if (input.kind == Kind::time || input.kind == Kind::temperature) return input.kind == Kind::time ? "time" : "temper";
+    if (input.kind == Kind::frequency) return "frequency";
     const auto second = input.minus.empty() ? "" : "," + input.minus;
     return fmt::format("{}{}({}{})", input.kind == Kind::voltage ? 'v' : 'i', input.part, input.name.empty() ? "0" : input.name, second);
 }
@@ -83,7 +85,8 @@ std::string curve_name(const ExpressionInput& input) {
 std::optional<CurveView> CurveView::of_expression(const Plot& plot, Expression expression, const CurveIndex* index) {
     CurveView out;
     for (const auto& input : expression.inputs()) {
-        if (plot.is_complex && input.part.empty()) return {};  // an expression is evaluated with real numbers
+        const bool is_complex = plot.is_complex && input.part.empty() && input.kind != ExpressionInput::Kind::frequency;
+        if (is_complex) return {};  // an expression is evaluated with real numbers
         const auto found = find_named(plot, curve_name(input), index);
         if (!found) return {};
         out.inputs_.push_back(*found);
@@ -104,6 +107,8 @@ std::optional<CurveView> CurveView::find(const Plot& plot, std::string_view name
         std::ranges::replace(with_dots, ':', '.');
         return find(plot, with_dots, index);
     }
+    if (name.starts_with("n(") && name.ends_with("_branch)"))
+        return find_named(plot, fmt::format("i({})", name.substr(2, name.size() - 10)), index);
     if (name.ends_with("#branch")) return find_named(plot, fmt::format("i({})", name.substr(0, name.size() - 7)), index);
     const bool is_word = !name.empty() && name.find_first_of("(){}'@") == std::string_view::npos;
     return is_word ? find_named(plot, fmt::format("v({})", name), index) : std::nullopt;

@@ -1,6 +1,7 @@
 #include "circuit/output/output_directives.hpp"
 
 #include "circuit/analyses.hpp"
+#include "circuit/measure/fourier.hpp"
 #include "circuit/measure/measure_line.hpp"
 #include "circuit/measure/measurement_set.hpp"
 
@@ -45,12 +46,21 @@ public:
         MeasurementSet measures(circuit_);
         for (const auto& head : heads_) TRY(measures.begin(head.directive->name, head.plot));
         const auto known = number_names();
+        TRY(check_spectra());
         TRY(measures.check(known));
         for (const auto& c : circuit_.directives_named("expect")) TRY(check_expectation(c, known));
         return {};
     }
 
 private:
+    Result<void> check_spectra() {
+        std::vector<Error> left_out;  // reported by the run
+        const auto tran = std::ranges::find(heads_, &tran_analysis, &Head::analysis);
+        if (tran != heads_.end()) return FourierTransforms(circuit_).begin(*tran->directive, tran->plot, left_out);
+        for (const auto& c : circuit_.directives_named("four")) return error_at(c.location, ".four: the netlist has no .tran");
+        return {};
+    }
+
     /// The first word of .print and .plot may name an analysis. Each further word must be a curve of this analysis. If the first word does
     /// not name one, each word must be a curve of some analysis.
     Result<void> check_columns(const Directive& c) {
@@ -116,6 +126,8 @@ private:
             if (head.analysis->has_number_for_each_curve)
                 for (const auto& curve : head.plot.curves) out.push_back(curve.name);
         }
+        for (const auto& c : circuit_.directives_named("four"))
+            for (std::size_t k = 1; k < c.words.size(); ++k) out.push_back(FourierSpectrum{c.words[k], 0, 0, {}}.distortion_name());
         return out;
     }
 };

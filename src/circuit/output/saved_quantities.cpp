@@ -157,7 +157,7 @@ Result<std::vector<SavedQuantity>> resolve_saved_quantities(const System& system
 }
 
 std::vector<SavedQuantity> mentioned_device_currents(const System& system, std::span<const SavedQuantity> saved) {
-    constexpr std::string_view directives[] = {"print", "plot", "meas", "measure"};
+    constexpr std::string_view directives[] = {"print", "plot", "meas", "measure", "four"};
     std::unordered_set<std::string> seen;
     for (const auto& quantity : saved) seen.insert(quantity.name);
     std::vector<SavedQuantity> out;
