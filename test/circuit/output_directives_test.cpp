@@ -162,6 +162,18 @@ TEST(Curves, AreSelectedByAllAndByProbeDirectivesInNgspicesSyntax) {
     EXPECT_NE(error_of(c + ".probe i(c9)\n").find(".probe: unknown output i(c9)"), std::string::npos);
 }
 
+TEST(Curves, AreSelectedInXycesSyntax) {
+    const std::string c = "v1 a 0 1\nr1 a b 1k\nr2 b 0 1k\n.dc v1 0 1 1\n";
+    const auto outcome = outcome_of(c + ".print dc format=csv file=x.csv v(*) {v(a)-v(b)} i(*)\n");
+    ASSERT_TRUE(outcome) << outcome.error().text();
+    ASSERT_EQ(outcome->warnings.size(), 2U);
+    EXPECT_EQ(outcome->warnings[0].text(), "t.cir:6:11: .print: 'format=csv' has no effect here");
+    const auto& table = outcome->analyses[0].printed_tables;
+    EXPECT_EQ(table.substr(0, table.find('\n')),
+              fmt::format("{:>16}{:>16}{:>16}{:>16}{:>16}", "v-sweep", "v(a)", "v(b)", "{v(a)-v(b)}", "i(v1)"));
+    EXPECT_NE(table.find("1.0000000e+00   1.0000000e+00   5.0000000e-01   5.0000000e-01  -5.0000000e-04"), std::string::npos) << table;
+}
+
 TEST(Curves, OfEveryAnalysisArePrinted) {
     const std::string c = "v1 a 0 dc 1 ac 1\nr1 a b 1k\nr2 b 0 1k\n";
     for (const auto* line : {".noise v(b) v1 dec 1 1 10\n.print noise onoise_spectrum", ".ac dec 1 1 10\n.print ac vdb(b) vp(b)",

@@ -41,12 +41,22 @@ Result<double> read_frequency(const Directive& c, const TransientTimes& times) {
     return f;
 }
 
+/// Sets harmonics that are rounding errors to 0; their phases mean nothing.
+void remove_rounding(FourierSpectrum& spectrum) {
+    double largest = std::abs(spectrum.mean);
+    for (const auto& h : spectrum.harmonics) largest = std::max(largest, h.magnitude);
+    const double smallest = 1e-14 * largest;
+    if (std::abs(spectrum.mean) < smallest) spectrum.mean = 0;
+    for (auto& h : spectrum.harmonics)
+        if (h.magnitude < smallest) h.magnitude = h.phase = 0;
+}
+
 }  // namespace
 
 double FourierSpectrum::distortion() const {
     double squares = 0;
     for (std::size_t k = 1; k < harmonics.size(); ++k) squares += harmonics[k].magnitude * harmonics[k].magnitude;
-    return 100 * std::sqrt(squares) / harmonics[0].magnitude;
+    return 100 * std::sqrt(squares) / harmonics[0].magnitude;  // infinite or NaN without a first harmonic
 }
 
 std::string FourierSpectrum::text() const {

@@ -15,6 +15,16 @@ struct Head {
     Plot plot;
 };
 
+/// True for words of .print that stand for several curves: all, and Xyce's v(*) and i(*).
+bool selects_curves(std::string_view word) { return word == "all" || word == "v(*)" || word == "i(*)"; }
+bool is_selected(std::string_view curve, std::string_view word) { return word == "all" || curve.starts_with(word.substr(0, 2)); }
+
+/// True for format=csv and similar words of .print.
+bool is_setting(std::string_view word) {
+    const auto equals = word.find('=');
+    return equals != std::string_view::npos && word.substr(0, equals).find_first_of("({'") == std::string_view::npos;
+}
+
 class OutputDirectives {
     const Circuit& circuit_;
     std::vector<Head> heads_;  // of all analyses
@@ -74,9 +84,9 @@ private:
             return {};
         }
         for (std::size_t k = names_analysis ? 1 : 0; k < c.words.size(); ++k)
-            if (c.words[k].find('=') != std::string::npos && !c.words[k].starts_with("par("))
+            if (is_setting(c.words[k]))
                 warnings_.push_back(error_at(c.location_of(k), ".{}: '{}' has no effect here", c.name, c.words[k]));
-            else if (c.words[k] == "all")
+            else if (selects_curves(c.words[k]))
                 continue;
             else if (const auto ok = check_curve(c, k, names_analysis); !ok)
                 warnings_.push_back(ok.error());
@@ -148,10 +158,12 @@ PrintedTable table_of(const Directive& c, std::string_view analysis, const Plot&
     if (c.name != "print" || (names_analysis && c.words[0] != analysis)) return out;
     if (plot.has_sweep) add(plot.curves[0].name);
     for (std::size_t w = names_analysis ? 1 : 0; w < c.words.size(); ++w)
-        if (c.words[w] == "all")
-            for (std::size_t k = plot.has_sweep; k < plot.curves.size(); ++k) add(plot.curves[k].name);
-        else
+        if (selects_curves(c.words[w])) {
+            for (std::size_t k = plot.has_sweep; k < plot.curves.size(); ++k)
+                if (is_selected(plot.curves[k].name, c.words[w])) add(plot.curves[k].name);
+        } else {
             add(c.words[w]);
+        }
     if (out.views.size() < (plot.has_sweep ? 2U : 1U)) return {};
     out.text += '\n';
     return out;
