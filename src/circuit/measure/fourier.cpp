@@ -119,6 +119,7 @@ std::vector<FourierSpectrum> FourierTransforms::spectra() const {
             spectrum.harmonics.push_back(
                 {t.frequency * static_cast<double>(k + 1), std::abs(amplitude), std::atan2(amplitude.real(), -amplitude.imag()) * degrees});
         }
+        remove_rounding(spectrum);
     }
     return out;
 }

@@ -203,6 +203,9 @@ Result<std::vector<Complex>> finite_eigenvalues(const Pencil& p) {
     for (auto& pair : pairs) correct(p, pair);
     std::erase_if(pairs, [](const EigenPair& pair) { return !pair.is_finite; });
     refine_all(p, pairs);
+    const double smallest = epsilon * typical_frequency(p);
+    for (auto& pair : pairs)
+        if (std::abs(pair.s) < smallest) pair.s = 0;
     std::ranges::stable_sort(pairs, {}, [](const EigenPair& pair) { return std::abs(pair.s); });
     std::vector<Complex> out;
     for (const auto& pair : pairs) {

@@ -21,7 +21,7 @@ struct Pencil {
     void add(int row, int column, double g, double c = 0) { entries.push_back({row, column, g, c}); }
 };
 
-inline constexpr int max_pencil_size = 500;  // the work grows with the third power: about ten seconds
+inline constexpr int max_pencil_size = 500;  // the work grows with the third power: a few seconds
 
 /// The finite eigenvalues, those of smallest magnitude first. Conjugate pairs are adjacent. C may be singular: eigenvalues that rounding
 /// cannot tell from infinity are left out, and those that it cannot tell from 0 are 0.
