@@ -5,11 +5,11 @@
 
 namespace corpuscle::circuit {
 
-extern const Analysis op_analysis, dc_analysis, ac_analysis, noise_analysis, tran_analysis, tf_analysis, sens_analysis;
+extern const Analysis op_analysis, dc_analysis, ac_analysis, noise_analysis, tran_analysis, pz_analysis, tf_analysis, sens_analysis;
 
 /// In the order in which help texts list them.
-inline constexpr const Analysis* analyses[] = {&op_analysis,   &dc_analysis, &ac_analysis,  &noise_analysis,
-                                               &tran_analysis, &tf_analysis, &sens_analysis};
+inline constexpr const Analysis* analyses[] = {&op_analysis,   &dc_analysis, &ac_analysis, &noise_analysis,
+                                               &tran_analysis, &pz_analysis, &tf_analysis, &sens_analysis};
 
 /// The analysis of this name; null if there is none.
 inline const Analysis* find_analysis(std::string_view name) {

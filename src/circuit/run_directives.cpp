@@ -2,7 +2,7 @@
 
 #include "circuit/analyses.hpp"
 #include "circuit/expression/spice_number.hpp"
-#include "circuit/measure/measurement.hpp"
+#include "circuit/measure/measurement_set.hpp"
 #include "circuit/output/output_directives.hpp"
 
 namespace corpuscle::circuit {
@@ -45,6 +45,7 @@ Result<void> check_expectations(const Circuit& circuit, RunOutcome& out) {
 class PointDispatcher final : public PointSink {
     const RunOptions& options_;
     MeasurementSet& measures_;
+    FourierTransforms* fourier_;  // null: .four does not apply to this analysis
     AnalysisRun& run_;
     DeviceCurrents currents_;
     TablePrinter printer_;
@@ -54,12 +55,13 @@ class PointDispatcher final : public PointSink {
     std::vector<double> last_values_;        // at the last point of the first plot
 
 public:
-    std::vector<Plot> plots;     ///< stored
-    std::size_t plot_count = 0;  ///< ended so far
+    std::vector<Plot> plots;      ///< stored
+    std::vector<Error> left_out;  ///< curves of .four
+    std::size_t plot_count = 0;   ///< ended so far
 
     PointDispatcher(const Circuit& circuit, const RunOptions& options, const std::vector<std::string>& saved_curves,
-                    MeasurementSet& measures, AnalysisRun& run, const DeviceCurrents& currents)
-        : options_(options), measures_(measures), run_(run), currents_(currents), printer_(circuit, *run.directive) {
+                    MeasurementSet& measures, FourierTransforms* fourier, AnalysisRun& run, const DeviceCurrents& currents)
+        : options_(options), measures_(measures), fourier_(fourier), run_(run), currents_(currents), printer_(circuit, *run.directive) {
         if (options.curve_sink) selector_.emplace(saved_curves, *options.curve_sink);
     }
     bool is_transient() const { return run_.directive->name == "tran"; }
@@ -73,6 +75,7 @@ public:
         if (keeps_points()) sinks_.push_back(&recorder_);
         if (selector_) sinks_.push_back(&*selector_);
         if (is_first()) run_.last_point = head, TRY(measures_.begin(run_.directive->name, head));
+        if (fourier_) TRY(fourier_->begin(*run_.directive, head, left_out));
         for (auto* sink : sinks_) TRY(sink->begin(head));
         return {};
     }
@@ -81,6 +84,7 @@ public:
         if (is_first()) {
             ++run_.point_count;
             measures_.add_point(row);
+            if (fourier_) fourier_->add_point(row);
             last_values_.assign(row.real.begin(), row.real.end());
         }
         for (auto* sink : sinks_) TRY(sink->add_point(row));
@@ -103,8 +107,11 @@ private:
 /// Runs one analysis, and passes on the points of its plots: those of a transient while it runs.
 Result<void> analyse(AnalysisContext& context, const Analysis& analysis, const Directive& c, const RunOptions& options,
                      MeasurementSet& measures, const DeviceCurrents& currents, RunOutcome& out) {
-    AnalysisRun run{&c, {}, 0, {}, {}};
-    PointDispatcher dispatcher(*context.circuit, options, out.saved_curves, measures, run, currents);
+    AnalysisRun run{&c, {}, 0, {}, {}, {}};
+    FourierTransforms fourier(*context.circuit);
+    const bool is_first_transient = c.name == "tran" && &c == &*context.circuit->directives_named("tran").begin();
+    PointDispatcher dispatcher(*context.circuit, options, out.saved_curves, measures, is_first_transient ? &fourier : nullptr, run,
+                               currents);
     if (options.should_stop) context.should_stop = [&](double progress) { return options.should_stop(c.name, progress); };
     context.points = &dispatcher;
     auto result = analysis.run(context, c);
@@ -113,6 +120,9 @@ Result<void> analyse(AnalysisContext& context, const Analysis& analysis, const D
     run.result = std::move(*result);
     for (const auto& number : run.result.numbers) out.numbers.push_back(number);
     for (const auto& warning : run.result.warnings) out.warnings.push_back(warning);
+    run.spectra = fourier.spectra();
+    for (const auto& spectrum : run.spectra) out.numbers.emplace_back(spectrum.distortion_name(), spectrum.distortion());
+    out.left_out.insert(out.left_out.end(), dispatcher.left_out.begin(), dispatcher.left_out.end());
     const auto& states = run.result.states;
     const auto set_states = [&](std::size_t point) {
         if (dispatcher.plot_count == 0 && point < states.size()) context.system.set_states(states[point]);  // for the currents of devices
@@ -161,7 +171,8 @@ Result<RunOutcome> run_directives(AnalysisContext& context, const RunOptions& op
         for (const auto* a : analyses) known += fmt::format("\n  {}", a->usage);
         return error_at({circuit->file}, "the netlist has no analysis directive; add one of these:{}", known);
     }
-    TRY(measures.finish(out.numbers, out.warnings));
+    TRY(measures.finish(out.numbers, out.warnings, out.left_out));
+    out.warnings.insert(out.warnings.end(), out.left_out.begin(), out.left_out.end());
     TRY(check_expectations(*circuit, out));
     return out;
 }

@@ -2,6 +2,7 @@
 // Runs the directives of a netlist: its analyses in order, then its measurements and expectations.
 
 #include "circuit/analysis/analysis_context.hpp"
+#include "circuit/measure/fourier.hpp"
 
 namespace corpuscle::circuit {
 
@@ -9,9 +10,10 @@ namespace corpuscle::circuit {
 struct AnalysisRun {
     const Directive* directive;  ///< points into the circuit
     AnalysisResult result;
-    std::size_t point_count = 0;  ///< number of points of the first plot, even of points that are not kept
-    std::string printed_tables;   ///< the tables of .print
-    Plot last_point;              ///< of the first plot; stored even if RunOptions::keep_points is false
+    std::size_t point_count = 0;           ///< number of points of the first plot, even of points that are not kept
+    std::string printed_tables;            ///< the tables of .print
+    std::vector<FourierSpectrum> spectra;  ///< of .four, for the first .tran
+    Plot last_point;                       ///< of the first plot; stored even if RunOptions::keep_points is false
 };
 
 /// One .expect and whether it is met.
@@ -25,9 +27,10 @@ struct Expectation {
 /// The results of a run.
 struct RunOutcome {
     std::vector<AnalysisRun> analyses;
-    std::vector<std::pair<std::string, double>> numbers;  ///< named numbers of analyses, then of .meas; NaN: nothing was found
+    std::vector<std::pair<std::string, double>> numbers;  ///< named numbers of analyses, of .four, then of .meas; NaN: nothing was found
     std::vector<Expectation> expectations;
     std::vector<Error> warnings;
+    std::vector<Error> left_out;  ///< the reason for each .meas, or curve of .four, that is left out; `warnings` has them, too
 
     std::vector<std::string> saved_curves;  ///< names of the curves to save: v(a), v(a,b), i(v1) ... An empty list means all curves.
 

@@ -6,7 +6,7 @@
 #include <rapidcheck.h>
 #include <cmath>
 
-#include "circuit/measure/measurement.hpp"
+#include "circuit/measure/measurement_parser.hpp"
 #include "circuit/netlist_runner.hpp"
 #include "support/ngspice.hpp"
 
@@ -19,13 +19,15 @@ double measured(const std::string& words, const std::vector<double>& t, const st
     Directive c{"meas", {"tran", "x"}, {}, {}};
     std::istringstream split(words);
     for (std::string word; split >> word;) c.words.push_back(word);
-    const auto measurement = parse_measurement(c, head);
-    if (!measurement) return ADD_FAILURE() << measurement.error().text(), not_found;
+    const auto parsed = parse_measurement(c, head);
+    if (!parsed) return ADD_FAILURE() << parsed.error().text(), not_found;
+    if (parsed->left_out) return ADD_FAILURE() << parsed->left_out->text(), not_found;
+    const auto& measurement = parsed->measurement;
     for (std::size_t k = 0; k < t.size(); ++k) {
         const double row[] = {t[k], y[k], 0};
-        (*measurement)->add_point(t[k], PlotRow(row));
+        measurement->add_point(t[k], PlotRow(row));
     }
-    return (*measurement)->value();
+    return measurement->value();
 }
 
 const std::vector<double> times{0, 1, 3, 4, 8}, values{0, 2, -2, -1, 3};  // crosses 0 at 2 s and 5 s
@@ -132,9 +134,9 @@ TEST(Measurement, ReportsErrorsWithTheirLocation) {
     EXPECT_EQ(error_of_line("when v(a)=1 rise=0"), "5:26: .meas: 'rise=0' must be 1, 2 ... or last");
     EXPECT_EQ(error_of_line("trig v(a) val=1 rise=1"), "5:1: .meas: expected targ after trig");
     EXPECT_EQ(error_of_line("max v(a) at=1"), "5:23: .meas: unexpected 'at=1'");
-    EXPECT_EQ(error_of_line("err v(a) v(a)"),
-              "5:14: .meas: unknown measurement 'err'; expected one of find, when, deriv, min, max, pp, avg, rms, integ, min_at, "
-              "max_at, trig, count, param=");
+    EXPECT_EQ(error_of_line("er v(a) v(a)"),
+              "5:14: .meas: unknown measurement 'er'; expected one of find, when, deriv, min, max, pp, avg, rms, integ, trig, count, "
+              "min_at, max_at, duty, freq, on_time, off_time, err, err1, err2, param=");
     EXPECT_EQ(error_of_line("find par('v(a)+q') at=1"), "5:19: .meas: unknown name 'q'");
     EXPECT_EQ(error_of_line("find par('v(q)') at=1"), "5:19: .meas: there is no curve 'par('v(q)')' in 'Transient Analysis'");
 }

@@ -146,7 +146,6 @@ TEST(Curves, ThatDoNotExistAreLeftOutOfTablesWithAWarning) {
     EXPECT_EQ(error_of(c + ".probe v(zz)\n"), "t.cir:6:8: .probe: unknown output v(zz); did you mean 'v(a)'?");
     EXPECT_NE(warnings_in(c + ".print tran i(c1)\n").find("there is no curve 'i(c1)', so the column is left out; "), std::string::npos);
     EXPECT_NE(warnings_in(c + ".print ac vdb(b)\n.print v(b) vdb(q)\n").find("there is no curve 'vdb(q)'"), std::string::npos);
-    EXPECT_NE(error_of(c + ".four 1k v(b)\n").find("t.cir:6:1: .four: spectra of a transient are not supported"), std::string::npos);
     EXPECT_TRUE(outcome_of(c + ".save i(r1)\n.print tran i(r1) v(a,b) v(a) par('v(a)*2')\n.op\n.print op v(b)\n"));
     EXPECT_NE(warnings_in(c + ".plot tran v(b)\n").find("t.cir:6:1: .plot has no effect here"), std::string::npos);
     EXPECT_NE(warnings_in(c + ".print ac v(b)\n").find(".print: the netlist has no .ac, so nothing is printed"), std::string::npos);
@@ -161,6 +160,18 @@ TEST(Curves, AreSelectedByAllAndByProbeDirectivesInNgspicesSyntax) {
     EXPECT_TRUE(outcome_of(c + ".probe alli\n")->saved_curves.empty());
     EXPECT_NE(warnings_in(c + ".probe vd(r1) i(c1) v(b)\n").find(".probe: 'vd(r1)' is not supported"), std::string::npos);
     EXPECT_NE(error_of(c + ".probe i(c9)\n").find(".probe: unknown output i(c9)"), std::string::npos);
+}
+
+TEST(Curves, AreSelectedInXycesSyntax) {
+    const std::string c = "v1 a 0 1\nr1 a b 1k\nr2 b 0 1k\n.dc v1 0 1 1\n";
+    const auto outcome = outcome_of(c + ".print dc format=csv file=x.csv v(*) {v(a)-v(b)} i(*)\n");
+    ASSERT_TRUE(outcome) << outcome.error().text();
+    ASSERT_EQ(outcome->warnings.size(), 2U);
+    EXPECT_EQ(outcome->warnings[0].text(), "t.cir:6:11: .print: 'format=csv' has no effect here");
+    const auto& table = outcome->analyses[0].printed_tables;
+    EXPECT_EQ(table.substr(0, table.find('\n')),
+              fmt::format("{:>16}{:>16}{:>16}{:>16}{:>16}", "v-sweep", "v(a)", "v(b)", "{v(a)-v(b)}", "i(v1)"));
+    EXPECT_NE(table.find("1.0000000e+00   1.0000000e+00   5.0000000e-01   5.0000000e-01  -5.0000000e-04"), std::string::npos) << table;
 }
 
 TEST(Curves, OfEveryAnalysisArePrinted) {

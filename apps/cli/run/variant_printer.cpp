@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <complex>
+#include <numbers>
 
 #include "cli/output/terminal.hpp"
 #include "run/summary/json_number.hpp"
@@ -22,6 +24,27 @@ Json column(const Plot& plot, const Curve& curve) {
     return out;
 }
 
+Json document_of(const FourierSpectrum& spectrum) {
+    Json harmonics = Json::array();
+    for (const auto& h : spectrum.harmonics)
+        harmonics.push_back({{"frequency", h.frequency}, {"magnitude", json_number(h.magnitude)}, {"phase", json_number(h.phase)}});
+    return {{"curve", spectrum.curve},
+            {"frequency", spectrum.frequency},
+            {"mean", json_number(spectrum.mean)},
+            {"thd", json_number(spectrum.distortion())},
+            {"harmonics", harmonics}};
+}
+
+Json document_of(const std::vector<std::complex<double>>& roots) {
+    Json out = Json::array();
+    for (const auto& s : roots)
+        out.push_back({{"real", s.real()},
+                       {"imag", s.imag()},
+                       {"frequency", std::abs(s) / (2 * std::numbers::pi)},
+                       {"q", s.imag() == 0 ? Json() : json_number(quality_of(s))}});
+    return out;
+}
+
 Json document_of(const VariantResult& result) {
     const auto& outcome = result.outcome;
     Json plots = Json::array(), analyses = Json::array(), numbers = Json::object(), expectations = Json::array(), warnings = Json::array();
@@ -33,6 +56,9 @@ Json document_of(const VariantResult& result) {
     for (const auto& a : outcome.analyses) {
         Json one = {{"analysis", a.directive->name}, {"points", a.point_count}};
         for (const auto& [quantity, count] : a.result.stats) one[quantity] = static_cast<std::int64_t>(count);
+        if (a.result.poles) one["poles"] = document_of(*a.result.poles);
+        if (a.result.zeros) one["zeros"] = document_of(*a.result.zeros);
+        for (const auto& spectrum : a.spectra) one["fourier"].push_back(document_of(spectrum));
         analyses.push_back(one);
     }
     for (const auto& [name, value] : outcome.numbers) numbers[name] = json_number(value);
@@ -63,6 +89,7 @@ void print(const VariantResult& result) {
         fmt::print("{}.{}: {} point{}\n", &a == &result.outcome.analyses[0] ? "" : "\n", a.directive->name, a.point_count,
                    a.point_count == 1 ? "" : "s");
         print_text(a.result.table + a.printed_tables);
+        for (const auto& spectrum : a.spectra) print_text("\n" + spectrum.text());
     }
     if (!result.outcome.numbers.empty() || !result.outcome.expectations.empty()) fmt::print("\n");
     print_numbers(result.outcome);
@@ -82,6 +109,7 @@ void print_line(const VariantResult& result) {
 void VariantPrinter::add(const VariantResult& result) {
     const auto& [label, outcome] = std::tie(result.variant.label, result.outcome);
     for (const auto& r : outcome.warnings) print_warning(r.text());
+    if (!outcome.left_out.empty() && !left_out) left_out = outcome.left_out.front();
     for (const auto& e : outcome.expectations)
         if (!e.is_met && !failed_expectation)
             failed_expectation = bad_input(fmt::format("{}{}{} is {:g}, not {:g} within {:g}", label, label.empty() ? "" : ": ", e.name,

@@ -15,6 +15,8 @@ struct AnalysisResult {
     std::vector<Error> warnings = {};
     /// By point of the first plot, the states of the devices with states; empty: those at the end hold for all points.
     std::vector<std::vector<char>> states = {};
+    /// Of .pz, rad/s; nothing if they were not requested.
+    std::optional<std::vector<std::complex<double>>> poles = {}, zeros = {};
     std::optional<std::vector<double>> spikes = {};  ///< spike times of .tran, s; nothing if the netlist has no .spike
 };
 
@@ -55,6 +57,9 @@ public:
     /// Nothing for the nominal circuit.
     const std::optional<ChipSample>& chip_sample() const { return chip_sample_; }
 };
+
+/// The quality factor of a root s = -w0 / (2 Q) +- j ...: |s| / (2 |real part|); infinite on the imaginary axis.
+inline double quality_of(std::complex<double> s) { return std::abs(s) / (2 * std::abs(s.real())); }
 
 Error interrupted_error();
 

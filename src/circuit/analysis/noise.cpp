@@ -131,6 +131,6 @@ extern constexpr Analysis noise_analysis = {.name = "noise",
                                             .expected_plot = expected_noise_plot,
                                             .numbers = noise_numbers,
                                             .plot_count = 2,
-                                            .ngspice_order = 5};
+                                            .ngspice_order = 6};
 
 }  // namespace corpuscle::circuit

@@ -118,7 +118,7 @@ extern constexpr Analysis tf_analysis = {.name = "tf",
                                          .run = analyse_tf,
                                          .expected_plot = expected_tf_plot,
                                          .has_number_for_each_curve = true,
-                                         .ngspice_order = 7};
+                                         .ngspice_order = 8};
 
 extern constexpr Analysis sens_analysis = {.name = "sens",
                                            .usage = ".sens v(OUT[,REF])|i(V)",
@@ -126,6 +126,6 @@ extern constexpr Analysis sens_analysis = {.name = "sens",
                                            .run = analyse_sens,
                                            .expected_plot = expected_sens_plot,
                                            .has_number_for_each_curve = true,
-                                           .ngspice_order = 6};
+                                           .ngspice_order = 7};
 
 }  // namespace corpuscle::circuit

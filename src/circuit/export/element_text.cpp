@@ -16,6 +16,8 @@ std::string input_text(const ElementExport& e, const ExpressionInput& in) {
             return fmt::format("i({})", e.names.element(in.name));
         case ExpressionInput::Kind::time:
             return "time";
+        case ExpressionInput::Kind::frequency:
+            return "hertz";
         case ExpressionInput::Kind::temperature:
             if (e.element.values.contains("temp")) return fmt::format("{}", celsius_of(e.circuit, e.element));
             return e.element.values.contains("dtemp") ? fmt::format("(temper+{})", e.value("dtemp", 0)) : "temper";

@@ -69,6 +69,7 @@ public:
         if (c.name == "dc") return dc(c);
         if (c.name == "noise") return noise(c);
         if (c.name == "print") return print(c);
+        if (c.name == "pz" && c.words.size() == 2) return comment_out(c, "ngspice needs the form .pz IN+ IN- OUT+ OUT- vol|cur pz");
         if (c.name == "force") return "";  // the sources contain it
         for (const std::string_view name : {"expect", "step", "mc", "spike", "assert", "probe"})
             if (c.name == name)

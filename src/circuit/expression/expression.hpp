@@ -13,10 +13,11 @@ namespace corpuscle::circuit {
 
 struct Operation;
 
-/// An input of an expression: v(a), v(a,b), i(vx), time (s) or temper (the temperature in degrees Celsius).
+/// An input of an expression: v(a), v(a,b), i(vx), time (s), temper (the temperature in degrees Celsius) or frequency (Hz).
 struct ExpressionInput {
-    enum class Kind { voltage, current, time, temperature } kind;
-    std::string name, minus;  ///< voltage: the node and its reference ("" is ground); current: the element
+    enum class Kind { voltage, current, time, temperature, frequency } kind;
+    std::string name, minus;     ///< voltage: the node and its reference ("" is ground); current: the element
+    std::string_view part = {};  ///< of a complex value: "m", "db", "p", "r" or "i", as in vdb(out); "" is the value itself
     bool operator==(const ExpressionInput&) const = default;
 };
 
@@ -32,8 +33,9 @@ struct ExpressionScope {
     std::function<const Function*(std::string_view)> function{};  ///< returns null if no function has this name
     /// Returns the value of a random function with constant arguments. If null, it is the first argument.
     std::function<double(std::string_view, std::span<const double>)> random{};
-    bool allows_inputs = false;              ///< true if voltages, currents and time are allowed; false in .param
-    std::vector<std::string> suggestions{};  ///< known names, for "did you mean" in the error about an unknown name
+    bool allows_inputs = false;                                   ///< true if voltages, currents and time are allowed; false in .param
+    bool allows_parts = false;                                    ///< true if vdb(a), ip(v1) ... and the frequency are allowed, too
+    std::vector<std::string> suggestions{};                       ///< known names, for "did you mean" in the error about an unknown name
     /// Return the name in the circuit of a node or an element of this scope ("x1.n3" for "n3" inside x1). If null, the name is kept.
     std::function<std::string(std::string_view)> node{}, element{};
 };

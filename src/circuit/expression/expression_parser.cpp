@@ -13,6 +13,8 @@ constexpr int max_expression_depth = 200;    // of nested parentheses, functions
 constexpr std::ptrdiff_t max_inputs = 4096;  // of one expression
 constexpr std::size_t max_steps = 1000000;   // of one expression, after the expansion of functions
 
+constexpr std::string_view complex_parts[] = {"m", "db", "p", "r", "i"};
+
 bool starts_name(char c) { return (lower(c) >= 'a' && lower(c) <= 'z') || c == '_'; }
 bool in_name(char c) { return starts_name(c) || (c >= '0' && c <= '9') || c == '.' || c == '#' || c == '@'; }
 
@@ -96,8 +98,8 @@ private:
         return apply(*find_operation(name, static_cast<int>(operands.size())), operands);
     }
 
-    Index input(ExpressionInput::Kind kind, std::string name = "", std::string minus = "") {
-        ExpressionInput new_input{kind, std::move(name), std::move(minus)};
+    Index input(ExpressionInput::Kind kind, std::string name = "", std::string minus = "", std::string_view part = "") {
+        ExpressionInput new_input{kind, std::move(name), std::move(minus), part};
         const auto found = std::find(out_.inputs_.begin(), out_.inputs_.end(), new_input);
         const auto k = found - out_.inputs_.begin();
         if (k >= max_inputs) return fail(at_, "the expression uses more than {} voltages and currents", max_inputs);
@@ -270,6 +272,8 @@ private:
         if (scope_.parameter)
             if (const auto value = scope_.parameter(name)) return number(*value);
         if (name == "time" || name == "temper") return time_or_temperature(name, from);
+        const bool is_frequency = name == "hertz" || name == "freq" || name == "frequency";
+        if (is_frequency && scope_.allows_parts) return input(ExpressionInput::Kind::frequency);
         if (name == "hertz") return fail(from, "an expression must not depend on the frequency (hertz)");
         for (const auto& constant : all_constants())
             if (constant.name == name) return number(constant.value);
@@ -291,7 +295,8 @@ private:
     }
     Index call(const std::string& name, std::size_t from) {
         const auto* user_function = scope_.function ? scope_.function(name) : nullptr;
-        if (!user_function && (name == "v" || name == "i")) return voltage_or_current(name[0], from);
+        if (!user_function && (name == "v" || name == "i")) return voltage_or_current(name[0], "", from);
+        if (const auto part = part_named(name); !user_function && !part.empty()) return voltage_or_current(name[0], part, from);
         if (!user_function && (name == "ddt" || name == "idt" || name == "sdt"))
             return fail(from, "{}() is not supported; for a charge, use a capacitor with q='...'", name);
         const auto* row = find_function(name, scope_.allows_inputs);
@@ -359,8 +364,15 @@ private:
 
     // ---- v(a), v(a,b), i(vx) ----
 
+    /// The part of a complex value that a function such as vdb() or ip() selects; "" if it is none of these.
+    std::string_view part_named(std::string_view function) const {
+        if (!scope_.allows_parts || function.empty() || (function[0] != 'v' && function[0] != 'i')) return "";
+        const auto* found = std::ranges::find(complex_parts, function.substr(1));
+        return found == std::end(complex_parts) ? "" : *found;
+    }
+
     /// Reads the names in parentheses after v or i (`kind`), which is at offset `from`.
-    Index voltage_or_current(char kind, std::size_t from) {
+    Index voltage_or_current(char kind, std::string_view part, std::size_t from) {
         if (!scope_.allows_inputs) return fail(from, "{}(...) is not available in a parameter, only in an expression of the circuit", kind);
         const auto close = text_.find(')', at_);
         if (close == std::string_view::npos) return fail(at_, "this '(' is not closed");
@@ -373,7 +385,8 @@ private:
             return fail(from, "'{}' is not a {}", text_.substr(from, close + 1 - from),
                         kind == 'v' ? "voltage; write v(node) or v(node,node)" : "current; write i(element)");
         at_ = close + 1;
-        if (kind == 'i') return input(ExpressionInput::Kind::current, scope_.element ? scope_.element(first) : first);
+        if (kind == 'i') return input(ExpressionInput::Kind::current, scope_.element ? scope_.element(first) : first, "", part);
+        if (!part.empty()) return input(ExpressionInput::Kind::voltage, node(first), is_difference ? node(second) : "", part);
         return voltage(node(first), is_difference ? node(second) : "");
     }
     static bool is_one_name(std::string_view name) { return !name.empty() && name.find_first_of(" \t({,") == std::string_view::npos; }

@@ -81,9 +81,21 @@ struct CurveFollower {
 /// Selects some zero crossings of a curve.
 struct EdgeSelection {
     bool rising = true, falling = true;
-    double number = 1;        ///< of the crossing among those that count: 1 is the first; 0 is the last
+    double number = 1;        ///< of the crossing among those that count: 1 is the first, -1 the last, -2 the one before it
     Interval interval;        ///< only crossings in this interval count
     bool is_counted = false;  ///< true: the result is the number of crossings, not the position of one
+};
+
+/// The last values of a sequence: value() is the n-th from its end.
+class LastValues {
+    std::vector<double> values_;  // at most n
+
+public:
+    void add(double x, double n) {
+        if (static_cast<double>(values_.size()) >= n) values_.erase(values_.begin());
+        values_.push_back(x);
+    }
+    double value(double n) const { return static_cast<double>(values_.size()) < n ? not_found : values_.front(); }
 };
 
 /// Counts the zero crossings of a CurveFollower that count for the selection, and keeps the position of the selected one.
@@ -91,12 +103,14 @@ struct CrossingCounter {
     CurveFollower follower;
     EdgeSelection edges;
     double count = 0;             ///< crossings so far
-    double position = not_found;  ///< x of the selected one; NaN if it was not found yet
+    double position = not_found;  ///< x of the newest one that may be the selected one; NaN if there was none yet
+    LastValues positions{};       ///< if the number counts from the end
 
-    /// Returns true if the newest segment has the selected crossing. If the last crossing is selected, returns true at every crossing.
+    /// Returns true if the newest segment has the selected crossing. If its number counts from the end, returns true at every crossing.
     bool add_point(double x, const PlotRow&);
     void begin_sweep() { follower.begin_sweep(); }
-    double result() const { return edges.is_counted ? count : position; }
+    bool is_from_end() const { return edges.number < 0; }
+    double result() const { return edges.is_counted ? count : is_from_end() ? positions.value(-edges.number) : position; }
 };
 
 /// A position x: that of at=X, or that of a crossing.
@@ -135,14 +149,16 @@ class ValueMeasurement final : public Measurement {
     CurveFollower curve_;
     bool is_slope_;  // true for deriv
     EventPoint event_;
+    Interval interval_;  // with at=X, X must be in it
     std::optional<LineSegment> first_segment_;
     double value_ = not_found;
+    LastValues values_;  // if the number of the crossing counts from the end
 
     double value_in(const LineSegment& segment, double x) const { return is_slope_ ? segment.slope() : segment.at(x); }
 
 public:
-    ValueMeasurement(CurveFollower curve, bool is_slope, EventPoint event)
-        : curve_(std::move(curve)), is_slope_(is_slope), event_(std::move(event)) {}
+    ValueMeasurement(CurveFollower curve, bool is_slope, EventPoint event, Interval interval = {})
+        : curve_(std::move(curve)), is_slope_(is_slope), event_(std::move(event)), interval_(interval) {}
     void add_point(double x, const PlotRow&) override;
     void begin_sweep() override { curve_.begin_sweep(), event_.begin_sweep(); }
     double value() const override;
@@ -158,6 +174,7 @@ struct CurveSummary {
     double integral = 0;             // integral over dx
     double squares = 0;              // integral of the square over |dx|
     double first_value = 0;          // first value in the interval, the result of avg and rms if length is 0
+    double last_value = 0;           // last value in the interval
 
     void add(const LineSegment&);
 
@@ -165,7 +182,8 @@ private:
     void add_extreme(double x, double y);
 };
 
-/// min max pp avg rms integ min_at max_at of a curve over an interval. pp is max - min; min_at and max_at are positions x.
+/// min max pp avg rms integ min_at max_at of a curve over an interval, and its last value there. pp is max - min; min_at and max_at are
+/// positions x.
 class SummaryMeasurement final : public Measurement {
 public:
     using Statistic = double (*)(const CurveSummary&);
@@ -182,53 +200,6 @@ public:
     void add_point(double x, const PlotRow&) override;
     void begin_sweep() override { curve_.begin_sweep(); }
     double value() const override { return summary_.any ? statistic_(summary_) : not_found; }
-};
-
-/// Parses the words of a .meas line that follow NAME, for a plot with the curves of `head`, which needs no values:
-///
-///     find CURVE at=X | find CURVE when EDGE | deriv CURVE at=X | deriv CURVE when EDGE | when EDGE | count EDGE [rise|fall|cross]
-///
-///     min|max|pp|min_at|max_at|avg|rms|integ CURVE [from=A] [to=B]
-///
-///     trig POSITION targ POSITION
-///
-/// EDGE is CURVE=VALUE or CURVE=CURVE, then SELECTION: [rise=N|last] [fall=N|last] [cross=N|last] [td=T] [from=A] [to=B]. POSITION is at=X,
-/// CURVE val=V SELECTION, or EDGE. For an operating point, only `find CURVE` is possible.
-Result<std::unique_ptr<Measurement>> parse_measurement(const Directive&, const Plot& head);
-
-/// All .meas lines of a circuit. Each line names a kind of analysis (tran, ac ...) and measures the first plot of the first such analysis.
-class MeasurementSet {
-    struct Entry {
-        const Directive* directive;                // the .meas line
-        std::unique_ptr<Measurement> measurement;  // null: its analysis has not begun, or the line is a param= expression
-    };
-    std::vector<Entry> entries_;
-    std::vector<Measurement*> active_;  // measurements of the plot that was begun last
-    bool has_sweep_ = true;             // of that plot
-    std::size_t inner_points_ = 0;      // of that plot
-    std::size_t points_ = 0;            // number of points of that plot so far
-
-public:
-    explicit MeasurementSet(const Circuit&);
-
-    /// Begins the first plot of an analysis of this kind; `head` has its curves without values. An ill-formed .meas line or an unknown
-    /// curve is an error.
-    Result<void> begin(std::string_view analysis, const Plot& head);
-    /// Call this after begin() for every analysis. Reports the errors of finish() that depend on names only. `number_names` are the names
-    /// of the numbers that the analyses may produce.
-    Result<void> check(const std::vector<std::string>& number_names) const;
-    /// Adds a point of the plot.
-    void add_point(const PlotRow& row) {
-        const bool begins_sweep = inner_points_ > 0 && points_++ % inner_points_ == 0;
-        for (auto* measurement : active_) {
-            if (begins_sweep) measurement->begin_sweep();
-            measurement->add_point(has_sweep_ ? row[0].real() : 0, row);
-        }
-    }
-
-    /// Call this after all analyses. `numbers` contains the numbers of the analyses, which param= expressions may use. Appends the results
-    /// in the order of the .meas lines. A measurement that found nothing is NaN and adds a warning.
-    Result<void> finish(std::vector<std::pair<std::string, double>>& numbers, std::vector<Error>& warnings) const;
 };
 
 }  // namespace corpuscle::circuit

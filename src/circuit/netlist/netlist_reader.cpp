@@ -17,7 +17,7 @@ constexpr std::size_t max_include_depth = 50, max_definition_depth = 200;  // of
 constexpr std::string_view structural_directives[] = {
     ".subckt", ".ends", ".param",   ".global_param", ".func", ".include", ".incl",    ".inc", ".lib",     ".endl", ".model",
     ".global", ".temp", ".options", ".option",       ".opt",  ".ic",      ".nodeset", ".end", ".control", ".endc", ".title"};
-// Directives that become Circuit::directives, as those of the analyses do; .four is refused.
+// Directives that become Circuit::directives, as those of the analyses do.
 constexpr std::string_view circuit_directives[] = {".meas", ".measure", ".print", ".plot",  ".probe",  ".save", ".step",
                                                    ".mc",   ".expect",  ".force", ".spike", ".assert", ".four"};
 
@@ -187,10 +187,6 @@ private:
         if (word == ".ic" || word == ".nodeset") return keep(store_directive(std::move(line), body_->ics));
         if (contains_word(directives_without_effect, word)) return {};
         if (!is_directive(word)) return keep(unknown(word, line.location()), Refusals::Kind::directive);
-        if (word == ".four")
-            return keep(error_at(line.location(),
-                                 ".four: spectra of a transient are not supported; --out x.csv writes the curve for another program"),
-                        Refusals::Kind::directive);
         if (body_->head) return error_at(line.location(), "{} is not allowed inside .subckt {}; move it outside", word, body_->name);
         return keep(top_level_directive(word, std::move(line)));
     }
@@ -379,7 +375,7 @@ private:
     /// Reads a script of ngspice. Its analyses, measurements and prints are taken as directives; commands that only show results have no
     /// effect. A command that changes the circuit or repeats others ends the reading, since what follows would mean something else.
     Result<void> control(LogicalLineReader& lines, const LogicalLine& from) {
-        std::vector<std::string> ignored;
+        std::vector<std::string> ignored, vectors;  // vectors: those that the script computes
         std::string analysis;
         for (LogicalLine line; lines.next_command(line);) {
             const std::string word = line.text.substr(0, line.text.find_first_of(" \t("));
@@ -394,6 +390,15 @@ private:
             const bool is_analysis = find_analysis(word.substr(1)) != nullptr;
             if (is_analysis) analysis = word.substr(1);
             if (word == ".print") line.text.insert(6, " " + analysis);
+            if (word == ".let") vectors.emplace_back(trimmed(std::string_view(line.text).substr(4, line.text.find('=') - 4)));
+            if (word == ".meas" || word == ".measure") {
+                if (const auto redirection = line.text.find(" >"); redirection != std::string::npos) line.text.resize(redirection);
+                if (const auto vector = vector_in(line.text, vectors); !vector.empty()) {
+                    out_.warnings.push_back(
+                        error_at(line.location(1), "{} is left out: the script computes '{}'", measure_name(line.text), vector));
+                    continue;
+                }
+            }
             if (is_analysis || word == ".meas" || word == ".measure" || word == ".print") {
                 TRY(store_directive(std::move(line), out_.directives));
                 if (is_analysis) script_analyses_.push_back(out_.directives.back());
@@ -402,6 +407,27 @@ private:
             }
         }
         return unclosed_control(from);
+    }
+    /// The first of these vectors that is a word of a command; "" if there is none.
+    static std::string_view vector_in(std::string_view command, const std::vector<std::string>& vectors) {
+        for (const std::string_view vector : vectors)
+            for (auto at = command.find(vector); at != std::string_view::npos; at = command.find(vector, at + 1)) {
+                const auto is_end = [&](std::size_t k) {
+                    return k >= command.size() || std::string_view(" \t=()").find(command[k]) != std::string_view::npos;
+                };
+                if (is_end(at - 1) && is_end(at + vector.size())) return vector;
+            }
+        return "";
+    }
+    /// ".meas NAME" of ".meas tran NAME ..."
+    static std::string measure_name(std::string_view command) {
+        std::vector<std::string> words;
+        for (auto at = command.find_first_not_of(" \t"); at != std::string_view::npos && words.size() < 3;) {
+            const auto end = std::min(command.find_first_of(" \t", at), command.size());
+            words.emplace_back(command.substr(at, end - at));
+            at = command.find_first_not_of(" \t", end);
+        }
+        return words[0] + " " + words.back();
     }
     static Error unclosed_control(const LogicalLine& from) { return error_at(from.location(), ".control is not closed by .endc"); }
     Result<void> warn_of_ignored_commands(const std::vector<std::string>& commands, const LogicalLine& from) {

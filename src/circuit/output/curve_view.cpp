@@ -25,6 +25,18 @@ int index_of(const Plot& plot, std::string_view name, const CurveIndex* index) {
     return -1;
 }
 
+/// True if the text is more than a name or a call with names: v(a)-v(b), abs(v(a)).
+bool has_operator(std::string_view text) {
+    int depth = 0;
+    for (std::size_t k = 0; k < text.size(); ++k) {
+        depth += text[k] == '(' ? 1 : text[k] == ')' ? -1 : 0;
+        const bool is_call_of_call = depth == 2;
+        const bool is_minus = text[k] == '-' && depth == 0 && text.find('(') != std::string_view::npos;
+        if (is_call_of_call || is_minus || (depth == 0 && std::string_view("+*/^?<>").find(text[k]) != std::string_view::npos)) return true;
+    }
+    return text.starts_with('(');
+}
+
 }  // namespace
 
 CurveIndex::CurveIndex(const Plot& plot) {
@@ -47,33 +59,62 @@ double CurveView::evaluate_expression(const PlotRow& row) const {
     return expression_->value(values);
 }
 
-Result<Expression> parse_par_expression(std::string_view name, const SourceLocation& location) {
-    ExpressionScope scope;
-    scope.allows_inputs = true;
-    name.remove_prefix(4), name.remove_suffix(name.ends_with(')'));  // removes "par(" and ")"
-    if (name.size() >= 2 && (name[0] == '\'' || name[0] == '{')) name = name.substr(1, name.size() - 2);
-    return Expression::parse(name, location, scope);
+std::optional<std::string_view> curve_expression_text(std::string_view name) {
+    const auto is_enclosed = [&](char open, char close) { return name.size() > 2 && name.front() == open && name.back() == close; };
+    const bool is_par = name.starts_with("par(") && name.ends_with(')');
+    if (is_par) name = name.substr(4, name.size() - 5);
+    if (!is_par && name.starts_with("('") && name.ends_with("')")) name = name.substr(1, name.size() - 2);
+    if (is_enclosed('{', '}') || is_enclosed('\'', '\'')) return name.substr(1, name.size() - 2);
+    return is_par || has_operator(name) ? std::optional(name) : std::nullopt;
 }
 
-std::optional<CurveView> CurveView::find_expression(const Plot& plot, std::string_view name) {
-    auto expression = parse_par_expression(name, {});
-    if (!expression || plot.is_complex) return {};
+ExpressionScope curve_scope() {
+    ExpressionScope scope;
+    scope.allows_inputs = scope.allows_parts = true;
+    return scope;
+}
+
+std::string curve_name(const ExpressionInput& input) {
+    using Kind = ExpressionInput::Kind;
+    if (input.kind == Kind::time || input.kind == Kind::temperature) return input.kind == Kind::time ? "time" : "temper";
+    if (input.kind == Kind::frequency) return "frequency";
+    const auto second = input.minus.empty() ? "" : "," + input.minus;
+    return fmt::format("{}{}({}{})", input.kind == Kind::voltage ? 'v' : 'i', input.part, input.name.empty() ? "0" : input.name, second);
+}
+
+std::optional<CurveView> CurveView::of_expression(const Plot& plot, Expression expression, const CurveIndex* index) {
     CurveView out;
-    for (const auto& input : expression->inputs()) {
-        const auto found = input.kind == ExpressionInput::Kind::time ? find(plot, "time")
-                           : input.kind == ExpressionInput::Kind::voltage
-                               ? find(plot, "v(" + input.name + "," + (input.minus.empty() ? "0" : input.minus) + ")")
-                           : input.kind == ExpressionInput::Kind::current ? find(plot, "i(" + input.name + ")")
-                                                                          : std::nullopt;
+    for (const auto& input : expression.inputs()) {
+        const bool is_complex = plot.is_complex && input.part.empty() && input.kind != ExpressionInput::Kind::frequency;
+        if (is_complex) return {};  // an expression is evaluated with real numbers
+        const auto found = find_named(plot, curve_name(input), index);
         if (!found) return {};
         out.inputs_.push_back(*found);
     }
-    out.expression_ = std::make_shared<const Expression>(std::move(*expression));
+    out.is_complex_value_ = false;
+    out.expression_ = std::make_shared<const Expression>(std::move(expression));
     return out;
 }
 
 std::optional<CurveView> CurveView::find(const Plot& plot, std::string_view name, const CurveIndex* index) {
-    if (name.starts_with("par(")) return find_expression(plot, name);
+    if (const auto found = find_named(plot, name, index)) return found;
+    if (const auto text = curve_expression_text(name)) {
+        auto expression = Expression::parse(*text, {}, curve_scope());
+        return expression ? of_expression(plot, std::move(*expression), index) : std::nullopt;
+    }
+    if (name.find(':') != std::string_view::npos) {
+        std::string with_dots(name);
+        std::ranges::replace(with_dots, ':', '.');
+        return find(plot, with_dots, index);
+    }
+    if (name.starts_with("n(") && name.ends_with("_branch)"))
+        return find_named(plot, fmt::format("i({})", name.substr(2, name.size() - 10)), index);
+    if (name.ends_with("#branch")) return find_named(plot, fmt::format("i({})", name.substr(0, name.size() - 7)), index);
+    const bool is_word = !name.empty() && name.find_first_of("(){}'@") == std::string_view::npos;
+    return is_word ? find_named(plot, fmt::format("v({})", name), index) : std::nullopt;
+}
+
+std::optional<CurveView> CurveView::find_named(const Plot& plot, std::string_view name, const CurveIndex* index) {
     CurveView out;
     const auto open = name.find('(');
     out.is_complex_value_ = open <= 1;

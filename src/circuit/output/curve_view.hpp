@@ -17,7 +17,9 @@ public:
 
 /// A quantity that was looked up once in a plot by its name. It is a curve, a difference v(a,b), or one part of a complex curve. The parts
 /// are vm (magnitude), vdb (magnitude in dB), vp (phase in radians, as in ngspice), vr (real part) and vi (imaginary part), and im, idb,
-/// ip, ir, ii of currents. In a real plot it may also be par('EXPRESSION') of voltages, currents and time.
+/// ip, ir, ii of currents. It may also be an expression of these and of time: par('EXPRESSION'), {EXPRESSION}, 'EXPRESSION' or, if it has
+/// an operator, EXPRESSION alone. In a complex plot each input of an expression must be a part, such as vm(a). Other spellings: v1#branch
+/// for i(v1), NODE for v(NODE), and x1:a for x1.a.
 class CurveView {
     static constexpr int ground = -1;
     int plus_ = ground, minus_ = ground;              // the value is curve plus_ minus curve minus_; indices of the plot's curves
@@ -28,11 +30,13 @@ class CurveView {
 
     std::complex<double> part_of_value(std::complex<double> difference) const;
     double evaluate_expression(const PlotRow&) const;
-    static std::optional<CurveView> find_expression(const Plot&, std::string_view name);
+    static std::optional<CurveView> find_named(const Plot&, std::string_view name, const CurveIndex* index);
 
 public:
     /// Returns nothing if the plot has no such curve. `index` is the plot's CurveIndex; if it is null, all curves are searched.
     static std::optional<CurveView> find(const Plot&, std::string_view name, const CurveIndex* index = nullptr);
+    /// The value of an expression, which must have been parsed with curve_scope(). Nothing if the plot does not have all of its inputs.
+    static std::optional<CurveView> of_expression(const Plot&, Expression, const CurveIndex* index = nullptr);
 
     std::complex<double> value(const PlotRow& row) const {
         if (expression_) return evaluate_expression(row);
@@ -45,8 +49,12 @@ public:
     }
 };
 
-/// Parses the expression in "par('...')"; an error is reported at `location`.
-Result<Expression> parse_par_expression(std::string_view name, const SourceLocation& location);
+/// The text of an expression of curves without par(), braces or quotes around it. Nothing if `name` is a plain name, such as v(a).
+std::optional<std::string_view> curve_expression_text(std::string_view name);
+/// A scope with the functions that are the inputs of such an expression.
+ExpressionScope curve_scope();
+/// The name of the curve that is an input of an expression: "vdb(a,b)".
+std::string curve_name(const ExpressionInput&);
 
 /// The values of the named curve (as in CurveView) at all points of a plot; nothing if the plot has no such curve.
 std::optional<std::vector<std::complex<double>>> find_curve_values(const Plot&, std::string_view name);

@@ -1,7 +1,9 @@
 #include "circuit/output/output_directives.hpp"
 
 #include "circuit/analyses.hpp"
-#include "circuit/measure/measurement.hpp"
+#include "circuit/measure/fourier.hpp"
+#include "circuit/measure/measure_line.hpp"
+#include "circuit/measure/measurement_set.hpp"
 
 namespace corpuscle::circuit {
 namespace {
@@ -12,6 +14,16 @@ struct Head {
     const Analysis* analysis;
     Plot plot;
 };
+
+/// True for words of .print that stand for several curves: all, and Xyce's v(*) and i(*).
+bool selects_curves(std::string_view word) { return word == "all" || word == "v(*)" || word == "i(*)"; }
+bool is_selected(std::string_view curve, std::string_view word) { return word == "all" || curve.starts_with(word.substr(0, 2)); }
+
+/// True for format=csv and similar words of .print.
+bool is_setting(std::string_view word) {
+    const auto equals = word.find('=');
+    return equals != std::string_view::npos && word.substr(0, equals).find_first_of("({'") == std::string_view::npos;
+}
 
 class OutputDirectives {
     const Circuit& circuit_;
@@ -44,12 +56,21 @@ public:
         MeasurementSet measures(circuit_);
         for (const auto& head : heads_) TRY(measures.begin(head.directive->name, head.plot));
         const auto known = number_names();
+        TRY(check_spectra());
         TRY(measures.check(known));
         for (const auto& c : circuit_.directives_named("expect")) TRY(check_expectation(c, known));
         return {};
     }
 
 private:
+    Result<void> check_spectra() {
+        std::vector<Error> left_out;  // reported by the run
+        const auto tran = std::ranges::find(heads_, &tran_analysis, &Head::analysis);
+        if (tran != heads_.end()) return FourierTransforms(circuit_).begin(*tran->directive, tran->plot, left_out);
+        for (const auto& c : circuit_.directives_named("four")) return error_at(c.location, ".four: the netlist has no .tran");
+        return {};
+    }
+
     /// The first word of .print and .plot may name an analysis. Each further word must be a curve of this analysis. If the first word does
     /// not name one, each word must be a curve of some analysis.
     Result<void> check_columns(const Directive& c) {
@@ -63,9 +84,9 @@ private:
             return {};
         }
         for (std::size_t k = names_analysis ? 1 : 0; k < c.words.size(); ++k)
-            if (c.words[k].find('=') != std::string::npos && !c.words[k].starts_with("par("))
+            if (is_setting(c.words[k]))
                 warnings_.push_back(error_at(c.location_of(k), ".{}: '{}' has no effect here", c.name, c.words[k]));
-            else if (c.words[k] == "all")
+            else if (selects_curves(c.words[k]))
                 continue;
             else if (const auto ok = check_curve(c, k, names_analysis); !ok)
                 warnings_.push_back(ok.error());
@@ -81,8 +102,8 @@ private:
         for (const auto& head : heads_)
             if (!names_analysis || head.directive->name == c.words[0])
                 for (const auto& curve : head.plot.curves) known.push_back(curve.name);
-        if (word.starts_with("par("))
-            if (const auto expression = parse_par_expression(word, c.location); !expression)
+        if (const auto text = curve_expression_text(word))
+            if (const auto expression = Expression::parse(*text, c.location, curve_scope()); !expression)
                 return error_at(c.location_of(k), "{}", expression.error().message);
         const bool is_axis_limit = c.name == "plot" && word.starts_with("(");  // (0,5)
         if (is_axis_limit) return {};
@@ -96,9 +117,11 @@ private:
     Result<void> check_expectation(const Directive& c, const std::vector<std::string>& analysis_numbers) const {
         if (c.words.empty()) return {};  // run_directives() reports the syntax
         const auto name = c.words[0].substr(0, c.words.size() == 2 ? c.words[0].find('=') : std::string::npos);
-        std::vector<std::string_view> known(analysis_numbers.begin(), analysis_numbers.end());
+        std::vector<Directive> measures;
         for (const auto& other : circuit_.directives)
-            if ((other.name == "meas" || other.name == "measure") && other.words.size() > 1) known.push_back(other.words[1]);
+            if (is_measure(other)) measures.push_back(TRY(normalized_measure(other, circuit_)));
+        std::vector<std::string_view> known(analysis_numbers.begin(), analysis_numbers.end());
+        for (const auto& measure : measures) known.push_back(measure.words[1]);
         if (std::find(known.begin(), known.end(), name) != known.end()) return {};
         for (std::size_t h = 0; h < heads_.size(); ++h)
             if (CurveView::find(heads_[h].plot, name, &indices_[h])) return {};
@@ -113,6 +136,8 @@ private:
             if (head.analysis->has_number_for_each_curve)
                 for (const auto& curve : head.plot.curves) out.push_back(curve.name);
         }
+        for (const auto& c : circuit_.directives_named("four"))
+            for (std::size_t k = 1; k < c.words.size(); ++k) out.push_back(FourierSpectrum{c.words[k], 0, 0, {}}.distortion_name());
         return out;
     }
 };
@@ -133,10 +158,12 @@ PrintedTable table_of(const Directive& c, std::string_view analysis, const Plot&
     if (c.name != "print" || (names_analysis && c.words[0] != analysis)) return out;
     if (plot.has_sweep) add(plot.curves[0].name);
     for (std::size_t w = names_analysis ? 1 : 0; w < c.words.size(); ++w)
-        if (c.words[w] == "all")
-            for (std::size_t k = plot.has_sweep; k < plot.curves.size(); ++k) add(plot.curves[k].name);
-        else
+        if (selects_curves(c.words[w])) {
+            for (std::size_t k = plot.has_sweep; k < plot.curves.size(); ++k)
+                if (is_selected(plot.curves[k].name, c.words[w])) add(plot.curves[k].name);
+        } else {
             add(c.words[w]);
+        }
     if (out.views.size() < (plot.has_sweep ? 2U : 1U)) return {};
     out.text += '\n';
     return out;

@@ -1,5 +1,6 @@
 #include "circuit/output/saved_quantities.hpp"
 
+#include <algorithm>
 #include <unordered_set>
 
 #include "circuit/variant/hierarchical_names.hpp"
@@ -24,6 +25,20 @@ int element_of_current(const Circuit& circuit, std::string_view word) {
 int device_of_current(const System& system, std::string_view word) {
     const int k = system.unknown(word) >= 0 ? -1 : element_of_current(system.circuit(), word);
     return k >= 0 && has_device_current(system.circuit().elements[static_cast<std::size_t>(k)]) ? k : -1;
+}
+
+/// The currents in some words: "i(r1)" in "i(r1)=1m" and in "par('v(a)*i(r1)')".
+std::vector<std::string> currents_in(std::span<const std::string> words) {
+    std::vector<std::string> out;
+    for (const auto& word : words)
+        for (auto at = word.find("i("); at != std::string::npos; at = word.find("i(", at + 1)) {
+            const bool is_part_of_name = at > 0 && ((word[at - 1] >= 'a' && word[at - 1] <= 'z') || word[at - 1] == '_');
+            const auto close = word.find(')', at);
+            if (is_part_of_name || close == std::string::npos) continue;
+            out.push_back(word.substr(at, close + 1 - at));
+            std::ranges::replace(out.back(), ':', '.');
+        }
+    return out;
 }
 
 struct ProbeText {
@@ -142,15 +157,13 @@ Result<std::vector<SavedQuantity>> resolve_saved_quantities(const System& system
 }
 
 std::vector<SavedQuantity> mentioned_device_currents(const System& system, std::span<const SavedQuantity> saved) {
-    constexpr std::string_view directives[] = {"print", "plot", "meas", "measure"};
+    constexpr std::string_view directives[] = {"print", "plot", "meas", "measure", "four"};
     std::unordered_set<std::string> seen;
     for (const auto& quantity : saved) seen.insert(quantity.name);
     std::vector<SavedQuantity> out;
     for (const auto& c : system.circuit().directives) {
         if (std::ranges::find(directives, c.name) == std::end(directives)) continue;
-        for (const auto& word : c.words) {
-            if (!word.starts_with("i(")) continue;
-            const auto name = word.substr(0, std::min(word.find(')'), word.size() - 1) + 1);  // also of "i(r1)=1m"
+        for (const auto& name : currents_in(c.words)) {
             if (const int device = device_of_current(system, name); device >= 0 && seen.insert(name).second)
                 out.push_back({name, {}, device});
         }
