@@ -76,6 +76,8 @@ std::optional<double> ElementReader::model_value(std::string_view name) const {
     return at == values.end() ? std::nullopt : std::optional(at->second);
 }
 
+SourceLocation ElementReader::model_location() const { return builder_.circuit.model_of(element)->location; }
+
 Result<void> ElementReader::expression(const NameValue& pair) {
     read_names_.push_back(s_.text(pair.name));
     return parse_expression({&s_, pair.value});
