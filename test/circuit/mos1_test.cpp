@@ -223,5 +223,33 @@ TEST(Mos1, ChipsDifferOnlyByTheTransistorsThatHaveMismatch) {
     EXPECT_NE(chips.out.find("n = 20\n"), std::string::npos) << chips.out;
 }
 
+/// The spikes of the first copy.
+std::string first_copy(const TemporaryFolder& folder, int copies) {
+    const auto ran = run_program(folder, fmt::format("respond press --afferent spiker.cir --copies {0} --mismatch 3 --out out{0}", copies));
+    EXPECT_EQ(ran.status, 0) << ran.err;
+    std::istringstream lines(read_file(folder / fmt::format("out{}/spikes.csv", copies)));
+    std::string out, line;
+    while (std::getline(lines, line))
+        if (line.find("#1,") != std::string::npos) out += line + '\n';
+    return out;
+}
+
+// Chips are computed on SIMD lanes; a level 1 transistor among UICM ones is evaluated by itself in each lane.
+TEST(Mos1, ChipsWithBothKindsHaveTheSameSpikesAloneAndOnLanes) {
+    const TemporaryFolder folder;
+    auto text = read_file(source_root() + "/circuits/spiker.cir");
+    const auto replace = [&](const std::string& from, const std::string& to) {
+        ASSERT_NE(text.find(from), std::string::npos) << from;
+        text.replace(text.find(from), from.size(), to);
+    };
+    replace("'../process/tsmc180.lib'", "'" + source_root() + "/process/tsmc180.lib'");
+    replace("m10 sb s  vdd vdd pch", "m10 sb s  vdd vdd p1"), replace("m11 sb s  0   0   nch", "m11 sb s  0   0   n1");
+    replace(".spike", ".model n1 nmos(vto=0.3 kp=200u tox=4n rs=10)\n.model p1 pmos(vto=-0.3 kp=60u tox=4n)\n.spike");
+    folder.write("spiker.cir", text);
+    const auto alone = first_copy(folder, 1);
+    EXPECT_GT(std::count(alone.begin(), alone.end(), '\n'), 50);
+    EXPECT_EQ(alone, first_copy(folder, 3));
+}
+
 }  // namespace
 }  // namespace corpuscle::circuit::test

@@ -87,9 +87,10 @@ struct EkvEquations {
         const T y_f = normalized_charge((v_p - s) / T(U)), y_r = normalized_charge((v_p - d) / T(U));
         const T i_f = out.i_f = y_f * (T(1.0) + y_f), root_f = num::sqrt(i_f);
         out.i_r = y_r * (T(1.0) + y_r);
-        const T ratio(U / c.v_c), v_dss = out.v_dss = T(c.v_c) * (num::sqrt(T(0.25) + ratio * root_f) - T(0.5));
-        const T v_dss2 = T(c.v_c) * (num::sqrt(T(0.25) + ratio * (root_f - T(0.75) * num::log(i_f))) - T(0.5)) +
-                         T(U * (std::log(0.5 * c.v_c / U) - 0.6));
+        // V_C (sqrt(1/4 + x / V_C) - 1/2) without the difference of large numbers
+        const auto saturation = [&](const T& x) { return x / (num::sqrt(T(0.25) + x / T(c.v_c)) + T(0.5)); };
+        const T v_dss = out.v_dss = saturation(T(U) * root_f);
+        const T v_dss2 = saturation(T(U) * (root_f - T(0.75) * num::log(i_f))) + T(U * (std::log(0.5 * c.v_c / U) - 0.6));
         const T half = T(0.5) * (d - s), dv = T(width) * (T(c.lambda) * (root_f - v_dss / T(U)) + T(1.0 / 64));
         const auto from_zero = [&](const T& at) { return num::sqrt(at * at + dv) - num::sqrt((half - at) * (half - at) + dv); };
         const T v_ip = from_zero(v_dss), y = normalized_charge((v_p - half - s - from_zero(v_dss2)) / T(U));

@@ -6,7 +6,7 @@
 namespace corpuscle::circuit {
 namespace {
 
-constexpr double silicon = 11.7 * 8.8541878128e-12;  // F/m
+constexpr double eps_silicon = 11.7 * 8.8541878128e-12;  // F/m
 
 /// The rise of the threshold of short transistors by the charge at the ends of the channel, V.
 double reverse_short_channel_shift(const EkvCard& c, double l) {
@@ -40,10 +40,10 @@ Result<EkvConstants> ekv_constants(const EkvCard& c, const MosSize& size, double
     out.gamma = c.gamma, out.phi = surface_potential(c, kelvin, nominal);
     out.kp_w = c.kp * std::pow(ratio, c.bex) * w;
     out.l = l, out.w = w, out.m = size.m, out.cox = c.cox;
-    out.l_c = std::sqrt(silicon / c.cox * c.xj);
+    out.l_c = std::sqrt(eps_silicon / c.cox * c.xj);
     out.ucrit = c.ucrit * std::pow(ratio, c.ucex), out.v_c = out.ucrit * l, out.lambda = c.lambda;
-    out.short_term = silicon / c.cox * c.leta / l, out.narrow_term = 3 * silicon / c.cox * c.weta / w;
-    out.field = c.e0 > 0 ? c.cox / (silicon * c.e0) : 0;
+    out.short_term = eps_silicon / c.cox * c.leta / l, out.narrow_term = 3 * eps_silicon / c.cox * c.weta / w;
+    out.field = c.e0 > 0 ? c.cox / (eps_silicon * c.e0) : 0;
     out.theta = c.theta, out.eta = pmos ? 1.0 / 3 : 0.5;
     out.iba = c.iba, out.ibb = c.ibb * (1 + c.ibbt * change), out.ibn = c.ibn;
     out.kf = c.kf;
