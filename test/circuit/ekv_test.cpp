@@ -138,13 +138,24 @@ TEST(Ekv, TheSourceTransconductanceFollowsTheInversionCoefficient) {
     }
 }
 
-// In strong inversion I_D = n kp / 2 W / L (V_P - V_S)^2 in saturation, and the difference of this and the same of V_D below it.
+/// y (1 + y) with 2 y + ln y = v, for v > 5, by iteration.
+double normalized_current(double v) {
+    double y = v / 2;
+    for (int k = 0; k < 100; ++k) y = (v - std::log(y)) / 2;
+    return y * (1 + y);
+}
+
+// In strong inversion I_D = 2 n kp W / L_eq U_T^2 (F((V_P - V_S) / U_T) - F((V_P - V_D) / U_T)), and F(v) is near (v / 2)^2. L_eq is L with
+// the smooth limit to L / 10, (L + sqrt(L^2 + (L / 10)^2)) / 2.
 TEST(Ekv, StrongInversionHasItsSquareLaw) {
     const MosUnderTest mos(ekv_kind, "nmos", ideal, square);
-    const double v_p = mos.info({5, 4, 0.5, 0}, "v_p"), n = mos.info({5, 4, 0.5, 0}, "n");
-    EXPECT_NEAR(mos.info({5, 4, 0.5, 0}, "i_d") / (n * 0.5e-4 * (v_p - 0.5) * (v_p - 0.5)), 1, 0.07);
-    const double triode = mos.info({1, 4, 0.5, 0}, "i_d");
-    EXPECT_NEAR(triode / (n * 0.5e-4 * ((v_p - 0.5) * (v_p - 0.5) - (v_p - 1) * (v_p - 1))), 1, 0.02);
+    const double L_eq = (1 + std::sqrt(1.01)) / 2;  // over L
+    for (const double drain : {0.6, 1.0, 1.5, 5.0}) {
+        const double v_p = mos.info({drain, 4, 0.5, 0}, "v_p"), n = mos.info({drain, 4, 0.5, 0}, "n");
+        const double reverse = drain < v_p ? normalized_current((v_p - drain) / vt) : 0, forward = normalized_current((v_p - 0.5) / vt);
+        EXPECT_NEAR(mos.info({drain, 4, 0.5, 0}, "i_d") / (2 * n * 1e-4 * vt * vt / L_eq * (forward - reverse)), 1, 1e-4) << drain;
+        EXPECT_NEAR(forward / std::pow((v_p - 0.5) / vt / 2, 2), 1, 0.08);
+    }
 }
 
 TEST(Ekv, TheChannelHasTwoThirdsOfItsCapacitanceInSaturationAndHalvesAtZero) {
@@ -168,19 +179,19 @@ TEST(Ekv, ItsThermalNoiseAtZeroVoltageIsThatOfItsConductance) {
     }
 }
 
-/// The smallest and largest ratio of the current of EKV to that of UICM over gate voltages from 0.2 V to 1.5 V. Both have the same specific
-/// current, slope factor and threshold.
-TEST(Ekv, ALongTransistorHasTheCurrentOfUicmWithTheSameSlopeFactor) {
+// With the same specific current n kp U_T^2 / 2 and slope factor n = 1 + gamma / (2 sqrt(phi)), and with the threshold of UICM higher by
+// n U_T (1 - ln 2): its x is (V_P - V) / U_T + 1 where EKV has ln 2. The slope factor of EKV falls with V_P, that of UICM is constant.
+TEST(Ekv, ALongTransistorHasTheCurrentOfUicmNearTheThreshold) {
+    const double n = 1 + 0.7 / (2 * std::sqrt(0.9));
     const auto outcome = run_corpuscle(Netlist::parse(
-        "t\nvd d1 0 1.5\nvd2 d2 0 1.5\nvg g 0 0\nm1 d1 g 0 0 e w=10u l=10u\nm2 d2 g 0 0 u w=10u l=10u\n"
-        ".model e nmos(level=55 gamma=0 vto=0.45 phi=0.9 kp=1e-4 lambda=0 leta=0 weta=0 ucrit=1e12 e0=1e30 is=1e-40 tnom=27)\n"
-        // I_SQ = kp U_T^2 n / 2; x_S of UICM has + 1 where EKV has ln 2
-        ".model u nmos(level=80 isq={1e-4*0.0258650*0.0258650/2} vto=0.45 n=1.000001 ve=1e30 zetal=0 sigmal=0 js=0 jssw=0 tcv=0)\n"
-        ".dc vg 0.2 1.5 0.05\n.end\n",
+        fmt::format("t\nvd d1 0 1.5\nvd2 d2 0 1.5\nvg g 0 0\nm1 d1 g 0 0 e w=100u l=100u\nm2 d2 g 0 0 u w=100u l=100u\n"
+                    ".model e nmos(level=55 gamma=0.7 vto=0.6 phi=0.9 kp=1e-4 lambda=0 leta=0 weta=0 ucrit=1e12 e0=1e30 is=1e-40 tnom=27)\n"
+                    ".model u nmos(level=80 isq={} vto={} n={} ve=1e30 zetal=0 sigmal=0 js=0 jssw=0 tcv=0)\n.dc vg 0.55 0.8 0.05\n.end\n",
+                    n * 1e-4 * vt * vt / 2, 0.6 + n * vt * (1 - std::log(2)), n),
         "t.cir", {}));
     const auto plot = outcome.plots().at(0);
     const auto &ekv = plot.find_curve("i(vd)")->values, &uicm = plot.find_curve("i(vd2)")->values;
-    for (std::size_t k = 0; k < ekv.size(); ++k) EXPECT_NEAR(ekv[k].real() / uicm[k].real(), 1, 0.25) << k;
+    for (std::size_t k = 0; k < ekv.size(); ++k) EXPECT_NEAR(ekv[k].real() / uicm[k].real(), 1, 0.08) << k;
 }
 
 TEST(Ekv, EachOfItsLevelsIsAcceptedAndExportNamesTheReason) {
