@@ -1,7 +1,7 @@
-// The EKV 2.6 transistor. Debian's ngspice does not have it, and no other simulator here does, so these tests are identities and limits of
-// the model, and values from its published equations: the Verilog-A text of EKV 2.6 (revision 2.6.15, which Xyce distributes), written down
-// once more in Python with exact constants and an exact solution of 2 y + ln y = v. That checks our text against a second one, not against
-// another simulator.
+// The EKV 2.6 transistor. No simulator here has it, also not Debian's ngspice. So these tests are identities and limits of the model, and
+// values from its published equations. The values come from the Verilog-A text of EKV 2.6 (revision 2.6.15, which Xyce distributes),
+// written once more in Python, with exact constants and an exact solution of 2 y + ln y = v. That compares two texts of the equations; it
+// does not replace a comparison with another simulator.
 
 #include <gtest/gtest.h>
 
@@ -179,8 +179,9 @@ TEST(Ekv, ItsThermalNoiseAtZeroVoltageIsThatOfItsConductance) {
     }
 }
 
-// With the same specific current n kp U_T^2 / 2 and slope factor n = 1 + gamma / (2 sqrt(phi)), and with the threshold of UICM higher by
-// n U_T (1 - ln 2): its x is (V_P - V) / U_T + 1 where EKV has ln 2. The slope factor of EKV falls with V_P, that of UICM is constant.
+// Both have the specific current n kp U_T^2 / 2 and the slope factor n = 1 + gamma / (2 sqrt(phi)). The threshold of UICM is higher by
+// n U_T (1 - ln 2), because its x is (V_P - V) / U_T + 1 where EKV has ln 2. The slope factor of EKV falls with V_P, that of UICM is
+// constant.
 TEST(Ekv, ALongTransistorHasTheCurrentOfUicmNearTheThreshold) {
     const double n = 1 + 0.7 / (2 * std::sqrt(0.9));
     const auto outcome = run_corpuscle(Netlist::parse(

@@ -1,5 +1,5 @@
 #pragma once
-// What holds for every MOS transistor, checked on the device itself.
+// Checks of properties that every MOS transistor has: slopes, conservation, symmetry.
 
 #include <gtest/gtest.h>
 

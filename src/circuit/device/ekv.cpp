@@ -25,8 +25,8 @@ T smooth_positive(const T& x, double width) {
 /// All voltages are above the bulk; d is the end of the higher one.
 template <class T>
 struct EkvValues {
-    T v_p, n, i_f, i_r, v_dss;  ///< V; slope factor; normalized currents; saturation voltage (half), V
-    T beta, q_i;                ///< A/V^2; V: inversion charge over C_ox W L
+    T v_p, n, i_f, i_r, v_dss;  ///< V, slope factor, normalized currents, half of the saturation voltage in V
+    T beta, q_i;                ///< A/V^2 and V: inversion charge over C_ox W L
     T i, i_impact;              ///< A: drain to source, drain to bulk
     T q_d, q_s, q_b;            ///< C
 };

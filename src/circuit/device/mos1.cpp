@@ -49,8 +49,8 @@ struct Current {
 ///
 ///     Q_B = -C_ox (min(x, 0) + gamma (sqrt(gamma^2/4 + max(x, 0)) - gamma/2)),   x = v_gb - v_fb - ramp(v_gs - v_th)
 ///
-/// with v_fb = vbi - phi, and ramp() again for max(). v_th is that of the end with the lower voltage; `smooth` is half the width (V) of
-/// the change from one end to the other, so that the capacitances are continuous at v_ds = 0.
+/// with v_fb = vbi - phi, and ramp() again for max(). v_th is that of the end with the lower voltage. So that the capacitances are
+/// continuous at v_ds = 0, it changes smoothly from one end to the other within about `smooth` (V).
 ///
 /// Meyer's model conserves no charge and gives the channel current of a changing charge to the end that has the capacitance. This model
 /// conserves charge and divides it 40/60 in saturation. Meyer's C_gb depends on v_gs, this one's on v_gb.

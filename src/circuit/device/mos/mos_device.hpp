@@ -31,7 +31,7 @@ struct MosSurroundings {
     BulkJunction drain, source;
 };
 
-/// Unknowns: drain, gate, source, bulk; the inner drain if there is a resistance; the inner source likewise.
+/// Unknowns: drain, gate, source, bulk, and for each series resistance an inner drain or source.
 ///
 /// Above the critical voltage of a junction the bulk's voltage is limited in Newton steps. The channel has no exponential of a voltage that
 /// could overflow, and the solver limits the steps of all voltages.

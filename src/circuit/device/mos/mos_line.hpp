@@ -41,7 +41,7 @@ inline constexpr auto mos_parameters = [] {
     out[out.size() - 2] = parameter_temp, out[out.size() - 1] = parameter_dtemp;
     return out;
 }();
-inline constexpr std::string_view mos_names[] = {"off", "ic"};  ///< names of a line that are no parameters
+inline constexpr std::string_view mos_names[] = {"off", "ic"};  ///< further names of a line
 
 /// Drain, source and bulk, between which direct current flows.
 std::vector<int> mos_conducting_nodes(const Element&);
