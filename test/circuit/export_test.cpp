@@ -6,6 +6,7 @@
 #include <set>
 
 #include "circuit/export/element_text.hpp"
+#include "circuit/devices.hpp"
 #include "circuit/export/ngspice_deck.hpp"
 #include "circuit/expression/spice_number.hpp"
 #include "support/ngspice.hpp"

@@ -180,7 +180,7 @@ constexpr const char* mixed =
     "m1 out in 0 0 nu w=1u l=0.5u\nm2 out in vdd vdd p1 w={width} l=0.5u\n"
     "x1 out o2 vdd half\n.subckt half i o v\nm1 o i 0 0 nl w=1u l=0.5u\nm2 o i v v pu w=2u l=0.5u\n.ends\nc1 o2 0 5f\n"
     ".model nu nmos(level=80 avt=5n)\n.model pu pmos(level=80 avt=5n)\n"
-    ".model nl nmos(vto=0.45 kp=200u tox=4n)\n.model p1 pmos(level=1 vto=-0.45 kp=80u tox=4n)\n";
+    ".model nl nmos(vto=0.45 kp=200u tox=4n)\n.model p1 pmos(level=1 vto=-0.45 kp=80u tox=4n theta=0)\n";
 
 TEST(Mos1, RunsBesideUicmWithMismatchOverridesAndExport) {
     const TemporaryFolder folder;

@@ -1,5 +1,6 @@
 #include "circuit/export/element_text.hpp"
 
+#include "circuit/device/mos/mos1_card.hpp"
 #include "circuit/device/named_values.hpp"
 #include "circuit/devices.hpp"
 
@@ -79,15 +80,6 @@ djd {8} {9} jd temp=27
 .ends
 )";
 
-/// The .model line of a level 1 transistor. ngspice takes tox = 0 for an error.
-std::string mos1_text(const Model& m, std::string_view name) {
-    std::string out = fmt::format(".model {} {}(level=1", name, m.type);
-    for (const auto& [parameter, value] : m.values)
-        if (parameter != "level" && (parameter != "tox" || value > 0) && !(parameter == "nfs" && value == 0))
-            out += fmt::format(" {}={}", parameter, value);
-    return out + ")\n";
-}
-
 bool is_letter_or_digit(char c) { return (c >= 'a' && c <= 'z') || (c >= '0' && c <= '9'); }
 
 /// The name in small letters, with all characters but letters, digits and those of `allowed` replaced by _.
@@ -151,7 +143,7 @@ std::string model_text(const Circuit& circuit, std::size_t k, const ExportNames&
         return m.values.contains("tnom") ? fmt::format(".model {} {}(tnom={})\n", names.model(static_cast<int>(k)), m.type, tnom) : "";
     }
     if ((m.type == "nmos" || m.type == "pmos") && value_or(m.values, "level", 1) == 1)
-        return mos1_text(m, names.model(static_cast<int>(k)));
+        return mos1_model_line(m, names.model(static_cast<int>(k)));
     if (m.type != "d") return "";
     std::string out = fmt::format(".model {} d(", names.model(static_cast<int>(k)));
     for (const auto& [name, value] : m.values) {

@@ -90,6 +90,17 @@ Result<Mos1Constants> mos1_constants(const Mos1Card& c, const MosSize& size, dou
     return out;
 }
 
+/// ngspice takes tox = 0 for an error, and does not know the parameters of higher levels.
+std::string mos1_model_line(const Model& model, std::string_view name) {
+    std::string out = fmt::format(".model {} {}(level=1", name, model.type);
+    for (const auto& [parameter, value] : model.values) {
+        const bool is_left_out = parameter == "level" || (parameter == "tox" && value == 0) ||
+                                 std::ranges::find(higher_levels, std::string_view(parameter)) != std::end(higher_levels);
+        if (!is_left_out) out += fmt::format(" {}={}", parameter, value);
+    }
+    return out + ")\n";
+}
+
 MosSurroundings mos1_surroundings(const Mos1Card& c, const Model& model, const MosSize& size, double kelvin) {
     MosSurroundings out;
     out.pmos = model.type == "pmos", out.kelvin = kelvin;

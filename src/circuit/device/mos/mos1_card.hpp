@@ -62,6 +62,8 @@ struct Mos1Constants {
 /// Reads the card and computes what SPICE derives from tox, nsub, u0, tpg and nss.
 Result<Mos1Card> read_mos1_card(const Model&);
 Result<Mos1Constants> mos1_constants(const Mos1Card&, const MosSize&, double kelvin, bool pmos);
+/// The .model line of a card for ngspice.
+std::string mos1_model_line(const Model&, std::string_view name);
 /// Junctions, overlaps and resistances.
 MosSurroundings mos1_surroundings(const Mos1Card&, const Model&, const MosSize&, double kelvin);
 
