@@ -7,6 +7,8 @@
 #include <nlohmann/json.hpp>
 
 #include "circuit/analyses.hpp"
+#include "circuit/device/mos/ekv_card.hpp"
+#include "circuit/device/mos/mos1_card.hpp"
 #include "circuit/device/uicm_card.hpp"
 #include "circuit/devices.hpp"
 #include "cli/list_entry.hpp"
@@ -73,12 +75,14 @@ std::vector<ListEntry> afferent_entries() {
 std::vector<ListSection> circuit_sections() {
     using namespace circuit;
     const CatalogEntry card{UicmCard::name, UicmCard::description, UicmCard::source, parameters_of<UicmCard>(UicmCard::fields)};
-    const CatalogEntry size{"m", "transistor size: the parameters of an M line", "choice: 1 um / 1 um",
+    const CatalogEntry mos1{Mos1Card::name, Mos1Card::description, Mos1Card::source, parameters_of<Mos1Card>(Mos1Card::fields)};
+    const CatalogEntry ekv{EkvCard::name, EkvCard::description, EkvCard::source, parameters_of<EkvCard>(EkvCard::fields)};
+    const CatalogEntry size{"m", "size of a UICM transistor: the parameters of an M line", "choice: 1 um / 1 um",
                             parameters_of<UicmInstance>(UicmInstance::fields)};
     const auto element = [](const auto* d) { return list_entry({&d->letter, 1}, "", d->description); };
     const auto analysis = [](const auto* a) { return list_entry("." + std::string(a->name), a->usage, a->description); };
     return {{"devices", entries_of(device_kinds, "", element)},
-            {"models", entries_of({card, size})},
+            {"models", entries_of({card, mos1, ekv, size})},
             {"analyses", entries_of(circuit::analyses, "usage", analysis)}};
 }
 

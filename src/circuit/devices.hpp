@@ -7,7 +7,7 @@ namespace corpuscle::circuit {
 
 extern const DeviceKind resistor_kind, capacitor_kind, inductor_kind, coupling_kind, voltage_source_kind, current_source_kind,
     voltage_controlled_voltage_kind, current_controlled_current_kind, voltage_controlled_current_kind, current_controlled_voltage_kind,
-    expression_source_kind, voltage_switch_kind, current_switch_kind, diode_kind, bipolar_kind, transistor_kind;
+    expression_source_kind, voltage_switch_kind, current_switch_kind, diode_kind, bipolar_kind, mos1_kind, ekv_kind, transistor_kind;
 
 /// In the order of messages and catalogues.
 inline constexpr const DeviceKind* device_kinds[] = {&resistor_kind,
@@ -25,7 +25,14 @@ inline constexpr const DeviceKind* device_kinds[] = {&resistor_kind,
                                                      &current_switch_kind,
                                                      &diode_kind,
                                                      &bipolar_kind,
+                                                     &mos1_kind,
+                                                     &ekv_kind,
                                                      &transistor_kind};
+
+/// True if models of this level belong to the kind.
+inline bool has_level(const DeviceKind& kind, double level) {
+    return kind.level == level || std::find(kind.other_levels.begin(), kind.other_levels.end(), level) != kind.other_levels.end();
+}
 
 /// The kind of device of this letter whose models have this level. Without a level, or if no kind has it, the first one of the letter. Null
 /// if there is none.
@@ -33,7 +40,7 @@ inline const DeviceKind* find_device_kind(char letter, std::optional<double> lev
     const DeviceKind* first = nullptr;
     for (const auto* kind : device_kinds) {
         if (kind->letter != letter) continue;
-        if (level && kind->level == *level) return kind;
+        if (level && has_level(*kind, *level)) return kind;
         if (first == nullptr) first = kind;
     }
     return first;

@@ -47,7 +47,8 @@ inline void keep_value(Element&, double) {}
 /// A kind of device, chosen by the first letter of an element's name and, where several kinds share it, by the level of the model.
 struct DeviceKind {
     char letter;
-    double level = 0;  ///< level of its models; 0: all levels
+    double level = 0;                           ///< level of its models; 0: all levels
+    std::span<const double> other_levels = {};  ///< further levels, by which other simulators call the same model
     std::string_view description;
     Role role = Role::other;
     /// Reads the words of a line after the name: nodes, then a model or a value.

@@ -1,11 +1,8 @@
 #include "circuit/device/device_kind.hpp"
-
-#include "circuit/device/device_kind.hpp"
+#include "circuit/device/mos/mos_line.hpp"
 #include "circuit/device/named_values.hpp"
 #include "circuit/device/physical_constants.hpp"
-#include "circuit/export/element_text.hpp"
 #include "circuit/lanes/chip_kernels_impl.hpp"
-#include "circuit/netlist/element_reader.hpp"
 
 namespace corpuscle::circuit {
 
@@ -136,9 +133,6 @@ Result<UicmInstance> read_instance(const Element& e) {
 
 Result<std::unique_ptr<Device>> make_transistor(const Element& e, DeviceSetup& setup) {
     const auto& model = *setup.circuit().model_of(e);
-    if (value_or(model.values, "level", 1) != UicmCard::level)
-        return error_at(model.location, "{}: MOS model level {:g} is not supported; use level={:g}, UICM, as in process/tsmc180.lib",
-                        model.name, value_or(model.values, "level", 1), UicmCard::level);
     const auto card = TRY(read_model_card<UicmCard>(UicmCard::fields, model, {"level"}));
     const auto instance = TRY(read_instance(e));
     std::vector<int> unknowns;
@@ -158,20 +152,6 @@ Result<std::unique_ptr<DeviceBatch>> make_transistor_batch() {
     return std::unique_ptr<DeviceBatch>(std::make_unique<TransistorBatch>(*kernels));
 }
 
-Result<void> read_transistor(ElementReader& line) {
-    constexpr std::string_view expected = "drain, gate, source, bulk, then the model";
-    if (line.word_count() == 5 && line.is_model(4)) return line.error_at(4, "3 nodes, but expected 4: {}", expected);
-    TRY(line.nodes(4, expected));
-    if (line.word_count() < 6) return line.error_at(5, "its model is missing");
-    if (line.word_count() > 6 && !line.is_model(5) && line.is_model(6)) return line.error_at(5, "5 nodes, but expected 4: {}", expected);
-    TRY(line.model(5, {"nmos", "pmos"}));
-    for (std::size_t k = 6; k < line.word_count(); ++k) {
-        if (line.text(k) != "off") return line.too_many(k);
-        line.element.values["off"] = 1;
-    }
-    return {};
-}
-
 /// An instance of the subcircuit uicm_n or uicm_p.
 Result<std::string> write_transistor(const ElementExport& e) {
     const auto card = TRY(read_model_card<UicmCard>(UicmCard::fields, *e.model(), {"level"}));
@@ -180,9 +160,6 @@ Result<std::string> write_transistor(const ElementExport& e) {
     const bool pmos = e.model()->type == "pmos";
     return fmt::format("{} {} {}", e.head, pmos ? "uicm_p" : "uicm_n", uicm_parameters(card, size, celsius_of(e.circuit, e.element), pmos));
 }
-
-/// Drain, source and bulk.
-std::vector<int> channel_nodes(const Element& e) { return {e.nodes[0], e.nodes[2], e.nodes[3]}; }
 
 std::optional<Area> transistor_area(const Element& e) {
     const UicmInstance defaults;
@@ -215,11 +192,11 @@ extern constexpr DeviceKind transistor_kind = {.letter = 'm',
                                                .level = UicmCard::level,
                                                .description = "MOS transistor, UICM",
                                                .role = Role::transistor,
-                                               .read = read_transistor,
+                                               .read = read_mos_line,
                                                .make = make_transistor,
                                                .parameters = transistor_parameters,
                                                .other_names = transistor_names,
-                                               .conducting_nodes = channel_nodes,
+                                               .conducting_nodes = mos_conducting_nodes,
                                                .saves_terminal_current = true,
                                                .area = transistor_area,
                                                .write_spice = write_transistor,

@@ -1,5 +1,6 @@
 #include "circuit/export/element_text.hpp"
 
+#include "circuit/device/mos/mos1_card.hpp"
 #include "circuit/device/named_values.hpp"
 #include "circuit/devices.hpp"
 
@@ -143,6 +144,8 @@ std::string model_text(const Circuit& circuit, std::size_t k, const ExportNames&
         const double tnom = value_or(m.values, "tnom", 27);
         return m.values.contains("tnom") ? fmt::format(".model {} {}(tnom={})\n", names.model(static_cast<int>(k)), m.type, tnom) : "";
     }
+    if ((m.type == "nmos" || m.type == "pmos") && value_or(m.values, "level", 1) == 1)
+        return mos1_model_line(m, names.model(static_cast<int>(k)));
     if (m.type != "d" && m.type != "npn" && m.type != "pnp") return "";
     std::string out = fmt::format(".model {} {}(", names.model(static_cast<int>(k)), m.type);
     for (const auto& [name, value] : m.values) {

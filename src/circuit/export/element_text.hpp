@@ -51,7 +51,8 @@ struct ElementExport {
 /// The text of an element; ends with a newline and may have several lines.
 Result<std::string> element_text(const Circuit&, std::size_t element, const ExportNames&);
 
-/// The .model line of a diode or bipolar transistor, or of an R, C or L whose model has tnom; "" for other models, whose numbers the elements' lines contain.
+/// The .model line of a diode, a bipolar or a level 1 transistor, or of an R, C or L whose model has tnom; "" for other models, whose
+/// numbers the elements' lines contain.
 std::string model_text(const Circuit&, std::size_t model, const ExportNames&);
 
 /// Functions that the subcircuits uicm_n and uicm_p use.

@@ -53,11 +53,8 @@ std::string_view foreign_device(char letter) {
                                                            {'n', "compiled Verilog-A model"},
                                                            {'o', "lossy line"},
                                                            {'p', "coupled lines"},
-                                                           {'q', "bipolar transistor"},
-                                                           {'s', "switch"},
                                                            {'t', "lossless line"},
                                                            {'u', "RC line or gate"},
-                                                           {'w', "current-controlled switch"},
                                                            {'y', "device of Xyce"},
                                                            {'z', "MESFET"}};
     const auto* found = std::ranges::find(names, letter, &std::pair<char, std::string_view>::first);

@@ -1,7 +1,6 @@
 // Warnings about likely mistakes in a valid netlist, and about numbers that users often take for other ones: 1F, 5M.
 
 #include "circuit/device/named_values.hpp"
-#include "circuit/device/uicm_card.hpp"
 #include "circuit/devices.hpp"
 #include "circuit/expression/spice_number.hpp"
 #include "circuit/netlist/parsed_netlist.hpp"
@@ -47,10 +46,18 @@ void warn_about_dangling_nodes(std::vector<Error>& out, const Circuit& c) {
                                    did_you_mean(c.nodes[n], connected)));
 }
 
+bool is_transistor(const Element& e) { return e.letter == 'm'; }
+
+/// The value of a parameter that the line does not give.
+double default_of(const Element& e, std::string_view name) {
+    const auto& parameters = kind_of(e).parameters;
+    return std::ranges::find(parameters, name, &ElementParameter::name)->initial;
+}
+
 void warn_about_sizes(std::vector<Error>& out, const Circuit& c) {
     const auto too_long = [](const Element& e, std::string_view name) { return value_or(e.values, name, 0) > max_gate_size; };
     warn(
-        out, c, [&](const Element& e) { return has_role(e, Role::transistor) && (too_long(e, "w") || too_long(e, "l")); },
+        out, c, [&](const Element& e) { return is_transistor(e) && (too_long(e, "w") || too_long(e, "l")); },
         [&](const Element& e) {
             const auto name = too_long(e, "w") ? "w" : "l";
             const double size = value_or(e.values, name, 0);
@@ -59,12 +66,27 @@ void warn_about_sizes(std::vector<Error>& out, const Circuit& c) {
         });
     for (const std::string_view name : {"w", "l"})
         warn(
-            out, c, [&](const Element& e) { return has_role(e, Role::transistor) && !has_value(e, name); },
-            [&](const Element&) {
-                const UicmInstance defaults;
-                return fmt::format("{}= is not given; the default is {}", name,
-                                   format_quantity(name == "w" ? defaults.W : defaults.L, "m"));
+            out, c, [&](const Element& e) { return is_transistor(e) && !has_value(e, name); },
+            [&](const Element& e) {
+                return fmt::format("{}= is not given; the default is {}", name, format_quantity(default_of(e, name), "m"));
             });
+}
+
+/// The first mismatch parameter in the model of a transistor that has no mismatch; "" if there is none.
+std::string_view unused_mismatch(const Circuit& c, const Element& e) {
+    const auto* model = c.model_of(e);
+    if (!is_transistor(e) || has_role(e, Role::transistor) || model == nullptr) return "";
+    for (const std::string_view name : {"avto", "akp", "agamma"})
+        if (value_or(model->values, name, 0) != 0) return name;
+    return "";
+}
+
+void warn_about_mismatch(std::vector<Error>& out, const Circuit& c) {
+    warn(
+        out, c, [&](const Element& e) { return !unused_mismatch(c, e).empty(); },
+        [&](const Element& e) {
+            return fmt::format("{} of its model has no effect; only UICM (level=80) has mismatch", unused_mismatch(c, e));
+        });
 }
 
 bool has_initial_value(const Element& e) { return has_role(e, Role::capacitor) || has_role(e, Role::inductor); }
@@ -147,7 +169,8 @@ std::string warning_for(std::string_view unit, const SpiceNumber& number, std::s
 std::vector<Error> netlist_warnings(const Circuit& c) {
     std::vector<Error> out;
     warn_about_dangling_nodes(out, c);
-    warn_about_sizes(out, c), warn_about_missing_ac(out, c), warn_about_pulses(out, c), warn_about_tran_times(out, c);
+    warn_about_sizes(out, c), warn_about_mismatch(out, c), warn_about_missing_ac(out, c), warn_about_pulses(out, c),
+        warn_about_tran_times(out, c);
     if (c.has_directive("tran")) warn_about_initial_conditions(out, c);
     return out;
 }

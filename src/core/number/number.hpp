@@ -79,6 +79,13 @@ inline Dual sqrt(Dual x) {
 }
 inline double value(Dual x) { return x.v; }
 
+// ---- a value with several derivatives: gradient.hpp. Declared here, so that the templates below find it ----
+
+template <int N>
+struct Gradient;
+template <int N>
+Gradient<N> select(bool m, const Gradient<N>& yes, const Gradient<N>& no);
+
 /// The mask in which no lane is set; false for one number.
 template <class T>
 Mask<T> empty_mask() {
