@@ -47,8 +47,8 @@ std::string exported_name(const ExportNames& names, const std::string& curve) {
 }
 
 /// Expects the curves of two plots to agree. The relative tolerance is 1e-5, for small signals and noise 1e-3. The absolute tolerance
-/// covers the simulators' own floors: 2 nV and 1e-16 A, and for small signals 1e-9 of the largest value. With ngspice's own diodes it is
-/// also 1e-7 of the largest current, because ngspice's kT/q differs from the SI value in the seventh digit.
+/// covers the simulators' own floors: 2 nV and 1e-16 A, and for small signals 1e-9 of the largest value. With ngspice's own diodes and
+/// transistors it is also 1e-7 of the largest current, because ngspice's kT/q differs from the SI value in the seventh digit.
 void compare_with_export(const ExportNames& names, bool diodes, const Plot& result, const Plot& reference) {
     SCOPED_TRACE(result.name);
     ASSERT_EQ(result.point_count(), reference.point_count());
@@ -76,8 +76,9 @@ void compare_with_export(const ExportNames& names, bool diodes, const Plot& resu
 void compare_all_with_export(const Circuit& circuit, const std::vector<Plot>& result, std::vector<Plot> reference, bool is_reversed) {
     if (is_reversed) std::reverse(reference.begin(), reference.end());
     const ExportNames names(circuit);
-    const bool diodes =
-        std::any_of(circuit.elements.begin(), circuit.elements.end(), [](const Element& e) { return e.letter == 'd' || e.letter == 'q'; });
+    const bool diodes = std::any_of(circuit.elements.begin(), circuit.elements.end(), [](const Element& e) {
+        return e.letter == 'd' || e.letter == 'q' || (e.letter == 'm' && !has_role(e, Role::transistor));
+    });
     std::map<std::string, std::size_t> seen;
     for (const auto& plot : result) {
         std::size_t skip = seen[plot.name]++;

@@ -174,6 +174,27 @@ TEST(Mos1, ARingOscillatesThreePercentSlowerThanWithMeyersCapacitances) {
     }
 }
 
+// ngspice's kT/q and its charge of the electron are older values, which differ in the seventh digit. At 0.5 V and in the growth with
+// temperature the exponent is 20 or more, so that junction currents differ by up to 2e-4.
+TEST(Mos1, JunctionCurrentsAgreeWithNgspiceWhenColdAndHot) {
+    if (!has_ngspice()) GTEST_SKIP() << "ngspice is not installed";
+    const TemporaryFolder folder;
+    for (const double celsius : {-40.0, 27.0, 125.0})
+        for (const double bulk : {-2.0, 0.4}) {
+            const auto path = folder.write(
+                "x.cir",
+                fmt::format("junctions\n.options gmin=1e-20 abstol=1e-22 reltol=1e-6\n.temp {}\nvb b 0 {}\nm1 0 0 0 b n w=1u l=1u m=3\n"
+                            "m2 0 0 0 b n2 w=1u l=1u ad=1p as=2p\n.model n nmos(is=1e-12)\n.model n2 nmos(js=1)\n.op\n.end\n",
+                            celsius, bulk));
+            (void)run_ngspice(path, folder / "x.raw");
+            const auto reference = read_raw_file(folder / "x.raw");
+            ASSERT_EQ(reference.size(), 1U);
+            const double expected = reference[0].find_curve("i(vb)")->values[0].real();
+            const double found = run_corpuscle(path).plots().at(0).find_curve("i(vb)")->values[0].real();
+            EXPECT_NEAR(found / expected, 1, 2e-4) << celsius << " C, " << bulk << " V";
+        }
+}
+
 constexpr const char* mixed =
     "level 1 and UICM together\n"
     ".param width=2u\nvdd vdd 0 1.8\nvin in 0 pulse(0 1.8 1n 1n 1n 10n 30n)\n"

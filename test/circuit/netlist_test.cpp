@@ -202,13 +202,13 @@ TEST(NetlistElements, ControlledSourcesHaveTheirControllingQuantities) {
 TEST(NetlistElements, DiodesAndTransistorsHaveModelsAndGeometry) {
     const auto c = circuit(
         "D1 a 0 dm 2 m=3 off\nD2 a 0 dm area=4\nM1 d g s 0 nm w=2*wn l=1u stack=3 delvto=0.01 mulu0=1.1\n.param wn=2u\n"
-        ".model dm d(is=1e-14, n = 1)\n.model nm nmos level=1 vto={wn} version=3.3.0\n.model unused npn bf={nothing}\n");
+        ".model dm d(is=1e-14, n = 1)\n.model nm nmos level=80 vto={wn} version=3.3.0\n.model unused npn bf={nothing}\n");
     EXPECT_EQ(element_in(c, "d1").values, (Values{{"area", 2}, {"m", 3}, {"off", 1}}));
     EXPECT_EQ(element_in(c, "d2").values, (Values{{"area", 4}}));
     EXPECT_EQ(nodes(c, element_in(c, "m1")), "d g s 0");
     EXPECT_EQ(element_in(c, "m1").values, (Values{{"delvto", 0.01}, {"l", 1e-6}, {"mulu0", 1.1}, {"stack", 3}, {"w", 4e-6}}));
     ASSERT_EQ(c.models.size(), 2U) << "a model without elements is not evaluated";
-    EXPECT_EQ(c.models[1].values, (Values{{"level", 1}, {"vto", 2e-6}}));
+    EXPECT_EQ(c.models[1].values, (Values{{"level", 80}, {"vto", 2e-6}}));
     EXPECT_EQ(c.models[1].texts.at("version"), "3.3.0");
     EXPECT_EQ(c.models[0].values.at("n"), 1);
 }
