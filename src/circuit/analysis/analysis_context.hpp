@@ -13,7 +13,7 @@ struct AnalysisResult {
     std::vector<std::pair<std::string, double>> stats = {};    ///< counters: steps, iterations ...
     std::string table = {};                                    ///< text to print, such as the table of .op
     std::vector<Error> warnings = {};
-    /// Of .pz, rad/s; nothing if they were not requested.
+    /// Results of .pz, rad/s; nothing if they were not requested.
     std::optional<std::vector<std::complex<double>>> poles = {}, zeros = {};
     std::optional<std::vector<double>> spikes = {};  ///< spike times of .tran, s; nothing if the netlist has no .spike
 };
