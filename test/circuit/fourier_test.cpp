@@ -3,10 +3,12 @@
 #include <gtest/gtest.h>
 
 #include <fmt/format.h>
+#include <nlohmann/json.hpp>
 #include <numbers>
 
 #include "circuit/netlist_runner.hpp"
 #include "support/ngspice.hpp"
+#include "support/program.hpp"
 
 namespace corpuscle::circuit::test {
 namespace {
@@ -91,6 +93,25 @@ TEST(Fourier, AgreesWithNgspice) {
             EXPECT_NEAR(phase, spectrum.harmonics[k - 1].phase, 0.2) << log;
         }
     }
+}
+
+TEST(Fourier, AndPolesAreInTheJsonDocument) {
+    const TemporaryFolder folder;
+    folder.write("x.cir",
+                 "t\nv1 a 0 sin(0 2 1k)\nr1 a b 1k\nl1 b c 1m\nc1 c 0 1n\n.pz a 0 c 0 vol pz\n.control\ntran 1u 2m\nfourier 1k v(a)\n"
+                 ".endc\n.end\n");
+    const auto document = nlohmann::json::parse(run_program(folder, "run x.cir --json").out);
+    const auto& fourier = document["analyses"][1]["fourier"][0];
+    EXPECT_EQ(fourier["curve"], "v(a)");
+    EXPECT_NEAR(fourier["harmonics"][0]["magnitude"].get<double>(), 2, 1e-3);
+    EXPECT_NEAR(document["numbers"]["thd(v(a))"].get<double>(), 0, 0.01);
+    const auto& poles = document["analyses"][0]["poles"];
+    ASSERT_EQ(poles.size(), 2U);
+    EXPECT_NEAR(poles[0]["q"].get<double>(), 1, 1e-9);
+    EXPECT_NEAR(poles[0]["frequency"].get<double>(), 1e6 / (2 * std::numbers::pi), 1e-3);
+    EXPECT_NEAR(poles[0]["real"].get<double>(), -5e5, 1e-3);
+    const auto text = run_program(folder, "run x.cir").out;
+    EXPECT_NE(text.find("Fourier analysis of v(a)"), std::string::npos) << text;
 }
 
 TEST(Fourier, ReportsErrorsBeforeTheTransientRuns) {

@@ -1,4 +1,4 @@
-// .pz: poles and zeros with closed forms, from ngspice, and against .ac; Q; circuits whose matrices are singular.
+// .pz: poles and zeros with closed forms, from ngspice, and against .ac. Some circuits have singular matrices.
 
 #include <gtest/gtest.h>
 

@@ -15,7 +15,7 @@ struct AnalysisResult {
     std::vector<Error> warnings = {};
     /// By point of the first plot, the states of the devices with states; empty: those at the end hold for all points.
     std::vector<std::vector<char>> states = {};
-    /// Of .pz, rad/s; nothing if they were not requested.
+    /// Results of .pz, rad/s; nothing if they were not requested.
     std::optional<std::vector<std::complex<double>>> poles = {}, zeros = {};
     std::optional<std::vector<double>> spikes = {};  ///< spike times of .tran, s; nothing if the netlist has no .spike
 };

@@ -7,7 +7,7 @@ namespace corpuscle::circuit {
 namespace {
 
 constexpr std::string_view measured_analyses[] = {"tran", "ac", "dc", "noise", "op"};
-// Of Xyce and ngspice. Those of "_cont" give a result for each edge.
+// Analyses of Xyce and ngspice. Those of "_cont" give a result for each edge.
 constexpr std::string_view foreign_analyses[] = {"tran_cont", "dc_cont", "ac_cont", "noise_cont", "fft", "sp", "hb", "pss"};
 
 constexpr std::string_view measurements[] = {"find", "when",    "deriv",    "min",   "max",    "pp",     "avg",

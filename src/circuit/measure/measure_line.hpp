@@ -1,5 +1,5 @@
 #pragma once
-// The line of a .meas in one form, whichever simulator it was written for.
+// The line of a .meas in one form for all simulators.
 
 #include "circuit/netlist/netlist.hpp"
 

@@ -13,8 +13,9 @@ struct CycleSummary {
     double times_above = 0, times_below = 0;  // number of these parts, where a part ends only in the opposite state
 };
 
-/// duty freq on_time off_time, as in Xyce: the fraction of x in which the curve is on; the cycles per x, (times_above + times_below) / 2
-/// over the length; the mean length of the parts above ON; that of the parts below OFF.
+/// The measures duty, freq, on_time and off_time, as in Xyce. The duty is the fraction of x in which the curve is on. The frequency is the
+/// number of cycles per x: half of times_above + times_below, over the length. The on-time is the mean length of the parts above ON, and
+/// the off-time that of the parts below OFF.
 class CycleMeasurement final : public Measurement {
 public:
     using Statistic = double (*)(const CycleSummary&);

@@ -387,6 +387,11 @@ private:
             const bool is_analysis = find_analysis(word.substr(1)) != nullptr;
             if (is_analysis) analysis = word.substr(1);
             if (word == ".print") line.text.insert(6, " " + analysis);
+            if (word == ".fourier") {
+                line.text.erase(5, 3);  // ".four"
+                TRY(store_directive(std::move(line), out_.directives));
+                continue;
+            }
             if (word == ".let") vectors.emplace_back(trimmed(std::string_view(line.text).substr(4, line.text.find('=') - 4)));
             if (word == ".meas" || word == ".measure") {
                 if (const auto redirection = line.text.find(" >"); redirection != std::string::npos) line.text.resize(redirection);
