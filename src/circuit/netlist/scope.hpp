@@ -23,7 +23,7 @@ struct Scope {
         while (f && !f->definition->models.contains(name)) f = f->enclosing;
         return f;
     }
-    /// The level of the model of this name, 1 if its line does not give it; nullopt if there is no such model or the level is no number.
+    /// The level of the model of this name, 1 if its line does not give it; nullopt if there is no such model or the level is not a number.
     std::optional<double> model_level(std::string_view name);
     /// Look up a name in this scope, then in its callers.
     std::optional<double> parameter(std::string_view name) const;
