@@ -58,10 +58,13 @@ public:
             low_ = t, at_low_ = std::move(excess);
         return choose_trial(tolerances), true;
     }
-    /// The same for interpolated unknowns x at a time t within a step at whose ends nothing changes.
+    /// The same for interpolated unknowns x at a time t within a step at whose ends nothing changes. A control that rests at its level, to
+    /// within its tolerance, changes nothing.
     bool changes_within(double t, std::span<const double> x, std::span<const double> tolerances) {
         auto excess = excesses(x);
-        if (trials_ > 0 || !has_change(excess)) return false;
+        bool changes = false;
+        for (std::size_t k = 0; k < excess.size(); ++k) changes |= excess[k] > tolerances[k];
+        if (trials_ > 0 || !changes) return false;
         high_ = t, at_high_ = std::move(excess);
         return choose_trial(tolerances), true;
     }

@@ -190,8 +190,8 @@ bool same_devices(const circuit::Circuit& a, const circuit::Circuit& b) {
         const auto type = [](const circuit::Circuit& c, const circuit::Element& e) {
             return e.model < 0 ? std::string_view() : std::string_view(c.models[static_cast<std::size_t>(e.model)].type);
         };
-        if (x.name != y.name || x.letter != y.letter || x.nodes != y.nodes || x.control_source != y.control_source || x.inductors != y.inductors ||
-            type(a, x) != type(b, y))
+        if (x.name != y.name || x.letter != y.letter || x.nodes != y.nodes || x.control_source != y.control_source ||
+            x.inductors != y.inductors || type(a, x) != type(b, y))
             return false;
     }
     return true;
