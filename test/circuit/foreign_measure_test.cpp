@@ -151,8 +151,11 @@ TEST(ForeignMeasure, ThatIsMisspeltIsRefused) {
 
 // The numbers of a script's vectors are computed by ngspice only.
 TEST(ForeignMeasure, OfAVectorOfAScriptIsLeftOut) {
-    const auto run = run_measures(".control\nrun\nlet twice = 2*v(a)\nmeas tran x max twice\nmeas tran y max v(b) > out.txt\n.endc\n");
+    const auto run = run_measures(
+        ".control\nrun\nlet twice = 2*v(a)\nmeas tran x max twice\nmeas tran y max v(b) > out.txt $ a comment\nmeas tran z min v(b) ; "
+        "another\n.endc\n");
     EXPECT_NEAR(run.number("y"), 1, 1e-9);
+    EXPECT_NEAR(run.number("z"), 1, 1e-9);
     ASSERT_EQ(run.warnings().size(), 2U);
     EXPECT_NE(run.warnings()[0].text().find("11:1: .meas x is left out: the script computes 'twice'"), std::string::npos)
         << run.warnings()[0].text();

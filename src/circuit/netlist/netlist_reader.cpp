@@ -375,6 +375,8 @@ private:
         std::vector<std::string> ignored, vectors;  // vectors: those that the script computes
         std::string analysis;
         for (LogicalLine line; lines.next_command(line);) {
+            for (const std::string_view comment : {" ;", " $ "})
+                if (const auto at = line.text.find(comment); at != std::string::npos) line.text.resize(at);
             const std::string word = line.text.substr(0, line.text.find_first_of(" \t("));
             if (word == ".." || word == "." || word[1] == '*' || word[1] == '#' || word[1] == '$' || word[1] == ';') continue;
             if (line.text.starts_with("..endc")) return warn_of_ignored_commands(ignored, from);
