@@ -109,7 +109,6 @@ void print_line(const VariantResult& result) {
 void VariantPrinter::add(const VariantResult& result) {
     const auto& [label, outcome] = std::tie(result.variant.label, result.outcome);
     for (const auto& r : outcome.warnings) print_warning(r.text());
-    if (!outcome.left_out.empty() && !left_out) left_out = outcome.left_out.front();
     for (const auto& e : outcome.expectations)
         if (!e.is_met && !failed_expectation)
             failed_expectation = bad_input(fmt::format("{}{}{} is {:g}, not {:g} within {:g}", label, label.empty() ? "" : ": ", e.name,

@@ -36,7 +36,6 @@ class VariantPrinter {
 public:
     std::vector<Error> failures;              ///< errors of the variants that did not converge
     std::optional<Error> failed_expectation;  ///< the first expectation that was not met
-    std::optional<Error> left_out;            ///< the first .meas that was left out
 
     VariantPrinter(const CommonArguments& common, bool has_steps, bool is_monte_carlo)
         : common_(common), has_steps_(has_steps), is_monte_carlo_(is_monte_carlo) {}

@@ -13,7 +13,7 @@ namespace {
 /// Parameters of a .model line; see `fields`.
 struct DiodeCard {
     double is = 1e-14, n = 1, rs = 0, cjo = 0, vj = 1, m = 0.5, fc = 0.5, tt = 0, bv = 0, ibv = 1e-3, eg = 1.11, xti = 3, kf = 0, af = 1,
-           tnom = 27, jsw = 0, cjsw = 0, vjsw = 1, mjsw = 0.33, fcs = 0.5;
+           tnom = 27, jsw = 0, cjsw = 0, vjsw = 1, mjsw = 0.33, fcs = 0.5, ns = 0, nbv = 0;
 };
 
 constexpr ParameterDef<DiodeCard> fields[] = {
@@ -36,13 +36,15 @@ constexpr ParameterDef<DiodeCard> fields[] = {
     {"cjsw", &DiodeCard::cjsw, "F", 0, 1, "sidewall capacitance at 0 V, for a perimeter of 1"},
     {"vjsw", &DiodeCard::vjsw, "V", 0.1, 10, "junction potential of the sidewall"},
     {"mjsw", &DiodeCard::mjsw, "", 0, 0.95, "grading coefficient of the sidewall"},
+    {"ns", &DiodeCard::ns, "", 0, 100, "emission coefficient of the sidewall; 0: n"},
+    {"nbv", &DiodeCard::nbv, "", 0, 100, "emission coefficient of the breakdown; 0: n"},
     {"fcs", &DiodeCard::fcs, "", 0, 0.95, "fraction of vjsw above which the sidewall capacitance is extrapolated linearly"},
 };
 
 /// Other names of parameters, as in ngspice and Xyce.
-constexpr std::pair<std::string_view, std::string_view> aliases[] = {{"cj0", "cjo"},  {"cj", "cjo"},  {"js", "is"},
-                                                                     {"pb", "vj"},    {"mj", "m"},    {"cjp", "cjsw"},
-                                                                     {"php", "vjsw"}, {"isw", "jsw"}, {"tref", "tnom"}};
+constexpr std::pair<std::string_view, std::string_view> aliases[] = {{"cj0", "cjo"},   {"cj", "cjo"},   {"js", "is"},    {"pb", "vj"},
+                                                                     {"mj", "m"},      {"cjp", "cjsw"}, {"php", "vjsw"}, {"isw", "jsw"},
+                                                                     {"tref", "tnom"}, {"vb", "bv"}};
 
 /// Changes the card to its values at another temperature, after SPICE.
 void adjust_to_temperature(DiodeCard& c, double kelvin) {
@@ -53,21 +55,30 @@ void adjust_to_temperature(DiodeCard& c, double kelvin) {
     adjust_junction(c.cjsw, c.vjsw, c.mjsw, nominal, kelvin);
 }
 
-/// Current from anode to cathode: i = is (exp(v / (n V_t)) - 1), nearly constant below -3 n V_t as in SPICE, breakdown at -bv.
+/// Current from anode to cathode: i = is (exp(v / (n V_t)) - 1), nearly constant below -3 n V_t as in SPICE, and the same with jsw and ns
+/// for the sidewall. Breakdown at -bv: i = -is exp(-(v + bv') / (nbv V_t)), where bv' is such that the current at -bv is -ibv.
 /// Charge: depletion charge (the integral of cjo / (1 - v/vj)^m, continued as a parabola above fc vj) plus transit charge tt i.
 /// Unknowns: anode, cathode and, if rs > 0, the node between rs and the junction.
 class Diode final : public Device {
     DiodeCard c_;
     double area_, perimeter_;
-    double is_;             // A: saturation current of area and sidewall
-    double n_vt_, v_crit_;  // V: see limit_junction()
-    double v_breakdown_;    // V: breakdown below -v_breakdown_
+    double is_;                                  // A: saturation current of area and sidewall, where they have one emission coefficient
+    double is_sidewall_ = 0;                     // A: that of a sidewall with its own emission coefficient
+    double n_vt_, v_crit_;                       // V: see limit_junction()
+    double n_vt_sidewall_ = 0, n_vt_breakdown_;  // V: the same of sidewall and breakdown
+    double v_breakdown_;                         // V: breakdown below -v_breakdown_
 
     /// Current and conductance at the junction voltage v.
     ValueSlope current(double v) const {
+        auto out = current_of_area(v);
+        if (is_sidewall_ == 0) return out;
+        const auto sidewall = junction_current(v, is_sidewall_, n_vt_sidewall_);
+        return {out.value + sidewall.value, out.slope + sidewall.slope};
+    }
+    ValueSlope current_of_area(double v) const {
         if (c_.bv == 0 || v >= -v_breakdown_ || v >= -3 * n_vt_) return junction_current(v, is_, n_vt_);
-        const double e = std::exp(-(v_breakdown_ + v) / n_vt_);
-        return {-is_ * e, is_ * e / n_vt_};
+        const double e = std::exp(-(v_breakdown_ + v) / n_vt_breakdown_);
+        return {-is_ * e, is_ * e / n_vt_breakdown_};
     }
     /// Charge and capacitance of the depletion layers of area and sidewall at the junction voltage v.
     ValueSlope depletion(double v) const {
@@ -82,12 +93,15 @@ class Diode final : public Device {
 public:
     Diode(DiodeCard card, double area, double perimeter, double kelvin) : c_(card), area_(area), perimeter_(perimeter) {
         adjust_to_temperature(c_, kelvin);
-        is_ = c_.is * area_ + c_.jsw * perimeter_;
-        n_vt_ = c_.n * thermal_voltage(kelvin);
+        const double vt = thermal_voltage(kelvin);
+        const bool is_one_junction = c_.ns == 0 || c_.ns == c_.n;
+        is_ = c_.is * area_ + (is_one_junction ? c_.jsw * perimeter_ : 0);
+        is_sidewall_ = is_one_junction ? 0 : c_.jsw * perimeter_, n_vt_sidewall_ = c_.ns * vt;
+        n_vt_ = c_.n * vt, n_vt_breakdown_ = (c_.nbv > 0 ? c_.nbv : c_.n) * vt;
         v_crit_ = critical_voltage(is_, n_vt_);
         v_breakdown_ = c_.bv;
         if (c_.bv > 0 && c_.ibv > is_)  // so that the current at bv is ibv
-            v_breakdown_ = c_.bv - n_vt_ * std::log(c_.ibv / is_);
+            v_breakdown_ = c_.bv - n_vt_breakdown_ * std::log(c_.ibv / is_);
     }
     bool is_linear() const override { return false; }
     std::size_t limiting_state_size() const override { return 1; }
@@ -97,7 +111,7 @@ public:
         bool shortened = false;
         if (c_.bv > 0 && u < std::min(0.0, -c_.bv + 10 * n_vt_)) {
             double mirrored = -(u + c_.bv);  // forward voltage of the breakdown exponential
-            shortened = limit_junction(mirrored, -(state[0] + c_.bv), n_vt_, v_crit_);
+            shortened = limit_junction(mirrored, -(state[0] + c_.bv), n_vt_breakdown_, v_crit_);
             u = -(mirrored + c_.bv);
         } else {
             shortened = limit_junction(u, state[0], n_vt_, v_crit_);
@@ -142,8 +156,8 @@ Result<std::unique_ptr<Device>> make_diode(const Element& e, DeviceSetup& setup)
     if (!(perimeter >= 0)) return error_at(e.location, "{}: pj = {:g} must not be negative", e.name, perimeter);
     if (const double level = value_or(model.values, "level", 1); level != 1)
         return error_at(model.location, "{}: diode level {:g} is not supported; use level=1", model.name, level);
-    auto c = TRY(read_model_card<DiodeCard>(fields, model,
-                                            {"level", "cj0", "cj", "js", "pb", "mj", "cjp", "php", "isw", "tref", "ikf", "trs", "rsw"}));
+    auto c = TRY(read_model_card<DiodeCard>(
+        fields, model, {"level", "cj0", "cj", "js", "pb", "mj", "cjp", "php", "isw", "tref", "vb", "ikf", "trs", "rsw"}));
     for (const auto& [alias, name] : aliases)
         if (const auto given = model.values.find(alias); given != model.values.end())
             TRY(read_field(*std::ranges::find(fields, name, &ParameterDef<DiodeCard>::name), c, model.name, given->second, model.location));

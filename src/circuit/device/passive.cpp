@@ -148,13 +148,25 @@ Result<void> read_passive_value(ElementReader& line, const Word& word, std::stri
     return line.expression(fmt::format("v({},{})/({})", line.text(1), line.text(2), text), word);
 }
 
+/// Reads tc=TC1[,TC2] of LTspice and HSPICE. Returns the number of words before TC2.
+Result<std::size_t> read_temperature_coefficients(ElementReader& line) {
+    const auto* tc = line.find("tc");
+    const auto last = line.word_count() - 1;
+    if (tc == nullptr) return last + 1;
+    line.element.values["tc1"] = TRY(line.number(*tc));
+    if (line.word(last).at < tc->value.at) return last + 1;
+    line.element.values["tc2"] = TRY(line.number(last));
+    return last;
+}
+
 /// Reads nodes, then a model or a value or both. The value may be given as r=, c= or l=, and that of a capacitor as a charge q=.
 Result<void> read_passive(ElementReader& line) {
     TRY(line.nodes(2, "plus, minus, then a value or a model"));
     Element& e = line.element;
     const std::string_view letter(&e.letter, 1);
     bool has_value = false;
-    for (std::size_t k = 3; k < line.word_count(); ++k) {
+    const auto words = TRY(read_temperature_coefficients(line));
+    for (std::size_t k = 3; k < words; ++k) {
         const bool is_name = names_model(line, k, has_value);
         if (is_name ? e.model >= 0 : has_value) return line.too_many(k);
         TRY(is_name ? line.model(k, {letter}) : read_passive_value(line, line.word(k), line.text(k)));

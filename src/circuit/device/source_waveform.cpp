@@ -52,7 +52,7 @@ private:
 
     Result<void> dc() {
         if (is_done() || is_keyword(k_)) return line_.error_at(k_, "dc must be followed by a number");
-        if (out_.has_dc) return line_.error_at(k_, "dc is given twice");
+        if (out_.has_dc) line_.warn(k_, "dc is given twice; this value is used");
         const auto value = TRY(number());
         out_.dc = value, out_.has_dc = true;
         return {};

@@ -310,6 +310,11 @@ private:
         const int count = static_cast<int>(values.size());
         if (random && count == random->arguments) return random_value(name, values);
         if (row && count == row->operands) return apply(*row, values);
+        if (count > 0 && (name == "max" || name == "min")) {  // of any number of values, as in ngspice
+            Index out = values[0];
+            for (std::size_t k = 1; k < values.size(); ++k) out = apply(*row, {out, values[k]});
+            return out;
+        }
         const auto expected = row && random ? fmt::format("{} or {}", random->arguments, row->operands)
                                             : fmt::format("{}", row ? row->operands : random->arguments);
         return fail(from, "{}", argument_count_message(name, expected, values.size()));

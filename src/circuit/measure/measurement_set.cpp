@@ -83,7 +83,8 @@ Result<void> MeasurementSet::begin(std::string_view analysis, const Plot& head) 
             entry.measurement = std::move(parsed.measurement);
             continue;
         }
-        entry.recording = Recording{{head.name, head.is_complex, head.has_sweep, {}, head.inner_points}, columns_for(entry.line, head), {}, {}};
+        entry.recording =
+            Recording{{head.name, head.is_complex, head.has_sweep, {}, head.inner_points}, columns_for(entry.line, head), {}, {}};
         for (const auto k : entry.recording->columns) entry.recording->head.curves.push_back(head.curves[k]);
     }
     return {};
@@ -99,7 +100,10 @@ Result<void> MeasurementSet::check(const std::vector<std::string>& number_names)
 Result<double> MeasurementSet::result_of(Entry& entry, const Numbers& numbers) {
     const auto& c = entry.line;
     if (is_expression_of_results(c)) return evaluate_expression_of_results(c, circuit_, numbers);
-    if (!entry.has_begun) return error_at(c.location, ".meas: the netlist has no .{} to measure", c.words[0]);
+    if (!entry.has_begun) {
+        entry.left_out = error_at(c.location, ".meas {} is left out: the netlist has no .{} to measure", c.words[1], c.words[0]);
+        return not_found;
+    }
     if (!entry.recording) return entry.measurement->value();
     if (entry.recording->is_too_long) {
         entry.left_out = error_at(

@@ -147,7 +147,9 @@ private:
                 builder_.circuit.warnings.push_back(error_at(s.location(words[k]),
                                                              "{}: port {} of subcircuit '{}' is ground, so it is not connected to {}",
                                                              s.text(0), ports[k], inner.definition->name, outside));
-            inner.ports.emplace(ports[k], builder_.find_or_add_node(scope, outside));
+            const int node = builder_.find_or_add_node(scope, outside);
+            inner.ports.emplace(ports[k], node);
+            builder_.circuit.port_nodes.emplace(fmt::format("{}{}.{}", scope.path, s.text(0), ports[k]), node);
         }
         return {};
     }
@@ -173,7 +175,7 @@ private:
             if (inner.definition->defaults.contains(name))
                 given.insert_or_assign(std::string(name), value);
             else if (name != "m")
-                return unknown_parameter(s, pair, name, *inner.definition);
+                TRY(unknown_parameter(s, pair, name, *inner.definition));
             else if (!(value > 0))
                 return error_at(s.location(pair.value), "{}: m = {:g} must be positive", s.text(0), value);
             else
@@ -191,9 +193,14 @@ private:
         const auto other = with_given.evaluate(text);
         return other ? other : value;
     }
-    static Error unknown_parameter(const Statement& s, const NameValue& pair, std::string_view name, const SubcktDef& body) {
-        return error_at(s.location(pair.name), "{}: subcircuit '{}' has no parameter '{}'{}", s.text(0), body.name, name,
-                        did_you_mean(name, std::views::keys(body.defaults)));
+    /// A name that resembles a parameter is a typing error. Any other one is a warning, as in ngspice.
+    Result<void> unknown_parameter(const Statement& s, const NameValue& pair, std::string_view name, const SubcktDef& body) {
+        const auto suggestion = did_you_mean(name, std::views::keys(body.defaults));
+        auto error = error_at(s.location(pair.name), "{}: subcircuit '{}' has no parameter '{}'{}", s.text(0), body.name, name,
+                              suggestion.empty() ? ", so it has no effect" : suggestion);
+        if (!suggestion.empty()) return error;
+        builder_.circuit.warnings.push_back(std::move(error));
+        return {};
     }
 
     /// Checks that all nodes and elements that expressions, F, H and K lines name exist.

@@ -151,9 +151,9 @@ Result<void> ElementReader::named_parameters() {
     for (const auto& pair : s_.pairs) {
         const auto name = s_.text(pair.name);
         if (find_tolerance(name) != nullptr) continue;  // see apply_tolerances()
+        if (std::find(read_names_.begin(), read_names_.end(), name) != read_names_.end()) continue;
         if (std::find(known.begin(), known.end(), name) == known.end())
             return error_at(pair.name, "unknown parameter '{}'{}", name, did_you_mean(name, known));
-        if (std::find(read_names_.begin(), read_names_.end(), name) != read_names_.end()) continue;
         const auto value = TRY(scope_.evaluate({&s_, pair.value}));
         element.values.insert_or_assign(std::string(name), value);
     }

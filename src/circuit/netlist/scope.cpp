@@ -212,6 +212,12 @@ int CircuitBuilder::find_or_add_node(const Scope& scope, std::string_view name) 
     return at->second;
 }
 
+/// True for an entry of LTspice's libraries that says what a part is for, and that no equation has.
+static bool is_rating(std::string_view name) {
+    constexpr std::string_view ratings[] = {"mfg", "type", "iave", "vpk", "ipk", "vceo", "icrating"};
+    return std::ranges::find(ratings, name) != std::end(ratings);
+}
+
 Result<int> CircuitBuilder::find_or_add_model(Scope& scope, const WordRef& name, std::string_view user,
                                               std::span<const std::string_view> types) {
     Scope* f = scope.definer_of_model(name.view());
@@ -229,6 +235,7 @@ Result<int> CircuitBuilder::find_or_add_model(Scope& scope, const WordRef& name,
     }
     Model model{f->path + std::string(name.view()), std::string(type), s.line.location(), {}, std::move(tolerances), {}};
     for (const auto& pair : s.pairs) {
+        if (is_rating(s.text(pair.name))) continue;
         if (pair.value.kind == Word::Kind::quoted || (s.text(pair.name) == "version" && !parse_number(s.text(pair.value)))) {
             model.texts.emplace(s.text(pair.name), s.text(pair.value));
             continue;

@@ -218,7 +218,7 @@ void Transient::measure_rounding() {
 }
 
 /// True if the rounding error that measure_rounding() has found exceeds the tolerance of an unknown.
-bool Transient::is_rounding_visible() const {
+bool Transient::is_rounding_visible() {
     const auto& x = history_points_.next_point().x;
     for (std::size_t n = 0; n < rounding_.size(); ++n)
         if (tolerance_[n] > 0 && rounding_[n] > tolerance_[n] + plan_.reltol * std::abs(x[n])) return true;

@@ -96,7 +96,7 @@ private:
     double rounding_error(int unknown) const;
     void measure_rounding();
     void measure_rounding(double& error, double& curve_error);
-    bool is_rounding_visible() const;
+    bool is_rounding_visible();
     double interpolation_error();
     bool take_breakpoint_step(double t0, double next_breakpoint);
     void restart(bool forget, bool exact = false);
