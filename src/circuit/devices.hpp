@@ -46,12 +46,22 @@ inline const DeviceKind* find_device_kind(char letter, std::optional<double> lev
     return first;
 }
 
-/// The levels of the models of a letter whose devices exist, as text: "1 (...), 80 (MOS transistor, UICM)".
+/// The levels of the models of a letter: "level=1 (SPICE level 1), 44, 55 or 260 (EKV 2.6) or 80 (UICM)".
 inline std::string supported_levels(char letter) {
-    std::string out;
-    for (const auto* kind : device_kinds)
-        if (kind->letter == letter) out += fmt::format("{}{:g} ({})", out.empty() ? "" : ", ", kind->level, kind->description);
-    return out;
+    const auto listed = [](const std::vector<std::string>& texts) {
+        std::string out;
+        for (std::size_t k = 0; k < texts.size(); ++k) out += (k == 0 ? "" : k + 1 == texts.size() ? " or " : ", ") + texts[k];
+        return out;
+    };
+    std::vector<std::string> kinds;
+    for (const auto* kind : device_kinds) {
+        if (kind->letter != letter) continue;
+        std::vector<std::string> levels = {fmt::format("{:g}", kind->level)};
+        for (const double level : kind->other_levels) levels.push_back(fmt::format("{:g}", level));
+        const auto comma = kind->description.find(", ");  // "MOS transistor, UICM"
+        kinds.push_back(fmt::format("{} ({})", listed(levels), kind->description.substr(comma == std::string_view::npos ? 0 : comma + 2)));
+    }
+    return "level=" + listed(kinds);
 }
 
 /// "R C L ... X": the letters of all elements, subcircuits included.

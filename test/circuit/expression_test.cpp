@@ -93,6 +93,8 @@ TEST(Expression, HasTheFunctionsAndConstantsOfNgspice) {
         {"if(1,2,3)", 2},
         {"ternary_fcn(0,5,6)", 6},
         {"agauss(3,1,2)", 3},
+        {"max(2)", 2},
+        {"max(2,7,3)-min(4,1,2,3)", 6},
         {"gauss(3,1,2)", 3},
         {"unif(4,0.1)", 4},
         {"aunif(4,1)", 4},
@@ -162,7 +164,7 @@ TEST(Expression, ReportsLocationAndCauseOfErrors) {
     } cases[] = {
         {"2*vddd", "f.cir:3:7: unknown name 'vddd'; did you mean 'vdd'?"},
         {"1 + sinn(2)", "f.cir:3:9: unknown function 'sinn'; did you mean 'sin'?"},
-        {"max(1)", "f.cir:3:5: max() takes 2 arguments, not 1"},
+        {"max()", "f.cir:3:5: max() takes 2 arguments, not 0"},
         {"limit(1)", "f.cir:3:5: limit() takes 2 or 3 arguments, not 1"},
         {"1k5", "f.cir:3:5: '1k5' is not a number"},
         {"(2", "f.cir:3:5: this '(' is not closed"},

@@ -143,5 +143,56 @@ TEST(ForeignNetlist, ModulatedAndRepeatedWaveformsHaveTheirClosedForms) {
     EXPECT_NEAR(at(teeth + " td=0.1m", 3.725e-3), 1.5, 1e-6);
 }
 
+TEST(ForeignNetlist, TemperatureCoefficientsMayBeGivenTogether) {
+    const auto run = run_netlist("tc\n.temp 37\ni1 0 a 1\nr1 a 0 100 tc=0.01,0.001\ni2 0 b 1\nr2 b 0 100 tc=0.01\n.op\n");
+    EXPECT_NEAR(run.number("v(a)"), 100 * (1 + 0.1 + 0.1), 1e-9);
+    EXPECT_NEAR(run.number("v(b)"), 100 * (1 + 0.1), 1e-9);
+}
+
+TEST(ForeignNetlist, TheLaterOfTwoDcValuesIsUsedWithAWarning) {
+    const auto run = run_netlist("dc\nv1 a 0 1 dc 2\nr1 a 0 1k\n.op\n");
+    EXPECT_EQ(run.number("v(a)"), 2);
+    EXPECT_NE(warnings_in(run).find("2:13: v1: dc is given twice; this value is used"), std::string::npos) << warnings_in(run);
+}
+
+TEST(ForeignNetlist, ADegreeSignIsLeftOut) {
+    const auto run = run_netlist(
+        "degrees\n.options temp=37\xc2\xb0"
+        "C\ni1 0 a 1\nr1 a 0 100 tc1=0.01\n.op\n");
+    EXPECT_NEAR(run.number("v(a)"), 110, 1e-9);
+}
+
+TEST(ForeignNetlist, APortMayBeNamedAsANodeOfItsSubcircuit) {
+    const auto run = run_netlist(
+        "ports\n.subckt half in out\nr1 in out 1k\nr2 out 0 1k\n.ends\nv1 a 0 2\nx1 a b half\nc1 b 0 1n\n"
+        ".ic v(x1.out)=0.25\n.tran 1n 1u\n");
+    EXPECT_NEAR(run.curve("v(b)").front(), 0.25, 1e-5);
+}
+
+TEST(ForeignNetlist, AnUnknownParameterOfASubcircuitHasNoEffectUnlessItLooksLikeAnError) {
+    const std::string body = "extra\n.subckt s a params: width=1\nr1 a 0 {width}\n.ends\ni1 0 a 1\nx1 a s width=5 ";
+    const auto run = run_netlist(body + "bogus=2\n.op\n");
+    EXPECT_EQ(run.number("v(a)"), 5);
+    EXPECT_NE(warnings_in(run).find("x1: subcircuit 's' has no parameter 'bogus', so it has no effect"), std::string::npos);
+    const auto circuit = parse_netlist_text(body + "widht=2\n.op\n")->elaborate();
+    ASSERT_FALSE(circuit);
+    EXPECT_NE(circuit.error().message.find("did you mean 'width'?"), std::string::npos);
+}
+
+TEST(ForeignNetlist, RatingsInModelsHaveNoEffect) {
+    const auto run = run_netlist(
+        "ratings\nv1 a 0 0.6\nd1 a 0 d1n4148\n.model D1N4148 D(Is=2.52n N=1.752 Iave=200m Vpk=75 mfg=OnSemi type=silicon)\n.op\n");
+    EXPECT_NEAR(run.number("i(v1)"), -2.52e-9 * std::expm1(0.6 / 1.752 / 0.0258649), 1e-7);
+}
+
+TEST(ForeignNetlist, ASidewallAndABreakdownMayHaveTheirOwnEmissionCoefficients) {
+    const auto run = run_netlist(
+        "emission\nv1 a 0 0.5\nd1 a 0 dm pj=2\n.model dm d(is=1e-12 n=1.2 jsw=1e-11 ns=2)\nv2 b 0 -10.1\nd2 b 0 dz\n"
+        ".model dz d(is=1e-15 n=1 vb=10 ibv=1m nbv=3)\n.op\n");
+    const double vt = 0.025864925;  // kT/q at 300.15 K, V
+    EXPECT_NEAR(run.number("i(v1)") / -(1e-12 * std::expm1(0.5 / 1.2 / vt) + 2e-11 * std::expm1(0.5 / 2 / vt)), 1, 1e-5);
+    EXPECT_NEAR(run.number("i(v2)") / (1e-3 * std::exp(0.1 / 3 / vt)), 1, 1e-5);
+}
+
 }  // namespace
 }  // namespace corpuscle::circuit

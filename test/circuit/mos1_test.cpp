@@ -124,11 +124,11 @@ std::string error_of(const std::string& text) {
 
 TEST(Mos1, ErrorsSayWhatIsExpected) {
     const std::string circuit = "vd d 0 3\nm1 d d 0 0 n w=10u l=1u";
-    EXPECT_EQ(error_of(circuit + "\n" + card_line("level=3")), "t.cir:4:1: n: MOS model level 3 is not supported; use " + mos_levels());
+    EXPECT_EQ(error_of(circuit + "\n" + card_line("level=3")),
+              "t.cir:3:12: m1: model 'n' has level 3, which is not supported; use " + supported_levels('m'));
     EXPECT_EQ(error_of(circuit + " stack=2\n" + card_line("level=49")),
-              "t.cir:4:1: n: MOS model level 49 is not supported; use " + mos_levels());
-    EXPECT_NE(mos_levels().find("1 (SPICE level 1)"), std::string::npos) << mos_levels();
-    EXPECT_NE(mos_levels().find("80 (UICM)"), std::string::npos) << mos_levels();
+              "t.cir:3:12: m1: model 'n' has level 49, which is not supported; use " + supported_levels('m'));
+    EXPECT_EQ(supported_levels('m'), "level=1 (SPICE level 1), 44, 55 or 260 (EKV 2.6) or 80 (UICM)");
     EXPECT_EQ(error_of(circuit + " stack=2\n" + card_line("level=1")), "t.cir:3:25: m1: unknown parameter 'stack'");
     EXPECT_EQ(error_of(circuit + " ic=1\n" + card_line("level=1")),
               "t.cir:3:25: m1: ic= of a transistor is not supported; use .ic v(node)=... with uic, or .nodeset v(node)=...");

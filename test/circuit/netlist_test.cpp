@@ -238,7 +238,6 @@ TEST(NetlistElements, AreRejectedWithLocationAndSuggestion) {
         {"V1 a 0 PULSE(0)", "2:8: v1: pulse has 1 number; expected pulse(v1 v2 td tr tf pw per np)"},
         {"V1 a 0 PWL(0 0 1m)", "2:16: v1: pwl has 3 numbers; expected pairs of a time and a value"},
         {"V1 a 0 PWL(0 0 1m 1 1m 2)", "2:21: v1: pwl: time 0.001 must be later than 0.001"},
-        {"V1 a 0 1 DC 2", "2:13: v1: dc is given twice"},
         {"V1 a 0 SIN(0 1) PULSE(0 1)", "2:17: v1: only one time waveform is allowed, not also 'pulse'"},
         {"V1 a 0 TRNOISE(1 1n 0 0)", "2:8: v1: trnoise sources are not supported; known are pulse, sin, exp, pwl, sffm, am and force"},
         {"V1 a 0 PWL(0 0 1m 1) r=2m", "2:24: v1: pwl: r = 0.002 s is not the time of a point before the last"},
@@ -265,7 +264,7 @@ TEST(NetlistElements, AreRejectedWithLocationAndSuggestion) {
         {"M1 d g s b nm w=2x3\n.model nm nmos", "2:17: '2x3' is not a number"},
         {"M1 d g s b nm\n.model nm nmos vto=abc", "3:20: unknown name 'abc'"},
         {".model nm\n", "2:10: .model: expected a name and a type, such as .model nm nmos (vto=0.5)"},
-        {".model nm nmos 5", "2:16: expected name=value, not '5'"},
+        {".model nm nmos 5\nM1 a a 0 0 nm", "2:16: expected name=value, not '5'"},
         {".model nm nmos\n.model nm pmos", "3:8: model 'nm' is already defined at dir/t.cir:2"},
     };
     for (const auto& c : cases) EXPECT_EQ(error_of(c.body), std::string("dir/t.cir:") + c.message) << c.body;

@@ -14,7 +14,7 @@ namespace {
 
 constexpr double reltol = 1e-5, factor = 10, floor_of_voltages = 1e-5, floor_of_currents = 1e-12;  // V, A
 /// Two runs draw a jump as ramps of different lengths. Within this time, as a part of the stop time, a point may be on the ramp.
-constexpr double ramp = 3e-7;
+constexpr double ramp = 1e-5;
 
 /// The range of a curve between the times from and to.
 struct Range {

@@ -32,7 +32,7 @@ TEST(Refusals, NameMissingDevicesBeforeDirectivesBeforeAllElse) {
                         ".include nowhere.inc\nj3 a b 0 jm\n"),
               "line 4:1: 'j1': unknown element letter j (junction field-effect transistor); known are " + element_letters() +
                   "; also j2, j3\n"
-                  "line 7:11: m1: model 'bsim' has level 14, which is not supported; supported levels: " +
+                  "line 7:12: m1: model 'bsim' has level 14, which is not supported; use " +
                   supported_levels('m') +
                   "\n"
                   "line 3:1: unknown statement '.hb'\n"
@@ -59,7 +59,7 @@ TEST(Refusals, BeyondTwentyAreCounted) {
     for (int k = 0; k < 3000; ++k) body += "r" + std::to_string(k) + " a 0 {x}\n";
     const auto text = errors_of(body);
     EXPECT_EQ(std::count(text.begin(), text.end(), '\n'), 21);
-    EXPECT_NE(text.find("line 21:9: unknown name 'x'\n980 further errors\n"), std::string::npos) << text;
+    EXPECT_NE(text.find("line 21:10: unknown name 'x'\n980 further errors\n"), std::string::npos) << text;
 }
 
 TEST(Refusals, DoNotContainWhatOnlyFollowsFromOtherErrors) {

@@ -69,7 +69,7 @@ TEST(Topology, UnsolvableNetlistsAreRejectedWithLineAndReason) {
     has(solve_error("t\nr1 a b 1k\nr2 b a 1k\nv1 a b 1\n.op\n"), {"ground"});
     has(solve_error("t\nv1 a 0 1\nr1 a b 1k\nm1 b g 0 0 n\n.model n nmos(level=80)\n.op\n"), {"'g'", "no path to ground"});
     has(solve_error("t\nv1 a 0 1\nr1 a 0 1k\nm1 a a 0 0 n\n.model n nmos(level=2)\n.op\n"),
-        {"test.cir:5", "level=1 (SPICE level 1)", "80 (UICM)"});
+        {"test.cir:4", "level=1 (SPICE level 1)", "80 (UICM)"});
     has(solve_error("t\nv1 a 0 1\nr1 a 0 1k\n"), {"no analysis", ".op"});
     has(solve_error("t\nv1 a 0 1\nr1 a 0 1k\n.dc vx 0 1 0.1\n"), {"test.cir:4", "vx"});
     has(solve_error("t\nv1 a 0 1\nr1 a 0 1k\n.dc v1 0 1 -0.1\n"), {"test.cir:4", "step"});

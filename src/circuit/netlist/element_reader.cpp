@@ -45,8 +45,8 @@ bool ElementReader::refuse_level() {
     const auto word = find_model_word(scope_, s_);
     const auto level = word == 0 ? std::nullopt : scope_.model_level(text(word));
     if (!level || kind_.level == 0 || has_level(kind_, *level)) return false;
-    auto error = error_at(word, "model '{}' has level {:g}, which is not supported; supported levels: {}", text(word), *level,
-                          supported_levels(kind_.letter));
+    auto error =
+        error_at(word, "model '{}' has level {:g}, which is not supported; use {}", text(word), *level, supported_levels(kind_.letter));
     builder_.refusals.add_device(std::move(error), fmt::format("level {:g} of {}", *level, kind_.letter), element.name);
     return true;
 }
@@ -105,8 +105,6 @@ std::optional<double> ElementReader::model_value(std::string_view name) const {
     const auto at = values.find(name);
     return at == values.end() ? std::nullopt : std::optional(at->second);
 }
-
-SourceLocation ElementReader::model_location() const { return builder_.circuit.model_of(element)->location; }
 
 Result<void> ElementReader::expression(const NameValue& pair) {
     read_names_.push_back(s_.text(pair.name));

@@ -59,7 +59,6 @@ public:
     const Word& word(std::size_t k) const { return s_.words[k]; }
     /// The value of this name in the element's model; nullopt if it has none.
     std::optional<double> model_value(std::string_view name) const;
-    SourceLocation model_location() const;  ///< of the .model line of the element's model
     /// Reads the word as the name of the voltage source whose current controls the element.
     void control_source(std::size_t word);
     /// Reads the word as the name of an inductor that the element couples.

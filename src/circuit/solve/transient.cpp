@@ -14,7 +14,8 @@ constexpr int max_shortest_steps = 3;  // successive steps of the shortest lengt
 Result<void> Transient::begin(std::vector<double> x, bool settled, std::span<const double> charge) {
     plan_.max_step = std::min(plan_.max_step, system_.max_step());
     const auto count = x.size();
-    for (auto* v : {&scale_, &allowed_error_, &tolerance_, &rounding_, &history_, &rate_, &error_, &rate_change_, &max_rate_})
+    for (auto* v :
+         {&scale_, &allowed_error_, &tolerance_, &rounding_, &charge_rounding_, &history_, &rate_, &error_, &rate_change_, &max_rate_})
         v->assign(count, 0);
     newton_.limiting_state = system_.initial_limiting_state();
     newton_.context.with_charges = true, newton_.context.time = 0;
@@ -126,17 +127,11 @@ void Transient::update_tolerances() {
         if (!voltage && !plan_.all_reported) tolerance_[n] *= Interpolant::current_tolerance_factor;
     }
     if (!plan_.all_reported) return;
-    largest_charge_ = largest_current_ = 0;
     voltage_scale_ = 1;  // V: at least this, since the charge of a junction is a difference of terms as large as at its built-in potential
     for (std::size_t n = 0; n < allowed_error_.size(); ++n) {
-        largest_charge_ = std::max(largest_charge_, std::abs(history_points_[0].q[n]));
-        largest_current_ = std::max(largest_current_, std::abs(rate_[n]));
         if (system_.is_voltage(static_cast<int>(n))) voltage_scale_ = std::max(voltage_scale_, scale_[n]);
         if (!system_.is_voltage(static_cast<int>(n))) tolerance_[n] += of_largest * largest;
     }
-    // A capacitor between nodes of similar voltage has a small charge, but the rounding error of this charge is that of its terminals'
-    // voltages.
-    largest_charge_ = std::max(largest_charge_, *std::max_element(capacitance_.begin(), capacitance_.end()) * voltage_scale_);
 }
 
 /// Solves the step to t; the solution is history_points_.next_point(). `error` becomes its error, relative to the allowed error. Stops
@@ -155,10 +150,11 @@ bool Transient::attempt(double t, double& error) {
         const auto weights = history_points_.slope_weights(t, control_.order, leading_);
         history_points_.combine(weights, control_.order, &TimePoint::q, history_);
     }
-    if (rounding_measured_) std::fill(rounding_.begin(), rounding_.end(), 0.0), rounding_measured_ = false;
+    // The rounding error of a charge is a current that grows as the step gets shorter.
+    for (std::size_t n = 0; n < count; ++n) rounding_[n] = charge_rounding_[n] * std::abs(leading_);
     equations_.prepare(t, leading_, history_);
     equations_.check_expressions(!may_jump_, {plan_.reltol, plan_.vntol, plan_.abstol});
-    // The error of a first step includes rounding_error(), which needs the converged solution.
+    // The rounding error of a first step is measured for its error, which needs the converged solution.
     const bool must_converge = (plan_.all_reported && history_points_.count() == 1) || is_shortest(h);
     for (;;) {
         using Status = StepEquations::Status;
@@ -185,17 +181,8 @@ double Transient::worst_error() {
     if (!plan_.all_reported || plan_.method != Integration::bdf) return worst;
     for (std::size_t n = 0; n < error_.size(); ++n)
         if (!has_charge_[n] && tolerance_[n] > 0)
-            uncharged_error_ = std::max(uncharged_error_,
-                                        std::abs(error_[n]) / (uncharged_factor * (tolerance_[n] + rounding_error(static_cast<int>(n)))));
+            uncharged_error_ = std::max(uncharged_error_, std::abs(error_[n]) / (uncharged_factor * (tolerance_[n] + rounding_[n])));
     return may_jump_ ? worst : std::max(worst, uncharged_error_);
-}
-
-/// The error of an unknown that comes from rounding, A or V. For a current it is computed from the charges and the step length, and is at
-/// least the value that measure_rounding() has computed. For a voltage it is the latter, 0 before measure_rounding().
-double Transient::rounding_error(int unknown) const {
-    const double measured = rounding_[static_cast<std::size_t>(unknown)];
-    if (system_.is_voltage(unknown)) return measured;
-    return std::max(measured, std::abs(leading_) * (1e-14 * largest_charge_ + 1e-15 * history_points_[0].t * largest_current_));
 }
 
 /// Called before a step is rejected. Computes the error of each unknown that comes from the rounding of the charges, and computes `error`
@@ -210,11 +197,15 @@ void Transient::measure_rounding(double& error, double& curve_error) {
 /// Computes rounding_ for the step just solved.
 void Transient::measure_rounding() {
     constexpr double roundoff = 1e-15;
-    for (std::size_t n = 0; n < rounding_.size(); ++n) rounding_[n] = roundoff * std::abs(leading_) * capacitance_[n] * voltage_scale_;
+    const double t = history_points_.next_point().t;
+    for (std::size_t n = 0; n < rounding_.size(); ++n)
+        rounding_[n] = roundoff * std::abs(leading_) * (capacitance_[n] * voltage_scale_ + t * std::abs(rate_[n]));
     equations_.add_rounding(history_points_.next_point().x, rounding_);
     equations_.solve_perturbation(rounding_);
-    rounding_measured_ = true;
-    for (double& r : rounding_) r = std::abs(r);
+    for (std::size_t n = 0; n < rounding_.size(); ++n) {
+        rounding_[n] = std::abs(rounding_[n]);
+        charge_rounding_[n] = rounding_[n] / std::abs(leading_);
+    }
 }
 
 /// True if the rounding error that measure_rounding() has found exceeds the tolerance of an unknown.
@@ -240,7 +231,7 @@ double Transient::interpolation_error() {
     for (int k = 0; k < history_points_.smooth_count(); ++k) x[static_cast<std::size_t>(k) + 1] = history_points_[k].x.data();
     auto& tolerance = error_;
     for (const int u : interpolated_unknowns_)
-        tolerance[static_cast<std::size_t>(u)] = tolerance_[static_cast<std::size_t>(u)] + rounding_error(u);
+        tolerance[static_cast<std::size_t>(u)] = tolerance_[static_cast<std::size_t>(u)] + rounding_[static_cast<std::size_t>(u)];
     const auto worst_of = [&](const HistoryWeights& w, int points) {
         double worst = 0;
         for (const int u : interpolated_unknowns_) {

@@ -66,9 +66,11 @@ private:
     } start_phase_ = StartPhase::none;
     int curve_points_ = 0;        // points of the interpolation in the last step; 0: not determined, see interpolation_points()
     double uncharged_error_ = 0;  // largest error of an unknown without charge in the last step, relative to the allowed error
-    double voltage_scale_ = 0, largest_charge_ = 0, largest_current_ = 0;  // V, C, A: scales of the rounding error
-    bool converged_ = false, rounding_measured_ = false;                   // of the current step
-    std::vector<double> capacitance_, rounding_;                           // F, by node; by unknown, see rounding_error()
+    double voltage_scale_ = 0;    // V: scale of the rounding error of charges
+    bool converged_ = false;      // the current step
+    std::vector<double> capacitance_;                     // F, by equation: sum of the magnitudes in its row of C
+    // By unknown: its rounding error in the present step, A or V, and the same over leading_ in the step that was measured last.
+    std::vector<double> rounding_, charge_rounding_;
     // By unknown. scale_ is the largest magnitude so far. The error at the end of a step is compared with allowed_error_ (0: not
     // controlled), that of reported values with tolerance_. rate_ is dq/dt at the newest point; error_ is a buffer.
     std::vector<double> scale_, allowed_error_, tolerance_, history_, rate_, error_;
@@ -93,7 +95,6 @@ private:
     int interpolation_points() const { return control_.interpolation_points(curve_points_, history_points_.count()); }
     void find_source_nodes();
     double source_node_voltage(const SourceNode&, double t) const;
-    double rounding_error(int unknown) const;
     void measure_rounding();
     void measure_rounding(double& error, double& curve_error);
     bool is_rounding_visible();

@@ -76,7 +76,7 @@ bool Transient::emit_points(const PointCallback& each) {
     for (const double part : {0.25, 0.75}) {
         interpolate(t0 + part * (t1 - t0), x);
         for (std::size_t n = 0; n < x.size(); ++n) {
-            const double tolerance = plan_.all_reported ? tolerance_[n] + rounding_error(static_cast<int>(n)) : allowed_error_[n];
+            const double tolerance = plan_.all_reported ? tolerance_[n] + rounding_[n] : allowed_error_[n];
             const double line = history_points_[1].x[n] + part * (history_points_[0].x[n] - history_points_[1].x[n]);
             // A parabola's deviation from its chord at these points is 3/4 of the largest.
             if (tolerance > 0) deviation = std::max(deviation, 4.0 / 3 * std::abs(x[n] - line) / tolerance);

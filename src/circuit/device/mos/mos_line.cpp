@@ -1,30 +1,8 @@
 #include "circuit/device/mos/mos_line.hpp"
 
 #include "circuit/device/named_values.hpp"
-#include "circuit/devices.hpp"
 
 namespace corpuscle::circuit {
-namespace {
-
-/// "44, 55 or 260 (EKV 2.6)"
-std::string levels_of(const DeviceKind& kind) {
-    std::string out = fmt::format("{:g}", kind.level);
-    for (const double& level : kind.other_levels) out += fmt::format("{}{:g}", &level == &kind.other_levels.back() ? " or " : ", ", level);
-    const auto comma = kind.description.find(", ");
-    return fmt::format("{} ({})", out, kind.description.substr(comma == std::string_view::npos ? 0 : comma + 2));
-}
-
-}  // namespace
-
-std::string mos_levels() {
-    std::vector<std::string> kinds;
-    for (const auto* kind : device_kinds)
-        if (kind->letter == 'm') kinds.push_back(levels_of(*kind));
-    std::string out = "level=";
-    for (std::size_t k = 0; k < kinds.size(); ++k) out += (k == 0 ? "" : k + 1 == kinds.size() ? " or " : ", ") + kinds[k];
-    return out;
-}
-
 Result<void> read_mos_line(ElementReader& line) {
     constexpr std::string_view expected = "drain, gate, source, bulk, then the model";
     if (line.word_count() == 5 && line.is_model(4)) return line.error_at(4, "3 nodes, but expected 4: {}", expected);
@@ -32,10 +10,6 @@ Result<void> read_mos_line(ElementReader& line) {
     if (line.word_count() < 6) return line.error_at(5, "its model is missing");
     if (line.word_count() > 6 && !line.is_model(5) && line.is_model(6)) return line.error_at(5, "5 nodes, but expected 4: {}", expected);
     TRY(line.model(5, {"nmos", "pmos"}));
-    const double level = line.model_value("level").value_or(1);
-    if (!has_level(*find_device_kind('m', level), level))
-        return circuit::error_at(line.model_location(), "{}: MOS model level {:g} is not supported; use {}", line.text(5), level,
-                                 mos_levels());
     if (const auto* ic = line.find("ic"))
         return line.error_at(ic->name, "ic= of a transistor is not supported; use .ic v(node)=... with uic, or .nodeset v(node)=...");
     for (std::size_t k = 6; k < line.word_count(); ++k) {

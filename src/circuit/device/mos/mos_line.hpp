@@ -7,11 +7,8 @@
 
 namespace corpuscle::circuit {
 
-/// Reads nodes, model and `off`. It is an error if no kind of device has the level of the model.
+/// Reads nodes, model and `off`.
 Result<void> read_mos_line(ElementReader&);
-
-/// "level=1 (SPICE level 1), 44, 55 or 260 (EKV 2.6) or 80 (UICM)": the levels of the models of M.
-std::string mos_levels();
 
 /// Size and surroundings of a transistor, as SPICE has them.
 struct MosSize {
