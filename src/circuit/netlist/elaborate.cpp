@@ -172,7 +172,7 @@ private:
             auto name = s.text(pair.name);
             if (name.starts_with("params:")) name.remove_prefix(7);
             const auto value = TRY(evaluate_argument(scope, {&s, pair.value}, given));
-            if (inner.definition->defaults.contains(name))
+            if (inner.definition->defaults.contains(name) || inner.definition->parameters.contains(name))  // .param too, as in ngspice
                 given.insert_or_assign(std::string(name), value);
             else if (name != "m")
                 TRY(unknown_parameter(s, pair, name, *inner.definition));
@@ -195,7 +195,8 @@ private:
     }
     /// A name that resembles a parameter is a typing error. Any other one is a warning, as in ngspice.
     Result<void> unknown_parameter(const Statement& s, const NameValue& pair, std::string_view name, const SubcktDef& body) {
-        const auto suggestion = did_you_mean(name, std::views::keys(body.defaults));
+        auto suggestion = did_you_mean(name, std::views::keys(body.defaults));
+        if (suggestion.empty()) suggestion = did_you_mean(name, std::views::keys(body.parameters));
         auto error = error_at(s.location(pair.name), "{}: subcircuit '{}' has no parameter '{}'{}", s.text(0), body.name, name,
                               suggestion.empty() ? ", so it has no effect" : suggestion);
         if (!suggestion.empty()) return error;
@@ -315,9 +316,12 @@ private:
         Circuit& c = builder_.circuit;
         for (const auto& voltage : node_voltages_) {
             const int k = c.find_node(voltage.node);
-            if (k < 0)
-                return error_at(voltage.location, "unknown node '{}'{}", voltage.node,
-                                did_you_mean(voltage.node, c.nodes | std::views::drop(1)));
+            if (k < 0) {
+                const auto suggestion = did_you_mean(voltage.node, c.nodes | std::views::drop(1));
+                if (!suggestion.empty()) return error_at(voltage.location, "unknown node '{}'{}", voltage.node, suggestion);
+                c.warnings.push_back(error_at(voltage.location, "there is no node '{}', so its voltage has no effect", voltage.node));
+                continue;
+            }
             (voltage.is_ic ? c.ic : c.nodesets).emplace_back(k, voltage.value);
         }
         return {};

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <unordered_set>
 
+#include "circuit/analyses.hpp"
 #include "circuit/variant/hierarchical_names.hpp"
 #include "core/text/ascii_text.hpp"
 
@@ -141,6 +142,7 @@ Result<std::vector<SavedQuantity>> resolve_saved_quantities(const System& system
                 continue;
             }
             if (is_unsupported_probe(system.circuit(), c, word)) continue;
+            if (k == 0 && c.words.size() > 1 && c.name == "probe" && find_analysis(word) != nullptr) continue;  // gnucap: .probe op v(a)
             const auto name = word.find('(') == std::string::npos ? fmt::format("v({})", word) : word;
             if (!seen.insert(name).second) continue;
             if (const int device = device_of_current(system, name); device >= 0) {

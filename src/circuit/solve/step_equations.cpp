@@ -172,7 +172,7 @@ void StepEquations::read_charges(std::span<double> q) {
 }
 
 void StepEquations::add_rounding(std::span<const double> x, std::span<double> out) const {
-    constexpr double roundoff = 1e-16;
+    constexpr double roundoff = 1e-15;
     system_.pattern().for_each_entry(
         [&](std::size_t e, std::size_t row, std::size_t column) { out[row] += roundoff * std::abs(J_[e] * x[column]); });
 }
