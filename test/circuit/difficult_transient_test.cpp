@@ -120,7 +120,8 @@ TEST(DifficultTransient, ACoilIsSwitchedWithAFreewheelDiode) {
                                     ".meas tran kick max v(e)\n",
                                     element));
         // On from 100.5 us to 401.5 us, through 10.1 ohm.
-        EXPECT_NEAR(run.number("peak"), 12 / 10.1 * (1 - std::exp(-301e-6 * 10.1 / 1e-3)), 2e-5) << element;
+        EXPECT_NEAR(run.number("peak"), 12 / 10.1 * (1 - std::exp(-301e-6 * 10.1 / 1e-3)), 10 * 1e-5 * 1.13)
+            << element << ": ten times the allowed error of a step";
         EXPECT_NEAR(run.number("kick"), 12 + 0.025865 * std::log(run.number("peak") / 1e-14), 1e-3) << element;
     }
 }

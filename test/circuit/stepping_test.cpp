@@ -2,7 +2,10 @@
 
 #include <gtest/gtest.h>
 
+#include <fmt/format.h>
+
 #include <cmath>
+#include <numbers>
 
 #include "circuit/analysis/transient_setup.hpp"
 #include "circuit/netlist_runner.hpp"
@@ -206,6 +209,23 @@ TEST(TransientPlan, RejectsUnknownValues) {
         ASSERT_FALSE(plan);
         EXPECT_NE(plan.error().message.find(what), std::string::npos) << plan.error().message;
     }
+}
+
+/// The result of a line of resistors, coils and capacitors whose own oscillations are far faster than its source.
+NetlistRun run_of_line(const std::string& options) {
+    std::string text = "line\n.options " + options + "\nv1 n0 0 sin(0 1 60)\n";
+    for (int k = 0; k < 300; ++k) text += fmt::format("r{0} n{0} m{0} 10\nl{0} m{0} n{1} 1n\nc{0} n{1} 0 1p\n", k, k + 1);
+    return run_netlist(text + ".tran 1m 50m\n.save v(n300)\n");
+}
+
+TEST(Order, IsLoweredWhereHigherOrdersAreUnstable) {
+    const auto run = run_of_line("accuracy=normal");
+    const auto& stats = run.analyses()[0].result.stats;
+    const auto steps = std::ranges::find(stats, "steps", &std::pair<std::string, double>::first);
+    ASSERT_NE(steps, stats.end());
+    EXPECT_LT(steps->second, 3000) << "58,000 where the order stays at 3 and 4";
+    const auto t = run.curve("time"), v = run.curve("v(n300)");
+    for (std::size_t k = 0; k < t.size(); ++k) EXPECT_NEAR(v[k], std::sin(2 * std::numbers::pi * 60 * t[k]), 2e-4) << t[k];
 }
 
 }  // namespace

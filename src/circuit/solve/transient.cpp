@@ -20,7 +20,7 @@ Result<void> Transient::begin(std::vector<double> x, bool settled, std::span<con
     newton_.limiting_state = system_.initial_limiting_state();
     newton_.context.with_charges = true, newton_.context.time = 0;
     system_.eval(x, newton_.context, newton_.limiting_state, newton_.evaluation);
-    stats_ = {}, equations_.iterations = 0, equations_.newton_control().quadratic_factor = 1;
+    stats_ = {}, order_limit_ = {}, equations_.iterations = 0, equations_.newton_control().quadratic_factor = 1;
     alternations_.assign(count, 0), damping_steps_ = 0, has_charge_.assign(count, 0);
     for (std::size_t n = 0; n < count; ++n)
         has_charge_[n] = newton_.evaluation.C[system_.pattern().entry_index(static_cast<int>(n), static_cast<int>(n))] != 0;
@@ -172,7 +172,9 @@ bool Transient::attempt(double t, double& error) {
 double Transient::worst_error() {
     equations_.solve_perturbation(error_);
     constexpr double uncharged_factor = 2;  // an unknown without charge may have a larger error, because this does not affect the next step
-    constexpr double sum_factor = 1.5;  // stricter than for afferents: the sum of the errors of many steps stays below ten allowed errors
+    // Stricter than for afferents: the sum of the errors of many steps stays below ten allowed errors. The errors of order 2 have one sign
+    // for longer.
+    const double sum_factor = order_limit_.is_limiting() ? 6 : 1.5;
     double worst = 0;
     uncharged_error_ = 0;
     for (std::size_t n = 0; n < error_.size(); ++n)
@@ -273,7 +275,12 @@ double Transient::error_of(int order) {
 
 /// Chooses the order and length of the next step after an accepted step of this length (s) and error.
 void Transient::choose_step(double h, double error) {
-    const int points = history_points_.count(), highest = std::min(uses_trapezoidal() ? 2 : plan_.max_order, points - 1);
+    const int max_order = plan_.all_reported ? order_limit_.highest(plan_.max_order) : plan_.max_order;
+    const int points = history_points_.count(), highest = std::min(uses_trapezoidal() ? 2 : max_order, points - 1);
+    if (plan_.all_reported && !uses_trapezoidal()) {
+        order_limit_.add_step(h, control_.order);
+        control_.order = std::min(control_.order, max_order);
+    }
     if (!uses_trapezoidal()) return control_.choose(h, error, points, highest, [this](int order) { return error_of(order); });
     const double factor = StepControl::growth_factor(error, control_.order);
     control_.order = std::max(1, highest);

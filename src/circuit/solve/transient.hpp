@@ -2,6 +2,7 @@
 // Transient analysis: integrates f(x, t) + dq(x)/dt = 0 with steps as long as the tolerances allow.
 
 #include "circuit/solve/history.hpp"
+#include "circuit/solve/order_limit.hpp"
 #include "circuit/solve/state_archive.hpp"
 #include "circuit/solve/state_change_search.hpp"
 #include "circuit/solve/step_equations.hpp"
@@ -51,6 +52,7 @@ private:
     StepEquations equations_;
     History history_points_;
     StepControl control_;
+    OrderLimit order_limit_;
     StateChangeSearch state_change_;
     double last_change_ = 0;          // s: time of the last change of a state
     int shortest_steps_ = 0;          // number of successive steps of the shortest length
@@ -64,11 +66,11 @@ private:
         first_step,  // the next step is the first normal one after a breakpoint, which is short
         breakpoint   // the next step ends immediately after a breakpoint
     } start_phase_ = StartPhase::none;
-    int curve_points_ = 0;        // points of the interpolation in the last step; 0: not determined, see interpolation_points()
-    double uncharged_error_ = 0;  // largest error of an unknown without charge in the last step, relative to the allowed error
-    double voltage_scale_ = 0;    // V: scale of the rounding error of charges
-    bool converged_ = false;      // the current step
-    std::vector<double> capacitance_;                     // F, by equation: sum of the magnitudes in its row of C
+    int curve_points_ = 0;             // points of the interpolation in the last step; 0: not determined, see interpolation_points()
+    double uncharged_error_ = 0;       // largest error of an unknown without charge in the last step, relative to the allowed error
+    double voltage_scale_ = 0;         // V: scale of the rounding error of charges
+    bool converged_ = false;           // the current step
+    std::vector<double> capacitance_;  // F, by equation: sum of the magnitudes in its row of C
     // By unknown: its rounding error in the present step, A or V, and the same over leading_ in the step that was measured last.
     std::vector<double> rounding_, charge_rounding_;
     // By unknown. scale_ is the largest magnitude so far. The error at the end of a step is compared with allowed_error_ (0: not
