@@ -35,13 +35,13 @@ std::string Refusals::message_of(const Refusal& refusal) {
 }
 
 Error Refusals::combined() const {
-    auto sorted = refusals_;
-    std::ranges::stable_sort(sorted, {}, &Refusal::kind);
     std::vector<Error> errors;
-    for (auto& refusal : sorted) {
-        refusal.error.message = message_of(refusal);
-        errors.push_back(std::move(refusal.error));
-    }
+    for (const auto kind : {Kind::device, Kind::directive, Kind::other})
+        for (const auto& refusal : refusals_) {
+            if (refusal.kind != kind) continue;
+            errors.push_back(refusal.error);
+            errors.back().message = message_of(refusal);
+        }
     if (errors.size() > max_told) {
         const auto more = errors.size() - max_told;
         errors.resize(max_told);

@@ -31,9 +31,9 @@ double max_voltage_step(const System& system) {
 /// Limits the change of each node voltage in one iteration. The limit of a voltage that has reached it several times in the same direction
 /// doubles with each further time, since the solution may be far away: an amplifier model may have megavolts inside.
 class VoltageStepLimit {
-    static constexpr int usual_steps = 8;  // steps of the first limit: more than a circuit without internal gain needs
-    double first_;                         // V; 0: no limit
-    std::vector<int> limited_;             // by unknown: how often the limit was reached in a row, negative for falling voltages
+    static constexpr int usual_steps = 40;  // steps of the first limit: more than a circuit without internal gain needs
+    double first_;                          // V; 0: no limit
+    std::vector<int> limited_;              // by unknown: how often the limit was reached in a row, negative for falling voltages
 
 public:
     VoltageStepLimit(double first, std::size_t unknowns) : first_(first), limited_(first > 0 ? unknowns : 0) {}

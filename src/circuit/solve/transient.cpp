@@ -210,11 +210,11 @@ void Transient::measure_rounding() {
     }
 }
 
-/// True if the rounding error that measure_rounding() has found exceeds the tolerance of an unknown.
+/// True if the rounding error that measure_rounding() has found exceeds the tolerance of an unknown by far.
 bool Transient::is_rounding_visible() {
     const auto& x = history_points_.next_point().x;
     for (std::size_t n = 0; n < rounding_.size(); ++n)
-        if (tolerance_[n] > 0 && rounding_[n] > tolerance_[n] + plan_.reltol * std::abs(x[n])) return true;
+        if (tolerance_[n] > 0 && rounding_[n] > 100 * (tolerance_[n] + plan_.reltol * std::abs(x[n]))) return true;
     return false;
 }
 
@@ -275,9 +275,11 @@ double Transient::error_of(int order) {
 
 /// Chooses the order and length of the next step after an accepted step of this length (s) and error.
 void Transient::choose_step(double h, double error) {
-    const int max_order = plan_.all_reported ? order_limit_.highest(plan_.max_order) : plan_.max_order;
+    constexpr double least_reltol = 1e-7;  // order 2 would take too many steps
+    const bool limits_order = plan_.all_reported && !uses_trapezoidal() && plan_.reltol >= least_reltol;
+    const int max_order = limits_order ? order_limit_.highest(plan_.max_order) : plan_.max_order;
     const int points = history_points_.count(), highest = std::min(uses_trapezoidal() ? 2 : max_order, points - 1);
-    if (plan_.all_reported && !uses_trapezoidal()) {
+    if (limits_order) {
         order_limit_.add_step(h, control_.order);
         control_.order = std::min(control_.order, max_order);
     }
