@@ -42,9 +42,9 @@ Error Refusals::combined() const {
             errors.push_back(refusal.error);
             errors.back().message = message_of(refusal);
         }
-    if (errors.size() > max_told) {
-        const auto more = errors.size() - max_told;
-        errors.resize(max_told);
+    if (errors.size() > max_reported) {
+        const auto more = errors.size() - max_reported;
+        errors.resize(max_reported);
         errors.push_back(bad_input(fmt::format("{} further errors", more)));
     }
     Error out = std::move(errors.front());

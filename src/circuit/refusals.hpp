@@ -14,12 +14,12 @@ public:
     enum class Kind { device, directive, other };
 
     bool empty() const { return refusals_.empty(); }
-    /// True if there are so many errors that further ones need not be looked for.
+    /// True if the limit is reached, so that further errors need not be looked for.
     bool is_full() const { return refusals_.size() >= max_refusals; }
     /// Adds an error, unless one with the same text is there already.
     void add(Error, Kind = Kind::other);
-    /// Adds the error of an element whose device does not exist here. Of several elements with the same subject, such as their letter, the
-    /// error of the first is told, with the names of the others.
+    /// Adds the error of an element whose device does not exist here. For several elements with the same subject, such as their letter, the
+    /// message is that of the first, with the names of the others.
     void add_device(Error, const std::string& subject, std::string name);
     /// Takes over the missing devices of another list, and nothing else.
     void add_devices_of(const Refusals&);
@@ -37,7 +37,7 @@ private:
     std::vector<Refusal> refusals_;
     std::set<std::string> texts_;  // of the errors
 
-    static constexpr std::size_t max_refusals = 1000, max_names = 5, max_told = 20;
+    static constexpr std::size_t max_refusals = 1000, max_names = 5, max_reported = 20;
 
     static std::string message_of(const Refusal&);
 };

@@ -161,7 +161,7 @@ TEST(ForeignMeasure, OfAVectorOfAScriptIsLeftOut) {
         << run.warnings()[0].text();
 }
 
-TEST(ForeignMeasure, ThatIsLeftOutIsToldAndTheOthersAreComputed) {
+TEST(ForeignMeasure, ThatIsLeftOutIsReportedAndTheOthersAreComputed) {
     const TemporaryFolder folder;
     folder.write("x.cir", wave + ".meas tran x max p(r1)\n.meas tran y max v(b)\n.meas ac z max v(b)\n.end\n");
     const auto ran = run_program(folder, "run x.cir");

@@ -1,6 +1,8 @@
-// All errors of a netlist are told at once, the worst first.
+// All errors of a netlist are reported at once, the worst first.
 
 #include <gtest/gtest.h>
+
+#include <fmt/format.h>
 
 #include "circuit/devices.hpp"
 #include "circuit/netlist_runner.hpp"
@@ -8,7 +10,7 @@
 namespace corpuscle::circuit {
 namespace {
 
-/// The texts of all errors of a netlist, without their files; one per line.
+/// All errors of a netlist, one per line, as LINE.COLUMN MESSAGE.
 std::string errors_of(const std::string& body) {
     const auto no_file = [](const std::string&) -> Result<std::string> { return bad_input("there is no such file"); };
     const auto netlist = Netlist::parse("faults\n" + body, "faults.cir", no_file);
@@ -20,7 +22,9 @@ std::string errors_of(const std::string& body) {
             if (const auto context = AnalysisContext::make(std::make_shared<const Circuit>(*circuit)); !context) error = context.error();
     }
     if (!error) return "";
-    const auto short_text = [](Error e) { return e.location.file = "", e.text() + "\n"; };
+    const auto short_text = [](const Error& e) {
+        return e.location.line > 0 ? fmt::format("{}.{} {}\n", e.location.line, e.location.column, e.message) : e.message + '\n';
+    };
     std::string out = short_text(*error);
     if (error->further)
         for (const auto& other : *error->further) out += short_text(other);
@@ -30,28 +34,28 @@ std::string errors_of(const std::string& body) {
 TEST(Refusals, NameMissingDevicesBeforeDirectivesBeforeAllElse) {
     EXPECT_EQ(errors_of("r1 a\n.hb 1k\nj1 a b 0 jm\nv1 a 0 1\nj2 a b 0 jm\nm1 a a 0 0 bsim w=1u foo=2\n.model bsim nmos level=14 bar=1\n"
                         ".include nowhere.inc\nj3 a b 0 jm\n"),
-              "line 4:1: 'j1': unknown element letter j (junction field-effect transistor); known are " + element_letters() +
+              "4.1 'j1': unknown element letter j (junction field-effect transistor); known are " + element_letters() +
                   "; also j2, j3\n"
-                  "line 7:12: m1: model 'bsim' has level 14, which is not supported; use " +
+                  "7.12 m1: model 'bsim' has level 14, which is not supported; use " +
                   supported_levels('m') +
                   "\n"
-                  "line 3:1: unknown statement '.hb'\n"
-                  "line 9:10: 'nowhere.inc': there is no such file\n");
+                  "3.1 unknown statement '.hb'\n"
+                  "9.10 'nowhere.inc': there is no such file\n");
 }
 
-TEST(Refusals, OfElementsAreToldTogether) {
+TEST(Refusals, OfElementsAreReportedTogether) {
     EXPECT_EQ(errors_of("r1 a\nr2 a 0 {x}\nr3 a 0 1k foo=1\nr4 a 0 1k\n"),
-              "line 2:5: r1: 1 node, but expected 2: plus, minus, then a value or a model\n"
-              "line 3:9: unknown name 'x'\n"
-              "line 4:11: r3: unknown parameter 'foo'\n");
+              "2.5 r1: 1 node, but expected 2: plus, minus, then a value or a model\n"
+              "3.9 unknown name 'x'\n"
+              "4.11 r3: unknown parameter 'foo'\n");
     EXPECT_EQ(errors_of("v1 a 0 1\nd1 a 0 d1\nd2 a 0 d2\n.model d1 d(is=-1)\n.model d2 d(foo=1)\n"),
-              "line 5:1: d1: is = -1 A is outside [1e-40, 1000]\nline 6:1: d2: unknown parameter 'foo'\n");
+              "5.1 d1: is = -1 A is outside [1e-40, 1000]\n6.1 d2: unknown parameter 'foo'\n");
 }
 
-TEST(Refusals, OfASubcircuitAreToldOnceForAllItsInstances) {
+TEST(Refusals, OfASubcircuitAreReportedOnceForAllItsInstances) {
     std::string body = ".subckt s a\nr1 a 0 {x}\n.ends\n";
     for (int k = 0; k < 50; ++k) body += "x" + std::to_string(k) + " a s\n";
-    EXPECT_EQ(errors_of(body), "line 3:9: unknown name 'x'\n");
+    EXPECT_EQ(errors_of(body), "3.9 unknown name 'x'\n");
 }
 
 TEST(Refusals, BeyondTwentyAreCounted) {
@@ -59,12 +63,12 @@ TEST(Refusals, BeyondTwentyAreCounted) {
     for (int k = 0; k < 3000; ++k) body += "r" + std::to_string(k) + " a 0 {x}\n";
     const auto text = errors_of(body);
     EXPECT_EQ(std::count(text.begin(), text.end(), '\n'), 21);
-    EXPECT_NE(text.find("line 21:10: unknown name 'x'\n980 further errors\n"), std::string::npos) << text;
+    EXPECT_NE(text.find("21.10 unknown name 'x'\n980 further errors\n"), std::string::npos) << text;
 }
 
 TEST(Refusals, DoNotContainWhatOnlyFollowsFromOtherErrors) {
     // The include that fails would define the model and the subcircuit.
-    EXPECT_EQ(errors_of(".include lost.inc\nd1 a 0 dm\nx1 a 0 lost\nr1 a 0 1\n"), "line 2:10: 'lost.inc': there is no such file\n");
+    EXPECT_EQ(errors_of(".include lost.inc\nd1 a 0 dm\nx1 a 0 lost\nr1 a 0 1\n"), "2.10 'lost.inc': there is no such file\n");
 }
 
 }  // namespace
