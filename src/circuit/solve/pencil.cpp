@@ -72,7 +72,6 @@ double typical_frequency(const Pencil& p) {
 
 /// All eigenvalues with their vectors, from LAPACK.
 class DenseSolver {
-    const Pencil& p_;
     int n_;
     std::size_t rows_;
     double scale_;                         // rad/s; LAPACK's eigenvalues are s / scale
@@ -80,7 +79,7 @@ class DenseSolver {
     std::vector<double> re_, im_, beta_, lscale_, rscale_, rconde_, rcondv_, work_;
 
 public:
-    explicit DenseSolver(const Pencil& p) : p_(p), n_(p.size), rows_(static_cast<std::size_t>(p.size)), scale_(typical_frequency(p)) {
+    explicit DenseSolver(const Pencil& p) : n_(p.size), rows_(static_cast<std::size_t>(p.size)), scale_(typical_frequency(p)) {
         for (auto* matrix : {&a_, &b_, &vl_, &vr_}) matrix->resize(rows_ * rows_);
         for (auto* vector : {&re_, &im_, &beta_, &lscale_, &rscale_, &rconde_, &rcondv_}) vector->resize(rows_);
         for (const auto& e : p.entries) {
@@ -206,7 +205,8 @@ Result<std::vector<Complex>> finite_eigenvalues(const Pencil& p) {
     const double smallest = epsilon * typical_frequency(p);
     for (auto& pair : pairs)
         if (std::abs(pair.s) < smallest) pair.s = 0;
-    std::ranges::stable_sort(pairs, {}, [](const EigenPair& pair) { return std::abs(pair.s); });
+    // By magnitude; of two conjugates, that with the positive imaginary part first.
+    std::ranges::sort(pairs, {}, [](const EigenPair& pair) { return std::pair(std::abs(pair.s), -pair.s.imag()); });
     std::vector<Complex> out;
     for (const auto& pair : pairs) {
         // Rounding may split a double real root into a pair.
