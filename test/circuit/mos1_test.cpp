@@ -135,8 +135,6 @@ TEST(Mos1, ErrorsSayWhatIsExpected) {
     EXPECT_EQ(error_of(circuit + "\n" + card_line("ld=0.6u")), "t.cir:3:1: m1: l = 1e-06 m is not longer than 2 ld = 1.2e-06 m");
     EXPECT_EQ(error_of(circuit + "\n" + card_line("tox=10n nsub=1e9")),
               "t.cir:4:1: n: nsub = 1e+09 must be above the intrinsic carrier density, 1.45e+10 1/cm^3");
-    EXPECT_EQ(error_of(circuit + "\n" + card_line("theta=0.1")),
-              "t.cir:4:1: n: theta is a parameter of levels 2 and 3, which level 1 does not have; remove it");
     EXPECT_EQ(error_of(circuit + "\n" + card_line("theta=0")), "");
     EXPECT_EQ(error_of(circuit + "\n" + card_line("vtoo=1")), "t.cir:4:1: n: unknown parameter 'vtoo'; did you mean 'vto'?");
 }
@@ -269,6 +267,14 @@ TEST(Mos1, ChipsWithBothKindsHaveTheSameSpikesAloneAndOnLanes) {
     const auto alone = first_copy(folder, 1);
     EXPECT_GT(std::count(alone.begin(), alone.end(), '\n'), 50);
     EXPECT_EQ(alone, first_copy(folder, 3));
+}
+
+TEST(Mos1, ParametersOfHigherLevelsHaveNoEffectWithAWarning) {
+    const std::string circuit = "levels\nvd d 0 3\nm1 d d 0 0 n w=10u l=1u\nm2 d d 0 0 n w=10u l=1u\n.model n nmos(level=1 vto=1 kp=20u ";
+    const auto plain = run_netlist(circuit + ")\n.op\n"), with_theta = run_netlist(circuit + "theta=0.1)\n.op\n");
+    EXPECT_EQ(plain.number("i(vd)"), with_theta.number("i(vd)"));
+    ASSERT_EQ(with_theta.warnings().size(), plain.warnings().size() + 1) << "one for both transistors";
+    EXPECT_NE(with_theta.warnings()[0].message.find("theta is a parameter of levels 2 and 3, and has no effect"), std::string::npos);
 }
 
 }  // namespace

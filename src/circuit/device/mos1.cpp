@@ -140,12 +140,21 @@ Result<std::string> write_mos1(const ElementExport& e) {
     return out + e.temperature() + '\n';
 }
 
+/// Parameters of other levels have no effect, with a warning, as in ngspice: cards written for level 3 are often run as level 1.
+Result<void> read_mos1_line(ElementReader& line) {
+    TRY(read_mos_line(line));
+    for (const auto name : parameters_of_higher_levels())
+        if (line.model_value(name).value_or(0) != 0)
+            line.warn_about_model(fmt::format("{} is a parameter of levels 2 and 3, and has no effect", name));
+    return {};
+}
+
 }  // namespace
 
 extern constexpr DeviceKind mos1_kind = {.letter = 'm',
                                          .level = 1,
                                          .description = "MOS transistor, SPICE level 1",
-                                         .read = read_mos_line,
+                                         .read = read_mos1_line,
                                          .make = make_mos1,
                                          .parameters = mos_parameters,
                                          .other_names = mos_names,

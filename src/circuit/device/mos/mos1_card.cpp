@@ -56,11 +56,9 @@ BulkJunction junction(const Mos1Card& c, bool cap_given, double cap, double area
 
 }  // namespace
 
+std::span<const std::string_view> parameters_of_higher_levels() { return higher_levels; }
+
 Result<Mos1Card> read_mos1_card(const Model& model) {
-    for (const auto name : higher_levels)
-        if (value_or(model.values, name, 0) != 0)
-            return error_at(model.location, "{}: {} is a parameter of levels 2 and 3, which level 1 does not have; remove it", model.name,
-                            name);
     auto c = TRY(read_model_card<Mos1Card>(
         Mos1Card::fields, model,
         {"level", "vt0", "uo", "nfs", "xj", "delta", "theta", "eta", "kappa", "ucrit", "uexp", "utra", "vmax", "neff", "xqc"}));

@@ -59,6 +59,9 @@ struct Mos1Constants {
     double kelvin;
 };
 
+/// The parameters of levels 2 and 3 that have no effect here.
+std::span<const std::string_view> parameters_of_higher_levels();
+
 /// Reads the card and computes what SPICE derives from tox, nsub, u0, tpg and nss.
 Result<Mos1Card> read_mos1_card(const Model&);
 Result<Mos1Constants> mos1_constants(const Mos1Card&, const MosSize&, double kelvin, bool pmos);
