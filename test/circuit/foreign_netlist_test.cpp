@@ -179,6 +179,12 @@ TEST(ForeignNetlist, AnUnknownParameterOfASubcircuitHasNoEffectUnlessItLooksLike
     EXPECT_NE(circuit.error().message.find("did you mean 'width'?"), std::string::npos);
 }
 
+TEST(ForeignNetlist, AStatementOfASubcircuitWarnsOnceForAllItsInstances) {
+    std::string body = "once\n.subckt s a\nr1 a 0 1k\n.ends\n.subckt t a\nx1 a s bogus=1\n.ends\nv1 a 0 1\n";
+    for (int k = 0; k < 50; ++k) body += "x" + std::to_string(k) + " a t\n";
+    EXPECT_EQ(run_netlist(body + ".op\n").warnings().size(), 1U);
+}
+
 TEST(ForeignNetlist, RatingsInModelsHaveNoEffect) {
     const auto run = run_netlist(
         "ratings\nv1 a 0 0.6\nd1 a 0 d1n4148\n.model D1N4148 D(Is=2.52n N=1.752 Iave=200m Vpk=75 mfg=OnSemi type=silicon)\n.op\n");

@@ -22,6 +22,8 @@ class CircuitElaborator {
         bool is_ic;  // true: from .ic; false: from .nodeset
     };
     std::vector<NodeVoltage> node_voltages_;
+    /// Names with a path in the .ic and .nodeset lines of the top level; for a port, the node that it is connected to, else -1.
+    std::unordered_map<std::string, int> ports_in_ic_;
 
 public:
     CircuitElaborator(const ParsedNetlist& parsed, const ResolvedOverrides& overrides, std::optional<RandomDraws> draws)
@@ -37,6 +39,7 @@ public:
         TRY(define_top(given));
         c.parameters = top_.parameters;
         TRY(read_settings());
+        find_paths_in_ic();
         TRY(elaborate_contents(top_));
         if (!builder_.refusals.empty()) return builder_.refusals.combined();
         TRY(check_references());
@@ -52,6 +55,17 @@ public:
     const Refusals& refusals() const { return builder_.refusals; }
 
 private:
+    void find_paths_in_ic() {
+        for (const auto* s : parsed_.top.ics)
+            for (std::size_t k = 1; k < s->words.size(); ++k) {
+                const auto text = s->text(k);
+                const auto close = text.find(')');
+                if (!text.starts_with("v(") || close == std::string_view::npos) continue;
+                const auto name = trimmed(text.substr(2, close - 2));
+                if (name.find('.') != std::string_view::npos) ports_in_ic_.emplace(name, -1);
+            }
+    }
+
     /// Warns if the netlist has random values, but nothing draws them.
     void warn_of_means(Circuit& c) const {
         const auto is_mc = [](const Directive& directive) { return directive.name == "mc"; };
@@ -144,12 +158,13 @@ private:
             const auto outside = s.text(words[k]);
             // A port that is named as ground is ground, as in ngspice and Xyce; the node that the line gives for it has no effect.
             if (is_ground(ports[k]) && !is_ground(outside))
-                builder_.circuit.warnings.push_back(error_at(s.location(words[k]),
-                                                             "{}: port {} of subcircuit '{}' is ground, so it is not connected to {}",
-                                                             s.text(0), ports[k], inner.definition->name, outside));
+                builder_.warn_once(error_at(s.location(words[k]), "{}: port {} of subcircuit '{}' is ground, so it is not connected to {}",
+                                            s.text(0), ports[k], inner.definition->name, outside));
             const int node = builder_.find_or_add_node(scope, outside);
             inner.ports.emplace(ports[k], node);
-            builder_.circuit.port_nodes.emplace(fmt::format("{}{}.{}", scope.path, s.text(0), ports[k]), node);
+            if (ports_in_ic_.empty()) continue;
+            const auto named = ports_in_ic_.find(fmt::format("{}{}.{}", scope.path, s.text(0), ports[k]));
+            if (named != ports_in_ic_.end()) named->second = node;
         }
         return {};
     }
@@ -200,7 +215,7 @@ private:
         auto error = error_at(s.location(pair.name), "{}: subcircuit '{}' has no parameter '{}'{}", s.text(0), body.name, name,
                               suggestion.empty() ? ", so it has no effect" : suggestion);
         if (!suggestion.empty()) return error;
-        builder_.circuit.warnings.push_back(std::move(error));
+        builder_.warn_once(std::move(error));
         return {};
     }
 
@@ -315,7 +330,8 @@ private:
     Result<void> resolve_node_voltages() {
         Circuit& c = builder_.circuit;
         for (const auto& voltage : node_voltages_) {
-            const int k = c.find_node(voltage.node);
+            const auto port = ports_in_ic_.find(voltage.node);
+            const int found = c.find_node(voltage.node), k = found < 0 && port != ports_in_ic_.end() ? port->second : found;
             if (k < 0) {
                 const auto suggestion = did_you_mean(voltage.node, c.nodes | std::views::drop(1));
                 if (!suggestion.empty()) return error_at(voltage.location, "unknown node '{}'{}", voltage.node, suggestion);

@@ -79,9 +79,7 @@ void ElementReader::warn(std::size_t word, std::string_view message) {
 
 void ElementReader::warn_about_model(std::string_view message) {
     const auto& model = builder_.circuit.models[static_cast<std::size_t>(element.model)];
-    auto warning = circuit::error_at(model.location, "{}: {}", model.name, message);
-    auto& warnings = builder_.circuit.warnings;
-    if (std::ranges::find(warnings, warning.text(), &Error::text) == warnings.end()) warnings.push_back(std::move(warning));
+    builder_.warn_once(circuit::error_at(model.location, "{}: {}", model.name, message));
 }
 
 Result<double> ElementReader::number(const NameValue& pair) {

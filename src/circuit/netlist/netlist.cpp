@@ -39,10 +39,7 @@ SourceLocation Directive::location_of(std::size_t word) const {
 int Circuit::find_node(std::string_view name) const {
     if (is_ground(name)) return 0;
     // The map is complete in an elaborated circuit; a circuit that was made in another way may have none.
-    if (node_numbers.size() == nodes.size()) {
-        const int k = index_of_name(node_numbers, name);
-        return k >= 0 ? k : index_of_name(port_nodes, name);
-    }
+    if (node_numbers.size() == nodes.size()) return index_of_name(node_numbers, name);
     const auto at = std::find(nodes.begin(), nodes.end(), name);
     return at == nodes.end() ? -1 : static_cast<int>(at - nodes.begin());
 }

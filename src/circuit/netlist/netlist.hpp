@@ -87,7 +87,6 @@ struct Circuit {
     std::uint64_t chip = 0;                                        ///< number of the chip among those of this seed, from 0
     bool has_random_values = false;                                ///< true if values differ from chip to chip; see RandomValues
 
-    std::unordered_map<std::string, int> port_nodes;  ///< nodes by the names that subcircuits have for their ports: "x1.in"
     std::unordered_map<std::string, int> node_numbers, element_numbers;  ///< indices by name, filled by Netlist::elaborate()
 
     /// The directives of this name, in the order of the netlist.

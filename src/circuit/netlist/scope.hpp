@@ -63,6 +63,7 @@ class CircuitBuilder {
     const ParsedNetlist& parsed_;
     std::size_t statement_count_ = 0, name_bytes_ = 0;  // elaborated statements; estimated memory of all names
     bool is_limit_exceeded_ = false;
+    std::set<std::string> warned_;  // texts of the warnings of warn_once()
 
 public:
     Circuit circuit;
@@ -85,6 +86,10 @@ public:
 
     /// Counts an elaborated statement and the memory of its name. Exceeding the limit of either is an error.
     Result<void> count_statement(const Scope&, const Statement&);
+    /// Adds a warning, unless one with the same text is there: a statement of a subcircuit is elaborated for each instance.
+    void warn_once(Error warning) {
+        if (warned_.insert(warning.text()).second) circuit.warnings.push_back(std::move(warning));
+    }
     bool is_limit_exceeded() const { return is_limit_exceeded_; }
 };
 
