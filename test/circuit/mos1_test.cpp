@@ -9,6 +9,7 @@
 
 #include "circuit/devices.hpp"
 #include "circuit/mos_checks.hpp"
+#include "circuit/netlist_runner.hpp"
 #include "support/ngspice.hpp"
 #include "support/program.hpp"
 

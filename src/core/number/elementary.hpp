@@ -2,6 +2,8 @@
 // exp, log, sin and cos, computed with + - * / and bit operations only. The results are therefore identical on every processor,
 // instruction set and lane width, unlike those of the C library. The error is at most a few units in the last place.
 
+#include <initializer_list>
+
 #include "core/number/number.hpp"
 
 namespace corpuscle::num {
