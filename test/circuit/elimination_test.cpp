@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <numeric>
 #include <random>
 
 #include "circuit/solve/elimination.hpp"
@@ -110,9 +111,33 @@ TEST(Elimination, AnArrowMatrixHasNoFillIn) {
     std::vector<int> order(10);
     for (int k = 0; k < 10; ++k) order[static_cast<std::size_t>(k)] = k;
     const std::vector<double> ones(pattern.entries(), 1);
-    const Elimination elimination(pattern, order, order, ones);
-    EXPECT_EQ(elimination.slots(), pattern.entries());
-    EXPECT_EQ(elimination.multiplications(), 9U);
+    const auto elimination = Elimination::make(pattern, order, order, ones, 9);
+    ASSERT_TRUE(elimination);
+    EXPECT_EQ(elimination->slots(), pattern.entries());
+    EXPECT_EQ(elimination->multiplications(), 9U);
+    EXPECT_FALSE(Elimination::make(pattern, order, order, ones, 8)) << "more multiplications than allowed";
+}
+
+TEST(Elimination, ALongChainIsListedWithoutFillIn) {
+    constexpr int n = 100'000;
+    std::vector<std::pair<int, int>> entries;
+    for (int k = 0; k < n; ++k) {
+        entries.emplace_back(k, k);
+        if (k > 0) entries.insert(entries.end(), {{k, k - 1}, {k - 1, k}});
+    }
+    SparseMatrix m{SparsityPattern(n, entries), {}};
+    for (std::size_t column = 0; column < n; ++column)
+        for (int e = m.pattern.column_begin()[column]; e < m.pattern.column_begin()[column + 1]; ++e)
+            m.values.push_back(m.pattern.rows()[static_cast<std::size_t>(e)] == static_cast<int>(column) ? 2.5 : -1);
+    std::vector<int> order(n);
+    std::iota(order.begin(), order.end(), 0);
+    auto elimination = Elimination::make(m.pattern, order, order, m.values, n);
+    ASSERT_TRUE(elimination);
+    EXPECT_EQ(elimination->slots(), m.pattern.entries());
+    ASSERT_TRUE(elimination->factor(m.values));
+    std::vector<double> x(n, 1.0);
+    elimination->solve(x);
+    for (std::size_t k : {0, 1, n / 2, n - 1}) EXPECT_NEAR(m.times(static_cast<int>(k), x), 1, 1e-12) << k;
 }
 
 TEST(Elimination, ReportsElementGrowthAndRejectsAMatrixThatNeedsOtherPivots) {

@@ -147,6 +147,8 @@ public:
     virtual bool set_force_input(const ForceWaveform*) { return false; }
     /// The first time after t (s) at which the source's waveform has a kink or a jump; infinity if there is none.
     virtual double next_breakpoint(double /*t*/) const { return std::numeric_limits<double>::infinity(); }
+    /// False if next_breakpoint() is always infinity.
+    virtual bool can_have_breakpoints() const { return false; }
     /// The longest time step (s) that resolves the source's waveform between its breakpoints.
     virtual double max_step() const { return std::numeric_limits<double>::infinity(); }
     /// For a linear device: true if its currents depend on time.

@@ -49,6 +49,7 @@ public:
     }
     double max_step() const override { return waveform_ ? waveform_->max_step() : Device::max_step(); }
     bool is_time_dependent() const override { return waveform_ || force_; }
+    bool can_have_breakpoints() const override { return true; }
     double next_breakpoint(double t) const override {
         return waveform_ ? waveform_->next_breakpoint(t) : force_ ? force_->next_breakpoint(t) : Device::next_breakpoint(t);
     }

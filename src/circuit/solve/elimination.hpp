@@ -2,6 +2,8 @@
 // Gaussian elimination of one sparsity pattern as a flat list of operations. The operations and their order do not depend on the values,
 // so one circuit and many circuits on lanes compute the same bits.
 
+#include <optional>
+#include <span>
 #include <vector>
 
 #include "circuit/lanes/kernels.hpp"
@@ -25,10 +27,13 @@ class Elimination {
     double growth_ = 0;
     mutable std::vector<double> work_;  // buffer of solve()
 
+    Elimination() = default;
+
 public:
     /// rows[k], columns[k]: row and column of A that elimination step k eliminates. values: a matrix from which the row scales are
-    /// computed.
-    Elimination(const SparsityPattern&, std::span<const int> rows, std::span<const int> columns, std::span<const double> values);
+    /// computed. Nothing if factor() would need more than `max_multiplications`.
+    static std::optional<Elimination> make(const SparsityPattern&, std::span<const int> rows, std::span<const int> columns,
+                                           std::span<const double> values, std::size_t max_multiplications);
 
     /// Returns false if the pivot order is not stable for these values (a pivot is far too small compared with its column).
     bool factor(std::span<const double> values);

@@ -95,13 +95,13 @@ bool LinearSolver<T>::factor_with_new_pivots(std::span<const T> values) {
 template <class T>
 void LinearSolver<T>::fix_pivot_order(std::span<const T> values) {
     if constexpr (!Impl::is_complex) {
-        constexpr int max_unknowns = 3000;  // since the constructor of Elimination needs a dense matrix of bytes
+        constexpr std::size_t max_multiplications = 500'000;  // above, KLU is faster: a list does not fit into the cache
         auto* numbers = const_cast<double*>(values.data());
-        if (impl_->symbolic == nullptr || impl_->size > max_unknowns || !impl_->factor(numbers)) return;
+        if (impl_->symbolic == nullptr || !impl_->factor(numbers)) return;
         std::vector<int> rows(static_cast<std::size_t>(impl_->size)), columns(rows.size());
         klu_extract(impl_->numeric, impl_->symbolic, nullptr, nullptr, nullptr, nullptr, nullptr, nullptr, nullptr, nullptr, nullptr,
                     rows.data(), columns.data(), nullptr, nullptr, &impl_->common);
-        list_.emplace(impl_->pattern, rows, columns, values);
+        list_ = Elimination::make(impl_->pattern, rows, columns, values, max_multiplications);
         fallback_count_ = 0;
     }
     (void)values;

@@ -63,8 +63,10 @@ Result<System> System::make(std::shared_ptr<const Circuit> circuit) {
     }
     if (!refusals.empty()) return refusals.combined();
     for (const auto& d : system.devices_) d->connect(system.devices_);
-    for (std::size_t k = 0; k < system.devices_.size(); ++k)
+    for (std::size_t k = 0; k < system.devices_.size(); ++k) {
         if (system.devices_[k]->next_change()) system.devices_with_states_.push_back(k);
+        if (system.devices_[k]->can_have_breakpoints()) system.devices_with_breakpoints_.push_back(k);
+    }
     system.reset_states();
     std::vector<std::pair<int, int>> entries;
     for (int k = 0; k < system.size(); ++k)
@@ -152,7 +154,7 @@ double System::max_step() const {
 
 double System::next_breakpoint(double t) const {
     double time = std::numeric_limits<double>::infinity();
-    for (const auto& d : devices_) time = std::min(time, d->next_breakpoint(t));
+    for (const auto k : devices_with_breakpoints_) time = std::min(time, devices_[k]->next_breakpoint(t));
     return time;
 }
 

@@ -54,7 +54,7 @@ class System {
     std::vector<std::vector<std::size_t>> entries_;  // by device, matrix entry of each derivative; for ground the number of entries
     std::vector<DeviceGroup> groups_;
     std::vector<std::size_t> scalar_devices_;  // indices of the devices in no group
-    std::vector<std::size_t> devices_with_states_;
+    std::vector<std::size_t> devices_with_states_, devices_with_breakpoints_;  // their indices
     int nodes_ = 0;
     bool is_linear_ = true;
 

@@ -26,10 +26,9 @@ void Transient::find_source_nodes() {
             source_node_index_[at(u)] = static_cast<int>(source_nodes_.size());
             source_nodes_.push_back({u, base, &d, plus ? -1.0 : 1.0});
         }
+    std::vector<char> added(count);
     const auto add_interpolated = [&](int u) {
-        if (u < 0 || source_node_index_[static_cast<std::size_t>(u)] >= 0 ||
-            std::find(interpolated_unknowns_.begin(), interpolated_unknowns_.end(), u) != interpolated_unknowns_.end())
-            return;
+        if (u < 0 || source_node_index_[static_cast<std::size_t>(u)] >= 0 || std::exchange(added[static_cast<std::size_t>(u)], 1)) return;
         if (plan_.method == Integration::bdf || system_.is_voltage(u))
             interpolated_unknowns_.push_back(u);  // currents ring with the trapezoidal rule
     };

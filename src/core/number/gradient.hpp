@@ -35,7 +35,8 @@ struct Gradient {
     }
     friend constexpr Gradient operator/(const Gradient& a, const Gradient& b) {
         Gradient out(a.v / b.v);
-        for (std::size_t k = 0; k < N; ++k) out.d[k] = (a.d[k] - out.v * b.d[k]) / b.v;
+        const double inverse = 1 / b.v;
+        for (std::size_t k = 0; k < N; ++k) out.d[k] = (a.d[k] - out.v * b.d[k]) * inverse;
         return out;
     }
     friend constexpr bool operator<(const Gradient& a, const Gradient& b) { return a.v < b.v; }
