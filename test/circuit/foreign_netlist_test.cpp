@@ -200,5 +200,34 @@ TEST(ForeignNetlist, ASidewallAndABreakdownMayHaveTheirOwnEmissionCoefficients) 
     EXPECT_NEAR(run.number("i(v2)") / (1e-3 * std::exp(0.1 / 3 / vt)), 1, 1e-5);
 }
 
+TEST(ForeignNetlist, AnElementWithABranchControlsACurrentSource) {
+    const auto run = run_netlist(
+        "controls\nv1 a 0 1\ne1 b 0 a 0 2\nb1 c 0 v=3*v(a)\nl1 a d 1m\nrb b 0 1\nrc c 0 1\nrd d 0 1\n"
+        "f1 0 x e1 -1\nr1 x 0 1\nh1 y 0 b1 -1\nf2 0 z l1 1\nr2 z 0 1\n.op\n");
+    EXPECT_NEAR(run.number("v(x)"), 2, 1e-9);
+    EXPECT_NEAR(run.number("v(y)"), 3, 1e-9);
+    EXPECT_NEAR(run.number("v(z)"), 1, 1e-9);
+}
+
+TEST(ForeignNetlist, ColonsSeparateInstanceAndNodeInInitialVoltages) {
+    const auto run = run_netlist(
+        "colons\n.subckt s in out\nr1 in mid 1k\nc1 mid out 1u\n.ends\nv1 a 0 0\nx_1 a 0 s\n.ic v(X_1:mid )=0.5 v(x_1:in)=0\n"
+        ".tran 1m 1m\n.meas tran v0 find v(x_1.mid) at=0\n.meas tran v1 find v(x_1.mid) at=1m\n");
+    EXPECT_NEAR(run.number("v0"), 0.5, 1e-6);
+    EXPECT_NEAR(run.number("v1"), 0.5 * std::exp(-1), 1e-5);
+}
+
+// The charges set the voltage of a node between capacitors.
+TEST(ForeignNetlist, ATransientFromGivenVoltagesNeedsNoPathToGround) {
+    const std::string chain = "chain\nv1 a 0 pulse(0 1 1u 1u 1u 1 2)\nc1 a b 1n\nc2 b c 1n ic=0.5\nr1 c 0 1k\n";
+    const auto run = run_netlist(chain + ".tran 1u 20u uic\n.meas tran b find v(b) at=1u\n.meas tran last find v(b) at=20u\n");
+    EXPECT_NEAR(run.number("last"), 0.5 * (1 + 0.5), 1e-4);
+    const auto circuit = parse_netlist_text(chain + ".tran 1u 20u uic\n.op\n")->elaborate();
+    ASSERT_TRUE(circuit);
+    const auto system = System::make(std::make_shared<const Circuit>(*circuit));
+    ASSERT_FALSE(system);
+    EXPECT_NE(system.error().message.find("no path to ground"), std::string::npos);
+}
+
 }  // namespace
 }  // namespace corpuscle::circuit

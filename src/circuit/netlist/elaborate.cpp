@@ -55,14 +55,19 @@ public:
     const Refusals& refusals() const { return builder_.refusals; }
 
 private:
+    /// The name in the circuit of a node that Xyce calls x1:a.
+    static std::string with_dots(std::string name) {
+        std::ranges::replace(name, ':', '.');
+        return name;
+    }
     void find_paths_in_ic() {
         for (const auto* s : parsed_.top.ics)
             for (std::size_t k = 1; k < s->words.size(); ++k) {
                 const auto text = s->text(k);
                 const auto close = text.find(')');
                 if (!text.starts_with("v(") || close == std::string_view::npos) continue;
-                const auto name = trimmed(text.substr(2, close - 2));
-                if (name.find('.') != std::string_view::npos) ports_in_ic_.emplace(name, -1);
+                const auto name = with_dots(std::string(trimmed(text.substr(2, close - 2))));
+                if (name.find('.') != std::string::npos) ports_in_ic_.emplace(name, -1);
             }
     }
 
@@ -237,8 +242,7 @@ private:
                 if (has_role(e, Role::inductor)) continue;
                 return error_at(p.location, "{}: '{}' is not an inductor", p.user, p.name);
             }
-            const bool has_current = p.target == ForwardRef::Target::current ? has_branch_current(e) : has_role(e, Role::voltage_source);
-            if (!has_current)
+            if (!has_branch_current(e))
                 return error_at(p.location, "{}: '{}' is not a voltage source; put a 0 V source in series to measure its current", p.user,
                                 p.name);
         }
@@ -330,8 +334,12 @@ private:
     Result<void> resolve_node_voltages() {
         Circuit& c = builder_.circuit;
         for (const auto& voltage : node_voltages_) {
-            const auto port = ports_in_ic_.find(voltage.node);
-            const int found = c.find_node(voltage.node), k = found < 0 && port != ports_in_ic_.end() ? port->second : found;
+            int k = c.find_node(voltage.node);
+            if (k < 0) {
+                const auto name = with_dots(voltage.node);
+                const auto port = ports_in_ic_.find(name);
+                k = port != ports_in_ic_.end() && port->second >= 0 ? port->second : c.find_node(name);
+            }
             if (k < 0) {
                 const auto suggestion = did_you_mean(voltage.node, c.nodes | std::views::drop(1));
                 if (!suggestion.empty()) return error_at(voltage.location, "unknown node '{}'{}", voltage.node, suggestion);

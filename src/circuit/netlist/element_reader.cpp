@@ -89,7 +89,7 @@ Result<double> ElementReader::number(const NameValue& pair) {
 
 void ElementReader::control_source(std::size_t word) {
     element.control_source = scope_.path + std::string(text(word));
-    builder_.forward_refs.push_back({element.control_source, s_.location(word), std::string(name_), ForwardRef::Target::source});
+    builder_.forward_refs.push_back({element.control_source, s_.location(word), std::string(name_), ForwardRef::Target::current});
 }
 
 void ElementReader::inductor(std::size_t word) {

@@ -54,9 +54,9 @@ struct ForwardRef {
     std::string name;  ///< full path
     SourceLocation location;
     std::string user;  ///< the element that uses the name, for the error message
-    /// The name must be that of a node (of v(...)), of a voltage source (of F, H), of an inductor (of K), or of an element whose current is
-    /// an unknown (of i(...)).
-    enum class Target { node, source, inductor, current } target;
+    /// The name must be that of a node (of v(...)), of an element whose current is an unknown (of F, H, W and i(...)), or of an inductor
+    /// (of K).
+    enum class Target { node, current, inductor } target;
 };
 
 class CircuitBuilder {

@@ -1,6 +1,6 @@
-#include "circuit/solve/system.hpp"
-
+#include "circuit/analyses.hpp"
 #include "circuit/devices.hpp"
+#include "circuit/solve/system.hpp"
 #include "core/text/ascii_text.hpp"
 
 namespace corpuscle::circuit {
@@ -68,6 +68,18 @@ Result<void> check_voltage_loops(const Circuit& c) {
     return {};
 }
 
+/// False if all analyses are transients that begin with given voltages (uic); the charges of capacitors then set the voltages of nodes.
+bool needs_operating_point(const Circuit& c) {
+    bool has_transient = false;
+    for (const auto& d : c.directives) {
+        if (d.name == "tran" && !d.words.empty() && d.words.back() == "uic")
+            has_transient = true;
+        else if (find_analysis(d.name) != nullptr)
+            return true;
+    }
+    return !has_transient;
+}
+
 }  // namespace
 
 Result<void> check_solvable(const Circuit& c) {
@@ -76,7 +88,7 @@ Result<void> check_solvable(const Circuit& c) {
                      [](const Element& e) { return std::find(e.nodes.begin(), e.nodes.end(), 0) != e.nodes.end(); }))
         return error_at(c.elements[0].location, "no element is connected to ground (node 0)");
     TRY(check_voltage_loops(c));
-    return check_floating_nodes(c);
+    return needs_operating_point(c) ? check_floating_nodes(c) : Result<void>();
 }
 
 }  // namespace corpuscle::circuit
