@@ -2,17 +2,18 @@
 
     circuits.py build/release/corpuscle [CIRCUIT ...]
 
-Each circuit runs in both programs with several tolerances (reltol). The error is measured against the program's own run at the tightest
-tolerance: the rms difference of the curves, as straight lines between the written points, over the span; for rings, the relative
-difference of the period. The time is that of the processor for the whole process (user and system), the median of alternating runs.
-The ratio is ngspice's time over ours, where both have the same error: between two tolerances, log(time) is interpolated over log(error).
-It is given at the error of Corpuscle's default tolerance, and at that of ngspice's, if the other program reaches that error.
+Each circuit runs in both programs with several tolerances (reltol). The error of a run is measured against a run of Corpuscle at 1e-8: the
+rms difference of one curve, with straight lines between the written points, over its span. For rings it is the relative difference of the
+period, against the program's own most exact run (ngspice: 1e-7), since the models of the transistors differ. The time is that of the
+processor for the whole process, user and system, the median of ROUNDS (3) alternating runs; for rings it is divided by the number of
+periods. At each error, 1e-2 to 1e-6, the last lines give ngspice's time over ours. log(time) is interpolated over log(error) between two
+tolerances. A program whose roughest run is more exact than that has the time of its fastest run.
 
     line N    N resistors in series, a capacitor to ground at each node, a step at one end
     mesh N    N x N nodes, a resistor to each neighbour, a capacitor to ground, a step at one corner
     ladder N  N inductors in series, a capacitor to ground at each node, matched at both ends; a pulse travels through it
-    ring N    N inverters in a ring, with 20 fF at each node: here with UICM transistors, in ngspice with those of level 1, and both
-              (`ring1`) with level 1. The threshold and the current factor of level 1 make the periods similar
+    ring N    N inverters in a ring with 20 fF at each node: UICM transistors here, level 1 in ngspice
+    ring1_N   the same with level 1 in both
     rectifier four diodes in a bridge, 10 uF and 1 kohm, 20 periods of 50 Hz
 """
 
@@ -122,29 +123,25 @@ def period(t, v):
     return (edges[-1] - edges[2]) / (len(edges) - 3), len(edges)
 
 
-def error(name, curve, reference):
+def error(is_ring, curve, reference):
     """Of a curve against the reference."""
-    if name.startswith("ring"):
+    if is_ring:
         return abs(period(*curve)[0] / period(*reference)[0] - 1)
     t = np.linspace(0, reference[0][-1], 20001)
     expected = np.interp(t, *reference)
     return math.sqrt(np.mean((np.interp(t, *curve) - expected) ** 2)) / np.ptp(expected)
 
 
-def ratio(ours, theirs, is_default_of_ours):
-    """The quotient of times at the error of one program's default, as text. Outside the other's range of errors it is a bound."""
-    fixed, others = (ours, theirs) if is_default_of_ours else (theirs, ours)
-    seconds, target = next((s, e) for tolerance, s, e in fixed if tolerance is None)
-    points = sorted((e, s) for _, s, e in others)
-    quotient = (lambda other: other / seconds) if is_default_of_ours else (lambda other: seconds / other)
-    if target < points[0][0]:  # its most exact run is not exact enough
-        return f"{'more' if is_default_of_ours else 'less'} than {quotient(points[0][1]):.2f}", target
-    if target > points[-1][0]:  # its roughest run is more exact
-        fastest = min(s for _, s in points)
-        return f"{'at most' if is_default_of_ours else 'at least'} {quotient(fastest):.2f}", target
-    k = next(k for k in range(len(points) - 1) if points[k + 1][0] >= target)
+def time_at(points, target):
+    """Seconds at an error, by interpolation; infinite if no run is that exact."""
+    points = sorted((e, s) for e, s in points if e > 0)
+    if target < points[0][0]:
+        return math.inf
+    if target >= points[-1][0]:
+        return min(s for _, s in points)
+    k = next(k for k in range(len(points) - 1) if points[k + 1][0] > target)
     (e0, s0), (e1, s1) = points[k], points[k + 1]
-    return f"{quotient(s0 * (s1 / s0) ** (math.log(target / e0) / math.log(e1 / e0))):.2f}", target
+    return s0 * (s1 / s0) ** (math.log(target / e0) / math.log(e1 / e0))
 
 
 def compare(program, name, n, directory):
@@ -168,21 +165,20 @@ def compare(program, name, n, directory):
             if turn == 0 or job[1] != TOLERANCES[job[0]][-1]:
                 seconds, values = simulate(command, out, curve)
                 results.setdefault(job, ([], values))[0].append(seconds)
-    reference = {kind: results["Corpuscle" if name != "ring" else kind, TOLERANCES["Corpuscle" if name != "ring" else kind][-1]][1]
-                 for kind in TOLERANCES}
+    is_ring = name.startswith("ring")
     points = {kind: [] for kind in TOLERANCES}
     for (kind, tolerance), (seconds, values) in results.items():
-        e, spent = error(name, values, reference[kind]), statistics.median(seconds)
-        rings = ""
-        if name.startswith("ring"):
-            spent /= period(*values)[1]
-            rings = f" per period of {period(*values)[0] * 1e9:.4f} ns"
+        most_exact = kind if is_ring else "Corpuscle"
+        e, spent, rings = error(is_ring, values, results[most_exact, TOLERANCES[most_exact][-1]][1]), statistics.median(seconds), ""
+        if is_ring:
+            length, edges = period(*values)
+            spent, rings = spent / edges, f" per period of {length * 1e9:.4f} ns"
+        points[kind].append((e, spent))
         print(f"{name} {n or ''}, {kind}, reltol {tolerance or 'default'}: {spent:.3g} s{rings}, {len(values[0])} points, error {e:.1e}", flush=True)
-        if tolerance != TOLERANCES[kind][-1]:
-            points[kind].append((tolerance, spent, e))
-    for kind in points:
-        text, target = ratio(points["Corpuscle"], points["ngspice"], kind == "Corpuscle")
-        print(f"{name} {n or ''}, ratio at the default error of {kind} ({target:.1e}): {text}", flush=True)
+    for target in 1e-2, 1e-3, 1e-4, 1e-5, 1e-6:
+        ours_at, theirs_at = time_at(points["Corpuscle"], target), time_at(points["ngspice"], target)
+        if math.inf not in (ours_at, theirs_at):
+            print(f"{name} {n or ''}, ratio at an error of {target:g}: {theirs_at / ours_at:.2f}", flush=True)
 
 
 def main():

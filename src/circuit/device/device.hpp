@@ -199,8 +199,9 @@ public:
 class DeviceSetup {
 public:
     virtual ~DeviceSetup() = default;
-    virtual int node_unknown(int number) const = 0;        ///< unknown of the voltage of Circuit::nodes[number]; -1: ground
-    virtual int branch_unknown(int element) const = 0;     ///< unknown of the current through Circuit::elements[element]; -1: there is none
+    virtual int node_unknown(int number) const = 0;     ///< unknown of the voltage of Circuit::nodes[number]; -1: ground
+    virtual int branch_unknown(int element) const = 0;  ///< unknown of the current through Circuit::elements[element]; -1: there is none
+    virtual int branch_unknown(const Element& e) const { return branch_unknown(circuit().find_element(e.name)); }
     virtual int add_unknown(std::string_view name) = 0;    ///< adds the voltage of an inner node, such as "x1.d1#junction"
     virtual double temperature(const Element&) const = 0;  ///< K
     virtual const Circuit& circuit() const = 0;
@@ -208,7 +209,7 @@ public:
     /// The unknowns of the first two nodes, then of the current through the element if it has one.
     std::vector<int> ends(const Element& e) const {
         std::vector<int> out = {node_unknown(e.nodes[0]), node_unknown(e.nodes[1])};
-        if (const int branch = branch_unknown(circuit().find_element(e.name)); branch >= 0) out.push_back(branch);
+        if (const int branch = branch_unknown(e); branch >= 0) out.push_back(branch);
         return out;
     }
 };

@@ -40,6 +40,7 @@ public:
         c.parameters = top_.parameters;
         TRY(read_settings());
         find_paths_in_ic();
+        c.elements.reserve(parsed_.top.elements.size());
         TRY(elaborate_contents(top_));
         if (!builder_.refusals.empty()) return builder_.refusals.combined();
         TRY(check_references());

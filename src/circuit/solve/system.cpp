@@ -24,6 +24,9 @@ public:
     }
     int node_unknown(int number) const override { return number - 1; }
     int branch_unknown(int element) const override { return element < 0 ? -1 : branches_[static_cast<std::size_t>(element)]; }
+    int branch_unknown(const Element& e) const override {
+        return has_branch_current(e) ? branch_unknown(circuit().find_element(e.name)) : -1;
+    }
     int add_unknown(std::string_view name) override {
         system_.names_.push_back(fmt::format("v({})", name));
         return static_cast<int>(system_.names_.size()) - 1;
