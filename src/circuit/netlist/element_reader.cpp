@@ -69,6 +69,22 @@ Result<void> ElementReader::model(std::size_t word, std::initializer_list<std::s
     return {};
 }
 
+void ElementReader::drop_unknown_model_values(std::span<const std::string_view> known) {
+    auto& model = builder_.circuit.models[static_cast<std::size_t>(element.model)];
+    std::erase_if(model.values, [&](const auto& value) {
+        const std::string& name = value.first;
+        if (std::ranges::find(known, std::string_view(name)) != known.end() || !did_you_mean(name, known).empty()) return false;
+        builder_.warn_once(circuit::error_at(model.location, "{}: models of type {} have no parameter '{}', so it has no effect",
+                                             model.name, model.type, name));
+        return true;
+    });
+}
+
+bool ElementReader::continues_initial_voltages(std::size_t word, std::size_t count) const {
+    const auto* ic = find("ic");
+    return ic != nullptr && this->word(word).at > ic->value.at && (word < count || this->word(word - count).at < ic->value.at);
+}
+
 Result<double> ElementReader::number(std::size_t word) const { return scope_.evaluate({&s_, s_.words[word]}); }
 
 Result<double> ElementReader::number(const Word& word) const { return scope_.evaluate({&s_, word}); }
@@ -103,6 +119,8 @@ std::optional<double> ElementReader::model_value(std::string_view name) const {
     const auto at = values.find(name);
     return at == values.end() ? std::nullopt : std::optional(at->second);
 }
+
+std::string_view ElementReader::model_type() const { return builder_.circuit.models[static_cast<std::size_t>(element.model)].type; }
 
 Result<void> ElementReader::expression(const NameValue& pair) {
     read_names_.push_back(s_.text(pair.name));
