@@ -35,6 +35,7 @@ Result<void> ElementReader::read() {
     if (refuse_level()) return {};
     TRY(kind_.read(*this));
     TRY(named_parameters());
+    apply_size_options();
     override_values();
     TRY(apply_tolerances());
     TRY(apply_multiplicity());
@@ -174,6 +175,22 @@ Result<void> ElementReader::named_parameters() {
     if (const auto* m = s_.find("m"); m && !(element.values["m"] > 0))
         return error_at(m->value, "m = {:g} must be positive", element.values["m"]);
     return {};
+}
+
+/// Applies .options scale to the size in the line of a MOS transistor, and defl, defw, defad, defas, defnrd and defnrs where the line does
+/// not give it. As in ngspice, the defaults are not scaled.
+void ElementReader::apply_size_options() {
+    if (element.letter != 'm') return;
+    const auto& options = builder_.circuit.options;
+    const auto scale = options.find("scale");
+    for (auto& [name, value] : element.values) {
+        if (scale == options.end()) break;
+        if (name == "l" || name == "w" || name == "pd" || name == "ps") value *= scale->second;
+        if (name == "ad" || name == "as") value *= scale->second * scale->second;
+    }
+    for (const auto& p : kind_.parameters)
+        if (const auto given = options.find("def" + std::string(p.name)); given != options.end())
+            element.values.try_emplace(std::string(p.name), given->second);
 }
 
 /// Replaces values of the line by those of the overrides.

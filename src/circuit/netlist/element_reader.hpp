@@ -90,6 +90,7 @@ private:
     void add_forward_reference(const ExpressionInput&, const SourceLocation&);
     Result<void> parse_expression(const WordRef&);
     Result<void> named_parameters();
+    void apply_size_options();
     void override_values();
     Result<void> apply_tolerances();
     Result<std::optional<double>> tolerance(std::string_view name);
