@@ -315,7 +315,7 @@ TEST(Bipolar, ItsLineHasThreeOrFourNodesAndOptions) {
         {"q1 c b 0 m area=0", ":2:1: q1: area = 0 must be positive"},
         {"q1 c b 0 m areab=2", ":2:12: q1: unknown parameter 'areab'; did you mean 'area'?"},
         {"q1 c b 0 m off", ":2:1: q1: off has no effect"},
-        {"q1 c b 0 m ic=0.6,5", ":2:1: q1: ic= of a diode or bipolar transistor has no effect"},
+        {"q1 c b 0 m ic=0.6,5", ":2:1: q1: ic= of a diode or transistor has no effect"},
     };
     for (const auto& [line, message] : refused) EXPECT_NE(message_of(line).find(message), std::string::npos) << message_of(line);
 }
@@ -340,6 +340,18 @@ TEST(Bipolar, ACardThatIsNotImplementedIsRefused) {
 TEST(Bipolar, AWarningAboutAModelAppearsOnce) {
     const auto circuit = make_circuit("t\nq1 c b 0 m\nq2 c b 0 m\nv1 c 0 1\nr1 c b 1k\n.model m npn(tf=1n ptf=30)\n.op\n.end\n");
     EXPECT_EQ(circuit->warnings.size(), 1U);
+}
+
+TEST(Bipolar, VeryLargeValuesOfACardMeanNone) {
+    const std::string circuit = "large\nvb b 0 0.7\nvc c 0 5\nq1 c b 0 m\n.op\n.model m npn(is=1e-15 ";
+    const auto plain = run_netlist(circuit + "mje=0.99)\n"),
+               large = run_netlist(circuit + "ikr=1e99 ikf=1e99 vaf=1e50 var=1e99 mje=0.99)\n");
+    EXPECT_NEAR(large.number("i(vc)") / plain.number("i(vc)"), 1, 1e-9);
+}
+
+TEST(Bipolar, TheExponentOfHighCurrentsHasTheNameOfPspiceToo) {
+    const std::string circuit = "exponent\nvb b 0 0.9\nvc c 0 5\nq1 c b 0 m\n.op\n.model m npn(is=1e-15 ikf=1m ";
+    EXPECT_EQ(run_netlist(circuit + "nk=0.8)\n").number("i(vc)"), run_netlist(circuit + "nkf=0.8)\n").number("i(vc)"));
 }
 
 TEST(Bipolar, ACardHasOtherNames) {

@@ -191,6 +191,54 @@ TEST(ForeignNetlist, RatingsInModelsHaveNoEffect) {
     EXPECT_NEAR(run.number("i(v1)"), -2.52e-9 * std::expm1(0.6 / 1.752 / 0.0258649), 1e-7);
 }
 
+TEST(ForeignNetlist, AnUnknownParameterOfAModelHasNoEffectUnlessItLooksLikeAnError) {
+    const std::string elements =
+        "models\n.options tnom=27\nv1 a 0 1\nd1 a 0 dm\nq1 a a 0 qm\nm1 a a 0 0 mm w=1u l=1u\ns1 a 0 a 0 sm\nw1 a 0 v1 wm\nr1 a 0 rm 1k\n"
+        "c1 a 0 cm 1n\nl1 b 0 lm 1u\nr2 b 0 1k\n.op\n";
+    const auto models = [](const std::string& extra) {
+        std::string out;
+        for (const auto* head : {"dm d(", "qm npn(", "mm nmos(", "sm sw(", "wm csw(", "rm r(", "cm c(", "lm l("})
+            out += std::string(".model ") + head + extra + ")\n";
+        return out;
+    };
+    const auto plain = run_netlist(elements + models("")), run = run_netlist(elements + models("zzyzx9=1"));
+    EXPECT_EQ(run.number("i(v1)"), plain.number("i(v1)"));
+    const auto warnings = warnings_in(run);
+    for (const std::string name : {"dm", "qm", "mm", "sm", "wm", "rm", "cm", "lm"})
+        EXPECT_NE(warnings.find(": " + name + ": models of type "), std::string::npos) << name << "\n" << warnings;
+    EXPECT_NE(warnings.find("have no parameter 'zzyzx9', so it has no effect"), std::string::npos) << warnings;
+    EXPECT_EQ(run.warnings().size(), plain.warnings().size() + 8);
+}
+
+TEST(ForeignNetlist, AModelMayGiveItsValuesWithoutEqualsSigns) {
+    const auto run = run_netlist(
+        "words\nv1 a 0 3\nm1 a a 0 0 nm w=10u l=1u\n.model nm nmos(LEVEL 1 KP 25U VTO {0.5+0.3})\nv2 b 0 0.6\nd1 b 0 dm\n"
+        ".model dm d is=1e-14 n 1.2\n.op\n");
+    EXPECT_NEAR(run.number("i(v1)"), -25e-6 * 10 / 2 * 2.2 * 2.2, 1e-9);
+    EXPECT_NEAR(run.number("i(v2)") / (-1e-14 * std::expm1(0.6 / 1.2 / 0.025864925)), 1, 1e-5);
+}
+
+TEST(ForeignNetlist, SeveralTemperaturesRepeatAllAnalyses) {
+    const auto runs = run_variants("hot\ni1 0 a 1m\nr1 a 0 1k tc1=1m\n.temp 27 {20+107} -73\n.op\n");
+    ASSERT_EQ(runs.size(), 3U);
+    EXPECT_NEAR(runs[0].number("v(a)"), 1, 1e-9);
+    EXPECT_NEAR(runs[1].number("v(a)"), 1.1, 1e-9);
+    EXPECT_NEAR(runs[2].number("v(a)"), 0.9, 1e-9);
+}
+
+TEST(ForeignNetlist, WordsThatOnlyControlThePrintingOfAnAnalysisGiveAWarning) {
+    const auto run = run_netlist("trace\nv1 a 0 sine(0 1 1k)\nr1 a b 1k\nc1 b 0 1n\n.op trace all\n.tran 1u 100u uic trace all\n");
+    EXPECT_EQ(run.curve("v(b)", "tran").front(), 0);
+    const auto warnings = warnings_in(run);
+    EXPECT_NE(warnings.find(".tran: the words after uic have no effect: trace all"), std::string::npos) << warnings;
+    EXPECT_NE(warnings.find(".op: the words from 'trace' on have no effect"), std::string::npos) << warnings;
+}
+
+TEST(ForeignNetlist, TheEulerMethodIsGearsOfOrderOne) {
+    const std::string circuit = "euler\nv1 a 0 pulse(0 1 0 1n 1n 1 2)\nr1 a b 1k\nc1 b 0 1n\n.tran 10n 3u\n.options ";
+    EXPECT_EQ(run_netlist(circuit + "method=euler\n").curve("v(b)"), run_netlist(circuit + "maxord=1\n").curve("v(b)"));
+}
+
 TEST(ForeignNetlist, ASidewallAndABreakdownMayHaveTheirOwnEmissionCoefficients) {
     const auto run = run_netlist(
         "emission\nv1 a 0 0.5\nd1 a 0 dm pj=2\n.model dm d(is=1e-12 n=1.2 jsw=1e-11 ns=2)\nv2 b 0 -10.1\nd2 b 0 dz\n"

@@ -131,8 +131,7 @@ TEST(Mos1, ErrorsSayWhatIsExpected) {
               "t.cir:3:12: m1: model 'n' has level 49, which is not supported; use " + supported_levels('m'));
     EXPECT_EQ(supported_levels('m'), "level=1 (SPICE level 1), 44, 55 or 260 (EKV 2.6) or 80 (UICM)");
     EXPECT_EQ(error_of(circuit + " stack=2\n" + card_line("level=1")), "t.cir:3:25: m1: unknown parameter 'stack'");
-    EXPECT_EQ(error_of(circuit + " ic=1\n" + card_line("level=1")),
-              "t.cir:3:25: m1: ic= of a transistor is not supported; use .ic v(node)=... with uic, or .nodeset v(node)=...");
+    EXPECT_EQ(error_of(circuit + " ic=1,2,3,4\n" + card_line("level=1")), "t.cir:3:34: m1: unexpected '4'");
     EXPECT_EQ(error_of(circuit + "\n" + card_line("ld=0.6u")), "t.cir:3:1: m1: l = 1e-06 m is not longer than 2 ld = 1.2e-06 m");
     EXPECT_EQ(error_of(circuit + "\n" + card_line("tox=10n nsub=1e9")),
               "t.cir:4:1: n: nsub = 1e+09 must be above the intrinsic carrier density, 1.45e+10 1/cm^3");
@@ -276,6 +275,49 @@ TEST(Mos1, ParametersOfHigherLevelsHaveNoEffectWithAWarning) {
     EXPECT_EQ(plain.number("i(vd)"), with_theta.number("i(vd)"));
     ASSERT_EQ(with_theta.warnings().size(), plain.warnings().size() + 1) << "one for both transistors";
     EXPECT_NE(with_theta.warnings()[0].message.find("theta is a parameter of levels 2 and 3, and has no effect"), std::string::npos);
+}
+
+TEST(Mos1, ASizeInTheCardHasNoEffectWithAWarning) {
+    const std::string circuit = "size\nvd d 0 3\nm1 d d 0 0 n w=10u l=1u\n.model n nmos(level=1 vto=1 kp=20u ";
+    const auto run = run_netlist(circuit + "l=5u w=175u)\n.op\n");
+    EXPECT_NEAR(run.number("i(vd)"), -20e-6 * 10 / 2 * 4, 1e-9);
+    ASSERT_EQ(run.warnings().size(), 2U);
+    EXPECT_NE(run.warnings()[0].message.find("n: l has no effect: a transistor has the l of its own line"), std::string::npos);
+}
+
+TEST(Mos1, ItsJunctionsMayHaveNoSaturationCurrent) {
+    const auto run = run_netlist("no junction\nvb b 0 0.7\nm1 0 0 0 b n w=10u l=1u\n.model n nmos(level=1 vto=1 is=0)\n.op\n");
+    EXPECT_NEAR(run.number("i(vb)"), -2 * 0.7e-15, 1e-17) << "gmin only";
+}
+
+TEST(Mos1, InitialVoltagesHaveNoEffectWithAWarning) {
+    const auto run = run_netlist(
+        "initial\nvd d 0 3\nm1 d d 0 0 n w=10u l=1u ic=1,2 off\nm2 d d 0 0 n w=10u l=1u ic=0,5,1\n.model n nmos(vto=1)\n.tran 1n 10n\n");
+    std::string warnings;
+    for (const auto& w : run.warnings()) warnings += w.message + "\n";
+    EXPECT_NE(warnings.find("m1: ic= of a diode or transistor has no effect"), std::string::npos) << warnings;
+    EXPECT_NE(warnings.find("(and 1 other element)"), std::string::npos) << warnings;
+}
+
+/// Drain currents of two transistors, of which the second one has no l, with these options.
+std::vector<double> currents_with(const std::string& options) {
+    const auto run = run_netlist("sizes\n.options " + options +
+                                 "\nv1 1 0 2\nm1 1 1 0 0 n l=2 w=20\nv2 2 0 2\nm2 2 2 0 0 n w=20\n"
+                                 ".model n nmos(vto=0.7 kp=20u)\n.op\n");
+    return {-run.number("i(v1)"), -run.number("i(v2)")};
+}
+
+TEST(Mos1, OptionsScaleSizesAndGiveTheirDefaults) {
+    const double square = 20e-6 / 2 * 1.3 * 1.3;  // A: current for w = l
+    for (const std::string prefix : {"", "parser "}) {
+        const auto scaled = currents_with(prefix + "scale=1e-6");
+        EXPECT_NEAR(scaled[0] / square, 10, 1e-6);
+        EXPECT_NEAR(scaled[1] / square, 0.2, 1e-6) << "the default length of 100 um is not scaled";
+    }
+    EXPECT_NEAR(currents_with("scale=1e-6 defl=4u")[1] / square, 5, 1e-6);
+    const auto ends = run_netlist(
+        "ends\n.options scale=1e-6 defad=50p\nvb b 0 -2\nm1 0 0 0 b n l=2 w=20 as=100\n.model n nmos(vto=0.7 is=0 js=1e-3)\n.op\n");
+    EXPECT_NEAR(ends.number("i(vb)"), 1e-3 * 150e-12 + 2 * 2e-15, 2e-17) << "as is 100 um^2, ad is 50 um^2";
 }
 
 }  // namespace

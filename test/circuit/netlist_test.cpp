@@ -485,7 +485,7 @@ TEST(NetlistCommands, AreRejectedWithLocationAndSuggestion) {
         {".ic a=1", "2:5: expected v(node)=value, not 'a=1'"},
         {".ic v(0)=1", "2:5: ground is always at 0 V"},
         {".ic v(a)=x\nR1 a 0 1", "2:10: unknown name 'x'"},
-        {".temp 1 2", "2:9: .temp: expected one temperature, in Celsius"},
+        {".temp", "2:6: .temp: expected temperatures, in Celsius"},
         {".options reltol=1q3", "2:17: '1q3' is not a number"},
         {".control\nrun", "2:1: .control is not closed by .endc"},
         {".endc", "2:1: .endc without .control"},

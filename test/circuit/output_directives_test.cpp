@@ -105,7 +105,7 @@ TEST(Options, ThatAreUnknownAreRejected) {
     EXPECT_EQ(error_of(r + ".options reltol=tight\n"), "t.cir:5:10: .options reltol: expected a number, such as reltol=1e-6");
     EXPECT_EQ(error_of(r + ".options reltol=-1\n"), "t.cir:5:10: .options reltol=-1 is outside [1e-15, 0.5]");
     EXPECT_EQ(error_of(r + ".options method=2\n"), "t.cir:5:10: .options method: expected a word, such as method=gear");
-    EXPECT_NE(error_of(r + ".options scale=1u\n").find("not supported, because it changes the circuit"), std::string::npos);
+    EXPECT_NE(error_of(r + ".options scalm=1u\n").find("not supported, because it changes the circuit"), std::string::npos);
     EXPECT_TRUE(outcome_of(r + ".options noacct savecurrents trtol=7 post=2 itl4=100 numdgt=8 plotwinsize=0\n"));
 }
 

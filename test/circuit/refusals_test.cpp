@@ -48,8 +48,8 @@ TEST(Refusals, OfElementsAreReportedTogether) {
               "2.5 r1: 1 node, but expected 2: plus, minus, then a value or a model\n"
               "3.9 unknown name 'x'\n"
               "4.11 r3: unknown parameter 'foo'\n");
-    EXPECT_EQ(errors_of("v1 a 0 1\nd1 a 0 d1\nd2 a 0 d2\n.model d1 d(is=-1)\n.model d2 d(foo=1)\n"),
-              "5.1 d1: is = -1 A is outside [1e-40, 1000]\n6.1 d2: unknown parameter 'foo'\n");
+    EXPECT_EQ(errors_of("v1 a 0 1\nd1 a 0 d1\nd2 a 0 d2\n.model d1 d(is=-1)\n.model d2 d(eeg=1)\n"),
+              "5.1 d1: is = -1 A is outside [1e-40, 1000]\n6.1 d2: unknown parameter 'eeg'; did you mean 'eg'?\n");
 }
 
 TEST(Refusals, OfASubcircuitAreReportedOnceForAllItsInstances) {

@@ -220,7 +220,8 @@ TEST(Chips, RestLikeANetlistWithTheSameMismatchAsParameters) {
         for (const auto& e : circuit.elements) {
             if (e.letter != 'm') continue;
             const auto& model = circuit.models[static_cast<std::size_t>(e.model)];
-            const auto card = *read_model_card<UicmCard>(UicmCard::fields, model, {"level"});
+            static constexpr std::string_view others[] = {"level"};
+            const auto card = *read_model_card<UicmCard>(UicmCard::fields, model, others);
             UicmInstance size;
             size.W = e.values.at("w"), size.L = e.values.at("l");
             const auto own = sample_mismatch(card, size, 9, device, chip), all = process_shift(card, model.type == "pmos", sample.process);

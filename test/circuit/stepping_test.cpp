@@ -204,7 +204,7 @@ TEST(Transient, TheTrapezoidalRuleDoesNotKeepRinging) {
 
 TEST(TransientPlan, RejectsUnknownValues) {
     for (const auto& [options, what] :
-         {std::pair{"accuracy=great", "rough, normal, fine, finest"}, {"method=euler", "gear, trap"}, {"maxord=7", "from 1 to 5"}}) {
+         {std::pair{"accuracy=great", "rough, normal, fine, finest"}, {"method=heun", "gear, trap, euler"}, {"maxord=7", "from 1 to 5"}}) {
         const auto plan = read_transient_plan(*make_circuit(std::string("x\nr1 a 0 1\nv1 a 0 1\n.options ") + options + "\n.tran 1 2\n"));
         ASSERT_FALSE(plan);
         EXPECT_NE(plan.error().message.find(what), std::string::npos) << plan.error().message;

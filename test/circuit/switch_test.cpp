@@ -258,7 +258,6 @@ TEST(Switch, WrongLinesAreRefusedWithTheirLocation) {
         {"s1 b 0 a 0 sm on off\n.model sm sw", "t.cir:4:18: s1: unexpected 'off'; after the model, only on or off may follow"},
         {"s1 b 0 a 0 sm\n.model sm sw(von=1)", "t.cir:5:1: sm: unknown parameter 'von'; did you mean 'ron'?"},
         {"s1 b 0 a 0 sm\n.model sm sw(ron=0)", "t.cir:5:1: sm: ron = 0 ohm is outside [1e-09, 1e+18]"},
-        {"s1 b 0 a 0 sm\n.model sm sw(ilimit=1)", "t.cir:5:1: sm: unknown parameter 'ilimit'"},
         {"s1 b 0 a 0 sm\n.model sm vswitch(von=1 voff=1)",
          "t.cir:5:1: sm: the levels for on and off are both 1; a model of type sw switches abruptly"},
         {"w1 b 0 v2 wm\n.model wm csw", "t.cir:4:8: w1: unknown element 'v2'; did you mean 'v1'?"},

@@ -111,6 +111,7 @@ struct OpOptions {
 Result<OpOptions> read_op_options(const Directive& c) {
     OpOptions out;
     if (c.words.empty()) return out;
+    if (c.words[0] == "trace") return out;  // of gnucap; see warn_about_op_words()
     if (c.words[0] != "states") return error_at(c.location_of(0), ".op: '{}' is not an option; the only one is 'states'", c.words[0]);
     if (c.words.size() > 2) return error_at(c.location_of(2), ".op: unexpected '{}'; expected .op states [RISE]", c.words[2]);
     out.states = true;

@@ -131,8 +131,10 @@ Result<TransientPlan> read_transient_plan(const Circuit& c) {
     plan.abstol = value_or(c.options, "abstol", plan.abstol);
     if (const auto given = c.option_words.find("method"); given != c.option_words.end()) {
         const std::string_view word = given->second;
-        if (word != "gear" && word != "bdf" && !word.starts_with("trap")) return invalid_option(c, "method", word, "gear, trap");
+        if (word != "gear" && word != "bdf" && word != "euler" && !word.starts_with("trap"))
+            return invalid_option(c, "method", word, "gear, trap, euler");
         if (word.starts_with("trap")) plan.method = Integration::trapezoidal;
+        if (word == "euler") plan.max_order = 1;
     }
     const double order = value_or(c.options, "maxord", plan.max_order);
     if (!(order >= 1 && order <= 5 && order == static_cast<int>(order)))
@@ -144,8 +146,9 @@ Result<TransientPlan> read_transient_plan(const Circuit& c) {
 Result<TransientTimes> read_transient_times(const Directive& directive) {
     auto c = directive;
     TransientTimes out;
-    out.uic = !c.words.empty() && c.words.back() == "uic";
-    if (out.uic) c.words.pop_back();
+    const auto uic = std::ranges::find(c.words, "uic");
+    out.uic = uic != c.words.end();
+    c.words.erase(uic, c.words.end());
     if (c.words.size() < 2 || c.words.size() > 4) return error_at(c.location, ".tran: expected .tran STEP STOP [START [LONGEST]] [uic]");
     out.step = TRY(read_number(c, 0, "the step"));
     out.stop = TRY(read_number(c, 1, "the stop time"));

@@ -176,12 +176,6 @@ Result<std::unique_ptr<Device>> make_bipolar(const Element& e, DeviceSetup& setu
 
 // ---- netlist ----
 
-/// True if the word is the second number of ic=VBE,VCE.
-bool is_second_initial_voltage(const ElementReader& line, std::size_t word) {
-    const auto* pair = line.find("ic");
-    return pair != nullptr && line.word(word).at > pair->value.at;
-}
-
 /// Number of nodes before the model.
 Result<std::size_t> count_nodes(const ElementReader& line) {
     if (line.word_count() > 6 && line.is_model(6) && !line.is_model(5) && !line.is_model(4))
@@ -199,10 +193,11 @@ Result<void> read_bipolar(ElementReader& line) {
     const auto nodes = TRY(count_nodes(line));
     if (nodes == 4) line.element.nodes.clear(), TRY(line.nodes(4, expected));
     TRY(line.model(nodes + 1, {"npn", "pnp"}));
+    line.drop_unknown_model_values(bipolar_parameter_names());
     for (std::size_t k = nodes + 2; k < line.word_count(); ++k) {
         if (line.text(k) == "off") {
             line.element.values["off"] = 1;
-        } else if (is_second_initial_voltage(line, k)) {
+        } else if (line.continues_initial_voltages(k, 1)) {
             TRY(line.number(k));
         } else if (k == nodes + 2 && !line.find("area")) {
             line.element.values["area"] = TRY(line.number(k));

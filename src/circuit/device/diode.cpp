@@ -46,6 +46,10 @@ constexpr std::pair<std::string_view, std::string_view> aliases[] = {{"cj0", "cj
                                                                      {"mj", "m"},      {"cjp", "cjsw"}, {"php", "vjsw"}, {"isw", "jsw"},
                                                                      {"tref", "tnom"}, {"vb", "bv"}};
 
+/// Names that are read apart from `fields`.
+constexpr std::string_view other_fields[] = {"level", "cj0", "cj",   "js", "pb",  "mj",  "cjp",
+                                             "php",   "isw", "tref", "vb", "ikf", "trs", "rsw"};
+
 /// Changes the card to its values at another temperature, after SPICE.
 void adjust_to_temperature(DiodeCard& c, double kelvin) {
     const double nominal = c.tnom + zero_celsius, ratio = kelvin / nominal, vt = thermal_voltage(kelvin);  // nominal: K
@@ -156,8 +160,7 @@ Result<std::unique_ptr<Device>> make_diode(const Element& e, DeviceSetup& setup)
     if (!(perimeter >= 0)) return error_at(e.location, "{}: pj = {:g} must not be negative", e.name, perimeter);
     if (const double level = value_or(model.values, "level", 1); level != 1)
         return error_at(model.location, "{}: diode level {:g} is not supported; use level=1", model.name, level);
-    auto c = TRY(read_model_card<DiodeCard>(
-        fields, model, {"level", "cj0", "cj", "js", "pb", "mj", "cjp", "php", "isw", "tref", "vb", "ikf", "trs", "rsw"}));
+    auto c = TRY(read_model_card<DiodeCard>(fields, model, other_fields));
     for (const auto& [alias, name] : aliases)
         if (const auto given = model.values.find(alias); given != model.values.end())
             TRY(read_field(*std::ranges::find(fields, name, &ParameterDef<DiodeCard>::name), c, model.name, given->second, model.location));
@@ -177,6 +180,7 @@ Result<void> read_diode(ElementReader& line) {
     TRY(line.nodes(2, "anode, cathode, then the model"));
     if (line.word_count() < 4) return line.error_at(3, "its model is missing");
     TRY(line.model(3, {"d"}));
+    line.drop_unknown_model_values(model_value_names(fields, other_fields));
     for (std::size_t k = 4; k < line.word_count(); ++k) {
         if (line.text(k) == "off") {
             line.element.values["off"] = 1;

@@ -143,6 +143,10 @@ Result<std::string> write_mos1(const ElementExport& e) {
 /// Parameters of other levels have no effect, with a warning, as in ngspice: cards written for level 3 are often run as level 1.
 Result<void> read_mos1_line(ElementReader& line) {
     TRY(read_mos_line(line));
+    line.drop_unknown_model_values(mos1_parameter_names());
+    for (const auto name : {"l", "w"})
+        if (line.model_value(name))
+            line.warn_about_model(fmt::format("{0} has no effect: a transistor has the {0} of its own line, else the default", name));
     for (const auto name : parameters_of_higher_levels())
         if (line.model_value(name).value_or(0) != 0)
             line.warn_about_model(fmt::format("{} is a parameter of levels 2 and 3, and has no effect", name));

@@ -41,11 +41,19 @@ Result<void> read_field(const ParameterDef<P>& f, P& card, std::string_view owne
     return {};
 }
 
+/// The names of the parameters in `fields`, which must be in small letters, and `others`.
+template <class P, std::size_t N>
+std::vector<std::string_view> model_value_names(const ParameterDef<P> (&fields)[N], std::span<const std::string_view> others) {
+    std::vector<std::string_view> out(others.begin(), others.end());
+    for (const auto& f : fields) out.push_back(f.name);
+    return out;
+}
+
 /// Reads the parameters in `fields` from a .model line; the others keep their defaults. Names in `others` are accepted but not read here.
 template <class P, std::size_t N>
-Result<P> read_model_card(const ParameterDef<P> (&fields)[N], const Model& model, std::initializer_list<std::string_view> others) {
+Result<P> read_model_card(const ParameterDef<P> (&fields)[N], const Model& model, std::span<const std::string_view> others) {
     P card;
-    std::vector<std::string_view> known(others);
+    std::vector<std::string_view> known(others.begin(), others.end());
     std::vector<std::string> names;
     for (const auto& f : fields) names.push_back(lower(f.name));
     known.insert(known.end(), names.begin(), names.end());

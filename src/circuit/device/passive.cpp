@@ -18,10 +18,11 @@ double at_temperature(double value, const Element& e, const DeviceSetup& setup) 
     return value * value_or(e.values, "scale", 1) * (1 + parameter("tc1", 0) * dT + parameter("tc2", 0) * dT * dT);
 }
 
+constexpr std::string_view model_values[] = {"tc1",   "tc2", "tnom", "rsh", "r",   "res", "defw", "defl", "narrow",
+                                             "short", "cj",  "cjsw", "c",   "cap", "ind", "l",    "kf",   "af"};
+
 /// Rejects a scale of 0, and parameters that the model of a resistor, capacitor or inductor does not have.
 Result<void> check_parameters(const Element& e, const DeviceSetup& setup) {
-    static constexpr std::string_view model_values[] = {"tc1",   "tc2", "tnom", "rsh", "r",   "res", "defw", "defl", "narrow",
-                                                        "short", "cj",  "cjsw", "c",   "cap", "ind", "l",    "kf",   "af"};
     for (const std::string_view noise : {"kf"})
         if (const auto* m = setup.circuit().model_of(e); m && value_or(m->values, noise, 0) != 0)
             return error_at(m->location, "{}: {} (flicker noise of a resistor) is not supported", m->name, noise);
@@ -172,6 +173,7 @@ Result<void> read_passive(ElementReader& line) {
         TRY(is_name ? line.model(k, {letter}) : read_passive_value(line, line.word(k), line.text(k)));
         has_value = has_value || !is_name;
     }
+    if (e.model >= 0) line.drop_unknown_model_values(model_values);
     if (const auto* pair = line.find(letter)) {
         if (has_value) return line.error_at(pair->name, "its value is given twice");
         line.take(*pair);

@@ -15,6 +15,7 @@ constexpr double no_time = std::numeric_limits<double>::infinity();
 using Shape = Waveform::Shape;
 
 const WaveformSyntax* shape_of(std::string_view word) {
+    if (word == "sine") word = "sin";  // ngspice has both
     for (const auto& row : waveform_syntaxes)
         if (row.name == word) return &row;
     return nullptr;

@@ -49,6 +49,9 @@ constexpr ParameterDef<SmoothCard> iswitch_fields[] = {
     {"roff", &SmoothCard::roff, "ohm", min_resistance, max_resistance, "resistance at ioff"},
 };
 
+/// .options tnom gives every model its tnom. Switches do not depend on it.
+constexpr std::string_view other_names[] = {"tnom"};
+
 /// A switch of either kind, with the numbers of its model.
 struct SwitchLaw {
     bool is_smooth = false;
@@ -152,13 +155,13 @@ Result<SwitchLaw> read_law(const Circuit& circuit, const Element& e) {
     const auto& model = *circuit.model_of(e);
     SwitchLaw law;
     if (model.type == "sw")
-        law = law_of(TRY(read_model_card<HystereticCard>(sw_fields, model, {})));
+        law = law_of(TRY(read_model_card<HystereticCard>(sw_fields, model, other_names)));
     else if (model.type == "csw")
-        law = law_of(TRY(read_model_card<HystereticCard>(csw_fields, model, {})));
+        law = law_of(TRY(read_model_card<HystereticCard>(csw_fields, model, other_names)));
     else if (model.type == "vswitch")
-        law = TRY(law_of(TRY(read_model_card<SmoothCard>(vswitch_fields, model, {})), model));
+        law = TRY(law_of(TRY(read_model_card<SmoothCard>(vswitch_fields, model, other_names)), model));
     else
-        law = TRY(law_of(TRY(read_model_card<SmoothCard>(iswitch_fields, model, {})), model));
+        law = TRY(law_of(TRY(read_model_card<SmoothCard>(iswitch_fields, model, other_names)), model));
     const double m = value_or(e.values, "m", 1);
     law.g_on *= m, law.g_off *= m, law.scale = e.value;
     return law;
@@ -175,11 +178,18 @@ Result<std::unique_ptr<Device>> make_switch(const Element& e, DeviceSetup& setup
 
 // ---- netlist ----
 
+std::vector<std::string_view> model_names(std::string_view type) {
+    if (type == "sw") return model_value_names(sw_fields, other_names);
+    if (type == "csw") return model_value_names(csw_fields, other_names);
+    return type == "vswitch" ? model_value_names(vswitch_fields, other_names) : model_value_names(iswitch_fields, other_names);
+}
+
 /// Reads the model and the words after it, of which the initial state is the only one.
 Result<void> read_model_and_state(ElementReader& line, std::size_t word, std::initializer_list<std::string_view> types) {
     line.element.value = 1;
     if (word >= line.word_count()) return line.error_at(word, "its model is missing");
     TRY(line.model(word, types));
+    line.drop_unknown_model_values(model_names(line.model_type()));
     for (++word; word < line.word_count(); ++word) {
         const auto text = line.text(word);
         if ((text != "on" && text != "off") || line.element.values.contains("on"))

@@ -11,6 +11,8 @@ const lanes::ChipKernels lanes::scalar_chip_kernels = lanes::chip_kernels_for<do
 
 namespace {
 
+constexpr std::string_view uicm_other_names[] = {"level"};
+
 /// An array of the voltages that a span holds.
 struct Voltages {
     double v[4];
@@ -133,7 +135,7 @@ Result<UicmInstance> read_instance(const Element& e) {
 
 Result<std::unique_ptr<Device>> make_transistor(const Element& e, DeviceSetup& setup) {
     const auto& model = *setup.circuit().model_of(e);
-    const auto card = TRY(read_model_card<UicmCard>(UicmCard::fields, model, {"level"}));
+    const auto card = TRY(read_model_card<UicmCard>(UicmCard::fields, model, uicm_other_names));
     const auto instance = TRY(read_instance(e));
     std::vector<int> unknowns;
     for (const int node : e.nodes) unknowns.push_back(setup.node_unknown(node));
@@ -154,7 +156,7 @@ Result<std::unique_ptr<DeviceBatch>> make_transistor_batch() {
 
 /// An instance of the subcircuit uicm_n or uicm_p.
 Result<std::string> write_transistor(const ElementExport& e) {
-    const auto card = TRY(read_model_card<UicmCard>(UicmCard::fields, *e.model(), {"level"}));
+    const auto card = TRY(read_model_card<UicmCard>(UicmCard::fields, *e.model(), uicm_other_names));
     UicmInstance size;
     for (const auto& f : UicmInstance::fields) size.*f.member = e.value(f.name, size.*f.member);
     const bool pmos = e.model()->type == "pmos";

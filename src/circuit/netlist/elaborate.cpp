@@ -264,17 +264,25 @@ private:
         for (const auto* s : parsed_.options) TRY(read_options(*s));
         if (const auto at = c.options.find("temp"); at != c.options.end()) c.temperature = at->second;
         for (const auto* s : parsed_.temperatures) {
-            if (s->words.size() != 2)
-                return error_at(s->location(std::min<std::size_t>(2, s->words.size())), ".temp: expected one temperature, in Celsius");
-            c.temperature = TRY(top_.evaluate(without_braces(*s, s->words[1], 0)));
+            if (s->words.size() < 2) return error_at(s->location(1), ".temp: expected temperatures, in Celsius");
+            for (std::size_t k = s->words.size() - 1; k > 0; --k) c.temperature = TRY(top_.evaluate(without_braces(*s, s->words[k], 0)));
+            if (s->words.size() > 2) step_temperature(*s);
         }
         c.temperature = builder_.overrides.temperature.value_or(c.temperature);
         c.mismatch_seed = builder_.overrides.mismatch_seed, c.chip = builder_.overrides.chip;
         return {};
     }
 
+    /// Several temperatures repeat all analyses, as in PSpice.
+    void step_temperature(const Statement& s) {
+        Directive out{"step", {"temp", "list"}, {}, s.line.location()};
+        for (std::size_t k = 1; k < s.words.size(); ++k) out.words.push_back(without_blanks(s, s.words[k]));
+        builder_.circuit.directives.push_back(std::move(out));
+    }
+
     /// True if an option of another simulator has no counterpart here; adds a warning.
     bool is_ignored_option(std::string_view name, XycePackage package, const SourceLocation& location) {
+        if (name == "scale") return false;  // which Xyce has in the package "parser"
         if (package == XycePackage::none ? !is_foreign_option(name) : package == XycePackage::devices && is_option(name)) return false;
         builder_.circuit.warnings.push_back(package == XycePackage::none
                                                 ? error_at(location, ".options: '{}' is not known and is ignored", name)

@@ -35,6 +35,7 @@ Result<void> ElementReader::read() {
     if (refuse_level()) return {};
     TRY(kind_.read(*this));
     TRY(named_parameters());
+    apply_size_options();
     override_values();
     TRY(apply_tolerances());
     TRY(apply_multiplicity());
@@ -67,6 +68,22 @@ Result<void> ElementReader::nodes(std::size_t n, std::string_view expected) {
 Result<void> ElementReader::model(std::size_t word, std::initializer_list<std::string_view> types) {
     element.model = TRY(builder_.find_or_add_model(scope_, {&s_, s_.words[word]}, name_, {types.begin(), types.size()}));
     return {};
+}
+
+void ElementReader::drop_unknown_model_values(std::span<const std::string_view> known) {
+    auto& model = builder_.circuit.models[static_cast<std::size_t>(element.model)];
+    std::erase_if(model.values, [&](const auto& value) {
+        const std::string& name = value.first;
+        if (std::ranges::find(known, std::string_view(name)) != known.end() || !did_you_mean(name, known).empty()) return false;
+        builder_.warn_once(circuit::error_at(model.location, "{}: models of type {} have no parameter '{}', so it has no effect",
+                                             model.name, model.type, name));
+        return true;
+    });
+}
+
+bool ElementReader::continues_initial_voltages(std::size_t word, std::size_t count) const {
+    const auto* ic = find("ic");
+    return ic != nullptr && this->word(word).at > ic->value.at && (word < count || this->word(word - count).at < ic->value.at);
 }
 
 Result<double> ElementReader::number(std::size_t word) const { return scope_.evaluate({&s_, s_.words[word]}); }
@@ -103,6 +120,8 @@ std::optional<double> ElementReader::model_value(std::string_view name) const {
     const auto at = values.find(name);
     return at == values.end() ? std::nullopt : std::optional(at->second);
 }
+
+std::string_view ElementReader::model_type() const { return builder_.circuit.models[static_cast<std::size_t>(element.model)].type; }
 
 Result<void> ElementReader::expression(const NameValue& pair) {
     read_names_.push_back(s_.text(pair.name));
@@ -156,6 +175,22 @@ Result<void> ElementReader::named_parameters() {
     if (const auto* m = s_.find("m"); m && !(element.values["m"] > 0))
         return error_at(m->value, "m = {:g} must be positive", element.values["m"]);
     return {};
+}
+
+/// Applies .options scale to the size in the line of a MOS transistor, and defl, defw, defad, defas, defnrd and defnrs where the line does
+/// not give it. As in ngspice, the defaults are not scaled.
+void ElementReader::apply_size_options() {
+    if (element.letter != 'm') return;
+    const auto& options = builder_.circuit.options;
+    const auto scale = options.find("scale");
+    for (auto& [name, value] : element.values) {
+        if (scale == options.end()) break;
+        if (name == "l" || name == "w" || name == "pd" || name == "ps") value *= scale->second;
+        if (name == "ad" || name == "as") value *= scale->second * scale->second;
+    }
+    for (const auto& p : kind_.parameters)
+        if (const auto given = options.find("def" + std::string(p.name)); given != options.end())
+            element.values.try_emplace(std::string(p.name), given->second);
 }
 
 /// Replaces values of the line by those of the overrides.

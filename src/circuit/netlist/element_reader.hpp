@@ -39,6 +39,9 @@ public:
     Result<void> nodes(std::size_t n, std::string_view expected);
     /// Reads the word as the name of a model, which must have one of these types.
     Result<void> model(std::size_t word, std::initializer_list<std::string_view> types);
+    /// Removes the parameters of the model that are not in `known`, with a warning, as ngspice does. One that resembles a known name is a
+    /// typing error, and stays until the device refuses it.
+    void drop_unknown_model_values(std::span<const std::string_view> known);
     Result<double> number(std::size_t word) const;
     Result<double> number(const NameValue&);
     Result<double> number(const Word&) const;
@@ -49,6 +52,8 @@ public:
         return {};
     }
     std::string_view text(const NameValue& pair) const { return s_.text(pair.value); }
+    /// True if the word is one of the at most `count` numbers after the first one of ic=.
+    bool continues_initial_voltages(std::size_t word, std::size_t count) const;
     void take(const NameValue& pair) { read_names_.push_back(s_.text(pair.name)); }  ///< marks the pair as read
     void warn(std::size_t word, std::string_view message);
     void warn_about_model(std::string_view message);  ///< one warning for the element's model, however many elements have it
@@ -59,6 +64,7 @@ public:
     const Word& word(std::size_t k) const { return s_.words[k]; }
     /// The value of this name in the element's model; nullopt if it has none.
     std::optional<double> model_value(std::string_view name) const;
+    std::string_view model_type() const;  ///< the type of the element's model, which it must have
     /// Reads the word as the name of the voltage source whose current controls the element.
     void control_source(std::size_t word);
     /// Reads the word as the name of an inductor that the element couples.
@@ -84,6 +90,7 @@ private:
     void add_forward_reference(const ExpressionInput&, const SourceLocation&);
     Result<void> parse_expression(const WordRef&);
     Result<void> named_parameters();
+    void apply_size_options();
     void override_values();
     Result<void> apply_tolerances();
     Result<std::optional<double>> tolerance(std::string_view name);

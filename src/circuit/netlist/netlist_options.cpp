@@ -23,6 +23,13 @@ constexpr OptionRow option_rows[] = {
     {"itl1", false, 1, 1e6, "500"},
     {"temp", false, -zero_celsius, max_celsius, "27"},
     {"tnom", false, -zero_celsius, max_celsius, "27"},
+    {"scale", false, 1e-12, 1e12, "1e-6"},
+    {"defl", false, 1e-9, 1e6, "1u"},
+    {"defw", false, 1e-9, 1e6, "1u"},
+    {"defad", false, 0, 1, "1p"},
+    {"defas", false, 0, 1, "1p"},
+    {"defnrd", false, 0, 1e6, "1"},
+    {"defnrs", false, 0, 1e6, "1"},
     {"maxord", false, -no_limit, no_limit, "4"},
     {"spikecheck", false, 0, 1, "0"},
     {"accuracy", true, 0, 0, "fine"},
@@ -42,8 +49,8 @@ constexpr std::string_view without_effect[] = {
 };
 
 /// Options that change the circuit itself. Ignoring them would simulate a different circuit, so they are errors.
-constexpr std::string_view unsupported[] = {"defl",   "defw",   "defad", "defas",   "defnrd",    "defnrs",  "scale", "scalm",  "rshunt",
-                                            "gshunt", "cshunt", "cmin",  "badmos3", "geoshrink", "rseries", "minr",  "resmin", "parhier"};
+constexpr std::string_view unsupported[] = {"scalm",     "rshunt",  "gshunt", "cshunt", "cmin",   "badmos3",
+                                            "geoshrink", "rseries", "minr",   "resmin", "parhier"};
 
 template <class Names>
 bool contains_name(const Names& names, std::string_view name) {
@@ -55,7 +62,10 @@ constexpr std::string_view xyce_packages[] = {
     "parser",          "sensitivity",      "restart",     "hbint",           "loca",      "fft",    "dist",    "nonlin-hb",  "linsol-hb",
     "nonlin-twolevel", "timeint-twolevel", "samples",     "embeddedsamples", "pces"};
 
-auto option_names() { return option_rows | std::views::transform(&OptionRow::name); }
+/// The names to suggest for others. Those of sizes are left out, because short words of other simulators resemble them.
+auto option_names() {
+    return option_rows | std::views::transform(&OptionRow::name) | std::views::filter([](auto name) { return !name.starts_with("def"); });
+}
 
 }  // namespace
 

@@ -6,6 +6,7 @@
 #include "circuit/devices.hpp"
 #include "circuit/expression/spice_number.hpp"
 #include "circuit/netlist/parsed_netlist.hpp"
+#include "circuit/netlist/random_values.hpp"
 #include "core/text/ascii_text.hpp"
 
 namespace corpuscle::circuit {
@@ -298,6 +299,7 @@ private:
         auto read = TRY(split_element(std::move(line), nullptr));
         if (read.words.size() < 3)
             return error_at(read.location(read.words.size()), ".model: expected a name and a type, such as .model nm nmos (vto=0.5)");
+        join_values(read);
         const std::string name(read.text(1));
         if (const auto known = body_->models.find(name); known != body_->models.end()) {
             const auto place = location_text(*known->second);
@@ -308,6 +310,23 @@ private:
         }
         body_->models.emplace(name, &store(std::move(read)));
         return {};
+    }
+    /// Takes the words "name value" after the type as name=value, as SPICE does, except for dev and lot, which are words.
+    static void join_values(Statement& s) {
+        const auto is_name = [&](std::size_t k) { return s.words[k].kind == Word::Kind::plain && std::isalpha(s.text(k)[0]) != 0; };
+        const auto is_value = [&](std::size_t k) {
+            return k < s.words.size() && (s.words[k].kind == Word::Kind::expression || std::isalpha(s.text(k)[0]) == 0);
+        };
+        std::vector<Word> rest(s.words.begin(), s.words.begin() + 3);
+        for (std::size_t k = 3; k < s.words.size(); ++k) {
+            if (find_tolerance(s.text(k)) != nullptr && k + 1 < s.words.size())
+                rest.push_back(s.words[k]), rest.push_back(s.words[++k]);
+            else if (is_name(k) && is_value(k + 1))
+                s.pairs.push_back({s.words[k], s.words[k + 1]}), ++k;
+            else
+                rest.push_back(s.words[k]);
+        }
+        s.words = std::move(rest);
     }
     static std::string location_text(const Statement& s) {
         const SourceLocation p = s.line.location();

@@ -92,7 +92,8 @@ void warn_about_mismatch(std::vector<Error>& out, const Circuit& c) {
 bool has_initial_value(const Element& e) { return has_role(e, Role::capacitor) || has_role(e, Role::inductor); }
 
 void warn_about_initial_conditions(std::vector<Error>& out, const Circuit& c) {
-    if (!std::ranges::all_of(c.directives_named("tran"), [](const Directive& d) { return !d.words.empty() && d.words.back() == "uic"; }))
+    if (!std::ranges::all_of(c.directives_named("tran"),
+                             [](const Directive& d) { return std::ranges::find(d.words, "uic") != d.words.end(); }))
         warn(
             out, c, [](const Element& e) { return has_value(e, "ic") && has_initial_value(e); },
             [](const Element&) {
@@ -102,7 +103,7 @@ void warn_about_initial_conditions(std::vector<Error>& out, const Circuit& c) {
     warn(
         out, c, [](const Element& e) { return has_value(e, "ic") && !has_initial_value(e); },
         [](const Element&) {
-            return "ic= of a diode or bipolar transistor has no effect; use ic= of a parallel capacitor, or .ic v(node)=... with uic";
+            return "ic= of a diode or transistor has no effect; use ic= of a parallel capacitor, or .ic v(node)=... with uic";
         });
     warn(
         out, c, [](const Element& e) { return has_value(e, "off"); },
@@ -135,11 +136,20 @@ void warn_about_pulses(std::vector<Error>& out, const Circuit& c) {
 void warn_about_tran_times(std::vector<Error>& out, const Circuit& c) {
     for (const auto& directive : c.directives_named("tran")) {
         if (directive.words.size() < 2) continue;
+        if (const auto uic = std::ranges::find(directive.words, "uic"); uic != directive.words.end() && uic + 1 != directive.words.end())
+            out.push_back(error_at(directive.location, ".tran: the words after uic have no effect: {}",
+                                   fmt::join(uic + 1, directive.words.end(), " ")));
         const auto step = parse_number(directive.words[0]), stop = parse_number(directive.words[1]);
         if (step && stop && stop->value > 0 && step->value > stop->value)
             out.push_back(error_at(directive.location, ".tran: STEP {} is longer than STOP {}; the order is .tran STEP STOP",
                                    directive.words[0], directive.words[1]));
     }
+}
+
+void warn_about_op_words(std::vector<Error>& out, const Circuit& c) {
+    for (const auto& directive : c.directives_named("op"))
+        if (!directive.words.empty() && directive.words[0] == "trace")
+            out.push_back(error_at(directive.location_of(0), ".op: the words from 'trace' on have no effect"));
 }
 
 /// The unit of an element's main value; "" if it has no unit or no such value.
@@ -170,7 +180,7 @@ std::vector<Error> netlist_warnings(const Circuit& c) {
     std::vector<Error> out;
     warn_about_dangling_nodes(out, c);
     warn_about_sizes(out, c), warn_about_mismatch(out, c), warn_about_missing_ac(out, c), warn_about_pulses(out, c),
-        warn_about_tran_times(out, c);
+        warn_about_tran_times(out, c), warn_about_op_words(out, c);
     if (c.has_directive("tran")) warn_about_initial_conditions(out, c);
     return out;
 }

@@ -10,40 +10,40 @@ namespace {
 
 constexpr ParameterDef<BipolarCard> bipolar_fields[] = {
     {"is", &BipolarCard::is, "A", 1e-40, 1e3, "saturation current of the transport between collector and emitter"},
-    {"bf", &BipolarCard::bf, "", 1e-6, 1e6, "forward current gain"},
+    {"bf", &BipolarCard::bf, "", 1e-6, 1e12, "forward current gain"},
     {"nf", &BipolarCard::nf, "", 0.1, 100, "emission coefficient of the base-emitter junction"},
-    {"vaf", &BipolarCard::vaf, "V", 0, 1e12, "forward Early voltage; 0: infinite"},
-    {"ikf", &BipolarCard::ikf, "A", 0, 1e12, "collector current at which the forward gain falls; 0: none"},
+    {"vaf", &BipolarCard::vaf, "V", 0, 1e100, "forward Early voltage; 0: infinite"},
+    {"ikf", &BipolarCard::ikf, "A", 0, 1e100, "collector current at which the forward gain falls; 0: none"},
     {"nkf", &BipolarCard::nkf, "", 0.01, 1, "exponent of the fall of the gain at high currents"},
     {"ise", &BipolarCard::ise, "A", 0, 1e3, "saturation current of the base-emitter leakage"},
     {"ne", &BipolarCard::ne, "", 0.1, 100, "emission coefficient of the base-emitter leakage"},
-    {"br", &BipolarCard::br, "", 1e-6, 1e6, "reverse current gain"},
+    {"br", &BipolarCard::br, "", 1e-6, 1e12, "reverse current gain"},
     {"nr", &BipolarCard::nr, "", 0.1, 100, "emission coefficient of the base-collector junction"},
-    {"var", &BipolarCard::var, "V", 0, 1e12, "reverse Early voltage; 0: infinite"},
-    {"ikr", &BipolarCard::ikr, "A", 0, 1e12, "emitter current at which the reverse gain falls; 0: none"},
+    {"var", &BipolarCard::var, "V", 0, 1e100, "reverse Early voltage; 0: infinite"},
+    {"ikr", &BipolarCard::ikr, "A", 0, 1e100, "emitter current at which the reverse gain falls; 0: none"},
     {"isc", &BipolarCard::isc, "A", 0, 1e3, "saturation current of the base-collector leakage"},
     {"nc", &BipolarCard::nc, "", 0.1, 100, "emission coefficient of the base-collector leakage"},
     {"rb", &BipolarCard::rb, "ohm", 0, 1e12, "base resistance at low currents"},
-    {"irb", &BipolarCard::irb, "A", 0, 1e12,
+    {"irb", &BipolarCard::irb, "A", 0, 1e100,
      "base current at which the base resistance has fallen halfway to rbm; 0: it follows the base charge"},
     {"rbm", &BipolarCard::rbm, "ohm", 0, 1e12, "base resistance at high currents; default: rb"},
     {"re", &BipolarCard::re, "ohm", 0, 1e12, "emitter resistance"},
     {"rc", &BipolarCard::rc, "ohm", 0, 1e12, "collector resistance"},
     {"cje", &BipolarCard::cje, "F", 0, 1, "base-emitter capacitance at 0 V"},
     {"vje", &BipolarCard::vje, "V", 0.1, 10, "base-emitter potential"},
-    {"mje", &BipolarCard::mje, "", 0, 0.95, "base-emitter grading coefficient"},
+    {"mje", &BipolarCard::mje, "", 0, 0.999, "base-emitter grading coefficient"},
     {"cjc", &BipolarCard::cjc, "F", 0, 1, "base-collector capacitance at 0 V"},
     {"vjc", &BipolarCard::vjc, "V", 0.1, 10, "base-collector potential"},
-    {"mjc", &BipolarCard::mjc, "", 0, 0.95, "base-collector grading coefficient"},
+    {"mjc", &BipolarCard::mjc, "", 0, 0.999, "base-collector grading coefficient"},
     {"xcjc", &BipolarCard::xcjc, "", 0, 1, "fraction of the base-collector capacitance that is connected behind rb"},
     {"cjs", &BipolarCard::cjs, "F", 0, 1, "substrate capacitance at 0 V"},
     {"vjs", &BipolarCard::vjs, "V", 0.1, 10, "substrate potential"},
-    {"mjs", &BipolarCard::mjs, "", 0, 0.95, "substrate grading coefficient"},
+    {"mjs", &BipolarCard::mjs, "", 0, 0.999, "substrate grading coefficient"},
     {"fc", &BipolarCard::fc, "", 0, 0.9999, "fraction of vje and vjc above which the capacitances are extrapolated linearly"},
     {"tf", &BipolarCard::tf, "s", 0, 1, "forward transit time"},
     {"xtf", &BipolarCard::xtf, "", 0, 1e6, "coefficient of the dependence of tf on the bias"},
-    {"vtf", &BipolarCard::vtf, "V", 0, 1e12, "dependence of tf on the base-collector voltage; 0: none"},
-    {"itf", &BipolarCard::itf, "A", 0, 1e12, "current at which tf rises; 0: at every current"},
+    {"vtf", &BipolarCard::vtf, "V", 0, 1e100, "dependence of tf on the base-collector voltage; 0: none"},
+    {"itf", &BipolarCard::itf, "A", 0, 1e100, "current at which tf rises; 0: at every current"},
     {"ptf", &BipolarCard::ptf, "deg", 0, 1e3, "excess phase at 1 / (2 pi tf); ignored with a warning"},
     {"tr", &BipolarCard::tr, "s", 0, 1, "reverse transit time"},
     {"iss", &BipolarCard::iss, "A", 0, 1e3, "saturation current of the substrate junction"},
@@ -60,8 +60,8 @@ constexpr ParameterDef<BipolarCard> bipolar_fields[] = {
 
 /// Other names of parameters, as in ngspice.
 constexpr std::pair<std::string_view, std::string_view> bipolar_aliases[] = {
-    {"va", "vaf"}, {"ik", "ikf"}, {"vb", "var"}, {"pe", "vje"},  {"me", "mje"},   {"pc", "vjc"},
-    {"mc", "mjc"}, {"ps", "vjs"}, {"ms", "mjs"}, {"ccs", "cjs"}, {"csub", "cjs"}, {"tref", "tnom"}};
+    {"va", "vaf"}, {"ik", "ikf"}, {"vb", "var"},  {"pe", "vje"},   {"me", "mje"},    {"pc", "vjc"}, {"mc", "mjc"},
+    {"ps", "vjs"}, {"ms", "mjs"}, {"ccs", "cjs"}, {"csub", "cjs"}, {"tref", "tnom"}, {"nk", "nkf"}};
 
 /// Names that are accepted because ngspice knows them, but only with the value 0: temperature coefficients, and the choice of other
 /// temperature laws.
@@ -76,6 +76,10 @@ constexpr std::string_view zero_parameters[] = {
 constexpr std::string_view ignored_parameters[] = {"vbe_max", "vbc_max", "vce_max",  "pd_max", "ic_max", "ib_max",
                                                    "te_max",  "vceo",    "icrating", "rth0",   "cth0",   "vo",
                                                    "gamma",   "qco",     "quasimod", "vg",     "cn",     "d"};
+
+/// Names that are read apart from `bipolar_fields`.
+constexpr std::string_view other_parameters[] = {"level", "subs", "rco", "c2", "c4", "va",  "ik",   "vb",   "pe",
+                                                 "me",    "pc",   "mc",  "ps", "ms", "ccs", "csub", "tref", "nk"};
 
 Result<void> check_unsupported(const Model& model) {
     if (const double level = value_or(model.values, "level", 1); level != 1)
@@ -98,9 +102,7 @@ Result<BipolarCard> read_rows(const Model& model) {
     for (const auto& names : {std::span<const std::string_view>(zero_parameters), std::span<const std::string_view>(ignored_parameters)})
         for (const auto name : names)
             if (const auto at = known.values.find(name); at != known.values.end()) known.values.erase(at);
-    auto c = TRY(read_model_card<BipolarCard>(
-        bipolar_fields, known,
-        {"level", "subs", "rco", "c2", "c4", "va", "ik", "vb", "pe", "me", "pc", "mc", "ps", "ms", "ccs", "csub", "tref"}));
+    auto c = TRY(read_model_card<BipolarCard>(bipolar_fields, known, other_parameters));
     for (const auto& [alias, name] : bipolar_aliases)
         if (const auto given = model.values.find(alias); given != model.values.end())
             TRY(read_field(*std::ranges::find(bipolar_fields, name, &ParameterDef<BipolarCard>::name), c, model.name, given->second,
@@ -109,6 +111,13 @@ Result<BipolarCard> read_rows(const Model& model) {
 }
 
 }  // namespace
+
+std::vector<std::string_view> bipolar_parameter_names() {
+    auto out = model_value_names(bipolar_fields, other_parameters);
+    out.insert(out.end(), std::begin(zero_parameters), std::end(zero_parameters));
+    out.insert(out.end(), std::begin(ignored_parameters), std::end(ignored_parameters));
+    return out;
+}
 
 Result<BipolarCard> read_bipolar_card(const Model& model) {
     TRY(check_unsupported(model));

@@ -17,6 +17,9 @@ struct BipolarCard {
     bool is_lateral = false;  ///< the substrate forms a junction with the base; if false, with the collector
 };
 
+/// All names that a card may have.
+std::vector<std::string_view> bipolar_parameter_names();
+
 /// Reads the card. Refuses levels other than 1, and parameters whose effect is not implemented.
 Result<BipolarCard> read_bipolar_card(const Model&);
 

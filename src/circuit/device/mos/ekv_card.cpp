@@ -25,7 +25,8 @@ double surface_potential(const EkvCard& c, double kelvin, double nominal) {
 }  // namespace
 
 Result<EkvCard> read_ekv_card(const Model& model) {
-    auto c = TRY(read_model_card<EkvCard>(EkvCard::fields, model, {"level", "lmin", "lmax", "wmin", "wmax", "update"}));
+    static constexpr std::string_view others[] = {"level", "lmin", "lmax", "wmin", "wmax", "update"};
+    auto c = TRY(read_model_card<EkvCard>(EkvCard::fields, model, others));
     if (model.values.contains("theta") && !model.values.contains("e0")) c.e0 = 0;
     return c;
 }

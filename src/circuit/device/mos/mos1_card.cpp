@@ -15,6 +15,10 @@ constexpr std::pair<std::string_view, std::string_view> aliases[] = {{"vt0", "vt
 constexpr std::string_view higher_levels[] = {"nfs",   "xj",   "delta", "theta", "eta",  "kappa",
                                               "ucrit", "uexp", "utra",  "vmax",  "neff", "xqc"};
 
+/// Names that are read apart from the fields. l and w have no effect.
+constexpr std::string_view others[] = {"level", "vt0",   "uo",    "l",    "w",    "nfs",  "xj",   "delta", "theta",
+                                       "eta",   "kappa", "ucrit", "uexp", "utra", "vmax", "neff", "xqc"};
+
 /// Work function of the gate less that of the bulk, V, after SPICE. sign: 1 for NMOS, -1 for PMOS. gap: band gap, V.
 double work_function(const Mos1Card& c, double sign, double phi, double gap) {
     const double gate = c.tpg == 0 ? 3.2 : 3.25 + gap / 2 - sign * c.tpg * gap / 2;
@@ -56,12 +60,11 @@ BulkJunction junction(const Mos1Card& c, bool cap_given, double cap, double area
 
 }  // namespace
 
+std::vector<std::string_view> mos1_parameter_names() { return model_value_names(Mos1Card::fields, others); }
 std::span<const std::string_view> parameters_of_higher_levels() { return higher_levels; }
 
 Result<Mos1Card> read_mos1_card(const Model& model) {
-    auto c = TRY(read_model_card<Mos1Card>(
-        Mos1Card::fields, model,
-        {"level", "vt0", "uo", "nfs", "xj", "delta", "theta", "eta", "kappa", "ucrit", "uexp", "utra", "vmax", "neff", "xqc"}));
+    auto c = TRY(read_model_card<Mos1Card>(Mos1Card::fields, model, others));
     for (const auto& [alias, name] : aliases)
         if (const auto given = model.values.find(alias); given != model.values.end())
             TRY(read_field(*std::ranges::find(Mos1Card::fields, name, &ParameterDef<Mos1Card>::name), c, model.name, given->second,
@@ -92,7 +95,7 @@ Result<Mos1Constants> mos1_constants(const Mos1Card& c, const MosSize& size, dou
 std::string mos1_model_line(const Model& model, std::string_view name) {
     std::string out = fmt::format(".model {} {}(level=1", name, model.type);
     for (const auto& [parameter, value] : model.values) {
-        const bool is_left_out = parameter == "level" || (parameter == "tox" && value == 0) ||
+        const bool is_left_out = parameter == "level" || parameter == "l" || parameter == "w" || (parameter == "tox" && value == 0) ||
                                  std::ranges::find(higher_levels, std::string_view(parameter)) != std::end(higher_levels);
         if (!is_left_out) out += fmt::format(" {}={}", parameter, value);
     }

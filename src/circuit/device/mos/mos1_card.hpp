@@ -24,7 +24,7 @@ struct Mos1Card {
         {"rd", &Mos1Card::rd, "ohm", 0, 1e12, "drain resistance; without it rsh nrd"},
         {"rs", &Mos1Card::rs, "ohm", 0, 1e12, "source resistance; without it rsh nrs"},
         {"rsh", &Mos1Card::rsh, "ohm", 0, 1e12, "resistance of drain and source for each square"},
-        {"is", &Mos1Card::is, "A", 1e-40, 1e3, "saturation current of each bulk junction"},
+        {"is", &Mos1Card::is, "A", 0, 1e3, "saturation current of each bulk junction; 0: no current"},
         {"js", &Mos1Card::js, "A/m^2", 0, 1e9, "the same for each area; used if ad and as are not 0"},
         {"pb", &Mos1Card::pb, "V", 0.1, 10, "potential of the bulk junctions"},
         {"cbd", &Mos1Card::cbd, "F", 0, 1, "capacitance of the drain junction at 0 V; without it cj ad"},
@@ -59,6 +59,8 @@ struct Mos1Constants {
     double kelvin;
 };
 
+/// All names that a card may have.
+std::vector<std::string_view> mos1_parameter_names();
 /// The parameters of levels 2 and 3 that have no effect here.
 std::span<const std::string_view> parameters_of_higher_levels();
 

@@ -10,11 +10,13 @@ Result<void> read_mos_line(ElementReader& line) {
     if (line.word_count() < 6) return line.error_at(5, "its model is missing");
     if (line.word_count() > 6 && !line.is_model(5) && line.is_model(6)) return line.error_at(5, "5 nodes, but expected 4: {}", expected);
     TRY(line.model(5, {"nmos", "pmos"}));
-    if (const auto* ic = line.find("ic"))
-        return line.error_at(ic->name, "ic= of a transistor is not supported; use .ic v(node)=... with uic, or .nodeset v(node)=...");
     for (std::size_t k = 6; k < line.word_count(); ++k) {
-        if (line.text(k) != "off") return line.too_many(k);
-        line.element.values["off"] = 1;
+        if (line.text(k) == "off")
+            line.element.values["off"] = 1;
+        else if (line.continues_initial_voltages(k, 2))  // ic=VDS,VGS,VBS
+            TRY(line.number(k));
+        else
+            return line.too_many(k);
     }
     return {};
 }

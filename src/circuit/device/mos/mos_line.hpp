@@ -15,8 +15,8 @@ struct MosSize {
     double W = 100e-6, L = 100e-6, m = 1;                     ///< m; number of equal transistors in parallel
     double AD = 0, AS = 0, PD = 0, PS = 0, NRD = 1, NRS = 1;  ///< of one transistor: m^2, m, squares
     static constexpr ParameterDef<MosSize> fields[] = {
-        {"w", &MosSize::W, "m", 1e-9, 1, "width"},
-        {"l", &MosSize::L, "m", 1e-9, 1, "length"},
+        {"w", &MosSize::W, "m", 1e-9, 1e6, "width"},
+        {"l", &MosSize::L, "m", 1e-9, 1e6, "length"},
         {"m", &MosSize::m, "", 1e-6, 1e9, "transistors in parallel"},
         {"ad", &MosSize::AD, "m^2", 0, 1, "area of the drain"},
         {"as", &MosSize::AS, "m^2", 0, 1, "area of the source"},
