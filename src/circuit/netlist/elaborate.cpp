@@ -347,6 +347,7 @@ private:
 
     void add_directive(const Statement& s) {
         Directive out{std::string(s.text(0).substr(1)), {}, {}, s.line.location()};
+        if (s.analysis) out.analysis_location = s.analysis->line.location();
         for (std::size_t k = 1; k < s.words.size(); ++k) {
             out.words.push_back(without_blanks(s, s.words[k]));
             out.columns.push_back(static_cast<int>(s.location(k).column));

@@ -240,21 +240,33 @@ private:
     Result<void> control(LogicalLineReader& lines, LogicalLine line) {
         auto script = TRY(read_control_script(lines, line));
         for (auto& warning : script.warnings) out_.warnings.push_back(std::move(warning));
+        ended_ = script.ends_netlist;
+        std::vector<const Statement*> stored;
         for (auto& command : script.commands) {
-            TRY(store_directive(std::move(command.line), out_.directives));
-            if (command.is_analysis) script_analyses_.push_back(out_.directives.back());
+            auto& s = store(TRY(split_directive(std::move(command.line))));
+            if (command.analysis != ControlScript::any_analysis) s.analysis = stored[static_cast<std::size_t>(command.analysis)];
+            stored.push_back(&s);
+            out_.directives.push_back(&s);
+            if (command.is_analysis) script_analyses_.push_back(&s);
         }
         return {};
     }
 
-    /// Removes each analysis of a script that the netlist also has as a directive.
+    /// Removes each analysis of a script that the netlist also has as a directive. The prints and measures of the script then belong to the
+    /// directive.
     void remove_repeated_analyses() {
-        for (const auto* script : script_analyses_) {
-            const bool is_repeated = std::ranges::any_of(out_.directives, [&](const Statement* s) {
-                return s != script && std::ranges::find(script_analyses_, s) == script_analyses_.end() && s->line.text == script->line.text;
-            });
-            if (is_repeated) std::erase(out_.directives, script);
-        }
+        if (script_analyses_.empty()) return;
+        std::map<std::string_view, const Statement*> directives;  // outside of scripts
+        const std::set<const Statement*> scripts(script_analyses_.begin(), script_analyses_.end());
+        for (const auto* s : out_.directives)
+            if (!scripts.contains(s)) directives.try_emplace(s->line.text, s);
+        const auto repeated = [&](const Statement* s) {
+            const auto at = scripts.contains(s) ? directives.find(s->line.text) : directives.end();
+            return at == directives.end() ? nullptr : at->second;
+        };
+        for (auto& s : out_.statements)
+            if (const auto* directive = s.analysis ? repeated(s.analysis) : nullptr) s.analysis = directive;
+        std::erase_if(out_.directives, [&](const Statement* s) { return repeated(s) != nullptr; });
     }
 };
 
