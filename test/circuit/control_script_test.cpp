@@ -16,7 +16,8 @@ NetlistRun run_script(const std::string& commands) { return run_netlist(deck + "
 
 std::string warnings_of(const std::string& commands) {
     std::string out;
-    for (const auto& w : run_script(commands).warnings()) out += w.text() + "\n";
+    const auto run = run_script(commands);
+    for (const auto& w : run.warnings()) out += w.text() + "\n";
     return out;
 }
 
@@ -64,8 +65,9 @@ TEST(ControlScript, AVectorThatIsNotAvailableIsLeftOutWithTheReason) {
         "print v(out)\nmeas tran m max n\nac dec 1 1 10\nprint ok\n");
     for (const char* text :
          {"7:1: .control: let n is left out: unknown function 'length'", "8:1: .control: print n is left out: 'n' is not available",
-          "9:1: .control: let x is left out: elements of a vector are not available", "10:1: .control: let y is left out: '^' takes the magnitude",
-          "13:1: .control: 'fft' has no effect here: .four", "14:1: .control: print v(out) is left out: the curves of the current plot",
+          "9:1: .control: let x is left out: elements of a vector are not available",
+          "10:1: .control: let y is left out: '^' takes the magnitude", "13:1: .control: 'fft' has no effect here: .four",
+          "14:1: .control: print v(out) is left out: the curves of the current plot",
           "15:1: .control: .meas m is left out: 'n' is not available", "17:1: .control: print ok is left out: 'ok' is not available"})
         EXPECT_NE(warnings.find(text), std::string::npos) << text << "\n" << warnings;
     EXPECT_EQ(warnings.find("11:1"), std::string::npos) << "an even power is that of the magnitude";
@@ -80,13 +82,15 @@ TEST(ControlScript, ConditionsWithoutAnAnalysisAreSkippedAndOthersEndIt) {
               std::string::npos);
     EXPECT_EQ(run_script("op\nquit\nac dec 1 1 10\n").analyses().size(), 1U);
     const auto hot = warnings_of("op\nset temp=85\nop\n");
-    EXPECT_NE(hot.find("7:1: .control: 'set temp' is not supported; the rest of this script is not run; write it as .options"), std::string::npos)
+    EXPECT_NE(hot.find("7:1: .control: 'set temp' is not supported; the rest of this script is not run; write it as .options"),
+              std::string::npos)
         << hot;
 }
 
 TEST(ControlScript, UnknownCommandsAndTheirLinesAreNamed) {
     const auto warnings = warnings_of("op\nplto v(out)\nfrobnicate\n");
-    EXPECT_NE(warnings.find("7:1: .control: 'plto' has no effect here: it is unknown; did you mean 'plot'?"), std::string::npos) << warnings;
+    EXPECT_NE(warnings.find("7:1: .control: 'plto' has no effect here: it is unknown; did you mean 'plot'?"), std::string::npos)
+        << warnings;
     EXPECT_NE(warnings.find("8:1: .control: 'frobnicate' has no effect here: it is unknown"), std::string::npos) << warnings;
 }
 
@@ -101,9 +105,9 @@ TEST(ControlScript, WritesNoFileAndStartsNoProgram) {
     const auto folder = fs::temp_directory_path() / fmt::format("corpuscle-script-{}", getpid());
     fs::create_directories(folder / "inside");
     const auto outside = (folder / "outside.raw").string();
-    const auto run = run_script("op\nwrite " + outside + " v(out)\nwrite ../outside.raw\nwrdata " + outside + " v(out)\nprint v(out) > " + outside +
-                                "\nmeas op m find v(out) > " + outside + "\nshell touch " + outside + "\nhardcopy " + outside + " v(out)\nset x=`touch " +
-                                outside + "`\n");
+    const auto run = run_script("op\nwrite " + outside + " v(out)\nwrite ../outside.raw\nwrdata " + outside + " v(out)\nprint v(out) > " +
+                                outside + "\nmeas op m find v(out) > " + outside + "\nshell touch " + outside + "\nhardcopy " + outside +
+                                " v(out)\nset x=`touch " + outside + "`\n");
     EXPECT_EQ(run.analyses().size(), 1U);
     EXPECT_TRUE(fs::is_empty(folder / "inside"));
     EXPECT_EQ(std::distance(fs::directory_iterator(folder), fs::directory_iterator()), 1) << "only the folder 'inside'";

@@ -29,8 +29,8 @@ class MeasurementSet {
     };
     const Circuit& circuit_;
     std::vector<Entry> entries_;
-    std::vector<Entry*> active_;  // those of the plot that was begun last
-    bool has_sweep_ = true;       // of that plot
+    std::vector<Entry*> active_;    // those of the plot that was begun last
+    bool has_sweep_ = true;         // of that plot
     std::size_t inner_points_ = 0;  // of that plot
     std::size_t points_ = 0;        // number of points of that plot so far
 

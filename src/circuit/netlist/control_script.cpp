@@ -90,9 +90,9 @@ class ScriptReader {
     ScriptVectors vectors_;
     std::map<std::string, std::string, std::less<>> variables_;  // of set
     /// The plot that prints and vectors refer to.
-    std::string plot_kind_;                       // "tran"; "": any
+    std::string plot_kind_;  // "tran"; "": any
     int plot_analysis_ = ControlScript::any_analysis;
-    std::string plot_problem_;                    // the reason why its curves are not available; "" if they are
+    std::string plot_problem_;  // the reason why its curves are not available; "" if they are
     /// Commands without effect, each with its first line.
     struct Ignored {
         SourceLocation location;
@@ -111,7 +111,8 @@ public:
         if (!read_commands()) return error_at(from_.location(), ".control is not closed by .endc");
         for (const auto& command : ignored_) {
             const auto others = command.count == 1 ? std::string() : fmt::format(" (and {} more)", command.count - 1);
-            out_.warnings.push_back(error_at(command.location, ".control: '{}' has no effect here{}: {}", command.name, others, command.remedy));
+            out_.warnings.push_back(
+                error_at(command.location, ".control: '{}' has no effect here{}: {}", command.name, others, command.remedy));
         }
         return std::move(out_);
     }
@@ -128,7 +129,8 @@ private:
             const std::string_view text = std::string_view(line.text).substr(1);
             if (text.empty() || std::string_view("*#$;").find(text[0]) != std::string_view::npos) continue;
             if (text[0] == '+' && pending) {
-                pending->segments.push_back({static_cast<std::uint32_t>(pending->text.size()), line.segments[0].line, line.segments[0].column});
+                pending->segments.push_back(
+                    {static_cast<std::uint32_t>(pending->text.size()), line.segments[0].line, line.segments[0].column});
                 pending->text += " " + std::string(text.substr(1));
                 continue;
             }
@@ -170,11 +172,19 @@ private:
         const auto* row = find_script_command(word);
         if (row == nullptr) return ignore(word, line, fmt::format("it is unknown{}", did_you_mean(word, script_command_names())));
         switch (row->effect) {
-            case Effect::changes: return stop(word, line, row->remedy);
-            case Effect::ends: is_stopped_ = true; return;
-            case Effect::block: block_depth_ = 1, block_effect_.clear(); break;
-            case Effect::selects_plot: lose_plot(fmt::format("it is that of '{}'", word)); break;
-            case Effect::none: break;
+            case Effect::changes:
+                return stop(word, line, row->remedy);
+            case Effect::ends:
+                is_stopped_ = true;
+                return;
+            case Effect::block:
+                block_depth_ = 1, block_effect_.clear();
+                break;
+            case Effect::selects_plot:
+                lose_plot(fmt::format("it is that of '{}'", word));
+                break;
+            case Effect::none:
+                break;
         }
         ignore(word, line, row->remedy);
     }
@@ -205,7 +215,8 @@ private:
         if (word == "let" && !words.empty()) vectors_.define_unknown(words[0].text.substr(0, words[0].text.find_first_of("=[(")));
         if (word.starts_with("meas") && words.size() > 1) vectors_.define_unknown(words[1].text);
         if (word != "end" || --block_depth_ > 0) return;
-        if (!block_effect_.empty()) stop(block_effect_, line, "it is inside a condition or a loop: write its commands directly, or use .step");
+        if (!block_effect_.empty())
+            stop(block_effect_, line, "it is inside a condition or a loop: write its commands directly, or use .step");
     }
 
     // ---- variables ----
@@ -236,7 +247,8 @@ private:
         if (is_circuit_variable(name)) return stop("set " + name, line, "write it as .options outside of the script");
         if (equals != std::string_view::npos) {
             const auto value = unquoted(trimmed(text.substr(equals + 1)));
-            if (value.find('(') == std::string_view::npos && value.find('$') == std::string_view::npos) variables_.insert_or_assign(name, value);
+            if (value.find('(') == std::string_view::npos && value.find('$') == std::string_view::npos)
+                variables_.insert_or_assign(name, value);
         }
         ignore("set", line, find_script_command("set")->remedy);
     }
@@ -259,7 +271,8 @@ private:
         const auto kind = words[0].text.substr(0, words[0].text.find_first_of("0123456789"));
         int count = 0, last = ControlScript::any_analysis;
         for (std::size_t k = 0; k < out_.commands.size(); ++k)
-            if (out_.commands[k].is_analysis && out_.commands[k].line.text.starts_with("." + kind + " ")) ++count, last = static_cast<int>(k);
+            if (out_.commands[k].is_analysis && out_.commands[k].line.text.starts_with("." + kind + " "))
+                ++count, last = static_cast<int>(k);
         if (find_analysis(kind) == nullptr || count > 1) return lose_plot(fmt::format("setplot {} is not supported", words[0].text));
         select_plot(kind, last);
     }
@@ -333,7 +346,8 @@ private:
 
     /// The column of .print for an expression; "" if it has none. A number is printed as a measure.
     std::string printed(const ScriptWord& word, const LogicalLine& line) {
-        if (!plot_problem_.empty() && !vectors_.number(word.text)) return leave_out(line, fmt::format("print {}", word.text), plot_problem_), "";
+        if (!plot_problem_.empty() && !vectors_.number(word.text))
+            return leave_out(line, fmt::format("print {}", word.text), plot_problem_), "";
         if (is_plain_curve(word.text) && !vectors_.contains(word.text)) return word.text;
         const auto expanded = vectors_.expand(word.text);
         if (!expanded.problem.empty()) return leave_out(line, fmt::format("print {}", word.text), expanded.problem), "";
@@ -359,7 +373,8 @@ private:
         auto value = vectors_.expand(trimmed(text.substr(equals + 1)));
         if (name.size() < trimmed(text.substr(0, equals)).size()) value.problem = "elements of a vector are not available";
         if (value.depends_on_curves && value.problem.empty()) value.problem = plot_problem_;
-        if (value.depends_on_curves && value.depends_on_measures && value.problem.empty()) value.problem = "it has both curves and measures";
+        if (value.depends_on_curves && value.depends_on_measures && value.problem.empty())
+            value.problem = "it has both curves and measures";
         if (!value.problem.empty()) {
             vectors_.define_unknown(name);
             return leave_out(line, fmt::format("let {}", name), value.problem);

@@ -57,14 +57,15 @@ Result<void> read_model(Statement read, SubcktDef& body, ParsedNetlist& out) {
     if (read.words.size() < 3)
         return error_at(read.location(read.words.size()), ".model: expected a name and a type, such as .model nm nmos (vto=0.5)");
     const std::string name(read.text(1));
-    if (const auto known = body.models.find(name); known != body.models.end()) {
-        const auto place = location_text(*known->second);
-        if (known->second->line.text != read.line.text)
-            return error_at(read.location(1), "model '{}' is already defined at {}", name, place);
+    auto& models = body.models[name];
+    const auto known = std::ranges::find(models, read.condition, [](const Statement* s) { return s->condition; });
+    if (known != models.end()) {
+        const auto place = location_text(**known);
+        if ((*known)->line.text != read.line.text) return error_at(read.location(1), "model '{}' is already defined at {}", name, place);
         out.warnings.push_back(error_at(read.location(1), "model '{}' is also defined at {}, in the same words", name, place));
         return {};
     }
-    body.models.emplace(name, &out.statements.emplace_back(std::move(read)));
+    models.push_back(&out.statements.emplace_back(std::move(read)));
     return {};
 }
 

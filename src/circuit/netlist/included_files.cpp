@@ -9,8 +9,9 @@ namespace {
 
 constexpr std::size_t max_include_depth = 50;  // of files
 
-/// The path of a file that the file `includer` calls `name`.
-std::string resolved_path(const std::string& includer, std::string_view name) {
+/// The path of a file that the file `includer` calls `name`. A backslash separates folders, too.
+std::string resolved_path(const std::string& includer, std::string name) {
+    std::ranges::replace(name, '\\', '/');
     return (std::filesystem::path(includer).parent_path() / std::filesystem::path(name)).lexically_normal().string();
 }
 
@@ -22,7 +23,7 @@ bool IncludedFiles::is_in_library() const {
 
 Result<IncludedFiles::Opened> IncludedFiles::open(std::string_view name, std::string section, const SourceLocation& location) {
     ++files_opened_;
-    const std::string path = resolved_path(being_read_.back().path, name);
+    const std::string path = resolved_path(being_read_.back().path, std::string(name));
     if (being_read_.size() > max_include_depth)
         return error_at(location, "included files are nested deeper than the limit of {}", max_include_depth);
     if (files_opened_ > max_elements) return error_at(location, "more than {} files are included", max_elements);
@@ -30,7 +31,8 @@ Result<IncludedFiles::Opened> IncludedFiles::open(std::string_view name, std::st
     if (!text) {
         auto opened = open_(path);
         if (!opened) {
-            refusals_.add(error_at(location, "'{}': {}", name, opened.error().message));
+            const std::string_view hint = name.starts_with('~') ? "; '~' is not replaced, so write the whole path" : "";
+            refusals_.add(error_at(location, "'{}': {}{}", name, opened.error().message, hint));
             return Opened{{path, std::move(section)}, nullptr};
         }
         text = std::make_shared<const std::string>(std::move(*opened));
@@ -50,6 +52,8 @@ Result<void> IncludedFiles::enter(FileSection source, std::size_t bytes) {
     return {};
 }
 
+bool names_file(std::string_view word) { return unquoted(word) != word || word.find_first_of("./\\") != std::string_view::npos; }
+
 Result<void> skip_section(LogicalLineReader& lines, SourceLocation from) {
     LogicalLine line;
     while (true) {
@@ -65,10 +69,12 @@ Result<SourceLocation> find_section(LogicalLineReader& lines, const FileSection&
     while (true) {
         const auto more = TRY(lines.next(line));
         if (!more)
-            return bad_input(fmt::format("library '{}' has no section '{}'{}", source.path, source.section, did_you_mean(source.section, known)));
+            return bad_input(fmt::format("library '{}' has no section '{}'; {}{}", source.path, source.section,
+                                         known.empty() ? "it has no sections, so read it with .include" : "it has " + joined(known),
+                                         did_you_mean(source.section, known)));
         if (lower(std::string_view(line.text).substr(0, 4)) != ".lib") continue;
         const auto head = TRY(split_directive(std::move(line)));
-        if (head.words.size() != 2) continue;
+        if (head.words.size() != 2 || names_file(head.text(1))) continue;
         known.emplace_back(lower(unquoted(head.text(1))));
         if (known.back() == source.section) return head.line.location();
     }

@@ -42,6 +42,9 @@ public:
     Result<void> check_corner(const std::string& netlist) const { return corner_.check_found(netlist); }
 };
 
+/// True for a word of .lib that names a file and not a section: it is in quotes, or has an extension or a folder.
+bool names_file(std::string_view word);
+
 /// Skips the lines of a section up to .endl; only ".lib file section" reads them. `from` is the location of the section's first line.
 Result<void> skip_section(LogicalLineReader&, SourceLocation from);
 

@@ -69,7 +69,8 @@ struct Directive {
     /// Of a print or meas of a script: the location of the analysis to which it applies. It applies to any analysis if this is empty.
     std::optional<SourceLocation> analysis_location = {};
     bool applies_to(const Directive& analysis) const {
-        return !analysis_location || (analysis_location->line == analysis.location.line && analysis_location->file == analysis.location.file);
+        return !analysis_location ||
+               (analysis_location->line == analysis.location.line && analysis_location->file == analysis.location.file);
     }
     /// The location of a word, counted from 0. Without a column if the directive has no such word.
     SourceLocation location_of(std::size_t word) const;

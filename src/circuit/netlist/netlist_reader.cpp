@@ -3,6 +3,7 @@
 #include "circuit/analyses.hpp"
 #include "circuit/netlist/control_script.hpp"
 #include "circuit/netlist/definition_reader.hpp"
+#include "circuit/netlist/dialects.hpp"
 #include "circuit/netlist/element_line.hpp"
 #include "circuit/netlist/included_files.hpp"
 #include "core/text/ascii_text.hpp"
@@ -10,7 +11,7 @@
 namespace corpuscle::circuit {
 namespace {
 
-constexpr std::size_t max_definition_depth = 200;  // of nested .subckt
+constexpr std::size_t max_definition_depth = 200, max_condition_depth = 200;  // of nested .subckt and .if
 
 class NetlistReader {
     ParsedNetlist& out_;
@@ -20,7 +21,14 @@ class NetlistReader {
     SubcktDef* file_body_;  // the definition that was being read when the present file began; .ends in this file must not close it
     std::size_t subcircuit_depth_ = 0;               // number of .subckt lines that are not yet closed
     std::vector<const Statement*> script_analyses_;  // of .control
-    bool ended_ = false;                             // true after .end, until the present file is left
+    struct OpenIf {
+        int outer, branch;  // indices in SubcktDef::conditions; -1: none
+        bool has_else;
+        SourceLocation location;
+    };
+    std::vector<OpenIf> open_ifs_;  // outermost first
+    std::size_t file_ifs_ = 0;      // number of those that were open when the present file began
+    bool ended_ = false;            // true after .end, until the present file is left
 
 public:
     NetlistReader(ParsedNetlist& out, Refusals& refusals, const Netlist::FileOpener& open, std::string corner)
@@ -31,13 +39,14 @@ public:
     Result<void> read_all(std::string_view text, const std::string& path) {
         TRY(read(text, {path, ""}));
         remove_repeated_analyses();
+        warn_about_dialect(out_);
         return files_.check_corner(path);
     }
 
 private:
     /// Reads one directive.
     using Read = Result<void> (NetlistReader::*)(LogicalLineReader& lines, LogicalLine line);
-    enum class Place { anywhere, top_level };
+    enum class Place { anywhere, top_level, not_in_if, top_level_not_in_if };
     /// What an error in the line means for the lines after it.
     enum class AfterError { reads_on, ends };
     struct Row {
@@ -70,7 +79,10 @@ private:
         if (files_.is_main()) TRY(take_title(lines));
         if (!source.section.empty()) out_.libraries.insert(source.path);
         SubcktDef* const outer_body = std::exchange(file_body_, body_);
+        const auto outer_ifs = open_ifs_.size(), previous_ifs = std::exchange(file_ifs_, outer_ifs);
         auto ok = source.section.empty() ? statements(lines) : section(lines, source);
+        if (ok && open_ifs_.size() > outer_ifs) ok = error_at(open_ifs_.back().location, ".if is not closed by .endif");
+        file_ifs_ = previous_ifs;
         if (ok && body_ != file_body_) ok = error_at(body_->head->location(0), ".subckt {} is not closed by .ends", body_->name);
         file_body_ = outer_body;
         files_.leave();
@@ -117,7 +129,10 @@ private:
         const std::string word = lower(std::string_view(line.text).substr(0, line.text.find_first_of(" \t('\"{")));
         const auto* row = find_row(word);
         if (row == nullptr) return keep(unknown(word, line.location()), Refusals::Kind::directive);
-        if (row->place == Place::top_level && body_->head)
+        if (!open_ifs_.empty() && (row->place == Place::not_in_if || row->place == Place::top_level_not_in_if))
+            return error_at(line.location(), "{} is not allowed inside .if; move it outside, and write .param x={{condition ? a : b}}",
+                            word);
+        if ((row->place == Place::top_level || row->place == Place::top_level_not_in_if) && body_->head)
             return error_at(line.location(), "{} is not allowed inside .subckt {}; move it outside", word, body_->name);
         auto ok = (this->*row->read)(lines, std::move(line));
         return row->after_error == AfterError::ends ? ok : keep(std::move(ok));
@@ -130,14 +145,15 @@ private:
     }
 
     static Error unknown(std::string_view word, SourceLocation location) {
-        if (word == ".if" || word == ".elseif" || word == ".else" || word == ".endif")
-            return error_at(location, "{}: conditional parts of a netlist are not supported", word);
         for (const auto& [old_name, new_name] : renamed_directives)
             if (word == old_name) return error_at(location, "{} is now {}", old_name, new_name);
         return error_at(location, "unknown statement '{}'{}", word, did_you_mean(word, directive_names()));
     }
 
-    Statement& store(Statement s) { return out_.statements.emplace_back(std::move(s)); }
+    Statement& store(Statement s) {
+        s.condition = present_condition();
+        return out_.statements.emplace_back(std::move(s));
+    }
 
     Result<void> store_directive(LogicalLine line, std::vector<const Statement*>& list) {
         list.push_back(&store(TRY(split_directive(std::move(line)))));
@@ -155,7 +171,10 @@ private:
     // ---- directives ----
 
     Result<void> output(LogicalLineReader&, LogicalLine line) { return store_directive(std::move(line), out_.directives); }
-    Result<void> without_effect(LogicalLineReader&, LogicalLine) { return {}; }
+    Result<void> without_effect(LogicalLineReader&, LogicalLine line) {
+        out_.marks.insert(line.text.substr(0, line.text.find_first_of(" \t")));
+        return {};
+    }
     Result<void> end(LogicalLineReader&, LogicalLine) { return ended_ = true, Result<void>(); }
     Result<void> initial_voltages(LogicalLineReader&, LogicalLine line) { return store_directive(std::move(line), body_->ics); }
     Result<void> temperature(LogicalLineReader&, LogicalLine line) { return store_directive(std::move(line), out_.temperatures); }
@@ -178,11 +197,55 @@ private:
     }
 
     Result<void> parameters(LogicalLineReader&, LogicalLine line) {
+        if (line.text.starts_with(".global_param")) out_.marks.insert(".global_param");
         return read_parameters(store(TRY(split_assignments(std::move(line)))), *body_, out_.warnings);
     }
     Result<void> function(LogicalLineReader&, LogicalLine line) { return read_function(line, *body_); }
     Result<void> model(LogicalLineReader&, LogicalLine line) {
-        return read_model(TRY(split_element(std::move(line), nullptr)), *body_, out_);
+        auto read = TRY(split_element(std::move(line), nullptr));
+        read.condition = present_condition();
+        return read_model(std::move(read), *body_, out_);
+    }
+
+    // ---- .if ----
+
+    int present_condition() const { return open_ifs_.empty() ? -1 : open_ifs_.back().branch; }
+
+    Result<void> if_line(LogicalLineReader&, LogicalLine line) {
+        if (open_ifs_.size() >= max_condition_depth)
+            return error_at(line.location(), ".if is nested deeper than the limit of {}", max_condition_depth);
+        const int outer = present_condition();
+        open_ifs_.push_back({outer, -1, false, line.location()});
+        return begin_branch(std::move(line), ".if", -1);
+    }
+    Result<void> elseif_line(LogicalLineReader&, LogicalLine line) { return next_branch(std::move(line), ".elseif"); }
+    Result<void> else_line(LogicalLineReader&, LogicalLine line) { return next_branch(std::move(line), ".else"); }
+    Result<void> endif_line(LogicalLineReader&, LogicalLine line) {
+        if (open_ifs_.size() <= file_ifs_) return error_at(line.location(), ".endif without .if");
+        open_ifs_.pop_back();
+        return {};
+    }
+    Result<void> next_branch(LogicalLine line, std::string_view word) {
+        if (open_ifs_.size() <= file_ifs_) return error_at(line.location(), "{} without .if", word);
+        if (open_ifs_.back().has_else) return error_at(line.location(), "{} after .else", word);
+        return begin_branch(std::move(line), word, open_ifs_.back().branch);
+    }
+    /// Begins the branch of an .if line, or the one after `previous`.
+    Result<void> begin_branch(LogicalLine line, std::string_view word, int previous) {
+        auto& open = open_ifs_.back();
+        Condition condition{open.outer, previous};
+        const auto from = std::min(line.text.find_first_not_of(" \t", word.size()), line.text.size());
+        if (word == ".else") {
+            open.has_else = true;
+        } else {
+            if (from == line.text.size()) return error_at(line.location(from), "{}: expected a condition, such as {} (x > 1)", word, word);
+            Statement& s = out_.statements.emplace_back(Statement{std::move(line), {}, {}});
+            condition.text = WordRef{
+                &s, {Word::Kind::expression, static_cast<std::uint32_t>(from), static_cast<std::uint32_t>(s.line.text.size() - from)}};
+        }
+        body_->conditions.push_back(std::move(condition));
+        open.branch = static_cast<int>(body_->conditions.size()) - 1;
+        return {};
     }
 
     /// Reads a .subckt line. The following lines belong to its body until .ends.
@@ -214,16 +277,16 @@ private:
     Result<void> include(LogicalLineReader&, LogicalLine line) {
         auto read = TRY(split_directive(std::move(line)));
         if (read.words.size() != 2)
-            return error_at(read.location(1), ".include: expected one file name; put a name with blanks in quotes");
+            return error_at(read.location(read.words.size() < 2 ? 1 : 2), ".include: expected one file; put a name with blanks in quotes");
         return open(unquoted(read.text(1)), "", read.location(1));
     }
 
-    /// Reads ".lib file section", or skips the section that ".lib section" begins.
+    /// Reads ".lib file section" or ".lib file", or skips the section that ".lib section" begins.
     Result<void> library(LogicalLineReader& lines, LogicalLine line) {
         auto read = TRY(split_directive(std::move(line)));
         if (read.words.size() == 3) return open(unquoted(read.text(1)), lower(unquoted(read.text(2))), read.location(1));
-        const bool is_file = read.words.size() == 2 && unquoted(read.text(1)) != read.text(1);
-        if (read.words.size() != 2 || is_file)
+        if (read.words.size() == 2 && names_file(read.text(1))) return open(unquoted(read.text(1)), "", read.location(1));
+        if (read.words.size() != 2)
             return error_at(read.location(1), ".lib: expected a file and a section; to read a complete file, use .include");
         return skip_section(lines, read.line.location());
     }
@@ -273,30 +336,34 @@ private:
 /// All directives but those of the analyses.
 std::span<const NetlistReader::Row> NetlistReader::rows() {
     using R = NetlistReader;
-    constexpr auto top = Place::top_level;
+    constexpr auto top = Place::top_level, not_in_if = Place::not_in_if, top_not_in_if = Place::top_level_not_in_if;
     static const Row all[] = {
-        {".param", &R::parameters},
-        {".global_param", &R::parameters},
-        {".func", &R::function},
+        {".param", &R::parameters, not_in_if},
+        {".global_param", &R::parameters, not_in_if},
+        {".func", &R::function, not_in_if},
         {".model", &R::model},
         {".ic", &R::initial_voltages},
         {".nodeset", &R::initial_voltages},
-        {".subckt", &R::subcircuit, Place::anywhere, AfterError::ends},
-        {".ends", &R::end_of_subcircuit, Place::anywhere, AfterError::ends},
-        {".include", &R::include, Place::anywhere, AfterError::ends},
-        {".incl", &R::include, Place::anywhere, AfterError::ends},
-        {".inc", &R::include, Place::anywhere, AfterError::ends},
-        {".lib", &R::library, Place::anywhere, AfterError::ends},
-        {".endl", &R::end_without_begin, Place::anywhere, AfterError::ends},
-        {".control", &R::control, Place::anywhere, AfterError::ends},
+        {".subckt", &R::subcircuit, not_in_if, AfterError::ends},
+        {".ends", &R::end_of_subcircuit, not_in_if, AfterError::ends},
+        {".include", &R::include, not_in_if, AfterError::ends},
+        {".incl", &R::include, not_in_if, AfterError::ends},
+        {".inc", &R::include, not_in_if, AfterError::ends},
+        {".lib", &R::library, not_in_if, AfterError::ends},
+        {".endl", &R::end_without_begin, not_in_if, AfterError::ends},
+        {".control", &R::control, not_in_if, AfterError::ends},
         {".endc", &R::end_without_begin, Place::anywhere, AfterError::ends},
         {".end", &R::end},
-        {".global", &R::global, top},
-        {".temp", &R::temperature, top},
-        {".options", &R::options, top},
-        {".option", &R::options, top},
-        {".opt", &R::options, top},
-        {".title", &R::title, top},
+        {".global", &R::global, top_not_in_if},
+        {".temp", &R::temperature, top_not_in_if},
+        {".options", &R::options, top_not_in_if},
+        {".option", &R::options, top_not_in_if},
+        {".opt", &R::options, top_not_in_if},
+        {".title", &R::title, top_not_in_if},
+        {".if", &R::if_line, Place::anywhere, AfterError::ends},
+        {".elseif", &R::elseif_line, Place::anywhere, AfterError::ends},
+        {".else", &R::else_line, Place::anywhere, AfterError::ends},
+        {".endif", &R::endif_line, Place::anywhere, AfterError::ends},
         // These become Circuit::directives, as those of the analyses do.
         {".meas", &R::output, top},
         {".measure", &R::output, top},

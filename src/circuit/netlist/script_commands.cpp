@@ -113,7 +113,8 @@ std::vector<std::string_view> script_command_names() {
 }
 
 bool is_circuit_variable(std::string_view name) {
-    constexpr std::string_view names[] = {"temp", "tnom", "reltol", "abstol", "vntol", "chgtol", "trtol", "gmin", "method", "maxord", "rshunt"};
+    constexpr std::string_view names[] = {"temp",  "tnom", "reltol", "abstol", "vntol", "chgtol",
+                                          "trtol", "gmin", "method", "maxord", "rshunt"};
     return std::ranges::find(names, name) != std::end(names);
 }
 

@@ -10,14 +10,15 @@ namespace {
 constexpr std::size_t max_expanded = 10000;  // characters of one expression
 
 /// Functions of a complex vector, and the letters of the part of v() or i() that they take. The phase is in radians.
-constexpr std::pair<std::string_view, std::string_view> part_functions[] = {{"mag", "m"}, {"magnitude", "m"}, {"db", "db"}, {"ph", "p"},
-                                                                            {"phase", "p"}, {"real", "r"}, {"re", "r"}, {"imag", "i"}, {"im", "i"}};
+constexpr std::pair<std::string_view, std::string_view> part_functions[] = {
+    {"mag", "m"}, {"magnitude", "m"}, {"db", "db"}, {"ph", "p"}, {"phase", "p"}, {"real", "r"}, {"re", "r"}, {"imag", "i"}, {"im", "i"}};
 /// Names that are constants of expressions and often nodes, too.
 constexpr std::string_view ambiguous_names[] = {"c", "e", "i", "yes", "no"};
 constexpr std::string_view swept_names[] = {"time", "frequency", "pi"};
 /// Words of a meas line that are not vectors.
-constexpr std::string_view measure_words[] = {"trig", "targ", "val", "rise", "fall", "cross", "td", "at", "from", "to", "when", "find", "last", "deriv", "param",
-                                              "min", "max", "pp", "avg", "rms", "integ", "min_at", "max_at", "goal", "minval", "weight"};
+constexpr std::string_view measure_words[] = {"trig", "targ", "val",   "rise",   "fall",   "cross", "td",     "at",    "from",
+                                              "to",   "when", "find",  "last",   "deriv",  "param", "min",    "max",   "pp",
+                                              "avg",  "rms",  "integ", "min_at", "max_at", "goal",  "minval", "weight"};
 
 template <class Names>
 bool is_among(const Names& names, std::string_view name) {
@@ -145,7 +146,8 @@ ScriptVectors::Expanded ScriptVectors::expand(std::string_view expression) const
     });
     if (!out.problem.empty()) return out;
     auto scope = curve_scope();
-    if (out.depends_on_measures) scope.parameter = [this](std::string_view name) { return is_measure(name) ? std::optional(1.0) : std::nullopt; };
+    if (out.depends_on_measures)
+        scope.parameter = [this](std::string_view name) { return is_measure(name) ? std::optional(1.0) : std::nullopt; };
     const auto parsed = Expression::parse(out.text, {}, scope);
     if (!parsed) out.problem = parsed.error().message;
     if (!parsed || out.depends_on_curves || out.depends_on_measures) return out;

@@ -75,6 +75,7 @@ struct Statement {
     LogicalLine line;
     std::vector<Word> words;
     std::vector<NameValue> pairs;
+    int condition = -1;                   ///< index in SubcktDef::conditions; the statement holds if this branch of .if does; -1: always
     const Statement* analysis = nullptr;  ///< of a print or meas of a script: the analysis to which it applies; null: any
 
     std::string_view text(const Word& w) const { return std::string_view(line.text).substr(w.at, w.size); }
