@@ -123,7 +123,7 @@ TEST(ForeignNetlist, TheCurrentOfADeviceThatAPrintOrAMeasureNamesIsComputed) {
 
 TEST(ForeignNetlist, PartsOfANetlistMayDependOnConditions) {
     const std::string deck =
-        "conditions\n.param n=2\nv1 a 0 1\n.if (n==1)\nr1 a 0 1k\n.model d d(is=1f)\n.op\n.elseif(n==2)\nr1 a 0 2k\n.model d d(is=2f)\n"
+        "conditions\n.param n=2\nv1 a 0 1\n.if (n==1)\nr1 a 0 1k\n.model d d(is=1f)\n.op\n.elseif(n = 2)\nr1 a 0 2k\n.model d d(is=2f)\n"
         ".if (n > 5)\nr2 a 0 {nothing}\n.else\nr2 a 0 4k\n.endif\n.else\nr1 a 0 {nothing}\n.op\n.endif\nd1 0 a d\n.dc v1 1 1 1\n";
     const auto run = run_netlist(deck);
     ASSERT_EQ(run.analyses().size(), 1U);

@@ -66,7 +66,7 @@ struct Directive {
     std::vector<std::string> words;
     std::vector<int> columns;  ///< of each word in its line of the file, from 1; empty for a directive of an override
     SourceLocation location;
-    /// Of a print or meas of a script: the location of the analysis to which it applies. It applies to any analysis if this is empty.
+    /// The location of the analysis to which a print or meas of a script applies. It applies to any analysis if this is empty.
     std::optional<SourceLocation> analysis_location = {};
     bool applies_to(const Directive& analysis) const {
         return !analysis_location ||

@@ -1,11 +1,11 @@
 // Parses the statements of a netlist, of the files that it includes and of sections of libraries.
 
 #include "circuit/analyses.hpp"
-#include "circuit/netlist/control_script.hpp"
 #include "circuit/netlist/definition_reader.hpp"
 #include "circuit/netlist/dialects.hpp"
 #include "circuit/netlist/element_line.hpp"
 #include "circuit/netlist/included_files.hpp"
+#include "circuit/netlist/script/control_script.hpp"
 #include "core/text/ascii_text.hpp"
 
 namespace corpuscle::circuit {
@@ -47,7 +47,7 @@ private:
     /// Reads one directive.
     using Read = Result<void> (NetlistReader::*)(LogicalLineReader& lines, LogicalLine line);
     enum class Place { anywhere, top_level, not_in_if, top_level_not_in_if };
-    /// What an error in the line means for the lines after it.
+    /// Whether the lines after an error are read, too.
     enum class AfterError { reads_on, ends };
     struct Row {
         std::string_view name;
@@ -230,6 +230,25 @@ private:
         if (open_ifs_.back().has_else) return error_at(line.location(), "{} after .else", word);
         return begin_branch(std::move(line), word, open_ifs_.back().branch);
     }
+    /// Writes == for each single = of a condition; ngspice accepts both.
+    static void double_equals(LogicalLine& line) {
+        constexpr std::size_t longest = 10000;  // characters; the time grows with the square of the length
+        if (line.text.size() > longest) return;
+        for (std::size_t k = 1; k + 1 < line.text.size(); ++k) {
+            constexpr std::string_view operators = "=<>!";
+            const auto is_operator = [&](std::size_t n) { return operators.find(line.text[n]) != std::string_view::npos; };
+            if (line.text[k] != '=' || is_operator(k - 1) || is_operator(k + 1)) continue;
+            const auto after = line.location(k + 1);
+            line.text.insert(k, 1, '=');
+            for (auto& segment : line.segments)
+                if (segment.at > k) ++segment.at;
+            const auto next = std::ranges::upper_bound(line.segments, k + 2, {}, &LogicalLine::Segment::at);
+            line.segments.insert(next, {static_cast<std::uint32_t>(k + 2), static_cast<std::uint32_t>(after.line),
+                                        static_cast<std::uint32_t>(after.column)});
+            ++k;
+        }
+    }
+
     /// Begins the branch of an .if line, or the one after `previous`.
     Result<void> begin_branch(LogicalLine line, std::string_view word, int previous) {
         auto& open = open_ifs_.back();
@@ -238,6 +257,7 @@ private:
         if (word == ".else") {
             open.has_else = true;
         } else {
+            double_equals(line);
             if (from == line.text.size()) return error_at(line.location(from), "{}: expected a condition, such as {} (x > 1)", word, word);
             Statement& s = out_.statements.emplace_back(Statement{std::move(line), {}, {}});
             condition.text = WordRef{

@@ -1,8 +1,8 @@
-#include "circuit/netlist/control_script.hpp"
+#include "circuit/netlist/script/control_script.hpp"
 
 #include "circuit/analyses.hpp"
-#include "circuit/netlist/script_commands.hpp"
-#include "circuit/netlist/script_vectors.hpp"
+#include "circuit/netlist/script/script_commands.hpp"
+#include "circuit/netlist/script/script_vectors.hpp"
 #include "core/text/ascii_text.hpp"
 
 namespace corpuscle::circuit {

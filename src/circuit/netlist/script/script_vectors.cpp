@@ -1,4 +1,4 @@
-#include "circuit/netlist/script_vectors.hpp"
+#include "circuit/netlist/script/script_vectors.hpp"
 
 #include "circuit/expression/spice_number.hpp"
 #include "circuit/output/curve_view.hpp"

@@ -1,4 +1,4 @@
-#include "circuit/netlist/script_commands.hpp"
+#include "circuit/netlist/script/script_commands.hpp"
 
 #include <algorithm>
 
