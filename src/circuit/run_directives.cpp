@@ -74,7 +74,7 @@ public:
         if (is_first() && options_.print_tables) sinks_.push_back(&printer_);
         if (keeps_points()) sinks_.push_back(&recorder_);
         if (selector_) sinks_.push_back(&*selector_);
-        if (is_first()) run_.last_point = head, TRY(measures_.begin(run_.directive->name, head));
+        if (is_first()) run_.last_point = head, TRY(measures_.begin(*run_.directive, head));
         if (fourier_) TRY(fourier_->begin(*run_.directive, head, left_out));
         for (auto* sink : sinks_) TRY(sink->begin(head));
         return {};

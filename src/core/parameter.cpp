@@ -8,16 +8,19 @@
 namespace corpuscle {
 namespace {
 
-/// Levenshtein distance: the number of letters to replace, insert or remove. Upper and lower case are equal.
+/// The number of letters to replace, insert or remove, or of neighbours to swap. Upper and lower case are equal.
 std::size_t edit_distance(std::string_view a, std::string_view b) {
-    std::vector<std::size_t> row(b.size() + 1);
+    const auto differ = [&](std::size_t i, std::size_t j) { return lower(a[i]) != lower(b[j]); };
+    std::vector<std::size_t> before(b.size() + 1), row(b.size() + 1), next(b.size() + 1);
     std::iota(row.begin(), row.end(), std::size_t{0});
     for (std::size_t i = 0; i < a.size(); ++i) {
-        std::size_t diagonal = std::exchange(row[0], i + 1);
+        next[0] = i + 1;
         for (std::size_t j = 0; j < b.size(); ++j) {
-            const std::size_t replaced = diagonal + (lower(a[i]) != lower(b[j]));
-            diagonal = std::exchange(row[j + 1], std::min({replaced, row[j] + 1, row[j + 1] + 1}));
+            next[j + 1] = std::min({row[j] + differ(i, j), next[j] + 1, row[j + 1] + 1});
+            const bool is_swapped = i > 0 && j > 0 && !differ(i, j - 1) && !differ(i - 1, j);
+            if (is_swapped) next[j + 1] = std::min(next[j + 1], before[j - 1] + 1);
         }
+        before = std::exchange(row, next);
     }
     return row.back();
 }

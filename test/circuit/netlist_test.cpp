@@ -415,11 +415,18 @@ TEST(NetlistFiles, LibrariesContributeOnlyTheNamedSection) {
                        ".lib base\n.model nm nmos vto={v}\n.endl\nthis is outside\n"}};
     const auto c = circuit(".lib 'p.lib' SS\nM1 a b c 0 nm\n", files);
     EXPECT_EQ(c.models[0].values.at("vto"), 2);
-    EXPECT_EQ(error_of(".lib 'p.lib' sf", files), "dir/t.cir:2:6: library 'dir/p.lib' has no section 'sf'; did you mean 'ss'?");
-    EXPECT_EQ(error_of(".lib 'p.lib'", files), "dir/t.cir:2:6: .lib: expected a file and a section; to read a complete file, use .include");
+    EXPECT_EQ(error_of(".lib 'p.lib' sf", files),
+              "dir/t.cir:2:6: library 'dir/p.lib' has no section 'sf'; it has tt, ss, base; did you mean 'ss'?");
+    EXPECT_EQ(error_of(".lib ~/p.lib"), "dir/t.cir:2:6: '~/p.lib': no such file; '~' is not replaced, so write the whole path");
     EXPECT_EQ(error_of(".lib tt\nR1 a 0 1"),
               "dir/t.cir:2:1: .lib with one word begins a section, but .endl is missing; to read a file, use .include");
     EXPECT_EQ(error_of(".endl"), "dir/t.cir:2:1: .endl without .lib");
+}
+
+TEST(NetlistFiles, OfALibWithoutASectionAreReadCompletely) {
+    const Files files{{"dir/sub/p.lib", "R9 a 0 5\n"}};
+    for (const char* line : {".lib 'sub/p.lib'\n", ".lib sub/p.lib\n", ".lib sub\\p.lib\n", ".include \"sub\\p.lib\"\n"})
+        EXPECT_EQ(element_in(circuit(std::string(line) + "V1 a 0 1\n", files), "r9").value, 5) << line;
 }
 
 TEST(NetlistFiles, ThatCannotBeReadAreRejected) {
@@ -480,7 +487,7 @@ TEST(NetlistCommands, AreRejectedWithLocationAndSuggestion) {
         const char *body, *message;
     } cases[] = {
         {".trann 1n 1u", "2:1: unknown statement '.trann'; did you mean '.tran'?"},
-        {".if (1)", "2:1: .if: conditional parts of a netlist are not supported"},
+        {".if (1)", "2:1: .if is not closed by .endif"},
         {".ic v(b)=1\nR1 a 0 1", "2:5: unknown node 'b'; did you mean 'a'?"},
         {".ic a=1", "2:5: expected v(node)=value, not 'a=1'"},
         {".ic v(0)=1", "2:5: ground is always at 0 V"},
@@ -517,7 +524,7 @@ TEST(NetlistWarnings, PointAtMisleadingNumbers) {
     for (const auto* title : {"Low pass", "* R1 a b 1k", "", "rectifier with a load", "V1 of the chip"})
         EXPECT_TRUE(warnings(std::string(title) + "\n").empty()) << title;
     EXPECT_EQ(warnings("t\n.control\nfoo 'bar \xff\n.endc\n.param a=1\n.param a=2\n"),
-              (Messages{"t.cir:2:1: .control: these commands have no effect here: foo",
+              (Messages{"t.cir:3:1: .control: 'foo' has no effect here: it is unknown",
                         "t.cir:6:8: .param a is given twice; this value is used"}));
 }
 

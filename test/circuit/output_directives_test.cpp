@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 #include <chrono>
 #include <filesystem>
+#include <fstream>
 #include <nlohmann/json.hpp>
 
 #include "circuit/run_directives.hpp"
@@ -209,6 +210,27 @@ TEST(Warnings, ReportLikelyMistakesInSolvableNetlists) {
                   .find("v1: the pulse (rise, width and fall take 7 us) is longer than its period of 4 us"),
               std::string::npos);
     EXPECT_NE(warnings_in("v1 a 0 1\nr1 a 0 1k\n.tran 1m 1u\n").find(".tran: STEP 1m is longer than STOP 1u"), std::string::npos);
+}
+
+TEST(Mistakes, ThatAreCommonAreAnsweredWithTheirRemedy) {
+    const auto library = source_root() + "/process/tsmc180.lib";
+    const auto netlist = Netlist::parse("t\n.lib '" + library + "' typ\n", "t.cir", [&](const std::string& path) -> Result<std::string> {
+        std::ifstream file(path);
+        return std::string(std::istreambuf_iterator<char>(file), {});
+    });
+    ASSERT_FALSE(netlist);
+    EXPECT_NE(netlist.error().text().find("t.cir:2:6: library '" + library + "' has no section 'typ'; it has tt, ss, ff"),
+              std::string::npos)
+        << netlist.error().text();
+    EXPECT_EQ(error_of("v1 a 0 ac 1\n.ac dec 10 1k 1\n"),
+              "t.cir:3:12: .ac: from 1000 to 1 Hz: the lower frequency comes first; write .ac dec 10 1 1k");
+    EXPECT_NE(error_of("m1 a a 0 0 nhc\n.model nch nmos\n.op\n").find("2:12: m1: unknown model 'nhc'; did you mean 'nch'?"),
+              std::string::npos);
+    EXPECT_NE(warnings_in("v1 a 0 sin(0 0,5 1k)\nr1 a 0 1\n.tran 1u 1m\n")
+                  .find("2:16: v1: '0,5' is two numbers; the decimal point is a dot: 0.5"),
+              std::string::npos);
+    EXPECT_EQ(warnings_in("v1 a 0 sin(0,5,1k)\nr1 a 0 1\n.tran 1u 1m\n"), "");
+    EXPECT_EQ(warnings_in("v1 a 0 pwl(0,0 1m,5)\nr1 a 0 1\n.tran 1u 1m\n"), "");
 }
 
 TEST(Save, OfManyCurvesTakesTimeInProportion) {

@@ -58,6 +58,28 @@ TEST(Refusals, OfASubcircuitAreReportedOnceForAllItsInstances) {
     EXPECT_EQ(errors_of(body), "3.9 unknown name 'x'\n");
 }
 
+TEST(Refusals, OfConditionsNameTheirLine) {
+    EXPECT_EQ(errors_of("v1 a 0 1\n.if (1)\nr1 a 0 1\n"), "3.1 .if is not closed by .endif\n");
+    EXPECT_EQ(errors_of("v1 a 0 1\n.endif\n"), "3.1 .endif without .if\n");
+    EXPECT_EQ(errors_of("v1 a 0 1\n.if (1)\n.else\n.else\n.endif\n"), "5.1 .else after .else\n");
+    EXPECT_EQ(errors_of(".if (x)\nv1 a 0 1\n.endif\n"), "2.6 unknown name 'x'\n");
+    EXPECT_EQ(errors_of(".if\nv1 a 0 1\n.endif\n"), "2.4 .if: expected a condition, such as .if (x > 1)\n");
+    EXPECT_EQ(errors_of(".if (1)\n.param x=1\n.endif\n"),
+              "3.1 .param is not allowed inside .if; move it outside, and write .param x={condition ? a : b}\n");
+}
+
+TEST(Refusals, OfDecimalCommasNameTheNumber) {
+    EXPECT_EQ(errors_of("v1 a 0 0,5\n"), "2.8 v1: '0,5' has a decimal comma; write 0.5\n");
+    EXPECT_EQ(errors_of("r1 a 0 1,5k\n"), "2.8 r1: '1,5k' has a decimal comma; write 1.5k\n");
+    EXPECT_EQ(errors_of(".param x=0,5\nr1 a 0 {x}\n"), "2.11 ',' is not a decimal point; write a dot\n");
+}
+
+TEST(Refusals, OfATableNameItsPoints) {
+    EXPECT_EQ(errors_of("b1 a 0 v=table(v(a),1,2,1,3)\n"), "2.10 table(): x = 1 must be above 1\n");
+    EXPECT_EQ(errors_of("b1 a 0 v=table(v(a),1,2,3)\n"), "2.10 table() takes a value and at least two points: table(x, x1,y1, x2,y2)\n");
+    EXPECT_EQ(errors_of("e1 a 0 table v(a) 0 0\n"), "2.14 e1: table: expected table {EXPRESSION} = (x1,y1) (x2,y2) ...\n");
+}
+
 TEST(Refusals, BeyondTwentyAreCounted) {
     std::string body;
     for (int k = 0; k < 3000; ++k) body += "r" + std::to_string(k) + " a 0 {x}\n";

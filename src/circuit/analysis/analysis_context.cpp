@@ -71,7 +71,11 @@ Result<std::vector<double>> read_frequencies(const Directive& c, std::size_t wor
     if (kind != "dec" && kind != "oct" && kind != "lin") return error_at(c.location, ".{}: '{}' must be dec, oct or lin", c.name, kind);
     const double points = TRY(read_number(c, word + 1, "the number of points"));
     const double from = TRY(read_number(c, word + 2, "the first frequency")), to = TRY(read_number(c, word + 3, "the last frequency"));
-    if (!(points >= 1 && points <= 1e7)) return error_at(c.location, ".{}: {:g} points is outside [1, 10000000]", c.name, points);
+    if (!(points >= 1 && points <= 1e7))
+        return error_at(c.location_of(word + 1), ".{}: {:g} points is outside [1, 10000000]", c.name, points);
+    if (from > to && to > 0)
+        return error_at(c.location_of(word + 2), ".{}: from {:g} to {:g} Hz: the lower frequency comes first; write .{} {} {} {} {}",
+                        c.name, from, to, c.name, kind, c.words[word + 1], c.words[word + 3], c.words[word + 2]);
     if (!(to >= from && (from > 0 || (kind == "lin" && from >= 0))))
         return error_at(c.location, ".{}: from {:g} to {:g} Hz: the first must be above 0 and at most the second", c.name, from, to);
     const auto count = static_cast<long>(points);

@@ -106,6 +106,26 @@ Result<void> read_polynomial(ElementReader& line, std::size_t words_each) {
     return line.expression(std::move(text), line.word(3));
 }
 
+/// Reads "table {EXPRESSION} = (x,y) (x,y) ...", from word 3 on; the '=' may be missing. The table becomes the element's expression.
+Result<void> read_table(ElementReader& line) {
+    constexpr std::string_view usage = "table: expected table {EXPRESSION} = (x1,y1) (x2,y2) ...";
+    std::string numbers;
+    const auto add = [&](double x) { numbers += fmt::format(",{:.17g}", x); };
+    std::size_t first = 5;  // word of the first number, or of the third if '=' follows the expression
+    const auto* pair = line.pair_of_expression();
+    if (pair != nullptr) {
+        line.take(*pair);
+        for (const auto& word : line.words_of(pair->value)) add(TRY(line.number(word)));
+        first = 4;
+    } else if (line.word_count() < 5 || line.is_plain(4)) {
+        return line.error_at(4, "{}", usage);
+    }
+    for (auto k = first; k < line.word_count(); ++k) add(TRY(line.number(k)));
+    const auto& expression = pair ? pair->name : line.word(4);
+    line.element.expression_is_voltage = has_branch_current(line.element);
+    return line.expression(fmt::format("table({}{})", line.text(expression), numbers), line.word(3));
+}
+
 Result<void> read_voltage_controlled(ElementReader& line) {
     constexpr std::string_view expected = "plus, minus, the two controlling nodes, then the gain";
     TRY(line.nodes(2, expected));
@@ -117,7 +137,8 @@ Result<void> read_voltage_controlled(ElementReader& line) {
         }
     const auto word = line.text(3);
     if (word == "poly") return read_polynomial(line, 2);
-    if (word == "table" || word == "laplace" || word == "freq") return line.error_at(3, "{} is not supported; write value={{...}}", word);
+    if (word == "table") return read_table(line);
+    if (word == "laplace" || word == "freq") return line.error_at(3, "{} is not supported; write value={{...}}", word);
     line.element.nodes.clear();
     TRY(line.nodes(4, expected));
     return read_gain(line, 5);

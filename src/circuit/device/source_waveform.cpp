@@ -82,7 +82,7 @@ private:
         if (w == "ac") return ++k_, ac();
         if (w == "distof1" || w == "distof2") return skip_distortion();
         const auto* row = shape_of(w);
-        if (!row) return line_.error_at(k_, "{}", unknown(w));
+        if (!row) return line_.number_with_decimal_comma(k_).empty() ? line_.error_at(k_, "{}", unknown(w)) : line_.too_many(k_);
         if (out_.shape != Shape::none) return line_.error_at(k_, "only one time waveform is allowed, not also '{}'", w);
         ++k_;
         return shape(*row);
@@ -106,8 +106,19 @@ private:
         if (n < row.min_numbers || n > row.max_numbers)
             return line_.error_at(keyword, "{} has {} number{}; expected {}{}", row.name, n, n == 1 ? "" : "s", row.usage,
                                   n > row.max_numbers ? fmt::format(" with at most {}", row.max_numbers) : "");
+        if (row.shape != Shape::piecewise_linear) warn_about_decimal_commas();
         if (row.shape == Shape::force && n == 0) out_.numbers = {1};
         return row.shape == Shape::piecewise_linear ? check_points() : Result<void>();
+    }
+
+    /// Warns about "sin(0 0,5 1k)": if blanks separate the numbers, a comma between two digits was probably meant as a decimal point.
+    void warn_about_decimal_commas() {
+        std::size_t commas = 0, with_comma = 0;
+        for (const auto k : number_words_)
+            if (k != number_words_.front() && !line_.number_with_decimal_comma(k).empty()) ++commas, with_comma = k;
+        if (commas == 0 || commas + 1 >= number_words_.size()) return;
+        line_.warn(with_comma, fmt::format("'{},{}' is two numbers; the decimal point is a dot: {}", line_.text(with_comma - 1),
+                                           line_.text(with_comma), line_.number_with_decimal_comma(with_comma)));
     }
 
     /// Checks the points of a pwl.

@@ -72,6 +72,9 @@ private:
     Index expect_end(Index last) {
         skip_blanks();
         if (at_ == text_.size()) return last;
+        const auto is_digit_at = [&](std::size_t k) { return k < text_.size() && text_[k] >= '0' && text_[k] <= '9'; };
+        if (text_[at_] == ',' && at_ > 0 && is_digit_at(at_ - 1) && is_digit_at(at_ + 1))
+            return fail(at_, "',' is not a decimal point; write a dot");
         if (text_[at_] == '=') return fail(at_, "'=' is an assignment; compare two values with '=='");
         return fail(at_, "expected an operator such as + or the end of the expression, not {}", text_here());
     }
@@ -301,13 +304,15 @@ private:
             return fail(from, "{}() is not supported; for a charge, use a capacitor with q='...'", name);
         const auto* row = find_function(name, scope_.allows_inputs);
         const auto* random = find_random_function(name);
-        if (!user_function && !row && !random)
+        const bool is_table = name == "table" || name == "pwl";
+        if (!user_function && !row && !random && !is_table)
             return fail(from, "unknown function '{}'{}", name,
                         did_you_mean(name, all_operations() | std::views::transform(&Operation::name)));
         std::vector<Index> values;
         if (!read_arguments(values)) return no_index;
         if (user_function) return expand_function(name, *user_function, values, from);
         const int count = static_cast<int>(values.size());
+        if (is_table) return table(name, values, from);
         if (random && count == random->arguments) return random_value(name, values);
         if (row && count == row->operands) return apply(*row, values);
         if (count > 0 && (name == "max" || name == "min")) {  // of any number of values, as in ngspice
@@ -318,6 +323,30 @@ private:
         const auto expected = row && random ? fmt::format("{} or {}", random->arguments, row->operands)
                                             : fmt::format("{}", row ? row->operands : random->arguments);
         return fail(from, "{}", argument_count_message(name, expected, values.size()));
+    }
+
+    /// table(x, x1,y1, x2,y2 ...): straight lines between points. Beyond the first and last point a table is constant, and pwl() continues
+    /// its outer lines, as in ngspice.
+    Index table(std::string_view name, const std::vector<Index>& values, std::size_t from) {
+        if (values.size() < 5 || values.size() % 2 == 0)
+            return fail(from, "{}() takes a value and at least two points: {}(x, x1,y1, x2,y2)", name, name);
+        const auto constant = [&](std::size_t k) { return step(values[k]).number; };
+        for (std::size_t k = 1; k < values.size(); ++k)
+            if (!is_number(values[k])) return fail(from, "{}(): the points must be numbers", name);
+        for (std::size_t k = 3; k < values.size(); k += 2)
+            if (!(constant(k) > constant(k - 2)))
+                return fail(from, "{}(): x = {:g} must be above {:g}", name, constant(k), constant(k - 2));
+        const auto slope = [&](std::size_t k) { return (constant(k + 3) - constant(k + 1)) / (constant(k + 2) - constant(k)); };
+        const Index x = values[0];
+        Index out = values[2];
+        const auto add = [&](const Index term) { out = apply("+", {out, term}); };
+        for (std::size_t k = 1; k + 3 < values.size(); k += 2)
+            add(apply("*", {number(slope(k)), apply("-", {apply("limit", {x, values[k], values[k + 2]}), values[k]})}));
+        if (name == "table") return out;
+        const auto last = values.size() - 2;
+        add(apply("*", {number(-slope(1)), apply("uramp", {apply("-", {values[1], x})})}));
+        add(apply("*", {number(slope(last - 2)), apply("uramp", {apply("-", {x, values[last]})})}));
+        return out;
     }
 
     Index random_value(std::string_view name, const std::vector<Index>& values) {

@@ -68,12 +68,13 @@ MeasureScope MeasurementSet::scope_before(const Entry& entry, const Numbers& num
     return out;
 }
 
-Result<void> MeasurementSet::begin(std::string_view analysis, const Plot& head) {
+Result<void> MeasurementSet::begin(const Directive& analysis, const Plot& head) {
     active_.clear(), has_sweep_ = head.has_sweep, inner_points_ = head.inner_points, points_ = 0;
     for (auto& entry : entries_) {
         if (entry.error) return *entry.error;
         // A line that has begun already measured an earlier analysis of this kind.
-        if (entry.line.words[0] != analysis || entry.has_begun || entry.left_out || is_expression_of_results(entry.line)) continue;
+        if (entry.line.words[0] != analysis.name || !entry.directive->applies_to(analysis)) continue;
+        if (entry.has_begun || entry.left_out || is_expression_of_results(entry.line)) continue;
         entry.has_begun = true;
         auto parsed = TRY(parse_measurement(entry.line, head, scope_before(entry, {})));
         entry.left_out = std::move(parsed.left_out);

@@ -5,7 +5,8 @@
 
 namespace corpuscle::circuit {
 
-/// Measures the first plot of the first analysis of the kind (tran, ac ...) that each .meas line names.
+/// Measures the first plot of the first analysis of the kind (tran, ac ...) that each .meas line names; of a script, of its last analysis
+/// before the line.
 class MeasurementSet {
     /// The points of the curves that a line names. A line that depends on earlier results is measured when these are known.
     struct Recording {
@@ -28,8 +29,8 @@ class MeasurementSet {
     };
     const Circuit& circuit_;
     std::vector<Entry> entries_;
-    std::vector<Entry*> active_;  // those of the plot that was begun last
-    bool has_sweep_ = true;       // of that plot
+    std::vector<Entry*> active_;    // those of the plot that was begun last
+    bool has_sweep_ = true;         // of that plot
     std::size_t inner_points_ = 0;  // of that plot
     std::size_t points_ = 0;        // number of points of that plot so far
 
@@ -39,9 +40,9 @@ class MeasurementSet {
 public:
     explicit MeasurementSet(const Circuit&);
 
-    /// Begins the first plot of an analysis of this kind; `head` has its curves without values. An ill-formed .meas line or an unknown
+    /// Begins the first plot of an analysis; `head` has its curves without values. An ill-formed .meas line or an unknown
     /// curve is an error.
-    Result<void> begin(std::string_view analysis, const Plot& head);
+    Result<void> begin(const Directive& analysis, const Plot& head);
     /// Call this after begin() for every analysis. Reports the errors of finish() that depend on names only. `number_names` are the names
     /// of the numbers that the analyses may produce.
     Result<void> check(const std::vector<std::string>& number_names);

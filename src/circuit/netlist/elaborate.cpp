@@ -45,7 +45,8 @@ public:
         if (!builder_.refusals.empty()) return builder_.refusals.combined();
         TRY(check_references());
         TRY(resolve_node_voltages());
-        for (const auto* s : parsed_.directives) add_directive(*s);
+        for (const auto* s : parsed_.directives)
+            if (top_.holds(*s)) add_directive(*s);
         apply_overrides_to_directives(c);
         c.has_random_values = builder_.random.is_used();
         warn_of_means(c);
@@ -86,9 +87,18 @@ private:
         all.insert(builder_.overrides.parameters.begin(), builder_.overrides.parameters.end());  // does not replace given values
         for (const auto& [name, value] : all)
             if (!parsed_.top.parameters.contains(name))
-                return error_at({parsed_.file}, "there is no .param {}{}", name,
+                return error_at(location_of_step(name), "there is no .param {}{}", name,
                                 did_you_mean(name, std::views::keys(parsed_.top.parameters)));
-        return top_.define(all);
+        TRY(top_.define(all));
+        return top_.evaluate_conditions();
+    }
+
+    /// The location of the .step of a parameter; that of the netlist if there is none.
+    SourceLocation location_of_step(std::string_view name) const {
+        for (const auto* s : parsed_.directives)
+            for (std::size_t k = 1; s->text(0) == ".step" && k < s->words.size(); ++k)
+                if (s->text(k) == name) return s->location(k);
+        return {parsed_.file};
     }
 
     // ---- subcircuits ----
@@ -96,6 +106,7 @@ private:
     /// Adds the elements of a scope, and of all subcircuits that it contains, to the circuit.
     Result<void> elaborate_contents(Scope& scope) {
         for (const auto* s : scope.definition->elements) {
+            if (!scope.holds(*s)) continue;
             TRY(builder_.count_statement(scope, *s));
             const auto ok = s->line.text[0] == 'x' ? elaborate_instance(scope, *s) : read_element(builder_, scope, *s);
             if (!ok && builder_.is_limit_exceeded()) return ok;
@@ -103,6 +114,7 @@ private:
             if (builder_.refusals.is_full()) return {};
         }
         for (const auto* s : scope.definition->ics) {
+            if (!scope.holds(*s)) continue;
             TRY(builder_.count_statement(scope, *s));
             TRY(read_node_voltages(scope, *s));
         }
@@ -127,6 +139,7 @@ private:
         Values given;
         TRY(read_instance_parameters(scope, s, inner, given));
         TRY(inner.define(given));
+        TRY(inner.evaluate_conditions());
         return elaborate_contents(inner);
     }
 
@@ -364,6 +377,7 @@ private:
 
     void add_directive(const Statement& s) {
         Directive out{std::string(s.text(0).substr(1)), {}, {}, s.line.location()};
+        if (s.analysis) out.analysis_location = s.analysis->line.location();
         for (std::size_t k = 1; k < s.words.size(); ++k) {
             out.words.push_back(without_blanks(s, s.words[k]));
             out.columns.push_back(static_cast<int>(s.location(k).column));

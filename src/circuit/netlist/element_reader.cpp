@@ -1,6 +1,7 @@
 #include "circuit/netlist/element_reader.hpp"
 
 #include "circuit/devices.hpp"
+#include "circuit/expression/spice_number.hpp"
 #include "circuit/netlist/scope.hpp"
 #include "core/text/ascii_text.hpp"
 
@@ -52,7 +53,35 @@ bool ElementReader::refuse_level() {
     return true;
 }
 
-Error ElementReader::too_many(std::size_t word) const { return error_at(word, "unexpected '{}'", text(word)); }
+Error ElementReader::too_many(std::size_t word) const {
+    const bool is_in_list = continues_initial_voltages(word, word_count());
+    if (const auto number = number_with_decimal_comma(word); !number.empty() && !is_in_list)
+        return error_at(word - 1, "'{},{}' has a decimal comma; write {}", text(word - 1), text(word), number);
+    return error_at(word, "unexpected '{}'", text(word));
+}
+
+std::vector<Word> ElementReader::words_of(const Word& value) const {
+    std::vector<Word> out;
+    const auto text = s_.text(value);
+    constexpr std::string_view separators = "(), \t";
+    for (auto at = text.find_first_not_of(separators); at != std::string_view::npos;) {
+        const auto end = std::min(text.find_first_of(separators, at), text.size());
+        out.push_back({Word::Kind::plain, static_cast<std::uint32_t>(value.at + at), static_cast<std::uint32_t>(end - at)});
+        at = text.find_first_not_of(separators, end);
+    }
+    return out;
+}
+
+std::string ElementReader::number_with_decimal_comma(std::size_t word) const {
+    if (word < 2 || word >= word_count()) return "";
+    const auto before = text(word - 1), after = text(word);
+    const auto digits = before.substr(before.starts_with('-') || before.starts_with('+'));
+    const bool is_whole = !digits.empty() && digits.find_first_not_of("0123456789") == std::string_view::npos;
+    const bool is_split_by_comma =
+        s_.words[word].at == s_.words[word - 1].at + before.size() + 1 && s_.line.text[s_.words[word].at - 1] == ',';
+    const bool is_fraction = !after.empty() && after[0] >= '0' && after[0] <= '9' && parse_number(after);
+    return is_whole && is_split_by_comma && is_fraction ? fmt::format("{}.{}", before, after) : "";
+}
 
 bool ElementReader::is_model(std::size_t word) const { return scope_.definer_of_model(text(word)) != nullptr; }
 bool ElementReader::is_parameter(std::size_t word) const { return scope_.parameter(text(word)).has_value(); }

@@ -62,6 +62,14 @@ public:
     /// Takes a text that the line gives in another form, at this word, as the expression of the element.
     Result<void> expression(std::string text, const Word& from);
     const Word& word(std::size_t k) const { return s_.words[k]; }
+    std::string_view text(const Word& w) const { return s_.text(w); }
+    /// The pair whose name is an expression: {v(a)}=(0,0). Null if there is none.
+    const NameValue* pair_of_expression() const {
+        const auto at = std::ranges::find(s_.pairs, Word::Kind::expression, [](const NameValue& pair) { return pair.name.kind; });
+        return at == s_.pairs.end() ? nullptr : &*at;
+    }
+    /// The words of a value such as "(0,1)".
+    std::vector<Word> words_of(const Word& value) const;
     /// The value of this name in the element's model; nullopt if it has none.
     std::optional<double> model_value(std::string_view name) const;
     std::string_view model_type() const;  ///< the type of the element's model, which it must have
@@ -80,6 +88,8 @@ public:
         return error_in(s_.location(word), fmt::format(message, std::forward<Arguments>(arguments)...));
     }
     Error too_many(std::size_t word) const;  ///< the error for a word after the last one that the element can have
+    /// The number that a decimal comma before this word splits into two, "0,5", with a point; "" if there is none.
+    std::string number_with_decimal_comma(std::size_t word) const;
 
 private:
     Error error_in(SourceLocation location, std::string_view message) const {

@@ -74,13 +74,6 @@ void LogicalLineReader::put_back() {
     --number_;
 }
 
-bool LogicalLineReader::skip_past(std::string_view word) {
-    std::string_view line;
-    while (take(line))
-        if (trimmed(line).size() >= word.size() && equal_ignoring_case(trimmed(line).substr(0, word.size()), word)) return true;
-    return false;
-}
-
 bool LogicalLineReader::next_command(LogicalLine& out) {
     std::string_view line;
     if (!take(line)) return false;

@@ -1,6 +1,6 @@
 #include "circuit/netlist/netlist.hpp"
 
-#include "circuit/netlist/parsed_netlist.hpp"
+#include "circuit/netlist/included_files.hpp"
 #include "core/text/ascii_text.hpp"
 #include "core/text/input_files.hpp"
 
@@ -23,7 +23,7 @@ std::vector<std::string> sections_in(std::string_view text) {
         if (lower(std::string_view(line.text).substr(0, 4)) != ".lib") continue;
         // ".lib section" begins a section; ".lib file section" reads another file.
         const auto head = split_directive(std::move(line));
-        if (head && head->words.size() == 2) out.push_back(lower(unquoted(head->text(1))));
+        if (head && head->words.size() == 2 && !names_file(head->text(1))) out.push_back(lower(unquoted(head->text(1))));
     }
     return out;
 }

@@ -66,6 +66,12 @@ struct Directive {
     std::vector<std::string> words;
     std::vector<int> columns;  ///< of each word in its line of the file, from 1; empty for a directive of an override
     SourceLocation location;
+    /// The location of the analysis to which a print or meas of a script applies. It applies to any analysis if this is empty.
+    std::optional<SourceLocation> analysis_location = {};
+    bool applies_to(const Directive& analysis) const {
+        return !analysis_location ||
+               (analysis_location->line == analysis.location.line && analysis_location->file == analysis.location.file);
+    }
     /// The location of a word, counted from 0. Without a column if the directive has no such word.
     SourceLocation location_of(std::size_t word) const;
 };

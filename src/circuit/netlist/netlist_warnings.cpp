@@ -165,6 +165,8 @@ std::string warning_for(std::string_view unit, const SpiceNumber& number, std::s
     const bool is_milli = scale.starts_with('m') && scale != "meg" && scale != "mil";
     const auto digits = text.substr(0, text.size() - number.suffix.size());
     const bool is_source = unit == "V" || unit == "A";
+    if (equal_ignoring_case(number.suffix, "x"))
+        return fmt::format("{0}{1} is {0}; HSPICE and Xyce read 'x' as mega: for {0} times 1e6 write {0}Meg", digits, number.suffix);
     if (!is_source && equal_ignoring_case(number.suffix, "a"))
         return fmt::format("{0}{1} is {0}, since 'a' is not a scale factor; for {0} times 1e-18 write {0}e-18", digits, number.suffix);
     if (unit == "ohm" && is_milli) return fmt::format("{}M is {} milliohm; for a megohm write {}Meg", digits, digits, digits);
@@ -191,7 +193,9 @@ void warn_about_units(const Statement& s, std::vector<Error>& warnings) {
         const auto text = s.text(w);
         const auto number = parse_number(text);
         if (!number || number->suffix.empty()) return;
-        if (!equal_ignoring_case(number->suffix, "a") && !s.line.was_capital(w.at + text.size() - number->suffix.size())) return;
+        if (!equal_ignoring_case(number->suffix, "a") && !equal_ignoring_case(number->suffix, "x") &&
+            !s.line.was_capital(w.at + text.size() - number->suffix.size()))
+            return;
         const std::string warning = warning_for(unit_of(s.line.text[0]), *number, text);
         if (!warning.empty()) warnings.push_back(error_at(s.location(w), "{}: {}", s.text(0), warning));
     };

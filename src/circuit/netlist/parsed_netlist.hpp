@@ -24,16 +24,24 @@ struct WordRef {
 template <class T>
 using ByName = std::map<std::string, T, std::less<>>;
 
+/// A branch of .if, .elseif or .else.
+struct Condition {
+    int outer = -1;                    ///< index of the branch that contains it; -1: none
+    int previous = -1;                 ///< index of the branch before it in the same .if; -1: none
+    std::optional<WordRef> text = {};  ///< its expression; none for .else
+};
+
 /// The definition of a subcircuit, or the top level of a netlist. Statements are pointers into ParsedNetlist::statements.
 struct SubcktDef {
     std::string name;                 ///< "" for the top level
     const Statement* head = nullptr;  ///< its .subckt line; null for the top level
     SubcktDef* outer = nullptr;       ///< the definition that contains this one
     std::vector<std::string> ports;
-    ByName<WordRef> defaults;                     ///< default values of the parameters in the .subckt line
-    ByName<WordRef> parameters;                   ///< values of the .param lines
-    ByName<ExpressionScope::Function> functions;  ///< .func f(x)=... and .param f(x)=...
-    ByName<const Statement*> models;
+    ByName<WordRef> defaults;                      ///< default values of the parameters in the .subckt line
+    ByName<WordRef> parameters;                    ///< values of the .param lines
+    ByName<ExpressionScope::Function> functions;   ///< .func f(x)=... and .param f(x)=...
+    ByName<std::vector<const Statement*>> models;  ///< several of one name only in different branches of .if
+    std::vector<Condition> conditions;             ///< each after those that it refers to
     ByName<std::unique_ptr<SubcktDef>> subcircuits;
     std::vector<const Statement*> elements, ics;  ///< element lines, X lines included; .ic and .nodeset lines
 };
@@ -45,6 +53,7 @@ struct ParsedNetlist {
     std::vector<const Statement*> directives, options, temperatures;  ///< Circuit::directives; .options lines; .temp lines
     std::set<std::string, std::less<>> globals;                       ///< nodes of .global
     std::set<std::string, std::less<>> libraries;                     ///< files from which .lib read a section
+    std::set<std::string, std::less<>> marks;                         ///< directives that show for which simulator the netlist is written
     std::vector<Error> warnings;
 };
 

@@ -184,10 +184,32 @@ Result<void> Scope::define(const std::string& first, ByName<WordRef>& pending) {
     return {};
 }
 
+const Statement* Scope::own_model(std::string_view name) const {
+    const auto at = definition->models.find(name);
+    if (at == definition->models.end()) return nullptr;
+    const auto found = std::ranges::find_if(at->second, [this](const Statement* s) { return holds(*s); });
+    return found == at->second.end() ? nullptr : *found;
+}
+
+Result<void> Scope::evaluate_conditions() {
+    const auto& all = definition->conditions;
+    std::vector<bool> is_decided(all.size());  // this branch or one before it in the same .if holds
+    conditions.assign(all.size(), false);
+    for (std::size_t k = 0; k < all.size(); ++k) {
+        const auto& c = all[k];
+        const bool is_reached = c.outer < 0 || conditions[static_cast<std::size_t>(c.outer)];
+        is_decided[k] = c.previous >= 0 && is_decided[static_cast<std::size_t>(c.previous)];
+        if (!is_reached || is_decided[k]) continue;
+        conditions[k] = !c.text || TRY(evaluate(*c.text)) != 0;
+        is_decided[k] = conditions[k];
+    }
+    return {};
+}
+
 std::optional<double> Scope::model_level(std::string_view name) {
     const Scope* definer = definer_of_model(name);
     if (definer == nullptr) return {};
-    const Statement& s = *definer->definition->models.find(name)->second;
+    const Statement& s = *definer->own_model(name);
     const auto* level = s.find("level");
     if (level == nullptr) return 1;
     const auto value = definer->evaluate({&s, level->value});
@@ -222,7 +244,7 @@ Result<int> CircuitBuilder::find_or_add_model(Scope& scope, const WordRef& name,
                                               std::span<const std::string_view> types) {
     Scope* f = scope.definer_of_model(name.view());
     if (!f) return unknown_model(scope, name, user);
-    const Statement& s = *f->definition->models.find(name.view())->second;
+    const Statement& s = *f->own_model(name.view());
     const auto type = short_type(s.text(2));
     if (std::find(types.begin(), types.end(), type) == types.end())
         return error_at(name.location(), "{}: model '{}' has type {}; expected {}", user, name.view(), s.text(2), alternatives(types));

@@ -10,21 +10,28 @@ namespace corpuscle::circuit {
 struct Scope {
     const SubcktDef* definition = nullptr;  ///< the subcircuit, or the top level
     const Scope* caller = nullptr;          ///< the scope of the X line; as in ngspice, names that are unknown here are looked up there
-    Scope* enclosing = nullptr;      ///< the scope that contains the subcircuit's definition; its models and subcircuits are visible here
-    std::string path = {};           ///< prefix of its names in the circuit: "x1.x2."; "" for the top level
-    ByName<int> ports = {};          ///< indices in the circuit of the nodes that the ports are connected to
-    ByName<int> models = {};         ///< indices in the circuit of the models of this scope that were used so far
-    Values parameters = {};          ///< values of .param and of the .subckt line
-    double m = 1;                    ///< number of parallel instances; the product of m= of this X line and of all around it
-    int depth = 0;                   ///< 0 for the top level
-    RandomValues* random = nullptr;  ///< gives the values of random functions
+    Scope* enclosing = nullptr;  ///< the scope that contains the subcircuit's definition; its models and subcircuits are visible here
+    std::string path = {};       ///< prefix of its names in the circuit: "x1.x2."; "" for the top level
+    ByName<int> ports = {};      ///< indices in the circuit of the nodes that the ports are connected to
+    ByName<int> models = {};     ///< indices in the circuit of the models of this scope that were used so far
+    Values parameters = {};      ///< values of .param and of the .subckt line
+    double m = 1;                ///< number of parallel instances; the product of m= of this X line and of all around it
+    int depth = 0;               ///< 0 for the top level
+    std::vector<bool> conditions = {};  ///< for each of definition->conditions: the branch holds
+    RandomValues* random = nullptr;     ///< gives the values of random functions
 
     /// The scope that defines the model of this name: this one or one that encloses it; null if there is none.
     Scope* definer_of_model(std::string_view name) {
         Scope* f = this;
-        while (f && !f->definition->models.contains(name)) f = f->enclosing;
+        while (f && f->own_model(name) == nullptr) f = f->enclosing;
         return f;
     }
+    /// The model of this name that holds in this scope itself; null if there is none.
+    const Statement* own_model(std::string_view name) const;
+    /// True if the statement is in no branch of .if, or in one that holds. The statement must be of this definition.
+    bool holds(const Statement& s) const { return s.condition < 0 || conditions[static_cast<std::size_t>(s.condition)]; }
+    /// Evaluates the branches of .if. Call it after define().
+    Result<void> evaluate_conditions();
     /// The level of the model of this name, 1 if its line does not give it; nullopt if there is no such model or the level is not a number.
     std::optional<double> model_level(std::string_view name);
     /// Look up a name in this scope, then in its callers.

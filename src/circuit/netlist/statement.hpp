@@ -47,8 +47,6 @@ public:
     /// Reads the next physical line, a command of a .control block, as if it were a directive: with a dot before it. Returns false at the
     /// end of the file.
     bool next_command(LogicalLine&);
-    /// Skips all physical lines up to and including the first that begins with `word`. Returns false if no line does.
-    bool skip_past(std::string_view word);
 
 private:
     bool take(std::string_view& physical);  // reads the next physical line; false at the end of the file
@@ -77,6 +75,8 @@ struct Statement {
     LogicalLine line;
     std::vector<Word> words;
     std::vector<NameValue> pairs;
+    int condition = -1;                   ///< index in SubcktDef::conditions; the statement holds if this branch of .if does; -1: always
+    const Statement* analysis = nullptr;  ///< of a print or meas of a script: the analysis to which it applies; null: any
 
     std::string_view text(const Word& w) const { return std::string_view(line.text).substr(w.at, w.size); }
     std::string_view text(std::size_t k) const { return k < words.size() ? text(words[k]) : std::string_view(); }

@@ -54,7 +54,7 @@ public:
                         warnings_.push_back(error_at(c.location_of(k), ".probe: '{}' is not supported and is ignored", c.words[k]));
             }
         MeasurementSet measures(circuit_);
-        for (const auto& head : heads_) TRY(measures.begin(head.directive->name, head.plot));
+        for (const auto& head : heads_) TRY(measures.begin(*head.directive, head.plot));
         const auto known = number_names();
         TRY(check_spectra());
         TRY(measures.check(known));
@@ -146,7 +146,7 @@ constexpr double max_rows = 1e6;  // of one table of a .tran
 
 /// The table of a directive with its heads; the swept quantity is the first column. Without columns if it is not a .print line, names
 /// another analysis, or names no curve of the plot.
-PrintedTable table_of(const Directive& c, std::string_view analysis, const Plot& plot) {
+PrintedTable table_of(const Directive& c, const Directive& analysis, const Plot& plot) {
     PrintedTable out;
     const auto add = [&](const std::string& name) {
         const auto view = CurveView::find(plot, name);
@@ -155,7 +155,7 @@ PrintedTable table_of(const Directive& c, std::string_view analysis, const Plot&
         out.text += fmt::format("{:>16}", name);
     };
     const bool names_analysis = !c.words.empty() && find_analysis(c.words[0]) != nullptr;
-    if (c.name != "print" || (names_analysis && c.words[0] != analysis)) return out;
+    if (c.name != "print" || (names_analysis && c.words[0] != analysis.name) || !c.applies_to(analysis)) return out;
     if (plot.has_sweep) add(plot.curves[0].name);
     for (std::size_t w = names_analysis ? 1 : 0; w < c.words.size(); ++w)
         if (selects_curves(c.words[w])) {

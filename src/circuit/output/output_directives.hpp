@@ -17,7 +17,7 @@ struct PrintedTable {
 /// every time point, and these rows only with `.options interp`.)
 class TablePrinter final : public PointSink {
     const Circuit& circuit_;
-    std::string_view analysis_;
+    const Directive& analysis_;
     TransientTimes times_;              // step 0: a row for each point, for all analyses but .tran
     std::vector<PrintedTable> tables_;  // one for each .print line
     std::vector<double> previous_;      // the point of the last call of add_point(), of a .tran
@@ -27,8 +27,8 @@ class TablePrinter final : public PointSink {
     void print_at_next_time(std::span<const double> row);
 
 public:
-    TablePrinter(const Circuit& circuit, const Directive& analysis) : circuit_(circuit), analysis_(analysis.name) {
-        if (analysis_ != "tran") return;
+    TablePrinter(const Circuit& circuit, const Directive& analysis) : circuit_(circuit), analysis_(analysis) {
+        if (analysis_.name != "tran") return;
         if (const auto times = read_transient_times(analysis)) times_ = *times;
     }
     Result<void> begin(const Plot& head) override;

@@ -72,7 +72,7 @@ Result<void> check_voltage_loops(const Circuit& c) {
 bool needs_operating_point(const Circuit& c) {
     bool has_transient = false;
     for (const auto& d : c.directives) {
-        if (d.name == "tran" && !d.words.empty() && d.words.back() == "uic")
+        if (d.name == "tran" && std::ranges::find(d.words, "uic") != d.words.end())
             has_transient = true;
         else if (find_analysis(d.name) != nullptr)
             return true;
