@@ -13,6 +13,8 @@ struct StepControl {
     int order = 1;
     int steps_since_order_change = 0;  ///< accepted steps
     int failures = 0;                  ///< successive rejected steps
+    double rejected_length = 0;        ///< s: of the last one of these, if its equations were solved; else 0
+    double rejected_error = 0;
     bool starting = true;              ///< every step since restart() has used the highest order that its points allow
     double h = 0;                      ///< s: length of the next step
     double recent_max_step = 0;        ///< s: longest of the recent steps, with exponential decay
@@ -28,7 +30,7 @@ struct StepControl {
         return error > 0 ? std::min(safety * num::exp(num::log(error) / -(order + 1)), 10.0) : 10;
     }
 
-    void restart() { order = 1, steps_since_order_change = 0, starting = true; }
+    void restart() { order = 1, steps_since_order_change = 0, starting = true, rejected_length = 0; }
 
     /// True if choose() needs the errors of the next lower and higher order.
     bool is_order_change_due() const { return steps_since_order_change > order || starting; }
@@ -78,7 +80,7 @@ struct StepControl {
     /// Call after an accepted step of this length (s).
     void record_step(double length) {
         recent_max_step = std::max(length, 0.7 * recent_max_step);
-        ++steps_since_order_change, failures = 0;
+        ++steps_since_order_change, failures = 0, rejected_length = 0;
     }
     /// The number of points of the interpolation in the last step. If the step did not determine it (`found` is 0), it is at least 4 where
     /// there are as many.
@@ -93,11 +95,23 @@ struct StepControl {
 
     /// Call after a rejected step of this length (s). `error` is 0 if the equations were not solved. `previous` is the length (s) of the
     /// last accepted step, 0 if there was none since the integration restarted. Returns true if the integration must restart from the last
-    /// point: after more than `max_failures` successive rejections, or if the step shrinks to less than a tenth of the previous one.
+    /// point: after more than `max_failures` successive rejections of which the last did not reduce the error as expected, or if the step
+    /// shrinks to less than a tenth of the previous one.
+    ///
+    /// If the solution has a kink near the last points, the error of a step falls only with its length, whatever the order. If max_failures
+    /// is above 1, the exponent from the second rejection on is that of the last two errors.
     bool shorten(double length, double error, double previous, int max_failures = 1) {
         ++failures;
-        h = length * (error > 0 ? std::clamp(growth_factor(error, order), previous > 0 ? 0.1 : 1e-3, 0.8) : 0.125);
-        return previous > 0 && (failures > max_failures || h < 0.1 * previous);
+        double exponent = order + 1;
+        bool falls = false;
+        if (max_failures > 1 && error > 0 && rejected_length > length && rejected_error > error) {
+            exponent = std::clamp(num::log(rejected_error / error) / num::log(rejected_length / length), 0.5, exponent);
+            falls = exponent >= 0.7;
+        }
+        rejected_length = error > 0 ? length : 0, rejected_error = error;
+        const double factor = error > 0 ? safety * num::exp(num::log(error) / -exponent) : 0.125;
+        h = length * (error > 0 ? std::clamp(factor, previous > 0 ? 0.1 : 1e-3, 0.8) : factor);
+        return previous > 0 && ((failures > max_failures && !falls) || h < 0.1 * previous);
     }
 };
 

@@ -184,7 +184,7 @@ double Transient::worst_error() {
     for (std::size_t n = 0; n < error_.size(); ++n)
         if (!has_charge_[n] && tolerance_[n] > 0)
             uncharged_error_ = std::max(uncharged_error_, std::abs(error_[n]) / (uncharged_factor * (tolerance_[n] + rounding_[n])));
-    return may_jump_ ? worst : std::max(worst, uncharged_error_);
+    return may_jump_ || is_after_failures_ ? worst : std::max(worst, uncharged_error_);
 }
 
 /// Called before a step is rejected. Computes the error of each unknown that comes from the rounding of the charges, and computes `error`
@@ -295,8 +295,10 @@ Result<void> Transient::reject_step(double h, double error) {
     ++stats_.rejected;
     if (error == 0) ++stats_.diverged;
     if (control_.shorten(h, error, history_points_.count() > 1 ? history_points_[0].t - history_points_[1].t : 0,
-                         plan_.all_reported ? max_failures : 1))
+                         plan_.all_reported ? max_failures : 1)) {
         restart(false, plan_.all_reported);
+        is_after_failures_ = plan_.all_reported;
+    }
     const double shortest = StepControl::min_step(plan_.stop);
     if (control_.h >= shortest) return {};
     if (error > 0 && h > shortest && shortest_steps_ < max_shortest_steps) return control_.h = shortest, Result<void>();
@@ -348,6 +350,7 @@ void Transient::accept_step() {
     if (plan_.method == Integration::trapezoidal) detect_ringing();
     for (std::size_t n = 0; n < rate_.size(); ++n) rate_[n] = leading_ * next.q[n] + history_[n];
     control_.record_step(next.t - history_points_[0].t);
+    is_after_failures_ = false;
     history_points_.accept();
     update_tolerances();
     ++stats_.steps;

@@ -61,6 +61,9 @@ private:
     bool pivot_order_fixed_ = false;  // true after the first begin(), which fixes the pivot order of the matrix
     bool restart_pending_ = false;    // the last point is a breakpoint of a source or the end of a jump: integration restarts there
     bool may_jump_ = false;           // the current step is so short that it may contain a jump
+    /// The integration restarts with order 1 after rejections. A current into charges is then computed from the equations at the last point
+    /// instead of the last points. No step is short enough for this change, so it does not lead to another rejection.
+    bool is_after_failures_ = false;
     enum class StartPhase {
         none,
         first_step,  // the next step is the first normal one after a breakpoint, which is short
