@@ -287,7 +287,7 @@ TEST(Mos1, ASizeInTheCardHasNoEffectWithAWarning) {
 
 TEST(Mos1, ItsJunctionsMayHaveNoSaturationCurrent) {
     const auto run = run_netlist("no junction\nvb b 0 0.7\nm1 0 0 0 b n w=10u l=1u\n.model n nmos(level=1 vto=1 is=0)\n.op\n");
-    EXPECT_NEAR(run.number("i(vb)"), -2 * 0.7e-15, 1e-17) << "gmin only";
+    EXPECT_NEAR(run.number("i(vb)"), -2 * 0.7e-12, 1e-17) << "gmin only";
 }
 
 TEST(Mos1, InitialVoltagesHaveNoEffectWithAWarning) {
@@ -316,7 +316,8 @@ TEST(Mos1, OptionsScaleSizesAndGiveTheirDefaults) {
     }
     EXPECT_NEAR(currents_with("scale=1e-6 defl=4u")[1] / square, 5, 1e-6);
     const auto ends = run_netlist(
-        "ends\n.options scale=1e-6 defad=50p\nvb b 0 -2\nm1 0 0 0 b n l=2 w=20 as=100\n.model n nmos(vto=0.7 is=0 js=1e-3)\n.op\n");
+        "ends\n.options scale=1e-6 defad=50p gmin=1e-15\nvb b 0 -2\nm1 0 0 0 b n l=2 w=20 as=100\n.model n nmos(vto=0.7 is=0 "
+        "js=1e-3)\n.op\n");
     EXPECT_NEAR(ends.number("i(vb)"), 1e-3 * 150e-12 + 2 * 2e-15, 2e-17) << "as is 100 um^2, ad is 50 um^2";
 }
 

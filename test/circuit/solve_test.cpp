@@ -102,6 +102,13 @@ TEST(OperatingPoint, PicoamperesAreResolved) {
                 2e-3);  // weak inversion: n phi_t per factor e
 }
 
+TEST(OperatingPoint, TheSmallestDefaultOfGminOfAllKindsApplies) {
+    const std::string diode = "gmin\nv1 a 0 0\nd1 a 0 m\n.model m d(is=1e-14)\n", ekv = "m1 a 0 0 0 n\n.model n nmos(level=55)\n";
+    EXPECT_EQ(solve_context(diode + ".op\n")->tolerances.gmin, 1e-12);
+    EXPECT_EQ(solve_context(diode + ekv + ".op\n")->tolerances.gmin, 1e-15);
+    EXPECT_EQ(solve_context(diode + ekv + ".options gmin=1e-13\n.op\n")->tolerances.gmin, 1e-13);
+}
+
 TEST(OperatingPoint, ALatchRestsInTheStateOfItsNodeset) {
     const std::string latch =
         "t\n.lib 'tsmc180.lib' tt\nvdd v 0 0.7\nmp1 a b v v pch w=6u l=0.5u\nmn1 a b 0 0 nch w=1.5u l=0.5u\nmp2 b a v v pch w=6u "

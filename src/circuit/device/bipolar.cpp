@@ -229,6 +229,7 @@ constexpr std::string_view bipolar_names[] = {"ic", "off"};
 
 extern constexpr DeviceKind bipolar_kind = {.letter = 'q',
                                             .description = "bipolar transistor",
+                                            .gmin = 1e-12,
                                             .read = read_bipolar,
                                             .make = make_bipolar,
                                             .parameters = bipolar_parameters,

@@ -50,6 +50,9 @@ struct DeviceKind {
     double level = 0;                           ///< level of its models; 0: all levels
     std::span<const double> other_levels = {};  ///< further levels, by which other simulators call the same model
     std::string_view description;
+    /// The default of .options gmin if the circuit has this kind, S; the smallest of all kinds applies. 0: it has no junctions. Models of
+    /// SPICE have SPICE's, models for weak inversion a smaller one, because their currents can be picoamperes.
+    double gmin = 0;
     Role role = Role::other;
     /// Reads the words of a line after the name: nodes, then a model or a value.
     Result<void> (*read)(ElementReader&);

@@ -205,6 +205,7 @@ constexpr std::string_view diode_names[] = {"pj", "ic", "off"};
 
 extern constexpr DeviceKind diode_kind = {.letter = 'd',
                                           .description = "junction diode",
+                                          .gmin = 1e-12,
                                           .read = read_diode,
                                           .make = make_diode,
                                           .parameters = diode_parameters,

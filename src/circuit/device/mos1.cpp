@@ -158,6 +158,7 @@ Result<void> read_mos1_line(ElementReader& line) {
 extern constexpr DeviceKind mos1_kind = {.letter = 'm',
                                          .level = 1,
                                          .description = "MOS transistor, SPICE level 1",
+                                         .gmin = 1e-12,
                                          .read = read_mos1_line,
                                          .make = make_mos1,
                                          .parameters = mos_parameters,

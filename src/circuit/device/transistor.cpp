@@ -193,6 +193,7 @@ Result<const lanes::ChipKernels*> chip_kernels() { return select_table(lanes::sc
 extern constexpr DeviceKind transistor_kind = {.letter = 'm',
                                                .level = UicmCard::level,
                                                .description = "MOS transistor, UICM",
+                                               .gmin = 1e-15,
                                                .role = Role::transistor,
                                                .read = read_mos_line,
                                                .make = make_transistor,

@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "circuit/device/named_values.hpp"
+#include "circuit/devices.hpp"
 
 namespace corpuscle::circuit {
 namespace {
@@ -217,7 +218,10 @@ Tolerances Tolerances::from_options(const Circuit& c) {
     t.reltol = value_or(c.options, "reltol", t.reltol);
     t.vntol = value_or(c.options, "vntol", t.vntol);
     t.abstol = value_or(c.options, "abstol", t.abstol);
-    t.gmin = value_or(c.options, "gmin", t.gmin);
+    double of_kinds = std::numeric_limits<double>::infinity();
+    for (const auto& e : c.elements)
+        if (kind_of(e).gmin > 0) of_kinds = std::min(of_kinds, kind_of(e).gmin);
+    t.gmin = value_or(c.options, "gmin", std::isinf(of_kinds) ? t.gmin : of_kinds);
     t.itl1 = static_cast<int>(value_or(c.options, "itl1", t.itl1));
     return t;
 }

@@ -11,7 +11,7 @@ struct Tolerances {
     double reltol = 1e-6;   ///< relative to an unknown, or to the largest term of an equation
     double vntol = 1e-9;    ///< V, added for voltages
     double abstol = 1e-16;  ///< A, added for currents
-    double gmin = 1e-15;    ///< S, in parallel with every junction
+    double gmin = 1e-15;    ///< S, in parallel with every junction; the default is the smallest of all kinds in the circuit
     int itl1 = 100;         ///< maximum number of Newton iterations in one attempt
 
     /// From .options.
