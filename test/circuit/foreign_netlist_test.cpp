@@ -333,5 +333,24 @@ TEST(ForeignNetlist, ATransientFromGivenVoltagesNeedsNoPathToGround) {
     EXPECT_NE(system.error().message.find("no path to ground"), std::string::npos);
 }
 
+// As in LTspice. A transformer is often connected to an ideal source.
+TEST(ForeignNetlist, AnInductorAcrossASourceHasOneMilliohm) {
+    const auto run = run_netlist(
+        "loop\nv1 a 0 sin(0 1 1k)\nl1 a 0 1m\nl2 b 0 4m\nk1 l1 l2 1\nr1 b 0 1k\n.op\n.tran 1u 1m\n"
+        ".meas tran peak max v(b)\n.meas tran last find i(l1) at=0.5m\n");
+    EXPECT_NE(warnings_in(run).find("l1: closes a loop with sources or other inductors"), std::string::npos) << warnings_in(run);
+    EXPECT_NEAR(run.number("peak"), 2, 2 * 1e-3 * 0.32) << "less the voltage of up to 0.32 A in 1 milliohm";
+    const double w = 2 * std::numbers::pi * 1e3;
+    EXPECT_NEAR(run.number("last"), 2 / (w * 1e-3), 1e-3) << "the current of L1, begun at 0, is (1 - cos wt) / (w L)";
+    EXPECT_NEAR(run_netlist("loop\nv1 a 0 2\nl1 a 0 1m\n.op\n").number("i(l1)"), 2000, 1e-6);
+}
+
+TEST(ForeignNetlist, AnInductorMayHaveAResistanceInSeries) {
+    const auto run = run_netlist("series\nv1 a 0 2\nl1 a 0 1m Rser=0.5 m=2\n.op\n.tran 1m 4m uic\n.meas tran i find i(l1) at=2m\n");
+    EXPECT_TRUE(run.warnings().empty()) << warnings_in(run);
+    EXPECT_NEAR(run.number("i(l1)"), 8, 1e-9);
+    EXPECT_NEAR(run.number("i"), 8 * -std::expm1(-1), 1e-4);
+}
+
 }  // namespace
 }  // namespace corpuscle::circuit

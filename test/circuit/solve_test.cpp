@@ -65,7 +65,7 @@ TEST(Topology, UnsolvableNetlistsAreRejectedWithLineAndReason) {
     has(solve_error("t\nv1 a 0 1\nr1 a 0 1k\nc1 a b 1n\nc2 b 0 1n\n.op\n"), {"test.cir:4", "'b'", "no path to ground", "c1, c2"});
     has(solve_error("t\nv1 a 0 1\nr1 a 0 1k\ni1 0 b 1m\ni2 b 0 1m\n.op\n"), {"test.cir:4", "'b'", "current sources"});
     has(solve_error("t\nv1 a 0 1\nv2 a 0 2\nr1 a 0 1k\n.op\n"), {"test.cir:3", "v2", "v1", "loop"});
-    has(solve_error("t\nv1 a 0 1\nl1 a 0 1m\nr1 a 0 1k\n.op\n"), {"test.cir:3", "l1", "loop"});
+    has(solve_error("t\nv1 a 0 1\nl1 a a 1m\nr1 a 0 1k\n.op\n"), {"test.cir:3", "l1", "both ends"});
     has(solve_error("t\nr1 a b 1k\nr2 b a 1k\nv1 a b 1\n.op\n"), {"ground"});
     has(solve_error("t\nv1 a 0 1\nr1 a b 1k\nm1 b g 0 0 n\n.model n nmos(level=80)\n.op\n"), {"'g'", "no path to ground"});
     has(solve_error("t\nv1 a 0 1\nr1 a 0 1k\nm1 a a 0 0 n\n.model n nmos(level=2)\n.op\n"),

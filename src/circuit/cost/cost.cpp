@@ -7,6 +7,7 @@
 #include "circuit/device/named_values.hpp"
 #include "circuit/device/physical_constants.hpp"
 #include "circuit/devices.hpp"
+#include "circuit/netlist/node_sets.hpp"
 
 namespace corpuscle::circuit {
 namespace {

@@ -58,12 +58,16 @@ public:
     }
 };
 
-/// v = L di/dt. Unknowns: two nodes, and the current; the equation of the current is v - d(L i)/dt = 0.
+/// v = R i + L di/dt. Unknowns: two nodes, and the current; the equation of the current is v - R i - d(L i)/dt = 0.
 class Inductor final : public DeviceWithValue {
+    double resistance_;  // ohm
+
 public:
-    using DeviceWithValue::DeviceWithValue;
+    Inductor(double inductance, double resistance) : DeviceWithValue(inductance), resistance_(resistance) {}
     void eval(std::span<const double> v, const EvalContext&, const Stamp& out) const override {
         out.add_branch(v);
+        out.f[2] -= resistance_ * v[2];
+        out.slope(2, 2) -= resistance_;
         out.q[2] -= value_ * v[2];
         out.capacitance(2, 2) -= value_;
     }
@@ -88,7 +92,9 @@ Result<std::unique_ptr<Device>> make_capacitor(const Element& e, DeviceSetup& se
 
 Result<std::unique_ptr<Device>> make_inductor(const Element& e, DeviceSetup& setup) {
     TRY(check_parameters(e, setup));
-    return make_device<Inductor>(setup.ends(e), at_temperature(e.value, e, setup) / value_or(e.values, "m", 1));
+    const double m = value_or(e.values, "m", 1), resistance = value_or(e.values, "rser", 0) / m;
+    if (!(resistance >= 0)) return error_at(e.location, "{}: rser = {:g} ohm is below 0", e.name, resistance * m);
+    return make_device<Inductor>(setup.ends(e), at_temperature(e.value, e, setup) / m, resistance);
 }
 
 // ---- netlist ----
@@ -226,11 +232,17 @@ Result<std::string> write_passive(const ElementExport& e) {
     const double tc1 = parameter("tc1", 0), tc2 = parameter("tc2", 0),
                  dT = celsius_of(e.circuit, e.element) - parameter("tnom", value_or(e.circuit.options, "tnom", 27));
     if (is_swept(e)) return fmt::format("{} {}{}\n", e.head, total * (1 + tc1 * dT + tc2 * dT * dT), e.temperature());
-    std::string out = fmt::format("{} {}", e.head, total);
+    std::string head = e.head, series;
+    if (const double resistance = e.value("rser", 0) / m; resistance > 0) {
+        const auto name = e.names.element(e.element.name), inner = name + "_rser";
+        head = fmt::format("{} {} {}", name, e.names.node(e.element.nodes[0]), inner);
+        series = fmt::format("r_{} {} {} {}\n", inner, inner, e.names.node(e.element.nodes[1]), resistance);
+    }
+    std::string out = fmt::format("{} {}", head, total);
     if (e.model() && e.model()->values.contains("tnom")) out += ' ' + e.names.model(e.element.model);
     if (tc1 != 0 || tc2 != 0) out += fmt::format(" tc1={} tc2={}", tc1, tc2);
     if (e.element.values.contains("ic")) out += fmt::format(" ic={}", e.value("ic", 0));
-    return out + e.temperature() + '\n';
+    return out + e.temperature() + '\n' + series;
 }
 
 // ---- rows ----
@@ -261,7 +273,7 @@ constexpr ElementParameter capacitor_parameters[] = {{.name = "c", .unit = "F", 
 constexpr ElementParameter inductor_parameters[] = {
     {.name = "l", .unit = "H", .low = 0, .is_value = true}, parameter_m, parameter_tc1, parameter_tc2, parameter_temp, parameter_dtemp};
 constexpr std::string_view resistor_names[] = {"scale", "l", "w"}, capacitor_names[] = {"q", "ic", "scale", "l", "w"},
-                           inductor_names[] = {"ic", "scale"}, charge_names[] = {"q"};
+                           inductor_names[] = {"ic", "scale", "rser"}, charge_names[] = {"q"};
 
 }  // namespace
 

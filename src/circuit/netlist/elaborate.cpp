@@ -3,6 +3,7 @@
 #include "circuit/devices.hpp"
 #include "circuit/expression/spice_number.hpp"
 #include "circuit/netlist/scope.hpp"
+#include "circuit/netlist/voltage_loops.hpp"
 #include "core/text/ascii_text.hpp"
 
 namespace corpuscle::circuit {
@@ -45,6 +46,7 @@ public:
         if (!builder_.refusals.empty()) return builder_.refusals.combined();
         TRY(check_references());
         TRY(resolve_node_voltages());
+        add_resistance_in_loops(c);
         for (const auto* s : parsed_.directives)
             if (top_.holds(*s)) add_directive(*s);
         apply_overrides_to_directives(c);

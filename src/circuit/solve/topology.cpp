@@ -1,5 +1,7 @@
 #include "circuit/analyses.hpp"
 #include "circuit/devices.hpp"
+#include "circuit/netlist/node_sets.hpp"
+#include "circuit/netlist/voltage_loops.hpp"
 #include "circuit/solve/system.hpp"
 #include "core/text/ascii_text.hpp"
 
@@ -49,7 +51,7 @@ Result<void> check_voltage_loops(const Circuit& c) {
     NodeSets sets(c.nodes.size());
     std::vector<const Element*> fixing;  // elements that fix a voltage and close no loop
     for (const auto& e : c.elements) {
-        if (!has_branch_current(e)) continue;  // see DeviceKind
+        if (!fixes_voltage(e)) continue;
         if (sets.join(e.nodes[0], e.nodes[1])) {
             fixing.push_back(&e);
             continue;
