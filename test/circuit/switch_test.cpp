@@ -306,5 +306,29 @@ TEST(Switch, AFlybackConverterAgreesWithNgspice) {
         EXPECT_NEAR(here.number(name), logged_number(log, name), 5e-4 * std::abs(here.number(name))) << name << log;
 }
 
+/// A step-down converter with a resistance in series with its capacitor. When the switch opens, all nodes jump but the supply.
+std::string buck(RandomSource& dice) {
+    const double period = dice.log_uniform(4e-6, 20e-6), duty = dice.uniform_between(0.2, 0.7);
+    return fmt::format(
+        "buck\nv1 in 0 12\ns1 in sw g 0 sm\nvg g 0 pulse(0 5 0 20n 20n {:g} {:g})\nd1 0 sw dm\nl1 sw out {:g}\nc1 out e {:g}\nre e 0 {:g}\n"
+        "r1 out 0 {:g}\n.model sm sw(ron=50m roff=1meg vt=2.5 vh={:g})\n.model dm d(is={:g} rs=5m cjo={:g})\n.tran 0.1u 200u uic\n"
+        ".meas tran vo avg v(out) from=150u to=200u\n.meas tran peak max i(l1)\n",
+        duty * period, period, dice.log_uniform(10e-6, 100e-6), dice.log_uniform(5e-6, 500e-6), dice.log_uniform(5e-3, 0.2),
+        dice.log_uniform(1, 50), dice.uniform_between(0, 0.5), dice.log_uniform(1e-14, 1e-6), dice.log_uniform(20e-12, 500e-12));
+}
+
+TEST(Switch, ConvertersRunToTheEndAndAgreeWithATighterRun) {
+    RandomSource dice(1);
+    for (int k = 0; k < 12; ++k) {
+        const auto text = buck(dice);
+        const auto usual = run_netlist(text), tight = run_netlist(text + ".options reltol=1e-6\n");
+        for (const char* name : {"vo", "peak"}) EXPECT_NEAR(usual.number(name) / tight.number(name), 1, 1e-4) << name << "\n" << text;
+    }
+    const auto boost = run_netlist(
+        "boost\nv1 in 0 12\nl1 in sw 47u\ns1 sw 0 g 0 sm\nvg g 0 pulse(0 5 0 50n 50n 5u 10u)\nd1 sw out dm\nc1 out e 47u\nre e 0 20m\n"
+        "r1 out 0 24\n.model sm sw(ron=0.1 roff=1meg vt=2.5)\n.model dm d\n.tran 0.1u 2m uic\n.meas tran vo avg v(out) from=1.9m to=2m\n");
+    EXPECT_NEAR(boost.number("vo"), 23.1691, 1e-3) << "ngspice 39 with steps of 5 ns";
+}
+
 }  // namespace
 }  // namespace corpuscle::circuit::test
