@@ -104,7 +104,7 @@ struct StepControl {
         ++failures;
         double exponent = order + 1;
         bool falls = false;
-        if (max_failures > 1 && error > 0 && rejected_length > length && rejected_error > error) {
+        if (max_failures > 1 && previous > 0 && error > 0 && rejected_length > length && rejected_error > error) {
             exponent = std::clamp(num::log(rejected_error / error) / num::log(rejected_length / length), 0.5, exponent);
             falls = exponent >= 0.7;
         }

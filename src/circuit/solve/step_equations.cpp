@@ -171,6 +171,20 @@ void StepEquations::read_charges(std::span<double> q) {
     std::copy(r_.begin(), r_.begin() + static_cast<std::ptrdiff_t>(count), q.begin());
 }
 
+void StepEquations::charge_change(std::span<const double> dx, std::span<double> dq) {
+    std::fill(r_.begin(), r_.end(), 0.0);
+    for (const auto& l : linear_) r_[l.row] += l.c * dx[l.column];
+    const auto change_of = [&](int unknown) {
+        return static_cast<std::size_t>(unknown) < dx.size() ? dx[static_cast<std::size_t>(unknown)] : 0;
+    };
+    for (const auto& scalar : scalar_devices_)
+        for (std::size_t row = 0; row < scalar.terminals; ++row)
+            for (std::size_t column = 0; column < scalar.terminals; ++column)
+                r_[static_cast<std::size_t>(scalar.unknowns[row])] +=
+                    scalar.stamp.capacitance(row, column) * change_of(scalar.unknowns[column]);
+    std::copy(r_.begin(), r_.begin() + static_cast<std::ptrdiff_t>(dq.size()), dq.begin());
+}
+
 void StepEquations::add_rounding(std::span<const double> x, std::span<double> out) const {
     constexpr double roundoff = 1e-15;
     system_.pattern().for_each_entry(

@@ -123,6 +123,10 @@ public:
     void read_charges(std::span<double> q);
     /// Solves (G + a C) e = r in place, with the last matrix: the effect e of a perturbation r of the equations on the unknowns.
     void solve_perturbation(std::span<double> r) const { solver_.solve(r); }
+    /// True if charge_change() knows all devices. Transistors that are evaluated together do not keep their capacitances.
+    bool has_all_capacitances() const { return system_.groups().empty(); }
+    /// Computes C dx with the capacitances of the last evaluation: the change of the charges with the unknowns.
+    void charge_change(std::span<const double> dx, std::span<double> dq);
     /// Adds the rounding error of the terms of each equation at x, A or V, to `out`.
     void add_rounding(std::span<const double> x, std::span<double> out) const;
     /// Evaluates f(x, t) and q(x).

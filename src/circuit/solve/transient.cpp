@@ -179,12 +179,29 @@ double Transient::worst_error() {
     uncharged_error_ = 0;
     for (std::size_t n = 0; n < error_.size(); ++n)
         if (has_charge_[n] && allowed_error_[n] > 0) worst = std::max(worst, std::abs(error_[n]) / (allowed_error_[n] + rounding_[n]));
+    if (may_jump_ && plan_.all_reported && equations_.has_all_capacitances()) {
+        uncharged_error_ = worst;
+        worst = worst_error_of_charges();
+    }
     if (plan_.all_reported) worst *= sum_factor;
     if (!plan_.all_reported || plan_.method != Integration::bdf) return worst;
     for (std::size_t n = 0; n < error_.size(); ++n)
         if (!has_charge_[n] && tolerance_[n] > 0)
             uncharged_error_ = std::max(uncharged_error_, std::abs(error_[n]) / (uncharged_factor * (tolerance_[n] + rounding_[n])));
     return may_jump_ || is_after_failures_ ? worst : std::max(worst, uncharged_error_);
+}
+
+/// The largest error of a charge for the errors of the unknowns in error_, relative to that of its unknown's allowed error. In a step with a
+/// jump the voltages of nodes with charge may change, too, if no charge does: those of a capacitor with a resistance in series, when the
+/// current into it changes.
+double Transient::worst_error_of_charges() {
+    charge_error_.resize(error_.size());
+    equations_.charge_change(error_, charge_error_);
+    double worst = 0;
+    for (std::size_t n = 0; n < error_.size(); ++n)
+        if (capacitance_[n] > 0 && allowed_error_[n] > 0)
+            worst = std::max(worst, std::abs(charge_error_[n]) / (capacitance_[n] * (allowed_error_[n] + rounding_[n])));
+    return worst;
 }
 
 /// Called before a step is rejected. Computes the error of each unknown that comes from the rounding of the charges, and computes `error`

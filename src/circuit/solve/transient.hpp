@@ -78,7 +78,7 @@ private:
     std::vector<double> rounding_, charge_rounding_;
     // By unknown. scale_ is the largest magnitude so far. The error at the end of a step is compared with allowed_error_ (0: not
     // controlled), that of reported values with tolerance_. rate_ is dq/dt at the newest point; error_ is a buffer.
-    std::vector<double> scale_, allowed_error_, tolerance_, history_, rate_, error_;
+    std::vector<double> scale_, allowed_error_, tolerance_, history_, rate_, error_, charge_error_;
     std::vector<char> has_charge_;
     std::vector<int> interpolated_unknowns_;  // reported unknowns that are interpolated
     struct SourceNode {  // a node whose voltage is that of the unknown `base` (-1: ground) plus `sign` times the source's voltage
@@ -117,6 +117,7 @@ private:
     bool attempt(double t, double& error);
     double error_of(int order);
     double worst_error();
+    double worst_error_of_charges();
     void update_tolerances();
     void choose_step(double h, double error);
     Result<void> reject_step(double h, double error);
