@@ -30,15 +30,27 @@ MosVoltages MosDevice::voltages(std::span<const double> v) const {
     return {above_bulk(drain_, D), above_bulk(G, G), above_bulk(source_, S)};
 }
 
-/// Both junctions are limited by a shift of the bulk, so that the voltages of the channel's ends and the gate remain those of the step.
+/// The drain-source voltage (V) that a Newton step from `before` to v may reach, as in SPICE2. Far from the present voltage the linearized
+/// current is wrong, so that without a limit the iterations may alternate between saturation and the linear region.
+static double limited_drain_voltage(double v, double before) {
+    constexpr double high = 3.5, above_low = 4, below_high = 2, reverse = -0.5;
+    const double sign = before < 0 ? -1 : 1, from = std::abs(before), to = sign * v;
+    if (from >= high) return sign * (to > from ? std::fmin(to, 3 * from + 2) : std::fmax(to, below_high));
+    return sign * (to > from ? std::fmin(to, above_low) : std::fmax(to, reverse));
+}
+
+/// Both junctions are limited by a shift of the bulk, so that the voltages of the channel's ends and the gate remain those of the step. Then
+/// the drain-source voltage is limited by a shift of the drain.
 bool MosDevice::limit(std::span<double> v, std::span<double> state) const {
     const double drain = sign_ * (v[B] - v[drain_]), source = sign_ * (v[B] - v[source_]);
     const double shift = std::fmax(drain - limited_junction_voltage(drain, state[0], s_.drain.n_vt, critical_drain_),
                                    source - limited_junction_voltage(source, state[1], s_.source.n_vt, critical_source_));
     state[0] = drain - shift, state[1] = source - shift;
-    if (!(shift > 0)) return false;
-    v[B] -= sign_ * shift;
-    return true;
+    if (shift > 0) v[B] -= sign_ * shift;
+    const double across = sign_ * (v[drain_] - v[source_]), limited = limited_drain_voltage(across, state[2]);
+    state[2] = limited;
+    if (limited != across) v[drain_] = v[source_] + sign_ * limited;
+    return shift > 0 || limited != across;
 }
 
 namespace {

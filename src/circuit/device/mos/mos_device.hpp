@@ -56,7 +56,7 @@ protected:
 public:
     explicit MosDevice(const MosSurroundings&);
     bool is_linear() const override { return false; }
-    std::size_t limiting_state_size() const override { return 2; }
+    std::size_t limiting_state_size() const override { return 3; }
     bool limit(std::span<double> v, std::span<double> state) const override;
     void eval(std::span<const double> v, const EvalContext&, const Stamp&) const override;
 };
