@@ -128,6 +128,8 @@ Result<TransientPlan> read_transient_plan(const Circuit& c) {
     }
     plan.reltol = value_or(c.options, "reltol", plan.reltol);
     plan.vntol = value_or(c.options, "vntol", plan.vntol);
+    constexpr double gmin_of_spice = 1e-12, abstol_of_spice = 1e-12;  // S, A
+    if (smallest_gmin(c).value_or(0) >= gmin_of_spice) plan.abstol = abstol_of_spice;  // no model here is meant for smaller currents
     plan.abstol = value_or(c.options, "abstol", plan.abstol);
     if (const auto given = c.option_words.find("method"); given != c.option_words.end()) {
         const std::string_view word = given->second;

@@ -213,15 +213,19 @@ private:
 
 }  // namespace
 
+std::optional<double> smallest_gmin(const Circuit& c) {
+    std::optional<double> out;
+    for (const auto& e : c.elements)
+        if (const double gmin = kind_of(e).gmin; gmin > 0) out = std::min(out.value_or(gmin), gmin);
+    return out;
+}
+
 Tolerances Tolerances::from_options(const Circuit& c) {
     Tolerances t;
     t.reltol = value_or(c.options, "reltol", t.reltol);
     t.vntol = value_or(c.options, "vntol", t.vntol);
     t.abstol = value_or(c.options, "abstol", t.abstol);
-    double of_kinds = std::numeric_limits<double>::infinity();
-    for (const auto& e : c.elements)
-        if (kind_of(e).gmin > 0) of_kinds = std::min(of_kinds, kind_of(e).gmin);
-    t.gmin = value_or(c.options, "gmin", std::isinf(of_kinds) ? t.gmin : of_kinds);
+    t.gmin = value_or(c.options, "gmin", smallest_gmin(c).value_or(t.gmin));
     t.itl1 = static_cast<int>(value_or(c.options, "itl1", t.itl1));
     return t;
 }

@@ -5,6 +5,9 @@
 
 namespace corpuscle::circuit {
 
+/// The smallest default of gmin of all kinds of devices in the circuit, S. Nothing if it has no junctions.
+std::optional<double> smallest_gmin(const Circuit&);
+
 /// Convergence tolerances and iteration limit of Newton's method. The names are those of SPICE. Defaults are tighter than SPICE's, for
 /// currents of picoamperes.
 struct Tolerances {
