@@ -36,6 +36,8 @@ SourceLocation Directive::location_of(std::size_t word) const {
     return out;
 }
 
+bool starts_from_initial_conditions(const Directive& tran) { return std::ranges::find(tran.words, "uic") != tran.words.end(); }
+
 int Circuit::find_node(std::string_view name) const {
     if (is_ground(name)) return 0;
     // The map is complete in an elaborated circuit; a circuit that was made in another way may have none.
