@@ -28,6 +28,7 @@ using ByName = std::map<std::string, T, std::less<>>;
 struct Condition {
     int outer = -1;                    ///< index of the branch that contains it; -1: none
     int previous = -1;                 ///< index of the branch before it in the same .if; -1: none
+    const Statement* line = nullptr;   ///< the line that begins it
     std::optional<WordRef> text = {};  ///< its expression; none for .else
 };
 
@@ -41,7 +42,9 @@ struct SubcktDef {
     ByName<WordRef> parameters;                    ///< values of the .param lines
     ByName<ExpressionScope::Function> functions;   ///< .func f(x)=... and .param f(x)=...
     ByName<std::vector<const Statement*>> models;  ///< several of one name only in different branches of .if
-    std::vector<Condition> conditions;             ///< each after those that it refers to
+    std::vector<const std::vector<const Statement*>*> alternative_models;  ///< those of `models` that have several lines
+    std::vector<Condition> conditions;                                     ///< each after those that it refers to
+    std::map<int, Refusals> branch_refusals;  ///< errors of the lines in a branch of .if, by its index; they matter only if it holds
     ByName<std::unique_ptr<SubcktDef>> subcircuits;
     std::vector<const Statement*> elements, ics;  ///< element lines, X lines included; .ic and .nodeset lines
 };
