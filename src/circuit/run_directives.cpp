@@ -109,8 +109,7 @@ Result<void> analyse(AnalysisContext& context, const Analysis& analysis, const D
                      MeasurementSet& measures, const DeviceCurrents& currents, RunOutcome& out) {
     AnalysisRun run{&c, {}, 0, {}, {}, {}};
     FourierTransforms fourier(*context.circuit);
-    PointDispatcher dispatcher(*context.circuit, options, out.saved_curves, measures, c.name == "tran" ? &fourier : nullptr, run,
-                               currents);
+    PointDispatcher dispatcher(*context.circuit, options, out.saved_curves, measures, c.name == "tran" ? &fourier : nullptr, run, currents);
     if (options.should_stop) context.should_stop = [&](double progress) { return options.should_stop(c.name, progress); };
     context.points = &dispatcher;
     auto result = analysis.run(context, c);

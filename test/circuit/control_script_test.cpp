@@ -165,8 +165,9 @@ TEST(ControlScript, CommandsOfASkippedBlockMakeUnknownWhatTheyWouldChange) {
     EXPECT_NE(warnings.find("7:1: .control: the commands of this 'if' up to 'end' are skipped (and 1 more); write those of one branch"),
               std::string::npos)
         << warnings;
-    EXPECT_NE(warnings_of("op\nforeach r 1k 2k\nop\n").find("7:1: .control: 'foreach' is not closed by 'end'; the commands after it are not"),
-              std::string::npos);
+    EXPECT_NE(
+        warnings_of("op\nforeach r 1k 2k\nop\n").find("7:1: .control: 'foreach' is not closed by 'end'; the commands after it are not"),
+        std::string::npos);
 }
 
 TEST(ControlScript, NoScriptRunsAfterOneThatWasStopped) {
@@ -185,8 +186,9 @@ TEST(ControlScript, FourierBelongsToTheTransientBeforeIt) {
 }
 
 TEST(ControlScript, PartsOfCurvesAndNumbersArePrintedAsSuch) {
-    const auto run = run_script("ac lin 1 159.15494309 159.15494309\nlet b = 2\nlet out2 = vdb(out) + 1\nmeas ac level find out2 at=159.15494309\n"
-                                "meas ac down find vdb(out) at=159.15494309\nset n = 10 k = 3\nprint $n $k b\nprint v(in)-v(out) im(v(out))\n");
+    const auto run = run_script(
+        "ac lin 1 159.15494309 159.15494309\nlet b = 2\nlet out2 = vdb(out) + 1\nmeas ac level find out2 at=159.15494309\n"
+        "meas ac down find vdb(out) at=159.15494309\nset n = 10 k = 3\nprint $n $k b\nprint v(in)-v(out) im(v(out))\n");
     EXPECT_NEAR(run.number("down"), -10 * std::log10(2), 1e-6);
     EXPECT_NEAR(run.number("level"), 1 - 10 * std::log10(2), 1e-6);
     EXPECT_EQ(run.number("10"), 10);
@@ -212,7 +214,8 @@ TEST(ControlScript, IsBounded) {
     const auto netlist = parse_netlist_text(deck + ".control\n" + commands + ".endc\n");
     ASSERT_FALSE(netlist);
     EXPECT_NE(netlist.error().message.find("exceeds the limit of 10 MB"), std::string::npos);
-    EXPECT_NE(warnings_of("op\nprint " + std::string(20000, '(') + "\n").find("a command is longer than 10000 characters"), std::string::npos);
+    EXPECT_NE(warnings_of("op\nprint " + std::string(20000, '(') + "\n").find("a command is longer than 10000 characters"),
+              std::string::npos);
 }
 
 }  // namespace

@@ -82,8 +82,7 @@ TEST(Refusals, OfTooManyConditionsEndTheElaboration) {
     std::string body = ".subckt s0 a\n";
     for (int k = 0; k < 1000; ++k) body += ".if (1)\n.endif\n";
     body += "r1 a 0 1k\n.ends\n";
-    for (int level = 1; level <= 12; ++level)
-        body += fmt::format(".subckt s{0} a\nx1 a s{1}\nx2 a s{1}\n.ends\n", level, level - 1);
+    for (int level = 1; level <= 12; ++level) body += fmt::format(".subckt s{0} a\nx1 a s{1}\nx2 a s{1}\n.ends\n", level, level - 1);
     EXPECT_NE(errors_of(body + "x1 a s12\n").find("the circuit has more elements than the limit of 2000000"), std::string::npos);
 }
 

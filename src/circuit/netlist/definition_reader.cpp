@@ -32,7 +32,9 @@ Result<void> define_function(std::string_view head, std::string text, SourceLoca
 /// Takes the words "name value" after the type of a model as name=value, as SPICE does, except for dev and lot, which are words.
 void join_values(Statement& s) {
     const auto begins_with_letter = [&](std::size_t k) { return std::isalpha(static_cast<unsigned char>(s.text(k)[0])) != 0; };
-    const auto is_name = [&](std::size_t k) { return s.words[k].kind == Word::Kind::plain && s.words[k].size > 0 && begins_with_letter(k); };
+    const auto is_name = [&](std::size_t k) {
+        return s.words[k].kind == Word::Kind::plain && s.words[k].size > 0 && begins_with_letter(k);
+    };
     const auto is_value = [&](std::size_t k) {
         return k < s.words.size() && s.words[k].size > 0 && (s.words[k].kind == Word::Kind::expression || !begins_with_letter(k));
     };

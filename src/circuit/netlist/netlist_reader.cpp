@@ -26,10 +26,10 @@ class NetlistReader {
         bool has_else;
         SourceLocation location;
     };
-    std::vector<OpenIf> open_ifs_;  // outermost first
-    std::size_t file_ifs_ = 0;      // number of those that were open when the present file began
+    std::vector<OpenIf> open_ifs_;      // outermost first
+    std::size_t file_ifs_ = 0;          // number of those that were open when the present file began
     bool are_scripts_stopped_ = false;  // one of them ended early
-    bool ended_ = false;            // true after .end, until the present file is left
+    bool ended_ = false;                // true after .end, until the present file is left
 
 public:
     NetlistReader(ParsedNetlist& out, Refusals& refusals, const Netlist::FileOpener& open, std::string corner)

@@ -38,10 +38,10 @@ struct SubcktDef {
     const Statement* head = nullptr;  ///< its .subckt line; null for the top level
     SubcktDef* outer = nullptr;       ///< the definition that contains this one
     std::vector<std::string> ports;
-    ByName<WordRef> defaults;                      ///< default values of the parameters in the .subckt line
-    ByName<WordRef> parameters;                    ///< values of the .param lines
-    ByName<ExpressionScope::Function> functions;   ///< .func f(x)=... and .param f(x)=...
-    ByName<std::vector<const Statement*>> models;  ///< several of one name only in different branches of .if
+    ByName<WordRef> defaults;                                              ///< default values of the parameters in the .subckt line
+    ByName<WordRef> parameters;                                            ///< values of the .param lines
+    ByName<ExpressionScope::Function> functions;                           ///< .func f(x)=... and .param f(x)=...
+    ByName<std::vector<const Statement*>> models;                          ///< several of one name only in different branches of .if
     std::vector<const std::vector<const Statement*>*> alternative_models;  ///< those of `models` that have several lines
     std::vector<Condition> conditions;                                     ///< each after those that it refers to
     std::map<int, Refusals> branch_refusals;  ///< errors of the lines in a branch of .if, by its index; they matter only if it holds

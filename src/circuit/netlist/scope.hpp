@@ -32,7 +32,8 @@ struct Scope {
     const Statement* own_model(std::string_view name) const;
     /// True if the statement is in no branch of .if, or in one that holds. The statement must be of this definition.
     bool holds(const Statement& s) const { return s.condition < 0 || conditions[static_cast<std::size_t>(s.condition)]; }
-    /// Evaluates the branches of .if, which count as statements. Two models of one name that both hold are an error. Call it after define().
+    /// Evaluates the branches of .if, which count as statements. Two models of one name that both hold are an error. Call it after
+    /// define().
     Result<void> evaluate_conditions(CircuitBuilder&);
     /// The level of the model of this name, 1 if its line does not give it; nullopt if there is no such model or the level is not a number.
     std::optional<double> model_level(std::string_view name);

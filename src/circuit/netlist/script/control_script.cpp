@@ -3,6 +3,7 @@
 #include "circuit/analyses.hpp"
 #include "circuit/netlist/script/script_commands.hpp"
 #include "circuit/netlist/script/script_plots.hpp"
+#include "circuit/netlist/script/script_variables.hpp"
 #include "circuit/netlist/script/script_vectors.hpp"
 #include "circuit/netlist/script/script_words.hpp"
 #include "core/text/ascii_text.hpp"
@@ -11,7 +12,7 @@ namespace corpuscle::circuit {
 namespace {
 
 using Effect = ScriptCommand::Effect;
-constexpr std::size_t max_command_length = 10000;                    // after the replacement of variables
+constexpr std::size_t max_command_length = 10000;                     // after the replacement of variables
 constexpr std::size_t max_script_characters = std::size_t{10} << 20;  // of all commands, after all replacements
 constexpr std::string_view needs_number = "it depends on a variable; write its number";
 constexpr std::string_view is_complex = "expressions of complex curves are not available in .ac; print their parts, such as vm(a)";
@@ -22,15 +23,8 @@ class ScriptReader {
     ControlScript out_;
     ScriptVectors vectors_;
     ScriptPlots plots_;
-    std::map<std::string, std::string, std::less<>> variables_;  // of set
-    /// Commands without effect, each with its first line.
-    struct Ignored {
-        SourceLocation location;
-        std::string name, remedy;
-        int count;
-    };
-    std::vector<Ignored> ignored_;
-    std::map<std::string, std::size_t, std::less<>> ignored_numbers_;  // by name, index in ignored_
+    ScriptVariables variables_;
+    IgnoredCommands ignored_;
     /// A block of if, while ... that is open.
     struct Block {
         const ScriptCommand* command;
@@ -50,18 +44,10 @@ public:
     Result<ControlScript> read() {
         const auto is_closed = TRY(read_commands());
         if (!is_closed) return error_at(from_.location(), ".control is not closed by .endc");
-        if (block_ && !out_.is_stopped)
+        if (block_ && !std::exchange(out_.is_stopped, true))
             out_.warnings.push_back(error_at(block_->location, ".control: '{}' is not closed by 'end'; the commands after it are not run",
                                              block_->command->name));
-        for (const auto& command : ignored_) {
-            const auto others = command.count == 1 ? std::string() : fmt::format(" (and {} more)", command.count - 1);
-            const auto* row = find_script_command(command.name);
-            const bool is_block = row != nullptr && row->effect == Effect::block;
-            out_.warnings.push_back(is_block ? error_at(command.location, ".control: the commands of this '{}' up to 'end' are skipped{}; {}",
-                                                        command.name, others, command.remedy)
-                                             : error_at(command.location, ".control: '{}' has no effect here{}: {}", command.name, others,
-                                                        command.remedy));
-        }
+        ignored_.add_warnings(out_.warnings);
         return std::move(out_);
     }
 
@@ -101,7 +87,8 @@ private:
         if (out_.is_stopped) return;
         for (const std::string_view comment : {" ;", " $ "})
             if (const auto at = line.text.find(comment); at != std::string::npos) line.text.resize(at);
-        replace_variables(line);
+        const auto number_of = [this](std::string_view name) { return vectors_.number(name); };
+        if (line.text.find('$') != std::string::npos) line.text = variables_.replace(line.text, number_of, max_command_length);
         characters_ += line.text.size();
         if (line.text.size() > max_command_length)
             return stop(line, fmt::format("a command is longer than {} characters", max_command_length));
@@ -145,14 +132,7 @@ private:
 
     // ---- commands without effect ----
 
-    void ignore(const std::string& word, const LogicalLine& line, std::string_view remedy) {
-        ignore(word, line.location(1), remedy);
-    }
-    void ignore(const std::string& word, SourceLocation location, std::string_view remedy) {
-        const auto [known, is_new] = ignored_numbers_.try_emplace(word, ignored_.size());
-        if (!is_new) return void(++ignored_[known->second].count);
-        ignored_.push_back({std::move(location), word, std::string(remedy), 1});
-    }
+    void ignore(const std::string& word, const LogicalLine& line, std::string_view remedy) { ignored_.add(word, line.location(1), remedy); }
     void leave_out(const LogicalLine& line, std::string_view what, std::string_view why) {
         out_.warnings.push_back(error_at(line.location(1), ".control: {} is left out: {}", what, why));
     }
@@ -183,7 +163,7 @@ private:
         forget_loop_variable(word, line);
         if (word != "end" || --block_->depth > 0) return;
         const auto block = *std::exchange(block_, std::nullopt);
-        if (block.effect.empty()) return ignore(std::string(block.command->name), block.location, block.command->remedy);
+        if (block.effect.empty()) return ignored_.add(std::string(block.command->name), block.location, block.command->remedy);
         stop_before(block.effect, line, "it is inside a condition or a loop: write its commands directly, or use .step");
     }
     /// The command of a block if the rest of the script depends on it; else "". A quit with a code reports an error of the script's own
@@ -197,7 +177,7 @@ private:
     }
     void forget_loop_variable(const std::string& word, const LogicalLine& line) {
         const auto words = word == "foreach" ? split_script_words(line.text, word.size() + 1) : std::vector<ScriptWord>();
-        if (!words.empty()) variables_.erase(words[0].text);
+        if (!words.empty()) variables_.remove(words[0].text);
     }
 
     // ---- variables ----
@@ -207,40 +187,17 @@ private:
         return trimmed(std::string_view(line.text).substr(command_name(line.text).size() + 1));
     }
 
-    /// Replaces $name of set and $&name of let, until the command is too long.
-    void replace_variables(LogicalLine& line) const {
-        const std::string_view text = line.text;
-        std::string out;
-        std::size_t from = 0;
-        for (auto at = text.find('$'); at != std::string::npos && out.size() <= max_command_length; at = text.find('$', from)) {
-            const bool is_vector = at + 1 < text.size() && text[at + 1] == '&';
-            const auto first = at + 1 + is_vector;
-            auto end = first;
-            while (end < text.size() && (std::isalnum(static_cast<unsigned char>(text[end])) || text[end] == '_')) ++end;
-            const auto name = text.substr(first, end - first);
-            const auto variable = variables_.find(name);
-            const auto value = is_vector                      ? vectors_.number(name)
-                               : variable != variables_.end() ? std::optional(variable->second)
-                                                              : std::nullopt;
-            out += text.substr(from, at - from);
-            out += value ? std::string_view(*value) : text.substr(at, end - at);
-            from = end;
-        }
-        if (from == 0) return;
-        out += text.substr(from);
-        line.text = std::move(out);
-    }
-
     void set(const LogicalLine& line) {
-        for (auto& [name, value] : read_variables(arguments(line))) {
-            if (is_circuit_variable(name)) return stop_before("set " + name, line, "write it as .options outside of the script");
-            value ? void(variables_.insert_or_assign(name, *value)) : void(variables_.erase(name));
+        for (const auto& variable : read_variables(arguments(line))) {
+            if (is_circuit_variable(variable.name))
+                return stop_before("set " + variable.name, line, "write it as .options outside of the script");
+            variables_.set(variable);
         }
         ignore("set", line, find_script_command("set")->remedy);
     }
     /// Removes the variables of an unset, or of a set that is skipped.
     void unset(const LogicalLine& line) {
-        for (const auto& variable : read_variables(arguments(line))) variables_.erase(variable.name);
+        for (const auto& variable : read_variables(arguments(line))) variables_.remove(variable.name);
     }
 
     // ---- plots ----

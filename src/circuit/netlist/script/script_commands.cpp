@@ -120,4 +120,22 @@ bool is_circuit_variable(std::string_view name) {
     return std::ranges::find(names, name) != std::end(names);
 }
 
+void IgnoredCommands::add(const std::string& name, SourceLocation location, std::string_view remedy) {
+    const auto [known, is_new] = numbers_.try_emplace(name, commands_.size());
+    if (!is_new) return void(++commands_[known->second].count);
+    commands_.push_back({std::move(location), name, std::string(remedy), 1});
+}
+
+void IgnoredCommands::add_warnings(std::vector<Error>& out) const {
+    for (const auto& command : commands_) {
+        const auto others = command.count == 1 ? std::string() : fmt::format(" (and {} more)", command.count - 1);
+        const auto* row = find_script_command(command.name);
+        if (row != nullptr && row->effect == Effect::block)
+            out.push_back(error_at(command.location, ".control: the commands of this '{}' up to 'end' are skipped{}; {}", command.name,
+                                   others, command.remedy));
+        else
+            out.push_back(error_at(command.location, ".control: '{}' has no effect here{}: {}", command.name, others, command.remedy));
+    }
+}
+
 }  // namespace corpuscle::circuit

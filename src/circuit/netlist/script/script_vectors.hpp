@@ -24,7 +24,8 @@ public:
     struct Expanded {
         std::string text, problem;
         bool depends_on_curves = false, depends_on_measures = false;
-        /// It has curves such as v(a), which are complex in an .ac, and not only parts such as vm(a). Of a meas line: one of its vectors has.
+        /// It has curves such as v(a), which are complex in an .ac, and not only parts such as vm(a). Of a meas line: one of its vectors
+        /// has.
         bool has_whole_curves = false;
     };
 

@@ -4,20 +4,11 @@
 #include <utility>
 
 #include "circuit/expression/spice_number.hpp"
-#include "core/text/ascii_text.hpp"
 
 namespace corpuscle::circuit {
 namespace {
 
 bool is_vector_name(std::string_view text) { return text.find_first_of("+-*/^()[]<>&|!%?:,{}'\"= ") == std::string_view::npos; }
-
-/// The offset after the word at `from`. A quoted text or a list in parentheses is one word, and so is an '='.
-std::size_t end_of_word(std::string_view text, std::size_t from) {
-    constexpr std::string_view open = "('\"", close = ")'\"";
-    if (const auto group = open.find(text[from]); group != std::string_view::npos)
-        return std::min(text.find(close[group], from + 1), text.size() - 1) + 1;
-    return text[from] == '=' ? from + 1 : std::min(text.find_first_of(" \t=", from), text.size());
-}
 
 }  // namespace
 
@@ -47,24 +38,6 @@ std::vector<ScriptWord> joined_expressions(std::vector<ScriptWord> words) {
         const bool continues = !out.empty() && (operators.find(out.back().text.back()) != std::string_view::npos || word.text == "-" ||
                                                 std::string_view("+*/^").find(word.text[0]) != std::string_view::npos);
         continues ? void(out.back().text += word.text) : out.push_back(std::move(word));
-    }
-    return out;
-}
-
-std::vector<ScriptVariable> read_variables(std::string_view text) {
-    std::vector<std::string_view> words;
-    for (auto at = text.find_first_not_of(" \t"); at < text.size(); at = text.find_first_not_of(" \t", at)) {
-        const auto end = end_of_word(text, at);
-        words.push_back(text.substr(at, end - at));
-        at = end;
-    }
-    std::vector<ScriptVariable> out;
-    for (std::size_t k = 0; k < words.size(); ++k) {
-        auto& variable = out.emplace_back(ScriptVariable{std::string(words[k]), {}});
-        if (k + 2 >= words.size() || words[k + 1] != "=") continue;
-        k += 2;
-        const auto value = unquoted(words[k]);
-        if (value.find_first_of("($") == std::string_view::npos) variable.value = std::string(value);
     }
     return out;
 }

@@ -1,8 +1,6 @@
 #pragma once
 // The words of the commands in a script of ngspice. Used inside circuit/netlist only.
 
-#include <optional>
-
 #include "circuit/netlist/statement.hpp"
 
 namespace corpuscle::circuit {
@@ -19,14 +17,6 @@ std::vector<ScriptWord> split_script_words(std::string_view text, std::size_t fr
 std::vector<ScriptWord> joined_expressions(std::vector<ScriptWord>);
 /// The name of a command or directive; the text begins with a dot.
 inline std::string_view command_name(std::string_view text) { return text.substr(1, text.find_first_of(" \t(") - 1); }
-
-/// A variable that a set command gives a value.
-struct ScriptVariable {
-    std::string name;
-    std::optional<std::string> value;  ///< none for a flag, and for a list in parentheses
-};
-/// The variables of "NAME=VALUE NAME = VALUE NAME".
-std::vector<ScriptVariable> read_variables(std::string_view text);
 
 /// True for the names v and i, and for the same with the part of a complex curve: vm, vdb, vp, vr, vi, im ...
 bool is_curve_function(std::string_view name);
