@@ -376,6 +376,7 @@ TEST(ForeignNetlist, ASectionOfALibraryMayHaveADotInItsName) {
     EXPECT_EQ(resistance("tt_1.8v", ""), 1e3);
     EXPECT_EQ(resistance("tt.x", ""), 2e3);
     EXPECT_EQ(resistance("tt.x", "tt_1.8v"), 1e3);
+    EXPECT_EQ(resistance("tt_1.8v", "tt.x"), 2e3);
 }
 
 TEST(ForeignNetlist, FaultsInABranchThatDoesNotHoldAreNotReported) {

@@ -98,7 +98,7 @@ struct StepControl {
     /// point: if the step shrinks to less than a tenth of the previous one, or after more than `max_failures` rejections, unless the last
     /// one reduced the error at least as length^0.7.
     ///
-    /// Near a kink the error falls in proportion to the length, whatever the order. The exponent is therefore measured from the last two
+    /// Near a kink the error falls in proportion to the length, for every order. The exponent is therefore measured from the last two
     /// errors, from the second rejection on (only if max_failures > 1).
     bool shorten(double length, double error, double previous, int max_failures = 1) {
         ++failures;
