@@ -28,6 +28,11 @@ void Refusals::add_devices_of(const Refusals& other) {
         if (refusal.kind == Kind::device) refusals_.push_back(refusal);
 }
 
+void Refusals::add_all_of(const Refusals& other) {
+    for (const auto& refusal : other.refusals_)
+        if (!is_full() && texts_.insert(refusal.error.text()).second) refusals_.push_back(refusal);
+}
+
 std::string Refusals::message_of(const Refusal& refusal) {
     if (refusal.others.empty()) return refusal.error.message;
     const auto more = refusal.other_count - refusal.others.size();

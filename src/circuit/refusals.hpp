@@ -23,6 +23,8 @@ public:
     void add_device(Error, const std::string& subject, std::string name);
     /// Takes over the missing devices of another list, and nothing else.
     void add_devices_of(const Refusals&);
+    /// Takes over all errors of another list, except those that are there already.
+    void add_all_of(const Refusals&);
     /// The worst error, which holds the others in its `further`, in order of importance.
     Error combined() const;
 

@@ -45,7 +45,7 @@ Result<void> check_expectations(const Circuit& circuit, RunOutcome& out) {
 class PointDispatcher final : public PointSink {
     const RunOptions& options_;
     MeasurementSet& measures_;
-    FourierTransforms* fourier_;  // null: .four does not apply to this analysis
+    FourierTransforms* fourier_;  // null if the analysis is not a .tran
     AnalysisRun& run_;
     DeviceCurrents currents_;
     TablePrinter printer_;
@@ -109,9 +109,7 @@ Result<void> analyse(AnalysisContext& context, const Analysis& analysis, const D
                      MeasurementSet& measures, const DeviceCurrents& currents, RunOutcome& out) {
     AnalysisRun run{&c, {}, 0, {}, {}, {}};
     FourierTransforms fourier(*context.circuit);
-    const bool is_first_transient = c.name == "tran" && &c == &*context.circuit->directives_named("tran").begin();
-    PointDispatcher dispatcher(*context.circuit, options, out.saved_curves, measures, is_first_transient ? &fourier : nullptr, run,
-                               currents);
+    PointDispatcher dispatcher(*context.circuit, options, out.saved_curves, measures, c.name == "tran" ? &fourier : nullptr, run, currents);
     if (options.should_stop) context.should_stop = [&](double progress) { return options.should_stop(c.name, progress); };
     context.points = &dispatcher;
     auto result = analysis.run(context, c);

@@ -352,5 +352,71 @@ TEST(ForeignNetlist, AnInductorMayHaveAResistanceInSeries) {
     EXPECT_NEAR(run.number("i"), 8 * -std::expm1(-1), 1e-4);
 }
 
+TEST(ForeignNetlist, TheLastOfSeveralValuesOrFunctionsIsUsedWithAWarning) {
+    const auto run = run_netlist(
+        "twice\n.options gmin=0\nv1 a 0 0.5\nd1 a 0 dm\nd2 a 0 dn\n.model dm d is=1e-14 is=1e-12\n.model dn d(is 1e-14 is 1e-12)\n"
+        ".func g(x) {x}\n.func g(x) {2*x}\nr1 b 0 {g(1k)}\ni1 0 b 1m\n.op\n");
+    EXPECT_NEAR(run.number("i(v1)") / (-2e-12 * std::expm1(0.5 / 0.025864925)), 1, 1e-5);
+    EXPECT_NEAR(run.number("v(b)"), 2, 1e-9);
+    const auto warnings = warnings_in(run);
+    for (const char* text : {"6:22: model 'dm': is is given twice", "7:22: model 'dn': is is given twice", "9:7: g() is defined twice"})
+        EXPECT_NE(warnings.find(text), std::string::npos) << warnings;
+}
+
+TEST(ForeignNetlist, ASectionOfALibraryMayHaveADotInItsName) {
+    const auto open = [](const std::string& path) -> Result<std::string> {
+        if (!path.ends_with("a.lib")) return bad_input("there is no such file");
+        return std::string(".lib tt_1.8v\n.param rr=1k\n.endl\n.lib tt.x\n.param rr=2k\n.endl\n");
+    };
+    const auto resistance = [&](const std::string& section, const std::string& corner) {
+        const auto netlist = Netlist::parse("dot\nr1 a 0 {rr}\n.lib a.lib " + section + "\n.op\n", "dot.cir", open, corner);
+        if (!netlist) return ADD_FAILURE() << netlist.error().text(), 0.0;
+        return netlist->elaborate()->elements[0].value;
+    };
+    EXPECT_EQ(resistance("tt_1.8v", ""), 1e3);
+    EXPECT_EQ(resistance("tt.x", ""), 2e3);
+    EXPECT_EQ(resistance("tt.x", "tt_1.8v"), 1e3);
+    EXPECT_EQ(resistance("tt_1.8v", "tt.x"), 2e3);
+}
+
+TEST(ForeignNetlist, FaultsInABranchThatDoesNotHoldAreNotReported) {
+    const std::string deck = "branch\n.param x=0\nv1 a 0 2\nr1 a 0 1k\n.if (x)\nj1 a 0 0 jm\nr2 a\n.foo bar\n.endif\n.op\n";
+    EXPECT_NEAR(run_netlist(deck).number("i(v1)"), -2e-3, 1e-12);
+    const auto netlist = parse_netlist_text(deck);
+    ASSERT_TRUE(netlist);
+    const auto circuit = netlist->elaborate({{"x", 1}});
+    ASSERT_FALSE(circuit);
+    EXPECT_NE(circuit.error().message.find("unknown element letter j"), std::string::npos);
+    ASSERT_TRUE(circuit.error().further);
+    EXPECT_EQ(circuit.error().further->size(), 2U);
+}
+
+TEST(ForeignNetlist, ATemperatureOverrideReplacesAListOfTemperatures) {
+    const auto netlist = parse_netlist_text("hot\ni1 0 a 1m\nr1 a 0 1k tc1=1m\n.temp 27 127\n.op\n");
+    ResolvedOverrides overrides;
+    overrides.temperature = 77;
+    const auto circuit = netlist->with_overrides(overrides).elaborate();
+    ASSERT_TRUE(circuit);
+    EXPECT_EQ(circuit->temperature, 77);
+    EXPECT_FALSE(circuit->has_directive("step"));
+}
+
+TEST(ForeignNetlist, FormsOfAnotherSimulatorAreFoundInFunctionsButNotInNames) {
+    const auto functions = run_netlist("LTspice\nv1 a 0 2\n.func f(x) {x^3}\nb1 b 0 v=f(v(a))\nr1 b 0 1k\n.op\n.backanno\n");
+    EXPECT_NE(warnings_in(functions).find("3:14: '^' is the power"), std::string::npos) << warnings_in(functions);
+    const auto names = run_netlist("Xyce\n.global_param z=1\n.func f1pwr(x,y) {x+y}\nv1 a 0 1\nb1 b 0 v={f1pwr(v(a),2)}\nr1 b 0 1k\n.op\n");
+    EXPECT_EQ(warnings_in(names), "");
+}
+
+TEST(ForeignNetlist, AnIslandWithoutCapacitorsIsRefusedInATransientFromGivenVoltages) {
+    const auto circuit = parse_netlist_text("island\ni1 0 a 1m\nr1 a b 1k\n.tran 1n 1u uic\n")->elaborate();
+    ASSERT_TRUE(circuit);
+    const auto system = System::make(std::make_shared<const Circuit>(*circuit));
+    ASSERT_FALSE(system);
+    EXPECT_NE(system.error().message.find("nodes 'a', 'b' have no path to ground: their part of the circuit is connected to ground only"),
+              std::string::npos)
+        << system.error().message;
+}
+
 }  // namespace
 }  // namespace corpuscle::circuit

@@ -66,6 +66,24 @@ TEST(Refusals, OfConditionsNameTheirLine) {
     EXPECT_EQ(errors_of(".if\nv1 a 0 1\n.endif\n"), "2.4 .if: expected a condition, such as .if (x > 1)\n");
     EXPECT_EQ(errors_of(".if (1)\n.param x=1\n.endif\n"),
               "3.1 .param is not allowed inside .if; move it outside, and write .param x={condition ? a : b}\n");
+    EXPECT_EQ(errors_of(".if (1)\n.temp 50\n.endif\n"), "3.1 .temp is not allowed inside .if; move it outside\n");
+}
+
+TEST(Refusals, OfTwoModelsThatBothHoldNameThePlaceOfTheFirst) {
+    const std::string deck = "v1 a 0 1\nd1 a 0 dm\n.param x=1\n.model dm d is=1f\n.if (x)\n.model dm d is=2f\n.endif\n";
+    EXPECT_EQ(errors_of(deck), "7.8 model 'dm' is already defined at faults.cir:5\n");
+}
+
+TEST(Refusals, OfAnEmptyWordInAModelNameTheWordBefore) {
+    EXPECT_EQ(errors_of("v1 a 0 1\nd1 a 0 dm\n.model dm d is \"\"\n"), "4.13 expected name=value, not 'is'\n");
+}
+
+TEST(Refusals, OfTooManyConditionsEndTheElaboration) {
+    std::string body = ".subckt s0 a\n";
+    for (int k = 0; k < 1000; ++k) body += ".if (1)\n.endif\n";
+    body += "r1 a 0 1k\n.ends\n";
+    for (int level = 1; level <= 12; ++level) body += fmt::format(".subckt s{0} a\nx1 a s{1}\nx2 a s{1}\n.ends\n", level, level - 1);
+    EXPECT_NE(errors_of(body + "x1 a s12\n").find("the circuit has more elements than the limit of 2000000"), std::string::npos);
 }
 
 TEST(Refusals, OfDecimalCommasNameTheNumber) {

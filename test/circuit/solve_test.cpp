@@ -179,7 +179,7 @@ TEST(OperatingPoint, OfAThousandRandomNetlistsAreFoundAndSatisfyTheEquations) {
         SystemEvaluation evaluation;
         auto memory = system->initial_limiting_state();
         EvalContext eval_context;
-        eval_context.gmin = 1e-15;
+        eval_context.gmin = (*AnalysisContext::make(circuit))->tolerances.gmin;
         do system->eval(x, eval_context, memory, evaluation);
         while (evaluation.is_limited);
         for (std::size_t n = 0; n < x.size(); ++n)

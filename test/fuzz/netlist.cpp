@@ -49,7 +49,7 @@ void check(const Circuit& c) {
             }
     }
     for (std::size_t k = 0; k < c.nodes.size(); ++k) must(c.find_node(c.nodes[k]) == static_cast<int>(k));
-    for (const auto& command : c.directives) must(command.words.size() == command.columns.size());
+    for (const auto& command : c.directives) must(command.columns.empty() || command.words.size() == command.columns.size());
     for (const auto& warning : c.warnings) check(warning);
 }
 
@@ -64,8 +64,12 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     };
     const auto netlist = Netlist::parse(text, "fuzz.cir", open);
     if (!netlist) return check(netlist.error()), 0;
-    const auto circuit = netlist->elaborate();
-    if (!circuit) return check(circuit.error()), 0;
-    check(*circuit);
+    // Other values of the parameters select other branches of .if.
+    Values zeros, ones;
+    for (const auto& [name, parameter] : netlist->parameters()) zeros[name] = 0, ones[name] = 1;
+    for (const auto& values : {Values{}, zeros, ones}) {
+        const auto circuit = netlist->elaborate(values);
+        circuit ? check(*circuit) : check(circuit.error());
+    }
     return 0;
 }

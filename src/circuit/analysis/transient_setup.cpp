@@ -148,9 +148,8 @@ Result<TransientPlan> read_transient_plan(const Circuit& c) {
 Result<TransientTimes> read_transient_times(const Directive& directive) {
     auto c = directive;
     TransientTimes out;
-    const auto uic = std::ranges::find(c.words, "uic");
-    out.uic = uic != c.words.end();
-    c.words.erase(uic, c.words.end());
+    out.uic = starts_from_initial_conditions(c);
+    c.words.erase(std::ranges::find(c.words, "uic"), c.words.end());
     if (c.words.size() == 1) c.words.insert(c.words.begin(), "0"), c.columns.clear();  // .tran STOP, as in LTspice
     if (c.words.size() < 2 || c.words.size() > 4) return error_at(c.location, ".tran: expected .tran STEP STOP [START [LONGEST]] [uic]");
     out.step = TRY(read_number(c, 0, "the step"));

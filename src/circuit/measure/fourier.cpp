@@ -74,6 +74,8 @@ std::string FourierSpectrum::text() const {
 Result<void> FourierTransforms::begin(const Directive& tran, const Plot& head, std::vector<Error>& left_out) {
     const auto times = TRY(read_transient_times(tran));
     for (const auto& c : circuit_.directives_named("four")) {
+        const bool is_first = &tran == &*circuit_.directives_named("tran").begin();
+        if (c.analysis_location ? !c.applies_to(tran) : !is_first) continue;
         const double f = TRY(read_frequency(c, times));
         for (std::size_t k = 1; k < c.words.size(); ++k) {
             const auto& name = c.words[k];

@@ -5,8 +5,8 @@
 
 namespace corpuscle::circuit {
 
-/// Measures the first plot of the first analysis of the kind (tran, ac ...) that each .meas line names; of a script, of its last analysis
-/// before the line.
+/// Measures, for each .meas line, the first plot of the first analysis of its kind. A line of a script belongs to the last such analysis
+/// before it.
 class MeasurementSet {
     /// The points of the curves that a line names. A line that depends on earlier results is measured when these are known.
     struct Recording {

@@ -9,18 +9,12 @@ namespace corpuscle::circuit {
 Result<void> read_parameters(const Statement&, SubcktDef&, std::vector<Error>& warnings);
 
 /// Adds the function of a line .func f(x, y) {text}. An '=' before the text is optional, and the text may be in quotes instead of braces.
-Result<void> read_function(const LogicalLine&, SubcktDef&);
+Result<void> read_function(const LogicalLine&, SubcktDef&, std::vector<Error>& warnings);
 
-/// Adds a .model line. A model that is already defined is an error, unless both lines have the same words.
+/// Adds a .model line. A model that is already defined in the same branch of .if is an error, unless both lines have the same words.
 Result<void> read_model(Statement, SubcktDef&, ParsedNetlist&);
 
 /// Reads the ports and parameters of the .subckt line, `head`.
 Result<void> read_subcircuit_head(SubcktDef&);
-
-/// Returns an error if two pairs of a line have the same name.
-Result<void> check_duplicates(const Statement&);
-
-/// "file:line" of a statement.
-std::string location_text(const Statement&);
 
 }  // namespace corpuscle::circuit

@@ -22,11 +22,12 @@ constexpr DifferentForm different_forms[] = {
 
 /// The offset of the form in an expression of the statement; npos if there is none.
 std::size_t find_form(const Statement& s, std::string_view form) {
-    for (auto at = s.line.text.find(form); at != std::string::npos; at = s.line.text.find(form, at + 1)) {
-        const char before = at == 0 ? ' ' : s.line.text[at - 1];
-        const bool is_part_of_name = form != "^" && ((before >= 'a' && before <= 'z') || before == '_');
-        const auto quotes = std::count(s.line.text.begin(), s.line.text.begin() + static_cast<std::ptrdiff_t>(at), '"');
-        if (!is_part_of_name && quotes % 2 == 0) return at;
+    const std::string_view text = s.line.text;
+    bool is_quoted = false;
+    for (std::size_t at = 0; at < text.size(); ++at) {
+        if (text[at] == '"') is_quoted = !is_quoted;
+        const bool is_part_of_name = form != "^" && at > 0 && is_name_character(text[at - 1]);
+        if (!is_quoted && !is_part_of_name && text.substr(at, form.size()) == form) return at;
     }
     return std::string::npos;
 }

@@ -92,7 +92,7 @@ private:
                 return error_at(location_of_step(name), "there is no .param {}{}", name,
                                 did_you_mean(name, std::views::keys(parsed_.top.parameters)));
         TRY(top_.define(all));
-        return top_.evaluate_conditions();
+        return top_.evaluate_conditions(builder_);
     }
 
     /// The location of the .step of a parameter; that of the netlist if there is none.
@@ -107,6 +107,8 @@ private:
 
     /// Adds the elements of a scope, and of all subcircuits that it contains, to the circuit.
     Result<void> elaborate_contents(Scope& scope) {
+        for (const auto& [branch, refusals] : scope.definition->branch_refusals)
+            if (scope.conditions[static_cast<std::size_t>(branch)]) builder_.refusals.add_all_of(refusals);
         for (const auto* s : scope.definition->elements) {
             if (!scope.holds(*s)) continue;
             TRY(builder_.count_statement(scope, *s));
@@ -141,7 +143,7 @@ private:
         Values given;
         TRY(read_instance_parameters(scope, s, inner, given));
         TRY(inner.define(given));
-        TRY(inner.evaluate_conditions());
+        TRY(inner.evaluate_conditions(builder_));
         return elaborate_contents(inner);
     }
 
@@ -281,14 +283,14 @@ private:
         for (const auto* s : parsed_.temperatures) {
             if (s->words.size() < 2) return error_at(s->location(1), ".temp: expected temperatures, in Celsius");
             for (std::size_t k = s->words.size() - 1; k > 0; --k) c.temperature = TRY(top_.evaluate(without_braces(*s, s->words[k], 0)));
-            if (s->words.size() > 2) step_temperature(*s);
+            if (s->words.size() > 2 && !builder_.overrides.temperature) step_temperature(*s);
         }
         c.temperature = builder_.overrides.temperature.value_or(c.temperature);
         c.mismatch_seed = builder_.overrides.mismatch_seed, c.chip = builder_.overrides.chip;
         return {};
     }
 
-    /// Several temperatures repeat all analyses, as in PSpice.
+    /// Several temperatures repeat all analyses, as in PSpice. An override of the temperature replaces all of them.
     void step_temperature(const Statement& s) {
         Directive out{"step", {"temp", "list"}, {}, s.line.location()};
         for (std::size_t k = 1; k < s.words.size(); ++k) out.words.push_back(without_blanks(s, s.words[k]));

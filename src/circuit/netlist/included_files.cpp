@@ -52,7 +52,11 @@ Result<void> IncludedFiles::enter(FileSection source, std::size_t bytes) {
     return {};
 }
 
-bool names_file(std::string_view word) { return unquoted(word) != word || word.find_first_of("./\\") != std::string_view::npos; }
+bool names_file(std::string_view word) {
+    if (unquoted(word) != word || word.find_first_of("/\\") != std::string_view::npos) return true;
+    const auto dot = word.rfind('.');
+    return dot != std::string_view::npos && dot + 1 < word.size() && std::isalpha(static_cast<unsigned char>(word[dot + 1])) != 0;
+}
 
 Result<void> skip_section(LogicalLineReader& lines, SourceLocation from) {
     LogicalLine line;
@@ -74,7 +78,7 @@ Result<SourceLocation> find_section(LogicalLineReader& lines, const FileSection&
                                          did_you_mean(source.section, known)));
         if (lower(std::string_view(line.text).substr(0, 4)) != ".lib") continue;
         const auto head = TRY(split_directive(std::move(line)));
-        if (head.words.size() != 2 || names_file(head.text(1))) continue;
+        if (head.words.size() != 2 || (names_file(head.text(1)) && lower(head.text(1)) != source.section)) continue;
         known.emplace_back(lower(unquoted(head.text(1))));
         if (known.back() == source.section) return head.line.location();
     }

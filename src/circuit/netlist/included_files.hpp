@@ -42,7 +42,8 @@ public:
     Result<void> check_corner(const std::string& netlist) const { return corner_.check_found(netlist); }
 };
 
-/// True for a word of .lib that names a file and not a section: it is in quotes, or has an extension or a folder.
+/// True for a word of .lib that names a file and not a section: it is in quotes, or has a folder, or an extension that begins with a
+/// letter. tt_1.8v is a section.
 bool names_file(std::string_view word);
 
 /// Skips the lines of a section up to .endl; only ".lib file section" reads them. `from` is the location of the section's first line.

@@ -14,8 +14,8 @@ int index_of_name(const std::unordered_map<std::string, int>& numbers, std::stri
     return at == numbers.end() ? -1 : at->second;
 }
 
-/// The names of the sections that the text of a library defines.
-std::vector<std::string> sections_in(std::string_view text) {
+/// The names of the sections that the text of a library defines. A name that could be that of a file is one only if it is `wanted`.
+std::vector<std::string> sections_in(std::string_view text, std::string_view wanted) {
     std::vector<std::string> out;
     LogicalLineReader lines(text, std::make_shared<const std::string>());
     LogicalLine line;
@@ -23,7 +23,9 @@ std::vector<std::string> sections_in(std::string_view text) {
         if (lower(std::string_view(line.text).substr(0, 4)) != ".lib") continue;
         // ".lib section" begins a section; ".lib file section" reads another file.
         const auto head = split_directive(std::move(line));
-        if (head && head->words.size() == 2 && !names_file(head->text(1))) out.push_back(lower(unquoted(head->text(1))));
+        if (!head || head->words.size() != 2) continue;
+        auto name = lower(unquoted(head->text(1)));
+        if (!names_file(head->text(1)) || (name == wanted && name.size() == head->text(1).size())) out.push_back(std::move(name));
     }
     return out;
 }
@@ -35,6 +37,8 @@ SourceLocation Directive::location_of(std::size_t word) const {
     if (word < columns.size()) out.column = columns[word];
     return out;
 }
+
+bool starts_from_initial_conditions(const Directive& tran) { return std::ranges::find(tran.words, "uic") != tran.words.end(); }
 
 int Circuit::find_node(std::string_view name) const {
     if (is_ground(name)) return 0;
@@ -89,7 +93,7 @@ std::map<std::string, Netlist::Parameter, std::less<>> Netlist::parameters() con
 
 std::string CornerSelector::select_section(const std::string& section, std::string_view library, std::string_view text) {
     if (corner_.empty()) return section;
-    const auto known = sections_in(text);
+    const auto known = sections_in(text, corner_);
     if (std::find(known.begin(), known.end(), corner_) != known.end()) return is_found_ = true, corner_;
     libraries_.push_back(fmt::format("'{}' has {}{}", library, joined(known), did_you_mean(corner_, known)));
     return section;

@@ -76,6 +76,9 @@ struct Directive {
     SourceLocation location_of(std::size_t word) const;
 };
 
+/// True if a .tran begins with given voltages: it has the word uic.
+bool starts_from_initial_conditions(const Directive&);
+
 /// A flat netlist: subcircuits are expanded and parameters are evaluated.
 struct Circuit {
     std::string title, file;

@@ -62,7 +62,7 @@ constexpr std::string_view xyce_packages[] = {
     "parser",          "sensitivity",      "restart",     "hbint",           "loca",      "fft",    "dist",    "nonlin-hb",  "linsol-hb",
     "nonlin-twolevel", "timeint-twolevel", "samples",     "embeddedsamples", "pces"};
 
-/// The names to suggest for others. Those of sizes are left out, because short words of other simulators resemble them.
+/// Names to suggest for a typing error. def... are left out, because short options of other simulators resemble them.
 auto option_names() {
     return option_rows | std::views::transform(&OptionRow::name) | std::views::filter([](auto name) { return !name.starts_with("def"); });
 }

@@ -26,9 +26,10 @@ class NetlistReader {
         bool has_else;
         SourceLocation location;
     };
-    std::vector<OpenIf> open_ifs_;  // outermost first
-    std::size_t file_ifs_ = 0;      // number of those that were open when the present file began
-    bool ended_ = false;            // true after .end, until the present file is left
+    std::vector<OpenIf> open_ifs_;      // outermost first
+    std::size_t file_ifs_ = 0;          // number of those that were open when the present file began
+    bool are_scripts_stopped_ = false;  // one of them ended early
+    bool ended_ = false;                // true after .end, until the present file is left
 
 public:
     NetlistReader(ParsedNetlist& out, Refusals& refusals, const Netlist::FileOpener& open, std::string corner)
@@ -122,16 +123,19 @@ private:
         return error_at(from, ".lib is not closed by .endl");
     }
 
+    static Error too_many_statements(SourceLocation location) {
+        return error_at(std::move(location), "the netlist exceeds the limit of {} statements", max_elements);
+    }
+
     Result<void> statement(LogicalLineReader& lines, LogicalLine line) {
-        if (out_.statements.size() >= max_elements)
-            return error_at(line.location(), "the netlist exceeds the limit of {} statements", max_elements);
+        if (out_.statements.size() >= max_elements) return too_many_statements(line.location());
         if (line.text[0] != '.') return keep(element(std::move(line)));
         const std::string word = lower(std::string_view(line.text).substr(0, line.text.find_first_of(" \t('\"{")));
         const auto* row = find_row(word);
         if (row == nullptr) return keep(unknown(word, line.location()), Refusals::Kind::directive);
         if (!open_ifs_.empty() && (row->place == Place::not_in_if || row->place == Place::top_level_not_in_if))
-            return error_at(line.location(), "{} is not allowed inside .if; move it outside, and write .param x={{condition ? a : b}}",
-                            word);
+            return error_at(line.location(), "{} is not allowed inside .if; move it outside{}", word,
+                            row->read == &NetlistReader::parameters ? ", and write .param x={condition ? a : b}" : "");
         if ((row->place == Place::top_level || row->place == Place::top_level_not_in_if) && body_->head)
             return error_at(line.location(), "{} is not allowed inside .subckt {}; move it outside", word, body_->name);
         auto ok = (this->*row->read)(lines, std::move(line));
@@ -140,9 +144,10 @@ private:
 
     /// Keeps the error of a statement for later, so that the following statements are also read.
     Result<void> keep(Result<void> ok, Refusals::Kind kind = Refusals::Kind::other) {
-        if (!ok) refusals_.add(ok.error(), kind);
+        if (!ok) present_refusals().add(ok.error(), kind);
         return {};
     }
+    Refusals& present_refusals() { return present_condition() < 0 ? refusals_ : body_->branch_refusals[present_condition()]; }
 
     static Error unknown(std::string_view word, SourceLocation location) {
         for (const auto& [old_name, new_name] : renamed_directives)
@@ -161,7 +166,7 @@ private:
     }
 
     Result<void> element(LogicalLine line) {
-        auto read = TRY(split_element_line(std::move(line), refusals_));
+        auto read = TRY(split_element_line(std::move(line), present_refusals()));
         if (!read) return {};
         body_->elements.push_back(&store(std::move(*read)));
         warn_about_units(*body_->elements.back(), out_.warnings);
@@ -200,7 +205,9 @@ private:
         if (line.text.starts_with(".global_param")) out_.marks.insert(".global_param");
         return read_parameters(store(TRY(split_assignments(std::move(line)))), *body_, out_.warnings);
     }
-    Result<void> function(LogicalLineReader&, LogicalLine line) { return read_function(line, *body_); }
+    Result<void> function(LogicalLineReader&, LogicalLine line) {
+        return read_function(store(Statement{std::move(line), {}, {}}).line, *body_, out_.warnings);
+    }
     Result<void> model(LogicalLineReader&, LogicalLine line) {
         auto read = TRY(split_element(std::move(line), nullptr));
         read.condition = present_condition();
@@ -259,10 +266,12 @@ private:
         } else {
             double_equals(line);
             if (from == line.text.size()) return error_at(line.location(from), "{}: expected a condition, such as {} (x > 1)", word, word);
-            Statement& s = out_.statements.emplace_back(Statement{std::move(line), {}, {}});
+        }
+        const Statement& s = out_.statements.emplace_back(Statement{std::move(line), {}, {}});
+        condition.line = &s;
+        if (word != ".else")
             condition.text = WordRef{
                 &s, {Word::Kind::expression, static_cast<std::uint32_t>(from), static_cast<std::uint32_t>(s.line.text.size() - from)}};
-        }
         body_->conditions.push_back(std::move(condition));
         open.branch = static_cast<int>(body_->conditions.size()) - 1;
         return {};
@@ -321,11 +330,13 @@ private:
     }
 
     Result<void> control(LogicalLineReader& lines, LogicalLine line) {
-        auto script = TRY(read_control_script(lines, line));
+        auto script = TRY(read_control_script(lines, line, are_scripts_stopped_));
+        are_scripts_stopped_ = script.is_stopped;
         for (auto& warning : script.warnings) out_.warnings.push_back(std::move(warning));
         ended_ = script.ends_netlist;
         std::vector<const Statement*> stored;
         for (auto& command : script.commands) {
+            if (out_.statements.size() >= max_elements) return too_many_statements(command.line.location());
             auto& s = store(TRY(split_directive(std::move(command.line))));
             if (command.analysis != ControlScript::any_analysis) s.analysis = stored[static_cast<std::size_t>(command.analysis)];
             stored.push_back(&s);
@@ -339,12 +350,18 @@ private:
     /// directive.
     void remove_repeated_analyses() {
         if (script_analyses_.empty()) return;
-        std::map<std::string_view, const Statement*> directives;  // outside of scripts
+        // Directives outside of scripts that do not depend on a condition, by their words.
+        std::map<std::vector<std::string_view>, const Statement*> directives;
+        const auto words_of = [](const Statement& s) {
+            std::vector<std::string_view> out;
+            for (std::size_t k = 0; k < s.words.size(); ++k) out.push_back(s.text(k));
+            return out;
+        };
         const std::set<const Statement*> scripts(script_analyses_.begin(), script_analyses_.end());
         for (const auto* s : out_.directives)
-            if (!scripts.contains(s)) directives.try_emplace(s->line.text, s);
+            if (!scripts.contains(s) && s->condition < 0) directives.try_emplace(words_of(*s), s);
         const auto repeated = [&](const Statement* s) {
-            const auto at = scripts.contains(s) ? directives.find(s->line.text) : directives.end();
+            const auto at = scripts.contains(s) ? directives.find(words_of(*s)) : directives.end();
             return at == directives.end() ? nullptr : at->second;
         };
         for (auto& s : out_.statements)

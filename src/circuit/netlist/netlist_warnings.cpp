@@ -92,8 +92,7 @@ void warn_about_mismatch(std::vector<Error>& out, const Circuit& c) {
 bool has_initial_value(const Element& e) { return has_role(e, Role::capacitor) || has_role(e, Role::inductor); }
 
 void warn_about_initial_conditions(std::vector<Error>& out, const Circuit& c) {
-    if (!std::ranges::all_of(c.directives_named("tran"),
-                             [](const Directive& d) { return std::ranges::find(d.words, "uic") != d.words.end(); }))
+    if (!std::ranges::all_of(c.directives_named("tran"), starts_from_initial_conditions))
         warn(
             out, c, [](const Element& e) { return has_value(e, "ic") && has_initial_value(e); },
             [](const Element&) {
@@ -136,9 +135,9 @@ void warn_about_pulses(std::vector<Error>& out, const Circuit& c) {
 void warn_about_tran_times(std::vector<Error>& out, const Circuit& c) {
     for (const auto& directive : c.directives_named("tran")) {
         if (directive.words.size() < 2) continue;
-        if (const auto uic = std::ranges::find(directive.words, "uic"); uic != directive.words.end() && uic + 1 != directive.words.end())
+        if (starts_from_initial_conditions(directive) && directive.words.back() != "uic")
             out.push_back(error_at(directive.location, ".tran: the words after uic have no effect: {}",
-                                   fmt::join(uic + 1, directive.words.end(), " ")));
+                                   fmt::join(std::ranges::find(directive.words, "uic") + 1, directive.words.end(), " ")));
         const auto step = parse_number(directive.words[0]), stop = parse_number(directive.words[1]);
         if (step && stop && stop->value > 0 && step->value > stop->value)
             out.push_back(error_at(directive.location, ".tran: STEP {} is longer than STOP {}; the order is .tran STEP STOP",

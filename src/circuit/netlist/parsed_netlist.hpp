@@ -28,6 +28,7 @@ using ByName = std::map<std::string, T, std::less<>>;
 struct Condition {
     int outer = -1;                    ///< index of the branch that contains it; -1: none
     int previous = -1;                 ///< index of the branch before it in the same .if; -1: none
+    const Statement* line = nullptr;   ///< the line that begins it
     std::optional<WordRef> text = {};  ///< its expression; none for .else
 };
 
@@ -37,11 +38,13 @@ struct SubcktDef {
     const Statement* head = nullptr;  ///< its .subckt line; null for the top level
     SubcktDef* outer = nullptr;       ///< the definition that contains this one
     std::vector<std::string> ports;
-    ByName<WordRef> defaults;                      ///< default values of the parameters in the .subckt line
-    ByName<WordRef> parameters;                    ///< values of the .param lines
-    ByName<ExpressionScope::Function> functions;   ///< .func f(x)=... and .param f(x)=...
-    ByName<std::vector<const Statement*>> models;  ///< several of one name only in different branches of .if
-    std::vector<Condition> conditions;             ///< each after those that it refers to
+    ByName<WordRef> defaults;                                              ///< default values of the parameters in the .subckt line
+    ByName<WordRef> parameters;                                            ///< values of the .param lines
+    ByName<ExpressionScope::Function> functions;                           ///< .func f(x)=... and .param f(x)=...
+    ByName<std::vector<const Statement*>> models;                          ///< several of one name only in different branches of .if
+    std::vector<const std::vector<const Statement*>*> alternative_models;  ///< those of `models` that have several lines
+    std::vector<Condition> conditions;                                     ///< each after those that it refers to
+    std::map<int, Refusals> branch_refusals;  ///< errors of the lines in a branch of .if, by its index; they matter only if it holds
     ByName<std::unique_ptr<SubcktDef>> subcircuits;
     std::vector<const Statement*> elements, ics;  ///< element lines, X lines included; .ic and .nodeset lines
 };

@@ -191,17 +191,32 @@ const Statement* Scope::own_model(std::string_view name) const {
     return found == at->second.end() ? nullptr : *found;
 }
 
-Result<void> Scope::evaluate_conditions() {
+Result<void> Scope::evaluate_conditions(CircuitBuilder& builder) {
     const auto& all = definition->conditions;
     std::vector<bool> is_decided(all.size());  // this branch or one before it in the same .if holds
     conditions.assign(all.size(), false);
     for (std::size_t k = 0; k < all.size(); ++k) {
         const auto& c = all[k];
+        TRY(builder.count_statement(*this, *c.line));
         const bool is_reached = c.outer < 0 || conditions[static_cast<std::size_t>(c.outer)];
         is_decided[k] = c.previous >= 0 && is_decided[static_cast<std::size_t>(c.previous)];
         if (!is_reached || is_decided[k]) continue;
         conditions[k] = !c.text || TRY(evaluate(*c.text)) != 0;
         is_decided[k] = conditions[k];
+    }
+    return check_alternative_models(builder);
+}
+
+Result<void> Scope::check_alternative_models(CircuitBuilder& builder) const {
+    for (const auto* lines : definition->alternative_models) {
+        const Statement* first = nullptr;
+        for (const auto* s : *lines) {
+            TRY(builder.count_statement(*this, *s));
+            if (!holds(*s)) continue;
+            if (first != nullptr && first->line.text != s->line.text)
+                return error_at(s->location(1), "model '{}' is already defined at {}", s->text(1), location_text(*first));
+            first = s;
+        }
     }
     return {};
 }

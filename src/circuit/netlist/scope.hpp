@@ -7,6 +7,8 @@
 
 namespace corpuscle::circuit {
 
+class CircuitBuilder;
+
 struct Scope {
     const SubcktDef* definition = nullptr;  ///< the subcircuit, or the top level
     const Scope* caller = nullptr;          ///< the scope of the X line; as in ngspice, names that are unknown here are looked up there
@@ -30,8 +32,9 @@ struct Scope {
     const Statement* own_model(std::string_view name) const;
     /// True if the statement is in no branch of .if, or in one that holds. The statement must be of this definition.
     bool holds(const Statement& s) const { return s.condition < 0 || conditions[static_cast<std::size_t>(s.condition)]; }
-    /// Evaluates the branches of .if. Call it after define().
-    Result<void> evaluate_conditions();
+    /// Evaluates the branches of .if, which count as statements. Two models of one name that both hold are an error. Call it after
+    /// define().
+    Result<void> evaluate_conditions(CircuitBuilder&);
     /// The level of the model of this name, 1 if its line does not give it; nullopt if there is no such model or the level is not a number.
     std::optional<double> model_level(std::string_view name);
     /// Look up a name in this scope, then in its callers.
@@ -54,6 +57,7 @@ struct Scope {
 private:
     std::vector<std::string> known_names() const;
     Result<void> define(const std::string& first, ByName<WordRef>& pending);
+    Result<void> check_alternative_models(CircuitBuilder&) const;
 };
 
 /// A name that an element uses. It may be defined later in the netlist, but must exist when the circuit is complete.

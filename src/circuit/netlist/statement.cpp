@@ -4,7 +4,6 @@ namespace corpuscle::circuit {
 namespace {
 
 bool is_blank_char(char c) { return c == ' ' || c == '\t'; }
-bool is_in_name(char c) { return (c >= 'a' && c <= 'z') || (c >= '0' && c <= '9') || c == '_' || c == '.' || c == ':'; }
 
 /// A position in the text of a line.
 class Cursor {
@@ -79,7 +78,7 @@ private:
             skip_back([](char c) { return c != '('; });
             if (k > from) --k;
         }
-        skip_back(is_in_name);
+        skip_back(is_name_character);
         return k;
     }
 };
@@ -172,7 +171,7 @@ Result<Statement> split_assignments(LogicalLine line) {
     s.words.push_back(word(0, c.at));
     for (c.skip(" \t,"); !c.done(); c.skip(" \t,")) {
         const auto from = c.at;
-        while (!c.done() && is_in_name(c.here())) ++c.at;
+        while (!c.done() && is_name_character(c.here())) ++c.at;
         auto to = c.at;
         c.skip(" \t");
         if (c.here() == '(') {
@@ -215,6 +214,24 @@ Result<Statement> split_directive(LogicalLine line) {
         s.words.push_back(word(from, c.at));
     }
     return s;
+}
+
+Result<void> check_duplicates(const Statement& s) {
+    if (s.words.empty()) return error_at(s.line.location(), "the name before '=' is missing");
+    std::vector<std::string_view> names;
+    for (const auto& pair : s.pairs) names.push_back(s.text(pair.name));
+    std::sort(names.begin(), names.end());
+    const auto twice = std::adjacent_find(names.begin(), names.end());
+    if (twice == names.end()) return {};
+    SourceLocation location;
+    for (const auto& pair : s.pairs)
+        if (s.text(pair.name) == *twice) location = s.location(pair.name);
+    return error_at(location, "{}: {} is given twice", s.text(0), *twice);
+}
+
+std::string location_text(const Statement& s) {
+    const SourceLocation p = s.line.location();
+    return fmt::format("{}:{}", p.file, p.line);
 }
 
 }  // namespace corpuscle::circuit

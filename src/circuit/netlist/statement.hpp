@@ -101,6 +101,15 @@ inline std::string_view unquoted(std::string_view s) {
     return quoted ? s.substr(1, s.size() - 2) : s;
 }
 
+/// Returns an error if two pairs of a line have the same name.
+Result<void> check_duplicates(const Statement&);
+
+/// "file:line" of a statement.
+std::string location_text(const Statement&);
+
+/// True for the characters of a name.
+inline bool is_name_character(char c) { return (c >= 'a' && c <= 'z') || (c >= '0' && c <= '9') || c == '_' || c == '.' || c == ':'; }
+
 /// Splits all other directives. Blanks and commas outside parentheses, quotes and braces separate words; "a = 3" is one word.
 Result<Statement> split_directive(LogicalLine);
 

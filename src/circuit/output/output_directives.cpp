@@ -65,8 +65,9 @@ public:
 private:
     Result<void> check_spectra() {
         std::vector<Error> left_out;  // reported by the run
-        const auto tran = std::ranges::find(heads_, &tran_analysis, &Head::analysis);
-        if (tran != heads_.end()) return FourierTransforms(circuit_).begin(*tran->directive, tran->plot, left_out);
+        for (const auto& head : heads_)
+            if (head.analysis == &tran_analysis) TRY(FourierTransforms(circuit_).begin(*head.directive, head.plot, left_out));
+        if (std::ranges::find(heads_, &tran_analysis, &Head::analysis) != heads_.end()) return {};
         for (const auto& c : circuit_.directives_named("four")) return error_at(c.location, ".four: the netlist has no .tran");
         return {};
     }

@@ -1,6 +1,7 @@
 #include "circuit/solve/operating_point.hpp"
 
 #include <cmath>
+#include <limits>
 
 #include "circuit/device/named_values.hpp"
 #include "circuit/devices.hpp"

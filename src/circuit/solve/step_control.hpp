@@ -13,8 +13,8 @@ struct StepControl {
     int order = 1;
     int steps_since_order_change = 0;  ///< accepted steps
     int failures = 0;                  ///< successive rejected steps
-    double rejected_length = 0;        ///< s: of the last one of these, if its equations were solved; else 0
-    double rejected_error = 0;
+    double rejected_length = 0;        ///< length of the last rejected step, s; 0 if its equations were not solved or no step was rejected
+    double rejected_error = 0;         ///< its error, relative to the allowed error
     bool starting = true;              ///< every step since restart() has used the highest order that its points allow
     double h = 0;                      ///< s: length of the next step
     double recent_max_step = 0;        ///< s: longest of the recent steps, with exponential decay
@@ -95,11 +95,11 @@ struct StepControl {
 
     /// Call after a rejected step of this length (s). `error` is 0 if the equations were not solved. `previous` is the length (s) of the
     /// last accepted step, 0 if there was none since the integration restarted. Returns true if the integration must restart from the last
-    /// point: after more than `max_failures` successive rejections of which the last did not reduce the error as expected, or if the step
-    /// shrinks to less than a tenth of the previous one.
+    /// point: if the step shrinks to less than a tenth of the previous one, or after more than `max_failures` rejections, unless the last
+    /// one reduced the error at least as length^0.7.
     ///
-    /// If the solution has a kink near the last points, the error of a step falls only with its length, whatever the order. If max_failures
-    /// is above 1, the exponent from the second rejection on is that of the last two errors.
+    /// Near a kink the error falls in proportion to the length, for every order. The exponent is therefore measured from the last two
+    /// errors, from the second rejection on (only if max_failures > 1).
     bool shorten(double length, double error, double previous, int max_failures = 1) {
         ++failures;
         double exponent = order + 1;

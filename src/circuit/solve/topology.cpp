@@ -17,11 +17,15 @@ std::string elements_at(const Circuit& c, int node) {
     return fmt::format("{}{}", joined(names), more > 0 ? fmt::format(" and {} more", more) : "");
 }
 
-/// Rejects nodes without a DC path to ground. The message describes the part of the circuit with the first of these nodes.
-Result<void> check_floating_nodes(const Circuit& c) {
+/// Rejects nodes without a path to ground for direct current. With `charges_conduct`, the charges of capacitors and transistors are paths,
+/// too. The message describes the part of the circuit with the first of these nodes.
+Result<void> check_floating_nodes(const Circuit& c, bool charges_conduct) {
     NodeSets sets(c.nodes.size());
-    for (const auto& e : c.elements)
+    for (const auto& e : c.elements) {
         for (const int end : kind_of(e).conducting_nodes(e)) sets.join(end, e.nodes[0]);
+        if (charges_conduct && (has_role(e, Role::capacitor) || has_role(e, Role::transistor)))
+            for (const int node : e.nodes) sets.join(node, e.nodes[0]);
+    }
     std::vector<int> floating;
     for (std::size_t n = 1; n < c.nodes.size(); ++n)
         if (sets.root(static_cast<int>(n)) != sets.root(0)) floating.push_back(static_cast<int>(n));
@@ -39,12 +43,14 @@ Result<void> check_floating_nodes(const Circuit& c) {
         sources |= has_role(e, Role::current_source) || is_current_expression(e);
     }
     const auto what = names.size() == 1 ? fmt::format("node '{}' has", names[0]) : fmt::format("nodes '{}' have", joined(names, "', '"));
-    const auto why = sources ? "is connected to ground only through current sources, so nothing sets its voltage"
-                             : "is connected to ground through capacitors and gates at most, so nothing sets its voltage";
+    const std::string_view why = sources           ? "is connected to ground only through current sources, so nothing sets its voltage"
+                                 : charges_conduct ? "is not connected to ground, so nothing sets its voltage"
+                                                   : "is connected to ground through capacitors and gates at most, so nothing sets its "
+                                                     "voltage";
     const auto subject = names.size() == 1 ? "it" : "their part of the circuit";
     return error_at(first_element != nullptr ? first_element->location : SourceLocation{c.file},
-                    "{} no path to ground for direct current: {} {} (connected: {}). Add a large resistor to ground", what, subject, why,
-                    elements_at(c, first));
+                    "{} no path to ground{}: {} {} (connected: {}). Add a large resistor to ground", what,
+                    charges_conduct ? "" : " for direct current", subject, why, elements_at(c, first));
 }
 
 Result<void> check_voltage_loops(const Circuit& c) {
@@ -74,7 +80,7 @@ Result<void> check_voltage_loops(const Circuit& c) {
 bool needs_operating_point(const Circuit& c) {
     bool has_transient = false;
     for (const auto& d : c.directives) {
-        if (d.name == "tran" && std::ranges::find(d.words, "uic") != d.words.end())
+        if (d.name == "tran" && starts_from_initial_conditions(d))
             has_transient = true;
         else if (find_analysis(d.name) != nullptr)
             return true;
@@ -90,7 +96,7 @@ Result<void> check_solvable(const Circuit& c) {
                      [](const Element& e) { return std::find(e.nodes.begin(), e.nodes.end(), 0) != e.nodes.end(); }))
         return error_at(c.elements[0].location, "no element is connected to ground (node 0)");
     TRY(check_voltage_loops(c));
-    return needs_operating_point(c) ? check_floating_nodes(c) : Result<void>();
+    return check_floating_nodes(c, !needs_operating_point(c));
 }
 
 }  // namespace corpuscle::circuit

@@ -61,8 +61,8 @@ private:
     bool pivot_order_fixed_ = false;  // true after the first begin(), which fixes the pivot order of the matrix
     bool restart_pending_ = false;    // the last point is a breakpoint of a source or the end of a jump: integration restarts there
     bool may_jump_ = false;           // the current step is so short that it may contain a jump
-    /// The integration restarts with order 1 after rejections. A current into charges is then computed from the equations at the last point
-    /// instead of the last points. No step is short enough for this change, so it does not lead to another rejection.
+    /// After a restart that follows rejections, currents into charges come from the equations and no longer from the polynomial. They
+    /// change by an amount that no shorter step reduces, so their error does not reject the next step.
     bool is_after_failures_ = false;
     enum class StartPhase {
         none,

@@ -12,7 +12,9 @@ constexpr std::string_view shows_text = "it only shows text";
 constexpr std::string_view of_ngspice = "it only concerns ngspice itself";
 constexpr std::string_view edits_vectors = "measure with meas, or compute with let";
 constexpr std::string_view alters = "set the value with --set, or write .param and .step param";
-constexpr std::string_view is_not_linear = "write the commands of the branch or loop directly, with .step for values that change";
+constexpr std::string_view is_branch = "write those of one branch directly";
+constexpr std::string_view is_loop = "write those of one pass directly, with .step for values that change";
+constexpr std::string_view is_jump = "write the commands in the order in which they are run";
 constexpr std::string_view runs_no_program = "a netlist starts no program";
 
 constexpr ScriptCommand script_commands[] = {
@@ -40,7 +42,7 @@ constexpr ScriptCommand script_commands[] = {
     {"help", Effect::none, shows_text},
     {"history", Effect::none, shows_text},
     {"set", Effect::none, "its variables are known to the script only"},
-    {"unset", Effect::none, of_ngspice},
+    {"unset", Effect::none, ""},
     {"setseed", Effect::none, "--mismatch SEED selects the random values"},
     {"setcirc", Effect::none, "there is one circuit"},
     {"settype", Effect::none, of_ngspice},
@@ -50,7 +52,7 @@ constexpr ScriptCommand script_commands[] = {
     {"undefine", Effect::none, of_ngspice},
     {"destroy", Effect::none, of_ngspice},
     {"remzerovec", Effect::none, of_ngspice},
-    {"unlet", Effect::none, of_ngspice},
+    {"unlet", Effect::none, ""},
     {"reset", Effect::none, "each analysis begins with the circuit as it is written"},
     {"compose", Effect::none, edits_vectors},
     {"reshape", Effect::none, edits_vectors},
@@ -68,11 +70,11 @@ constexpr ScriptCommand script_commands[] = {
     {"sp", Effect::selects_plot, "there is no analysis of scattering parameters; use ac"},
     {"pss", Effect::selects_plot, "there is no periodic steady state; use tran"},
     {"disto", Effect::selects_plot, "there is no .disto; use tran and fourier"},
-    {"if", Effect::block, is_not_linear},
-    {"while", Effect::block, is_not_linear},
-    {"dowhile", Effect::block, is_not_linear},
-    {"repeat", Effect::block, is_not_linear},
-    {"foreach", Effect::block, is_not_linear},
+    {"if", Effect::block, is_branch},
+    {"while", Effect::block, is_loop},
+    {"dowhile", Effect::block, is_loop},
+    {"repeat", Effect::block, is_loop},
+    {"foreach", Effect::block, is_loop},
     {"alter", Effect::changes, alters},
     {"altermod", Effect::changes, "give the model another name and value in the netlist"},
     {"alterparam", Effect::changes, "set the parameter with --set, or write .step param"},
@@ -87,9 +89,9 @@ constexpr ScriptCommand script_commands[] = {
     {"stop", Effect::changes, "end the transient with its STOP time"},
     {"step", Effect::changes, "end the transient with its STOP time"},
     {"resume", Effect::changes, "end the transient with its STOP time"},
-    {"goto", Effect::changes, is_not_linear},
-    {"break", Effect::changes, is_not_linear},
-    {"continue", Effect::changes, is_not_linear},
+    {"goto", Effect::changes, is_jump},
+    {"break", Effect::changes, is_jump},
+    {"continue", Effect::changes, is_jump},
     {"shell", Effect::none, runs_no_program},
     {"cd", Effect::none, runs_no_program},
     {"codemodel", Effect::none, "there are no code models"},
@@ -116,6 +118,24 @@ bool is_circuit_variable(std::string_view name) {
     constexpr std::string_view names[] = {"temp",  "tnom", "reltol", "abstol", "vntol", "chgtol",
                                           "trtol", "gmin", "method", "maxord", "rshunt"};
     return std::ranges::find(names, name) != std::end(names);
+}
+
+void IgnoredCommands::add(const std::string& name, SourceLocation location, std::string_view remedy) {
+    const auto [known, is_new] = numbers_.try_emplace(name, commands_.size());
+    if (!is_new) return void(++commands_[known->second].count);
+    commands_.push_back({std::move(location), name, std::string(remedy), 1});
+}
+
+void IgnoredCommands::add_warnings(std::vector<Error>& out) const {
+    for (const auto& command : commands_) {
+        const auto others = command.count == 1 ? std::string() : fmt::format(" (and {} more)", command.count - 1);
+        const auto* row = find_script_command(command.name);
+        if (row != nullptr && row->effect == Effect::block)
+            out.push_back(error_at(command.location, ".control: the commands of this '{}' up to 'end' are skipped{}; {}", command.name,
+                                   others, command.remedy));
+        else
+            out.push_back(error_at(command.location, ".control: '{}' has no effect here{}: {}", command.name, others, command.remedy));
+    }
 }
 
 }  // namespace corpuscle::circuit

@@ -1,6 +1,7 @@
 #include "circuit/netlist/script/script_vectors.hpp"
 
 #include "circuit/expression/spice_number.hpp"
+#include "circuit/netlist/script/script_words.hpp"
 #include "circuit/output/curve_view.hpp"
 #include "core/text/ascii_text.hpp"
 
@@ -28,20 +29,25 @@ bool is_among(const Names& names, std::string_view name) {
 bool starts_vector_name(char c) { return (c >= 'a' && c <= 'z') || c == '_' || c == '@'; }
 bool is_in_vector_name(char c) { return starts_vector_name(c) || (c >= '0' && c <= '9') || c == '.' || c == '#' || c == '$'; }
 
-/// The offset after the parenthesis that closes the one at `open`; npos if none does.
-std::size_t after_parentheses(std::string_view text, std::size_t open) {
-    int depth = 0;
-    for (std::size_t k = open; k < text.size(); ++k) {
-        depth += text[k] == '(' ? 1 : text[k] == ')' ? -1 : 0;
-        if (depth == 0) return k + 1;
+/// For each '(' of a text, the offset of the ')' that closes it; npos if none does.
+std::vector<std::size_t> closing_parentheses(std::string_view text) {
+    std::vector<std::size_t> out(text.size(), std::string_view::npos), open;
+    for (std::size_t k = 0; k < text.size(); ++k) {
+        if (text[k] == '(') open.push_back(k);
+        if (text[k] != ')' || open.empty()) continue;
+        out[open.back()] = k;
+        open.pop_back();
     }
-    return std::string_view::npos;
+    return out;
 }
 
+/// True for the arguments of v() and i(): a name, or two with a comma.
+bool is_curve_argument(std::string_view text) { return !text.empty() && text.find_first_of("()") == std::string_view::npos; }
+
 /// "v(a)" and "i(v1)", without the part; true also for "v(a,b)".
-bool is_curve_call(std::string_view text) {
+bool is_whole_curve(std::string_view text) {
     return text.size() > 3 && (text[0] == 'v' || text[0] == 'i') && text[1] == '(' && text.back() == ')' &&
-           text.find_first_of("()", 2) == text.size() - 1;
+           is_curve_argument(text.substr(2, text.size() - 3));
 }
 
 /// The curve that a script calls `name`: v(a), a, or v1#branch.
@@ -57,9 +63,10 @@ class NameReplacer {
     std::size_t at_ = 0;
     ScriptVectors::Expanded out_;
     IsVector is_vector_;
+    std::vector<std::size_t> closing_;
 
 public:
-    NameReplacer(std::string_view text, IsVector is) : text_(text), is_vector_(std::move(is)) {}
+    NameReplacer(std::string_view text, IsVector is) : text_(text), is_vector_(std::move(is)), closing_(closing_parentheses(text)) {}
 
     /// replace(name, out) appends the replacement of a name that is not followed by a parenthesis.
     template <class Replace>
@@ -94,19 +101,30 @@ private:
         const auto word = text_.substr(from, at_ - from);
         const auto next = text_.find_first_not_of(" \t", at_);
         if (next == std::string_view::npos || text_[next] != '(') return replace(word, out_);
-        const auto end = after_parentheses(text_, next);
-        if (end == std::string_view::npos) return void(out_.problem = "a '(' is not closed");
-        const auto argument = trimmed(text_.substr(next + 1, end - next - 2));
+        const auto close = closing_[next];
+        if (close == std::string_view::npos) return void(out_.problem = "a '(' is not closed");
+        const auto argument = trimmed(text_.substr(next + 1, close - next - 1));
         const auto* part = std::ranges::find(part_functions, word, &std::pair<std::string_view, std::string_view>::first);
-        const bool is_part = part != std::end(part_functions);
-        const auto curve = is_part && !is_vector_(argument) ? curve_called(argument) : std::string(argument);
-        if (is_curve_call(fmt::format("{}({})", word, argument)) || (is_part && is_curve_call(curve))) {
-            out_.depends_on_curves = true;
-            out_.text += is_part ? fmt::format("{}{}{}", curve[0], part->second, curve.substr(1)) : text_.substr(from, end - from);
-            at_ = end;
+        const auto curve = part == std::end(part_functions) ? std::string() : whole_curve(argument);
+        if (!curve.empty() && (word != "im" || curve == argument)) {  // im(v1) is the magnitude of a current
+            out_.text += fmt::format("{}{}{}", curve[0], part->second, std::string_view(curve).substr(1));
+        } else if (is_curve_function(word) && is_curve_argument(argument)) {
+            out_.has_whole_curves |= word.size() == 1;
+            out_.text += text_.substr(from, close + 1 - from);
         } else {
             out_.text += word == "log" ? "log10" : word == "mag" ? "abs" : word;  // log has the base 10 in scripts
+            return;
         }
+        out_.depends_on_curves = true;
+        at_ = close + 1;
+    }
+
+    /// The curve that the argument of a part function names; "" if it is a vector or an expression.
+    std::string whole_curve(std::string_view argument) const {
+        if (is_whole_curve(argument)) return std::string(argument);
+        if (!is_curve_argument(argument) || is_vector_(argument)) return "";
+        auto curve = curve_called(argument);
+        return is_whole_curve(curve) ? curve : "";
     }
 };
 
@@ -121,7 +139,7 @@ bool has_ambiguous_power(std::string_view text) {
 
 }  // namespace
 
-ScriptVectors::Expanded ScriptVectors::expand(std::string_view expression) const {
+ScriptVectors::Expanded ScriptVectors::expand(std::string_view expression) {
     if (has_ambiguous_power(expression)) return {"", "'^' takes the magnitude of its base here; write pow(x,y)"};
     const auto is_vector = [this](std::string_view name) { return contains(name); };
     auto out = NameReplacer(expression, is_vector).run([&](std::string_view name, Expanded& to) {
@@ -131,6 +149,7 @@ ScriptVectors::Expanded ScriptVectors::expand(std::string_view expression) const
         } else if (known != vectors_.end()) {
             const bool is_measure = known->second.kind == Kind::number_of_measures;
             (is_measure ? to.depends_on_measures : to.depends_on_curves) |= is_measure || !number(name);
+            to.has_whole_curves |= known->second.has_whole_curves;
             to.text += is_measure ? std::string(name) : fmt::format("({})", known->second.text);
         } else if (name.starts_with('@') || name.find('$') != std::string_view::npos) {
             to.problem = fmt::format("'{}' is not available", name);
@@ -140,10 +159,11 @@ ScriptVectors::Expanded ScriptVectors::expand(std::string_view expression) const
             to.depends_on_curves |= name != "pi";
             to.text += name;
         } else {
-            to.depends_on_curves = true;
+            to.depends_on_curves = to.has_whole_curves = true;
             to.text += curve_called(name);
         }
     });
+    expanded_characters_ += out.text.size();
     if (!out.problem.empty()) return out;
     auto scope = curve_scope();
     if (out.depends_on_measures)
@@ -156,20 +176,25 @@ ScriptVectors::Expanded ScriptVectors::expand(std::string_view expression) const
     return out;
 }
 
-ScriptVectors::Expanded ScriptVectors::expand_measure(std::string_view words) const {
-    return NameReplacer(words, [this](std::string_view name) { return contains(name); }).run([&](std::string_view name, Expanded& to) {
+ScriptVectors::Expanded ScriptVectors::expand_measure(std::string_view words) {
+    bool has_whole_curves = false;
+    auto out = NameReplacer(words, [this](std::string_view name) { return contains(name); }).run([&](std::string_view name, Expanded& to) {
         const auto known = vectors_.find(name);
         if (known == vectors_.end() || known->second.kind == Kind::number_of_measures || is_among(measure_words, name))
             to.text += name;
         else if (known->second.kind == Kind::unknown)
             to.problem = fmt::format("'{}' is not available", name);
         else
-            to.text += number(name) ? known->second.text : fmt::format("par('{}')", known->second.text);
+            has_whole_curves |= known->second.has_whole_curves,
+                to.text += number(name) ? known->second.text : fmt::format("par('{}')", known->second.text);
     });
+    expanded_characters_ += out.text.size();
+    out.has_whole_curves = has_whole_curves;
+    return out;
 }
 
 void ScriptVectors::define(std::string name, const Expanded& value) {
-    vectors_.insert_or_assign(std::move(name), Vector{Kind::expression, value.text});
+    vectors_.insert_or_assign(std::move(name), Vector{Kind::expression, value.text, value.has_whole_curves});
 }
 
 void ScriptVectors::leave_plot() {

@@ -14,24 +14,35 @@ class ScriptVectors {
     struct Vector {
         Kind kind;
         std::string text;
+        bool has_whole_curves = false;
     };
     std::map<std::string, Vector, std::less<>> vectors_;
+    std::size_t expanded_characters_ = 0;
 
 public:
     /// An expression with its vectors replaced, or the reason why it cannot be computed here.
     struct Expanded {
         std::string text, problem;
         bool depends_on_curves = false, depends_on_measures = false;
+        /// It has curves such as v(a), which are complex in an .ac, and not only parts such as vm(a). Of a meas line: one of its vectors
+        /// has.
+        bool has_whole_curves = false;
     };
 
     /// Replaces the names of vectors in an expression. Other names are those of nodes: `out` is v(out). Functions of complex vectors become
     /// parts of them: mag(v(a)) is vm(a).
-    Expanded expand(std::string_view expression) const;
+    Expanded expand(std::string_view expression);
     /// Replaces the names of vectors in the words of a meas line after its name.
-    Expanded expand_measure(std::string_view words) const;
+    Expanded expand_measure(std::string_view words);
     /// Defines a vector.
     void define(std::string name, const Expanded&);
     void define_unknown(std::string name) { vectors_.insert_or_assign(std::move(name), Vector{Kind::unknown, ""}); }
+    /// Removes a vector; its name is that of a node again.
+    void remove(std::string_view name) {
+        if (const auto at = vectors_.find(name); at != vectors_.end()) vectors_.erase(at);
+    }
+    /// The total length of all expressions so far, with their vectors replaced.
+    std::size_t expanded_characters() const { return expanded_characters_; }
     /// Defines the result of a meas.
     void define_measure(std::string name) { vectors_.insert_or_assign(std::move(name), Vector{Kind::number_of_measures, ""}); }
     bool is_measure(std::string_view name) const;
