@@ -151,8 +151,14 @@ std::string model_text(const Circuit& circuit, std::size_t k, const ExportNames&
     for (const auto& [name, value] : m.values) {
         const bool is_left_out =
             name == "level" ||
-            (m.type == "d" && (name == "jsw" || name == "ikf" || name == "trs" || name == "rsw" || (name == "bv" && value == 0))) ||
+            (m.type == "d" && (name == "jsw" || name == "rsw" || name == "tbv2" || name == "tikf" || (name == "bv" && value == 0))) ||
             (name == "cjo" && m.values.contains("cj0"));
+        if (m.type == "d" && (name == "tbv1" || name == "tcv")) {  // ngspice has the decrease of bv in volts
+            if (name == "tcv" && m.values.contains("tbv1")) continue;
+            const double decrease = value_or(m.values, "tcv", 0) - value_or(m.values, "tbv1", 0) * value_or(m.values, "bv", 0);
+            out += fmt::format("{}tcv={}", out.back() == '(' ? "" : " ", decrease);
+            continue;
+        }
         if (!is_left_out) out += fmt::format("{}{}={}", out.back() == '(' ? "" : " ", name == "cj0" ? "cjo" : name, value);
     }
     return out + ")\n";

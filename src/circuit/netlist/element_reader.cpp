@@ -99,11 +99,13 @@ Result<void> ElementReader::model(std::size_t word, std::initializer_list<std::s
     return {};
 }
 
-void ElementReader::drop_unknown_model_values(std::span<const std::string_view> known) {
+void ElementReader::drop_unknown_model_values(std::span<const std::string_view> known, std::span<const std::string_view> ignored) {
     auto& model = builder_.circuit.models[static_cast<std::size_t>(element.model)];
     std::erase_if(model.values, [&](const auto& value) {
         const std::string& name = value.first;
-        if (std::ranges::find(known, std::string_view(name)) != known.end() || !did_you_mean(name, known).empty()) return false;
+        const auto is_in = [&](std::span<const std::string_view> names) { return std::ranges::find(names, name) != names.end(); };
+        if (is_in(known) || (!is_in(ignored) && !did_you_mean(name, known).empty())) return false;
+        if (is_in(ignored) && value.second == 0) return true;
         builder_.warn_once(circuit::error_at(model.location, "{}: models of type {} have no parameter '{}', so it has no effect",
                                              model.name, model.type, name));
         return true;

@@ -40,8 +40,8 @@ public:
     /// Reads the word as the name of a model, which must have one of these types.
     Result<void> model(std::size_t word, std::initializer_list<std::string_view> types);
     /// Removes the parameters of the model that are not in `known`, with a warning, as ngspice does. One that resembles a known name is a
-    /// typing error, and stays until the device refuses it.
-    void drop_unknown_model_values(std::span<const std::string_view> known);
+    /// typing error, and stays until the device refuses it, unless it is in `ignored`. Those of `ignored` that are 0 give no warning.
+    void drop_unknown_model_values(std::span<const std::string_view> known, std::span<const std::string_view> ignored = {});
     Result<double> number(std::size_t word) const;
     Result<double> number(const NameValue&);
     Result<double> number(const Word&) const;
