@@ -149,6 +149,11 @@ Result<TransientTimes> read_transient_times(const Directive& directive) {
     const auto uic = std::ranges::find(c.words, "uic");
     out.uic = uic != c.words.end();
     c.words.erase(uic, c.words.end());
+    if (const auto sweep = std::ranges::find(c.words, "sweep"); sweep != c.words.end())
+        return error_at(c.location_of(static_cast<std::size_t>(sweep - c.words.begin())),
+                        ".tran: sweep is not supported; write it as a line of its own: .step param {}",
+                        fmt::join(sweep + 1, c.words.end(), " "));
+    std::erase_if(c.words, is_modifier_of_tran);
     if (c.words.size() == 1) c.words.insert(c.words.begin(), "0"), c.columns.clear();  // .tran STOP, as in LTspice
     if (c.words.size() < 2 || c.words.size() > 4) return error_at(c.location, ".tran: expected .tran STEP STOP [START [LONGEST]] [uic]");
     out.step = TRY(read_number(c, 0, "the step"));

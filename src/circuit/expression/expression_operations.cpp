@@ -140,6 +140,13 @@ std::string_view without_alias(std::string_view name) {
 
 }  // namespace
 
+const PartFunction* find_part_function(std::string_view name) {
+    static constexpr PartFunction all[] = {{"mag", "m"},  {"db", "db"},  {"ph", "p"},   {"phase", "p"}, {"arg", "p"}, {"re", "r"},
+                                           {"real", "r"}, {"im", "i"},   {"imag", "i"}, {"img", "i"},   {"cph", ""},  {"cphase", ""}};
+    const auto* found = std::ranges::find(all, name, &PartFunction::name);
+    return found == std::end(all) ? nullptr : found;
+}
+
 std::span<const Operation> all_operations() { return operations; }
 std::span<const NamedConstant> all_constants() { return constants; }
 const RandomFunction* find_random_function(std::string_view name) { return find_row(random_functions, name); }

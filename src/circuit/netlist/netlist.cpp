@@ -30,6 +30,10 @@ std::vector<std::string> sections_in(std::string_view text) {
 
 }  // namespace
 
+bool is_modifier_of_tran(std::string_view word) {
+    return word == "startup" || word == "steady" || word == "nodiscard" || word == "step" || word == "noop";
+}
+
 SourceLocation Directive::location_of(std::size_t word) const {
     auto out = location;
     if (word < columns.size()) out.column = columns[word];
