@@ -78,8 +78,8 @@ std::vector<std::vector<std::size_t>> polynomial_terms(std::size_t n, std::size_
     return out;
 }
 
-/// Reads "poly(n)", from word `at` on: the n inputs, each of `words_each` words, then the coefficients. The polynomial becomes the element's
-/// expression.
+/// Reads "poly(n)", from word `at` on: the n inputs, each of `words_each` words, then the coefficients. The polynomial becomes the
+/// element's expression.
 Result<void> read_polynomial(ElementReader& line, std::size_t at, std::size_t words_each) {
     constexpr double max_inputs = 1000;
     const double n = line.word_count() > at + 1 ? TRY(line.number(at + 1)) : 0;

@@ -59,19 +59,17 @@ constexpr ParameterDef<DiodeCard> fields[] = {
 /// Other names of parameters, as in ngspice and Xyce.
 constexpr std::pair<std::string_view, std::string_view> aliases[] = {{"cj0", "cjo"},   {"cj", "cjo"},   {"js", "is"},    {"pb", "vj"},
                                                                      {"mj", "m"},      {"cjp", "cjsw"}, {"php", "vjsw"}, {"isw", "jsw"},
-                                                                     {"tref", "tnom"}, {"vb", "bv"},     {"ik", "ikf"},
-                                                                     {"trs", "trs1"}};
+                                                                     {"tref", "tnom"}, {"vb", "bv"},    {"ik", "ikf"},   {"trs", "trs1"}};
 
 /// Names that are read apart from `fields`.
-constexpr std::string_view other_fields[] = {"level", "cj0", "cj",   "js", "pb", "mj",  "cjp",
-                                             "php",   "isw", "tref", "vb", "ik", "trs", "rsw"};
+constexpr std::string_view other_fields[] = {"level", "cj0", "cj", "js", "pb", "mj", "cjp", "php", "isw", "tref", "vb", "ik", "trs", "rsw"};
 
 /// Parameters of ngspice, PSpice and LTspice that have no effect here: a second reverse exponential, tunnel currents, the knee of the
 /// sidewall, other laws of temperature, recovery, self-heating, ratings, and the sizes of overlapping layers.
-constexpr std::string_view ignored_fields[] = {
-    "ibvl", "nbvl",   "jtun",   "jtunsw", "ntun", "xtitun", "keg",   "ikp", "tlev", "tlevc",  "cta",    "ctc", "ctp", "tpb", "tphp", "tcjo",
-    "vp",   "rth0",   "cth0",   "fv_max", "bv_max", "id_max", "te_max", "pd_max", "lm", "lp", "wm", "wp", "xom", "xoi", "xm", "xp", "xw",
-    "l",    "w",      "sw_et",  "vjmax"};
+constexpr std::string_view ignored_fields[] = {"ibvl",   "nbvl",   "jtun",   "jtunsw", "ntun", "xtitun", "keg",  "ikp",  "tlev", "tlevc",
+                                               "cta",    "ctc",    "ctp",    "tpb",    "tphp", "tcjo",   "vp",   "rth0", "cth0", "fv_max",
+                                               "bv_max", "id_max", "te_max", "pd_max", "lm",   "lp",     "wm",   "wp",   "xom",  "xoi",
+                                               "xm",     "xp",     "xw",     "l",      "w",    "sw_et",  "vjmax"};
 
 /// Changes the card to its values at another temperature, after SPICE.
 void adjust_to_temperature(DiodeCard& c, double kelvin) {

@@ -37,8 +37,7 @@ class Resistor final : public DeviceWithValue {
     bool is_noisy_;
 
 public:
-    Resistor(double r, double m, double kelvin, bool is_noisy)
-        : DeviceWithValue(r / m), g_(m / r), kelvin_(kelvin), is_noisy_(is_noisy) {}
+    Resistor(double r, double m, double kelvin, bool is_noisy) : DeviceWithValue(r / m), g_(m / r), kelvin_(kelvin), is_noisy_(is_noisy) {}
     void eval(std::span<const double> v, const EvalContext&, const Stamp& out) const override {
         Stamp::add_between(out.f, 0, 1, g_ * (v[0] - v[1]));
         out.add_conductance(0, 1, g_);

@@ -111,7 +111,8 @@ private:
         while (!is_done() && !is_keyword(k_)) {
             if (is_phase_of_ac()) break;
             number_words_.push_back(k_);
-            const bool is_relative = row.shape == Shape::piecewise_linear && out_.numbers.size() % 2 == 0 && line_.text(k_).starts_with('+');
+            const bool is_relative =
+                row.shape == Shape::piecewise_linear && out_.numbers.size() % 2 == 0 && line_.text(k_).starts_with('+');
             const double previous = is_relative && out_.numbers.size() > 1 ? out_.numbers[out_.numbers.size() - 2] : 0;
             out_.numbers.push_back(previous + TRY(number()));
         }

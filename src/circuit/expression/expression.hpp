@@ -24,8 +24,8 @@ class Expression;
 /// part of the complex value of another expression, as in db(v(out)/v(in)).
 struct ExpressionInput {
     enum class Kind { voltage, current, time, temperature, frequency, part } kind;
-    std::string name, minus;     ///< voltage: the node and its reference ("" is ground); current: the element
-    std::string_view part = {};  ///< of a complex value: "m", "db", "p", "r" or "i", as in vdb(out); "" is the value itself
+    std::string name, minus;                    ///< voltage: the node and its reference ("" is ground); current: the element
+    std::string_view part = {};                 ///< of a complex value: "m", "db", "p", "r" or "i", as in vdb(out); "" is the value itself
     std::shared_ptr<const Expression> of = {};  ///< Kind::part: the other expression; `name` is its text
     bool operator==(const ExpressionInput& other) const {
         return kind == other.kind && name == other.name && minus == other.minus && part == other.part;
@@ -44,9 +44,9 @@ struct ExpressionScope {
     std::function<const Function*(std::string_view)> function{};  ///< returns null if no function has this name
     /// Returns the value of a random function with constant arguments. If null, it is the first argument.
     std::function<double(std::string_view, std::span<const double>)> random{};
-    bool allows_inputs = false;                                   ///< true if voltages, currents and time are allowed; false in .param
-    bool allows_parts = false;                                    ///< true if vdb(a), db(v(a)) ... and the frequency are allowed, too
-    std::vector<std::string> suggestions{};                       ///< known names, for "did you mean" in the error about an unknown name
+    bool allows_inputs = false;              ///< true if voltages, currents and time are allowed; false in .param
+    bool allows_parts = false;               ///< true if vdb(a), db(v(a)) ... and the frequency are allowed, too
+    std::vector<std::string> suggestions{};  ///< known names, for "did you mean" in the error about an unknown name
     /// Return the name in the circuit of a node or an element of this scope ("x1.n3" for "n3" inside x1). If null, the name is kept.
     std::function<std::string(std::string_view)> node{}, element{};
 };

@@ -313,6 +313,7 @@ private:
     }
     Index call(const std::string& name, std::size_t from) {
         const auto* user_function = scope_.function ? scope_.function(name) : nullptr;
+        if (scope_.allows_parts && !user_function && name == "im" && has_call_inside()) return part_of(*find_part_function(name), from);
         if (!user_function && (name == "v" || name == "i")) return voltage_or_current(name[0], "", from);
         if (const auto part = part_named(name); !user_function && !part.empty()) return voltage_or_current(name[0], part, from);
         if (!user_function && (name == "ddt" || name == "idt" || name == "sdt"))
@@ -421,10 +422,16 @@ private:
         return found == std::end(complex_parts) ? "" : *found;
     }
 
+    /// True for im(v(a)), the imaginary part; false for im(v1), the magnitude of a current.
+    bool has_call_inside() const {
+        const auto next = text_.find_first_of("()", at_ + 1);
+        return next != std::string_view::npos && text_[next] == '(';
+    }
     /// Reads mag(...), db(...) and similar, of an expression that may be complex. In parentheses, parameters are known, but not the
     /// arguments of a function being expanded.
     Index part_of(const PartFunction& function, std::size_t from) {
-        if (function.part.empty()) return fail(from, "{}() is not available: the phase between two points is not continued; use ph()", function.name);
+        if (function.part.empty())
+            return fail(from, "{}() is not available: the phase between two points is not continued; use ph()", function.name);
         std::size_t end = at_;
         for (int depth = 0; end < text_.size(); ++end) {
             depth += text_[end] == '(' ? 1 : text_[end] == ')' ? -1 : 0;
@@ -439,9 +446,9 @@ private:
         if (!parsed) return fail(at_ + 1, "{}", parsed.error().message);
         if (!parsed->is_rational()) return fail(from, "{}(): only + - * / of curves and numbers are available in it", function.name);
         at_ = end + 1;
-        const bool is_curve = parsed->steps_.size() == 1 && parsed->inputs_.size() == 1 && parsed->inputs_[0].part.empty() &&
-                              (parsed->inputs_[0].kind == ExpressionInput::Kind::voltage ||
-                               parsed->inputs_[0].kind == ExpressionInput::Kind::current);
+        const bool is_curve =
+            parsed->steps_.size() == 1 && parsed->inputs_.size() == 1 && parsed->inputs_[0].part.empty() &&
+            (parsed->inputs_[0].kind == ExpressionInput::Kind::voltage || parsed->inputs_[0].kind == ExpressionInput::Kind::current);
         if (is_curve) {
             auto& of = parsed->inputs_[0];
             return input(of.kind, std::move(of.name), std::move(of.minus), function.part);

@@ -106,7 +106,10 @@ private:
     }
 
     Error no_parameter(std::string_view name, SourceLocation location) const {
-        return error_at(std::move(location), "there is no .param {}{}", name, did_you_mean(name, std::views::keys(parsed_.top.parameters)));
+        const bool is_element = std::ranges::any_of(parsed_.top.elements, [&](const Statement* s) { return s->text(0) == name; });
+        return error_at(
+            std::move(location), "there is no .param {}{}", name,
+            is_element ? "; leave out the word param to step the element" : did_you_mean(name, std::views::keys(parsed_.top.parameters)));
     }
     /// True if the .step of this name says that it is a parameter.
     bool step_names_parameter(std::string_view name) const {
@@ -485,7 +488,7 @@ private:
 
 }  // namespace
 
-Refusals find_missing_devices(const ParsedNetlist& parsed) {
+Refusals find_refused_elements(const ParsedNetlist& parsed) {
     const ResolvedOverrides none;
     CircuitElaborator elaborator(parsed, none, {});
     static_cast<void>(elaborator.run({}));

@@ -103,9 +103,7 @@ bool ElementReader::is_after_comma(std::size_t word) const {
 bool ElementReader::is_model(std::size_t word) const { return scope_.definer_of_model(text(word)) != nullptr; }
 bool ElementReader::is_parameter(std::size_t word) const { return scope_.parameter(text(word)).has_value(); }
 
-Result<void> ElementReader::nodes(std::size_t n, std::string_view expected) {
-    return nodes_from(1, n, expected);
-}
+Result<void> ElementReader::nodes(std::size_t n, std::string_view expected) { return nodes_from(1, n, expected); }
 
 Result<void> ElementReader::nodes_from(std::size_t first, std::size_t n, std::string_view expected) {
     for (std::size_t k = first; k < first + n; ++k) {

@@ -16,9 +16,7 @@ std::size_t length_of_micro_sign(std::string_view s) {
 }
 
 /// The same of an ohm sign or a Greek capital omega, which end a number: 100 ohm.
-std::size_t length_of_ohm_sign(std::string_view s) {
-    return s.starts_with("\xce\xa9") ? 2 : s.starts_with("\xe2\x84\xa6") ? 3 : 0;
-}
+std::size_t length_of_ohm_sign(std::string_view s) { return s.starts_with("\xce\xa9") ? 2 : s.starts_with("\xe2\x84\xa6") ? 3 : 0; }
 
 /// The same of a degree sign, which is left out: 27 degrees Celsius is 27C.
 std::size_t length_of_degree_sign(std::string_view s) { return s.starts_with("\xc2\xb0") ? 2 : s.starts_with("\xb0") ? 1 : 0; }

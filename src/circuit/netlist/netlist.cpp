@@ -60,7 +60,7 @@ Result<Netlist> Netlist::parse(std::string text, std::string file, const FileOpe
     if (const auto ok = read_netlist(text, file, open, corner, *parsed, refusals); !ok)
         refusals.add(ok.error());
     else if (!refusals.empty())
-        refusals.add_devices_of(find_missing_devices(*parsed));
+        refusals.add_elements_of(find_refused_elements(*parsed));
     if (!refusals.empty()) return refusals.combined();
     Netlist out;
     out.impl_ = std::move(parsed);

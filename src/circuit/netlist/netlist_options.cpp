@@ -38,16 +38,16 @@ constexpr OptionRow option_rows[] = {
 
 /// Options of other simulators that control iterations, memory or output. They are ignored, since they do not change the equations.
 constexpr std::string_view without_effect[] = {
-    "abstolpow",    "acct",   "autostop",    "bypass",      "chgtol",    "cptime",    "dvdt",         "gminsteps",
-    "gshuntsteps",  "ingold", "interp",      "itl2",        "itl3",      "itl4",      "itl5",         "itl6",
-    "keepopinfo",   "klu",    "limpts",      "limtim",      "linsolver", "list",      "lvltim",       "measdgt",
-    "minbreak",     "noacct", "noinit",      "node",        "nomod",     "noopalter", "noopiter",     "nopage",
-    "nutmeg",       "numdgt", "numthreads",  "num_threads", "opts",      "optran",    "oldlimit",     "output",
-    "pivrel",       "pivtol", "plotwinsize", "post",        "probe",     "relv",      "reli",         "runlvl",
-    "savecurrents", "seed",   "sparse",      "srcsteps",    "threads",   "trtol",     "trytocompact", "width",
-    "wnflag",       "xmu",    "numsteps",    "ngdebug",     "brief",     "scalestop", "rawfmt",       "autoconv",
-    "accurate",     "fast",   "fastaccess",  "plotreltol",  "plotabstol", "plotvntol", "nomarch",    "topologycheck", "ngbehavior",
-    "maxstep",      "thev_induc", "dampinductors", "measout", "ascii", "psf", "csdf", "co", "lis_new", "dcon", "captab", "unwrap",
+    "abstolpow",    "acct",     "autostop",   "bypass",        "chgtol",     "cptime",     "dvdt",        "gminsteps",  "gshuntsteps",
+    "ingold",       "interp",   "itl2",       "itl3",          "itl4",       "itl5",       "itl6",        "keepopinfo", "klu",
+    "limpts",       "limtim",   "linsolver",  "list",          "lvltim",     "measdgt",    "minbreak",    "noacct",     "noinit",
+    "node",         "nomod",    "noopalter",  "noopiter",      "nopage",     "nutmeg",     "numdgt",      "numthreads", "num_threads",
+    "opts",         "optran",   "oldlimit",   "output",        "pivrel",     "pivtol",     "plotwinsize", "post",       "probe",
+    "relv",         "reli",     "runlvl",     "savecurrents",  "seed",       "sparse",     "srcsteps",    "threads",    "trtol",
+    "trytocompact", "width",    "wnflag",     "xmu",           "numsteps",   "ngdebug",    "brief",       "scalestop",  "rawfmt",
+    "autoconv",     "accurate", "fast",       "fastaccess",    "plotreltol", "plotabstol", "plotvntol",   "nomarch",    "topologycheck",
+    "ngbehavior",   "maxstep",  "thev_induc", "dampinductors", "measout",    "ascii",      "psf",         "csdf",       "co",
+    "lis_new",      "dcon",     "captab",     "unwrap",
 };
 
 /// Options that add elements too small to matter in most circuits. They are ignored with a warning.

@@ -151,8 +151,10 @@ private:
                             word);
         if ((row->place == Place::top_level || row->place == Place::top_level_not_in_if) && body_->head)
             return error_at(line.location(), "{} is not allowed inside .subckt {}; move it outside", word, body_->name);
+        const bool is_missing = row->read == &NetlistReader::missing || row->read == &NetlistReader::missing_block;
         auto ok = (this->*row->read)(lines, std::move(line));
-        return row->after_error == AfterError::ends ? ok : keep(std::move(ok));
+        if (row->after_error == AfterError::ends) return ok;
+        return keep(std::move(ok), is_missing ? Refusals::Kind::directive : Refusals::Kind::other);
     }
 
     /// Keeps the error of a statement for later, so that the following statements are also read.
@@ -215,8 +217,9 @@ private:
     }
     /// .alter of HSPICE begins the changes for another run.
     Result<void> alter(LogicalLineReader&, LogicalLine line) {
-        out_.warnings.push_back(error_at(line.location(), ".alter is not supported: only the circuit before it is simulated, and the lines "
-                                                          "after it are not read; use .step or --set"));
+        out_.warnings.push_back(error_at(line.location(),
+                                         ".alter is not supported: only the circuit before it is simulated, and the lines "
+                                         "after it are not read; use .step or --set"));
         return ended_ = true, Result<void>();
     }
     Result<void> end(LogicalLineReader&, LogicalLine) { return ended_ = true, Result<void>(); }
@@ -364,7 +367,8 @@ private:
     /// Reads an included file, or a section of a library. `location` is that of the line that names it.
     Result<void> open(std::string_view name, std::string section, SourceLocation location) {
         if (is_missing_standard_library(name)) {
-            out_.warnings.push_back(error_at(location, "'{}' is not read: the models of LTspice's own library must be in the netlist", name));
+            out_.warnings.push_back(
+                error_at(location, "'{}' is not read: the models of LTspice's own library must be in the netlist", name));
             return {};
         }
         const auto file = TRY(files_.open(name, std::move(section), location));

@@ -78,7 +78,7 @@ public:
     RandomValues random;
     Refusals refusals;
     const ResolvedOverrides& overrides;
-    Values stepped;                                     ///< values by full path of the element, from .step
+    Values stepped;                                       ///< values by full path of the element, from .step
     std::set<std::string, std::less<>> stepped_elements;  ///< those of them that were found
 
     CircuitBuilder(const ParsedNetlist& parsed, const ResolvedOverrides& resolved, std::optional<RandomDraws> draws)

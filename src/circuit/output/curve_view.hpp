@@ -18,7 +18,8 @@ public:
 /// A quantity that was looked up once in a plot by its name. It is a curve, a difference v(a,b), or one part of a complex curve. The parts
 /// are vm (magnitude), vdb (magnitude in dB), vp (phase in radians, as in ngspice), vr (real part) and vi (imaginary part), and im, idb,
 /// ip, ir, ii of currents. It may also be an expression of these and of time: par('EXPRESSION'), {EXPRESSION}, 'EXPRESSION' or, if it has
-/// an operator, EXPRESSION alone. In a complex plot each input must be a part, such as vm(a) or db(v(a)/v(b)), unless the expression has only
+/// an operator, EXPRESSION alone. In a complex plot each input must be a part, such as vm(a) or db(v(a)/v(b)), unless the expression has
+/// only
 /// + - * /. Other spellings: v1#branch for i(v1), NODE for v(NODE), x1:a for x1.a, freq for frequency, and onoise or v(onoise) for
 /// onoise_spectrum.
 class CurveView {

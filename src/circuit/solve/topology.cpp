@@ -27,9 +27,9 @@ Result<void> check_floating_nodes(const Circuit& c) {
         if (sets.root(static_cast<int>(n)) != sets.root(0)) floating.push_back(static_cast<int>(n));
     if (floating.empty()) return {};
     const int first = floating[0];
-    bool sources = false;      // a current source is connected to this part
-    bool is_isolated = true;   // no element connects it to another part
-    bool has_coils = false;    // it has inductors
+    bool sources = false;     // a current source is connected to this part
+    bool is_isolated = true;  // no element connects it to another part
+    bool has_coils = false;   // it has inductors
     const Element* first_element = nullptr;
     std::vector<std::string> names;
     for (const int n : floating)
@@ -44,9 +44,9 @@ Result<void> check_floating_nodes(const Circuit& c) {
     }
     const auto what = names.size() == 1 ? fmt::format("node '{}' has", names[0]) : fmt::format("nodes '{}' have", joined(names, "', '"));
     const auto why = is_isolated ? fmt::format("is not connected to ground{}, so nothing sets its voltage",
-                                               has_coils ? ", because a coupling of inductors carries no current" : "")
-                     : sources ? std::string("is connected to ground only through current sources, so nothing sets its voltage")
-                               : std::string("is connected to ground through capacitors and gates at most, so nothing sets its voltage");
+                                               has_coils ? " (a coupling of inductors connects no nodes)" : "")
+                     : sources   ? std::string("is connected to ground only through current sources, so nothing sets its voltage")
+                                 : std::string("is connected to ground through capacitors and gates at most, so nothing sets its voltage");
     const auto subject = names.size() == 1 ? "it" : "their part of the circuit";
     return error_at(first_element != nullptr ? first_element->location : SourceLocation{c.file},
                     "{} no path to ground for direct current: {} {} (connected: {}). Add a large resistor to ground", what, subject, why,

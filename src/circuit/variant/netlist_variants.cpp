@@ -51,8 +51,9 @@ Result<NetlistVariants::Axis> read_axis(const Directive& c) {
     if (axis.name.empty()) return error_at(c.location, ".step: the name of the parameter is missing");
     ++at;
     if (word().find('(') != std::string::npos || (axis.name.find('(') != std::string::npos))
-        return error_at(c.location_of(at), ".step: a parameter of a model is not stepped directly; write {{x}} for it in the .model line, and "
-                                           ".step param x");
+        return error_at(c.location_of(at),
+                        ".step: a parameter of a model is not stepped directly; write {{x}} for it in the .model line, and "
+                        ".step param x");
     if (word() != "list") {
         axis.values = TRY(base > 0 ? log_values(c, at, base) : linear_values(c, at));
         return axis;

@@ -66,11 +66,11 @@ constexpr std::pair<std::string_view, std::string_view> bipolar_aliases[] = {
 /// Parameters of ngspice that have no effect here: temperature coefficients, the choice of other temperature laws, and rco, which turns on
 /// the collector's quasi-saturation.
 constexpr std::string_view absent_parameters[] = {
-    "rco",   "tlev",  "tlevc", "tbf1",  "tbf2",  "tbr1", "tbr2",  "tikf1", "tikf2", "tikr1", "tikr2", "tirb1", "tirb2", "tnc1",
-    "tnc2",  "tne1",  "tne2",  "tnf1",  "tnf2", "tnr1",  "tnr2",  "trb",   "trb1",  "trb2",  "trc",   "trc1",  "trc2",
-    "tre",   "tre1",  "tre2",  "trm1",  "trm2", "tvaf1", "tvaf2", "tvar1", "tvar2", "ctc",   "cte",   "cts",   "tvjc",
-    "tvje",  "tvjs",  "titf1", "titf2", "ttf1", "ttf2",  "ttr1",  "ttr2",  "tmje1", "tmje2", "tmjc1", "tmjc2", "tmjs1",
-    "tmjs2", "tns1",  "tns2",  "tis1",  "tis2", "tise1", "tise2", "tisc1", "tisc2", "tiss1", "tiss2"};
+    "rco",   "tlev",  "tlevc", "tbf1",  "tbf2",  "tbr1", "tbr2",  "tikf1", "tikf2", "tikr1", "tikr2", "tirb1", "tirb2",
+    "tnc1",  "tnc2",  "tne1",  "tne2",  "tnf1",  "tnf2", "tnr1",  "tnr2",  "trb",   "trb1",  "trb2",  "trc",   "trc1",
+    "trc2",  "tre",   "tre1",  "tre2",  "trm1",  "trm2", "tvaf1", "tvaf2", "tvar1", "tvar2", "ctc",   "cte",   "cts",
+    "tvjc",  "tvje",  "tvjs",  "titf1", "titf2", "ttf1", "ttf2",  "ttr1",  "ttr2",  "tmje1", "tmje2", "tmjc1", "tmjc2",
+    "tmjs1", "tmjs2", "tns1",  "tns2",  "tis1",  "tis2", "tise1", "tise2", "tisc1", "tisc2", "tiss1", "tiss2"};
 
 /// Names without effect on the simulation: ratings, and further parameters of quasi-saturation.
 constexpr std::string_view ignored_parameters[] = {"vbe_max", "vbc_max", "vce_max",  "pd_max", "ic_max", "ib_max",
@@ -78,8 +78,8 @@ constexpr std::string_view ignored_parameters[] = {"vbe_max", "vbc_max", "vce_ma
                                                    "gamma",   "qco",     "quasimod", "vg",     "cn",     "d"};
 
 /// Names that are read apart from `bipolar_fields`.
-constexpr std::string_view other_parameters[] = {"level", "subs", "c2", "c4", "va",  "ik",   "vb",   "pe",
-                                                 "me",    "pc",   "mc",  "ps", "ms", "ccs", "csub", "tref", "nk"};
+constexpr std::string_view other_parameters[] = {"level", "subs", "c2", "c4", "va",  "ik",   "vb",   "pe", "me",
+                                                 "pc",    "mc",   "ps", "ms", "ccs", "csub", "tref", "nk"};
 
 Result<void> check_unsupported(const Model& model) {
     if (const double level = value_or(model.values, "level", 1); level != 1)
