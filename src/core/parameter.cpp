@@ -40,7 +40,7 @@ Result<void> check_order(std::string_view owner, const ParameterOrder& order, do
 }
 
 std::string did_you_mean(std::string_view typed, std::span<const std::string_view> names) {
-    if (typed.size() < 2 || typed.size() > 64) return "";  // one letter resembles too many names
+    if (typed.empty() || typed.size() > 64) return "";
     std::string_view best;
     // A name is similar if at most half of the typed letters are changed, or one letter of a short name.
     std::size_t best_distance = std::max<std::size_t>(1, typed.size() / 2) + 1;

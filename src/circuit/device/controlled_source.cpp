@@ -126,7 +126,7 @@ Result<void> read_table(ElementReader& line) {
     return line.expression(fmt::format("table({}{})", line.text(expression), numbers), line.word(3));
 }
 
-/// The first word after two nodes that are no controlling nodes: it follows the name that HSPICE gives the kind of source, such as vcvs.
+/// The first word after the two nodes and the name, such as vcvs, that HSPICE gives the kind of source.
 std::size_t word_after_kind(const ElementReader& line) {
     constexpr std::pair<char, std::string_view> kinds[] = {{'e', "vcvs"}, {'g', "vccs"}, {'f', "cccs"}, {'h', "ccvs"}};
     return std::ranges::find(kinds, std::pair(line.element.letter, line.text(3))) != std::end(kinds) ? 4 : 3;

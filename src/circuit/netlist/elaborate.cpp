@@ -2,8 +2,8 @@
 
 #include "circuit/devices.hpp"
 #include "circuit/expression/spice_number.hpp"
+#include "circuit/netlist/parasitic/voltage_loops.hpp"
 #include "circuit/netlist/scope.hpp"
-#include "circuit/netlist/voltage_loops.hpp"
 #include "core/text/ascii_text.hpp"
 
 namespace corpuscle::circuit {

@@ -2,7 +2,7 @@
 
 #include "circuit/devices.hpp"
 #include "circuit/expression/spice_number.hpp"
-#include "circuit/netlist/parasitics.hpp"
+#include "circuit/netlist/parasitic/parasitics.hpp"
 #include "circuit/netlist/scope.hpp"
 #include "core/text/ascii_text.hpp"
 

@@ -203,7 +203,7 @@ private:
         const auto word = line.text.substr(0, line.text.find_first_of(" \t('\"{"));
         return error_at(line.location(), "{} is not supported{}", word, missing_directives().find(word)->second);
     }
-    /// Refuses a block of lines that are no statements, and skips it.
+    /// Refuses a block of lines that are data or a program, and skips it.
     Result<void> missing_block(LogicalLineReader& lines, LogicalLine line) {
         const auto from = line.location();
         const auto word = line.text.substr(0, line.text.find_first_of(" \t('\"{"));

@@ -1,7 +1,7 @@
 #include "circuit/analyses.hpp"
 #include "circuit/devices.hpp"
 #include "circuit/netlist/node_sets.hpp"
-#include "circuit/netlist/voltage_loops.hpp"
+#include "circuit/netlist/parasitic/voltage_loops.hpp"
 #include "circuit/solve/system.hpp"
 #include "core/text/ascii_text.hpp"
 

@@ -1,4 +1,4 @@
-#include "circuit/netlist/parasitics.hpp"
+#include "circuit/netlist/parasitic/parasitics.hpp"
 
 #include "circuit/device/named_values.hpp"
 #include "circuit/devices.hpp"
