@@ -57,7 +57,7 @@ def ladder(n):
 
 
 def rectifier():
-    """A bridge of four diodes."""
+    """The netlist of a bridge of four diodes, and its curve."""
     return """v1 a b sin(0 5 50)
 d1 a p d
 d2 b p d
@@ -124,7 +124,7 @@ def period(t, v):
 
 
 def error(is_ring, curve, reference):
-    """Of a curve against the reference."""
+    """The error of a curve against the reference."""
     if is_ring:
         return abs(period(*curve)[0] / period(*reference)[0] - 1)
     t = np.linspace(0, reference[0][-1], 20001)

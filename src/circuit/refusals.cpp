@@ -23,9 +23,17 @@ void Refusals::add_device(Error error, const std::string& subject, std::string n
     if (same->others.size() < max_names) same->others.push_back(std::move(name));
 }
 
-void Refusals::add_devices_of(const Refusals& other) {
+void Refusals::add_elements_of(const Refusals& other) {
+    const auto may_be_defined = [](const Error& error) {
+        return std::ranges::any_of(
+            std::initializer_list<std::string_view>{"unknown name", "unknown model", "unknown subcircuit", "unknown function"},
+            [&](std::string_view text) { return error.message.find(text) != std::string::npos; });
+    };
     for (const auto& refusal : other.refusals_)
-        if (refusal.kind == Kind::device) refusals_.push_back(refusal);
+        if (refusal.kind == Kind::device)
+            refusals_.push_back(refusal);
+        else if (!may_be_defined(refusal.error))
+            add(refusal.error, refusal.kind);
 }
 
 void Refusals::add_all_of(const Refusals& other) {

@@ -21,10 +21,10 @@ public:
     /// Adds the error of an element whose device does not exist here. For several elements with the same subject, such as their letter, the
     /// message is that of the first, with the names of the others.
     void add_device(Error, const std::string& subject, std::string name);
-    /// Takes over the missing devices of another list, and nothing else.
-    void add_devices_of(const Refusals&);
     /// Takes over all errors of another list, except those that are there already.
     void add_all_of(const Refusals&);
+    /// Takes over the errors of elements, except for unknown names: a statement that is refused may have defined them.
+    void add_elements_of(const Refusals&);
     /// The worst error, which holds the others in its `further`, in order of importance.
     Error combined() const;
 

@@ -166,8 +166,8 @@ Result<RunOutcome> run_directives(AnalysisContext& context, const RunOptions& op
     }
     if (out.analyses.empty()) {
         std::string known;
-        for (const auto* a : analyses) known += fmt::format("\n  {}", a->usage);
-        return error_at({circuit->file}, "the netlist has no analysis directive; add one of these:{}", known);
+        for (const auto* a : analyses) known += fmt::format("{}{}", known.empty() ? "" : "; ", a->usage);
+        return error_at({circuit->file}, "the netlist has no analysis directive; add one of these: {}", known);
     }
     TRY(measures.finish(out.numbers, out.warnings, out.left_out));
     out.warnings.insert(out.warnings.end(), out.left_out.begin(), out.left_out.end());

@@ -321,13 +321,13 @@ TEST(Bipolar, ItsLineHasThreeOrFourNodesAndOptions) {
     for (const auto& [line, message] : refused) EXPECT_NE(message_of(line).find(message), std::string::npos) << message_of(line);
 }
 
-TEST(Bipolar, ACardThatIsNotImplementedIsRefused) {
+TEST(Bipolar, WhatACardHasBeyondTheModelIsRefusedOrNamed) {
     const std::vector<std::pair<std::string, std::string>> refused = {
         {"npn(level=4)", ":5:1: m: bipolar transistor level 4 is not supported; use level=1"},
         {"npn(bff=80)", ":5:1: m: unknown parameter 'bff'; did you mean 'bf'?"},
         {"npn(bf=-3)", ":5:1: m: bf = -3 is outside"},
-        {"npn(rco=1)", ":5:1: m: rco = 1 is not supported (the model has no quasi-saturation); remove it"},
-        {"npn(trc1=1m)", ":5:1: m: trc1 = 0.001 is not supported (the temperature laws are those of SPICE); remove it"},
+        {"npn(rco=1)", ":5:1: m: models of type npn have no parameter 'rco', so it has no effect"},
+        {"npn(trc1=1m)", ":5:1: m: models of type npn have no parameter 'trc1', so it has no effect"},
         {"npn(rb=1 rbm=3)", ":5:1: m: rbm = 3 ohm must not exceed rb = 1 ohm"},
         {"npn(subs=2)", ":5:1: m: subs = 2 must be 1 (vertical) or -1 (lateral)"},
         {"nmos(vto=1)", ":2:10: q1: model 'm' has type nmos; expected npn or pnp"},

@@ -166,7 +166,7 @@ TEST(Expression, ReportsLocationAndCauseOfErrors) {
         {"1 + sinn(2)", "f.cir:3:9: unknown function 'sinn'; did you mean 'sin'?"},
         {"max()", "f.cir:3:5: max() takes 2 arguments, not 0"},
         {"limit(1)", "f.cir:3:5: limit() takes 2 or 3 arguments, not 1"},
-        {"1k5", "f.cir:3:5: '1k5' is not a number"},
+        {"1k5", "f.cir:3:5: '1k5' is not a number; write 1.5k"},
         {"(2", "f.cir:3:5: this '(' is not closed"},
         {"max(1,2", "f.cir:3:8: this '(' is not closed"},
         {"2 3", "f.cir:3:7: expected an operator such as + or the end of the expression, not '3'"},

@@ -105,7 +105,7 @@ TEST(ForeignMeasure, WithoutAnAnalysisIsOfTheFirstOne) {
 TEST(ForeignMeasure, OfAcTakesPartsInExpressions) {
     const auto run = run_netlist(
         "rc\nv1 a 0 ac 2\nr1 a b 1k\nc1 b 0 1u\n.ac dec 20 1 10k\n.meas ac gain find {vm(b)/vm(a)} at=159.15494\n"
-        ".meas ac corner when vdb(b)={vdb(a) - 10*log10(2)}\n.meas ac last eqn {freq}\n.meas ac plain find v(b)*2 at=10\n");
+        ".meas ac corner when vdb(b)={vdb(a) - 10*log10(2)}\n.meas ac last eqn {freq}\n.meas ac plain find sqrt(v(b)) at=10\n");
     EXPECT_NEAR(run.number("gain"), std::sqrt(0.5), 2e-3);
     EXPECT_NEAR(run.number("corner"), 159.155, 0.5);
     EXPECT_NEAR(run.number("last"), 1e4, 1e-6);
@@ -168,6 +168,32 @@ TEST(ForeignMeasure, ThatIsLeftOutIsReportedAndTheOthersAreComputed) {
     EXPECT_NE(ran.out.find("y                    = 1.0000"), std::string::npos) << ran.out;
     EXPECT_NE(ran.err.find(".meas z is left out: the netlist has no .ac to measure"), std::string::npos) << ran.err;
     EXPECT_NE(ran.err.find("x.cir:8:18: .meas x is left out: p(r1) is not available in .tran"), std::string::npos) << ran.err;
+}
+
+TEST(ForeignMeasure, PartsOfComplexCurvesAndOfTheirQuotientsAreMeasured) {
+    const auto run = run_netlist(
+        "parts\nv1 in 0 ac 2\nr1 in out 1k\nc1 out 0 1u\n.ac dec 20 1 100k\n.meas ac top max mag(v(out))\n.meas ac low find "
+        "db(v(out)/v(in)) at=1k\n"
+        ".meas ac angle find ph(v(out)) at=1k\n.meas ac re find re(v(out)/v(in)) at=1k\n.meas ac im find im(v(out)/v(in)) at=1k\n"
+        ".meas ac corner when mag(v(out))=top/sqrt(2)\n.meas ac f find freq when v(out)=top/sqrt(2)\n.meas ac sum find mag(2*v(out)-v(in)) "
+        "at=1k\n"
+        ".meas ac gain find v(out)/v(in) at=1k\n");
+    const std::complex<double> h = 1.0 / std::complex<double>(1, 2 * std::acos(-1.0));
+    const double tolerance = 2e-3;  // of straight lines between points
+    EXPECT_NEAR(run.number("low"), 20 * std::log10(std::abs(h)), 20 * tolerance);
+    EXPECT_NEAR(run.number("angle"), std::arg(h), tolerance);
+    EXPECT_NEAR(run.number("re"), h.real(), tolerance);
+    EXPECT_NEAR(run.number("im"), h.imag(), tolerance);
+    EXPECT_NEAR(run.number("sum"), std::abs(4.0 * h - 2.0), 2 * tolerance);
+    EXPECT_NEAR(run.number("gain"), std::abs(h), tolerance) << "a magnitude, like that of v(out)";
+    EXPECT_NEAR(run.number("corner") / 159.155, 1, tolerance);
+    EXPECT_EQ(run.number("f"), run.number("corner"));
+    const auto error_of = [](const std::string& line) {
+        const auto outcome = run_directives(make_circuit("parts\nv1 in 0 ac 2\nr1 in 0 1k\n.ac dec 20 1 100k\n.meas ac x " + line + "\n"));
+        return outcome ? std::string() : outcome.error().message;
+    };
+    EXPECT_EQ(error_of("max cph(v(in)/v(in))"), ".meas: cph() is not available: the phase between two points is not continued; use ph()");
+    EXPECT_EQ(error_of("max mag(sqrt(v(in)))"), ".meas: mag(): only + - * / of curves and numbers are available in it");
 }
 
 }  // namespace

@@ -418,5 +418,160 @@ TEST(ForeignNetlist, AnIslandWithoutCapacitorsIsRefusedInATransientFromGivenVolt
         << system.error().message;
 }
 
+TEST(ForeignNetlist, CardsOfRealDiodesAreRead) {
+    const auto run = run_netlist(
+        "diodes\nv1 a 0 0.7\nd1 a 0 D1N4148\nv2 b 0 0.8\nd2 b 0 1N4007\n"
+        ".model D1N4148 D(Is=5.84n N=1.94 Rs=0 Ikf=44.17m Xti=3 Eg=1.11 Cjo=.95p M=.55 Vj=.75 Fc=.5 Isr=11.07n Nr=2.088 Bv=100 Ibv=100u "
+        "Tt=11.07n)\n"
+        ".model 1N4007 D(IS=14.11N N=1.984 RS=33.89M IKF=94.81 XTI=3 EG=1.110 CJO=25.89P M=.44 VJ=.3245 FC=.5 BV=1500 IBV=10U TT=5.7U "
+        "IBVL=1u TRS1=0)\n.op\n");
+    EXPECT_EQ(run.warnings().size(), 1U);
+    EXPECT_NE(warnings_in(run).find("1n4007: models of type d have no parameter 'ibvl', so it has no effect"), std::string::npos);
+    const double vt = 1.380649e-23 * 300.15 / 1.602176634e-19, barrier = 1 - 0.7 / 0.75;
+    const double recombination = 11.07e-9 * std::expm1(0.7 / (2.088 * vt)) * std::pow(barrier * barrier + 0.005, 0.55 / 2);
+    const double i = 5.84e-9 * std::expm1(0.7 / (1.94 * vt)) + recombination;
+    EXPECT_NEAR(-run.number("i(v1)") / (i / (1 + std::sqrt(i / 44.17e-3))), 1, 1e-6);
+}
+
+// The slopes of high injection and recombination are those of the current.
+TEST(ForeignNetlist, TheConductanceOfADiodeIsTheSlopeOfItsCurrent) {
+    const std::string card = "d1 a 0 dm 2\n.model dm d(is=5n n=1.9 ikf=40m ikr=2n isr=11n nr=2.1 vj=0.75 m=0.55)\n.options gmin=0\n";
+    for (const double v : {-3.0, -0.2, -0.05, 0.3, 0.6, 0.74, 0.9}) {
+        const auto current = [&](double u) { return run_netlist(fmt::format("slope\nv1 a 0 {:.12g}\n{}.op\n", u, card)).number("i(v1)"); };
+        const auto ac = run_netlist(fmt::format("slope\nv1 a 0 {:.12g} ac 1\n{}.ac lin 1 1 1\n", v, card));
+        const double step = 1e-5, slope = (current(v + step) - current(v - step)) / (2 * step);
+        EXPECT_NEAR(ac.complex_curve("i(v1)")[0].real() / slope, 1, 1e-4) << v;
+    }
+}
+
+TEST(ForeignNetlist, CapacitorsCoilsAndSourcesMayHaveParasiticElements) {
+    const std::string written =
+        "r1 a1 a 10\nv1 a1 0 ac 1\ncp1 a 0 1n\nc2 b b1 1u\nr3 b1 b2 2\nl4 b2 0 1u\nr5 b 0 100\nr6 a b 1k\n"
+        "c7 b 0 1p\nl8 b 0 1m\nr9 b 0 5k\nc10 b 0 2p\n.ac dec 3 1 1g\n";
+    const std::string line =
+        "v1 a 0 ac 1 Rser=10 Cpar=1n\nc2 b 0 1u Rser=2 Lser=1u Rpar=100 Cpar=1p V=16 Irms=2 mfg=x type=y\n"
+        "l8 b 0 1m Rpar=5k Cpar=2p Ipk=1\nr6 a b 1k tol=1 pwr=0.1\n.ac dec 3 1 1g\n";
+    const auto expected = run_netlist("written\n" + written), found = run_netlist("line\n" + line);
+    EXPECT_EQ(warnings_in(found), "");
+    const auto a = expected.complex_curve("v(b)"), b = found.complex_curve("v(b)");
+    ASSERT_EQ(a.size(), b.size());
+    for (std::size_t k = 0; k < a.size(); ++k) EXPECT_LE(std::abs(a[k] - b[k]), 1e-9 * std::abs(a[k])) << k;
+    const auto copies = run_netlist(
+        "copies\n.subckt s a\nv1 x 0 1 rser=10\nr1 x a 10\n.ends\nx1 a s m=4\nr2 a 0 5\nc1 a b 1n m=2 rpar=20\nr3 b 0 10\n.op\n");
+    EXPECT_NEAR(copies.number("v(a)"), 4.0 / 9, 1e-9) << "5 ohm, and 5 ohm parallel to 20";
+    const auto circuit = parse_netlist_text("negative\nv1 a 0 1\nc1 a 0 1n rser=-1\n.op\n")->elaborate();
+    ASSERT_FALSE(circuit);
+    EXPECT_NE(circuit.error().message.find("c1: rser = -1 ohm is below 0"), std::string::npos);
+}
+
+TEST(ForeignNetlist, AResistorMayBeWithoutNoise) {
+    const auto run = run_netlist(
+        "noise\nv1 a 0 ac 1\nr1 a b 1k\nr2 b 0 1k noisy=0\n.noise v(b) v1 lin 1 1k 1k\n.meas noise x max v(onoise)\n"
+        ".meas noise y find inoise at=1k\n");
+    const double thermal = std::sqrt(4 * 1.380649e-23 * 300.15 * 1e3);
+    EXPECT_NEAR(run.number("x") / (thermal / 2), 1, 1e-6);
+    EXPECT_NEAR(run.number("y") / thermal, 1, 1e-6);
+}
+
+TEST(ForeignNetlist, ControlledSourcesMayHaveTheirKindOrValueWithoutEquals) {
+    const auto run = run_netlist(
+        "kinds\nv1 in gnd! 2\ne1 a 0 VCVS in 0 10\ng1 0 b VCCS in 0 1\nf1 0 c CCCS v1 2\nh1 d 0 CCVS v1 3\ne2 e 0 VALUE {v(in)*3}\n"
+        "g2 0 f VALUE {v(in)*4}\ne3 g 0 VCVS POLY(1) in 0 1 2\nr0 in 0 1\nra a 0 1\nrb b 0 1\nrc c 0 1\nrd d 0 1\nre e 0 1\nrf f 0 1\nrg g "
+        "0 1\n"
+        ".op\n");
+    for (const auto& [name, value] : std::initializer_list<std::pair<const char*, double>>{
+             {"v(a)", 20}, {"v(b)", 2}, {"v(c)", -4}, {"v(d)", -6}, {"v(e)", 6}, {"v(f)", 8}, {"v(g)", 5}})
+        EXPECT_NEAR(run.number(name), value, 1e-9) << name;
+}
+
+TEST(ForeignNetlist, TheStandardLibraryOfLtspiceIsNamedIfItIsMissing) {
+    const auto run = run_netlist("library\nv1 a 0 1\nr1 a 0 1k\n.lib C:\\Users\\me\\lib\\cmp\\standard.bjt\n.op\n");
+    EXPECT_NE(warnings_in(run).find("standard.bjt' is not read: the models of LTspice's own library must be in the netlist"),
+              std::string::npos)
+        << warnings_in(run);
+}
+
+TEST(ForeignNetlist, AnXLineDefinesParametersThatItsSubcircuitUses) {
+    const auto run = run_netlist(
+        "opamp\nv1 in 0 1m\nxu1 in 0 out opamp Aol=100 GBW=10Meg\n.subckt opamp 1 2 3\ng1 0 3 1 2 {Aol}\nr3 3 0 1\nc3 3 0 {Aol/GBW/6.28}\n"
+        ".ends opamp\n.op\n");
+    EXPECT_NEAR(run.number("v(out)"), 0.1, 1e-9);
+    EXPECT_EQ(warnings_in(run), "");
+}
+
+TEST(ForeignNetlist, AStepMayDefineItsParameterOrNameAnElement) {
+    const auto last = [](const std::string& step) {
+        const auto runs = run_variants("step\nv1 a 0 1\nr1 a b 1k\nr2 b 0 {x}\n.param x=1k\n" + step + "\n.op\n");
+        return runs.empty() ? std::nan("") : runs.back().number("v(b)");
+    };
+    EXPECT_NEAR(last(".step V1 list 1 2 3"), 1.5, 1e-9);
+    EXPECT_NEAR(last(".STEP R1 500 1500 500"), 0.4, 1e-9);
+    EXPECT_NEAR(last(".step lin x 500 1500 500"), 0.6, 1e-9);
+    const auto runs = run_variants("step\nv1 a 0 1\nr1 a b {r}\nr2 b 0 1k\n.step param r list 1k 3k\n.op\n");
+    ASSERT_EQ(runs.size(), 2U);
+    EXPECT_NEAR(runs[0].number("v(b)"), 0.5, 1e-9);
+    EXPECT_NEAR(runs[1].number("v(b)"), 0.25, 1e-9);
+    const auto error_of = [](const std::string& step) {
+        const auto netlist = parse_netlist_text("step\nv1 a 0 1\nr1 a 0 1k\nd1 a 0 d\n.model d d\n" + step + "\n.op\n");
+        if (!netlist) return netlist.error().message;
+        auto variants = NetlistVariants::create(*netlist);
+        if (!variants) return variants.error().message;
+        const auto first = variants->at(0);
+        return first ? std::string() : first.error().message;
+    };
+    EXPECT_EQ(error_of(".step D D(Is) list 1f 2f"),
+              ".step: a parameter of a model is not stepped directly; write {x} for it in the .model line, and .step param x");
+    EXPECT_EQ(error_of(".step rr1 list 1 2"), ".step: there is no parameter or element 'rr1'; did you mean 'r1'?");
+    EXPECT_EQ(error_of(".step d1 list 1 2"),
+              "d1: .step: a junction diode has no value to step; write {x} in its line or model, and .step param x");
+    EXPECT_EQ(error_of(".step param r1 list 1 2"), "there is no .param r1; leave out the word param to step the element");
+}
+
+TEST(ForeignNetlist, WaveformsHaveLtspicesForms) {
+    const auto run = run_netlist(
+        "waves\nv1 a 0 SINE(1 2 1k 0 0 90 2)\nv2 b 0 PWL(0 0 1m 5 +1m 5 +0.5m 0)\nv3 c 0 ac=1,90 pulse(0,5,1n,1n,1n,1,2)\nr1 a 0 1\nr2 b 0 "
+        "1\n"
+        "r3 c 0 1\n.tran 0 4m 0 10u startup\n.meas tran end find v(a) at=3m\n.meas tran p find v(a) at=1.75m\n"
+        ".meas tran half find v(b) at=2.25m\n.ac lin 1 1 1\n");
+    EXPECT_NEAR(run.number("end"), 3, 1e-9);
+    EXPECT_NEAR(run.number("p"), 1 + 2 * std::cos(2 * std::numbers::pi * 1.75), 1e-3);
+    EXPECT_NEAR(run.number("half"), 2.5, 1e-9);
+    EXPECT_NEAR(std::abs(run.complex_curve("v(c)", "ac")[0] - std::complex<double>(0, 1)), 0, 1e-12);
+    EXPECT_NE(warnings_in(run).find(".tran: 'startup' has no effect"), std::string::npos) << warnings_in(run);
+    EXPECT_EQ(warnings_in(run).find("decimal point"), std::string::npos) << "a list with commas";
+}
+
+TEST(ForeignNetlist, StatementsAndOptionsOfOtherSimulatorsAreNamed) {
+    const auto run = run_netlist(
+        "statements\nv1 a 0 1\nr1 a 0 100\xce\xa9\n.wave x.wav 16 44.1k v(a)\n.preprocess replaceground true\n.net i(r1) v1\n"
+        ".option accurate plotreltol=1e-4 rshunt=1e12\n.op\n.alter\nr1 a 0 200\n");
+    EXPECT_NEAR(run.number("i(v1)"), -0.01, 1e-9);
+    for (const char* text : {".wave has no effect here", ".preprocess has no effect here", ".net has no effect here",
+                             "'rshunt' is ignored: no such elements are added", ".alter is not supported: only the circuit before it"})
+        EXPECT_NE(warnings_in(run).find(text), std::string::npos) << warnings_in(run);
+    EXPECT_EQ(warnings_in(run).find("accurate"), std::string::npos);
+}
+
+TEST(ForeignNetlist, ATitleIsTakenForAnElementOnlyIfItHasItsForm) {
+    const auto warns = [](const std::string& title) {
+        return warnings_in(run_netlist(title + "\nv1 a 0 1\nr1 a 0 1k\n.op\n")).find("the first line is the title") != std::string::npos;
+    };
+    for (const char* title : {"V1 in 0 5", "r1 a b {r}", "v2 b 0 dc 5", "q1 1 2 3 bc547", "M1 d g 0 0 nm w=1u", ".op"})
+        EXPECT_TRUE(warns(title)) << title;
+    for (const char* title : {"k=1 with a diode that has Cjo", "M1 amplifier with an active load", "R2 ladder with five sections",
+                              "x10 probe", "L1 cache of a large processor"})
+        EXPECT_FALSE(warns(title)) << title;
+}
+
+// The remedy holds for M, which SPICE reads as milli.
+TEST(ForeignNetlist, AnUpperFrequencyInMilliIsMeantInMega) {
+    for (const char* last : {"1M", "1MHz"}) {
+        const auto circuit = make_circuit(fmt::format("mega\nv1 a 0 ac 1\nr1 a 0 1k\n.ac dec 10 1 {}\n", last));
+        const auto outcome = run_directives(circuit);
+        ASSERT_FALSE(outcome);
+        EXPECT_NE(outcome.error().message.find("write .ac dec 10 1 1meg"), std::string::npos) << outcome.error().message;
+    }
+}
+
 }  // namespace
 }  // namespace corpuscle::circuit

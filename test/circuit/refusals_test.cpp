@@ -39,8 +39,9 @@ TEST(Refusals, NameMissingDevicesBeforeDirectivesBeforeAllElse) {
                   "7.12 m1: model 'bsim' has level 14, which is not supported; use " +
                   supported_levels('m') +
                   "\n"
-                  "3.1 unknown statement '.hb'\n"
-                  "9.10 'nowhere.inc': there is no such file\n");
+                  "3.1 .hb is not supported; a .tran of many periods with .four gives the harmonics\n"
+                  "9.10 'nowhere.inc': there is no such file\n"
+                  "2.5 r1: 1 node, but expected 2: plus, minus, then a value or a model\n");
 }
 
 TEST(Refusals, OfElementsAreReportedTogether) {
@@ -50,6 +51,30 @@ TEST(Refusals, OfElementsAreReportedTogether) {
               "4.11 r3: unknown parameter 'foo'\n");
     EXPECT_EQ(errors_of("v1 a 0 1\nd1 a 0 d1\nd2 a 0 d2\n.model d1 d(is=-1)\n.model d2 d(eeg=1)\n"),
               "5.1 d1: is = -1 A is outside [1e-40, 1000]\n6.1 d2: unknown parameter 'eeg'; did you mean 'eg'?\n");
+}
+
+TEST(Refusals, OfDirectivesDoNotHideThoseOfElements) {
+    EXPECT_EQ(errors_of("v1 a 0 1\n.parm x=1\n.trans 1m\nr1 a 0 1k foo=1\nr2 a 0 {x}\n"),
+              "3.1 unknown statement '.parm'; did you mean '.param'?\n4.1 unknown statement '.trans'; did you mean '.tran'?\n"
+              "5.11 r1: unknown parameter 'foo'\n")
+        << "x may be a parameter of the refused line";
+}
+
+TEST(Refusals, OfNumbersNameTheRemedyThatThePartsNeed) {
+    EXPECT_EQ(errors_of("v1 a 0 1\nr1 a 0 4K7\nr2 a 0 2R2\nr3 a 0 1,000\nr4 a 0 0,5\n"),
+              "3.8 '4k7' is not a number; write 4.7k\n4.8 '2r2' is not a number; write 2.2\n"
+              "5.8 r3: '1,000' has a decimal comma; write 1.000, or 1000\n6.8 r4: '0,5' has a decimal comma; write 0.5\n");
+    EXPECT_EQ(errors_of("v1 a 0 1\nr1 a b 1k\nr2 b 0 {r}\n"), "4.9 unknown name 'r'\n") << "one letter resembles too many names";
+}
+
+TEST(Refusals, OfStatementsOfOtherSimulatorsSayWhatToDo) {
+    EXPECT_EQ(errors_of("v1 a 0 1\n.data corners r c\n1k 2k\n.enddata\n.fft v(a)\nr1 a 0 1k\n"),
+              "3.1 .data is not supported; write .step param NAME list VALUE ...\n"
+              "6.1 .fft is not supported; use .four FREQUENCY CURVE\n");
+    EXPECT_EQ(
+        errors_of("v1 a 0 1\nr1 a b 1k\nl1 b 0 1m\nl2 s1 s2 1m\nk1 l1 l2 0.9\nr2 s1 s2 1k\n"),
+        "5.1 nodes 's1', 's2' have no path to ground for direct current: their part of the circuit is not connected to ground (a "
+        "coupling of inductors connects no nodes), so nothing sets its voltage (connected: l2, r2). Add a large resistor to ground\n");
 }
 
 TEST(Refusals, OfASubcircuitAreReportedOnceForAllItsInstances) {

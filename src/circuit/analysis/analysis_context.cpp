@@ -66,6 +66,13 @@ Result<double> read_number(const Directive& c, std::size_t word, std::string_vie
     return error_at(c.location_of(word), ".{}: '{}' is not a number; expected {}", c.name, c.words[word], what);
 }
 
+/// "10meg" for the text "10m" or "10mhz" of a number in milli; "" for any other number.
+static std::string in_mega(std::string_view text) {
+    const auto number = parse_number(text);
+    if (!number || (number->suffix != "m" && number->suffix != "mhz")) return "";
+    return fmt::format("{}meg", text.substr(0, text.size() - number->suffix.size()));
+}
+
 Result<std::vector<double>> read_frequencies(const Directive& c, std::size_t word) {
     const std::string kind = word < c.words.size() ? c.words[word] : "";
     if (kind != "dec" && kind != "oct" && kind != "lin") return error_at(c.location, ".{}: '{}' must be dec, oct or lin", c.name, kind);
@@ -73,9 +80,14 @@ Result<std::vector<double>> read_frequencies(const Directive& c, std::size_t wor
     const double from = TRY(read_number(c, word + 2, "the first frequency")), to = TRY(read_number(c, word + 3, "the last frequency"));
     if (!(points >= 1 && points <= 1e7))
         return error_at(c.location_of(word + 1), ".{}: {:g} points is outside [1, 10000000]", c.name, points);
-    if (from > to && to > 0)
+    if (from > to && to > 0) {
+        const auto mega = in_mega(c.words[word + 3]);
+        if (!mega.empty() && 1e9 * to >= from)
+            return error_at(c.location_of(word + 3), ".{}: {} is {:g} Hz, because m is milli; write .{} {} {} {} {}", c.name,
+                            c.words[word + 3], to, c.name, kind, c.words[word + 1], c.words[word + 2], mega);
         return error_at(c.location_of(word + 2), ".{}: from {:g} to {:g} Hz: the lower frequency comes first; write .{} {} {} {} {}",
                         c.name, from, to, c.name, kind, c.words[word + 1], c.words[word + 3], c.words[word + 2]);
+    }
     if (!(to >= from && (from > 0 || (kind == "lin" && from >= 0))))
         return error_at(c.location, ".{}: from {:g} to {:g} Hz: the first must be above 0 and at most the second", c.name, from, to);
     const auto count = static_cast<long>(points);
@@ -102,7 +114,7 @@ Result<OutputVariable> read_output_variable(const System& system, const Directiv
         return error_at(location, ".{}: '{}' must be v(node), v(node,node) or i(source)", c.name, text);
     const auto inside = text.substr(2, text.size() - 3);
     const auto unknown = [&](const std::string& name) -> Result<int> {
-        if (voltage && (name == "0" || name == "gnd")) return -1;
+        if (voltage && is_ground(name)) return -1;
         const auto full = fmt::format("{}({})", voltage ? 'v' : 'i', name);
         const int index = system.unknown(full);
         if (index >= 0) return index;

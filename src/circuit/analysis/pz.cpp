@@ -29,7 +29,7 @@ struct PortPair {
 
 Result<int> read_node(const System& system, const Directive& c, std::size_t word) {
     const auto& name = c.words[word];
-    if (name == "0" || name == "gnd") return -1;
+    if (is_ground(name)) return -1;
     const auto k = system.unknown(fmt::format("v({})", name));
     if (k >= 0) return k;
     std::vector<std::string_view> nodes(system.circuit().nodes.begin() + 1, system.circuit().nodes.end());

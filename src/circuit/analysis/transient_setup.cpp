@@ -128,8 +128,6 @@ Result<TransientPlan> read_transient_plan(const Circuit& c) {
     }
     plan.reltol = value_or(c.options, "reltol", plan.reltol);
     plan.vntol = value_or(c.options, "vntol", plan.vntol);
-    constexpr double gmin_of_spice = 1e-12, abstol_of_spice = 1e-12;  // S, A
-    if (smallest_gmin(c).value_or(0) >= gmin_of_spice) plan.abstol = abstol_of_spice;  // no model here is meant for smaller currents
     plan.abstol = value_or(c.options, "abstol", plan.abstol);
     if (const auto given = c.option_words.find("method"); given != c.option_words.end()) {
         const std::string_view word = given->second;
@@ -150,6 +148,11 @@ Result<TransientTimes> read_transient_times(const Directive& directive) {
     TransientTimes out;
     out.uic = starts_from_initial_conditions(c);
     c.words.erase(std::ranges::find(c.words, "uic"), c.words.end());
+    if (const auto sweep = std::ranges::find(c.words, "sweep"); sweep != c.words.end())
+        return error_at(c.location_of(static_cast<std::size_t>(sweep - c.words.begin())),
+                        ".tran: sweep is not supported; write it as a line of its own: .step param {}",
+                        fmt::join(sweep + 1, c.words.end(), " "));
+    std::erase_if(c.words, is_modifier_of_tran);
     if (c.words.size() == 1) c.words.insert(c.words.begin(), "0"), c.columns.clear();  // .tran STOP, as in LTspice
     if (c.words.size() < 2 || c.words.size() > 4) return error_at(c.location, ".tran: expected .tran STEP STOP [START [LONGEST]] [uic]");
     out.step = TRY(read_number(c, 0, "the step"));

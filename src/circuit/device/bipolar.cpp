@@ -193,7 +193,7 @@ Result<void> read_bipolar(ElementReader& line) {
     const auto nodes = TRY(count_nodes(line));
     if (nodes == 4) line.element.nodes.clear(), TRY(line.nodes(4, expected));
     TRY(line.model(nodes + 1, {"npn", "pnp"}));
-    line.drop_unknown_model_values(bipolar_parameter_names());
+    line.drop_unknown_model_values(bipolar_parameter_names(), absent_bipolar_parameters());
     for (std::size_t k = nodes + 2; k < line.word_count(); ++k) {
         if (line.text(k) == "off") {
             line.element.values["off"] = 1;

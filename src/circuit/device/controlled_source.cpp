@@ -78,22 +78,22 @@ std::vector<std::vector<std::size_t>> polynomial_terms(std::size_t n, std::size_
     return out;
 }
 
-/// Reads "poly(n)", from word 3 on: the n inputs, each of `words_each` words, then the coefficients. The polynomial becomes the element's
-/// expression.
-Result<void> read_polynomial(ElementReader& line, std::size_t words_each) {
+/// Reads "poly(n)", from word `at` on: the n inputs, each of `words_each` words, then the coefficients. The polynomial becomes the
+/// element's expression.
+Result<void> read_polynomial(ElementReader& line, std::size_t at, std::size_t words_each) {
     constexpr double max_inputs = 1000;
-    const double n = line.word_count() > 4 ? TRY(line.number(4)) : 0;
+    const double n = line.word_count() > at + 1 ? TRY(line.number(at + 1)) : 0;
     if (!(n >= 1 && n <= max_inputs && n == std::floor(n)))
-        return line.error_at(4, "poly: expected the number of inputs in parentheses, such as poly(2)");
+        return line.error_at(at + 1, "poly: expected the number of inputs in parentheses, such as poly(2)");
     const auto inputs = static_cast<std::size_t>(n);
-    const std::size_t first_coefficient = 5 + inputs * words_each;
+    const std::size_t first_input = at + 2, first_coefficient = first_input + inputs * words_each;
     if (line.word_count() <= first_coefficient)
         return line.error_at(line.word_count(), "poly({}): expected {}, then the coefficients", inputs,
                              words_each == 2 ? fmt::format("{} pairs of nodes", inputs) : fmt::format("{} voltage sources", inputs));
     std::vector<std::string> names;
     for (std::size_t k = 0; k < inputs; ++k)
-        names.push_back(words_each == 2 ? fmt::format("v({},{})", line.text(5 + 2 * k), line.text(6 + 2 * k))
-                                        : fmt::format("i({})", line.text(5 + k)));
+        names.push_back(words_each == 2 ? fmt::format("v({},{})", line.text(first_input + 2 * k), line.text(first_input + 1 + 2 * k))
+                                        : fmt::format("i({})", line.text(first_input + k)));
     const std::size_t count = line.word_count() - first_coefficient;
     const bool is_gain = inputs == 1 && count == 1;  // a single coefficient is that of the input, as in SPICE
     const auto terms = polynomial_terms(inputs, is_gain ? 2 : count);
@@ -103,7 +103,7 @@ Result<void> read_polynomial(ElementReader& line, std::size_t words_each) {
         for (const auto input : terms[k + is_gain]) text += "*" + names[input];
     }
     line.element.expression_is_voltage = has_branch_current(line.element);
-    return line.expression(std::move(text), line.word(3));
+    return line.expression(std::move(text), line.word(at));
 }
 
 /// Reads "table {EXPRESSION} = (x,y) (x,y) ...", from word 3 on; the '=' may be missing. The table becomes the element's expression.
@@ -126,6 +126,29 @@ Result<void> read_table(ElementReader& line) {
     return line.expression(fmt::format("table({}{})", line.text(expression), numbers), line.word(3));
 }
 
+/// The first word after the two nodes and the name, such as vcvs, that HSPICE gives the kind of source.
+std::size_t word_after_kind(const ElementReader& line) {
+    constexpr std::pair<char, std::string_view> kinds[] = {{'e', "vcvs"}, {'g', "vccs"}, {'f', "cccs"}, {'h', "ccvs"}};
+    return std::ranges::find(kinds, std::pair(line.element.letter, line.text(3))) != std::end(kinds) ? 4 : 3;
+}
+
+/// Reads "value {EXPRESSION}" of PSpice, from word 3 on.
+Result<void> read_value_without_equals(ElementReader& line) {
+    if (line.word_count() < 5 || line.is_plain(4)) return line.error_at(4, "{0}: expected {0}={{EXPRESSION}}", line.text(3));
+    if (line.word_count() > 5) return line.too_many(5);
+    line.element.expression_is_voltage = has_branch_current(line.element);
+    return line.expression(std::string(line.text(4)), line.word(4));
+}
+
+/// The refusal of a function that other simulators have in E and G; "" for any other word.
+std::string foreign_function(std::string_view word) {
+    if (word == "laplace" || word == "freq") return fmt::format("{} is not supported; write value={{...}}", word);
+    if (word == "opamp") return "opamp is not supported; write the four nodes and a gain, such as 1e6";
+    for (const std::string_view name : {"vcr", "vccap", "delay", "and", "nand", "or", "nor", "pwl", "ppwl", "npwl", "transformer"})
+        if (word == name) return fmt::format("{} is not supported; write value={{...}} or table {{...}} = (x1,y1) (x2,y2) ...", word);
+    return "";
+}
+
 Result<void> read_voltage_controlled(ElementReader& line) {
     constexpr std::string_view expected = "plus, minus, the two controlling nodes, then the gain";
     TRY(line.nodes(2, expected));
@@ -136,20 +159,23 @@ Result<void> read_voltage_controlled(ElementReader& line) {
             return line.expression(*pair);
         }
     const auto word = line.text(3);
-    if (word == "poly") return read_polynomial(line, 2);
+    if (word == "value" || word == "vol" || word == "cur") return read_value_without_equals(line);
     if (word == "table") return read_table(line);
-    if (word == "laplace" || word == "freq") return line.error_at(3, "{} is not supported; write value={{...}}", word);
-    line.element.nodes.clear();
-    TRY(line.nodes(4, expected));
-    return read_gain(line, 5);
+    const bool is_function = line.word_count() != 6;  // else the name of a node
+    if (const auto refusal = is_function ? foreign_function(word) : ""; !refusal.empty()) return line.error_at(3, "{}", refusal);
+    const auto k = word_after_kind(line);
+    if (line.text(k) == "poly") return read_polynomial(line, k, 2);
+    TRY(line.nodes_from(k, 2, expected));
+    return read_gain(line, k + 2);
 }
 
 Result<void> read_current_controlled(ElementReader& line) {
     TRY(line.nodes(2, "plus, minus, then the controlling voltage source and the gain"));
-    if (line.text(3) == "poly") return read_polynomial(line, 1);
-    if (line.word_count() < 4) return line.error_at(3, "the controlling voltage source is missing");
-    line.control_source(3);
-    return read_gain(line, 4);
+    const auto k = word_after_kind(line);
+    if (line.text(k) == "poly") return read_polynomial(line, k, 1);
+    if (line.word_count() < k + 1) return line.error_at(k, "the controlling voltage source is missing");
+    line.control_source(k);
+    return read_gain(line, k + 1);
 }
 
 Result<void> read_expression_source(ElementReader& line) {

@@ -97,6 +97,8 @@ std::string_view shape_name(Waveform::Shape shape) {
 
 Result<std::string> write_independent_source(const ElementExport& e) {
     const Waveform& w = e.element.waveform;
+    if (w.shape == Waveform::Shape::sine && w.numbers.size() > 6 && w.numbers[6] > 0)
+        return error_at(e.element.location, "{}: ngspice's sin has no number of cycles, so it cannot be exported", e.element.name);
     const bool force = w.shape == Waveform::Shape::force, has_shape = w.shape != Waveform::Shape::none && !force;
     // In ngspice the DC value of a sine with a phase depends on the phase. In Corpuscle it is the offset, so the offset is written as dc.
     const bool has_phase = w.shape == Waveform::Shape::sine && w.numbers.size() > 5;
@@ -114,7 +116,7 @@ Result<std::string> write_independent_source(const ElementExport& e) {
 
 constexpr ElementParameter voltage_parameters[] = {{.name = "dc", .unit = "V", .is_value = true}};
 constexpr ElementParameter current_parameters[] = {{.name = "dc", .unit = "A", .is_value = true}};
-constexpr std::string_view voltage_source_names[] = {"ac", "td", "r"}, current_source_names[] = {"ac", "td", "r", "m"};
+constexpr std::string_view voltage_source_names[] = {"ac", "td", "r", "rser", "cpar"}, current_source_names[] = {"ac", "td", "r", "m"};
 
 }  // namespace
 

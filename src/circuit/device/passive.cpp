@@ -34,15 +34,18 @@ Result<void> check_parameters(const Element& e, const DeviceSetup& setup) {
 /// i = v / R. Unknowns: two nodes.
 class Resistor final : public DeviceWithValue {
     double g_, kelvin_;  // S, of m resistors in parallel; K
+    bool is_noisy_;
 
 public:
-    Resistor(double r, double m, double kelvin) : DeviceWithValue(r / m), g_(m / r), kelvin_(kelvin) {}
+    Resistor(double r, double m, double kelvin, bool is_noisy) : DeviceWithValue(r / m), g_(m / r), kelvin_(kelvin), is_noisy_(is_noisy) {}
     void eval(std::span<const double> v, const EvalContext&, const Stamp& out) const override {
         Stamp::add_between(out.f, 0, 1, g_ * (v[0] - v[1]));
         out.add_conductance(0, 1, g_);
     }
     bool set_principal_value(double r) override { return r != 0 && (g_ = 1 / r, value_ = r, true); }
-    std::vector<NoiseSource> noise(std::span<const double>) const override { return {{"thermal", 0, 1, 4 * boltzmann * kelvin_ * g_, 0}}; }
+    std::vector<NoiseSource> noise(std::span<const double>) const override {
+        return is_noisy_ ? std::vector<NoiseSource>{{"thermal", 0, 1, 4 * boltzmann * kelvin_ * g_, 0}} : std::vector<NoiseSource>();
+    }
     std::vector<OperatingValue> operating_info(std::span<const double> v) const override {
         return {{"i", "A", g_ * (v[0] - v[1])}, {"p", "W", g_ * (v[0] - v[1]) * (v[0] - v[1])}};
     }
@@ -78,7 +81,7 @@ Result<std::unique_ptr<Device>> make_resistor(const Element& e, DeviceSetup& set
     if (e.expression) return make_expression_device(e, setup, ExpressionQuantity::current);
     const double r = at_temperature(e.value, e, setup), m = value_or(e.values, "m", 1);
     if (r == 0) return error_at(e.location, "{}: 0 ohm is not allowed; use a voltage source of 0 V as a wire", e.name);
-    return make_device<Resistor>(setup.ends(e), r, m, setup.temperature(e));
+    return make_device<Resistor>(setup.ends(e), r, m, setup.temperature(e), value_or(e.values, "noisy", 1) != 0);
 }
 
 Result<std::unique_ptr<Device>> make_capacitor(const Element& e, DeviceSetup& setup) {
@@ -242,6 +245,7 @@ Result<std::string> write_passive(const ElementExport& e) {
     if (e.model() && e.model()->values.contains("tnom")) out += ' ' + e.names.model(e.element.model);
     if (tc1 != 0 || tc2 != 0) out += fmt::format(" tc1={} tc2={}", tc1, tc2);
     if (e.element.values.contains("ic")) out += fmt::format(" ic={}", e.value("ic", 0));
+    if (e.value("noisy", 1) == 0) out += " noisy=0";
     return out + e.temperature() + '\n' + series;
 }
 
@@ -272,8 +276,9 @@ constexpr ElementParameter capacitor_parameters[] = {{.name = "c", .unit = "F", 
                                                      parameter_dtemp};
 constexpr ElementParameter inductor_parameters[] = {
     {.name = "l", .unit = "H", .low = 0, .is_value = true}, parameter_m, parameter_tc1, parameter_tc2, parameter_temp, parameter_dtemp};
-constexpr std::string_view resistor_names[] = {"scale", "l", "w"}, capacitor_names[] = {"q", "ic", "scale", "l", "w"},
-                           inductor_names[] = {"ic", "scale", "rser"}, charge_names[] = {"q"};
+constexpr std::string_view resistor_names[] = {"scale", "l", "w", "noisy"},
+                           capacitor_names[] = {"q", "ic", "scale", "l", "w", "rser", "lser", "rpar", "cpar"},
+                           inductor_names[] = {"ic", "scale", "rser", "rpar", "cpar"}, charge_names[] = {"q"};
 
 }  // namespace
 

@@ -45,8 +45,14 @@ private:
         const auto w = line_.text(k);
         return line_.is_plain(k) && (w == "dc" || w == "ac" || w == "distof1" || w == "distof2" || shape_of(w));
     }
+    /// True if the next word is the phase in ac=MAGNITUDE,PHASE.
+    bool is_phase_of_ac() const {
+        const auto* ac = line_.find("ac");
+        if (ac == nullptr || is_done() || line_.word(k_).at < ac->value.at || line_.word(k_ - 1).at > ac->value.at) return false;
+        return line_.is_after_comma(k_);
+    }
     bool is_number_next() const {
-        if (is_done() || is_keyword(k_)) return false;
+        if (is_done() || is_keyword(k_) || is_phase_of_ac()) return false;
         return !line_.is_plain(k_) || parse_number(line_.text(k_)) || line_.is_parameter(k_);
     }
     Result<double> number() { return line_.number(k_++); }
@@ -78,6 +84,10 @@ private:
     /// Reads dc, ac or a time waveform with its numbers.
     Result<void> next_item() {
         const auto w = line_.text(k_);
+        if (is_phase_of_ac()) {
+            out_.ac_phase = TRY(number());
+            return {};
+        }
         if (w == "dc") return ++k_, dc();
         if (w == "ac") return ++k_, ac();
         if (w == "distof1" || w == "distof2") return skip_distortion();
@@ -99,8 +109,12 @@ private:
         out_.shape = row.shape;
         const auto keyword = k_ - 1;
         while (!is_done() && !is_keyword(k_)) {
+            if (is_phase_of_ac()) break;
             number_words_.push_back(k_);
-            out_.numbers.push_back(TRY(number()));
+            const bool is_relative =
+                row.shape == Shape::piecewise_linear && out_.numbers.size() % 2 == 0 && line_.text(k_).starts_with('+');
+            const double previous = is_relative && out_.numbers.size() > 1 ? out_.numbers[out_.numbers.size() - 2] : 0;
+            out_.numbers.push_back(previous + TRY(number()));
         }
         const auto n = out_.numbers.size();
         if (n < row.min_numbers || n > row.max_numbers)
@@ -113,10 +127,12 @@ private:
 
     /// Warns about "sin(0 0,5 1k)": if blanks separate the numbers, a comma between two digits was probably meant as a decimal point.
     void warn_about_decimal_commas() {
-        std::size_t commas = 0, with_comma = 0;
-        for (const auto k : number_words_)
-            if (k != number_words_.front() && !line_.number_with_decimal_comma(k).empty()) ++commas, with_comma = k;
-        if (commas == 0 || commas + 1 >= number_words_.size()) return;
+        std::size_t commas = 0, separating = 0, with_comma = 0;
+        for (const auto k : number_words_ | std::views::drop(1)) {
+            separating += line_.is_after_comma(k);
+            if (!line_.number_with_decimal_comma(k).empty()) ++commas, with_comma = k;
+        }
+        if (commas == 0 || separating + 1 >= number_words_.size()) return;
         line_.warn(with_comma, fmt::format("'{},{}' is two numbers; the decimal point is a dot: {}", line_.text(with_comma - 1),
                                            line_.text(with_comma), line_.number_with_decimal_comma(with_comma)));
     }
@@ -175,6 +191,7 @@ SourceWaveform::SourceWaveform(Waveform wave, double step, double stop) : wave_(
         breakpoints_ = {rise_delay, number(4, rise_delay + step_)};
     }
     if (wave_.shape == Shape::sine) breakpoints_ = {number(3, 0)};
+    if (wave_.shape == Shape::sine && number(6, 0) > 0) breakpoints_.push_back(number(3, 0) + number(6, 0) / frequency());
     if (wave_.shape == Shape::amplitude_modulated) breakpoints_ = {number(4, 0)};
 }
 
@@ -207,10 +224,10 @@ double SourceWaveform::pulse(double t) const {
     return t < start + (rise + width + fall) ? v2 + (v1 - v2) * ((t - down) / fall) : v1;
 }
 
-/// The arguments of SIN are vo va freq td theta phase.
+/// The arguments of SIN are vo va freq td theta phase ncycles. After `ncycles` cycles it has its initial value; 0: no limit.
 double SourceWaveform::sine(double t) const {
-    const double elapsed = t - number(3, 0), phase = number(5, 0) / 360;
-    if (elapsed < 0) return number(0, 0) + number(1, 0) * num::sin_turns(phase);
+    const double elapsed = t - number(3, 0), phase = number(5, 0) / 360, cycles = number(6, 0);
+    if (elapsed < 0 || (cycles > 0 && elapsed >= cycles / frequency())) return number(0, 0) + number(1, 0) * num::sin_turns(phase);
     const double turns = frequency() * elapsed + phase;
     return number(0, 0) + number(1, 0) * num::sin_turns(turns - std::floor(turns)) * num::exp(-elapsed * number(4, 0));
 }

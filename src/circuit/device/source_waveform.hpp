@@ -14,7 +14,7 @@ struct WaveformSyntax {
 };
 inline constexpr WaveformSyntax waveform_syntaxes[] = {
     {"pulse", Waveform::Shape::pulse, 2, 8, "pulse(v1 v2 td tr tf pw per np)"},
-    {"sin", Waveform::Shape::sine, 2, 6, "sin(vo va freq td theta phase)"},
+    {"sin", Waveform::Shape::sine, 2, 7, "sin(vo va freq td theta phase ncycles)"},
     {"exp", Waveform::Shape::exponential, 2, 6, "exp(v1 v2 td1 tau1 td2 tau2)"},
     {"pwl", Waveform::Shape::piecewise_linear, 2, 2000000, "pwl(t1 v1 t2 v2 ...)"},
     {"sffm", Waveform::Shape::frequency_modulated, 2, 7, "sffm(vo va fc mdi fs phasec phases)"},

@@ -19,6 +19,8 @@ std::string input_text(const ElementExport& e, const ExpressionInput& in) {
             return "time";
         case ExpressionInput::Kind::frequency:
             return "hertz";
+        case ExpressionInput::Kind::part:  // only in expressions of curves
+            return "0";
         case ExpressionInput::Kind::temperature:
             if (e.element.values.contains("temp")) return fmt::format("{}", celsius_of(e.circuit, e.element));
             return e.element.values.contains("dtemp") ? fmt::format("(temper+{})", e.value("dtemp", 0)) : "temper";
@@ -108,7 +110,8 @@ std::vector<std::string> unique_names(const std::vector<std::string>& wanted, st
 /// The name that an element has in the export, before illegal characters are replaced.
 std::string exported_name(const Element& e) {
     const auto prefix = kind_of(e).export_prefix;
-    return e.name.find('.') != std::string::npos ? fmt::format("{}{}_{}", prefix, e.letter, e.name) : fmt::format("{}{}", prefix, e.name);
+    const bool has_letter = e.name.find('.') == std::string::npos && e.name[0] == e.letter;  // not x1.r1, nor the resistance c1#rser
+    return has_letter ? fmt::format("{}{}", prefix, e.name) : fmt::format("{}{}_{}", prefix, e.letter, e.name);
 }
 
 bool is_in_name(char c) { return is_letter_or_digit(c) || c == '_' || c == '.' || c == '#' || c == '@'; }
@@ -151,8 +154,14 @@ std::string model_text(const Circuit& circuit, std::size_t k, const ExportNames&
     for (const auto& [name, value] : m.values) {
         const bool is_left_out =
             name == "level" ||
-            (m.type == "d" && (name == "jsw" || name == "ikf" || name == "trs" || name == "rsw" || (name == "bv" && value == 0))) ||
+            (m.type == "d" && (name == "jsw" || name == "rsw" || name == "tbv2" || name == "tikf" || (name == "bv" && value == 0))) ||
             (name == "cjo" && m.values.contains("cj0"));
+        if (m.type == "d" && (name == "tbv1" || name == "tcv")) {  // ngspice has the decrease of bv in volts
+            if (name == "tcv" && m.values.contains("tbv1")) continue;
+            const double decrease = value_or(m.values, "tcv", 0) - value_or(m.values, "tbv1", 0) * value_or(m.values, "bv", 0);
+            out += fmt::format("{}tcv={}", out.back() == '(' ? "" : " ", decrease);
+            continue;
+        }
         if (!is_left_out) out += fmt::format("{}{}={}", out.back() == '(' ? "" : " ", name == "cj0" ? "cjo" : name, value);
     }
     return out + ")\n";
@@ -183,7 +192,7 @@ ExportNames::ExportNames(const Circuit& circuit) : circuit_(circuit) {
 }
 
 std::string ExportNames::node(std::string_view name) const {
-    const int number = name == "gnd" ? 0 : circuit_.find_node(name);
+    const int number = is_ground(name) ? 0 : circuit_.find_node(name);
     return number < 0 ? "" : nodes_[static_cast<std::size_t>(number)];
 }
 

@@ -72,6 +72,27 @@ double Expression::evaluate(std::span<const double> inputs, Values& values) cons
     return steps_.empty() ? 0 : values[steps_.size() - 1];
 }
 
+bool Expression::is_rational() const {
+    constexpr std::string_view rational[] = {"+", "-", "*", "/"};
+    return std::ranges::all_of(
+        steps_, [&](const Step& s) { return !s.operation || std::ranges::find(rational, s.operation->name) != std::end(rational); });
+}
+
+std::complex<double> Expression::complex_value(std::span<const std::complex<double>> inputs) const {
+    std::vector<std::complex<double>> values;
+    values.reserve(steps_.size());
+    for (const auto& s : steps_) {
+        if (!s.operation) {
+            values.push_back(s.input >= 0 ? inputs[static_cast<std::size_t>(s.input)] : s.number);
+            continue;
+        }
+        const auto a = values[static_cast<std::size_t>(s.a)], b = values[static_cast<std::size_t>(s.b)];
+        const char name = s.operation->name[0];
+        values.push_back(s.operation->operands == 1 ? -a : name == '+' ? a + b : name == '-' ? a - b : name == '*' ? a * b : a / b);
+    }
+    return values.back();
+}
+
 bool Expression::has_jumps() const {
     return std::any_of(steps_.begin(), steps_.end(), [](const Step& s) { return s.operation && s.operation->has_jumps(); });
 }

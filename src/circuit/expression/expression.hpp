@@ -1,8 +1,10 @@
 #pragma once
 // An expression of a netlist, parsed once and evaluated many times, with its derivatives.
 
+#include <complex>
 #include <cstdint>
 #include <functional>
+#include <memory>
 #include <span>
 #include <string_view>
 #include <vector>
@@ -13,12 +15,21 @@ namespace corpuscle::circuit {
 
 struct Operation;
 
-/// An input of an expression: v(a), v(a,b), i(vx), time (s), temper (the temperature in degrees Celsius) or frequency (Hz).
+/// True for the names of the node at 0 V; HSPICE has gnd!.
+inline bool is_ground(std::string_view node) { return node == "0" || node == "gnd" || node == "gnd!"; }
+
+class Expression;
+
+/// An input of an expression: v(a), v(a,b), i(vx), time (s), temper (the temperature in degrees Celsius) or frequency (Hz). Kind::part is a
+/// part of the complex value of another expression, as in db(v(out)/v(in)).
 struct ExpressionInput {
-    enum class Kind { voltage, current, time, temperature, frequency } kind;
-    std::string name, minus;     ///< voltage: the node and its reference ("" is ground); current: the element
-    std::string_view part = {};  ///< of a complex value: "m", "db", "p", "r" or "i", as in vdb(out); "" is the value itself
-    bool operator==(const ExpressionInput&) const = default;
+    enum class Kind { voltage, current, time, temperature, frequency, part } kind;
+    std::string name, minus;                    ///< voltage: the node and its reference ("" is ground); current: the element
+    std::string_view part = {};                 ///< of a complex value: "m", "db", "p", "r" or "i", as in vdb(out); "" is the value itself
+    std::shared_ptr<const Expression> of = {};  ///< Kind::part: the other expression; `name` is its text
+    bool operator==(const ExpressionInput& other) const {
+        return kind == other.kind && name == other.name && minus == other.minus && part == other.part;
+    }
 };
 
 /// The names that are visible to an expression.
@@ -33,9 +44,9 @@ struct ExpressionScope {
     std::function<const Function*(std::string_view)> function{};  ///< returns null if no function has this name
     /// Returns the value of a random function with constant arguments. If null, it is the first argument.
     std::function<double(std::string_view, std::span<const double>)> random{};
-    bool allows_inputs = false;                                   ///< true if voltages, currents and time are allowed; false in .param
-    bool allows_parts = false;                                    ///< true if vdb(a), ip(v1) ... and the frequency are allowed, too
-    std::vector<std::string> suggestions{};                       ///< known names, for "did you mean" in the error about an unknown name
+    bool allows_inputs = false;              ///< true if voltages, currents and time are allowed; false in .param
+    bool allows_parts = false;               ///< true if vdb(a), db(v(a)) ... and the frequency are allowed, too
+    std::vector<std::string> suggestions{};  ///< known names, for "did you mean" in the error about an unknown name
     /// Return the name in the circuit of a node or an element of this scope ("x1.n3" for "n3" inside x1). If null, the name is kept.
     std::function<std::string(std::string_view)> node{}, element{};
 };
@@ -64,6 +75,11 @@ public:
     /// The inputs, in the order in which value() takes their values.
     std::span<const ExpressionInput> inputs() const { return inputs_; }
     bool is_constant() const { return inputs_.empty(); }
+
+    /// True if it has only numbers, inputs and + - * /, so that its inputs may be complex.
+    bool is_rational() const;
+    /// The value for complex inputs, if is_rational().
+    std::complex<double> complex_value(std::span<const std::complex<double>> inputs) const;
 
     bool has_jumps() const;  ///< true if it contains a comparison, a condition or a rounding function
 

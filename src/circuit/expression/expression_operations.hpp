@@ -52,6 +52,13 @@ struct RandomFunction {
 /// Null if there is none of this name.
 const RandomFunction* find_random_function(std::string_view name);
 
+/// A function of a complex value, such as mag, db, ph. `part` is that of an ExpressionInput; "" if the function is not available.
+struct PartFunction {
+    std::string_view name, part;
+};
+/// Null if there is none of this name.
+const PartFunction* find_part_function(std::string_view name);
+
 struct NamedConstant {
     std::string_view name;
     double value;

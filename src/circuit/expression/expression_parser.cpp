@@ -15,6 +15,17 @@ constexpr std::size_t max_steps = 1000000;   // of one expression, after the exp
 
 constexpr std::string_view complex_parts[] = {"m", "db", "p", "r", "i"};
 
+/// "4.7k" for "4k7", as the values of parts are printed; "" for any other text.
+std::string with_decimal_point(std::string_view text) {
+    constexpr std::string_view digits = "0123456789";
+    const auto before = std::min(text.find_first_not_of(digits), text.size());
+    const auto after = std::min(text.find_first_of(digits, before), text.size());
+    const auto scale = lower(text.substr(before, after - before)), fraction = lower(text.substr(after));
+    const bool is_scale = scale == "meg" || (scale.size() == 1 && std::string_view("rtgkmunpf").find(scale[0]) != std::string_view::npos);
+    if (before == 0 || fraction.empty() || !is_scale || fraction.find_first_not_of(digits) != std::string::npos) return "";
+    return fmt::format("{}.{}{}", text.substr(0, before), fraction, scale == "r" ? "" : scale);
+}
+
 bool starts_name(char c) { return (lower(c) >= 'a' && lower(c) <= 'z') || c == '_'; }
 bool in_name(char c) { return starts_name(c) || (c >= '0' && c <= '9') || c == '.' || c == '#' || c == '@'; }
 
@@ -102,7 +113,9 @@ private:
     }
 
     Index input(ExpressionInput::Kind kind, std::string name = "", std::string minus = "", std::string_view part = "") {
-        ExpressionInput new_input{kind, std::move(name), std::move(minus), part};
+        return input(ExpressionInput{kind, std::move(name), std::move(minus), part});
+    }
+    Index input(ExpressionInput new_input) {
         const auto found = std::find(out_.inputs_.begin(), out_.inputs_.end(), new_input);
         const auto k = found - out_.inputs_.begin();
         if (k >= max_inputs) return fail(at_, "the expression uses more than {} voltages and currents", max_inputs);
@@ -255,7 +268,9 @@ private:
         const auto end = at_ + (read ? read->length : 1);
         if (!read || (end < text_.size() && (in_name(text_[end])))) {
             name_here();
-            return fail(from, "'{}' is not a number", text_.substr(from, std::max<std::size_t>(1, at_ - from)));
+            const auto text = text_.substr(from, std::max<std::size_t>(1, at_ - from));
+            const auto point = with_decimal_point(text);
+            return fail(from, "'{}' is not a number{}", text, point.empty() ? "" : "; write " + point);
         }
         if (auto why = ambiguity(*read, text_.substr(from, end - from))) return fail(from, "{}", *why);
         at_ = end;
@@ -298,10 +313,12 @@ private:
     }
     Index call(const std::string& name, std::size_t from) {
         const auto* user_function = scope_.function ? scope_.function(name) : nullptr;
+        if (scope_.allows_parts && !user_function && name == "im" && has_call_inside()) return part_of(*find_part_function(name), from);
         if (!user_function && (name == "v" || name == "i")) return voltage_or_current(name[0], "", from);
         if (const auto part = part_named(name); !user_function && !part.empty()) return voltage_or_current(name[0], part, from);
         if (!user_function && (name == "ddt" || name == "idt" || name == "sdt"))
             return fail(from, "{}() is not supported; for a charge, use a capacitor with q='...'", name);
+        if (const auto* part = scope_.allows_parts && !user_function ? find_part_function(name) : nullptr) return part_of(*part, from);
         const auto* row = find_function(name, scope_.allows_inputs);
         const auto* random = find_random_function(name);
         const bool is_table = name == "table" || name == "pwl";
@@ -405,6 +422,42 @@ private:
         return found == std::end(complex_parts) ? "" : *found;
     }
 
+    /// True for im(v(a)), the imaginary part; false for im(v1), the magnitude of a current.
+    bool has_call_inside() const {
+        const auto next = text_.find_first_of("()", at_ + 1);
+        return next != std::string_view::npos && text_[next] == '(';
+    }
+    /// Reads mag(...), db(...) and similar, of an expression that may be complex. In parentheses, parameters are known, but not the
+    /// arguments of a function being expanded.
+    Index part_of(const PartFunction& function, std::size_t from) {
+        if (function.part.empty())
+            return fail(from, "{}() is not available: the phase between two points is not continued; use ph()", function.name);
+        std::size_t end = at_;
+        for (int depth = 0; end < text_.size(); ++end) {
+            depth += text_[end] == '(' ? 1 : text_[end] == ')' ? -1 : 0;
+            if (depth == 0) break;
+        }
+        if (end == text_.size()) return fail(at_, "this '(' is not closed");
+        const auto inside = text_.substr(at_ + 1, end - at_ - 1);
+        if (depth_ >= max_expression_depth) return fail(from, "the expression is nested deeper than the limit of {}", max_expression_depth);
+        FormulaReader reader(inside, location_, scope_);
+        reader.depth_ = depth_ + 1;
+        auto parsed = reader.read();
+        if (!parsed) return fail(at_ + 1, "{}", parsed.error().message);
+        if (!parsed->is_rational()) return fail(from, "{}(): only + - * / of curves and numbers are available in it", function.name);
+        at_ = end + 1;
+        const bool is_curve =
+            parsed->steps_.size() == 1 && parsed->inputs_.size() == 1 && parsed->inputs_[0].part.empty() &&
+            (parsed->inputs_[0].kind == ExpressionInput::Kind::voltage || parsed->inputs_[0].kind == ExpressionInput::Kind::current);
+        if (is_curve) {
+            auto& of = parsed->inputs_[0];
+            return input(of.kind, std::move(of.name), std::move(of.minus), function.part);
+        }
+        ExpressionInput new_input{ExpressionInput::Kind::part, std::string(inside), "", function.part,
+                                  std::make_shared<const Expression>(std::move(*parsed))};
+        return input(std::move(new_input));
+    }
+
     /// Reads the names in parentheses after v or i (`kind`), which is at offset `from`.
     Index voltage_or_current(char kind, std::string_view part, std::size_t from) {
         if (!scope_.allows_inputs) return fail(from, "{}(...) is not available in a parameter, only in an expression of the circuit", kind);
@@ -427,7 +480,7 @@ private:
 
     /// The name in the circuit of a node that the expression calls `name`; "" is ground.
     std::string node(const std::string& name) const {
-        std::string full = name == "0" || name == "gnd" ? "" : scope_.node ? scope_.node(name) : name;
+        std::string full = is_ground(name) ? "" : scope_.node ? scope_.node(name) : name;
         return full == "0" ? "" : full;
     }
     Index voltage(const std::string& plus, const std::string& minus) {

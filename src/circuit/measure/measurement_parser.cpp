@@ -155,7 +155,9 @@ private:
         auto parsed = Expression::parse(text, directive_.location_of(at_), names);
         if (parsed)
             if (auto view = CurveView::of_expression(head_, std::move(*parsed))) return *view;
-        if (scope_.circuit && unavailable_quantity(*scope_.circuit, head_, name)) return no_curve(name);
+        const auto quantity = scope_.circuit ? unavailable_quantity(*scope_.circuit, head_, name) : std::nullopt;
+        const bool is_only_complex = quantity && CurveView::find(head_, *quantity);
+        if (quantity && !(is_only_complex && !parsed)) return no_curve(name);
         if (!parsed) return error_here("{}", parsed.error().message);
         return no_curve(name);
     }

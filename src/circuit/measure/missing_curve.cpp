@@ -19,7 +19,7 @@ std::string with_dots(std::string_view name) {
 
 bool is_node(const Circuit& c, std::string_view name) {
     const auto node = with_dots(name);
-    return node == "0" || node == "gnd" || c.find_node(node) >= 0;
+    return is_ground(node) || c.find_node(node) >= 0;
 }
 
 /// True for an element, and for a subcircuit or a node of one: m1, x1, x1.a.
@@ -56,7 +56,7 @@ std::vector<std::string_view> quantities_in(std::string_view text) {
         while (from > 0 && is_in_name(text[from - 1])) --from;
         const auto name = text.substr(from, open - from);
         const auto close = text.find(')', open);
-        if (name.empty() || close == std::string_view::npos || find_function(name, true) != nullptr) continue;
+        if (name.empty() || close == std::string_view::npos || find_function(name, true) || find_part_function(name)) continue;
         out.push_back(text.substr(from, close + 1 - from));
     }
     return out;

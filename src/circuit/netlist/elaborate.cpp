@@ -2,8 +2,8 @@
 
 #include "circuit/devices.hpp"
 #include "circuit/expression/spice_number.hpp"
+#include "circuit/netlist/parasitic/voltage_loops.hpp"
 #include "circuit/netlist/scope.hpp"
-#include "circuit/netlist/voltage_loops.hpp"
 #include "core/text/ascii_text.hpp"
 
 namespace corpuscle::circuit {
@@ -25,6 +25,8 @@ class CircuitElaborator {
     std::vector<NodeVoltage> node_voltages_;
     /// Names with a path in the .ic and .nodeset lines of the top level; for a port, the node that it is connected to, else -1.
     std::unordered_map<std::string, int> ports_in_ic_;
+    /// Whether a subcircuit uses a name that an X line gives and its .subckt line does not.
+    std::map<std::pair<const SubcktDef*, std::string>, std::optional<bool>> used_names_;
 
 public:
     CircuitElaborator(const ParsedNetlist& parsed, const ResolvedOverrides& overrides, std::optional<RandomDraws> draws)
@@ -44,6 +46,7 @@ public:
         c.elements.reserve(parsed_.top.elements.size());
         TRY(elaborate_contents(top_));
         if (!builder_.refusals.empty()) return builder_.refusals.combined();
+        TRY(check_stepped());
         TRY(check_references());
         TRY(resolve_node_voltages());
         add_resistance_in_loops(c);
@@ -87,12 +90,45 @@ private:
     Result<void> define_top(const Values& given) {
         auto all = given;
         all.insert(builder_.overrides.parameters.begin(), builder_.overrides.parameters.end());  // does not replace given values
-        for (const auto& [name, value] : all)
-            if (!parsed_.top.parameters.contains(name))
-                return error_at(location_of_step(name), "there is no .param {}{}", name,
-                                did_you_mean(name, std::views::keys(parsed_.top.parameters)));
+        for (auto at = all.begin(); at != all.end();) {
+            const auto& [name, value] = *at;
+            if (parsed_.top.parameters.contains(name)) {
+                ++at;
+                continue;
+            }
+            const auto location = location_of_step(name);
+            if (location.line == 0 || step_names_parameter(name)) return no_parameter(name, location);
+            builder_.stepped.emplace(name, value);
+            at = all.erase(at);
+        }
         TRY(top_.define(all));
         return top_.evaluate_conditions(builder_);
+    }
+
+    Error no_parameter(std::string_view name, SourceLocation location) const {
+        const bool is_element = std::ranges::any_of(parsed_.top.elements, [&](const Statement* s) { return s->text(0) == name; });
+        return error_at(
+            std::move(location), "there is no .param {}{}", name,
+            is_element ? "; leave out the word param to step the element" : did_you_mean(name, std::views::keys(parsed_.top.parameters)));
+    }
+    /// True if the .step of this name says that it is a parameter.
+    bool step_names_parameter(std::string_view name) const {
+        return std::ranges::any_of(parsed_.directives, [&](const Statement* s) {
+            for (std::size_t k = 2; s->text(0) == ".step" && k < s->words.size(); ++k)
+                if (s->text(k) == name && s->text(k - 1) == "param") return true;
+            return false;
+        });
+    }
+    /// Every value of .step must have an element.
+    Result<void> check_stepped() const {
+        for (const auto& [name, value] : builder_.stepped)
+            if (!builder_.stepped_elements.contains(name)) {
+                std::vector<std::string_view> known;
+                for (const auto& [parameter, text] : parsed_.top.parameters) known.push_back(parameter);
+                for (const auto& e : builder_.circuit.elements) known.push_back(e.name);
+                return error_at(location_of_step(name), ".step: there is no parameter or element '{}'{}", name, did_you_mean(name, known));
+            }
+        return {};
     }
 
     /// The location of the .step of a parameter; that of the netlist if there is none.
@@ -213,7 +249,7 @@ private:
             if (inner.definition->defaults.contains(name) || inner.definition->parameters.contains(name))  // .param too, as in ngspice
                 given.insert_or_assign(std::string(name), value);
             else if (name != "m")
-                TRY(unknown_parameter(s, pair, name, *inner.definition));
+                TRY(unknown_parameter(s, pair, name, value, *inner.definition, given));
             else if (!(value > 0))
                 return error_at(s.location(pair.value), "{}: m = {:g} must be positive", s.text(0), value);
             else
@@ -231,8 +267,13 @@ private:
         const auto other = with_given.evaluate(text);
         return other ? other : value;
     }
-    /// A name that resembles a parameter is a typing error. Any other one is a warning, as in ngspice.
-    Result<void> unknown_parameter(const Statement& s, const NameValue& pair, std::string_view name, const SubcktDef& body) {
+    /// A name that the subcircuit uses is one of its parameters, as in LTspice. One that resembles a parameter is a typing error. Any other
+    /// one is a warning, as in ngspice.
+    Result<void> unknown_parameter(const Statement& s, const NameValue& pair, std::string_view name, double value, const SubcktDef& body,
+                                   Values& given) {
+        auto& is_used = used_names_[{&body, std::string(name)}];
+        if (!is_used) is_used = uses_name(body, name);
+        if (*is_used) return given.insert_or_assign(std::string(name), value), Result<void>();
         auto suggestion = did_you_mean(name, std::views::keys(body.defaults));
         if (suggestion.empty()) suggestion = did_you_mean(name, std::views::keys(body.parameters));
         auto error = error_at(s.location(pair.name), "{}: subcircuit '{}' has no parameter '{}'{}", s.text(0), body.name, name,
@@ -300,6 +341,11 @@ private:
     /// True if an option of another simulator has no counterpart here; adds a warning.
     bool is_ignored_option(std::string_view name, XycePackage package, const SourceLocation& location) {
         if (name == "scale") return false;  // which Xyce has in the package "parser"
+        if (is_small_element_option(name)) {
+            builder_.circuit.warnings.push_back(
+                error_at(location, ".options: '{}' is ignored: no such elements are added; if they matter, write them", name));
+            return true;
+        }
         if (package == XycePackage::none ? !is_foreign_option(name) : package == XycePackage::devices && is_option(name)) return false;
         builder_.circuit.warnings.push_back(package == XycePackage::none
                                                 ? error_at(location, ".options: '{}' is not known and is ignored", name)
@@ -444,7 +490,7 @@ private:
 
 }  // namespace
 
-Refusals find_missing_devices(const ParsedNetlist& parsed) {
+Refusals find_refused_elements(const ParsedNetlist& parsed) {
     const ResolvedOverrides none;
     CircuitElaborator elaborator(parsed, none, {});
     static_cast<void>(elaborator.run({}));

@@ -60,9 +60,17 @@ bool looks_like_statement(std::string_view title) {
     }
     if (words.empty()) return false;
     if (words[0][0] == '.') return true;
+    const auto is_digit = [](char c) { return c >= '0' && c <= '9'; };
+    const auto is_in_name = [&](char c) { return is_digit(c) || (c >= 'a' && c <= 'z') || c == '_'; };
     if (words.size() < 4 || words[0].size() < 2 || !is_element_letter(words[0][0])) return false;
-    if (!std::any_of(words[0].begin(), words[0].end(), [](char c) { return c >= '0' && c <= '9'; })) return false;
-    return words.size() == 5 || parse_number(words[3]) || words[3].find_first_of("{'=") != std::string::npos;
+    if (!std::ranges::all_of(words[0], is_in_name) || !std::ranges::any_of(words[0], is_digit)) return false;
+    if (parse_number(words[3]) || words[3].find_first_of("{'=") != std::string::npos) return true;
+    // A device with a model: several of its nodes are numbers or ground, or it has name=value.
+    const auto is_element_word = [&](const std::string& word) {
+        return is_digit(word[0]) || is_ground(word) || word.find_first_of("={") != std::string::npos;
+    };
+    const bool is_source = words[3] == "dc" || words[3] == "ac" || words[3].starts_with("pulse") || words[3].starts_with("sin(");
+    return is_source || std::count_if(words.begin() + 1, words.end(), is_element_word) >= 2;
 }
 
 }  // namespace corpuscle::circuit

@@ -2,6 +2,7 @@
 
 #include "circuit/devices.hpp"
 #include "circuit/expression/spice_number.hpp"
+#include "circuit/netlist/parasitic/parasitics.hpp"
 #include "circuit/netlist/scope.hpp"
 #include "core/text/ascii_text.hpp"
 
@@ -14,6 +15,12 @@ std::size_t find_model_word(Scope& scope, const Statement& s) {
     std::size_t k = s.words.size() - 1;
     while (k > 0 && scope.definer_of_model(s.text(k)) == nullptr) --k;
     return k;
+}
+
+/// True for what LTspice writes into the line of an R, C or L about the part and its limits, and that no equation has.
+bool is_rating(const DeviceKind& kind, std::string_view name) {
+    constexpr std::string_view ratings[] = {"irms", "ipk", "v", "tol", "pwr", "mfg", "type", "pn"};
+    return std::string_view("rcl").find(kind.letter) != std::string_view::npos && std::ranges::find(ratings, name) != std::end(ratings);
 }
 
 /// The kind of device of a line: by its letter, and by the level of its model if it has one.
@@ -37,9 +44,11 @@ Result<void> ElementReader::read() {
     TRY(kind_.read(*this));
     TRY(named_parameters());
     apply_size_options();
+    TRY(apply_step());
     override_values();
     TRY(apply_tolerances());
     TRY(apply_multiplicity());
+    TRY(add_parasitics(builder_, element, scope_.m));
     return builder_.add_element(std::move(element));
 }
 
@@ -55,8 +64,11 @@ bool ElementReader::refuse_level() {
 
 Error ElementReader::too_many(std::size_t word) const {
     const bool is_in_list = continues_initial_voltages(word, word_count());
-    if (const auto number = number_with_decimal_comma(word); !number.empty() && !is_in_list)
-        return error_at(word - 1, "'{},{}' has a decimal comma; write {}", text(word - 1), text(word), number);
+    if (const auto number = number_with_decimal_comma(word); !number.empty() && !is_in_list) {
+        const bool may_be_thousands = text(word).find_first_not_of("0123456789") == 3 || text(word).size() == 3;
+        return error_at(word - 1, "'{},{}' has a decimal comma; write {}{}", text(word - 1), text(word), number,
+                        may_be_thousands ? fmt::format(", or {}{}", text(word - 1), text(word)) : "");
+    }
     return error_at(word, "unexpected '{}'", text(word));
 }
 
@@ -77,18 +89,28 @@ std::string ElementReader::number_with_decimal_comma(std::size_t word) const {
     const auto before = text(word - 1), after = text(word);
     const auto digits = before.substr(before.starts_with('-') || before.starts_with('+'));
     const bool is_whole = !digits.empty() && digits.find_first_not_of("0123456789") == std::string_view::npos;
-    const bool is_split_by_comma =
-        s_.words[word].at == s_.words[word - 1].at + before.size() + 1 && s_.line.text[s_.words[word].at - 1] == ',';
+    const bool is_split_by_comma = s_.words[word].at == s_.words[word - 1].at + before.size() + 1 && is_after_comma(word);
     const bool is_fraction = !after.empty() && after[0] >= '0' && after[0] <= '9' && parse_number(after);
     return is_whole && is_split_by_comma && is_fraction ? fmt::format("{}.{}", before, after) : "";
+}
+
+bool ElementReader::is_after_comma(std::size_t word) const {
+    const auto at = s_.words[word].at;
+    const auto before = at == 0 ? std::string_view::npos : std::string_view(s_.line.text).find_last_not_of(" \t", at - 1);
+    return before != std::string_view::npos && s_.line.text[before] == ',';
 }
 
 bool ElementReader::is_model(std::size_t word) const { return scope_.definer_of_model(text(word)) != nullptr; }
 bool ElementReader::is_parameter(std::size_t word) const { return scope_.parameter(text(word)).has_value(); }
 
-Result<void> ElementReader::nodes(std::size_t n, std::string_view expected) {
-    for (std::size_t k = 1; k <= n; ++k) {
-        if (k >= word_count() || !is_plain(k)) return error_at(k, "{} node{}, but expected {}: {}", k - 1, k == 2 ? "" : "s", n, expected);
+Result<void> ElementReader::nodes(std::size_t n, std::string_view expected) { return nodes_from(1, n, expected); }
+
+Result<void> ElementReader::nodes_from(std::size_t first, std::size_t n, std::string_view expected) {
+    for (std::size_t k = first; k < first + n; ++k) {
+        if (k >= word_count() || !is_plain(k)) {
+            const auto found = element.nodes.size();
+            return error_at(k, "{} node{}, but expected {}: {}", found, found == 1 ? "" : "s", found + first + n - k, expected);
+        }
         element.nodes.push_back(builder_.find_or_add_node(scope_, text(k)));
     }
     return {};
@@ -99,11 +121,13 @@ Result<void> ElementReader::model(std::size_t word, std::initializer_list<std::s
     return {};
 }
 
-void ElementReader::drop_unknown_model_values(std::span<const std::string_view> known) {
+void ElementReader::drop_unknown_model_values(std::span<const std::string_view> known, std::span<const std::string_view> ignored) {
     auto& model = builder_.circuit.models[static_cast<std::size_t>(element.model)];
     std::erase_if(model.values, [&](const auto& value) {
         const std::string& name = value.first;
-        if (std::ranges::find(known, std::string_view(name)) != known.end() || !did_you_mean(name, known).empty()) return false;
+        const auto is_in = [&](std::span<const std::string_view> names) { return std::ranges::find(names, name) != names.end(); };
+        if (is_in(known) || (!is_in(ignored) && !did_you_mean(name, known).empty())) return false;
+        if (is_in(ignored) && value.second == 0) return true;
         builder_.warn_once(circuit::error_at(model.location, "{}: models of type {} have no parameter '{}', so it has no effect",
                                              model.name, model.type, name));
         return true;
@@ -194,7 +218,7 @@ Result<void> ElementReader::named_parameters() {
     known.insert(known.end(), kind_.other_names.begin(), kind_.other_names.end());
     for (const auto& pair : s_.pairs) {
         const auto name = s_.text(pair.name);
-        if (find_tolerance(name) != nullptr) continue;  // see apply_tolerances()
+        if (find_tolerance(name) != nullptr || is_rating(kind_, name)) continue;  // see apply_tolerances()
         if (std::find(read_names_.begin(), read_names_.end(), name) != read_names_.end()) continue;
         if (std::find(known.begin(), known.end(), name) == known.end())
             return error_at(pair.name, "unknown parameter '{}'{}", name, did_you_mean(name, known));
@@ -220,6 +244,18 @@ void ElementReader::apply_size_options() {
     for (const auto& p : kind_.parameters)
         if (const auto given = options.find("def" + std::string(p.name)); given != options.end())
             element.values.try_emplace(std::string(p.name), given->second);
+}
+
+/// Replaces the value of the line by that of .step.
+Result<void> ElementReader::apply_step() {
+    const auto stepped = builder_.stepped.find(element.name);
+    if (stepped == builder_.stepped.end()) return {};
+    const bool has_value = std::ranges::any_of(kind_.parameters, [](const ElementParameter& p) { return p.is_value; });
+    if (!has_value || element.expression)
+        return error_at(0, ".step: a {} has no value to step; write {{x}} in its line or model, and .step param x", kind_.description);
+    set_main_value(element, stepped->second);
+    builder_.stepped_elements.insert(element.name);
+    return {};
 }
 
 /// Replaces values of the line by those of the overrides.

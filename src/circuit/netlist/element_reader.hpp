@@ -37,11 +37,13 @@ public:
 
     /// Reads the first n words after the name as nodes. `expected` describes all words, for the error message.
     Result<void> nodes(std::size_t n, std::string_view expected);
+    /// Reads the n words from number `first` on as further nodes.
+    Result<void> nodes_from(std::size_t first, std::size_t n, std::string_view expected);
     /// Reads the word as the name of a model, which must have one of these types.
     Result<void> model(std::size_t word, std::initializer_list<std::string_view> types);
     /// Removes the parameters of the model that are not in `known`, with a warning, as ngspice does. One that resembles a known name is a
-    /// typing error, and stays until the device refuses it.
-    void drop_unknown_model_values(std::span<const std::string_view> known);
+    /// typing error, and stays until the device refuses it, unless it is in `ignored`. Those of `ignored` that are 0 give no warning.
+    void drop_unknown_model_values(std::span<const std::string_view> known, std::span<const std::string_view> ignored = {});
     Result<double> number(std::size_t word) const;
     Result<double> number(const NameValue&);
     Result<double> number(const Word&) const;
@@ -90,6 +92,8 @@ public:
     Error too_many(std::size_t word) const;  ///< the error for a word after the last one that the element can have
     /// The number that a decimal comma before this word splits into two, "0,5", with a point; "" if there is none.
     std::string number_with_decimal_comma(std::size_t word) const;
+    /// True if a comma, and nothing else, is between this word and the text before it.
+    bool is_after_comma(std::size_t word) const;
 
 private:
     Error error_in(SourceLocation location, std::string_view message) const {
@@ -102,6 +106,7 @@ private:
     Result<void> named_parameters();
     void apply_size_options();
     void override_values();
+    Result<void> apply_step();
     Result<void> apply_tolerances();
     Result<std::optional<double>> tolerance(std::string_view name);
     Result<void> apply_multiplicity();

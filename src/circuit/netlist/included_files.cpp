@@ -44,6 +44,10 @@ Result<IncludedFiles::Opened> IncludedFiles::open(std::string_view name, std::st
     return Opened{std::move(source), text};
 }
 
+bool IncludedFiles::exists(std::string_view name) const {
+    return static_cast<bool>(open_(resolved_path(being_read_.back().path, std::string(name))));
+}
+
 Result<void> IncludedFiles::enter(FileSection source, std::size_t bytes) {
     bytes_read_ += bytes;
     if (bytes_read_ > max_text_bytes)

@@ -34,6 +34,8 @@ public:
 
     /// Opens a file that the present one calls `name`, at `location`. A file that cannot be read is added to the refusals.
     Result<Opened> open(std::string_view name, std::string section, const SourceLocation& location);
+    /// True if the file that the present one calls `name` can be read.
+    bool exists(std::string_view name) const;
     /// Call these before and after reading a file. The first one is the main file.
     Result<void> enter(FileSection, std::size_t bytes);
     void leave() { being_read_.pop_back(); }

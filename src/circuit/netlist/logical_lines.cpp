@@ -15,6 +15,9 @@ std::size_t length_of_micro_sign(std::string_view s) {
     return s.starts_with("\xb5") ? 1 : 0;
 }
 
+/// The same of an ohm sign or a Greek capital omega, which end a number: 100 ohm.
+std::size_t length_of_ohm_sign(std::string_view s) { return s.starts_with("\xce\xa9") ? 2 : s.starts_with("\xe2\x84\xa6") ? 3 : 0; }
+
 /// The same of a degree sign, which is left out: 27 degrees Celsius is 27C.
 std::size_t length_of_degree_sign(std::string_view s) { return s.starts_with("\xc2\xb0") ? 2 : s.starts_with("\xb0") ? 1 : 0; }
 
@@ -121,6 +124,11 @@ Result<void> LogicalLineReader::append(std::string_view physical, std::size_t fr
         if (quote_ == 0 && begins_comment(physical, k)) break;
         if (const auto length = length_of_micro_sign(physical.substr(k)); length > 0 && quote_ != '"') {
             next_.text += 'u', k += length - 1;
+            next_.segments.push_back({static_cast<std::uint32_t>(next_.text.size()), number_, static_cast<std::uint32_t>(k) + 2});
+            continue;
+        }
+        if (const auto length = length_of_ohm_sign(physical.substr(k)); length > 0 && quote_ != '"') {
+            next_.text += "ohm", k += length - 1;
             next_.segments.push_back({static_cast<std::uint32_t>(next_.text.size()), number_, static_cast<std::uint32_t>(k) + 2});
             continue;
         }

@@ -32,6 +32,10 @@ std::vector<std::string> sections_in(std::string_view text, std::string_view wan
 
 }  // namespace
 
+bool is_modifier_of_tran(std::string_view word) {
+    return word == "startup" || word == "steady" || word == "nodiscard" || word == "step" || word == "noop";
+}
+
 SourceLocation Directive::location_of(std::size_t word) const {
     auto out = location;
     if (word < columns.size()) out.column = columns[word];
@@ -60,7 +64,7 @@ Result<Netlist> Netlist::parse(std::string text, std::string file, const FileOpe
     if (const auto ok = read_netlist(text, file, open, corner, *parsed, refusals); !ok)
         refusals.add(ok.error());
     else if (!refusals.empty())
-        refusals.add_devices_of(find_missing_devices(*parsed));
+        refusals.add_elements_of(find_refused_elements(*parsed));
     if (!refusals.empty()) return refusals.combined();
     Netlist out;
     out.impl_ = std::move(parsed);

@@ -59,6 +59,9 @@ struct Model {
     std::map<std::string, std::string, std::less<>> texts;  ///< values that are not numbers: text in double quotes, and version=3.3.0
 };
 
+/// True for a word of LTspice's or Xyce's .tran that has no effect here.
+bool is_modifier_of_tran(std::string_view word);
+
 /// A directive of the circuit: .op, .dc, .ac, .meas, .print, .save, .expect, ... Words are in small letters except for quoted ones, and
 /// expressions in braces are replaced by their values.
 struct Directive {

@@ -38,19 +38,23 @@ constexpr OptionRow option_rows[] = {
 
 /// Options of other simulators that control iterations, memory or output. They are ignored, since they do not change the equations.
 constexpr std::string_view without_effect[] = {
-    "abstolpow",    "acct",   "autostop",    "bypass",      "chgtol",    "cptime",    "dvdt",         "gminsteps",
-    "gshuntsteps",  "ingold", "interp",      "itl2",        "itl3",      "itl4",      "itl5",         "itl6",
-    "keepopinfo",   "klu",    "limpts",      "limtim",      "linsolver", "list",      "lvltim",       "measdgt",
-    "minbreak",     "noacct", "noinit",      "node",        "nomod",     "noopalter", "noopiter",     "nopage",
-    "nutmeg",       "numdgt", "numthreads",  "num_threads", "opts",      "optran",    "oldlimit",     "output",
-    "pivrel",       "pivtol", "plotwinsize", "post",        "probe",     "relv",      "reli",         "runlvl",
-    "savecurrents", "seed",   "sparse",      "srcsteps",    "threads",   "trtol",     "trytocompact", "width",
-    "wnflag",       "xmu",    "numsteps",    "ngdebug",     "brief",     "scalestop", "rawfmt",       "autoconv",
+    "abstolpow",    "acct",     "autostop",   "bypass",        "chgtol",     "cptime",     "dvdt",        "gminsteps",  "gshuntsteps",
+    "ingold",       "interp",   "itl2",       "itl3",          "itl4",       "itl5",       "itl6",        "keepopinfo", "klu",
+    "limpts",       "limtim",   "linsolver",  "list",          "lvltim",     "measdgt",    "minbreak",    "noacct",     "noinit",
+    "node",         "nomod",    "noopalter",  "noopiter",      "nopage",     "nutmeg",     "numdgt",      "numthreads", "num_threads",
+    "opts",         "optran",   "oldlimit",   "output",        "pivrel",     "pivtol",     "plotwinsize", "post",       "probe",
+    "relv",         "reli",     "runlvl",     "savecurrents",  "seed",       "sparse",     "srcsteps",    "threads",    "trtol",
+    "trytocompact", "width",    "wnflag",     "xmu",           "numsteps",   "ngdebug",    "brief",       "scalestop",  "rawfmt",
+    "autoconv",     "accurate", "fast",       "fastaccess",    "plotreltol", "plotabstol", "plotvntol",   "nomarch",    "topologycheck",
+    "ngbehavior",   "maxstep",  "thev_induc", "dampinductors", "measout",    "ascii",      "psf",         "csdf",       "co",
+    "lis_new",      "dcon",     "captab",     "unwrap",
 };
 
+/// Options that add elements too small to matter in most circuits. They are ignored with a warning.
+constexpr std::string_view small_elements[] = {"rshunt", "gshunt", "cshunt", "cmin", "rseries", "minr", "resmin"};
+
 /// Options that change the circuit itself. Ignoring them would simulate a different circuit, so they are errors.
-constexpr std::string_view unsupported[] = {"scalm",     "rshunt",  "gshunt", "cshunt", "cmin",   "badmos3",
-                                            "geoshrink", "rseries", "minr",   "resmin", "parhier"};
+constexpr std::string_view unsupported[] = {"scalm", "badmos3", "geoshrink", "parhier"};
 
 template <class Names>
 bool contains_name(const Names& names, std::string_view name) {
@@ -71,9 +75,11 @@ auto option_names() {
 
 bool is_option(std::string_view name) { return std::ranges::find(option_rows, name, &OptionRow::name) != std::end(option_rows); }
 
+bool is_small_element_option(std::string_view name) { return contains_name(small_elements, name); }
+
 bool is_foreign_option(std::string_view name) {
     return !is_option(name) && !contains_name(without_effect, name) && !contains_name(unsupported, name) &&
-           did_you_mean(name, option_names()).empty();
+           !is_small_element_option(name) && did_you_mean(name, option_names()).empty();
 }
 
 XycePackage xyce_package(std::string_view word) {
@@ -85,7 +91,7 @@ Result<void> check_option(std::string_view name, std::optional<double> number, s
                           const SourceLocation& location) {
     const auto* row = std::find_if(std::begin(option_rows), std::end(option_rows), [&](const OptionRow& r) { return r.name == name; });
     if (row == std::end(option_rows)) {
-        if (contains_name(without_effect, name)) return {};
+        if (contains_name(without_effect, name) || is_small_element_option(name)) return {};
         if (contains_name(unsupported, name))
             return error_at(location, ".options {}: not supported, because it changes the circuit; set it at the elements instead", name);
         const auto hint = did_you_mean(name, option_names());

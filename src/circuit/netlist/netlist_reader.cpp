@@ -5,6 +5,7 @@
 #include "circuit/netlist/dialects.hpp"
 #include "circuit/netlist/element_line.hpp"
 #include "circuit/netlist/included_files.hpp"
+#include "circuit/netlist/scope.hpp"
 #include "circuit/netlist/script/control_script.hpp"
 #include "core/text/ascii_text.hpp"
 
@@ -40,6 +41,7 @@ public:
     Result<void> read_all(std::string_view text, const std::string& path) {
         TRY(read(text, {path, ""}));
         remove_repeated_analyses();
+        define_stepped_parameters();
         warn_about_dialect(out_);
         return files_.check_corner(path);
     }
@@ -58,6 +60,21 @@ private:
     };
     static std::span<const Row> rows();
 
+    /// Directives of other simulators that change what is simulated, with the remedy.
+    static const std::map<std::string, std::string_view, std::less<>>& missing_directives() {
+        static const std::map<std::string, std::string_view, std::less<>> all = {
+            {".data", "; write .step param NAME list VALUE ..."},
+            {".machine", ""},
+            {".hb", "; a .tran of many periods with .four gives the harmonics"},
+            {".pss", "; a .tran of many periods with .four gives the harmonics"},
+            {".fft", "; use .four FREQUENCY CURVE"},
+            {".disto", "; use .four FREQUENCY CURVE"},
+            {".sp", "; use .ac"},
+            {".stimulus", "; write the waveform in the line of the source"},
+            {".connect", "; use one name for both nodes, or a 0 V source"},
+            {".sampling", "; use .mc COUNT"}};
+        return all;
+    }
     static const Row* find_row(std::string_view name) {
         static const Row of_analysis{"", &NetlistReader::output, Place::top_level};
         const auto all = rows();
@@ -138,8 +155,10 @@ private:
                             row->read == &NetlistReader::parameters ? ", and write .param x={condition ? a : b}" : "");
         if ((row->place == Place::top_level || row->place == Place::top_level_not_in_if) && body_->head)
             return error_at(line.location(), "{} is not allowed inside .subckt {}; move it outside", word, body_->name);
+        const bool is_missing = row->read == &NetlistReader::missing || row->read == &NetlistReader::missing_block;
         auto ok = (this->*row->read)(lines, std::move(line));
-        return row->after_error == AfterError::ends ? ok : keep(std::move(ok));
+        if (row->after_error == AfterError::ends) return ok;
+        return keep(std::move(ok), is_missing ? Refusals::Kind::directive : Refusals::Kind::other);
     }
 
     /// Keeps the error of a statement for later, so that the following statements are also read.
@@ -179,6 +198,34 @@ private:
     Result<void> without_effect(LogicalLineReader&, LogicalLine line) {
         out_.marks.insert(line.text.substr(0, line.text.find_first_of(" \t")));
         return {};
+    }
+    Result<void> without_effect_here(LogicalLineReader&, LogicalLine line) {
+        const auto word = line.text.substr(0, line.text.find_first_of(" \t('\"{"));
+        out_.warnings.push_back(error_at(line.location(), "{} has no effect here", word));
+        return {};
+    }
+    Result<void> missing(LogicalLineReader&, LogicalLine line) {
+        const auto word = line.text.substr(0, line.text.find_first_of(" \t('\"{"));
+        return error_at(line.location(), "{} is not supported{}", word, missing_directives().find(word)->second);
+    }
+    /// Refuses a block of lines that are data or a program, and skips it.
+    Result<void> missing_block(LogicalLineReader& lines, LogicalLine line) {
+        const auto from = line.location();
+        const auto word = line.text.substr(0, line.text.find_first_of(" \t('\"{"));
+        const auto end = ".end" + word.substr(1);
+        while (true) {
+            const auto more = TRY(lines.next(line));
+            if (!more) return error_at(from, "{} is not closed by {}", word, end);
+            if (lower(std::string_view(line.text).substr(0, end.size())) == end) break;
+        }
+        return error_at(from, "{} is not supported{}", word, missing_directives().find(word)->second);
+    }
+    /// .alter of HSPICE begins the changes for another run.
+    Result<void> alter(LogicalLineReader&, LogicalLine line) {
+        out_.warnings.push_back(error_at(line.location(),
+                                         ".alter is not supported: only the circuit before it is simulated, and the lines "
+                                         "after it are not read; use .step or --set"));
+        return ended_ = true, Result<void>();
     }
     Result<void> end(LogicalLineReader&, LogicalLine) { return ended_ = true, Result<void>(); }
     Result<void> initial_voltages(LogicalLineReader&, LogicalLine line) { return store_directive(std::move(line), body_->ics); }
@@ -320,8 +367,19 @@ private:
         return skip_section(lines, read.line.location());
     }
 
+    /// True for LTspice's own libraries, such as lib/cmp/standard.bjt, if there is no file of this name.
+    bool is_missing_standard_library(std::string_view name) const {
+        const auto file = lower(name.substr(name.find_last_of("/\\") + 1));
+        return file.starts_with("standard.") && !files_.exists(name);
+    }
+
     /// Reads an included file, or a section of a library. `location` is that of the line that names it.
     Result<void> open(std::string_view name, std::string section, SourceLocation location) {
+        if (is_missing_standard_library(name)) {
+            out_.warnings.push_back(
+                error_at(location, "'{}' is not read: the models of LTspice's own library must be in the netlist", name));
+            return {};
+        }
         const auto file = TRY(files_.open(name, std::move(section), location));
         if (!file.text) return {};
         auto ok = read(*file.text, file.source);
@@ -344,6 +402,24 @@ private:
             if (command.is_analysis) script_analyses_.push_back(&s);
         }
         return {};
+    }
+
+    /// True if a directive uses the name in its values.
+    bool is_used_by_directive(std::string_view name) const {
+        return std::ranges::any_of(out_.directives, [&](const Statement* s) { return s->text(0) != ".step" && uses_name(*s, name); });
+    }
+    /// Defines the parameters that a .step steps and the netlist uses, but that no .param defines, as LTspice does.
+    void define_stepped_parameters() {
+        for (const auto* s : out_.directives) {
+            if (s->text(0) != ".step") continue;
+            std::size_t k = 1;
+            while (s->text(k) == "dec" || s->text(k) == "oct" || s->text(k) == "lin") ++k;
+            if (s->text(k) != "param" || k + 2 >= s->words.size()) continue;
+            const std::string name(s->text(k + 1));
+            const auto first = s->text(k + 2) == "list" ? k + 3 : k + 2;
+            if (first >= s->words.size() || out_.top.parameters.contains(name)) continue;
+            if (uses_name(out_.top, name) || is_used_by_directive(name)) out_.top.parameters.emplace(name, WordRef{s, s->words[first]});
+        }
     }
 
     /// Removes each analysis of a script that the netlist also has as a directive. The prints and measures of the script then belong to the
@@ -421,6 +497,33 @@ std::span<const NetlistReader::Row> NetlistReader::rows() {
         {".nolist", &R::without_effect},
         {".backanno", &R::without_effect},
         {".csparam", &R::without_effect},
+        // Others, whose absence a user may notice.
+        {".wave", &R::without_effect_here},
+        {".net", &R::without_effect_here},
+        {".preprocess", &R::without_effect_here},
+        {".watch", &R::without_effect_here},
+        {".autoconverge", &R::without_effect_here},
+        {".savebias", &R::without_effect_here},
+        {".loadbias", &R::without_effect_here},
+        {".ferret", &R::without_effect_here},
+        {".text", &R::without_effect_here},
+        {".vector", &R::without_effect_here},
+        {".protect", &R::without_effect_here},
+        {".unprotect", &R::without_effect_here},
+        {".prot", &R::without_effect_here},
+        {".unprot", &R::without_effect_here},
+        {".biaschk", &R::without_effect_here},
+        {".alter", &R::alter, not_in_if},
+        {".data", &R::missing_block},
+        {".machine", &R::missing_block},
+        {".hb", &R::missing},
+        {".fft", &R::missing},
+        {".disto", &R::missing},
+        {".sp", &R::missing},
+        {".pss", &R::missing},
+        {".stimulus", &R::missing},
+        {".connect", &R::missing},
+        {".sampling", &R::missing},
     };
     return all;
 }

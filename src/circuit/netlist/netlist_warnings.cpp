@@ -134,6 +134,12 @@ void warn_about_pulses(std::vector<Error>& out, const Circuit& c) {
 
 void warn_about_tran_times(std::vector<Error>& out, const Circuit& c) {
     for (const auto& directive : c.directives_named("tran")) {
+        for (const auto& word : directive.words)
+            if (is_modifier_of_tran(word))
+                out.push_back(error_at(directive.location,
+                                       ".tran: '{}' has no effect: the transient begins at the operating point, or with "
+                                       "uic at the voltages of .ic, and keeps all points from START on",
+                                       word));
         if (directive.words.size() < 2) continue;
         if (starts_from_initial_conditions(directive) && directive.words.back() != "uic")
             out.push_back(error_at(directive.location, ".tran: the words after uic have no effect: {}",

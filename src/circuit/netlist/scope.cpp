@@ -231,6 +231,36 @@ std::optional<double> Scope::model_level(std::string_view name) {
     return value ? std::optional(*value) : std::nullopt;
 }
 
+bool uses_name(const Statement& s, std::string_view name) {
+    const auto is_in = [&](const Word& w) {
+        bool found = false;
+        if (w.kind != Word::Kind::quoted) for_each_name(s.text(w), [&](std::string_view other) { found |= other == name; });
+        return found;
+    };
+    return std::any_of(s.words.begin() + std::min<std::ptrdiff_t>(1, std::ssize(s.words)), s.words.end(), is_in) ||
+           std::ranges::any_of(s.pairs, [&](const NameValue& pair) { return is_in(pair.value); });
+}
+
+bool uses_name(const SubcktDef& body, std::string_view name) {
+    const auto in_statement = [&](const Statement* s) { return uses_name(*s, name); };
+    const auto in_text = [&](std::string_view text) {
+        bool found = false;
+        for_each_name(text, [&](std::string_view other) { found |= other == name; });
+        return found;
+    };
+    if (std::ranges::any_of(body.elements, in_statement) || std::ranges::any_of(body.ics, in_statement)) return true;
+    for (const auto& [model, statements] : body.models)
+        if (std::ranges::any_of(statements, in_statement)) return true;
+    for (const auto* definitions : {&body.parameters, &body.defaults})
+        for (const auto& [parameter, text] : *definitions)
+            if (in_text(text.view())) return true;
+    for (const auto& [function, definition] : body.functions)
+        if (in_text(definition.text)) return true;
+    for (const auto& condition : body.conditions)
+        if (condition.text && in_text(condition.text->view())) return true;
+    return std::ranges::any_of(body.subcircuits, [&](const auto& inner) { return uses_name(*inner.second, name); });
+}
+
 std::string CircuitBuilder::node_name(const Scope& scope, std::string_view name) const {
     if (is_ground(name)) return "0";
     if (const auto port = scope.ports.find(name); port != scope.ports.end()) return circuit.nodes[static_cast<std::size_t>(port->second)];
@@ -286,6 +316,12 @@ Result<int> CircuitBuilder::find_or_add_model(Scope& scope, const WordRef& name,
     circuit.models.push_back(std::move(model));
     f->models.emplace(name.view(), k);
     return k;
+}
+
+int CircuitBuilder::add_inner_node(const std::string& name) {
+    const auto [at, is_new] = circuit.node_numbers.try_emplace(name, static_cast<int>(circuit.nodes.size()));
+    if (is_new) circuit.nodes.push_back(name), name_bytes_ += 2 * name.size();
+    return at->second;
 }
 
 Result<void> CircuitBuilder::add_element(Element e) {

@@ -82,6 +82,8 @@ public:
     RandomValues random;
     Refusals refusals;
     const ResolvedOverrides& overrides;
+    Values stepped;                                       ///< values by full path of the element, from .step
+    std::set<std::string, std::less<>> stepped_elements;  ///< those of them that were found
 
     CircuitBuilder(const ParsedNetlist& parsed, const ResolvedOverrides& resolved, std::optional<RandomDraws> draws)
         : parsed_(parsed), random(draws), overrides(resolved) {}
@@ -94,6 +96,8 @@ public:
     /// element that uses it. The model must have one of these types.
     Result<int> find_or_add_model(Scope&, const WordRef& name, std::string_view user, std::span<const std::string_view> types);
     Result<void> add_element(Element);
+    /// The index of a new node that no line names, such as "x1.c1#rser".
+    int add_inner_node(const std::string& name);
 
     /// Counts an elaborated statement and the memory of its name. Exceeding the limit of either is an error.
     Result<void> count_statement(const Scope&, const Statement&);
@@ -103,6 +107,11 @@ public:
     }
     bool is_limit_exceeded() const { return is_limit_exceeded_; }
 };
+
+/// True if a value in the statement is the name, or an expression that contains it.
+bool uses_name(const Statement&, std::string_view name);
+/// True if the elements, models or parameters of a definition use the name.
+bool uses_name(const SubcktDef&, std::string_view name);
 
 /// Reads the element of a line, except of an X line, and adds it to the circuit.
 Result<void> read_element(CircuitBuilder&, Scope&, const Statement&);

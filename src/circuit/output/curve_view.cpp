@@ -50,7 +50,12 @@ int CurveIndex::index_of(std::string_view name) const {
 
 std::complex<double> CurveView::part_of_value(std::complex<double> difference) const { return part_of(part_, difference); }
 
-double CurveView::evaluate_expression(const PlotRow& row) const {
+std::complex<double> CurveView::evaluate_expression(const PlotRow& row) const {
+    if (is_complex_expression_) {
+        std::vector<std::complex<double>> values;
+        for (const auto& input : inputs_) values.push_back(input.value(row));
+        return expression_->complex_value(values);
+    }
     constexpr std::size_t max_on_stack = 8;
     double on_stack[max_on_stack];
     std::vector<double> on_heap(inputs_.size() > max_on_stack ? inputs_.size() : 0);
@@ -85,13 +90,15 @@ std::string curve_name(const ExpressionInput& input) {
 std::optional<CurveView> CurveView::of_expression(const Plot& plot, Expression expression, const CurveIndex* index) {
     CurveView out;
     for (const auto& input : expression.inputs()) {
-        const bool is_complex = plot.is_complex && input.part.empty() && input.kind != ExpressionInput::Kind::frequency;
-        if (is_complex) return {};  // an expression is evaluated with real numbers
-        const auto found = find_named(plot, curve_name(input), index);
+        const bool is_part = input.kind == ExpressionInput::Kind::part;
+        out.is_complex_expression_ |= plot.is_complex && input.part.empty() && input.kind != ExpressionInput::Kind::frequency;
+        auto found = is_part ? of_expression(plot, *input.of, index) : find_named(plot, curve_name(input), index);
         if (!found) return {};
-        out.inputs_.push_back(*found);
+        if (is_part) found->part_ = input.part, found->is_complex_value_ = false;
+        out.inputs_.push_back(std::move(*found));
     }
-    out.is_complex_value_ = false;
+    if (out.is_complex_expression_ && !expression.is_rational()) return {};
+    out.is_complex_value_ = out.is_complex_expression_;
     out.expression_ = std::make_shared<const Expression>(std::move(expression));
     return out;
 }
@@ -116,9 +123,15 @@ std::optional<CurveView> CurveView::find(const Plot& plot, std::string_view name
 
 std::optional<CurveView> CurveView::find_named(const Plot& plot, std::string_view name, const CurveIndex* index) {
     CurveView out;
+    for (const std::string_view noise : {"onoise", "inoise"})
+        if (name == noise || name == fmt::format("v({})", noise)) {
+            out.plus_ = index_of(plot, fmt::format("{}_spectrum", noise), index);
+            if (out.plus_ >= 0) return out;
+        }
     const auto open = name.find('(');
     out.is_complex_value_ = open <= 1;
     out.plus_ = index_of(plot, name, index);
+    if (out.plus_ < 0 && (name == "freq" || name == "hertz")) out.plus_ = index_of(plot, "frequency", index);
     if (out.plus_ >= 0) return out;
     if (open == std::string_view::npos || !name.ends_with(')') || (name[0] != 'v' && name[0] != 'i')) return {};
     const auto* part = std::find(std::begin(part_names), std::end(part_names), name.substr(1, open - 1));
@@ -127,7 +140,7 @@ std::optional<CurveView> CurveView::find_named(const Plot& plot, std::string_vie
     const auto inside = name.substr(open + 1, name.size() - open - 2);
     const auto comma = inside.find(',');
     const auto find_curve = [&](std::string_view node, int& curve) {
-        if (node == "0" || node == "gnd") return true;
+        if (is_ground(node)) return true;
         curve = index_of(plot, std::string(1, name[0]) + "(" + std::string(node) + ")", index);
         return curve >= 0;
     };

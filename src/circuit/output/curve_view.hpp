@@ -18,8 +18,10 @@ public:
 /// A quantity that was looked up once in a plot by its name. It is a curve, a difference v(a,b), or one part of a complex curve. The parts
 /// are vm (magnitude), vdb (magnitude in dB), vp (phase in radians, as in ngspice), vr (real part) and vi (imaginary part), and im, idb,
 /// ip, ir, ii of currents. It may also be an expression of these and of time: par('EXPRESSION'), {EXPRESSION}, 'EXPRESSION' or, if it has
-/// an operator, EXPRESSION alone. In a complex plot each input of an expression must be a part, such as vm(a). Other spellings: v1#branch
-/// for i(v1), NODE for v(NODE), and x1:a for x1.a.
+/// an operator, EXPRESSION alone. In a complex plot each input must be a part, such as vm(a) or db(v(a)/v(b)), unless the expression has
+/// only
+/// + - * /. Other spellings: v1#branch for i(v1), NODE for v(NODE), x1:a for x1.a, freq for frequency, and onoise or v(onoise) for
+/// onoise_spectrum.
 class CurveView {
     static constexpr int ground = -1;
     int plus_ = ground, minus_ = ground;              // the value is curve plus_ minus curve minus_; indices of the plot's curves
@@ -27,9 +29,10 @@ class CurveView {
     bool is_complex_value_ = true;                    // the name has no part: v(a), i(x), v(a,b)
     std::shared_ptr<const Expression> expression_{};  // of par('...'), otherwise null
     std::vector<CurveView> inputs_{};                 // the curves for the inputs of the expression, in their order
+    bool is_complex_expression_ = false;              // it is evaluated with complex numbers
 
     std::complex<double> part_of_value(std::complex<double> difference) const;
-    double evaluate_expression(const PlotRow&) const;
+    std::complex<double> evaluate_expression(const PlotRow&) const;
     static std::optional<CurveView> find_named(const Plot&, std::string_view name, const CurveIndex* index);
 
 public:
@@ -39,7 +42,7 @@ public:
     static std::optional<CurveView> of_expression(const Plot&, Expression, const CurveIndex* index = nullptr);
 
     std::complex<double> value(const PlotRow& row) const {
-        if (expression_) return evaluate_expression(row);
+        if (expression_) return part_of_value(evaluate_expression(row));
         return part_of_value(value_of(row, plus_) - value_of(row, minus_));
     }
     /// The value for .meas. It is the magnitude if the name does not select a part of a complex curve, as in ngspice.

@@ -81,7 +81,7 @@ std::vector<std::string_view> elements_of(const Circuit& c) {
 }
 
 Result<std::optional<std::string>> resolve_node(const Circuit& c, std::string_view probe_text, std::string_view name) {
-    if (name == "0" || equal_ignoring_case(name, "gnd")) return std::optional<std::string>("0");
+    if (is_ground(lower(name))) return std::optional<std::string>("0");
     const auto names = nodes_of(c);
     const auto found = find_matching_names(names, name, LastPiece::node);
     if (found.size() > 1) return ambiguous_probe(probe_text, c, names, found);

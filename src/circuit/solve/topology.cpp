@@ -1,7 +1,7 @@
 #include "circuit/analyses.hpp"
 #include "circuit/devices.hpp"
 #include "circuit/netlist/node_sets.hpp"
-#include "circuit/netlist/voltage_loops.hpp"
+#include "circuit/netlist/parasitic/voltage_loops.hpp"
 #include "circuit/solve/system.hpp"
 #include "core/text/ascii_text.hpp"
 
@@ -31,7 +31,9 @@ Result<void> check_floating_nodes(const Circuit& c, bool charges_conduct) {
         if (sets.root(static_cast<int>(n)) != sets.root(0)) floating.push_back(static_cast<int>(n));
     if (floating.empty()) return {};
     const int first = floating[0];
-    bool sources = false;  // a current source is connected to this part
+    bool sources = false;     // a current source is connected to this part
+    bool is_isolated = true;  // no element connects it to another part
+    bool has_coils = false;   // it has inductors
     const Element* first_element = nullptr;
     std::vector<std::string> names;
     for (const int n : floating)
@@ -40,13 +42,15 @@ Result<void> check_floating_nodes(const Circuit& c, bool charges_conduct) {
         const bool touches = std::any_of(e.nodes.begin(), e.nodes.end(), [&](int n) { return sets.root(n) == sets.root(first); });
         if (!touches) continue;
         if (first_element == nullptr) first_element = &e;
+        is_isolated &= std::ranges::all_of(e.nodes, [&](int n) { return sets.root(n) == sets.root(first); });
+        has_coils |= has_role(e, Role::inductor);
         sources |= has_role(e, Role::current_source) || is_current_expression(e);
     }
     const auto what = names.size() == 1 ? fmt::format("node '{}' has", names[0]) : fmt::format("nodes '{}' have", joined(names, "', '"));
-    const std::string_view why = sources           ? "is connected to ground only through current sources, so nothing sets its voltage"
-                                 : charges_conduct ? "is not connected to ground, so nothing sets its voltage"
-                                                   : "is connected to ground through capacitors and gates at most, so nothing sets its "
-                                                     "voltage";
+    const auto why = is_isolated ? fmt::format("is not connected to ground{}, so nothing sets its voltage",
+                                               has_coils ? " (a coupling of inductors connects no nodes)" : "")
+                     : sources   ? std::string("is connected to ground only through current sources, so nothing sets its voltage")
+                                 : std::string("is connected to ground through capacitors and gates at most, so nothing sets its voltage");
     const auto subject = names.size() == 1 ? "it" : "their part of the circuit";
     return error_at(first_element != nullptr ? first_element->location : SourceLocation{c.file},
                     "{} no path to ground{}: {} {} (connected: {}). Add a large resistor to ground", what,

@@ -45,11 +45,15 @@ Result<NetlistVariants::Axis> read_axis(const Directive& c) {
     std::size_t at = 0;  // index of the word to read next
     const auto word = [&] { return at < c.words.size() ? c.words[at] : std::string(); };
     const double base = word() == "dec" ? 10 : word() == "oct" ? 2 : 0;  // 0: linear
-    at += base > 0;
+    at += base > 0 || word() == "lin";
     at += word() == "param";
     NetlistVariants::Axis axis{word(), {}};
     if (axis.name.empty()) return error_at(c.location, ".step: the name of the parameter is missing");
     ++at;
+    if (word().find('(') != std::string::npos || (axis.name.find('(') != std::string::npos))
+        return error_at(c.location_of(at),
+                        ".step: a parameter of a model is not stepped directly; write {{x}} for it in the .model line, and "
+                        ".step param x");
     if (word() != "list") {
         axis.values = TRY(base > 0 ? log_values(c, at, base) : linear_values(c, at));
         return axis;

@@ -63,34 +63,27 @@ constexpr std::pair<std::string_view, std::string_view> bipolar_aliases[] = {
     {"va", "vaf"}, {"ik", "ikf"}, {"vb", "var"},  {"pe", "vje"},   {"me", "mje"},    {"pc", "vjc"}, {"mc", "mjc"},
     {"ps", "vjs"}, {"ms", "mjs"}, {"ccs", "cjs"}, {"csub", "cjs"}, {"tref", "tnom"}, {"nk", "nkf"}};
 
-/// Names that are accepted because ngspice knows them, but only with the value 0: temperature coefficients, and the choice of other
-/// temperature laws.
-constexpr std::string_view zero_parameters[] = {
-    "tlev",  "tlevc", "tbf1",  "tbf2",  "tbr1", "tbr2",  "tikf1", "tikf2", "tikr1", "tikr2", "tirb1", "tirb2", "tnc1",
-    "tnc2",  "tne1",  "tne2",  "tnf1",  "tnf2", "tnr1",  "tnr2",  "trb",   "trb1",  "trb2",  "trc",   "trc1",  "trc2",
-    "tre",   "tre1",  "tre2",  "trm1",  "trm2", "tvaf1", "tvaf2", "tvar1", "tvar2", "ctc",   "cte",   "cts",   "tvjc",
-    "tvje",  "tvjs",  "titf1", "titf2", "ttf1", "ttf2",  "ttr1",  "ttr2",  "tmje1", "tmje2", "tmjc1", "tmjc2", "tmjs1",
-    "tmjs2", "tns1",  "tns2",  "tis1",  "tis2", "tise1", "tise2", "tisc1", "tisc2", "tiss1", "tiss2"};
+/// Parameters of ngspice that have no effect here: temperature coefficients, the choice of other temperature laws, and rco, which turns on
+/// the collector's quasi-saturation.
+constexpr std::string_view absent_parameters[] = {
+    "rco",   "tlev",  "tlevc", "tbf1",  "tbf2",  "tbr1", "tbr2",  "tikf1", "tikf2", "tikr1", "tikr2", "tirb1", "tirb2",
+    "tnc1",  "tnc2",  "tne1",  "tne2",  "tnf1",  "tnf2", "tnr1",  "tnr2",  "trb",   "trb1",  "trb2",  "trc",   "trc1",
+    "trc2",  "tre",   "tre1",  "tre2",  "trm1",  "trm2", "tvaf1", "tvaf2", "tvar1", "tvar2", "ctc",   "cte",   "cts",
+    "tvjc",  "tvje",  "tvjs",  "titf1", "titf2", "ttf1", "ttf2",  "ttr1",  "ttr2",  "tmje1", "tmje2", "tmjc1", "tmjc2",
+    "tmjs1", "tmjs2", "tns1",  "tns2",  "tis1",  "tis2", "tise1", "tise2", "tisc1", "tisc2", "tiss1", "tiss2"};
 
-/// Names without effect on the simulation: ratings, and parameters of the collector's quasi-saturation, which rco turns on.
+/// Names without effect on the simulation: ratings, and further parameters of quasi-saturation.
 constexpr std::string_view ignored_parameters[] = {"vbe_max", "vbc_max", "vce_max",  "pd_max", "ic_max", "ib_max",
                                                    "te_max",  "vceo",    "icrating", "rth0",   "cth0",   "vo",
                                                    "gamma",   "qco",     "quasimod", "vg",     "cn",     "d"};
 
 /// Names that are read apart from `bipolar_fields`.
-constexpr std::string_view other_parameters[] = {"level", "subs", "rco", "c2", "c4", "va",  "ik",   "vb",   "pe",
-                                                 "me",    "pc",   "mc",  "ps", "ms", "ccs", "csub", "tref", "nk"};
+constexpr std::string_view other_parameters[] = {"level", "subs", "c2", "c4", "va",  "ik",   "vb",   "pe", "me",
+                                                 "pc",    "mc",   "ps", "ms", "ccs", "csub", "tref", "nk"};
 
 Result<void> check_unsupported(const Model& model) {
     if (const double level = value_or(model.values, "level", 1); level != 1)
         return error_at(model.location, "{}: bipolar transistor level {:g} is not supported; use level=1", model.name, level);
-    for (const auto name : zero_parameters)
-        if (const double value = value_or(model.values, name, 0); value != 0)
-            return error_at(model.location, "{}: {} = {:g} is not supported (the temperature laws are those of SPICE); remove it",
-                            model.name, name, value);
-    if (const double value = value_or(model.values, "rco", 0); value != 0)
-        return error_at(model.location, "{}: rco = {:g} is not supported (the model has no quasi-saturation); remove it", model.name,
-                        value);
     const double subs = value_or(model.values, "subs", 1);
     if (subs != 1 && subs != -1) return error_at(model.location, "{}: subs = {:g} must be 1 (vertical) or -1 (lateral)", model.name, subs);
     return {};
@@ -99,7 +92,7 @@ Result<void> check_unsupported(const Model& model) {
 /// The rows of the card with the parameters of the model; see read_model_card().
 Result<BipolarCard> read_rows(const Model& model) {
     Model known = model;
-    for (const auto& names : {std::span<const std::string_view>(zero_parameters), std::span<const std::string_view>(ignored_parameters)})
+    for (const auto& names : {std::span<const std::string_view>(absent_parameters), std::span<const std::string_view>(ignored_parameters)})
         for (const auto name : names)
             if (const auto at = known.values.find(name); at != known.values.end()) known.values.erase(at);
     auto c = TRY(read_model_card<BipolarCard>(bipolar_fields, known, other_parameters));
@@ -114,10 +107,11 @@ Result<BipolarCard> read_rows(const Model& model) {
 
 std::vector<std::string_view> bipolar_parameter_names() {
     auto out = model_value_names(bipolar_fields, other_parameters);
-    out.insert(out.end(), std::begin(zero_parameters), std::end(zero_parameters));
     out.insert(out.end(), std::begin(ignored_parameters), std::end(ignored_parameters));
     return out;
 }
+
+std::span<const std::string_view> absent_bipolar_parameters() { return absent_parameters; }
 
 Result<BipolarCard> read_bipolar_card(const Model& model) {
     TRY(check_unsupported(model));

@@ -19,6 +19,8 @@ struct BipolarCard {
 
 /// All names that a card may have.
 std::vector<std::string_view> bipolar_parameter_names();
+/// Parameters that other simulators have and that have no effect here.
+std::span<const std::string_view> absent_bipolar_parameters();
 
 /// Reads the card. Refuses levels other than 1, and parameters whose effect is not implemented.
 Result<BipolarCard> read_bipolar_card(const Model&);

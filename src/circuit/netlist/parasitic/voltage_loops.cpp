@@ -1,4 +1,4 @@
-#include "circuit/netlist/voltage_loops.hpp"
+#include "circuit/netlist/parasitic/voltage_loops.hpp"
 
 #include "circuit/device/named_values.hpp"
 #include "circuit/devices.hpp"
