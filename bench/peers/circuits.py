@@ -57,16 +57,10 @@ def ladder(n):
 
 
 def rectifier():
-    """The netlist of a bridge of four diodes, and its curve."""
-    return """v1 a b sin(0 5 50)
-d1 a p d
-d2 b p d
-d3 0 a d
-d4 0 b d
-c1 p 0 10u
-r1 p 0 1k
-.model d d(is=1e-14 rs=1 cjo=2p)
-.tran 8m 0.4""", "v(p)"
+    """The bridge of four diodes."""
+    parts = ["v1 a b sin(0 5 50)", "d1 a p d", "d2 b p d", "d3 0 a d", "d4 0 b d", "c1 p 0 10u", "r1 p 0 1k",
+             ".model d d(is=1e-14 rs=1 cjo=2p)", ".tran 8m 0.4"]
+    return "\n".join(parts), "v(p)"
 
 
 def ring(n, models, name_p, name_n, stop):

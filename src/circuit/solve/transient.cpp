@@ -7,6 +7,8 @@ namespace {
 
 constexpr double min_relative_gap = 1e-12;  // minimum distance of the first point after a breakpoint, relative to the breakpoint's time
 
+constexpr double after_shortest = 1e-3;  // the step after one of the shortest length, relative to the longest of the recent ones
+
 constexpr int max_shortest_steps = 3;  // successive steps of the shortest length that are accepted with any error
 
 }  // namespace
@@ -188,11 +190,11 @@ double Transient::worst_error() {
     for (std::size_t n = 0; n < error_.size(); ++n)
         if (!has_charge_[n] && tolerance_[n] > 0)
             uncharged_error_ = std::max(uncharged_error_, std::abs(error_[n]) / (uncharged_factor * (tolerance_[n] + rounding_[n])));
-    return may_jump_ || is_after_failures_ ? worst : std::max(worst, uncharged_error_);
+    return may_jump_ ? worst : std::max(worst, uncharged_error_);
 }
 
-/// The largest error of a charge for the errors of the unknowns in error_, relative to that of its unknown's allowed error. In a step with a
-/// jump the voltages of nodes with charge may change, too, if no charge does: those of a capacitor with a resistance in series, when the
+/// The largest error of a charge for the errors of the unknowns in error_, relative to that of its unknown's allowed error. In a step with
+/// a jump the voltages of nodes with charge may change, too, if no charge does: those of a capacitor with a resistance in series, when the
 /// current into it changes.
 double Transient::worst_error_of_charges() {
     charge_error_.resize(error_.size());
@@ -312,10 +314,8 @@ Result<void> Transient::reject_step(double h, double error) {
     ++stats_.rejected;
     if (error == 0) ++stats_.diverged;
     if (control_.shorten(h, error, history_points_.count() > 1 ? history_points_[0].t - history_points_[1].t : 0,
-                         plan_.all_reported ? max_failures : 1)) {
+                         plan_.all_reported ? max_failures : 1))
         restart(false, plan_.all_reported);
-        is_after_failures_ = plan_.all_reported;
-    }
     const double shortest = StepControl::min_step(plan_.stop);
     if (control_.h >= shortest) return {};
     if (error > 0 && h > shortest && shortest_steps_ < max_shortest_steps) return control_.h = shortest, Result<void>();
@@ -367,10 +367,19 @@ void Transient::accept_step() {
     if (plan_.method == Integration::trapezoidal) detect_ringing();
     for (std::size_t n = 0; n < rate_.size(); ++n) rate_[n] = leading_ * next.q[n] + history_[n];
     control_.record_step(next.t - history_points_[0].t);
-    is_after_failures_ = false;
     history_points_.accept();
     update_tolerances();
     ++stats_.steps;
+}
+
+/// Called when the first step after a breakpoint or a change of state became too short. The voltages of a capacitor with a resistance in
+/// series jump there although their nodes have charge, and the estimated error does not fall with the length of the step. True if the point
+/// just after the breakpoint has not been tried with any error; it will be then. Its charges hardly differ from those before.
+bool Transient::must_accept_breakpoint_step() {
+    if (accepts_breakpoint_step_ || !plan_.all_reported || history_points_.count() > 1) return false;
+    accepts_breakpoint_step_ = true, start_phase_ = StartPhase::breakpoint;
+    control_.h = std::max(control_.recent_max_step, after_shortest * plan_.max_step);
+    return true;
 }
 
 /// If t0 is a breakpoint and all unknowns are reported, takes a step so short that no charge changes. It gives the values of unknowns
@@ -384,17 +393,17 @@ bool Transient::take_breakpoint_step(double t0, double next_breakpoint) {
     start_phase_ = StartPhase::first_step;
     restart(true, true);
     may_jump_ = true;
-    // Its error is not checked: where a voltage jumps although its node has charge, as at a capacitor with a resistance in series, it does
-    // not fall with the length. Charges change by far less than the allowed error.
     for (;; fraction *= longer) {
         const double h = std::min({control_.h, plan_.max_step, next_breakpoint - t0}), gap = min_relative_gap * t0;
         double error = 0;
-        if (gap > longest * h) return false;
+        if (gap > (accepts_breakpoint_step_ ? longest : fraction) * h) return false;
         const bool solved = attempt(t0 + std::max(fraction * h, gap), error);  // with a very short step, the matrix can be singular
         if (solved) measure_rounding();
-        if (solved && (!is_rounding_visible() || fraction >= longest)) break;
-        if (fraction >= longest) return false;
+        if (fraction < longest && (solved ? is_rounding_visible() : system_.is_linear() || accepts_breakpoint_step_)) continue;
+        if (!solved || !(error <= 1 || error_of(control_.order) <= 1 || accepts_breakpoint_step_)) return false;
+        break;
     }
+    accepts_breakpoint_step_ = false;
     curve_points_ = 2;
     accept_step();
     return restart_pending_ = true;
@@ -406,7 +415,6 @@ Result<bool> Transient::step(double until) {
     // the step is accepted.
     constexpr double min_reduction = 0.9;
     constexpr int max_not_reduced = 3;
-    constexpr double after_shortest = 1e-3;  // the next step, relative to the longest of the recent ones
     if (state_change_.is_needed()) TRY(change_states());
     if (std::exchange(restart_pending_, false)) restart(true, plan_.all_reported);
     if (state_change_.is_needed()) state_change_.begin(time(), x());
@@ -435,7 +443,10 @@ Result<bool> Transient::step(double until) {
         shortest_steps_ = shortest ? shortest_steps_ + 1 : 0;
         const bool accepts_error = not_reduced >= max_not_reduced || (shortest && shortest_steps_ <= max_shortest_steps);
         if (!solved || (!(worst <= 1) && !accepts_error)) {
-            TRY(reject_step(next.length(), solved ? worst : 0));
+            if (const auto ok = reject_step(next.length(), solved ? worst : 0); !ok) {
+                if (!must_accept_breakpoint_step()) return ok.error();
+                rejected = 0, not_reduced = 0;
+            }
             if (state_change_.is_needed()) state_change_.begin(t0, x());
             continue;
         }

@@ -54,16 +54,14 @@ private:
     StepControl control_;
     OrderLimit order_limit_;
     StateChangeSearch state_change_;
-    double last_change_ = 0;          // s: time of the last change of a state
-    int shortest_steps_ = 0;          // number of successive steps of the shortest length
-    int changes_at_once_ = 0;         // number of changes of states since the time last advanced
-    double leading_ = 0;              // 1/s: dq/dt = leading_ q + history_ in the current step
-    bool pivot_order_fixed_ = false;  // true after the first begin(), which fixes the pivot order of the matrix
-    bool restart_pending_ = false;    // the last point is a breakpoint of a source or the end of a jump: integration restarts there
-    bool may_jump_ = false;           // the current step is so short that it may contain a jump
-    /// After a restart that follows rejections, currents into charges come from the equations and no longer from the polynomial. They
-    /// change by an amount that no shorter step reduces, so their error does not reject the next step.
-    bool is_after_failures_ = false;
+    double last_change_ = 0;                // s: time of the last change of a state
+    int shortest_steps_ = 0;                // number of successive steps of the shortest length
+    int changes_at_once_ = 0;               // number of changes of states since the time last advanced
+    double leading_ = 0;                    // 1/s: dq/dt = leading_ q + history_ in the current step
+    bool pivot_order_fixed_ = false;        // true after the first begin(), which fixes the pivot order of the matrix
+    bool restart_pending_ = false;          // the last point is a breakpoint of a source or the end of a jump: integration restarts there
+    bool may_jump_ = false;                 // the current step is so short that it may contain a jump
+    bool accepts_breakpoint_step_ = false;  // the point just after a breakpoint is accepted with any error
     enum class StartPhase {
         none,
         first_step,  // the next step is the first normal one after a breakpoint, which is short
@@ -104,6 +102,7 @@ private:
     void measure_rounding(double& error, double& curve_error);
     bool is_rounding_visible();
     double interpolation_error();
+    bool must_accept_breakpoint_step();
     bool take_breakpoint_step(double t0, double next_breakpoint);
     void restart(bool forget, bool exact = false);
     std::optional<std::vector<double>> solve_with_charges_kept(double h);
