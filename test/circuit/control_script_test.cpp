@@ -200,6 +200,12 @@ TEST(ControlScript, PartsOfCurvesAndNumbersArePrintedAsSuch) {
     EXPECT_NE(table_of(run, 0).find("-5.0000000e-01"), std::string::npos) << table_of(run, 0);
 }
 
+TEST(ControlScript, DecibelsOfAQuotientOfCurvesAreTaken) {
+    const auto run = run_script("ac dec 100 1 10k\nlet gain = db(v(out)/v(in))\nmeas ac corner when gain=-3.0103\nprint gain\n");
+    EXPECT_NEAR(run.number("corner") / 159.15494, 1, 1e-3);
+    EXPECT_TRUE(run.warnings().empty()) << run.warnings()[0].text();
+}
+
 TEST(ControlScript, UnsetAndUnletRemoveTheirNames) {
     const auto run = run_script("let in = 5\nset n = 2m\nunlet in\nunset n\ntran 10u 1m\ntran 10u $n\nprint in\n");
     EXPECT_EQ(run.analyses().size(), 1U);

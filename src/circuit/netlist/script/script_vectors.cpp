@@ -64,6 +64,14 @@ class NameReplacer {
     ScriptVectors::Expanded out_;
     IsVector is_vector_;
     std::vector<std::size_t> closing_;
+    std::size_t end_of_part_ = 0;  // curves before this offset are in the argument of a function such as db()
+
+    /// The function of expressions in .ac that gives this part of a complex expression; "" if there is none. mag() and im() have other
+    /// meanings in other analyses.
+    static std::string_view part_of_expression(std::string_view function) {
+        if (function == "db" || function == "ph" || function == "re") return function;
+        return function == "phase" ? "ph" : function == "real" ? "re" : function == "imag" ? "im" : "";
+    }
 
 public:
     NameReplacer(std::string_view text, IsVector is) : text_(text), is_vector_(std::move(is)), closing_(closing_parentheses(text)) {}
@@ -109,8 +117,12 @@ private:
         if (!curve.empty() && (word != "im" || curve == argument)) {  // im(v1) is the magnitude of a current
             out_.text += fmt::format("{}{}{}", curve[0], part->second, std::string_view(curve).substr(1));
         } else if (is_curve_function(word) && is_curve_argument(argument)) {
-            out_.has_whole_curves |= word.size() == 1;
+            out_.has_whole_curves |= word.size() == 1 && from >= end_of_part_;
             out_.text += text_.substr(from, close + 1 - from);
+        } else if (const auto whole = part_of_expression(word); !whole.empty()) {
+            out_.text += whole;  // its argument may be complex
+            end_of_part_ = std::max(end_of_part_, close);
+            return;
         } else {
             out_.text += word == "log" ? "log10" : word == "mag" ? "abs" : word;  // log has the base 10 in scripts
             return;
