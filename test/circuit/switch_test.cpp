@@ -10,6 +10,7 @@
 #include "circuit/batch/chip_batch.hpp"
 #include "circuit/export/ngspice_deck.hpp"
 #include "circuit/netlist_runner.hpp"
+#include "circuit/random_circuits.hpp"
 #include "run/run_inputs.hpp"
 #include "support/ngspice.hpp"
 #include "support/property.hpp"
