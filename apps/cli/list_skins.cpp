@@ -64,9 +64,7 @@ void add_class_notes(const SkinPlan& plan, std::uint32_t class_index, std::vecto
              fmt::format("conduction velocity: {} +- {}", format_quantity(c.velocity, "m/s"), format_quantity(c.velocity_spread, "m/s")),
              source_for(c.sources, "velocity")});
     std::string spread;
-    for (const auto& s : c.distributions)
-        spread += fmt::format("{}{} {}", spread.empty() ? "" : ", ", s.parameter,
-                              s.fraction ? fmt::format("{:.3g}%", *s.fraction * 100) : format_quantity(s.deviation, s.unit));
+    for (const auto& s : c.distributions) spread += fmt::format("{}{} {}", spread.empty() ? "" : ", ", s.parameter, s.text());
     if (!spread.empty()) out.push_back({"", "spread: " + spread, source_for(c.sources, "spread")});
 }
 

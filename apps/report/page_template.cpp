@@ -72,7 +72,8 @@ Json parameters_document(const AfferentPlan& plan, std::span<const ParameterDist
                        {"source", p.info.source},
                        {"component", p.component}});
         for (const auto& s : spreads)
-            if (s.afferent == plan.name && s.parameter == p.info.name) out.back()["spread"] = s.deviation;
+            if (s.afferent == plan.name && s.parameter == p.info.name)
+                s.factor ? out.back()["spread_factor"] = *s.factor : out.back()["spread"] = s.deviation;
     }
     return out;
 }

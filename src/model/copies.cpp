@@ -21,9 +21,26 @@ std::size_t index_of(const AfferentPlan& plan, std::string_view parameter) {
         std::find_if(all.begin(), all.end(), [&](const AfferentParameter& p) { return p.info.name == parameter; }) - all.begin());
 }
 
-/// Parses the standard deviation in o.value: a percentage of the plan's value of the parameter ("10%"), or a number in the parameter's
-/// unit.
+/// Remedy for a relative spread of a value that is 0.
+std::string write_deviation(std::string_view unit) {
+    return fmt::format("write the deviation itself{}", unit.empty() ? ", a plain number" : fmt::format(", in {}", unit));
+}
+
+/// Parses the factor of a lognormal distribution in o.value: "x3".
+Result<ParameterDistribution> parse_factor(const AfferentPlan& plan, const ParameterOverride& o, const ParameterInfo& row) {
+    const auto error = [&](std::string_view why) { return bad_input(fmt::format("{}: {}", o.typed, why), o.location); };
+    const auto factor = parse_bare_number<double>(trimmed(trimmed(o.value).substr(1)));
+    if (!factor || !std::isfinite(*factor)) return error(fmt::format("'{}' is not a factor; write x and a number, such as 'x3'", o.value));
+    if (*factor < 1) return error("a factor must be at least 1; x3 means divided by 3 or multiplied by 3");
+    if (plan.values[index_of(plan, row.name)] == 0 && *factor > 1)
+        return error(fmt::format("{} times a factor is 0; {}", format_quantity(0, row.unit), write_deviation(row.unit)));
+    return ParameterDistribution{.afferent = plan.name, .parameter = row.name, .unit = row.unit, .factor = *factor};
+}
+
+/// Parses the spread in o.value: a standard deviation as a percentage of the plan's value of the parameter ("10%") or as a number in the
+/// parameter's unit, or a factor ("x3").
 Result<ParameterDistribution> parse_spread(const AfferentPlan& plan, const ParameterOverride& o, const ParameterInfo& row) {
+    if (trimmed(o.value).starts_with('x')) return parse_factor(plan, o, row);
     const auto error = [&](std::string_view why) { return bad_input(fmt::format("{}: {}", o.typed, why), o.location); };
     const bool is_percentage = trimmed(o.value).ends_with('%');
     const auto read = parse_quantity(o.value, is_percentage ? "" : row.unit);
@@ -33,16 +50,18 @@ Result<ParameterDistribution> parse_spread(const AfferentPlan& plan, const Param
     if (!is_percentage) return ParameterDistribution{plan.name, row.name, row.unit, *read};
     const double value = plan.values[index_of(plan, row.name)];
     if (value == 0 && *read > 0)
-        return error(fmt::format("a percentage of {} is 0; write the deviation itself{}", format_quantity(0, row.unit),
-                                 row.unit.empty() ? ", a plain number" : fmt::format(", in {}", row.unit)));
+        return error(fmt::format("a percentage of {} is 0; {}", format_quantity(0, row.unit), write_deviation(row.unit)));
     return ParameterDistribution{plan.name, row.name, row.unit, *read * std::abs(value), *read};
 }
 
 /// Samples the parameters of all copies of one plan.
 class CopySampler {
     struct SampledParameter {
-        std::size_t at;           ///< index among the plan's parameters
-        double value, deviation;  ///< mean and standard deviation, SI
+        std::size_t at;    ///< index among the plan's parameters
+        double value;      ///< mean of a normal distribution, median of a lognormal one, SI
+        double deviation;  ///< standard deviation of the value, SI; of its logarithm if the distribution is lognormal
+        bool is_lognormal;
+        std::string spread;  ///< ParameterDistribution::text()
         ParameterInfo row;
         std::uint64_t stream;     ///< identifies the parameter's random numbers
         std::size_t group;        ///< parameters linked by order constraints form a group and are sampled together
@@ -68,7 +87,8 @@ class CopySampler {
     bool sample(SampledParameter& d, AfferentPlan& copy) const {
         while (d.count < max_samples) {
             const auto index = (d.stream >> 32 << 32) | d.count++;  // the upper half of the stream's 64 bits, and the number of the draw
-            const double x = d.value + d.deviation * normal(seed_, copy.copy_number, static_cast<std::uint32_t>(d.stream), index);
+            const double z = d.deviation * normal(seed_, copy.copy_number, static_cast<std::uint32_t>(d.stream), index);
+            const double x = d.is_lognormal ? d.value * num::exp(z) : d.value + z;
             if (!(x >= d.row.low && x <= d.row.high)) continue;
             copy.values[d.at] = x;
             return true;
@@ -105,11 +125,10 @@ class CopySampler {
     Error exhausted(const AfferentPlan& copy, const Result<void>& last) const {
         const auto& worst = *std::max_element(sampled_.begin(), sampled_.end(),
                                               [](const SampledParameter& a, const SampledParameter& b) { return a.count < b.count; });
-        return bad_input(fmt::format(
-            "{}: none of {} samples of {} about {} with a standard deviation of {} is valid{}; lower its "
-            "--spread",
-            copy.name, max_samples, worst.row.name, format_quantity(worst.value, worst.row.unit),
-            format_quantity(worst.deviation, worst.row.unit), last ? "" : fmt::format(" (the last: {})", last.error().message)));
+        return bad_input(fmt::format("{}: none of {} samples of {} about {} with a {} of {} is valid{}; lower its --spread", copy.name,
+                                     max_samples, worst.row.name, format_quantity(worst.value, worst.row.unit),
+                                     worst.is_lognormal ? "spread" : "standard deviation", worst.spread,
+                                     last ? "" : fmt::format(" (the last: {})", last.error().message)));
     }
 
 public:
@@ -119,8 +138,9 @@ public:
         for (const auto& s : distributions) {
             if (s.afferent != plan.name) continue;
             const auto at = index_of(plan, s.parameter);
-            sampled_.push_back({at, plan.values[at], s.deviation, (*plan.parameters)[at].info,
-                                stream_id(fmt::format("{}.{}", plan.name, s.parameter)), 0});  // the group is set below
+            sampled_.push_back({at, plan.values[at], s.factor ? num::log(*s.factor) : s.deviation, s.factor.has_value(), s.text(),
+                                (*plan.parameters)[at].info, stream_id(fmt::format("{}.{}", plan.name, s.parameter)),
+                                0});  // the group is set below
         }
         for (const auto& o : order_constraints_of(plan)) bounds_.push_back({index_of(plan, o.lower), index_of(plan, o.upper), o.or_equal});
         for (const auto& b : bounds_)
@@ -144,6 +164,11 @@ public:
 };
 
 }  // namespace
+
+std::string ParameterDistribution::text() const {
+    if (factor) return fmt::format("x{:.4g}", *factor);
+    return fraction ? fmt::format("{:.3g}%", *fraction * 100) : format_quantity(deviation, unit);
+}
 
 Result<Applied<std::vector<ParameterDistribution>>> distributions_for(const AfferentPlan& plan,
                                                                       std::span<const ParameterOverride> overrides) {

@@ -115,7 +115,7 @@ std::uint64_t fingerprint(const Skin::Impl& impl) {
     for (const auto& c : skin.plan.classes) {
         all.add(c.afferent.composition());
         for (const double v : c.afferent.values) all.add(v);
-        for (const auto& s : c.distributions) all.add(s.parameter), all.add(s.deviation);
+        for (const auto& s : c.distributions) all.add(s.parameter), all.add(s.deviation), s.factor ? all.add(*s.factor) : void();
     }
     for (const auto& u : skin.afferents) all.add(u.class_index), all.add(u.delay);
     for (const auto& f : skin.fields) {

@@ -148,8 +148,12 @@ TEST(Program, CopiesGiveTheSameSpikesSummaryAndTableTwice) {
     for (const auto& [name, bytes] : first) EXPECT_EQ(test::read_file(folder / ("answer/" + name)), bytes) << name;
     const auto summary = Json::parse(first["summary.json"]);
     EXPECT_EQ(summary["copies"]["per_afferent"], 60);
-    EXPECT_EQ(summary["copies"]["spreads"][0],
-              (Json{{"afferent", "sa1"}, {"parameter", "f_B"}, {"standard_deviation", 2.0}, {"unit", "Hz"}, {"fraction", 0.1}}));
+    EXPECT_EQ(summary["copies"]["spreads"][0], (Json{{"afferent", "sa1"},
+                                                     {"parameter", "f_B"},
+                                                     {"standard_deviation", 2.0},
+                                                     {"unit", "Hz"},
+                                                     {"fraction", 0.1},
+                                                     {"factor", nullptr}}));
     EXPECT_EQ(summary["copies"]["spreads"][1]["fraction"], nullptr);
     EXPECT_EQ(summary["afferents"].size(), 2U);
     EXPECT_EQ(summary["rates"].size(), 2U * 5 + 2);
@@ -305,7 +309,8 @@ TEST(Program, BadInputAndBadUsageHaveTheirStatusAndMessageAndLeaveNoFiles) {
         {"respond press -a sa1 -a SA1", 2, "--afferent SA1: given twice"},
         {"respond", 2, "respond: no FORCE given; try 'corpuscle respond press'"},
         {"respond press --spread sa1.f_B=10%", 2, "--spread sa1.f_B=10% needs --copies N, such as --copies 100"},
-        {"respond press --copies 9 --spread f_B=10%", 2, "--spread 'f_B=10%': write NAME.PARAMETER=DEVIATION, such as 'sa1.f_B=10%'"},
+        {"respond press --copies 9 --spread f_B=10%", 2,
+         "--spread 'f_B=10%': write NAME.PARAMETER=SPREAD, such as 'sa1.f_B=10%' or 'sa1.f_B=x1.5'"},
         {"respond press --copies 9 --spread fa2.k=10%", 2,
          "--spread fa2.k=10%: nothing here is named 'fa2'; did you mean 'fa1'? (parameters of sa1, fa1 can be set)"},
         {"respond press --copies 9 --spread fa1.I_leak0=10ms", 1,

@@ -3,6 +3,7 @@
 #include "model/components.hpp"
 #include "model/copies.hpp"
 
+#include <fmt/format.h>
 #include <cmath>
 #include <numeric>
 
@@ -74,6 +75,40 @@ TEST(ParameterDistribution, IsANormalTruncatedAtTheRangeOrByAnOrderConstraint) {
     const auto leak = values(sample_copies("sa1", {{}, {"sa1.I_leak0=1uA"}}), "I_leak0");
     EXPECT_NEAR(mean_of(leak), 0.5e-6 + 1e-6 * mean_above(-0.5), 4e-6 * deviation_above(-0.5) / std::sqrt(1e5));
     EXPECT_GE(*std::min_element(leak.begin(), leak.end()), 0);
+}
+
+TEST(ParameterDistribution, OfAFactorIsLognormalWithTheValueAsItsMedian) {
+    const auto x = values(sample_copies("sa1", {{"sa1.f_B=25Hz"}, {"sa1.f_B=x3"}}), "f_B");
+    const double n = static_cast<double>(x.size());
+    for (const double z : {-2.0, -1.0, 0.0, 1.0, 2.0}) {
+        const auto more = static_cast<double>(std::count_if(x.begin(), x.end(), [&](double v) { return v > 25 * std::pow(3.0, z); }));
+        EXPECT_NEAR(more / n, above(z), 4 * std::sqrt(above(z) * (1 - above(z)) / n)) << "beyond 3^" << z;
+    }
+    std::vector<double> logarithms;
+    for (const double v : x) logarithms.push_back(std::log(v / 25) / std::log(3.0));
+    EXPECT_NEAR(mean_of(logarithms), 0, 5 / std::sqrt(n));
+    EXPECT_NEAR(deviation(logarithms), 1, 5 / std::sqrt(2 * n));
+}
+
+TEST(ParameterDistribution, OfAFactorIsTruncatedAtTheRangeAndDoesNotPileUpThere) {
+    // The end of the range of f_B is close above the median, so nearly half of the samples are drawn again.
+    const auto info = *find_parameter({"sa1", "f_B", ""}, parameter_infos(value_or_throw(plan_afferent("sa1"))));
+    const double high = info->high, median = 0.9 * high, end = std::log(high / median) / std::log(2.0);
+    const auto x = values(sample_copies("sa1", {{fmt::format("sa1.f_B={}Hz", median)}, {"sa1.f_B=x2"}}), "f_B");
+    EXPECT_LE(*std::max_element(x.begin(), x.end()), high);
+    EXPECT_EQ(std::count(x.begin(), x.end(), high), 0);
+    std::vector<double> logarithms;
+    for (const double v : x) logarithms.push_back(std::log(v / median) / std::log(2.0));
+    EXPECT_NEAR(mean_of(logarithms), -mean_above(-end), 4 * deviation_above(-end) / std::sqrt(1e5));
+}
+
+TEST(ParameterDistribution, IsWrittenAsTheUserTypesIt) {
+    const auto plan = value_or_throw(plan_afferent("sa1"));
+    const auto all = test::applied_or_throw(distributions_for(plan, test::parse_settings({"sa1.f_B=10%", "sa1.f_C=2.5Hz", "sa1.V_th=x3"})));
+    ASSERT_EQ(all.size(), 3U);
+    EXPECT_EQ(all[0].text(), "10%");
+    EXPECT_EQ(all[1].text(), "2.5 Hz");
+    EXPECT_EQ(all[2].text(), "x3");
 }
 
 TEST(ParameterDistribution, OfTwoOrderedParametersIsSampledJointly) {
@@ -192,6 +227,11 @@ TEST(ParameterDistribution, OfASharedParameterIsRefusedByName) {
         {"sa1", {"sa1.f_B=-1Hz"}, "--spread sa1.f_B=-1Hz: a standard deviation must not be negative"},
         {"sa1", {"sa1.f_B=1ms"}, "--spread sa1.f_B=1ms: '1ms' is a time; expected a value in Hz, such as '2 Hz'"},
         {"sa1", {"sa1.f_B=some%"}, "--spread sa1.f_B=some%: 'some%' is not a percentage; write a number and %, such as '10%'"},
+        {"sa1", {"sa1.f_B=xHz"}, "--spread sa1.f_B=xHz: 'xHz' is not a factor; write x and a number, such as 'x3'"},
+        {"sa1", {"sa1.f_B=x"}, "--spread sa1.f_B=x: 'x' is not a factor; write x and a number, such as 'x3'"},
+        {"sa1", {"sa1.f_B=xinf"}, "--spread sa1.f_B=xinf: 'xinf' is not a factor; write x and a number, such as 'x3'"},
+        {"sa1", {"sa1.f_B=x0.5"}, "--spread sa1.f_B=x0.5: a factor must be at least 1; x3 means divided by 3 or multiplied by 3"},
+        {"sa1", {"sa1.E_L=x2"}, "--spread sa1.E_L=x2: 0 V times a factor is 0; write the deviation itself, in V"},
         {"sa1", {"sa1.f_B=1Hz", "SA-I.f_B=10%"}, "--spread SA-I.f_B=10%: sa1.f_B is given twice"},
     };
     for (const auto& c : cases) {
@@ -207,6 +247,14 @@ TEST(ParameterDistribution, WithoutAcceptableSamplesIsAnErrorAfterAThousandTries
     ASSERT_FALSE(wide);
     EXPECT_EQ(wide.error().text(),
               "sa1#1: none of 1000 samples of V_th about 500 mV with a standard deviation of 1 GV is valid; lower its --spread");
+    const auto narrow =
+        test::applied_or_throw(plan_afferent("sa1", test::parse_settings({"sa1.E_L=499.9mV", "sa1.V_reset=500mV", "sa1.V_th=500.1mV"})));
+    const auto factor =
+        make_copies(narrow, 2, test::applied_or_throw(distributions_for(narrow, test::parse_settings({"sa1.V_reset=x1e300"}))), 1);
+    ASSERT_FALSE(factor);
+    EXPECT_TRUE(factor.error().text().starts_with(
+        "sa1#1: none of 1000 samples of V_reset about 500 mV with a spread of x1e+300 is valid (the last: "))
+        << factor.error().text();
     // For half of the samples of the feedback resistance R_fb, the transducer's output V_Z at the calibration force F_cal would be above
     // the supply, so that the sensor could not be calibrated. These are sampled again.
     const auto edge = sample_copies("fsr+f2v+sa1", {{"fsr+f2v+sa1.R_fb=13.3kohm"}, {"fsr+f2v+sa1.R_fb=10%"}, 1000});
@@ -215,7 +263,7 @@ TEST(ParameterDistribution, WithoutAcceptableSamplesIsAnErrorAfterAThousandTries
 
 TEST(ParameterDistribution, OfZeroWidthLeavesEveryCopyUnchanged) {
     const auto plan = value_or_throw(plan_afferent("sa1"));
-    for (const auto& copy : sample_copies("sa1", {{}, {"sa1.E_L=0%", "sa1.f_B=0Hz"}, 5})) EXPECT_EQ(copy.values, plan.values);
+    for (const auto& copy : sample_copies("sa1", {{}, {"sa1.E_L=0%", "sa1.f_B=0Hz", "sa1.f_C=x1"}, 5})) EXPECT_EQ(copy.values, plan.values);
 }
 
 }  // namespace

@@ -58,7 +58,7 @@ Result<double> parse_noise(const std::string& text) {
 OptionReader spread_reader(std::vector<ParameterOverride>& spreads) {
     return [read = override_reader(spreads, "--spread")](const std::string& text) -> Result<void> {
         if (read(text)) return {};
-        return bad_usage(fmt::format("'{}': write NAME.PARAMETER=DEVIATION, such as 'sa1.f_B=10%'", text));
+        return bad_usage(fmt::format("'{}': write NAME.PARAMETER=SPREAD, such as 'sa1.f_B=10%' or 'sa1.f_B=x1.5'", text));
     };
 }
 
@@ -74,7 +74,8 @@ OptionGroup afferent_options(RespondArguments& args) {
                      "set a parameter of an afferent or a stimulus, such as sa1.f_B=25Hz"}),
          {"--copies", &args.copies, "N", "simulate N copies of each afferent on every channel: sa1#1 ... sa1#N", std::pair(1U, max_copies)},
          repeatable({"--spread", spread_reader(args.spreads), "NAME.PARAMETER=10%",
-                     "vary a parameter between copies: its standard deviation, relative (10%) or with its unit"})}};
+                     "vary a parameter between copies: by its standard deviation, relative (10%) or with its unit, or by a factor (x3, "
+                     "lognormal)"})}};
 }
 
 OptionGroup skin_options(RespondArguments& args) {

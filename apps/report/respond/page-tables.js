@@ -94,7 +94,7 @@ function parameterRow(parameter, k, all) {
     const source = parameter.source ? ` <span class="unit">(${escaped(parameter.source)})</span>` : "";
     const text = (value) => escaped(quantity(value, parameter.unit || "", true));
     return `<tr class="${parameter.set ? "set" : ""} ${first && k ? "group" : ""}"><td>${first ? escaped(parameter.component || "") : ""}</td>
-        <th scope="row">${escaped(parameter.name)}</th><td class="number">${text(parameter.value)}${parameter.spread === undefined ? "" : ` ± ${text(parameter.spread)}`}${parameter.set ? ' <span class="tag">set</span>' : ""}</td>
+        <th scope="row">${escaped(parameter.name)}</th><td class="number">${text(parameter.value)}${parameter.spread === undefined ? "" : ` ± ${text(parameter.spread)}`}${parameter.spread_factor === undefined ? "" : ` ×/÷ ${escaped(String(parameter.spread_factor))}`}${parameter.set ? ' <span class="tag">set</span>' : ""}</td>
         <td class="number">${text(parameter.default)}</td><td>${escaped(parameter.description || "")}${source}</td></tr>`;
 }
 

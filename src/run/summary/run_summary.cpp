@@ -126,9 +126,10 @@ Json document_of(std::span<const ParameterDistribution> all) {
     for (const auto& s : all)
         spreads.push_back({{"afferent", s.afferent},
                            {"parameter", s.parameter},
-                           {"standard_deviation", s.deviation},
+                           {"standard_deviation", s.factor ? Json(nullptr) : Json(s.deviation)},
                            {"unit", s.unit},
-                           {"fraction", s.fraction ? Json(*s.fraction) : Json(nullptr)}});
+                           {"fraction", s.fraction ? Json(*s.fraction) : Json(nullptr)},
+                           {"factor", s.factor ? Json(*s.factor) : Json(nullptr)}});
     return spreads;
 }
 
