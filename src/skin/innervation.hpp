@@ -13,6 +13,7 @@ struct SkinAfferent {
     std::uint32_t region = 0;       ///< index in Sites::regions
     Position position = {};         ///< m
     double delay = 0;               ///< conduction delay to the recording point, s
+    double direction = 0;  ///< preferred direction of shear, rad counter-clockwise from x; unused if its class has no direction gain
 };
 
 /// The receptive fields of a class, sorted by site. Entries [begin[s], begin[s + 1]) of `afferent` and `weight` are the afferents that

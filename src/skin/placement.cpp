@@ -1,6 +1,7 @@
 #include "skin/innervation.hpp"
 
 #include <fmt/format.h>
+#include <numbers>
 #include <numeric>
 
 #include "core/random.hpp"
@@ -88,6 +89,16 @@ void set_delays(const SkinPlan& plan, const SkinClass& c, std::vector<SkinAffere
         const double dx = u.position.x - plan.nerve->x, dy = u.position.y - plan.nerve->y;
         u.delay = num::sqrt(dx * dx + dy * dy) / velocity;
     }
+}
+
+/// Sets the preferred directions of shear of a class's afferents.
+void set_directions(const SkinPlan& plan, const SkinClass& c, std::vector<SkinAfferent>& afferents) {
+    const auto& tuning = c.direction;
+    if (tuning.gain == 0) return;
+    const auto stream = class_stream(c, "direction");
+    for (auto& u : afferents)
+        u.direction = tuning.mean ? *tuning.mean + tuning.spread * normal(plan.seed, u.number, stream, 0)
+                                  : two_random(plan.seed, stream, u.number, 0).first * 2 * std::numbers::pi;
 }
 
 constexpr double cutoff = 3;  // a hot spot ends at this distance, in standard deviations
@@ -213,6 +224,7 @@ Result<std::vector<SkinAfferent>> place_afferents(const SkinPlan& plan, std::uin
         for (std::uint32_t r = 0; r < along.size(); ++r) place_in_region(plan, along[r], counts[r], {class_index, 0, r}, out);
     }
     set_delays(plan, c, out);
+    set_directions(plan, c, out);
     return out;
 }
 

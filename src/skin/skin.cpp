@@ -5,6 +5,7 @@
 #include "core/bytes.hpp"
 #include "skin/conduction.hpp"
 #include "skin/field_force.hpp"
+#include "skin/shear_force.hpp"
 
 namespace corpuscle {
 
@@ -12,7 +13,17 @@ namespace corpuscle {
 struct ClassSimulation {
     std::unique_ptr<LanePopulation> population;
     std::shared_ptr<FieldForce> field_force;
-    bool shares_force = false;  ///< true: an earlier class has the same receptive fields and computes the force for both
+    bool shares_force = false;  ///< true: an earlier class has the same receptive fields and computes the normal force for both
+    ShearForce shear;
+
+    /// The force on its afferents in `steps` steps from step `at` of the block on.
+    ForceTiles<double> force(const SiteForce& all, std::span<const std::uint32_t> touched, std::size_t at, std::size_t steps,
+                             ThreadPool& pool) {
+        if (all.has_shear() && shear.is_tuned()) return shear.add(*field_force, all, touched, at, steps, pool);
+        // With shear, an earlier class with the same receptive fields may have replaced the normal force.
+        if (!shares_force || all.has_shear()) field_force->compute(all, touched, at, steps, pool);
+        return field_force->tiles();
+    }
 };
 
 struct Skin::Impl {
@@ -76,32 +87,42 @@ Result<std::optional<ClassSimulation>> make_class(const Innervation& skin, std::
     field_forces[class_index] = shares_force
                                     ? field_forces[same]
                                     : std::make_shared<FieldForce>(skin.fields[class_index], first, count, skin.plan.sites.size(), set);
-    return std::optional<ClassSimulation>(ClassSimulation{std::move(population), field_forces[class_index], shares_force});
+    return std::optional<ClassSimulation>(ClassSimulation{std::move(population), field_forces[class_index], shares_force,
+                                                          ShearForce(c.direction, std::span(skin.afferents).subspan(numbers[0], count))});
 }
 
-/// True if the force at all touched sites is finite in step 0 of `force`.
-bool all_finite(const SiteForce& force, std::span<const std::uint32_t> touched) {
+/// True if this component of a force is finite at all touched sites in its first step.
+bool all_finite(const double* component, std::size_t stride, std::span<const std::uint32_t> touched) {
     double sums[8] = {};  // each is 0, or NaN if a force was NaN or infinite
-    const bool is_contiguous = force.stride == 1 && !touched.empty() && touched.back() + 1 - touched.front() == touched.size();
-    if (const double* const row = force.data + (touched.empty() ? 0 : touched.front()); is_contiguous)
+    const bool is_contiguous = stride == 1 && !touched.empty() && touched.back() + 1 - touched.front() == touched.size();
+    if (const double* const row = component + (touched.empty() ? 0 : touched.front()); is_contiguous)
         for (std::size_t k = 0; k + 8 <= touched.size(); k += 8)
             for (std::size_t l = 0; l < 8; ++l) sums[l] += row[k + l] - row[k + l];
     for (std::size_t k = is_contiguous ? touched.size() / 8 * 8 : 0; k < touched.size(); ++k) {
-        const double f = force.data[touched[k] * force.stride];
+        const double f = component[touched[k] * stride];
         sums[k % 8] += f - f;
     }
     return std::all_of(std::begin(sums), std::end(sums), [](double x) { return x == 0; });
 }
 
-/// Returns an error for the first site with a force that is NaN or infinite in `steps` steps of `force`.
-Result<void> check_finite(const Skin::Impl& impl, const SiteForce& force, std::span<const std::uint32_t> touched, std::size_t steps) {
-    if (steps == 1 && all_finite(force, touched)) return {};
-    for (const auto s : touched)
-        if (const auto t = first_non_finite({force.data + s * force.stride, steps}); t < steps)
-            return bad_input(fmt::format("{}: the force at site {} is {} at sample {}, not a finite number", impl.skin->plan.name,
-                                         impl.skin->plan.sites.names[s], force.data[s * force.stride + t],
-                                         impl.step + static_cast<std::int64_t>(t)));
-    return {};
+/// Returns an error for the first site with a force that is NaN or infinite in `steps` steps of `force`, from step `at` on.
+Result<void> check_finite(const Skin::Impl& impl, const SiteForce& force, std::span<const std::uint32_t> touched, std::size_t at,
+                          std::size_t steps) {
+    Result<void> out;
+    force.for_each_component([&](const double* component) {
+        const double* const from = component + at;
+        if (!out || (steps == 1 && all_finite(from, force.stride, touched))) return;
+        for (const auto s : touched) {
+            const auto t = first_non_finite({from + s * force.stride, steps});
+            if (t == steps) continue;
+            const auto* const name = component == force.data ? "force" : component == force.shear_x ? "shear along x" : "shear along y";
+            out = bad_input(fmt::format("{}: the {} at site {} is {} at sample {}, not a finite number", impl.skin->plan.name, name,
+                                        impl.skin->plan.sites.names[s], from[s * force.stride + t],
+                                        impl.step + static_cast<std::int64_t>(t)));
+            return;
+        }
+    });
+    return out;
 }
 
 // For saved states.
@@ -117,7 +138,10 @@ std::uint64_t fingerprint(const Skin::Impl& impl) {
         for (const double v : c.afferent.values) all.add(v);
         for (const auto& s : c.distributions) all.add(s.parameter), all.add(s.deviation), s.factor ? all.add(*s.factor) : void();
     }
-    for (const auto& u : skin.afferents) all.add(u.class_index), all.add(u.delay);
+    for (const auto& u : skin.afferents) {
+        all.add(u.class_index), all.add(u.delay);
+        if (const double gain = skin.plan.classes[u.class_index].direction.gain; gain != 0) all.add(gain), all.add(u.direction);
+    }
     for (const auto& f : skin.fields) {
         for (const auto b : f.begin) all.add(b);
         for (const auto w : f.weight) all.add(w);
@@ -153,8 +177,12 @@ std::span<const std::uint32_t> Skin::Impl::find_touched(const SiteForce& force, 
     if (!force.reads_all) return force.touched;
     touched.clear();
     for (std::size_t s = 0; s < skin->plan.sites.size(); ++s) {
-        const double* f = force.data + s * force.stride + at;
-        if (std::any_of(f, f + steps, [](double x) { return x != 0; })) touched.push_back(static_cast<std::uint32_t>(s));
+        bool is_touched = false;
+        force.for_each_component([&](const double* component) {
+            const double* f = component + s * force.stride + at;
+            is_touched = is_touched || std::any_of(f, f + steps, [](double x) { return x != 0; });
+        });
+        if (is_touched) touched.push_back(static_cast<std::uint32_t>(s));
     }
     return touched;
 }
@@ -163,12 +191,11 @@ std::span<const std::uint32_t> Skin::Impl::find_touched(const SiteForce& force, 
 Result<void> Skin::Impl::run_steps(const SiteForce& force, std::size_t at, std::size_t steps, std::vector<Spike>& spikes,
                                    ThreadPool& pool) {
     const auto touched_sites = find_touched(force, at, steps);
-    TRY(check_finite(*this, {force.data + at, force.stride}, touched_sites, steps));
+    TRY(check_finite(*this, force, touched_sites, at, steps));
     fired.clear();
     for (auto& c : classes) {
-        if (!c.shares_force) c.field_force->compute(force, touched_sites, at, steps, pool);
         PopulationResponse response{&fired};
-        TRY(c.population->respond(c.field_force->tiles(), steps, response, pool));
+        TRY(c.population->respond(c.force(force, touched_sites, at, steps, pool), steps, response, pool));
         const auto all = static_cast<std::int64_t>(steps * c.population->size());
         stats.afferent_steps += all - response.skipped_steps, stats.skipped_steps += response.skipped_steps,
             stats.truncated_steps += response.truncated_steps;

@@ -8,14 +8,31 @@
 
 namespace corpuscle {
 
-/// A block of force: the force in newtons at site s in step t of the block is data[s * stride + t].
+/// A block of force: the normal force in newtons at site s in step t of the block is data[s * stride + t]; pressing is positive.
 struct SiteForce {
     const double* data = nullptr;
     std::size_t stride = 0;
-    /// The sites whose force is not 0 in at least one step of the block, in ascending order. The force at other sites is not
-    /// read.
+    /// The sites whose force, normal or tangential, is not 0 in at least one step of the block, in ascending order. The force at other
+    /// sites is not read.
     std::span<const std::uint32_t> touched = {};
     bool reads_all = true;  ///< true: the force at all sites is read, and `touched` is ignored
+    /// The tangential force (shear) on the skin at each site in newtons, in the layout of `data` and in the plane of the skin: along x (to
+    /// the right) and along y (away from the wrist). Null: this component is 0 everywhere.
+    const double* shear_x = nullptr;
+    const double* shear_y = nullptr;
+
+    bool has_shear() const { return shear_x || shear_y; }
+    /// True if something touches the skin at this site and step: it presses, or pulls along the skin.
+    bool is_touched(std::size_t site, std::size_t step) const {
+        const auto at = site * stride + step;
+        return data[at] > 0 || (shear_x && shear_x[at] != 0) || (shear_y && shear_y[at] != 0);
+    }
+    /// Calls f with each component that is not null: `data`, `shear_x`, `shear_y`.
+    template <class F>
+    void for_each_component(const F& f) const {
+        for (const double* component : {data, shear_x, shear_y})
+            if (component) f(component);
+    }
 
     /// Calls f with the index of each site whose force is read, in ascending order. `sites`: number of sites of the skin.
     template <class F>

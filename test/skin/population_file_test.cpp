@@ -182,9 +182,10 @@ TEST(PopulationFile, SitesCoverTheAreaOfTheShapes) {
 
 TEST(PopulationFile, ErrorsGiveTheLocationAndARemedy) {
     const std::string text(pad);
-    EXPECT_EQ(error_in(text, "density =", "densty ="),
-              "pad.toml:9:1: [[class]]: there is no 'densty'; did you mean 'density'? (there are name, afferent, set, spread, density, "
-              "per_site, sigma, hot_spots, hot_spot_spread, velocity, velocity_spread, source)");
+    EXPECT_EQ(
+        error_in(text, "density =", "densty ="),
+        "pad.toml:9:1: [[class]]: there is no 'densty'; did you mean 'density'? (there are name, afferent, set, spread, density, "
+        "per_site, sigma, hot_spots, hot_spot_spread, velocity, velocity_spread, direction_gain, direction, direction_spread, source)");
     EXPECT_EQ(error_in(text, "\"sa1\"", "\"sa9\"").substr(0, 14), "pad.toml:8:12:");
     EXPECT_EQ(error_in(text, "\"70 /cm2\"", "70"), "pad.toml:9:11: density = 70: the unit is missing; write density = \"70 /cm2\"");
     EXPECT_EQ(error_in(text, "\"70 /cm2\"", "{paed = \"1 /cm2\"}"),

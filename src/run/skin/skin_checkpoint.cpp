@@ -193,8 +193,10 @@ Result<void> SkinCheckpoint::check_spikes(std::uint64_t checksum) {
 Result<void> SkinCheckpoint::add_force(const SkinForce::Block& block, std::int64_t first) {
     const auto steps = block.total_force.size();
     force_sum_.add(block.total_force.data(), block.total_force.size_bytes());
-    block.force.for_each_site(
-        skin_.sites(), [&](std::size_t site) { force_sum_.add(block.force.data + site * block.force.stride, steps * sizeof(double)); });
+    block.force.for_each_component([&](const double* component) {
+        block.force.for_each_site(skin_.sites(),
+                                  [&](std::size_t site) { force_sum_.add(component + site * block.force.stride, steps * sizeof(double)); });
+    });
     const auto end = first + static_cast<std::int64_t>(steps);
     // A checkpoint is made between two blocks. In the block that ends there, the force so far must have the same checksum.
     if (resumed_samples_ <= first || resumed_samples_ > end) return {};

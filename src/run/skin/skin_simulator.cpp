@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "core/bytes.hpp"
+#include "skin/shear_force.hpp"
 
 namespace corpuscle {
 namespace {
@@ -87,7 +88,7 @@ Result<SkinProbes> SkinProbes::make(const Innervation& skin, const SimulationOpt
             out.values_.emplace_back(out.afferents_.back()->probes().size());
         }
     }
-    out.force_.resize(out.afferents_.size());
+    out.sums_.resize(out.afferents_.size());
     return out;
 }
 
@@ -100,19 +101,34 @@ std::vector<std::span<const Probe>> SkinProbes::class_probes() const {
     return out;
 }
 
-/// Adds the contributions of the sites in ascending order, as FieldForce does.
-void SkinProbes::compute_force(const SiteForce& force, std::size_t steps) {
-    for (auto& f : force_) f.assign(steps, 0);
+/// Sums one component of the force over the receptive fields. Adds the contributions of the sites in ascending order, as FieldForce does.
+void SkinProbes::sum_component(const SiteForce& force, const double* component, std::size_t steps) {
+    for (auto& f : sums_) f.assign(steps, 0);
     force.for_each_site(skin_->plan.sites.size(), [&](std::size_t s) {
-        const double* const at_site = force.data + s * force.stride;
+        const double* const at_site = component + s * force.stride;
         for (std::size_t c = 0; c < skin_->fields.size(); ++c) {
             const auto& fields = skin_->fields[c];
             for (auto k = fields.begin[s]; k < fields.begin[s + 1]; ++k) {
-                auto& on_afferent = force_[skin_->class_begin[c] + fields.afferent[k]];
+                auto& on_afferent = sums_[skin_->class_begin[c] + fields.afferent[k]];
                 for (std::size_t t = 0; t < steps; ++t) on_afferent[t] += fields.weight[k] * at_site[t];
             }
         }
     });
+}
+
+void SkinProbes::compute_force(const SiteForce& force, std::size_t steps) {
+    sum_component(force, force.data, steps);
+    force_ = sums_;
+    const std::array<const double*, 2> components{force.shear_x, force.shear_y};
+    for (std::size_t axis = 0; axis < 2; ++axis) {
+        if (!components[axis]) continue;
+        sum_component(force, components[axis], steps);
+        for (std::size_t u = 0; u < force_.size(); ++u) {
+            const auto& afferent = skin_->afferents[u];
+            const double gain = shear_gains(skin_->plan.classes[afferent.class_index].direction, afferent)[axis];
+            for (std::size_t t = 0; t < steps && gain != 0; ++t) force_[u][t] += gain * sums_[u][t];
+        }
+    }
 }
 
 Result<void> SkinProbes::respond(const SiteForce& force, std::size_t steps, ThreadPool& pool) {

@@ -34,8 +34,10 @@ private:
     std::vector<std::unique_ptr<Afferent>> afferents_;
     std::vector<State> states_;
     std::vector<std::vector<double>> force_;  // on each afferent in the current block, N
+    std::vector<std::vector<double>> sums_;   // one component of it, summed over the receptive field of each afferent, N
     std::vector<std::vector<std::vector<double>>> values_;
 
+    void sum_component(const SiteForce&, const double* component, std::size_t steps);
     void compute_force(const SiteForce&, std::size_t steps);
 };
 

@@ -30,18 +30,29 @@ bool fires_with_factor(const Afferent& afferent, std::span<const double> force, 
 
 /// Raises the upper bounds of the force on the afferents of each silent class of a skin to those of this block.
 void raise_class_forces(const Innervation& skin, const RunBlock& block, std::span<const char> is_silent, std::vector<double>& class_force) {
-    std::vector<std::pair<std::size_t, double>> peaks;  // the sites with force in the block, and the largest force of each, N
+    struct SitePeak {
+        std::size_t site;
+        double normal, shear;  // N, the largest in the block; `shear` is a bound for every direction
+    };
+    std::vector<SitePeak> peaks;
     block.sites.for_each_site(skin.plan.sites.size(), [&](std::size_t site) {
-        const double* force = block.sites.data + site * block.sites.stride;
-        if (const double peak = *std::max_element(force, force + block.steps); peak > 0) peaks.emplace_back(site, peak);
+        SitePeak peak{site, 0, 0};
+        block.sites.for_each_component([&](const double* component) {
+            const double* force = component + site * block.sites.stride;
+            for (std::size_t t = 0; t < block.steps; ++t)
+                component == block.sites.data ? peak.normal = std::max(peak.normal, force[t])
+                                              : peak.shear = std::max(peak.shear, std::abs(force[t]));
+        });
+        if (peak.normal > 0 || peak.shear > 0) peaks.push_back(peak);
     });
     for (std::size_t c = 0; c < class_force.size(); ++c) {
         if (!is_silent[c]) continue;
         const auto& fields = skin.fields[c];
         std::vector<double> on_afferent(skin.class_begin[c + 1] - skin.class_begin[c]);
-        for (const auto& [site, peak] : peaks)
+        const double gain = skin.plan.classes[c].direction.gain;
+        for (const auto& [site, normal, shear] : peaks)
             for (auto k = fields.begin[site]; k < fields.begin[site + 1]; ++k)
-                class_force[c] = std::max(class_force[c], on_afferent[fields.afferent[k]] += fields.weight[k] * peak);
+                class_force[c] = std::max(class_force[c], on_afferent[fields.afferent[k]] += fields.weight[k] * (normal + gain * shear));
     }
 }
 

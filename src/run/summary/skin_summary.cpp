@@ -59,9 +59,9 @@ std::size_t SkinSummary::group_index(std::size_t phase, std::size_t class_index,
 /// must be in the block.
 bool SkinSummary::is_touched(const RunBlock& block, std::size_t afferent_index, std::int64_t sample) const {
     const auto site = main_site_[afferent_index];
-    const auto& [data, stride, touched, reads_all] = block.sites;
-    if (!reads_all && !std::binary_search(touched.begin(), touched.end(), site)) return false;
-    return data[site * stride + static_cast<std::size_t>(sample - block.first_sample)] > 0;
+    const auto& touched = block.sites.touched;
+    if (!block.sites.reads_all && !std::binary_search(touched.begin(), touched.end(), site)) return false;
+    return block.sites.is_touched(site, static_cast<std::size_t>(sample - block.first_sample));
 }
 
 /// Counts spikes. `block`: the block in which they arrive; null if they arrive after the force has ended.
@@ -94,8 +94,8 @@ void SkinSummary::count_touched_samples(const RunBlock& block) {
         const auto phase = phase_of(time(from));
         while (to < block.steps && phase_of(time(to)) == phase) ++to;
         block.sites.for_each_site(skin->plan.sites.size(), [&](std::size_t s) {
-            const double* force = block.sites.data + s * block.sites.stride;
-            const auto touched = std::count_if(force + from, force + to, [](double f) { return f > 0; });
+            std::ptrdiff_t touched = 0;
+            for (auto t = from; t < to; ++t) touched += block.sites.is_touched(s, t);
             site_touched_samples_[site_index(SkinSummaryRow::all, s)] += touched;
             if (phase != SkinSummaryRow::all) site_touched_samples_[site_index(phase, s)] += touched;
         });

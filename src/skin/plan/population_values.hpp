@@ -37,6 +37,9 @@ Result<std::vector<SourceNote>> read_sources(const ConfigNode& table, std::span<
 /// The sites of a population file, whose outermost table is `top`. `channels`: of the recording.
 Result<Sites> read_sites(const ConfigNode& top, std::span<const Channel> channels, const PopulationValues&);
 
+/// How a class responds to tangential force: the keys direction_gain, direction and direction_spread of [[class]].
+Result<DirectionTuning> read_direction_tuning(const ConfigNode& in, const PopulationValues&);
+
 /// The classes of a population file whose sites have been read.
 Result<std::vector<SkinClass>> read_classes(const ConfigNode& top, const Sites&, const PopulationValues&);
 

@@ -11,6 +11,14 @@ struct SourceNote {
     std::string quantity, source;  ///< "density", "Johansson & Vallbo 1979"
 };
 
+/// How the afferents of a class respond to tangential force. Each has a preferred direction phi and feels the force
+/// F = sum over its sites of w (F_n + gain (F_x cos phi + F_y sin phi)).
+struct DirectionTuning {
+    double gain = 0;                  ///< N of normal force for one N of tangential force in the preferred direction
+    std::optional<double> mean = {};  ///< mean of the preferred directions, rad; not set: all directions are equally likely
+    double spread = 0;                ///< standard deviation of the preferred directions around `mean`, rad
+};
+
 /// One class of afferents in a skin.
 struct SkinClass {
     std::string name;                  ///< name in outputs: "sa1"
@@ -21,6 +29,7 @@ struct SkinClass {
     std::uint32_t hot_spots = 1;       ///< number of hot spots in one receptive field
     double hot_spot_spread = 0;        ///< m, standard deviation of the hot spots' distance from the afferent, in x and in y
     double velocity = 0, velocity_spread = 0;  ///< conduction velocity, m/s: mean and standard deviation over afferents; 0: no delay
+    DirectionTuning direction = {};
     std::vector<ParameterDistribution> distributions = {};  ///< how the parameters of its afferents vary
     std::vector<SourceNote> sources = {};
 };
