@@ -63,6 +63,12 @@ void add_class_notes(const SkinPlan& plan, std::uint32_t class_index, std::vecto
             {"",
              fmt::format("conduction velocity: {} +- {}", format_quantity(c.velocity, "m/s"), format_quantity(c.velocity_spread, "m/s")),
              source_for(c.sources, "velocity")});
+    if (c.wave.speed > 0)
+        out.push_back(
+            {"",
+             fmt::format("contact wave: {}, decay {}, radius {}, gain {:g}, changes above {}", format_quantity(c.wave.speed, "m/s"),
+                         length(c.wave.decay), length(c.wave.radius), c.wave.gain, format_quantity(c.wave.corner, "Hz")),
+             source_for(c.sources, "wave_speed")});
     std::string spread;
     for (const auto& s : c.distributions) spread += fmt::format("{}{} {}", spread.empty() ? "" : ", ", s.parameter, s.text());
     if (!spread.empty()) out.push_back({"", "spread: " + spread, source_for(c.sources, "spread")});

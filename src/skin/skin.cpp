@@ -6,6 +6,7 @@
 #include "skin/conduction.hpp"
 #include "skin/field_force.hpp"
 #include "skin/shear_force.hpp"
+#include "skin/wave/contact_wave.hpp"
 
 namespace corpuscle {
 
@@ -15,14 +16,20 @@ struct ClassSimulation {
     std::shared_ptr<FieldForce> field_force;
     bool shares_force = false;  ///< true: an earlier class has the same receptive fields and computes the normal force for both
     ShearForce shear;
+    std::unique_ptr<ContactWave> wave = {};  ///< null: the class feels none
 
-    /// The force on its afferents in `steps` steps from step `at` of the block on.
-    ForceTiles<double> force(const SiteForce& all, std::span<const std::uint32_t> touched, std::size_t at, std::size_t steps,
-                             ThreadPool& pool) {
+    /// The force on its afferents in `steps` steps from step `at` of the block on, without waves.
+    ForceTiles<double> direct_force(const SiteForce& all, std::span<const std::uint32_t> touched, std::size_t at, std::size_t steps,
+                                    ThreadPool& pool) {
         if (all.has_shear() && shear.is_tuned()) return shear.add(*field_force, all, touched, at, steps, pool);
         // With shear, an earlier class with the same receptive fields may have replaced the normal force.
         if (!shares_force || all.has_shear()) field_force->compute(all, touched, at, steps, pool);
         return field_force->tiles();
+    }
+    ForceTiles<double> force(const SiteForce& all, std::span<const std::uint32_t> touched, std::size_t at, std::size_t steps,
+                             ThreadPool& pool) {
+        const auto direct = direct_force(all, touched, at, steps, pool);
+        return wave ? wave->add(direct, all, touched, at, steps, pool) : direct;
     }
 };
 
@@ -87,8 +94,10 @@ Result<std::optional<ClassSimulation>> make_class(const Innervation& skin, std::
     field_forces[class_index] = shares_force
                                     ? field_forces[same]
                                     : std::make_shared<FieldForce>(skin.fields[class_index], first, count, skin.plan.sites.size(), set);
-    return std::optional<ClassSimulation>(ClassSimulation{std::move(population), field_forces[class_index], shares_force,
-                                                          ShearForce(c.direction, std::span(skin.afferents).subspan(numbers[0], count))});
+    ClassSimulation out{std::move(population), field_forces[class_index], shares_force,
+                        ShearForce(c.direction, std::span(skin.afferents).subspan(numbers[0], count))};
+    if (c.wave.speed > 0) out.wave = TRY(ContactWave::make(skin, class_index, first, count, run.dt, set));
+    return std::optional<ClassSimulation>(std::move(out));
 }
 
 /// True if this component of a force is finite at all touched sites in its first step.
@@ -137,6 +146,7 @@ std::uint64_t fingerprint(const Skin::Impl& impl) {
         all.add(c.afferent.composition());
         for (const double v : c.afferent.values) all.add(v);
         for (const auto& s : c.distributions) all.add(s.parameter), all.add(s.deviation), s.factor ? all.add(*s.factor) : void();
+        if (const auto& w = c.wave; w.speed > 0) all.add(w.speed), all.add(w.decay), all.add(w.radius), all.add(w.gain), all.add(w.corner);
     }
     for (const auto& u : skin.afferents) {
         all.add(u.class_index), all.add(u.delay);
@@ -161,9 +171,9 @@ Result<void> check_frame(ByteReader& in, std::span<const std::byte> saved) {
     const auto version = read_magic(in, "corpsk");
     if (!version) return bad_input("not a saved state of a skin: it does not begin with 'corpsk'");
     if (*version == '1') return {};
-    if (*version != '2')
+    if (*version != '2' && *version != '3')
         return bad_input(
-            "a saved state of a skin has a later version than 2, the latest that this program can read; start from the beginning, "
+            "a saved state of a skin has a later version than 3, the latest that this program can read; start from the beginning, "
             "or use the program that saved it");
     if (in.rest().size() < sizeof(std::uint64_t)) return bad_input("a saved state of a skin is truncated; start from the beginning");
     if (in.check_checksum(saved)) return {};
@@ -240,9 +250,11 @@ void Skin::finish(std::vector<Spike>& spikes) {
 std::vector<std::byte> Skin::save() const {
     ByteWriter<std::vector<std::byte>> out;
     const auto& h = *impl_;
-    out.put_raw("corpsk2\n", 8);
+    out.put_raw("corpsk3\n", 8);
     out.put(fingerprint(h), h.step, h.stats.afferent_steps, h.stats.skipped_steps, h.stats.spikes, h.stats.truncated_steps);
     for (const auto& c : h.classes) out.put(c.population->save());
+    for (const auto& c : h.classes)
+        if (c.wave) out.put(c.wave->save());
     std::vector<PackedSpike> in_transit;
     for (const auto& s : h.conduction.in_transit()) in_transit.push_back({s.step, s.offset, s.afferent_index});
     out.put(in_transit);
@@ -269,6 +281,8 @@ Result<void> Skin::resume(std::span<const std::byte> saved) {
     std::vector<std::vector<double>> states(h.classes.size());
     for (auto& s : states)
         if (!in.get(s)) return damaged;
+    for (auto& c : h.classes)
+        if (std::vector<double> wave; c.wave && !(in.get(wave) && c.wave->resume(wave, step))) return damaged;
     std::vector<PackedSpike> packed;
     if (!in.get(packed) || !in.ended()) return damaged;
     std::vector<Spike> in_transit;

@@ -15,7 +15,14 @@ void must(bool ok) {
     if (!ok) std::abort();
 }
 
+/// A wave either has all its values or is that of a class without one.
+void check_wave(const WaveParams& wave) {
+    if (wave.speed == 0) return must(wave == WaveParams{});
+    must(wave.speed > 0 && wave.decay > 0 && wave.radius > 0 && wave.gain >= 0 && wave.corner > 0);
+}
+
 void check(const Innervation& skin) {
+    for (const auto& c : skin.plan.classes) check_wave(c.wave);
     must(skin.afferents.size() == skin.class_begin.back() && skin.fields.size() == skin.plan.classes.size());
     for (const auto& u : skin.afferents)
         must(std::isfinite(u.position.x) && std::isfinite(u.position.y) && std::isfinite(u.delay) && u.delay >= 0);

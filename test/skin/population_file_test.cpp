@@ -182,10 +182,10 @@ TEST(PopulationFile, SitesCoverTheAreaOfTheShapes) {
 
 TEST(PopulationFile, ErrorsGiveTheLocationAndARemedy) {
     const std::string text(pad);
-    EXPECT_EQ(
-        error_in(text, "density =", "densty ="),
-        "pad.toml:9:1: [[class]]: there is no 'densty'; did you mean 'density'? (there are name, afferent, set, spread, density, "
-        "per_site, sigma, hot_spots, hot_spot_spread, velocity, velocity_spread, direction_gain, direction, direction_spread, source)");
+    EXPECT_EQ(error_in(text, "density =", "densty ="),
+              "pad.toml:9:1: [[class]]: there is no 'densty'; did you mean 'density'? (there are name, afferent, set, spread, density, "
+              "per_site, sigma, hot_spots, hot_spot_spread, velocity, velocity_spread, direction_gain, direction, direction_spread, "
+              "wave_speed, wave_decay, wave_radius, wave_gain, wave_corner, source)");
     EXPECT_EQ(error_in(text, "\"sa1\"", "\"sa9\"").substr(0, 14), "pad.toml:8:12:");
     EXPECT_EQ(error_in(text, "\"70 /cm2\"", "70"), "pad.toml:9:11: density = 70: the unit is missing; write density = \"70 /cm2\"");
     EXPECT_EQ(error_in(text, "\"70 /cm2\"", "{paed = \"1 /cm2\"}"),
@@ -210,6 +210,22 @@ TEST(PopulationFile, ErrorsGiveTheLocationAndARemedy) {
               "pad.toml:2:9: sites = 'chanels': the only word allowed is \"channels\"");
     EXPECT_EQ(error_in(text, "/cm2\"", "/cm2\"\nhot_spots = 3"), "pad.toml:10:13: several hot spots need a sigma and a hot_spot_spread");
     EXPECT_EQ(error_in(text, "\"70 /cm2\"", "\"1 /um2\"").substr(0, 20), "pad.toml:9:11: densi");
+}
+
+TEST(PopulationFile, AClassFeelsAContactWaveIfItHasAWaveSpeed) {
+    const std::string skin = "[sites]\nrows = 2\ncolumns = 2\npitch = \"2 mm\"\n[[class]]\nafferent = \"fa2\"\nper_site = 1\n";
+    const auto wave_of = [&](const std::string& keys) { return parse_skin_plan(skin + keys, "w.toml"); };
+    EXPECT_EQ(wave_of("")->classes[0].wave, WaveParams{});
+    EXPECT_EQ(wave_of("wave_speed = \"6 m/s\"")->classes[0].wave, WaveParams{.speed = 6});
+    const auto all =
+        wave_of("wave_speed = \"6 m/s\"\nwave_decay = \"2 cm\"\nwave_radius = \"3 mm\"\nwave_gain = 0.5\nwave_corner = \"9 Hz\"");
+    ASSERT_TRUE(all) << all.error().text();
+    EXPECT_EQ(all->classes[0].wave, (WaveParams{6, 2e-2, 3e-3, 0.5, 9}));
+    EXPECT_EQ(wave_of("wave_gain = 0.5").error().text(), "w.toml:8:13: wave_gain needs a wave_speed: wave_speed = \"8 m/s\"");
+    EXPECT_EQ(wave_of("wave_speed = 8").error().text(), "w.toml:8:14: wave_speed = 8: the unit is missing; write wave_speed = \"8 m/s\"");
+    EXPECT_EQ(wave_of("wave_speed = \"0.1 m/s\"").error().text(), "w.toml:8:14: wave_speed = 100 mm/s is outside [500 mm/s, 200 m/s]");
+    EXPECT_EQ(wave_of("wave_speed = \"8 m/s\"\nwave_decay = \"1 m\"").error().text(),
+              "w.toml:9:14: wave_decay = 1 m is outside [1 mm, 200 mm]");
 }
 
 TEST(PopulationFile, SitesComeFromAListATableOrARecording) {

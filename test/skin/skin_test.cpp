@@ -2,8 +2,13 @@
 // after its state is saved and resumed.
 
 #include "skin/skin.hpp"
+
+#include <numeric>
+
+#include "core/bytes.hpp"
 #include "core/random.hpp"
 #include "model/catalog.hpp"
+#include "skin/wave/contact_wave.hpp"
 #include "support/property.hpp"
 
 namespace corpuscle {
@@ -11,14 +16,15 @@ namespace {
 
 constexpr double skin_T = 1e-3;  // sampling period, s
 
-/// Three classes on a grid of sites. `spread`: true if the thresholds V_th vary between afferents. `velocity`: of conduction, m/s; 0 means
-/// no delays.
-std::shared_ptr<const Innervation> small_skin(std::size_t rows, std::size_t columns, bool spread, double velocity) {
+/// Three classes on a grid of sites. `wave`: fa1 and sa2 feel contact waves, whose delays are up to about 13 samples. `spread`: true if the
+/// thresholds V_th vary between afferents. `velocity`: of conduction, m/s; 0 means no delays.
+std::shared_ptr<const Innervation> small_skin(std::size_t rows, std::size_t columns, bool spread, double velocity, bool wave = false) {
     SkinPlan plan{"small", "", *grid_sites(rows, columns, 2e-3), {}, 7};
     for (const char* name : {"sa1", "fa1", "sa2"}) {
         SkinClass c{name, *plan_afferent(name)};
         c.per_site = 2, c.sigma = 1.5e-3, c.hot_spots = 2, c.hot_spot_spread = 1e-3;
         c.velocity = velocity, c.velocity_spread = velocity / 10;
+        if (wave && c.name != "sa1") c.wave = {.speed = 1.5, .gain = c.name == "sa2" ? 0.5 : 2};
         if (spread) c.distributions.push_back({name, "V_th", "V", 0.03, {}});
         plan.classes.push_back(std::move(c));
     }
@@ -60,9 +66,26 @@ std::vector<Spike> simulate_all(Skin& skin, const PressPattern& touch, ThreadPoo
     return spikes;
 }
 
-TEST(Skin, RespondsLikeItsAfferentsSimulatedSeparately) {
+/// Adds the contact waves of a class to the force on its afferents, forces[afferent * steps + step].
+void add_waves(const Innervation& map, std::size_t class_index, const PressPattern& touch, std::vector<double>& forces) {
     ThreadPool pool(1);
-    const auto map = small_skin(5, 6, true, 40);
+    const auto count = map.class_begin[class_index + 1] - map.class_begin[class_index];
+    const auto wave = *ContactWave::make(map, class_index, 0, count, skin_T, *instruction_set());
+    std::vector<std::uint32_t> all_sites(touch.sites);
+    std::iota(all_sites.begin(), all_sites.end(), 0U);
+    for (std::size_t at = 0; at < touch.steps; ++at) {
+        wave->compute(touch.at(0), all_sites, at, 1, pool);
+        for (std::size_t u = 0; u < count; ++u)
+            if (const double* f = wave->force_on(u)) forces[u * touch.steps + at] += *f;
+    }
+}
+
+class SkinWithWaves : public ::testing::TestWithParam<bool> {};
+INSTANTIATE_TEST_SUITE_P(Skin, SkinWithWaves, ::testing::Bool());
+
+TEST_P(SkinWithWaves, RespondsLikeItsAfferentsSimulatedSeparately) {
+    ThreadPool pool(1);
+    const auto map = small_skin(5, 6, true, 40, GetParam());
     const PressPattern touch(30, 9000, 3);  // long enough for the states of afferents to decay to zero, and for new presses after that
     auto skin = make_skin(map);
     const auto spikes = simulate_all(*skin, touch, pool);
@@ -78,6 +101,7 @@ TEST(Skin, RespondsLikeItsAfferentsSimulatedSeparately) {
             for (std::size_t k = f.begin[s]; k < f.begin[s + 1]; ++k)
                 for (std::size_t t = 0; t < touch.steps; ++t)
                     forces[f.afferent[k] * touch.steps + t] += f.weight[k] * touch.force[s * touch.steps + t];
+        if (map->plan.classes[c].wave.speed > 0) add_waves(*map, c, touch, forces);
         for (std::size_t u = 0; u < count; ++u) {
             const auto afferent = make_afferent((*plans)[u], corpuscle::SimulationOptions{skin_T});
             auto state = afferent->start();
@@ -102,7 +126,7 @@ TEST(Skin, GivesTheSameSpikesForAnyBlocksAndAfterSaveAndResume) {
     EXPECT_TRUE(rc::check([] {
         ThreadPool pool(1);
         const bool spread = *rc::gen::arbitrary<bool>();
-        const auto map = small_skin(3, 4, spread, *rc::gen::element(0.0, 30.0));
+        const auto map = small_skin(3, 4, spread, *rc::gen::element(0.0, 30.0), *rc::gen::arbitrary<bool>());
         const PressPattern touch(12, 6000, *rc::gen::arbitrary<std::uint32_t>());
         const auto expected = simulate_all(*make_skin(map), touch, pool);
         auto skin = make_skin(map);
@@ -123,7 +147,7 @@ TEST(Skin, GivesTheSameSpikesForAnyBlocksAndAfterSaveAndResume) {
 
 TEST(Skin, GivesTheSameSpikesOnThreadsInShardsAndOnEveryInstructionSet) {
     ThreadPool one(1), three(3);
-    const auto map = small_skin(16, 24, true, 30);
+    const auto map = small_skin(16, 24, true, 30, true);
     const PressPattern touch(16 * 24, 3000, 11);
     const auto expected = simulate_all(*make_skin(map), touch, one);
     ASSERT_GT(expected.size(), 1000U);
@@ -151,7 +175,7 @@ TEST(Skin, ANonFiniteForceIsReportedBySiteAndSample) {
 
 TEST(Skin, RefusesAStateOfAnotherSkinOrADamagedState) {
     ThreadPool pool(1);
-    const auto map = small_skin(3, 3, true, 20);
+    const auto map = small_skin(3, 3, true, 20, true);
     auto skin = make_skin(map);
     const PressPattern touch(9, 500, 5);
     (void)simulate_all(*skin, touch, pool);
@@ -168,22 +192,27 @@ TEST(Skin, RefusesAStateOfAnotherSkinOrADamagedState) {
     EXPECT_FALSE(make_skin(map)->resume(saved));
 }
 
-TEST(Skin, AStateOfThePreviousVersionIsReadAndALaterOneRefused) {
+TEST(Skin, AStateOfThePreviousVersionsIsReadAndALaterOneRefused) {
     ThreadPool pool(1);
     const auto map = small_skin(3, 3, true, 20);
     const PressPattern touch(9, 500, 5);
     auto skin = make_skin(map);
     (void)simulate_all(*skin, touch, pool);
     auto saved = skin->save();
-    saved[6] = std::byte{'3'};
+    saved[6] = std::byte{'4'};
     const auto later = make_skin(map)->resume(saved);
     ASSERT_FALSE(later);
-    EXPECT_NE(later.error().message.find("a later version than 2"), std::string::npos) << later.error().message;
-    saved[6] = std::byte{'1'};
-    saved.resize(saved.size() - 8);  // version 1 has no checksum
-    auto resumed = make_skin(map);
-    ASSERT_TRUE(resumed->resume(saved));
-    EXPECT_EQ(resumed->save(), skin->save());
+    EXPECT_NE(later.error().message.find("a later version than 3"), std::string::npos) << later.error().message;
+    saved.resize(saved.size() - 8);
+    saved[6] = std::byte{'2'};  // it has no contact waves
+    ByteWriter<std::vector<std::byte>> version_2;
+    version_2.put_raw(saved.data(), saved.size()), version_2.put_checksum();
+    saved[6] = std::byte{'1'};  // it has no checksum, either
+    for (const auto& state : {saved, version_2.take()}) {
+        auto resumed = make_skin(map);
+        ASSERT_TRUE(resumed->resume(state));
+        EXPECT_EQ(resumed->save(), skin->save());
+    }
 }
 
 }  // namespace

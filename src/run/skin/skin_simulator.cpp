@@ -89,6 +89,12 @@ Result<SkinProbes> SkinProbes::make(const Innervation& skin, const SimulationOpt
         }
     }
     out.sums_.resize(out.afferents_.size());
+    for (std::size_t c = 0; c < skin.plan.classes.size(); ++c) {
+        out.waves_.emplace_back();
+        const auto count = skin.class_begin[c + 1] - skin.class_begin[c];
+        if (skin.plan.classes[c].wave.speed > 0 && count > 0)
+            out.waves_[c] = TRY(ContactWave::make(skin, c, 0, count, run.dt, *instruction_set()));
+    }
     return out;
 }
 
@@ -131,8 +137,23 @@ void SkinProbes::compute_force(const SiteForce& force, std::size_t steps) {
     }
 }
 
+/// Adds the contact waves to the force on the afferents.
+void SkinProbes::add_waves(const SiteForce& force, std::size_t steps, ThreadPool& pool) {
+    touched_.clear();
+    force.for_each_site(skin_->plan.sites.size(), [this](std::size_t s) { touched_.push_back(static_cast<std::uint32_t>(s)); });
+    for (std::size_t c = 0; c < waves_.size(); ++c)
+        for (std::size_t at = 0; waves_[c] && at < steps; at += WaveSources::max_steps) {
+            const auto count = std::min(WaveSources::max_steps, steps - at);
+            waves_[c]->compute(force, touched_, at, count, pool);
+            for (auto u = skin_->class_begin[c]; u < skin_->class_begin[c + 1]; ++u)
+                if (const double* wave = waves_[c]->force_on(u - skin_->class_begin[c]))
+                    for (std::size_t t = 0; t < count; ++t) force_[u][at + t] += wave[t];
+        }
+}
+
 Result<void> SkinProbes::respond(const SiteForce& force, std::size_t steps, ThreadPool& pool) {
     compute_force(force, steps);
+    add_waves(force, steps, pool);
     std::vector<Result<void>> results(afferents_.size());
     pool.for_each(afferents_.size(), [&](std::size_t u, unsigned) {
         std::vector<double*> arrays;

@@ -11,6 +11,7 @@
 #include "run/run_inputs.hpp"
 #include "run/skin/skin_checkpoint.hpp"
 #include "run/skin/skin_population.hpp"
+#include "skin/wave/contact_wave.hpp"
 
 namespace corpuscle {
 
@@ -33,12 +34,15 @@ private:
     const Innervation* skin_ = nullptr;
     std::vector<std::unique_ptr<Afferent>> afferents_;
     std::vector<State> states_;
+    std::vector<std::unique_ptr<ContactWave>> waves_;  // of each class; null: none
+    std::vector<std::uint32_t> touched_;
     std::vector<std::vector<double>> force_;  // on each afferent in the current block, N
     std::vector<std::vector<double>> sums_;   // one component of it, summed over the receptive field of each afferent, N
     std::vector<std::vector<std::vector<double>>> values_;
 
     void sum_component(const SiteForce&, const double* component, std::size_t steps);
     void compute_force(const SiteForce&, std::size_t steps);
+    void add_waves(const SiteForce&, std::size_t steps, ThreadPool&);
 };
 
 class SkinSimulator final : public BlockSimulator {

@@ -43,6 +43,8 @@ Json class_document(const Innervation& skin, std::size_t c) {
     out["regions"] = density_document(skin, c);
     out["receptive_field"] = {{"sigma_m", k.sigma}, {"hot_spots", k.hot_spots}, {"hot_spot_spread_m", k.hot_spot_spread}};
     out["conduction"] = {{"velocity_m_s", k.velocity}, {"standard_deviation_m_s", k.velocity_spread}};
+    if (const auto& w = k.wave; w.speed > 0)
+        out["wave"] = {{"speed_m_s", w.speed}, {"decay_m", w.decay}, {"radius_m", w.radius}, {"gain", w.gain}, {"corner_Hz", w.corner}};
     out["afferent"] = document_of(k.afferent);
     out["spreads"] = document_of(k.distributions);
     out["sources"] = sources_document(k.sources);

@@ -65,10 +65,32 @@ void sum_afferent(const std::uint32_t* site, const double* weight, std::size_t c
     }
 }
 
+void sum_delayed(const DelayedTerm* terms, std::size_t count, std::size_t steps, double* sums) {
+    constexpr std::size_t at_once = 32;  // the number of steps is usually this
+    std::size_t from = 0;
+    for (; from + at_once <= steps; from += at_once) {
+        T sum[at_once / width];
+        for (auto& s : sum) s = T(0.0);
+        for (const auto* term = terms; term != terms + count; ++term) {
+            const T now(term->weight), before(term->weight_before);
+            const double* const f = term->value + from;
+            for (std::size_t i = 0; i < at_once / width; ++i)
+                sum[i] = sum[i] + now * T::load_unaligned(f + i * width) + before * T::load_unaligned(f + i * width - 1);
+        }
+        for (std::size_t i = 0; i < at_once / width; ++i) sum[i].store_unaligned(sums + from + i * width);
+    }
+    for (; from < steps; ++from) {
+        double sum = 0;
+        for (const auto* term = terms; term != terms + count; ++term)
+            sum = sum + term->weight * term->value[from] + term->weight_before * term->value[static_cast<std::ptrdiff_t>(from) - 1];
+        sums[from] = sum;
+    }
+}
+
 }  // namespace
 
 namespace CORPUSCLE_ISA {
-const FieldKernels field_kernels{sum_rows, add_site, sum_afferent};
+const FieldKernels field_kernels{sum_rows, add_site, sum_afferent, sum_delayed};
 }
 
 }  // namespace corpuscle::lanes

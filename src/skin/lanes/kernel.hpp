@@ -12,6 +12,12 @@ namespace corpuscle::lanes {
 
 inline constexpr std::size_t group_size = 8;  ///< number of weights in one group
 
+/// One term of a sum of delayed values: weight * value[t] + weight_before * value[t - 1] in step t.
+struct DelayedTerm {
+    const double* value;
+    double weight, weight_before;
+};
+
 /// The functions of one instruction set.
 struct FieldKernels {
     /// The force on 64 afferents u at one step: sums[u] = sum over k < rows of w * now[row[k] + u], where w is the weight of afferent u in
@@ -25,6 +31,8 @@ struct FieldKernels {
     /// The force on one afferent in all steps t: column[t * stride] = sum over k < count of weight[k] * rows[site[k]][t].
     void (*sum_afferent)(const std::uint32_t* site, const double* weight, std::size_t count, const double* const* rows, std::size_t steps,
                          double* column, std::size_t stride);
+    /// The sum of all terms in all steps t: sums[t].
+    void (*sum_delayed)(const DelayedTerm* terms, std::size_t count, std::size_t steps, double* sums);
 };
 
 CORPUSCLE_KERNELS(FieldKernels, field_kernels)

@@ -17,13 +17,29 @@ constexpr double max_density = 1e10;                      // afferents per m2: a
 constexpr double max_width = 0.1;                         // m; largest sigma and hot_spot_spread
 constexpr double min_velocity = 0.1, max_velocity = 200;  // m/s
 
-constexpr auto class_keys = std::to_array<ConfigKey>(
-    {"name", "afferent", ConfigKey("set", KeyKind::settings), ConfigKey("spread", KeyKind::settings),
-     ConfigKey("density", KeyKind::text_or_settings), "per_site", "sigma", "hot_spots", "hot_spot_spread", "velocity", "velocity_spread",
-     "direction_gain", "direction", "direction_spread", ConfigKey("source", KeyKind::settings)});
-constexpr auto class_sources =
-    std::to_array<ConfigKey>({"afferent", "set", "spread", "density", "per_site", "sigma", "hot_spots", "hot_spot_spread", "velocity",
-                              "velocity_spread", "direction_gain", "direction", "direction_spread"});
+constexpr auto class_keys = std::to_array<ConfigKey>({"name",
+                                                      "afferent",
+                                                      ConfigKey("set", KeyKind::settings),
+                                                      ConfigKey("spread", KeyKind::settings),
+                                                      ConfigKey("density", KeyKind::text_or_settings),
+                                                      "per_site",
+                                                      "sigma",
+                                                      "hot_spots",
+                                                      "hot_spot_spread",
+                                                      "velocity",
+                                                      "velocity_spread",
+                                                      "direction_gain",
+                                                      "direction",
+                                                      "direction_spread",
+                                                      "wave_speed",
+                                                      "wave_decay",
+                                                      "wave_radius",
+                                                      "wave_gain",
+                                                      "wave_corner",
+                                                      ConfigKey("source", KeyKind::settings)});
+constexpr auto class_sources = std::to_array<ConfigKey>(
+    {"afferent", "set", "spread", "density", "per_site", "sigma", "hot_spots", "hot_spot_spread", "velocity", "velocity_spread",
+     "direction_gain", "direction", "direction_spread", "wave_speed", "wave_decay", "wave_radius", "wave_gain", "wave_corner"});
 
 /// The settings in the table `name` of a class (`set` or `spread`), as overrides whose target is the text by which the file requests the
 /// afferent.
@@ -129,6 +145,7 @@ Result<SkinClass> read_class(const ConfigNode& in, const Sites& sites, const Pop
     TRY(read_numbers(in, sites, values, out));
     TRY(read_fields_and_velocity(in, values, out));
     out.direction = TRY(read_direction_tuning(in, values));
+    out.wave = TRY(read_wave(in, values));
     return out;
 }
 

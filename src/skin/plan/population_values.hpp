@@ -43,4 +43,7 @@ Result<DirectionTuning> read_direction_tuning(const ConfigNode& in, const Popula
 /// The classes of a population file whose sites have been read.
 Result<std::vector<SkinClass>> read_classes(const ConfigNode& top, const Sites&, const PopulationValues&);
 
+/// The contact wave of a class; without wave_speed, none.
+Result<WaveParams> read_wave(const ConfigNode& in, const PopulationValues&);
+
 }  // namespace corpuscle::skins

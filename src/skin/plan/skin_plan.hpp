@@ -19,6 +19,16 @@ struct DirectionTuning {
     double spread = 0;                ///< standard deviation of the preferred directions around `mean`, rad
 };
 
+/// The contact wave that a class feels besides the force in its receptive fields (skin/wave/contact_wave.hpp).
+struct WaveParams {
+    double speed = 0;      ///< m/s; 0: the class feels no wave
+    double decay = 40e-3;  ///< m; the distance in which the wave falls to 1/e, besides its spreading
+    double radius = 5e-3;  ///< m; the wave spreads beyond this distance
+    double gain = 0.1;     ///< force of the wave at its source, relative to the change of force there
+    double corner = 20;    ///< Hz; the wave has the changes of force above this frequency
+    bool operator==(const WaveParams&) const = default;
+};
+
 /// One class of afferents in a skin.
 struct SkinClass {
     std::string name;                  ///< name in outputs: "sa1"
@@ -30,6 +40,7 @@ struct SkinClass {
     double hot_spot_spread = 0;        ///< m, standard deviation of the hot spots' distance from the afferent, in x and in y
     double velocity = 0, velocity_spread = 0;  ///< conduction velocity, m/s: mean and standard deviation over afferents; 0: no delay
     DirectionTuning direction = {};
+    WaveParams wave = {};
     std::vector<ParameterDistribution> distributions = {};  ///< how the parameters of its afferents vary
     std::vector<SourceNote> sources = {};
 };
