@@ -166,10 +166,10 @@ TEST(Edge, HasTheWidthOfHertzsCylinderAndCanBeRotated) {
 TEST(Grating, RepeatsAfterOnePeriodInTimeAndSpace) {
     const auto sites = sheet(8e-3, 0.25e-3);
     const auto contact = make_checked_contact("grating", {"radius=6mm", "period=3mm", "ridge=1.5mm", "speed=30mm/s", "x=0", "y=0"}, sites);
-    const auto first = force_map(*contact, sites, 1, 0), after_half_period = force_map(*contact, sites, 1, 50),
-               after_period = force_map(*contact, sites, 1, 100);
-    const auto near = force_map(*contact, sites, 1, 10);  // the grating has moved by 0.3 mm
-    double same = 0, opposite = 0;                        // correlations with the first map, of `near` and of the map after half a period
+    const auto first = force_map(*contact, sites, 1, 200), after_half_period = force_map(*contact, sites, 1, 250),
+               after_period = force_map(*contact, sites, 1, 300);
+    const auto near = force_map(*contact, sites, 1, 210);  // the grating has moved by 0.3 mm
+    double same = 0, opposite = 0;                         // correlations with the first map, of `near` and of the map after half a period
     for (std::size_t s = 0; s < first.size(); ++s) {
         EXPECT_NEAR(first[s], after_period[s], 1e-12);
         if (std::hypot(sites.positions[s].x, sites.positions[s].y) > 5e-3) continue;
@@ -200,7 +200,7 @@ RC_GTEST_PROP(Contacts, GiveTheSameForceForAnyBlocks, ()) {
     std::vector<double> force(samples);
     for (std::size_t k = 0; k < samples; ++k) force[k] = k % 17 == 0 ? 0 : 0.1 * static_cast<double>(k % 7);
     const auto run = [&](auto&& block) {
-        const auto contact = make_checked_contact("sphere", {"x=-8mm", "y=0", "x1=8mm", "t_move=50ms"}, sites);
+        const auto contact = make_checked_contact("sphere", {"x=-8mm", "y=0", "x1=8mm", "t_move=50ms", "roughness=0.1"}, sites);
         std::vector<double> out(sites.size() * samples, 0.0);
         for (std::size_t k = 0; k < samples;) {
             const auto n = std::min(samples - k, static_cast<std::size_t>(block()));
@@ -225,9 +225,9 @@ TEST(ContactOptions, AreRefusedWithARemedy) {
         return made ? "accepted" : made.error().text();
     };
     EXPECT_EQ(error_text("spere", {}), "there is no indenter 'spere'; did you mean 'sphere'? (there are flat, sphere, edge, grating)");
-    EXPECT_EQ(
-        error_text("sphere", {"period=2mm"}),
-        "contact.period: sphere has no such parameter (it has radius, E_star, and for its path x, y, x1, y1, t_start, t_move, speed)");
+    EXPECT_EQ(error_text("sphere", {"period=2mm"}),
+              "contact.period: sphere has no such parameter (it has radius, E_star, roughness, grain, and for its path x, y, x1, y1, "
+              "t_start, t_move, speed)");
     EXPECT_EQ(error_text("sphere", {"x1=2mm"}),
               "contact: the speed of the movement to x1, y1 is missing; give contact.t_move or contact.speed");
     EXPECT_EQ(error_text("flat", {"t_move=2s"}), "contact: the end of the movement is missing; give contact.x1 or contact.y1");

@@ -70,7 +70,7 @@ Result<void> SkinRun::open_contact(std::string indenter, const NamedTouch* touch
         return {};
     }
     if (indenter.empty()) indenter = touch ? touch->indenter : default_indenter;
-    auto contact = TRY(make_contact(indenter, overrides_, sites, source_->clock()));
+    auto contact = TRY(make_contact(indenter, overrides_, sites, source_->clock(), innervation_->plan.seed));
     keep_unused(unused_, contact.unused);
     contact_ = std::move(contact.result);
     force_ = make_pressed_force(*source_, *contact_);

@@ -6,6 +6,7 @@
 #include "core/text/quantity.hpp"
 #include "skin/contact/indenters.hpp"
 #include "skin/contact/skin_cells.hpp"
+#include "skin/contact/sliding_texture.hpp"
 
 namespace corpuscle {
 namespace {
@@ -24,6 +25,17 @@ double move_duration(const ContactParams& p) {
     return is_moving(p) && p.speed > 0 ? num::sqrt(dx * dx + dy * dy) / p.speed : p.t_move;
 }
 
+/// The movement of the indenter's surface over the skin. A surface that passes under a resting contact moves along its ridges' normal or,
+/// without ridges, along x.
+SlidingTexture::Motion surface_motion(const Indenter& indenter, const ContactParams& p) {
+    const Position origin{p.x, p.y, 0};
+    if (const double duration = move_duration(p); is_moving(p) && duration > 0)
+        return {{(p.x1 - p.x) / duration, (p.y1 - p.y) / duration, 0}, origin, p.t_start, p.t_start + duration};
+    const double turns = indenter.name == "grating" ? p.angle / 360 : 0;
+    const Position velocity{p.speed * num::cos_turns(turns), p.speed * num::sin_turns(turns), 0};
+    return {velocity, origin, p.t_start, std::numeric_limits<double>::infinity()};
+}
+
 class IndenterContact final : public Contact {
     const Indenter& indenter_;
     ContactParams p_;
@@ -32,6 +44,7 @@ class IndenterContact final : public Contact {
     SkinCells cells_;
     double move_duration_;  // s
     std::unique_ptr<PressureDistribution> pressure_;
+    SlidingTexture texture_;
 
     // The contact at the last sample: position, size, shift of the pattern, and the fractions of the force that follow from them. The
     // fractions are reused while the others do not change.
@@ -112,18 +125,20 @@ class IndenterContact final : public Contact {
         const double t = clock_.time(sample), size = pressure_->size(force);
         TRY(check(size, force));
         distribute(position_at(t), size, pattern_shift(t));
+        texture_.move_to(t);
         pressed_ += force, off_skin_ += force * (1 - on_skin_), max_size_ = std::max(max_size_, size);
         for (const auto& s : fractions_) {
             touch(s.site, steps);
-            force_[s.site * stride_ + k] = force * s.fraction;
+            force_[s.site * stride_ + k] = force * s.fraction * std::max(0.0, 1 + texture_.at(s.site));
         }
         return {};
     }
 
 public:
-    IndenterContact(const Indenter& indenter, const ContactParams& p, const Sites& sites, const Clock& clock)
+    IndenterContact(const Indenter& indenter, const ContactParams& p, const Sites& sites, const Clock& clock, std::uint64_t seed)
         : indenter_(indenter), p_(p), clock_(clock), sites_(sites.size()), cells_(sites), move_duration_(move_duration(p)),
-          pressure_(make_pressure_distribution(indenter, p, cells_.side())), in_block_(sites.size(), 0) {}
+          pressure_(make_pressure_distribution(indenter, p, cells_.side())),
+          texture_(indenter, p, sites, surface_motion(indenter, p), clock.rate(), seed), in_block_(sites.size(), 0) {}
 
     std::string description() const override {
         const auto length = [](double m) { return format_quantity(m, "m"); };
@@ -131,6 +146,7 @@ public:
                            : indenter_.name == "flat" ? fmt::format("a flat punch of {}", length(p_.radius))
                            : indenter_.name == "edge" ? fmt::format("an edge {} long", length(p_.length))
                                                       : fmt::format("a grating with a ridge every {}", length(p_.period));
+        if (indenter_.name != "grating" && p_.roughness > 0) text += fmt::format(" with bumps every {}", length(p_.grain));
         if (!is_moving(p_) && p_.speed > 0) text += fmt::format(" moving past at {}", format_quantity(p_.speed, "m/s"));
         if (!is_moving(p_)) return text + fmt::format(", pressed at {}", in_mm(p_.x, p_.y));
         return text +
@@ -161,6 +177,11 @@ public:
         if (pressed_ > 0 && off_skin_ > 1e-9 * pressed_)
             out.push_back(
                 fmt::format("{:.3g} % of the force, over time, was off the skin and reached no afferent", 100 * off_skin_ / pressed_));
+        if (texture_.left_out() > 0)
+            out.push_back(
+                fmt::format("the texture vibrates around {}; {:.2g} % of its mean square are at or above half the sampling rate of "
+                            "{} and were left out; --rate gives stimuli a higher one",
+                            format_quantity(texture_.frequency(), "Hz"), 100 * texture_.left_out(), format_quantity(clock_.rate(), "Hz")));
         if (indenter_.name == "sphere" && max_size_ > 0.5 * p_.radius)
             out.push_back(fmt::format(
                 "the contact radius reached {}, more than half of the sphere's radius; Hertz's theory is only valid for small contacts",
@@ -190,10 +211,10 @@ public:
 }  // namespace
 
 Result<Applied<std::unique_ptr<Contact>>> make_contact(std::string_view name, std::span<const ParameterOverride> overrides,
-                                                       const Sites& sites, const Clock& clock) {
+                                                       const Sites& sites, const Clock& clock, std::uint64_t seed) {
     const auto indenter = TRY(find_indenter(name));
     auto params = TRY(read_contact_params(*indenter, overrides, sites));
-    return Applied<std::unique_ptr<Contact>>{std::make_unique<IndenterContact>(*indenter, params.result, sites, clock),
+    return Applied<std::unique_ptr<Contact>>{std::make_unique<IndenterContact>(*indenter, params.result, sites, clock, seed),
                                              std::move(params.unused)};
 }
 
@@ -205,6 +226,20 @@ std::span<const NamedTouch> named_touches() {
          "a fingertip pressed with 1 N and moved from the palm to the tip of the index finger of 'hand' in 10 s",
          {{"radius", 8e-3}, {"x", 29.6e-3}, {"y", 52.6e-3}, {"x1", 47.2e-3}, {"y1", 177.4e-3}, {"t_move", 10}},
          {{"F_max", 1}, {"t_rest", 0}, {"t_up", 0.1}, {"t_hold", 9.8}, {"t_down", 0.1}, {"t_post", 0}}},
+        {"texture",
+         "ramp-hold",
+         "sphere",
+         "as stroke, but with a rough surface (bumps every 0.5 mm) and at 80 mm/s: the skin vibrates around 160 Hz",
+         {{"radius", 8e-3},
+          {"roughness", 0.03},
+          {"grain", 0.5e-3},
+          {"x", 29.6e-3},
+          {"y", 52.6e-3},
+          {"x1", 47.2e-3},
+          {"y1", 177.4e-3},
+          {"t_start", 0.2},
+          {"speed", 80e-3}},
+         {{"F_max", 1}, {"t_rest", 0}, {"t_up", 0.1}, {"t_hold", 1.8}, {"t_down", 0.1}, {"t_post", 0}}},
         {"scan",
          "ramp-hold",
          "grating",

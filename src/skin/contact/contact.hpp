@@ -13,15 +13,15 @@ public:
     virtual std::vector<MetadataEntry> metadata() const = 0;  ///< the parameters that this contact uses, with their values
     virtual std::vector<std::string> notes() const = 0;  ///< limitations of the model, and which part of the force so far was off the skin
     /// The force at the sites for a block of normal force on the indenter (N). The first sample of the block has number `first` on the
-    /// clock. In the result, the sum over all sites is the force on the indenter, except for the part off the skin. It is valid until the
-    /// next call.
+    /// clock. In the result, the sum over all sites is the force on the indenter, except for the part off the skin and the vibration by the
+    /// texture of a sliding surface, which changes no mean over time. It is valid until the next call.
     virtual Result<SiteForce> press(std::span<const double> force, std::int64_t first) = 0;
 };
 
 /// A contact of an indenter ("flat", "sphere", "edge" or "grating") with these sites, for samples of this clock. Its parameters are set by
-/// the overrides with target "contact". The sites must outlive the contact.
+/// the overrides with target "contact". The sites must outlive the contact. `seed`: of rough surfaces.
 Result<Applied<std::unique_ptr<Contact>>> make_contact(std::string_view indenter, std::span<const ParameterOverride> overrides,
-                                                       const Sites&, const Clock&);
+                                                       const Sites&, const Clock&, std::uint64_t seed = 1);
 
 /// The parameters of all contacts, for listings.
 std::vector<ParameterInfo> contact_parameters();
@@ -32,7 +32,8 @@ struct NamedTouch {
     std::vector<Setting> settings;                        ///< the contact's parameters that differ from the defaults
     std::vector<Setting> force_settings = {};             ///< the stimulus's parameters that differ from the defaults
 };
-/// "stroke" (from the palm to the tip of the index finger) and "scan" (a grating over the fingertip).
+/// "stroke" (from the palm to the tip of the index finger), "texture" (the same with a rough surface) and "scan" (a grating over the
+/// fingertip).
 std::span<const NamedTouch> named_touches();
 
 }  // namespace corpuscle

@@ -31,7 +31,7 @@ Result<void> check_contact(const Indenter& i, const ContactParams& p) {
     if (p.t_move > 0 && p.speed > 0) return bad_input("contact: t_move and speed are alternatives; give only one of them");
     if (is_moving(p) && p.t_move == 0 && p.speed == 0)
         return bad_input("contact: the speed of the movement to x1, y1 is missing; give contact.t_move or contact.speed");
-    if (!is_moving(p) && (p.t_move > 0 || (p.speed > 0 && i.name != "grating")))
+    if (!is_moving(p) && (p.t_move > 0 || (p.speed > 0 && i.name != "grating" && p.roughness == 0)))
         return bad_input("contact: the end of the movement is missing; give contact.x1 or contact.y1");
     return {};
 }

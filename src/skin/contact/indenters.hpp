@@ -12,6 +12,7 @@ namespace corpuscle {
 /// Parameters of a contact, in SI units; the meanings are in contact_fields. Positions are in the plane of the skin.
 struct ContactParams {
     double radius = 5e-3, edge_radius = 0.5e-3, length = 10e-3, period = 2e-3, ridge = 1e-3, angle = 0, E_star = 100e3;
+    double vibration = 0.03, roughness = 0, grain = 0.5e-3;
     double x = 0, y = 0, x1 = 0, y1 = 0, t_start = 0, t_move = 0, speed = 0;
 };
 
@@ -26,6 +27,14 @@ inline constexpr ParameterDef<ContactParams> contact_fields[] = {
      "choice"},
     {"E_star", &ContactParams::E_star, "Pa", 1e2, 1e9, "reduced modulus E/(1 - nu^2) of the skin under a rigid indenter",
      "choice: the order of magnitude for fingertips, from memory"},
+    {"vibration", &ContactParams::vibration, "", 0, 0.5,
+     "a sliding grating: amplitude of the vibration at speed / period, as a fraction of the force at a site; harmonic h has 1/h of it",
+     "choice"},
+    {"roughness", &ContactParams::roughness, "", 0, 0.3,
+     "a sliding surface: root mean square of the vibration that its roughness causes, as a fraction of the force at a site",
+     "choice; independent of speed, after Greenspon et al. 2019 (doi 10.1101/680322)"},
+    {"grain", &ContactParams::grain, "m", 1e-5, 0.1,
+     "a rough surface: distance between its bumps along the path; the vibration has frequencies around speed / grain", "choice"},
     {"x", &ContactParams::x, "m", -10, 10,
      "position along x; if neither x nor y is given, the position is the middle of the skin's first region"},
     {"y", &ContactParams::y, "m", -10, 10, "position along y"},
@@ -34,7 +43,7 @@ inline constexpr ParameterDef<ContactParams> contact_fields[] = {
     {"t_start", &ContactParams::t_start, "s", 0, 1e6, "start of the movement"},
     {"t_move", &ContactParams::t_move, "s", 0, 1e6, "duration of the movement to x1, y1; alternatively give speed"},
     {"speed", &ContactParams::speed, "m/s", 0, 100,
-     "speed of the movement to x1, y1; without x1 and y1, speed of a grating under its patch"},
+     "speed of the movement to x1, y1; without x1 and y1, speed of a grating or rough surface under its patch (along x if rough)"},
 };
 
 /// One kind of indenter. In the formulas of the descriptions, p is the pressure and F the force. r is the distance from the centre, d that
@@ -42,22 +51,25 @@ inline constexpr ParameterDef<ContactParams> contact_fields[] = {
 /// length.
 struct Indenter {
     std::string_view name, description, source;
-    std::array<std::string_view, 4> parameters;  ///< the parameters that it uses, besides those of the path; "": none
+    std::array<std::string_view, 8> parameters;  ///< the parameters that it uses, besides those of the path; "": none
 };
 inline constexpr Indenter indenters[] = {
-    {"flat", "a rigid flat punch: p = F/(2 pi a^2) (1 - r^2/a^2)^(-1/2)", "Johnson 1985, Contact Mechanics, 3.8", {"radius"}},
+    {"flat",
+     "a rigid flat punch: p = F/(2 pi a^2) (1 - r^2/a^2)^(-1/2)",
+     "Johnson 1985, Contact Mechanics, 3.8",
+     {"radius", "roughness", "grain"}},
     {"sphere",
      "a rigid sphere (Hertz): a^3 = 3 F R/(4 E*), p = 3F/(2 pi a^2) (1 - r^2/a^2)^(1/2)",
      "Johnson 1985, 4.2",
-     {"radius", "E_star"}},
+     {"radius", "E_star", "roughness", "grain"}},
     {"edge",
      "a rounded edge (Hertz's cylinder with a finite length): b^2 = 4 F R/(pi L E*), p = 2F/(pi b L) (1 - d^2/b^2)^(1/2)",
      "Johnson 1985, 4.2(c)",
-     {"edge_radius", "length", "angle", "E_star"}},
+     {"edge_radius", "length", "angle", "E_star", "roughness", "grain"}},
     {"grating",
      "ridges that carry the force evenly within a round patch, and can move through it",
      "choice",
-     {"radius", "period", "ridge", "angle"}},
+     {"radius", "period", "ridge", "angle", "vibration"}},
 };
 
 /// The indenter with this name. An unknown name is an error.
