@@ -54,9 +54,17 @@ void add_class_notes(const SkinPlan& plan, std::uint32_t class_index, std::vecto
     out.push_back({c.name, fmt::format("{} afferents, {}: {}", count, c.afferent.composition(), densities(plan, c)),
                    source_for(c.sources, "density")});
     const auto length = [](double m) { return format_quantity(m, "m"); };
-    out.push_back({"", fmt::format("receptive field: Gaussian, sigma {}", length(c.sigma)), source_for(c.sources, "sigma")});
+    if (c.depth > 0)
+        out.push_back({"",
+                       fmt::format("receptive field: stress at a depth of {}{}", length(c.depth),
+                                   c.surround > 0 ? fmt::format(", less {:.3g} of that at three times the depth", c.surround) : ""),
+                       source_for(c.sources, "depth")});
+    else
+        out.push_back({"", fmt::format("receptive field: Gaussian, sigma {}", length(c.sigma)), source_for(c.sources, "sigma")});
     if (c.hot_spots > 1)
-        out.push_back({"", fmt::format("{} hot spots of this width, spread {} around the centre", c.hot_spots, length(c.hot_spot_spread)),
+        out.push_back({"",
+                       fmt::format("{} hot spots, spread {} around the centre{}", c.hot_spots, length(c.hot_spot_spread),
+                                   c.receptor_per_hot_spot ? ", each with a receptor" : ""),
                        source_for(c.sources, "hot_spots")});
     if (c.velocity > 0)
         out.push_back(

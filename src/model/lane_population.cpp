@@ -116,15 +116,17 @@ std::unique_ptr<LanePopulation> make_tiled(const PopulationPlan& p, const Simula
                                .neuron = find_by_name(table.neurons, plan.neuron),
                                .lanes = table.lanes,
                                .size = p.size,
+                               .forces = p.forces,
                                .afferent_numbers = {p.afferent_numbers.begin(), p.afferent_numbers.end()},
                                .name = fmt::format("{}+{}", plan.receptor, plan.neuron)};
     layout.receptors = models_of(*layout.receptor, table.lanes, p.plans, p.size, run);
     layout.neurons = models_of(*layout.neuron, table.lanes, p.plans, p.size, run);
     // `fused` has one kernel for each neuron of the table, in the same order.
     const auto& fused = layout.receptor->fused[static_cast<std::size_t>(layout.neuron - table.neurons.data())];
-    if (fused.run && fused.is_usable(layout.neurons.data(), layout.neurons.size() / layout.neuron->model_bytes)) layout.fused = &fused;
+    if (p.forces == 1 && fused.run && fused.is_usable(layout.neurons.data(), layout.neurons.size() / layout.neuron->model_bytes))
+        layout.fused = &fused;
     // A buffer of one model means that all afferents share their receptor's parameters.
-    if (layout.receptors.size() == layout.receptor->model_bytes) layout.shared_receptor = make_shared_receptor(plan, run);
+    if (p.forces == 1 && layout.receptors.size() == layout.receptor->model_bytes) layout.shared_receptor = make_shared_receptor(plan, run);
     return std::make_unique<TiledPopulation<V>>(std::move(layout), run);
 }
 
@@ -135,6 +137,8 @@ bool can_use_lanes(const AfferentPlan& plan, const SimulationOptions& run) { ret
 Result<std::unique_ptr<LanePopulation>> make_lane_population(const PopulationPlan& p, const SimulationOptions& run, InstructionSet set) {
     if (p.size == 0 || p.plans.empty() || (p.plans.size() != 1 && p.plans.size() != p.size))
         return bad_input(fmt::format("a population of {} afferents with {} plans: give one plan, or one for each", p.size, p.plans.size()));
+    if (p.forces == 0 || p.forces > max_forces)
+        return bad_input(fmt::format("{} forces on each afferent: there must be 1 to {}", p.forces, max_forces));
     if (!p.afferent_numbers.empty() && p.afferent_numbers.size() != p.size)
         return bad_input(fmt::format("{} afferent numbers for {} afferents", p.afferent_numbers.size(), p.size));
     TRY(check_same_models(p.plans));

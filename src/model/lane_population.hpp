@@ -11,7 +11,8 @@
 
 namespace corpuscle {
 
-/// A block of force as one array of samples, in newtons, for each afferent. Several afferents may refer to the same array.
+/// A block of force as one array of samples, in newtons, for each afferent. Several afferents may refer to the same array. If an afferent
+/// has several forces, their arrays follow one another.
 struct ForceColumns {
     std::span<const double* const> columns;
 };
@@ -20,7 +21,8 @@ struct ForceColumns {
 inline constexpr std::size_t tile_width = 64;
 
 /// A block of force in tiles, as an array [tile][step][tile_width] in newtons. It is aligned to 64 bytes, and the last tile is padded with
-/// zeros. This is the fastest layout to read. V is the number type of the population, double or float.
+/// zeros. This is the fastest layout to read. V is the number type of the population, double or float. If afferents have several forces,
+/// the array is [tile of afferents][force][step][tile_width], and `zero_force` is [tile of afferents][force].
 template <class V>
 struct ForceTiles {
     const V* rows;
@@ -38,7 +40,7 @@ struct ForceInt16 {
 
 /// A block of one force for all afferents, in newtons. Each afferent feels it times its `gain`, which must not be negative; if `gain` is
 /// empty, all gains are 1. If all afferents have the same receptor parameters, and the receptor's current is proportional to force, this
-/// current is computed once, in double, and then multiplied by the gains.
+/// current is computed once, in double, and then multiplied by the gains. Afferents with several forces cannot have a profile.
 struct ForceProfile {
     std::span<const double> force;
     std::span<const double> gain = {};
@@ -82,7 +84,12 @@ struct PopulationPlan {
     std::size_t size = 0;                        ///< number of afferents, at least 1
     std::span<const std::uint32_t> afferent_numbers = {};  ///< Spike::afferent_index of each afferent, ascending; empty: 0, 1, 2 ...
     Precision precision = Precision::double_precision;
+    /// Number of forces on each afferent. Each force has a receptor of its own, with the parameters of the afferent, and the mean of the
+    /// currents of these receptors drives the neuron.
+    std::size_t forces = 1;
 };
+
+inline constexpr std::size_t max_forces = 100;  ///< limit of PopulationPlan::forces
 
 /// True if lanes can simulate this afferent: it is a receptor and a neuron without a front end, and there is no noise.
 bool can_use_lanes(const AfferentPlan&, const SimulationOptions&);

@@ -20,19 +20,25 @@ void transpose(const double* sums, std::size_t stride, std::size_t steps, double
             for (std::size_t t = from; t < std::min(from + field_steps, steps); ++t) rows[t * tile_width + u] = sums[u * stride + t];
 }
 
+/// Number of forces on `count` afferents, with padding to complete tiles if there are several receptors.
+std::size_t force_count(const ReceptiveFields& fields, std::size_t count) {
+    return fields.receptors == 1 ? count : (count + tile_width - 1) / tile_width * tile_width * fields.receptors;
+}
+
 }  // namespace
 
 FieldForce::FieldForce(const ReceptiveFields& fields, std::size_t first, std::size_t count, std::size_t sites, InstructionSet set)
-    : lanes_(lanes::field_kernels(set)), size_(count), tiles_((count + tile_width - 1) / tile_width),
+    : lanes_(lanes::field_kernels(set)), size_(force_count(fields, count)), tiles_((size_ + tile_width - 1) / tile_width),
       pieces_((tiles_ + tiles_per_piece - 1) / tiles_per_piece), rows_(tiles_ * skin_steps * tile_width), zero_force_(tiles_) {
     constexpr std::size_t piece_afferents = tiles_per_piece * tile_width;
     for (auto& p : pieces_) p.begin.assign(1, 0);
     for (std::size_t s = 0; s < sites; ++s) {
         for (std::size_t k = fields.begin[s]; k < fields.begin[s + 1]; ++k) {
-            const std::size_t afferent = fields.afferent[k];
-            if (afferent < first || afferent >= first + count) continue;
-            auto& p = pieces_[(afferent - first) / piece_afferents];
-            p.afferent.push_back(static_cast<std::uint32_t>((afferent - first) % piece_afferents));
+            const std::size_t receptors = fields.receptors, number = fields.afferent[k];
+            if (number < first * receptors || number >= (first + count) * receptors) continue;
+            const std::size_t afferent = index_in_tiles(number - first * receptors, receptors);
+            auto& p = pieces_[afferent / piece_afferents];
+            p.afferent.push_back(static_cast<std::uint32_t>(afferent % piece_afferents));
             p.weight.push_back(fields.weight[k]);
         }
         for (auto& p : pieces_) p.begin.push_back(static_cast<std::uint32_t>(p.afferent.size()));

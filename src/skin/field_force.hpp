@@ -11,9 +11,16 @@ namespace corpuscle {
 /// The largest number of steps that a skin simulates at once. It is so small that the force on a tile in these steps stays in the caches.
 inline constexpr std::size_t skin_steps = 32;
 
-/// Computes the force on the afferents of one class. The force on an afferent is a weighted sum over sites, whose terms are always added in
-/// the order of the sites. A site without force adds exactly 0. So the result is the same bit for bit whether or not such sites are among
-/// the touched ones.
+/// The index in ForceTiles of the force on a receptor. `number` is as in ReceptiveFields::afferent, but counted from the first tile.
+inline std::size_t index_in_tiles(std::size_t number, std::size_t receptors) {
+    const std::size_t afferent = number / receptors;
+    return (afferent / tile_width * receptors + number % receptors) * tile_width + afferent % tile_width;
+}
+
+/// Computes the force on the afferents of one class. If each has several receptors, there is a force for each receptor, and the tiles are
+/// those of ForceTiles for several forces. "Afferent" then means one receptor of an afferent. The force on an afferent is a weighted sum
+/// over sites, whose terms are always added in the order of the sites. A site without force adds exactly 0. So the result is the same bit
+/// for bit whether or not such sites are among the touched ones.
 class FieldForce {
 public:
     /// For afferents [first, first + count) of a class; `sites`: number of sites of the skin.

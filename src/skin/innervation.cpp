@@ -41,8 +41,10 @@ Result<void> check_skin_memory(const SkinPlan& plan) {
         const auto& k = plan.classes[c];
         double all = 0;
         for (const auto n : afferents_by_region(plan, c)) all += static_cast<double>(n);
-        const double reach = 3 * k.sigma + (k.hot_spots > 1 ? k.hot_spot_spread : 0);  // m; radius that contains most of a receptive field
-        afferents += all, weights += all * std::clamp(3 * reach * reach / site_area, 1.0, sites);  // 3: about pi
+        // m; radius that contains most of the receptive field of a receptor
+        const double spread = k.hot_spots > 1 && !k.receptor_per_hot_spot ? k.hot_spot_spread : 0,
+                     reach = 3 * k.sigma + (k.surround > 0 ? 8 : 4) * k.depth + spread;
+        afferents += all, weights += all * k.receptors() * std::clamp(3 * reach * reach / site_area, 1.0, sites);  // 3: about pi
     }
     return check_available_memory(plan.name, sites, afferents, weights);
 }

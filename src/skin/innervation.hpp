@@ -18,11 +18,13 @@ struct SkinAfferent {
 
 /// The receptive fields of a class, sorted by site. Entries [begin[s], begin[s + 1]) of `afferent` and `weight` are the afferents that
 /// respond to site s, and the weights with which they feel its force. Afferents are counted from 0 at the first one of the class, and are
-/// in ascending order for each site.
+/// in ascending order for each site. If each hot spot has a receptor of its own, `receptors` is their number per afferent, and `afferent`
+/// is that of the afferent times `receptors`, plus the number of the hot spot.
 struct ReceptiveFields {
     std::vector<std::size_t> begin;
     std::vector<std::uint32_t> afferent;
     std::vector<double> weight;
+    std::uint32_t receptors = 1;
     bool operator==(const ReceptiveFields&) const = default;
 };
 

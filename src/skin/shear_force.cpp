@@ -11,12 +11,15 @@ std::array<double, 2> shear_gains(const DirectionTuning& tuning, const SkinAffer
     return {tuning.gain * num::cos_turns(turns), tuning.gain * num::sin_turns(turns)};
 }
 
-ShearForce::ShearForce(const DirectionTuning& tuning, std::span<const SkinAfferent> afferents) {
+ShearForce::ShearForce(const DirectionTuning& tuning, std::span<const SkinAfferent> afferents, std::size_t receptors) {
     if (tuning.gain == 0) return;
-    for (auto& g : gains_) g.resize((afferents.size() + tile_width - 1) / tile_width * tile_width);
+    for (auto& g : gains_) g.resize((afferents.size() + tile_width - 1) / tile_width * tile_width * receptors);
     for (std::size_t u = 0; u < afferents.size(); ++u) {
         const auto [x, y] = shear_gains(tuning, afferents[u]);
-        gains_[0][u] = x, gains_[1][u] = y;
+        for (std::size_t h = 0; h < receptors; ++h) {
+            const auto at = index_in_tiles(u * receptors + h, receptors);
+            gains_[0][at] = x, gains_[1][at] = y;
+        }
     }
 }
 

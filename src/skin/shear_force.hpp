@@ -7,8 +7,8 @@
 
 namespace corpuscle {
 
-/// The force on afferent u of a class is F_n + g_x F_x + g_y F_y with g_x = gain cos(phi_u) and g_y = gain sin(phi_u), where F_n, F_x and
-/// F_y are the weighted sums over the sites of its receptive field.
+/// The force on afferent u of a class is F_n + g_x F_x + g_y F_y with g_x = gain cos(phi_u) and g_y = gain sin(phi_u). F_n, F_x and F_y are
+/// the weighted sums over the sites of its receptive field.
 ///
 /// The force is not limited to positive values. Shear against the preferred direction unloads the ending of an afferent, and more shear
 /// than the contact's own load leaves it with a negative force. The receptor decides what that means: the static current of a slowly
@@ -16,8 +16,8 @@ namespace corpuscle {
 /// shear of 0 N gives the same bits as no shear.
 class ShearForce {
 public:
-    /// For these afferents of a class, which must be those of the FieldForce.
-    ShearForce(const DirectionTuning&, std::span<const SkinAfferent>);
+    /// For these afferents of a class, which must be those of the FieldForce. `receptors`: of each afferent; they have the same gains.
+    ShearForce(const DirectionTuning&, std::span<const SkinAfferent>, std::size_t receptors = 1);
 
     bool is_tuned() const { return !gains_[0].empty(); }  ///< false: the class does not feel shear
     /// The force with shear. `field_force` computes the three sums, and its tiles are replaced. The other arguments are those of
@@ -26,7 +26,7 @@ public:
                            std::size_t steps, ThreadPool&);
 
 private:
-    std::array<std::vector<double>, 2> gains_;  // g_x and g_y of each afferent, padded to complete tiles; empty: the gain is 0
+    std::array<std::vector<double>, 2> gains_;  // g_x and g_y of each receptor, in the order of ForceTiles; empty: the gain is 0
     lanes::AlignedBuffer<double> rows_;         // the result, as in ForceTiles; empty before the first shear
 };
 

@@ -86,7 +86,8 @@ Result<std::optional<ClassSimulation>> make_class(const Innervation& skin, std::
     for (const auto& p : plans) each.push_back(&p);
     std::vector<std::uint32_t> numbers(count);
     for (std::size_t u = 0; u < count; ++u) numbers[u] = static_cast<std::uint32_t>(skin.class_begin[class_index] + first + u);
-    auto population = TRY(make_lane_population({each, count, numbers}, run, set));
+    auto population =
+        TRY(make_lane_population({.plans = each, .size = count, .afferent_numbers = numbers, .forces = c.receptors()}, run, set));
     // `same`: the first class with the same receptive fields, perhaps this one; its FieldForce exists only if it is an earlier one.
     const auto same =
         static_cast<std::size_t>(std::find(skin.fields.begin(), skin.fields.end(), skin.fields[class_index]) - skin.fields.begin());
@@ -95,7 +96,7 @@ Result<std::optional<ClassSimulation>> make_class(const Innervation& skin, std::
                                     ? field_forces[same]
                                     : std::make_shared<FieldForce>(skin.fields[class_index], first, count, skin.plan.sites.size(), set);
     ClassSimulation out{std::move(population), field_forces[class_index], shares_force,
-                        ShearForce(c.direction, std::span(skin.afferents).subspan(numbers[0], count))};
+                        ShearForce(c.direction, std::span(skin.afferents).subspan(numbers[0], count), c.receptors())};
     if (c.wave.speed > 0) out.wave = TRY(ContactWave::make(skin, class_index, first, count, run.dt, set));
     return std::optional<ClassSimulation>(std::move(out));
 }
@@ -155,6 +156,7 @@ std::uint64_t fingerprint(const Skin::Impl& impl) {
     for (const auto& f : skin.fields) {
         for (const auto b : f.begin) all.add(b);
         for (const auto w : f.weight) all.add(w);
+        if (f.receptors > 1) all.add(f.receptors);
     }
     return all.value;
 }

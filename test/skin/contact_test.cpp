@@ -237,7 +237,8 @@ TEST(ContactOptions, AreRefusedWithARemedy) {
     EXPECT_EQ(error_text("flat", {"radius=5s"}), "contact.radius: '5s' is a time; expected a value in m, such as '2 m'");
     EXPECT_EQ(
         make_contact("flat", std::vector<ParameterOverride>{*parse_override("contact.radius=1m")}, sheet(1e-3, 1e-5), *make_clock(1000))
-            .operator bool(),
+            .
+            operator bool(),
         true);
     double force = 1;
     const auto wide = make_checked_contact("flat", {"radius=1m"}, sites);

@@ -184,7 +184,8 @@ TEST(PopulationFile, ErrorsGiveTheLocationAndARemedy) {
     const std::string text(pad);
     EXPECT_EQ(error_in(text, "density =", "densty ="),
               "pad.toml:9:1: [[class]]: there is no 'densty'; did you mean 'density'? (there are name, afferent, set, spread, density, "
-              "per_site, sigma, hot_spots, hot_spot_spread, velocity, velocity_spread, direction_gain, direction, direction_spread, "
+              "per_site, sigma, depth, surround, hot_spots, hot_spot_spread, receptors, velocity, velocity_spread, direction_gain, "
+              "direction, direction_spread, "
               "wave_speed, wave_decay, wave_radius, wave_gain, wave_corner, source)");
     EXPECT_EQ(error_in(text, "\"sa1\"", "\"sa9\"").substr(0, 14), "pad.toml:8:12:");
     EXPECT_EQ(error_in(text, "\"70 /cm2\"", "70"), "pad.toml:9:11: density = 70: the unit is missing; write density = \"70 /cm2\"");
@@ -208,7 +209,18 @@ TEST(PopulationFile, ErrorsGiveTheLocationAndARemedy) {
     EXPECT_EQ(error_in(text, "[[class]]", "[[clas]]").substr(0, 55), "pad.toml:7:3: there is no 'clas'; did you mean 'class'?");
     EXPECT_EQ(error_in(text, "[sites]\npitch = 1", "sites = \"chanels\""),
               "pad.toml:2:9: sites = 'chanels': the only word allowed is \"channels\"");
-    EXPECT_EQ(error_in(text, "/cm2\"", "/cm2\"\nhot_spots = 3"), "pad.toml:10:13: several hot spots need a sigma and a hot_spot_spread");
+    EXPECT_EQ(error_in(text, "/cm2\"", "/cm2\"\nhot_spots = 3"),
+              "pad.toml:10:13: several hot spots need a depth or a sigma, and a hot_spot_spread");
+    const auto with = [&](const std::string& keys) { return error_in(text, "/cm2\"", "/cm2\"\n" + keys); };
+    EXPECT_EQ(with("depth = 0.6\nsigma = 1"), "pad.toml:10:9: a receptive field has either a depth or a sigma; remove one of them");
+    EXPECT_EQ(with("depth = 0"), "pad.toml:10:9: depth = 0 m is outside [10 um, 100 mm]");
+    EXPECT_EQ(with("sigma = 1\nsurround = 0.5"), "pad.toml:11:12: surround needs a depth, such as depth = \"0.6 mm\"");
+    EXPECT_EQ(with("depth = 0.6\nsurround = 1.5"), "pad.toml:11:12: surround = 1.5 is outside [0, 1]");
+    EXPECT_EQ(with("depth = 0.6\nreceptors = \"each\""), "pad.toml:11:13: receptors = 'each': write \"one\" or \"per hot spot\"");
+    EXPECT_EQ(with("depth = 0.6\nreceptors = \"per hot spot\""),
+              "pad.toml:11:13: receptors = \"per hot spot\" needs several hot spots, such as hot_spots = 4");
+    EXPECT_EQ(with("depth = 0.6\nhot_spots = 4\nhot_spot_spread = 1\nreceptors = \"per hot spot\""), "accepted");
+    EXPECT_EQ(with("spread = {f_B = \"x3\"}"), "accepted");
     EXPECT_EQ(error_in(text, "\"70 /cm2\"", "\"1 /um2\"").substr(0, 20), "pad.toml:9:11: densi");
 }
 

@@ -34,8 +34,9 @@ const millimetres = (metres) => (metres ? `${Number((metres * 1e3).toPrecision(3
 
 function showClasses(skin, host) {
     const rows = skin.data.summary.classes.map((one, k) => {
-        const {sigma_m, hot_spots, hot_spot_spread_m} = one.receptive_field, {velocity_m_s, standard_deviation_m_s} = one.conduction, about = skin.classes[k];
-        const field = sigma_m ? `Gaussian, σ ${millimetres(sigma_m)}${hot_spots > 1 ? `; ${hot_spots} hot spots, spread ${millimetres(hot_spot_spread_m)}` : ""}` : "nearest site";
+        const {sigma_m, depth_m, surround, hot_spots, hot_spot_spread_m} = one.receptive_field, {velocity_m_s, standard_deviation_m_s} = one.conduction, about = skin.classes[k];
+        const shape = depth_m ? `stress at ${millimetres(depth_m)}${surround ? `, surround ${surround}` : ""}` : sigma_m ? `Gaussian, σ ${millimetres(sigma_m)}` : "nearest site";
+        const field = `${shape}${hot_spots > 1 ? `; ${hot_spots} hot spots, spread ${millimetres(hot_spot_spread_m)}` : ""}`;
         const speed = velocity_m_s ? `${quantity(velocity_m_s, "m/s", true)}${standard_deviation_m_s ? ` ± ${quantity(standard_deviation_m_s, "m/s", true)}` : ""}` : "no delay";
         return [chipOf(about.color) + escaped(one.name), String(one.afferents), escaped(about.composition), escaped(field), escaped(speed), escaped([about.description, one.source || about.source].filter(Boolean).join("; "))];
     });

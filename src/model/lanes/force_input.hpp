@@ -12,11 +12,15 @@
 
 namespace corpuscle::lanes {
 
-/// Returns an error if a block of force does not fit `size` afferents of precision V. `name` is the population's name for messages.
+/// Returns an error if a block of force does not fit `size` afferents of precision V with this number of forces each. `name` is the
+/// population's name for messages.
 template <class V>
-Result<void> check_force(const PopulationForce& force, std::size_t steps, std::size_t size, std::string_view name) {
-    if (const auto* columns = std::get_if<ForceColumns>(&force); columns && columns->columns.size() != size)
-        return bad_input(fmt::format("{}: {} columns of force for {} afferents", name, columns->columns.size(), size));
+Result<void> check_force(const PopulationForce& force, std::size_t steps, std::size_t size, std::size_t forces, std::string_view name) {
+    if (const auto* columns = std::get_if<ForceColumns>(&force); columns && columns->columns.size() != size * forces)
+        return bad_input(fmt::format("{}: {} columns of force for {} afferents{}", name, columns->columns.size(), size,
+                                     forces > 1 ? fmt::format(" with {} forces each", forces) : ""));
+    if (forces > 1 && std::holds_alternative<ForceProfile>(force))
+        return bad_input(fmt::format("{}: afferents with {} forces each cannot have a profile; give columns or tiles", name, forces));
     if (!std::is_same_v<V, double> && std::holds_alternative<ForceTiles<double>>(force))
         return bad_input(fmt::format("{}: a population in float needs tiles of float, not double", name));
     if (!std::is_same_v<V, float> && std::holds_alternative<ForceTiles<float>>(force))

@@ -16,6 +16,7 @@ struct PopulationLayout {
     const FusedKernel<V>* fused = nullptr;                  ///< receptor and neuron in one loop; null: not available
     int lanes;                                              ///< afferents in a vector
     std::size_t size;                                       ///< number of afferents
+    std::size_t forces = 1;                                 ///< number of forces, and so of receptors, of each afferent
     AlignedBuffer<std::byte> receptors = {}, neurons = {};  ///< the models: one for all afferents, or those of tile 0, tile 1 ...
     std::unique_ptr<SharedReceptor> shared_receptor = {};   ///< not null if all afferents have the same receptor parameters
     std::vector<std::uint32_t> afferent_numbers;            ///< Spike::afferent_index of each afferent; empty: 0, 1, 2 ...
@@ -34,6 +35,7 @@ class TiledPopulation final : public LanePopulation {
         AlignedBuffer<Firing> firings{firing_list_capacity};
         AlignedBuffer<V> offsets{firing_list_capacity * 16};  // no vector has more than 16 lanes
         std::vector<V> saved_state = {};                      // copy of a tile's state, for check_rest()
+        AlignedBuffer<V> from_sum = {}, to_sum = {};          // sums of `from` and `to` over the receptors of an afferent with several
     };
 
     /// The block that is being simulated.
@@ -72,9 +74,11 @@ class TiledPopulation final : public LanePopulation {
         c.state = state, c.afferents = tile_size_of(tile), c.steps = steps;
         return c;
     }
+    /// For the receptors of one of the forces on each afferent.
     template <class Call>
-    Call receptor_tile(std::size_t tile, int steps) const {
-        return tile_call<Call>(layout_.receptors, *layout_.receptor, tile, states_.receptor(tile), steps);
+    Call receptor_tile(std::size_t tile, std::size_t force, int steps) const {
+        const auto before = force * layout_.receptor->state_values * tile_size;
+        return tile_call<Call>(layout_.receptors, *layout_.receptor, tile, states_.receptor(tile) + before, steps);
     }
     template <class Call>
     Call neuron_tile(std::size_t tile, int output, int steps) const {
@@ -82,11 +86,11 @@ class TiledPopulation final : public LanePopulation {
         return tile_call<Call>(layout_.neurons, *layout_.neuron, tile, states_.neuron(tile) + before, steps);
     }
 
-    /// Transposes the columns of force on a tile into rows, for `steps` steps from `step` of the block on. `first` is the tile's first
-    /// afferent.
-    void transpose_columns(const ForceColumns& columns, std::size_t first, std::size_t step, int steps, V* rows) const {
+    /// Transposes the columns of one of the forces on each afferent of a tile into rows, for `steps` steps from `step` of the block on.
+    /// `first` is the tile's first afferent.
+    void transpose_columns(const ForceColumns& columns, std::size_t first, std::size_t force, std::size_t step, int steps, V* rows) const {
         for (std::size_t u = 0; u < tile_size; ++u) {
-            const double* column = columns.columns[std::min(first + u, layout_.size - 1)] + step;
+            const double* column = columns.columns[std::min(first + u, layout_.size - 1) * layout_.forces + force] + step;
             for (int t = 0; t < steps; ++t) rows[static_cast<std::size_t>(t) * tile_size + u] = static_cast<V>(column[t]);
         }
     }
@@ -107,16 +111,16 @@ class TiledPopulation final : public LanePopulation {
     /// beginning of the next one, so it is stored in `from`, one row further on.
     V* step_ends(Scratch& s) const { return layout_.receptor->continuous ? s.from.data() + tile_size : s.to.data(); }
 
-    ReceptorCall<V> receptor_call(const Block& b, std::size_t tile, std::size_t step, int steps, Scratch& s) const {
-        auto c = receptor_tile<ReceptorCall<V>>(tile, steps);
+    ReceptorCall<V> receptor_call(const Block& b, std::size_t tile, std::size_t force, std::size_t step, int steps, Scratch& s) const {
+        auto c = receptor_tile<ReceptorCall<V>>(tile, force, steps);
         c.method = method_, c.from = s.from.data(), c.to = step_ends(s), c.gain = s.gain.data();
-        const std::size_t row = (tile * b.steps + step) * tile_size;
+        const std::size_t row = ((tile * layout_.forces + force) * b.steps + step) * tile_size;
         if (const auto* columns = std::get_if<ForceColumns>(&b.force)) {
-            transpose_columns(*columns, tile * tile_size, step, steps, s.rows.data());
+            transpose_columns(*columns, tile * tile_size, force, step, steps, s.rows.data());
             c.input = ForceInput::rows, c.rows = s.rows.data();
         } else if (const auto* tiles = std::get_if<ForceTiles<V>>(&b.force)) {
             c.input = ForceInput::rows;
-            if (has_zero_force(b, tile))
+            if (is_zero(b, tile, force))
                 c.rows = zero_rows_.data();
             else
                 c.rows = tiles->rows + row, c.prefetch = next_chunk(c.rows, steps);
@@ -143,6 +147,48 @@ class TiledPopulation final : public LanePopulation {
         return c;
     }
 
+    /// Simulates the receptors of a tile over a chunk, and returns memory for the neurons' loop to prefetch. `first`: the chunk is the
+    /// first sample of the simulation.
+    PrefetchRange run_receptors(const Block& b, std::size_t tile, std::size_t force, std::size_t step, int steps, bool first, Scratch& s,
+                                JobResult& job) const {
+        auto c = receptor_call(b, tile, force, step, steps, s);
+        if (first) layout_.receptor->start(c);
+        const auto ahead = take_second_half(c.prefetch);
+        layout_.receptor->run(c);
+        job.non_finite |= c.has_non_finite;
+        return ahead;
+    }
+
+    /// Calls f(sum, current) with each value in the first `rows` rows of each output's currents and of their sums.
+    template <class F>
+    void for_each_current(AlignedBuffer<V>& sums, AlignedBuffer<V>& currents, std::size_t rows, const F& f) const {
+        if (sums.size() == 0) sums = AlignedBuffer<V>(currents.size());
+        for (std::size_t k = 0; k < static_cast<std::size_t>(layout_.receptor->outputs); ++k) {
+            V* const sum = sums.data() + k * current_rows<V> * tile_size;
+            V* const current = currents.data() + k * current_rows<V> * tile_size;
+            for (std::size_t i = 0; i < rows * tile_size; ++i) f(sum[i], current[i]);
+        }
+    }
+    /// Adds the currents of the receptors of one force to the sums. After the last force it replaces them by the mean over the forces.
+    void add_currents(AlignedBuffer<V>& sums, AlignedBuffer<V>& currents, std::size_t rows, std::size_t force) const {
+        const V factor = V(1) / static_cast<V>(layout_.forces);
+        if (force == 0)
+            for_each_current(sums, currents, rows, [](V& sum, V& current) { sum = current; });
+        else
+            for_each_current(sums, currents, rows, [](V& sum, V& current) { sum += current; });
+        if (force + 1 == layout_.forces) for_each_current(sums, currents, rows, [factor](V& sum, V& current) { current = sum * factor; });
+    }
+
+    /// Simulates all receptors of a tile whose afferents have several forces. The neurons then read the mean of their currents.
+    void run_all_receptors(const Block& b, std::size_t tile, std::size_t step, int steps, bool first, Scratch& s, JobResult& job) const {
+        const auto rows = static_cast<std::size_t>(steps);
+        for (std::size_t force = 0; force < layout_.forces; ++force) {
+            (void)run_receptors(b, tile, force, step, steps, first, s, job);
+            add_currents(s.from_sum, s.from, layout_.receptor->continuous ? rows + 1 : rows, force);
+            if (!layout_.receptor->continuous) add_currents(s.to_sum, s.to, rows, force);
+        }
+    }
+
     /// Simulates `steps` steps of a tile, from `step` of the block on. The first sample of the simulation is a chunk by itself. The force
     /// before it is assumed to be the same. Backward Euler takes a step that ends at this sample, with its spikes on the sample. The exact
     /// method has no interval to integrate yet, so the neurons take no step.
@@ -156,16 +202,13 @@ class TiledPopulation final : public LanePopulation {
                                 static_cast<std::uint32_t>(step),
                                 layout_.lanes};
         if (layout_.fused && !b.shared_currents && !first) {
-            layout_.fused->run(receptor_call(b, tile, step, steps, s), neuron_call(b, tile, 0, step, steps, s, fired, {}));
+            layout_.fused->run(receptor_call(b, tile, 0, step, steps, s), neuron_call(b, tile, 0, step, steps, s, fired, {}));
         } else {
             PrefetchRange ahead{};
-            if (!b.shared_currents) {
-                auto c = receptor_call(b, tile, step, steps, s);
-                if (first) layout_.receptor->start(c);
-                ahead = take_second_half(c.prefetch);
-                layout_.receptor->run(c);
-                job.non_finite |= c.has_non_finite;
-            }
+            if (layout_.forces > 1)
+                run_all_receptors(b, tile, step, steps, first, s, job);
+            else if (!b.shared_currents)
+                ahead = run_receptors(b, tile, 0, step, steps, first, s, job);
             for (int k = 0; k < layout_.receptor->outputs; ++k) {
                 const auto c = neuron_call(b, tile, k, step, steps, s, fired, k == 0 ? ahead : PrefetchRange{});
                 if (first) layout_.neuron->start(c);
@@ -177,14 +220,22 @@ class TiledPopulation final : public LanePopulation {
         job.truncated_steps += fired.truncated_steps;
     }
 
-    static bool has_zero_force(const Block& b, std::size_t tile) {
+    /// True if one of the forces on each afferent is known to be zero on a tile during the block.
+    bool is_zero(const Block& b, std::size_t tile, std::size_t force) const {
         const auto* tiles = std::get_if<ForceTiles<V>>(&b.force);
-        return tiles && tiles->zero_force && tiles->zero_force[tile];
+        return tiles && tiles->zero_force && tiles->zero_force[tile * layout_.forces + force];
+    }
+    /// True if all forces on a tile are known to be zero during the block.
+    bool has_zero_force(const Block& b, std::size_t tile) const {
+        for (std::size_t force = 0; force < layout_.forces; ++force)
+            if (!is_zero(b, tile, force)) return false;
+        return true;
     }
 
     /// Calls the models' flush_decayed() for the state of a tile.
     void flush_decayed(std::size_t tile) const {
-        (layout_.fused ? layout_.fused->flush_decayed : layout_.receptor->flush_decayed)(receptor_tile<TileCall<V>>(tile, 0));
+        for (std::size_t force = 0; force < layout_.forces; ++force)
+            (layout_.fused ? layout_.fused->flush_decayed : layout_.receptor->flush_decayed)(receptor_tile<TileCall<V>>(tile, force, 0));
         for (int k = 0; k < layout_.receptor->outputs; ++k) layout_.neuron->flush_decayed(neuron_tile<TileCall<V>>(tile, k, 0));
     }
 
@@ -243,11 +294,12 @@ class TiledPopulation final : public LanePopulation {
         }
     }
 
-    /// The force of an afferent at a step of the block, N, as the caller has passed it; integers are returned as 0.
-    double force_of(const Block& b, std::size_t afferent, std::size_t step) const {
-        const std::size_t at = (afferent / tile_size * b.steps + step) * tile_size + afferent % tile_size;
-        if (const auto* columns = std::get_if<ForceColumns>(&b.force)) return columns->columns[afferent][step];
-        if (has_zero_force(b, afferent / tile_size)) return 0;
+    /// Force number `force` of an afferent at a step of the block, N, as the caller has passed it; integers are returned as 0.
+    double force_of(const Block& b, std::size_t afferent, std::size_t force, std::size_t step) const {
+        const std::size_t tile = afferent / tile_size;
+        const std::size_t at = ((tile * layout_.forces + force) * b.steps + step) * tile_size + afferent % tile_size;
+        if (const auto* columns = std::get_if<ForceColumns>(&b.force)) return columns->columns[afferent * layout_.forces + force][step];
+        if (is_zero(b, tile, force)) return 0;
         if (const auto* tiles = std::get_if<ForceTiles<V>>(&b.force)) return static_cast<double>(tiles->rows[at]);
         if (const auto* profile = std::get_if<ForceProfile>(&b.force)) return profile->force[step];
         return 0;  // integers are always finite
@@ -255,10 +307,10 @@ class TiledPopulation final : public LanePopulation {
 
     /// Returns an error if a force in the block is NaN or infinite, and sets the afferent that failed.
     Result<void> check_finite_force(const Block& b, PopulationResponse& response) const {
-        for (std::size_t afferent = 0; afferent < layout_.size; ++afferent)
+        for (std::size_t k = 0; k < layout_.size * layout_.forces; ++k)
             for (std::size_t step = 0; step < b.steps; ++step)
-                if (const double f = force_of(b, afferent, step); !std::isfinite(f)) {
-                    response.failed_afferent = afferent;
+                if (const double f = force_of(b, k / layout_.forces, k % layout_.forces, step); !std::isfinite(f)) {
+                    response.failed_afferent = k / layout_.forces;
                     return bad_input(
                         fmt::format("{}: the force of sample {} is {}", layout_.name, step_ + static_cast<std::int64_t>(step), f));
                 }
@@ -291,7 +343,7 @@ class TiledPopulation final : public LanePopulation {
         const std::pair kind(force.index(), shares_currents(force));
         if (force_layout_ && *force_layout_ != kind)
             return bad_input(fmt::format("{}: the layout of its force must not change between blocks", layout_.name));
-        TRY(check_force<V>(force, steps, layout_.size, layout_.name));
+        TRY(check_force<V>(force, steps, layout_.size, layout_.forces, layout_.name));
         force_layout_ = kind;
         return {};
     }
@@ -300,7 +352,7 @@ public:
     TiledPopulation(PopulationLayout<V> layout, const SimulationOptions& run)
         : layout_(std::move(layout)), method_(run.method), spikes_on_samples_(run.spikes_on_samples),
           tiles_((layout_.size + tile_size - 1) / tile_size),
-          states_(tiles_, layout_.receptor->state_values,
+          states_(tiles_, layout_.receptor->state_values * layout_.forces,
                   layout_.neuron->state_values * static_cast<std::size_t>(layout_.receptor->outputs)),
           jobs_((tiles_ + tiles_per_job - 1) / tiles_per_job) {}
 

@@ -81,6 +81,11 @@ Result<SkinProbes> SkinProbes::make(const Innervation& skin, const SimulationOpt
                 fmt::format("--probe-files works with at most {} afferents of a class, but {} has {} of {}; use fewer, such as "
                             "--population 'grid 4x4'",
                             max_afferents, skin.plan.name, count, plan.name));
+        if (plan.receptors() > 1)
+            return bad_usage(
+                fmt::format("--probe-files cannot record {}: each of its hot spots has a receptor of its own; use a population "
+                            "file whose class has receptors = \"one\"",
+                            plan.name));
         const auto plans = TRY(make_copies(plan.afferent, static_cast<std::uint32_t>(count), plan.distributions, skin.plan.seed));
         for (const auto& afferent : plans) {
             out.afferents_.push_back(make_afferent(afferent, run));

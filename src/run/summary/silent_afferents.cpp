@@ -48,11 +48,12 @@ void raise_class_forces(const Innervation& skin, const RunBlock& block, std::spa
     for (std::size_t c = 0; c < class_force.size(); ++c) {
         if (!is_silent[c]) continue;
         const auto& fields = skin.fields[c];
-        std::vector<double> on_afferent(skin.class_begin[c + 1] - skin.class_begin[c]);
+        std::vector<double> on_receptor((skin.class_begin[c + 1] - skin.class_begin[c]) * fields.receptors);
         const double gain = skin.plan.classes[c].direction.gain;
         for (const auto& [site, normal, shear] : peaks)
             for (auto k = fields.begin[site]; k < fields.begin[site + 1]; ++k)
-                class_force[c] = std::max(class_force[c], on_afferent[fields.afferent[k]] += fields.weight[k] * (normal + gain * shear));
+                on_receptor[fields.afferent[k]] += fields.weight[k] * normal + std::abs(fields.weight[k]) * gain * shear;
+        for (const double force : on_receptor) class_force[c] = std::max(class_force[c], force);
     }
 }
 

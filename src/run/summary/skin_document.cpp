@@ -41,7 +41,8 @@ Json class_document(const Innervation& skin, std::size_t c) {
     Json out = {{"name", k.name}, {"afferents", skin.class_begin[c + 1] - skin.class_begin[c]}};
     if (k.per_site > 0) out["afferents_per_site"] = k.per_site;
     out["regions"] = density_document(skin, c);
-    out["receptive_field"] = {{"sigma_m", k.sigma}, {"hot_spots", k.hot_spots}, {"hot_spot_spread_m", k.hot_spot_spread}};
+    out["receptive_field"] = {{"sigma_m", k.sigma},       {"depth_m", k.depth},         {"surround", k.surround},
+                              {"hot_spots", k.hot_spots}, {"receptors", k.receptors()}, {"hot_spot_spread_m", k.hot_spot_spread}};
     out["conduction"] = {{"velocity_m_s", k.velocity}, {"standard_deviation_m_s", k.velocity_spread}};
     if (const auto& w = k.wave; w.speed > 0)
         out["wave"] = {{"speed_m_s", w.speed}, {"decay_m", w.decay}, {"radius_m", w.radius}, {"gain", w.gain}, {"corner_Hz", w.corner}};

@@ -17,7 +17,8 @@ std::vector<std::uint32_t> main_sites(const Innervation& skin) {
         const auto& field = skin.fields[c];
         for (std::uint32_t s = 0; s + 1 < field.begin.size(); ++s)
             for (std::size_t k = field.begin[s]; k < field.begin[s + 1]; ++k)
-                if (const auto afferent_index = skin.class_begin[c] + field.afferent[k]; field.weight[k] > weight[afferent_index])
+                if (const auto afferent_index = skin.class_begin[c] + field.afferent[k] / field.receptors;
+                    field.weight[k] > weight[afferent_index])
                     weight[afferent_index] = field.weight[k], site[afferent_index] = s;
     }
     return site;

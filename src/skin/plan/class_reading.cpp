@@ -14,7 +14,8 @@ namespace {
 using KeyKind = ConfigKey::Kind;
 
 constexpr double max_density = 1e10;                      // afferents per m2: a million in 1 cm2
-constexpr double max_width = 0.1;                         // m; largest sigma and hot_spot_spread
+constexpr double max_width = 0.1;                         // m; largest sigma, depth and hot_spot_spread
+constexpr double min_depth = 10e-6;                       // m
 constexpr double min_velocity = 0.1, max_velocity = 200;  // m/s
 
 constexpr auto class_keys = std::to_array<ConfigKey>({"name",
@@ -24,8 +25,11 @@ constexpr auto class_keys = std::to_array<ConfigKey>({"name",
                                                       ConfigKey("density", KeyKind::text_or_settings),
                                                       "per_site",
                                                       "sigma",
+                                                      "depth",
+                                                      "surround",
                                                       "hot_spots",
                                                       "hot_spot_spread",
+                                                      "receptors",
                                                       "velocity",
                                                       "velocity_spread",
                                                       "direction_gain",
@@ -37,9 +41,17 @@ constexpr auto class_keys = std::to_array<ConfigKey>({"name",
                                                       "wave_gain",
                                                       "wave_corner",
                                                       ConfigKey("source", KeyKind::settings)});
-constexpr auto class_sources = std::to_array<ConfigKey>(
-    {"afferent", "set", "spread", "density", "per_site", "sigma", "hot_spots", "hot_spot_spread", "velocity", "velocity_spread",
-     "direction_gain", "direction", "direction_spread", "wave_speed", "wave_decay", "wave_radius", "wave_gain", "wave_corner"});
+constexpr auto class_sources = std::to_array<ConfigKey>({"afferent",        "set",
+                                                         "spread",          "density",
+                                                         "per_site",        "sigma",
+                                                         "depth",           "surround",
+                                                         "hot_spots",       "hot_spot_spread",
+                                                         "receptors",       "velocity",
+                                                         "velocity_spread", "direction_gain",
+                                                         "direction",       "direction_spread",
+                                                         "wave_speed",      "wave_decay",
+                                                         "wave_radius",     "wave_gain",
+                                                         "wave_corner"});
 
 /// The settings in the table `name` of a class (`set` or `spread`), as overrides whose target is the text by which the file requests the
 /// afferent.
@@ -112,15 +124,36 @@ Result<void> read_numbers(const ConfigNode& in, const Sites& sites, const Popula
     return {};
 }
 
-/// Reads the shape of receptive fields, and the conduction velocity.
-Result<void> read_fields_and_velocity(const ConfigNode& in, const PopulationValues& values, SkinClass& out) {
+/// Reads whether the hot spots of an afferent share a receptor.
+Result<void> read_receptors(const ConfigNode& in, SkinClass& out) {
+    const auto* receptors = in.get("receptors");
+    if (!receptors || receptors->text == "one") return {};
+    if (receptors->text != "per hot spot")
+        return receptors->error_here(fmt::format("receptors = '{}': write \"one\" or \"per hot spot\"", receptors->text));
+    if (out.hot_spots < 2) return receptors->error_here("receptors = \"per hot spot\" needs several hot spots, such as hot_spots = 4");
+    out.receptor_per_hot_spot = true;
+    return {};
+}
+
+/// Reads the shape of receptive fields.
+Result<void> read_fields(const ConfigNode& in, const PopulationValues& values, SkinClass& out) {
     out.sigma = TRY(values.number_of(in, "sigma", "m", 0, max_width));
+    out.depth = TRY(values.number_of(in, "depth", "m", min_depth, max_width));
+    out.surround = TRY(values.number_of(in, "surround", "", 0, 1));
+    if (in.has("depth") && in.has("sigma"))
+        return in.get("depth")->error_here("a receptive field has either a depth or a sigma; remove one of them");
+    if (in.has("surround") && !in.has("depth")) return in.get("surround")->error_here("surround needs a depth, such as depth = \"0.6 mm\"");
     out.hot_spot_spread = TRY(values.number_of(in, "hot_spot_spread", "m", 0, max_width));
+    out.hot_spots = static_cast<std::uint32_t>(TRY(values.integer(in, "hot_spots", 1, 100, 1)));
+    if (out.hot_spots > 1 && !((out.sigma > 0 || out.depth > 0) && out.hot_spot_spread > 0))
+        return in.get("hot_spots")->error_here("several hot spots need a depth or a sigma, and a hot_spot_spread");
+    return read_receptors(in, out);
+}
+
+/// Reads the conduction velocity.
+Result<void> read_velocity(const ConfigNode& in, const PopulationValues& values, SkinClass& out) {
     out.velocity = TRY(values.number_of(in, "velocity", "m/s", min_velocity, max_velocity));
     out.velocity_spread = TRY(values.number_of(in, "velocity_spread", "m/s", 0, max_velocity));
-    out.hot_spots = static_cast<std::uint32_t>(TRY(values.integer(in, "hot_spots", 1, 100, 1)));
-    if (out.hot_spots > 1 && !(out.sigma > 0 && out.hot_spot_spread > 0))
-        return in.get("hot_spots")->error_here("several hot spots need a sigma and a hot_spot_spread");
     if (in.has("velocity_spread") && !in.has("velocity")) return in.get("velocity_spread")->error_here("velocity_spread needs a velocity");
     return {};
 }
@@ -143,7 +176,8 @@ Result<SkinClass> read_class(const ConfigNode& in, const Sites& sites, const Pop
     for (auto& d : out.distributions) d.afferent = out.name;
     out.sources = TRY(read_sources(in, class_sources));
     TRY(read_numbers(in, sites, values, out));
-    TRY(read_fields_and_velocity(in, values, out));
+    TRY(read_fields(in, values, out));
+    TRY(read_velocity(in, values, out));
     out.direction = TRY(read_direction_tuning(in, values));
     out.wave = TRY(read_wave(in, values));
     return out;

@@ -35,9 +35,16 @@ struct SkinClass {
     AfferentPlan afferent;             ///< the parameters of the class's afferents are sampled around the values of this one
     std::vector<double> density = {};  ///< afferents per m2 in each of Sites::regions; empty: `per_site` is used
     std::uint32_t per_site = 0;        ///< afferents at each site, if `density` is empty
-    double sigma = 0;                  ///< m, standard deviation of a hot spot, which is a Gaussian; 0: the field is only the nearest site
-    std::uint32_t hot_spots = 1;       ///< number of hot spots in one receptive field
-    double hot_spot_spread = 0;        ///< m, standard deviation of the hot spots' distance from the afferent, in x and in y
+    double sigma = 0;                  ///< m, standard deviation of a hot spot, if it is a Gaussian
+    double depth = 0;     ///< m, depth of the nerve ending if it feels the stress there (depth_kernel.hpp); 0: a Gaussian is used instead.
+                          ///< If sigma and depth are 0, the field is only the nearest site
+    double surround = 0;  ///< fraction of the mean of the surround that is subtracted, 0 to 1; that of the stress at three times the depth
+    std::uint32_t hot_spots = 1;  ///< number of hot spots in one receptive field
+    double hot_spot_spread = 0;   ///< m, standard deviation of the hot spots' distance from the afferent, in x and in y
+    /// False: one receptor feels the mean force of all hot spots. True: each hot spot has a receptor of its own; the mean of their
+    /// currents drives the neuron.
+    bool receptor_per_hot_spot = false;
+    std::uint32_t receptors() const { return receptor_per_hot_spot ? hot_spots : 1; }  ///< number of receptors of one afferent
     double velocity = 0, velocity_spread = 0;  ///< conduction velocity, m/s: mean and standard deviation over afferents; 0: no delay
     DirectionTuning direction = {};
     WaveParams wave = {};

@@ -62,7 +62,7 @@ Result<std::unique_ptr<ContactWave>> ContactWave::make(const Innervation& skin, 
 
 ContactWave::ContactWave(const Innervation& skin, std::size_t class_index, std::size_t first, std::size_t count, double dt,
                          InstructionSet set, Paths paths)
-    : lanes_(lanes::field_kernels(set)), paths_(std::move(paths)),
+    : lanes_(lanes::field_kernels(set)), receptors_(skin.plan.classes[class_index].receptors()), paths_(std::move(paths)),
       sources_(skin.plan.sites, WaveGrid(skin.plan.sites), skin.plan.classes[class_index].wave.corner, dt,
                static_cast<std::size_t>(paths_.max_delay) + 1) {
     const WaveGrid grid(skin.plan.sites);
@@ -70,7 +70,7 @@ ContactWave::ContactWave(const Innervation& skin, std::size_t class_index, std::
         cell_of_afferent_.push_back(cells_.index_of(grid.cell_of(skin.afferents[skin.class_begin[class_index] + u].position)));
     has_wave_.resize(cells_.cells.size());
     waves_ = lanes::AlignedBuffer<double>(cells_.cells.size() * WaveSources::max_steps);
-    zero_force_.resize((count + tile_width - 1) / tile_width);
+    zero_force_.resize((count + tile_width - 1) / tile_width * receptors_);
     rows_ = lanes::AlignedBuffer<double>(zero_force_.size() * tile_width * WaveSources::max_steps);
 }
 
@@ -102,16 +102,17 @@ void ContactWave::compute(const SiteForce& force, std::span<const std::uint32_t>
     });
 }
 
-/// Writes the rows of one tile: its force from receptive fields and the wave.
+/// Writes the rows of one tile of forces: those from receptive fields, and the wave.
 void ContactWave::add_to_tile(std::size_t tile, const ForceTiles<double>& direct, std::size_t steps) {
-    const std::size_t begin = tile * tile_width, end = std::min(cell_of_afferent_.size(), begin + tile_width);
+    const std::size_t begin = tile / receptors_ * tile_width, end = std::min(cell_of_afferent_.size(), begin + tile_width);
+    const std::size_t row = tile * tile_width * steps;
     const bool is_direct = direct.zero_force[tile] == 0;
     bool is_reached = false;
     for (std::size_t u = begin; u < end; ++u) is_reached = is_reached || has_wave_[cell_of_afferent_[u]];
     zero_force_[tile] = !is_direct && !is_reached;
     if (zero_force_[tile]) return;
-    double* const rows = rows_.data() + begin * steps;
-    is_direct ? std::copy_n(direct.rows + begin * steps, steps * tile_width, rows) : std::fill_n(rows, steps * tile_width, 0.0);
+    double* const rows = rows_.data() + row;
+    is_direct ? std::copy_n(direct.rows + row, steps * tile_width, rows) : std::fill_n(rows, steps * tile_width, 0.0);
     for (std::size_t u = begin; u < end; ++u)
         if (const double* const wave = force_on(u))
             for (std::size_t t = 0; t < steps; ++t) rows[t * tile_width + u - begin] += wave[t];

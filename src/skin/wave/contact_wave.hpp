@@ -29,7 +29,8 @@ public:
         const auto cell = cell_of_afferent_[afferent];
         return has_wave_[cell] ? waves_.data() + cell * WaveSources::max_steps : nullptr;
     }
-    /// The same, added to the force on the afferents from their receptive fields. The result is valid until the next call.
+    /// The same, added to the force on the afferents from their receptive fields, and to each force of afferents with several. The result
+    /// is valid until the next call.
     ForceTiles<double> add(ForceTiles<double> direct, const SiteForce&, std::span<const std::uint32_t> touched, std::size_t at,
                            std::size_t steps, ThreadPool&);
 
@@ -53,6 +54,7 @@ private:
     };
 
     const lanes::FieldKernels& lanes_;
+    std::size_t receptors_;  // of an afferent
     Paths paths_;
     WaveSources sources_;
     WaveCellList cells_;  // that have afferents
