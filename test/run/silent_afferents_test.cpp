@@ -75,8 +75,9 @@ TEST(SilenceDetector, AGridUnderAnIndenterIsTreatedAsSkinWithAWarning) {
     EXPECT_EQ(ran.status, 0);
     EXPECT_GT(spikes_of(ran), 200) << ran.err;
     EXPECT_NE(
-        ran.err.find("grid 8x8 is pressed with an indenter, so each site represents 4 mm2 of skin and an afferent responds to the force "
-                     "on 1 cm2"),
+        ran.err.find(
+            "the force on grid 8x8 is spread over its sites, so each site represents 4 mm2 of skin; an afferent responds to the force "
+            "on 1 cm2"),
         std::string::npos)
         << ran.err;
 }
@@ -114,6 +115,16 @@ TEST(SilenceDetector, ATouchThatIsTooWeakGetsASettingThatWorks) {
     EXPECT_GT(spikes_of(run_program(folder, "respond touch.csv --population own.toml --json " + scale)), 0);
 }
 
+TEST(SilenceDetector, AnAfferentOfTheThesisSuggestsTheOneCalibratedToNervesIfThereIsOne) {
+    const TemporaryFolder folder;
+    const bool exists = static_cast<bool>(plan_afferent("fa1-nerve"));
+    const std::string weak = "respond sine --set sine.F_amp=10mN --set sine.F_mean=10mN";
+    const auto silent = run_program(folder, weak + " --afferent fa1");
+    ASSERT_NE(silent.err.find("fa1 never fired"), std::string::npos) << silent.err;
+    EXPECT_EQ(silent.err.find("try fa1-nerve") != std::string::npos, exists) << silent.err;
+    EXPECT_EQ(run_program(folder, weak + " --afferent fa1a+lif-b").err.find("-nerve"), std::string::npos);
+}
+
 TEST(SilenceDetector, AnIndenterBesideTheSkinGetsTheRemedyToMoveIt) {
     const TemporaryFolder folder;
     const auto ran = run_program(folder, "respond press --population fingertip --set contact.x=1m --set contact.y=1m --quiet");
@@ -130,7 +141,23 @@ TEST(NerveLimit, RatesAboveAKilohertzCauseAWarningAndItsRemedyWorks) {
     EXPECT_EQ(run_program(folder, vibration + " --set fa2.t_ref=1ms").err.find("spikes come at up to"), std::string::npos);
     EXPECT_EQ(run_program(folder, "respond press --quiet").err, "") << "the thesis's press needs no warning";
     const auto skin = run_program(folder, "respond press --population fingertip --set press.F_max=900N --quiet");
-    EXPECT_NE(skin.err.find("of 290 sa1 afferents: spikes come at up to "), std::string::npos) << skin.err;
+    EXPECT_NE(skin.err.find("of 290 sa1 afferents: several spikes come within one sample of 1 ms, which is not a rate"), std::string::npos)
+        << skin.err;
+}
+
+TEST(Rates, OfTwoSpikesWithinASampleAreBlankWithAWarning) {
+    const TemporaryFolder folder;
+    const auto ran = run_program(folder, "respond press --afferent sa1 --set press.F_max=900N --rate 1kHz --json");
+    EXPECT_NE(ran.err.find("sa1: on press several spikes come within one sample of 1 ms, which is not a rate"), std::string::npos)
+        << ran.err;
+    int blank = 0;
+    const auto rows = nlohmann::json::parse(ran.out)["rates"];
+    for (const auto& row : rows)
+        for (const auto* rate : {"mean_rate_Hz", "peak_rate_Hz", "first_rate_Hz", "last_rate_Hz"}) {
+            blank += row[rate].is_null() && row["spikes"] > 2;
+            EXPECT_TRUE(row[rate].is_null() || row[rate] <= 1001.0) << row;
+        }
+    EXPECT_GT(blank, 0);
 }
 
 TEST(Rates, OfASingleSpikeAreBlank) {

@@ -118,14 +118,17 @@ void ChannelRun::warn(std::string message) {
 /// Warns of afferents that fire faster than a nerve fibre can; for each of them, the warning names the channel with the highest rate.
 void ChannelRun::warn_of_rates() {
     constexpr auto peak = measure_index<PeakRate>;
+    const auto rate_of = [](const MeasureRow& row) {
+        if (row.has_unresolved_rate) return std::numeric_limits<double>::infinity();
+        return row.copy_statistics.empty() ? row.values[peak] : row.copy_statistics[peak].max;
+    };
+    const double T = sources_[0]->clock().T();
     for (const auto& plan : afferents_) {
         const MeasureRow* fastest = nullptr;
         double rate = max_nerve_rate;
         for (const auto& row : summary_.rows)
-            if (const double r = row.copy_statistics.empty() ? row.values[peak] : row.copy_statistics[peak].max;
-                row.afferent == plan.name && r > rate)
-                fastest = &row, rate = r;
-        if (fastest) warn(fmt::format("{}: on {} {}", plan.name, fastest->channel, excessive_rate_warning(rate, plan, plan.name)));
+            if (const double r = rate_of(row); row.afferent == plan.name && r > rate) fastest = &row, rate = r;
+        if (fastest) warn(fmt::format("{}: on {} {}", plan.name, fastest->channel, excessive_rate_warning(rate, T, plan, plan.name)));
     }
 }
 
@@ -140,7 +143,8 @@ nlohmann::ordered_json ChannelRun::summarize(const RunStats& stats) {
     if (copy_spec_.count > 0) result["copies"] = document_of(copy_spec_);
     for (const auto& s : silence_.silent_classes(options_)) {
         const auto& name = afferents_[s.class_index].name;
-        if (!common_.quiet) print_message(silence_message(name, s));
+        const auto advice = nerve_advice(afferents_[s.class_index]);
+        if (!common_.quiet) print_message(silence_message(name, s) + (advice.empty() ? "" : "; " + advice));
         result["silent"].push_back({{"afferent", name},
                                     {"force_max_N", s.max_force},
                                     {"factor_to_fire", s.factor ? nlohmann::ordered_json(*s.factor) : nlohmann::ordered_json(nullptr)}});

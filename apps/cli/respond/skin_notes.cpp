@@ -72,9 +72,13 @@ void SkinRun::add_silence_notes() {
             text += " received no force";
         else if (!s.factor)
             text += fmt::format(" received at most {:.2g} N, and would not fire even at a million times this force", s.max_force);
+        else if (*s.factor < 1.1)  // a bound of the force, scaled from the total force, which changes faster than that on one afferent
+            text += fmt::format(" received at most {:.2g} N, and is close to firing: it needs a little more force, or faster changes",
+                                s.max_force);
         else
             text += fmt::format(" received at most {:.2g} N, and needs about {} N of the same stimulus to fire ({} times as much)",
                                 s.max_force, format_rounded_up(*s.factor * s.max_force), format_rounded_up(*s.factor));
+        if (const auto advice = nerve_advice(innervation_->plan.classes[s.class_index].afferent); !advice.empty()) text += "; " + advice;
         messages.push_back(std::move(text));
         if (s.factor) min_factor = std::min(*s.factor, min_factor.value_or(*s.factor));
     }
@@ -100,7 +104,8 @@ void SkinRun::add_rate_warnings() {
         if (count > 0)
             notes_.warnings.push_back(
                 fmt::format("{} of {} {} afferents: {}", count, innervation_->class_begin[c + 1] - innervation_->class_begin[c],
-                            innervation_->plan.classes[c].name, excessive_rate_warning(rate, plan, innervation_->plan.classes[c].name)));
+                            innervation_->plan.classes[c].name,
+                            excessive_rate_warning(rate, source_->clock().T(), plan, innervation_->plan.classes[c].name)));
     }
 }
 

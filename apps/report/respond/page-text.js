@@ -9,11 +9,11 @@ const escaped = (text) => String(text).replace(/[&<>"']/g, (c) => `&#${c.charCod
 /// A unit as HTML. Units come from files, so characters that HTML interprets are removed; valid units contain none of them.
 const unitText = (unit) => (unit === "1" ? "" : String(unit).replace(/[&<>"'`]/g, "").replace(/[oO]hm/g, "Ω"));
 
-/// The power of ten of the SI prefix that suits a value: -3 for 0.02 V. It is 0 for units that take no prefix (m^2, %, plain numbers).
+/// The power of ten of the SI prefix that suits a value: -3 for 0.02 V. It is 0 for units that take no prefix (m^2, %, plain numbers), and at least 0 for Hz.
 function prefixPower(value, unit) {
     const size = Number(Math.abs(value).toPrecision(4));
     if (!size || !Number.isFinite(size) || !/^[A-Za-zΩ]+([ ·/].*)?$/.test(unitText(unit))) return 0;
-    return Math.max(-15, Math.min(12, 3 * Math.floor(Math.log10(size) / 3 + 1e-9)));
+    return Math.max(unit === "Hz" ? 0 : -15, Math.min(12, 3 * Math.floor(Math.log10(size) / 3 + 1e-9)));
 }
 
 /// A value with four digits, SI prefix and unit: "1.250 µA". `short` omits trailing zeros: "20 Hz".

@@ -48,13 +48,16 @@ std::vector<std::string> rate_warnings(std::span<const std::unique_ptr<ForceSour
     return warnings;
 }
 
-std::string excessive_rate_warning(double rate, const AfferentPlan& plan, const std::string& name) {
+std::string excessive_rate_warning(double rate, double T, const AfferentPlan& plan, const std::string& name) {
     const auto refractory = plan.value("t_ref");
     const auto advice = refractory && *refractory < 1 / max_nerve_rate
                             ? fmt::format(", and give the afferent a refractory period: --set {}.t_ref=1ms", name)
                             : std::string();
-    return fmt::format("spikes come at up to {}, but a nerve fibre fires at no more than about {}; check the force's unit and size{}",
-                       std::isfinite(rate) ? format_quantity(rate, "Hz") : "any rate", format_quantity(max_nerve_rate, "Hz"), advice);
+    const auto spikes = rate * T <= 1
+                            ? fmt::format("spikes come at up to {}", format_quantity(rate, "Hz"))
+                            : fmt::format("several spikes come within one sample of {}, which is not a rate", format_quantity(T, "s"));
+    return fmt::format("{}; a nerve fibre fires at no more than about {}; check the force's unit and size{}", spikes,
+                       format_quantity(max_nerve_rate, "Hz"), advice);
 }
 
 }  // namespace corpuscle

@@ -20,8 +20,9 @@ std::vector<std::string> rate_warnings(std::span<const std::unique_ptr<ForceSour
 /// The highest firing rate of a nerve fibre, Hz. The absolute refractory period is about 1 ms (Hodgkin & Huxley 1952, J Physiol 117:500).
 inline constexpr double max_nerve_rate = 1e3;
 
-/// The warning "spikes come at up to 4.5 MHz ...", with advice. `rate`: the highest firing rate of the afferent, Hz. `name`: its name for
-/// --set.
-std::string excessive_rate_warning(double rate, const AfferentPlan&, const std::string& name);
+/// The warning "spikes come at up to 3.1 kHz ...", with advice. `rate`: the highest firing rate of the afferent, Hz. If it is above the
+/// sample rate 1 / T (s), the warning does not name it, because two spikes within one sample do not define a rate. `name`: of the afferent
+/// for --set.
+std::string excessive_rate_warning(double rate, double T, const AfferentPlan&, const std::string& name);
 
 }  // namespace corpuscle

@@ -106,6 +106,14 @@ void CopyStatistics::add(double x) {
     squares_ += distance * (x - mean_);
 }
 
+bool remove_unresolved_rates(std::vector<double>& values, double T) {
+    constexpr double tolerance = 1e-3;  // for spikes on the samples themselves, which are one sample apart except for rounding
+    bool any = false;
+    for (const auto m : {measure_index<MeanRate>, measure_index<PeakRate>, measure_index<FirstRate>, measure_index<LastRate>})
+        if (values[m] * T > 1 + tolerance) values[m] = no_value, any = true;
+    return any;
+}
+
 std::string measure_key(const MeasureInfo& m) { return m.unit.empty() ? std::string(m.name) : fmt::format("{}_{}", m.name, m.unit); }
 
 Json document_of(const AfferentPlan& plan) {
@@ -176,13 +184,16 @@ MeasureRow RunSummary::row(const Input& input, std::size_t channel, std::size_t 
     const std::size_t first = channel * plans.size();
     MeasureRow row{base_name(plans[from]), summary.channels[channel], summary.phases.empty() ? "all" : summary.phases[phase].name,
                    tally_.values(first + from, phase)};
-    if (plans[from].copy_number == 0) {                                                                  // not a copy
+    const double T = input.clock.T();
+    if (plans[from].copy_number == 0) {  // not a copy
+        row.has_unresolved_rate = remove_unresolved_rates(row.values, T);
         if (row.values[measure_index<SpikeCount>] == 1) row.values[measure_index<MeanRate>] = no_value;  // one spike does not define a rate
         return row;
     }
     row.copy_statistics.resize(std::size(measures));
     for (std::size_t a = from; a < to; ++a) {
-        const auto values = tally_.values(first + a, phase);
+        auto values = tally_.values(first + a, phase);
+        row.has_unresolved_rate |= remove_unresolved_rates(values, T);
         for (std::size_t m = 0; m < values.size(); ++m) row.copy_statistics[m].add(values[m]);
     }
     for (std::size_t m = 0; m < row.values.size(); ++m) row.values[m] = row.copy_statistics[m].mean();

@@ -32,7 +32,12 @@ struct MeasureRow {
     std::string afferent, channel, phase;
     std::vector<double> values;  ///< one for each of `measures`, NaN if it is undefined; with copies, the mean over them
     std::vector<CopyStatistics> copy_statistics = {};  ///< one for each of `measures`; empty without copies
+    bool has_unresolved_rate = false;                  ///< true: a rate is left out, see remove_unresolved_rates()
 };
+
+/// Removes the rates among the values of all `measures` that come from two spikes within one sample (T, s). They would be multiples of the
+/// sample rate, and say only that the force is too large for an afferent without a refractory time. Returns true if there are any.
+bool remove_unresolved_rates(std::vector<double>& values, double T);
 
 /// A measure as a column heading: "peak (Hz)".
 std::string column_heading(const MeasureInfo&);

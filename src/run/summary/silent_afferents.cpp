@@ -124,6 +124,11 @@ std::vector<SilentClass> SilenceDetector::silent_classes(const RespondOptions& o
     return out;
 }
 
+std::string nerve_advice(const AfferentPlan& plan) {
+    const auto name = plan.name + "-nerve";
+    return plan_afferent(name) ? fmt::format("try {}, which is calibrated to recordings of nerves", name) : "";
+}
+
 std::string silence_message(const std::string& name, const SilentClass& silent) {
     const auto never = fmt::format("{} never fired: the largest force was {:.3g} N", name, silent.max_force);
     if (silent.factor) return fmt::format("{}; it would fire at about {} times this force", never, format_rounded_up(*silent.factor));

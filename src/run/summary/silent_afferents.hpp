@@ -47,6 +47,10 @@ public:
     std::vector<SilentClass> silent_classes(const RespondOptions&) const;
 };
 
+/// A text such as "try fa1-nerve, which is calibrated to recordings of nerves", if there is such an afferent beside the one of the plan;
+/// otherwise "".
+std::string nerve_advice(const AfferentPlan&);
+
 /// A message such as "fa1 never fired: the largest force was 0.5 N; it would fire at about 6.3 times this
 /// force". `name`: of the class.
 std::string silence_message(const std::string& name, const SilentClass&);

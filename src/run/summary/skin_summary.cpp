@@ -139,6 +139,8 @@ SkinSummaryRow SkinSummary::row(std::size_t class_index, std::size_t region, std
     if (total_touched_samples > 0 && r.spikes != 1)
         r.touched_rate =
             static_cast<double>(spikes_while_touched_[group_index(phase, class_index, region)]) / input.since_start(total_touched_samples);
+    for (double* rate : {&r.max_rate, &r.touched_rate})
+        if (*rate * input.clock.T() > 1) *rate = no_value;  // several spikes in each sample
     if (!firsts.empty()) r.first_spike = *std::min_element(firsts.begin(), firsts.end());
     r.median_first_spike = median_of(firsts);
     return r;

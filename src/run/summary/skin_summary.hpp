@@ -33,7 +33,8 @@ struct SkinSummaryRow {
     /// Hz, spikes that arrived while their afferent was touched, divided by the time for which the afferents were touched, summed over
     /// them. NaN if none was touched or if there is a single spike.
     double touched_rate = no_value;
-    double max_rate = 0;                   ///< Hz, spikes of the most active afferent divided by `seconds`; NaN if it has a single spike
+    double max_rate =
+        0;  ///< Hz, spikes of the most active afferent divided by `seconds`; NaN if it has a single spike, or above the sample rate
     double first_spike = no_value;         ///< s since the start of the force, the earliest spike; NaN for a single phase or without spikes
     double median_first_spike = no_value;  ///< s since the start of the force, median of the afferents' first spikes; NaN as above
     /// Mean rate of the active afferents during `seconds`, Hz; NaN for a single spike.
