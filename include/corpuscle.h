@@ -28,9 +28,13 @@ corpuscle_skin* corpuscle_create(const char* population, double rate_hz, size_t 
 /* The same, with `settings`, an array of `count` parameter settings such as "sa1.f_B=25Hz". */
 corpuscle_skin* corpuscle_create_with(const char* population, double rate_hz, size_t channels, const char* const* settings, size_t count,
                                       char* error, size_t error_size);
+/* The same, but frames are the forces of taxels, which the file `taxels` lays out on the skin (doc/taxels.md). */
+corpuscle_skin* corpuscle_create_taxels(const char* population, const char* taxels, double rate_hz, const char* const* settings,
+                                        size_t count, char* error, size_t error_size);
 void corpuscle_destroy(corpuscle_skin* skin); /* NULL is allowed */
 
-size_t corpuscle_sites(const corpuscle_skin* skin);                       /* number of forces in a frame */
+size_t corpuscle_frame_size(const corpuscle_skin* skin);                  /* number of forces in a frame: of the taxels, or of the sites */
+size_t corpuscle_sites(const corpuscle_skin* skin);                       /* number of sites of the skin */
 const char* corpuscle_site_name(const corpuscle_skin* skin, size_t site); /* such as "r1c2"; sites count from 0; NULL if unknown */
 /* Position of a site in metres: x to the right, y away from the wrist. Returns 0, or -1 if there is no such site. */
 int corpuscle_site_position(const corpuscle_skin* skin, size_t site, double* x, double* y);
@@ -39,8 +43,8 @@ const char* corpuscle_afferent_name(const corpuscle_skin* skin, uint32_t index);
 
 /* corpuscle_push, corpuscle_finish and corpuscle_resume return 0, or -1 on failure. corpuscle_error then returns the message. */
 
-/* Simulates one frame: one force (N) for each site; `sites` is the number of forces. Spikes that arrive during this frame, after their
- * conduction delay, are passed to `sink`, which may be NULL. */
+/* Simulates one frame: one force (N) for each site, or taxel; `sites` is the number of forces. Spikes that arrive during this frame, after
+ * their conduction delay, are passed to `sink`, which may be NULL. */
 int corpuscle_push(corpuscle_skin* skin, const double* frame, size_t sites, corpuscle_sink sink, void* user);
 /* Call after the last frame: passes the spikes that are still travelling along the nerve to `sink`. */
 int corpuscle_finish(corpuscle_skin* skin, corpuscle_sink sink, void* user);

@@ -59,18 +59,23 @@ public:
     /// `settings` are parameters such as "sa1.f_B=25Hz". Throws InputError, as do the other members.
     explicit LiveSkin(const std::string& population, double rate = 1e3, std::size_t channels = 1,
                       const std::vector<std::string>& settings = {});
+    /// A skin whose frames are the forces of taxels, which a file lays out on it (doc/taxels.md). The order of the forces is that of the
+    /// taxels in the file, or of its channel numbers. Throws InputError.
+    static LiveSkin with_taxels(const std::string& population, const std::string& taxels, double rate = 1e3,
+                                const std::vector<std::string>& settings = {});
     LiveSkin(LiveSkin&&) noexcept;
     LiveSkin& operator=(LiveSkin&&) noexcept;
     ~LiveSkin();
 
-    std::size_t sites() const;                             ///< number of forces in a frame
-    Site site(std::size_t number) const;                   ///< site of the force with this index in a frame, from 0
+    std::size_t frame_size() const;                        ///< number of forces in a frame: of the taxels, or of the sites
+    std::size_t sites() const;                             ///< number of sites of the skin
+    Site site(std::size_t number) const;                   ///< site with this number, from 0; without taxels, of this force in a frame
     std::size_t afferents() const;                         ///< number of afferents
     std::int64_t frames() const;                           ///< frames simulated so far
     std::string afferent_name(std::uint32_t index) const;  ///< "sa1#17"
 
-    /// Simulates one frame: one force (N) for each site. Calls sink(event), in order, for each spike that arrives, after its conduction
-    /// delay, during this frame.
+    /// Simulates one frame: one force (N) for each site, or taxel. Calls sink(event), in order, for each spike that arrives, after its
+    /// conduction delay, during this frame.
     template <class Sink>
     void push(std::span<const double> frame, Sink&& sink) {
         for (const auto& e : respond(frame)) sink(e);
@@ -87,6 +92,7 @@ public:
 
 private:
     struct Impl;
+    explicit LiveSkin(std::unique_ptr<Impl>);
     std::unique_ptr<Impl> impl_;
 };
 

@@ -9,6 +9,7 @@
 #include "run/afferent_plan.hpp"
 #include "run/simulate.hpp"
 #include "skin/plan/skin_plan.hpp"
+#include "skin/taxel/taxel_map.hpp"
 
 namespace corpuscle {
 namespace {
@@ -47,7 +48,29 @@ std::vector<double> Response::instantaneous_rates() const { return corpuscle::in
 struct LiveSkin::Impl {
     std::unique_ptr<SkinStream> stream;
     EventAddressing addressing;
-    std::vector<Event> events = {};  // result of the last respond() or finish()
+    TaxelMap taxels = {};                 // without taxels: not used
+    std::vector<double> site_force = {};  // of the last frame of taxels, N
+    std::vector<Event> events = {};       // result of the last respond() or finish()
+
+    /// Places the afferents of a plan.
+    static std::unique_ptr<Impl> make(SkinPlan plan, double rate) {
+        const auto clock = value_or_throw(make_clock(rate));
+        auto placed = value_or_throw(innervate(std::move(plan)));
+        auto addressing = make_event_addressing(*placed, clock);
+        auto impl = std::unique_ptr<Impl>(new Impl{value_or_throw(SkinStream::make(std::move(placed), clock)), std::move(addressing)});
+        impl->events.reserve(8 * impl->addressing.names.size() + 64);
+        return impl;
+    }
+
+    /// The forces at the sites in a frame of sites or taxels.
+    std::span<const double> forces_of(std::span<const double> frame) {
+        if (taxels.taxel_count == 0) return frame;
+        if (frame.size() != taxels.taxel_count)
+            throw InputError("a frame has " + std::to_string(frame.size()) + " forces, but there are " +
+                             std::to_string(taxels.taxel_count) + " taxels");
+        taxels.spread(frame.data(), site_force.data());
+        return site_force;
+    }
 
     std::span<const Event> to_events(std::span<const Spike> spikes) {
         events.clear();
@@ -57,19 +80,38 @@ struct LiveSkin::Impl {
     }
 };
 
-LiveSkin::LiveSkin(const std::string& population, double rate, std::size_t channels, const std::vector<std::string>& settings) {
-    const auto clock = value_or_throw(make_clock(rate));
+namespace {
+
+/// The plan of a live skin with all settings applied.
+SkinPlan plan_with_settings(const std::string& population, std::size_t channels, const std::vector<std::string>& settings) {
     auto applied = value_or_throw(make_live_plan(population, channels, value_or_throw(parse_overrides(settings))));
     value_or_throw(check_all_used(applied.unused, override_targets(applied.result)));
-    auto placed = value_or_throw(innervate(std::move(applied.result)));
-    auto addressing = make_event_addressing(*placed, clock);
-    impl_ = std::unique_ptr<Impl>(new Impl{value_or_throw(SkinStream::make(std::move(placed), clock)), std::move(addressing)});
-    impl_->events.reserve(8 * impl_->addressing.names.size() + 64);
+    return std::move(applied.result);
+}
+
+}  // namespace
+
+LiveSkin::LiveSkin(std::unique_ptr<Impl> impl) : impl_(std::move(impl)) {}
+LiveSkin::LiveSkin(const std::string& population, double rate, std::size_t channels, const std::vector<std::string>& settings)
+    : impl_(Impl::make(plan_with_settings(population, channels, settings), rate)) {}
+
+LiveSkin LiveSkin::with_taxels(const std::string& population, const std::string& taxels, double rate,
+                               const std::vector<std::string>& settings) {
+    if (is_afferent_list(population)) throw InputError("taxels need a skin, such as hand, fingertip or \"grid 8x8\", not " + population);
+    const auto layout = value_or_throw(read_taxel_layout(taxels));
+    auto plan = plan_with_settings(population, 1, settings);
+    treat_as_skin(plan);
+    auto map = value_or_throw(map_taxels(layout, plan.sites));
+    auto impl = Impl::make(std::move(plan), rate);
+    impl->site_force.resize(impl->stream->sites());
+    impl->taxels = std::move(map);
+    return LiveSkin(std::move(impl));
 }
 LiveSkin::LiveSkin(LiveSkin&&) noexcept = default;
 LiveSkin& LiveSkin::operator=(LiveSkin&&) noexcept = default;
 LiveSkin::~LiveSkin() = default;
 
+std::size_t LiveSkin::frame_size() const { return impl_->taxels.taxel_count > 0 ? impl_->taxels.taxel_count : sites(); }
 std::size_t LiveSkin::sites() const { return impl_->stream->sites(); }
 LiveSkin::Site LiveSkin::site(std::size_t number) const {
     if (number >= sites()) throw InputError("there is no site " + std::to_string(number) + "; the last is " + std::to_string(sites() - 1));
@@ -85,7 +127,7 @@ std::string LiveSkin::afferent_name(std::uint32_t index) const {
 }
 
 std::span<const LiveSkin::Event> LiveSkin::respond(std::span<const double> frame) {
-    return impl_->to_events(value_or_throw(impl_->stream->push(frame)));
+    return impl_->to_events(value_or_throw(impl_->stream->push(impl_->forces_of(frame))));
 }
 std::span<const LiveSkin::Event> LiveSkin::finish() { return impl_->to_events(impl_->stream->finish()); }
 

@@ -51,6 +51,34 @@ T catch_errors(corpuscle_skin* skin, T failed, const Work& work) noexcept {
     return failed;
 }
 
+/// The settings as texts. Throws InputError for a null pointer.
+std::vector<std::string> settings_of(const char* const* settings, std::size_t count) {
+    if (!settings && count > 0) throw InputError("settings is NULL, but count is not 0");
+    std::vector<std::string> texts;
+    for (std::size_t k = 0; k < count; ++k) {
+        if (!settings[k]) throw InputError("setting " + std::to_string(k) + " is NULL");
+        texts.emplace_back(settings[k]);
+    }
+    return texts;
+}
+
+/// The skin that `make` returns, with its names as C strings. If it throws, writes the message into `error` and returns null.
+template <class Make>
+corpuscle_skin* create_skin(char* error, std::size_t error_size, const Make& make) noexcept {
+    copy_text("", error, error_size);
+    try {
+        auto made = std::unique_ptr<corpuscle_skin>(new corpuscle_skin{make()});
+        for (std::uint32_t u = 0; u < made->skin.afferents(); ++u) made->names.push_back(made->skin.afferent_name(u));
+        for (std::size_t s = 0; s < made->skin.sites(); ++s) made->sites.push_back(made->skin.site(s));
+        return made.release();
+    } catch (const std::exception& e) {
+        copy_text(e.what(), error, error_size);
+    } catch (...) {
+        copy_text("unknown error", error, error_size);
+    }
+    return nullptr;
+}
+
 }  // namespace
 }  // namespace corpuscle
 
@@ -62,29 +90,23 @@ corpuscle_skin* corpuscle_create(const char* population, double rate_hz, size_t 
 
 corpuscle_skin* corpuscle_create_with(const char* population, double rate_hz, size_t channels, const char* const* settings, size_t count,
                                       char* error, size_t error_size) {
-    corpuscle::copy_text("", error, error_size);
-    try {
+    return corpuscle::create_skin(error, error_size, [&] {
         if (!population) throw corpuscle::InputError("population is NULL");
-        if (!settings && count > 0) throw corpuscle::InputError("settings is NULL, but count is not 0");
-        std::vector<std::string> texts;
-        for (std::size_t k = 0; k < count; ++k) {
-            if (!settings[k]) throw corpuscle::InputError("setting " + std::to_string(k) + " is NULL");
-            texts.emplace_back(settings[k]);
-        }
-        auto made = std::unique_ptr<corpuscle_skin>(new corpuscle_skin{corpuscle::LiveSkin(population, rate_hz, channels, texts)});
-        for (std::uint32_t u = 0; u < made->skin.afferents(); ++u) made->names.push_back(made->skin.afferent_name(u));
-        for (std::size_t s = 0; s < made->skin.sites(); ++s) made->sites.push_back(made->skin.site(s));
-        return made.release();
-    } catch (const std::exception& e) {
-        corpuscle::copy_text(e.what(), error, error_size);
-    } catch (...) {
-        corpuscle::copy_text("unknown error", error, error_size);
-    }
-    return nullptr;
+        return corpuscle::LiveSkin(population, rate_hz, channels, corpuscle::settings_of(settings, count));
+    });
+}
+
+corpuscle_skin* corpuscle_create_taxels(const char* population, const char* taxels, double rate_hz, const char* const* settings,
+                                        size_t count, char* error, size_t error_size) {
+    return corpuscle::create_skin(error, error_size, [&] {
+        if (!population || !taxels) throw corpuscle::InputError(population ? "taxels is NULL" : "population is NULL");
+        return corpuscle::LiveSkin::with_taxels(population, taxels, rate_hz, corpuscle::settings_of(settings, count));
+    });
 }
 
 void corpuscle_destroy(corpuscle_skin* skin) { delete skin; }
 
+size_t corpuscle_frame_size(const corpuscle_skin* skin) { return skin ? skin->skin.frame_size() : 0; }
 size_t corpuscle_sites(const corpuscle_skin* skin) { return skin ? skin->skin.sites() : 0; }
 const char* corpuscle_site_name(const corpuscle_skin* skin, size_t site) {
     return skin && site < skin->sites.size() ? skin->sites[site].name.c_str() : nullptr;

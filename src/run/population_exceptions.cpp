@@ -26,6 +26,7 @@ constexpr PopulationException exceptions[] = {
     {PopulationKind::skin, "--supply", models, run_netlist},
     {PopulationKind::skin, "--temp", models, run_netlist},
     {PopulationKind::channels, "--contact", "an indenter presses on a skin", "name one, such as --population hand"},
+    {PopulationKind::channels, "--taxels", "taxels are on a skin", "name one, such as --population hand"},
     {PopulationKind::channels, "--checkpoint", "only the run of a skin can be resumed", "remove --checkpoint, or name a --population"},
     {PopulationKind::channels, "afferents.csv", "a channel has no afferents with positions and delays",
      "summary.json has the measures of every afferent, copies.csv those of every copy"},

@@ -28,6 +28,7 @@ const OptionCase option_cases[] = {
     {"--abs", "", "--unit mN"},
     {"--notch", "50Hz", "--unit mN"},
     {"--lowpass", "20Hz", "--unit mN"},
+    {"--zero", "50ms", "--unit mN"},
     {"--layout", "layout.csv", "--unit mN"},
     {"--range", "0..1900", "--unit mN"},
     {"--bad-fields", "interpolate", "--unit mN --range 0..1900"},

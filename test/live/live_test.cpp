@@ -446,7 +446,7 @@ TEST(SiteFrames, AreFilteredAlsoIfAllSitesAreInOrder) {
     const auto clock = value_or_throw(make_clock(1000.0));
     CountedFrames frames;
     const Biquad filter = value_or_throw(Biquad::lowpass(100, clock));
-    frames.assign_sites({0, 1}, 2, {&filter, 1});
+    frames.assign_sites({0, 1}, 2, {.biquads = {filter}});
     auto first = filter, second = filter;
     std::vector<double> force(2), expected(2);
     for (int k = 1; k <= 5; ++k) {

@@ -99,6 +99,8 @@ OptionGroup recording_option_group(RecordingOptions& options) {
                          "remove mains hum: 50Hz, with a bandwidth of 4 Hz (repeatable)"}),
              {"--lowpass", quantity_reader(options.lowpass, "Hz"), "FREQUENCY",
               "low-pass filter at this frequency (Butterworth, second order)"},
+             {"--zero", refuse_if([&options] { return !(*options.zero > 0); }, "must be above 0", quantity_reader(options.zero, "s")),
+              "TIME", "subtract the level of each channel at rest: its median during the first TIME, in which the force is taken as 0"},
              {"--layout", &options.layout, "FILE", "CSV table of sensor names and positions: channel,name,x_mm,y_mm"},
              {"--resample", quantity_reader(options.resample, "Hz"), "FREQUENCY", "resample a recording to this rate by interpolation"}}};
 }

@@ -23,10 +23,10 @@ struct RespondArguments {
     RecordingOptions recording;  ///< `rate` also applies to stimuli
     RespondOptions simulation;
     OutputArguments outputs;
-    std::string report_file;          ///< of --report; "" without a name
-    std::string population, contact;  ///< options of a skin; "": not given
-    std::uint32_t copies = 0;         ///< 0: not given
-    std::uint32_t threads = 0;        ///< 0: one per core, or one per MPI rank
+    std::string report_file;                  ///< of --report; "" without a name
+    std::string population, contact, taxels;  ///< options of a skin; "": not given
+    std::uint32_t copies = 0;                 ///< 0: not given
+    std::uint32_t threads = 0;                ///< 0: one per core, or one per MPI rank
 };
 
 /// Runs the verb. Returns the exit status.

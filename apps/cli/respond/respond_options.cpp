@@ -38,6 +38,7 @@ Examples:
   corpuscle respond press --afferent sa1-circuit --set sa1-circuit.C_u=4pF --set sa1-circuit.summer.N3B=8x4 --probe 'vf,i(N3B)' -o result
   corpuscle respond stroke --population hand --out hand --report      a stroke over a hand with 17,000 afferents
   corpuscle respond frames.csv --population 'grid 8x8' --out skin     64 sensor channels, one per skin site
+  corpuscle respond palm.csv --rate 1kHz --population hand --taxels palm-taxels.csv     16 taxels on the palm of a hand
   corpuscle respond touch.csv --channel fz --scale 0.02 --abs --out result --report
   corpuscle respond eskin.csv --rate 100Hz --scale 40      irregular timestamps: assume even sampling
   corpuscle respond grip.csv --rate 250Hz --scale 0.002 --range 0..4095 --despike 200 --notch 50Hz     remove outliers and mains hum
@@ -79,14 +80,18 @@ OptionGroup afferent_options(RespondArguments& args) {
 }
 
 OptionGroup skin_options(RespondArguments& args) {
-    return {"Skins",
-            {{"--population,-p", &args.population, "NAME|FILE",
-              "simulate a skin (instead of --afferent): hand, fingertip, 'grid 8x8', or a population file (doc/skin.md)"},
-             {"--contact", &args.contact, "INDENTER",
-              "indenter that applies the force of a single channel to the skin: flat (default), sphere, edge, grating; for its "
-              "parameters see 'corpuscle list contact', and set them by --set contact.radius=5mm"},
-             {"--checkpoint", &args.outputs.checkpoint, "FILE",
-              "save progress in this file; after an interruption the same command continues"}}};
+    return {
+        "Skins",
+        {{"--population,-p", &args.population, "NAME|FILE",
+          "simulate a skin (instead of --afferent): hand, fingertip, 'grid 8x8', or a population file (doc/skin.md)"},
+         {"--contact", &args.contact, "INDENTER",
+          "indenter that applies the force of a single channel to the skin: flat (default), sphere, edge, grating; for its "
+          "parameters see 'corpuscle list contact', and set them by --set contact.radius=5mm"},
+         {"--taxels", &args.taxels, "FILE",
+          "layout of the taxels that the recording is from (name,x_mm,y_mm,width_mm,height_mm,region ...): their forces are spread over "
+          "the sites of the skin in their areas (doc/taxels.md)"},
+         {"--checkpoint", &args.outputs.checkpoint, "FILE",
+          "save progress in this file; after an interruption the same command continues"}}};
 }
 
 OptionGroup simulation_options(RespondArguments& args) {

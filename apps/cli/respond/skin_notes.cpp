@@ -20,7 +20,9 @@ void SkinRun::add_force_notes() {
     const auto quality = source_->quality();
     notes.notes.insert(notes.notes.end(), quality.descriptions.begin(), quality.descriptions.end());
     notes.warnings.insert(notes.warnings.end(), quality.warnings.begin(), quality.warnings.end());
+    for (auto& note : force_->notes()) notes.notes.push_back(std::move(note));
     if (!skin_note_.empty()) notes.notes.push_back(skin_note_);
+    notes.notes.insert(notes.notes.end(), taxel_notes_.begin(), taxel_notes_.end());
     if (contact_) {
         notes.contact = contact_->description();
         for (auto& f : contact_->metadata()) notes.metadata.push_back(std::move(f));

@@ -7,6 +7,7 @@
 #include "core/text/ascii_text.hpp"
 #include "core/version.hpp"
 #include "skin/plan/skin_plan.hpp"
+#include "skin/taxel/taxel_map.hpp"
 
 namespace corpuscle {
 namespace {
@@ -56,8 +57,24 @@ std::string sites_checksum(const Sites& sites) {
 
 }  // namespace
 
+/// Makes force_ from a recording of taxels.
+Result<void> SkinRun::open_taxels() {
+    if (!args_.contact.empty()) return bad_usage("--contact presses one force on the skin, and --taxels spreads those of taxels; use one");
+    if (!args_.recording.layout.empty()) return bad_usage("--layout and --taxels both say where the channels are; use --taxels only");
+    const auto layout = TRY(read_taxel_layout(args_.taxels));
+    std::vector<std::string> names;
+    for (const auto& c : source_->channels()) names.push_back(c.name);
+    const auto taxels = TRY(match_taxels(layout, names, source_->name()));
+    const auto& sites = innervation_->plan.sites;
+    auto map = TRY(map_taxels(layout, sites));
+    taxel_notes_ = map.notes;
+    force_ = make_taxel_force(*source_, layout, std::move(map), taxels, sites.size());
+    return {};
+}
+
 /// Makes force_: with an indenter if the force has one channel and the skin several sites, otherwise from one channel for each site.
 Result<void> SkinRun::open_contact(std::string indenter, const NamedTouch* touch) {
+    if (!args_.taxels.empty()) return open_taxels();
     const auto& sites = innervation_->plan.sites;
     const std::size_t channels = source_->channels().size();
     if (channels > 1 || sites.size() == 1) {
@@ -84,7 +101,7 @@ Result<void> SkinRun::place_afferents() {
     keep_unused(unused_, applied.unused);
     auto& skin_plan = applied.result;
     if (options_.seed != 0) skin_plan.seed = options_.seed;  // 0, the default, keeps the seed of the population file
-    if (source_->channels().size() == 1) skin_note_ = treat_as_skin(skin_plan);
+    if (source_->channels().size() == 1 || !args_.taxels.empty()) skin_note_ = treat_as_skin(skin_plan);
     innervation_ = TRY(innervate(std::move(skin_plan)));
     return {};
 }
@@ -109,6 +126,7 @@ Result<RunFingerprint> SkinRun::fingerprint() const {
     if (const auto& force = args_.forces[0]; !force.is_stimulus && !force.touch) TRY(add_contents(all, "recording", force.text));
     TRY(add_contents(all, "population file", args_.population));
     TRY(add_contents(all, "layout file", args_.recording.layout));
+    TRY(add_contents(all, "taxel file", args_.taxels));
     all.emplace_back("contents of the table of sites", sites_checksum(innervation_->plan.sites));
     return all;
 }

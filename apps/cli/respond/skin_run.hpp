@@ -24,8 +24,10 @@ class SkinRun final : public PlannedRun {
     SkinSummary summary_;
     SilenceDetector silence_;
     std::optional<SkinReport> report_;
+    std::vector<std::string> taxel_notes_;
 
     Result<void> place_afferents();
+    Result<void> open_taxels();
     Result<void> open_contact(std::string indenter, const NamedTouch*);
     Result<void> make_skin();
     /// All that determines the response: the program's version, the force, all options except those of outputs, and the contents of the

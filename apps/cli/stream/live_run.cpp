@@ -53,7 +53,9 @@ class LiveRun {
     std::unique_ptr<EventFormat> format_;
     std::unique_ptr<EventSink> sink_;
     std::unique_ptr<StreamLoop> loop_;
-    bool is_status_shown_ = false;  // true while the last line of the terminal is the status line
+    std::optional<TaxelLayout> taxels_;    // of --taxels
+    std::vector<std::string> skin_notes_;  // about the skin and the taxels
+    bool is_status_shown_ = false;         // true while the last line of the terminal is the status line
 
     StreamReportInput report_input() const { return {*skin_, *frames_, *sink_, *format_, *loop_}; }
 
@@ -63,11 +65,42 @@ class LiveRun {
         auto& source = opened.result;
         keep_unused(unused_, opened.unused);
         TRY(open_skin(source->channels(), source->clock()));
-        auto sites = TRY(match_sites(skin_->innervation().plan, *source));
         source_ = source.get();
+        if (taxels_) {
+            std::vector<std::string> names;
+            for (const auto& c : source->channels()) names.push_back(c.name);
+            auto taxels = TRY(match_taxels(*taxels_, names, source->name()));
+            frames_ = make_frame_source(std::move(source), args_.pace == "real");
+            return assign_taxels(std::move(taxels), {});
+        }
+        auto sites = TRY(match_sites(skin_->innervation().plan, *source));
         frames_ = make_frame_source(std::move(source), args_.pace == "real");
         frames_->assign_sites(std::move(sites), skin_->sites());
         return {};
+    }
+
+    /// Spreads the forces of the taxels over the sites of the skin. `taxels`: of each force of a frame.
+    Result<void> assign_taxels(std::vector<std::uint32_t> taxels, const ChannelFilters& filters) {
+        auto map = TRY(map_taxels(*taxels_, skin_->innervation().plan.sites));
+        skin_notes_.insert(skin_notes_.end(), map.notes.begin(), map.notes.end());
+        frames_->assign_taxels(std::move(map), std::move(taxels), filters);
+        return {};
+    }
+
+    /// Reads the layout of --taxels.
+    Result<void> read_taxels() {
+        if (args_.taxels.empty()) return {};
+        if (is_afferent_list(args_.population))
+            return bad_usage("--taxels needs a skin; add --population hand, fingertip, \"grid 8x8\" or a population file");
+        if (!args_.recording.layout.empty()) return bad_usage("--layout and --taxels both say where the channels are; use --taxels only");
+        taxels_ = TRY(read_taxel_layout(args_.taxels));
+        return {};
+    }
+
+    /// Makes the function that reads the names of taxels in a CSV header.
+    HeaderReader taxel_header_reader() const {
+        return
+            [this](std::span<const std::string> names) { return match_taxels(*taxels_, names, "the header of " + input_name(args_.in)); };
     }
 
     /// Makes the function that reads the names in a CSV header. Either all names are sites, or none is. The function returns the site of
@@ -98,13 +131,16 @@ class LiveRun {
         const auto clock = TRY(live_clock(args_));
         TRY(open_skin({}, clock));
         std::vector<std::uint32_t> sites;  // the site of each force of a frame; empty: all sites in order
+        if (taxels_) sites.resize(taxels_->taxels.size()), std::iota(sites.begin(), sites.end(), 0U);
         if (const auto& path = args_.recording.layout; !path.empty()) sites = TRY(read_site_map(path, skin_->innervation().plan.sites));
         layout_ = TRY(live_layout(args_, sites.empty() ? skin_->sites() : sites.size(), clock));
+        if (taxels_) layout_.site_noun = "taxel";
         auto bytes = TRY(open_live_input(args_, layout_));
         const auto in_frames = [&](double seconds) { return static_cast<std::int64_t>(std::min(seconds * clock.rate(), 2e9)); };
         frames_ = make_frame_source(std::move(bytes), layout_, in_frames(args_.hold), in_frames(args_.max_gap), args_.batch_frames,
-                                    header_reader(sites));
+                                    taxels_ ? taxel_header_reader() : header_reader(sites));
         const auto filters = TRY(live_filters(args_.recording, clock));
+        if (taxels_) return assign_taxels(std::move(sites), filters);
         if (sites.empty()) sites.resize(layout_.sites), std::iota(sites.begin(), sites.end(), 0U);
         frames_->assign_sites(std::move(sites), skin_->sites(), filters);
         return {};
@@ -113,8 +149,10 @@ class LiveRun {
     /// `channels`: as for plan_of(). `clock`: of the frames.
     Result<void> open_skin(std::span<const Channel> channels, Clock clock) {
         clock.t0 = 0;  // time 0 is the first frame
-        const auto plan = TRY(plan_of(args_, channels));
+        auto plan = TRY(plan_of(args_, channels));
         keep_unused(unused_, plan.unused);
+        if (taxels_)
+            if (auto note = treat_as_skin(plan.result); !note.empty()) skin_notes_.push_back(std::move(note));
         auto innervation = TRY(innervate(plan.result));
         skin_ = TRY(SkinStream::make(innervation, clock, args_.sampled, args_.batch_frames));
         return {};
@@ -134,18 +172,26 @@ class LiveRun {
     Result<void> load_state() {
         if (args_.resume.empty()) return {};
         const auto state = TRY(load_stream(args_.resume));
-        if (state.force.size() != skin_->sites())
-            return bad_input(fmt::format("the saved state has {} sites, but the population has {}", state.force.size(), skin_->sites()),
-                             {args_.resume});
+        const auto last = last_frame();
+        if (state.force.size() != last.size())
+            return bad_input(
+                fmt::format(
+                    "the saved state has a frame of {} forces, but a frame of this stream has {}; use the same population and --taxels",
+                    state.force.size(), last.size()),
+                {args_.resume});
         if (auto ok = skin_->resume(state.skin); !ok) return Error{ok.error().code, ok.error().message, {args_.resume}};
-        std::copy(state.force.begin(), state.force.end(), loop_->force().begin());
+        std::copy(state.force.begin(), state.force.end(), last.begin());
         if (auto* sequence = frames_->sequence(); sequence && state.number) sequence->resume_after(*state.number);
         return {};
     }
 
+    /// The last frame: of the taxels, or of all sites.
+    std::span<double> last_frame() { return taxels_ ? frames_->taxel_frame() : loop_->force(); }
+
     Result<void> save_state() {
         if (args_.save_state.empty()) return {};
-        StreamState state{{loop_->force().begin(), loop_->force().end()}, {}, skin_->save()};
+        const auto last = last_frame();
+        StreamState state{{last.begin(), last.end()}, {}, skin_->save()};
         if (const auto* sequence = frames_->sequence(); sequence && sequence->has_begun()) state.number = sequence->last();
         return save_stream(args_.save_state, state);
     }
@@ -158,6 +204,7 @@ class LiveRun {
     /// Prints how a recording was read, and warns if the frame rate is too low.
     void print_notes() {
         if (source_) corpuscle::print_notes(source_->name(), source_->notes(), common_.quiet);
+        corpuscle::print_notes(input_name(args_.in), skin_notes_, common_.quiet);
         const double rate = skin_->clock().rate();
         for (const auto& c : skin_->innervation().plan.classes)
             if (rate < c.afferent.min_rate * (1 - 1e-9))
@@ -176,15 +223,19 @@ class LiveRun {
 
     /// Describes the error of a frame. If the width of a frame is wrong, adds the option that would make it right.
     std::string frame_error_text(const FrameError& frame_error) const {
-        const auto text =
-            describe_frame_error(frame_error, layout_, args_.recording.layout.empty() ? args_.population : args_.recording.layout);
+        const auto text = describe_frame_error(frame_error, layout_,
+                                               taxels_                          ? args_.taxels
+                                               : args_.recording.layout.empty() ? args_.population
+                                                                                : args_.recording.layout);
         const auto stamps = layout_.stamp == FrameStamp::none ? 0U : 1U;  // number of fields before the forces
         if (frame_error.reason == FrameError::header) return "header: " + text;
-        if (frame_error.reason != FrameError::width || !args_.recording.layout.empty() || frame_error.found <= stamps) return text;
+        if (frame_error.reason != FrameError::width || taxels_ || !args_.recording.layout.empty() || frame_error.found <= stamps)
+            return text;
         const auto& plan = skin_->innervation().plan;
         if (plan.is_by_channel) return fmt::format("{}; use --channels {} for frames of this width", text, frame_error.found - stamps);
         if (frame_error.found - stamps > plan.sites.size()) return text;
-        return fmt::format("{}; use --layout FILE to map the numbers of a frame to sites", text);
+        return fmt::format("{}; use --layout FILE to map the numbers of a frame to sites, or --taxels FILE to spread the forces of taxels",
+                           text);
     }
 
     /// Returns an error if no frame was received.
@@ -229,6 +280,7 @@ class LiveRun {
 
     /// Opens input, skin and output.
     Result<void> open() {
+        TRY(read_taxels());
         TRY(is_live_input(args_.in) ? open_live() : open_recorded());
         std::vector<std::string_view> others;
         if (source_) others.push_back(source_->name());

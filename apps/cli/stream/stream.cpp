@@ -27,6 +27,7 @@ Examples:
   sensor | corpuscle stream --rate 1kHz                                one force per line in, one spike per line out
   corpuscle stream --population hand --rate 1kHz --frames f32 --in tcp:7000 --to 7001 --format aer
   corpuscle stream --population "grid 64x64" --rate 5.2kHz --frames f32 < frames.f32 > spikes.aer --format aer
+  corpuscle stream --population hand --taxels palm-taxels.csv --rate 1kHz < palm.csv    frames of 16 taxels on a palm
   corpuscle stream --channels 16 --rate 500Hz --in serial:/dev/ttyACM0 --baud 921600 --frames i16 --scale 2mN -o spikes.csv
   corpuscle stream --in grip.csv --unit mN --format jsonl --pace fast  a recording, with the recording options of respond
   corpuscle stream --channels 16 --rate 1kHz --in udp:7000 --stamp sequence --frames f32     numbered frames in datagrams
@@ -45,16 +46,20 @@ OptionReader buffer_reader(double& to) {
 }
 
 OptionGroup population_options(StreamArguments& args) {
-    return {"",
-            {{"--population,-p", &args.population, "POPULATION", "the afferents to simulate"},
-             {"--channels,-n", &args.channel_count, "N", "forces per frame, if the population is given by names of afferents",
-              std::pair(1, 1 << 22)},
-             repeatable({"--set,-s", override_reader(args.settings, "--set"), "NAME.PARAMETER=VALUE",
-                         "set a parameter of an afferent, a class of the population or a stimulus, such as sa1.f_B=25Hz"}),
-             {"--sampled", &args.sampled, "", "put spikes on the sampling times, as in the thesis (default: interpolate within the step)"},
-             {"--batch-frames", &args.batch_frames, "N",
-              "process N frames at once: less CPU time, but up to N frames more latency; the spikes are the same", std::pair(1, 1024)},
-             {"--busy-poll", &args.busy_poll, "", "poll for frames without sleeping: lower latency, but occupies one core"}}};
+    return {
+        "",
+        {{"--population,-p", &args.population, "POPULATION", "the afferents to simulate"},
+         {"--channels,-n", &args.channel_count, "N", "forces per frame, if the population is given by names of afferents",
+          std::pair(1, 1 << 22)},
+         {"--taxels", &args.taxels, "FILE",
+          "layout of the taxels that the frames are from (name,x_mm,y_mm,width_mm,height_mm,region ...): their forces are spread over the "
+          "sites of the skin in their areas (doc/taxels.md)"},
+         repeatable({"--set,-s", override_reader(args.settings, "--set"), "NAME.PARAMETER=VALUE",
+                     "set a parameter of an afferent, a class of the population or a stimulus, such as sa1.f_B=25Hz"}),
+         {"--sampled", &args.sampled, "", "put spikes on the sampling times, as in the thesis (default: interpolate within the step)"},
+         {"--batch-frames", &args.batch_frames, "N",
+          "process N frames at once: less CPU time, but up to N frames more latency; the spikes are the same", std::pair(1, 1024)},
+         {"--busy-poll", &args.busy_poll, "", "poll for frames without sleeping: lower latency, but occupies one core"}}};
 }
 
 OptionGroup input_options(StreamArguments& args) {

@@ -3,11 +3,13 @@
 
 #include "cli/arguments/shared_arguments.hpp"
 #include "live/stream_loop.hpp"
+#include "skin/taxel/taxel_layout.hpp"
 
 namespace corpuscle {
 
 struct StreamArguments {
     std::string population = "sa1,fa1", in = "-", listen = "127.0.0.1", frames = "csv", stamp = "none", pace = "real";
+    std::string taxels;  ///< file with the layout of the taxels; "": not given
     std::vector<ParameterOverride> settings;
     RecordingOptions recording;                          ///< live_options says which of them apply to live frames
     double max_force = 1e3;                              ///< N
@@ -43,6 +45,7 @@ inline constexpr LiveOption live_options[] = {
     {"--abs", LiveEffect::same, "as for a recording"},
     {"--notch", LiveEffect::same, "as for a recording; not together with --save-state and --resume"},
     {"--lowpass", LiveEffect::same, "as for a recording; not together with --save-state and --resume"},
+    {"--zero", LiveEffect::same, "as for a recording; not together with --save-state and --resume"},
     {"--layout", LiveEffect::same, "as for a recording; `channel` is the position in the frame"},
     {"--range", LiveEffect::different, "a reading out of range is replaced by the last force of its site, not interpolated"},
     {"--bad-fields", LiveEffect::refused,
@@ -74,8 +77,8 @@ Result<void> check_live_options(const StreamArguments&, const CommonArguments&);
 Result<Clock> live_clock(const StreamArguments&);
 /// The layout of live frames. `sites`: number of forces in a frame.
 Result<FrameLayout> live_layout(const StreamArguments&, std::size_t sites, const Clock&);
-/// The filters of --notch and --lowpass.
-Result<std::vector<Biquad>> live_filters(const RecordingOptions&, const Clock&);
+/// The filters of --notch, --lowpass and --zero.
+Result<ChannelFilters> live_filters(const RecordingOptions&, const Clock&);
 /// Opens a live input: standard input, a port or a serial device.
 Result<std::unique_ptr<ByteSource>> open_live_input(const StreamArguments&, const FrameLayout&);
 

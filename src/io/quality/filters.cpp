@@ -2,7 +2,9 @@
 
 #include <fmt/format.h>
 #include <algorithm>
+#include <cmath>
 
+#include "core/median.hpp"
 #include "core/number/elementary.hpp"
 
 namespace corpuscle {
@@ -101,6 +103,24 @@ Result<Biquad> Biquad::lowpass(double f, const Clock& clock) {
     TRY(check_frequency(f, clock, "--lowpass"));
     const double turns = f / clock.rate(), c = num::cos_turns(turns), alpha = num::sin_turns(turns) * 0.70710678118654752;  // Q = sqrt(1/2)
     return Biquad((1 - c) / 2, 1 - c, (1 - c) / 2, 1 + alpha, -2 * c, 1 - alpha);
+}
+
+Result<RestLevel> RestLevel::make(double seconds, const Clock& clock) {
+    constexpr double max_samples = 1 << 24;
+    const double samples = std::round(seconds * clock.rate());
+    if (!(samples >= 1 && samples <= max_samples))
+        return bad_input(fmt::format("--zero {:g}s: at {:g} Hz the rest period must be between {:.3g} and {:.3g} s", seconds, clock.rate(),
+                                     clock.T(), max_samples * clock.T()));
+    RestLevel out;
+    out.first_.resize(static_cast<std::size_t>(samples));
+    return out;
+}
+
+double RestLevel::next(double x) {
+    if (is_known()) return x - level_;
+    first_[seen_++] = x;
+    if (is_known()) level_ = median_of(first_);
+    return 0;
 }
 
 }  // namespace corpuscle

@@ -1,8 +1,8 @@
 #pragma once
 // Filters of a recording's channel: repair (HampelFilter removes isolated outliers, GapFiller fills missing samples, NaN, by linear
-// interpolation), and causal filters (Biquad). The result for a sample of the repair depends only on that sample and its neighbours, not on
-// the size of the blocks that are read. The output of a causal filter depends only on the current and earlier samples, so a stream and a
-// file give the same result.
+// interpolation), and causal filters (Biquad, RestLevel). The result for a sample of the repair depends only on that sample and its
+// neighbours, not on the size of the blocks that are read. The output of a causal filter depends only on the current and earlier samples,
+// so a stream and a file give the same result.
 //
 // In the repair, push() adds samples and appends finished ones to `out`, after a delay. finish() appends the last ones at the end of the
 // file.
@@ -89,6 +89,35 @@ public:
 private:
     /// Flushes tiny values to zero. Otherwise the states would become denormal long after a touch, which is slow.
     static double flush_tiny(double s) { return s > -1e-200 && s < 1e-200 ? 0 : s; }
+};
+
+/// Subtracts the level of a sensor at rest: the median of the first samples, during which the output is 0. A RestLevel without a rest
+/// period changes nothing.
+class RestLevel {
+    std::vector<double> first_ = {};  // the samples of the rest period; `seen_` of them are known
+    std::size_t seen_ = 0;
+    double level_ = 0;  // valid after the rest period
+
+public:
+    RestLevel() = default;
+    /// `seconds`: length of the rest period, at least one sample.
+    static Result<RestLevel> make(double seconds, const Clock&);
+    double next(double x);
+    bool is_used() const { return !first_.empty(); }
+    bool is_known() const { return seen_ == first_.size(); }  ///< true after the rest period
+    double level() const { return level_; }                   ///< valid if is_known()
+};
+
+/// The causal filters of one channel, in the order in which they apply.
+struct ChannelFilters {
+    std::vector<Biquad> biquads = {};
+    RestLevel rest = {};
+
+    bool empty() const { return biquads.empty() && !rest.is_used(); }
+    double next(double x) {
+        for (auto& b : biquads) x = b.next(x);
+        return rest.next(x);
+    }
 };
 
 }  // namespace corpuscle

@@ -134,6 +134,17 @@ class ReportWriter {
             add(all, fmt::format("{} channels are constant{}", constant.channels.size(), all ? "; check the file and the channels" : ""));
     }
 
+    /// Reports the levels at rest that --zero subtracts.
+    void rest_levels() {
+        if (!pipelines_[0].rest.is_used()) return;
+        if (!pipelines_[0].rest.is_known())
+            return add(true, "the recording is shorter than the rest period of --zero, so the force is 0 throughout");
+        double low = pipelines_[0].rest.level(), high = low;
+        for (const auto& p : pipelines_) low = std::min(low, p.rest.level()), high = std::max(high, p.rest.level());
+        add(false, low == high ? fmt::format("--zero: the level at rest, {:.4g} N, was subtracted", low)
+                               : fmt::format("--zero: levels at rest from {:.4g} to {:.4g} N were subtracted", low, high));
+    }
+
     void repaired(const RowReader& rows) {
         std::int64_t outliers = 0, filled = 0;  // numbers of samples, summed over all channels
         for (const auto& p : pipelines_) outliers += p.outliers_removed(), filled += p.filled();
@@ -181,6 +192,7 @@ public:
         saturation();
         full_scale();
         levels();
+        rest_levels();
         add_metrics();
         return std::move(out_);
     }

@@ -76,6 +76,8 @@ void ChannelPipeline::finish_force(std::span<double> force) {
     if (!filters_rows_)
         for (auto& filter : filters_)
             for (double& x : force) x = filter.next(x);
+    if (rest.is_used())
+        for (double& x : force) x = rest.next(x);
     hum.add(force);
     levels.add(force);
 }

@@ -37,6 +37,7 @@ public:
     static Result<ChannelPipeline> make(const RecordingOptions&, double gain, const Clock& filter_clock, bool filters_rows,
                                         const HumTable&);
 
+    RestLevel rest = {};            ///< subtracted from the final force
     OutlierDetector outliers;       ///< of the samples before the filters
     SaturationDetector saturation;  ///< of the samples before the filters
     HumDetector hum;                ///< of the final force
@@ -54,7 +55,8 @@ public:
     Result<void> push(std::span<const double> values, std::vector<double>& out);
     /// Appends the samples that are still waiting for later ones, at the end of the file.
     Result<void> finish(std::vector<double>& out);
-    /// Filters the resampled samples if the filters do not run on the rows, and passes the final force to `hum` and `levels`.
+    /// Filters the resampled samples if the filters do not run on the rows, subtracts the rest level, and passes the final force to `hum`
+    /// and `levels`.
     void finish_force(std::span<double> force);
 
 private:

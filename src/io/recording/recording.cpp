@@ -122,9 +122,12 @@ class Recording final : public ForceSource {
         hum_table_ = std::make_unique<HumTable>(clock_);
         const bool rows_are_even = !row_clock_.uses_row_times;
         std::vector<ChannelPipeline> pipelines;
+        RestLevel rest;
+        if (options_.zero) rest = TRY(RestLevel::make(*options_.zero, clock_));
         for (const double gain : gains) {
             auto pipeline =
                 TRY(ChannelPipeline::make(options_, gain, rows_are_even ? row_clock_.clock : clock_, rows_are_even, *hum_table_));
+            pipeline.rest = rest;
             pipelines.push_back(std::move(pipeline));
         }
         return pipelines;
@@ -226,6 +229,7 @@ public:
         if (options_.despike) all.push_back({"despike", options_.despike->limit.value_or(0), ""});
         for (const double f : options_.notch) all.push_back({"notch", f, "Hz"});
         if (options_.lowpass) all.push_back({"low-pass", *options_.lowpass, "Hz"});
+        if (options_.zero) all.push_back({"rest period", *options_.zero, "s"});
         if (options_.resample) all.push_back({"resampled from", row_clock_.uses_row_times ? 0 : row_clock_.clock.rate(), "Hz"});
         return all;
     }

@@ -27,6 +27,7 @@ struct RecordingOptions {
     std::optional<DespikeOptions> despike = {};           ///< removes outliers; nullopt: keeps them
     std::vector<double> notch = {};                       ///< Hz, frequencies to remove
     std::optional<double> lowpass = {};                   ///< Hz, -3 dB frequency; nullopt: no low-pass filter
+    std::optional<double> zero = {};                      ///< s, length of the rest period at the beginning; see RestLevel; nullopt: none
     std::string layout = {};                              ///< path of a file with the names and positions of the sensors; "": none
     /// Called for each block while the file is read to determine its clock, with the fraction read so far. If it returns false, opening
     /// stops with an error.

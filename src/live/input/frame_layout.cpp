@@ -17,7 +17,7 @@ std::string contents_of(const FrameLayout& layout, std::size_t numbers) {
 
 /// "'hand' has 4793 sites, so a frame must have 4793 numbers"
 std::string expected_frame(const FrameLayout& layout, std::string_view population) {
-    return fmt::format("'{}' has {}, so a frame must have {}", population, counted_noun(layout.sites, "site"),
+    return fmt::format("'{}' has {}, so a frame must have {}", population, counted_noun(layout.sites, layout.site_noun),
                        contents_of(layout, layout.sites));
 }
 

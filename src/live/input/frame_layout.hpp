@@ -29,6 +29,7 @@ struct FrameLayout {
     bool absolute = false;         ///< the absolute value of each value is used
     /// Lowest and highest valid value, after `absolute`. Others are not valid readings.
     std::optional<std::pair<double, double>> range = {};
+    std::string_view site_noun = "site";  ///< in messages; "taxel" if the forces are those of taxels
     std::size_t stamp_bytes() const { return stamp == FrameStamp::none ? 0 : stamp == FrameStamp::sequence ? 4 : 8; }
     std::size_t value_bytes() const { return kind == FrameKind::i16 ? 2 : kind == FrameKind::f32 ? 4 : 8; }
     std::size_t bytes() const { return stamp_bytes() + sites * value_bytes(); }  ///< size of a binary frame
@@ -54,7 +55,7 @@ struct FrameError {
 };
 
 /// The message for an error: "frame 1 has 16 numbers; 'hand' has 4793 sites, so a frame must have 4793 numbers". `population` is the name
-/// of the population.
+/// of the population, or of the file of its taxels.
 std::string describe_frame_error(const FrameError&, const FrameLayout&, std::string_view population);
 
 /// Statistics of numbered frames.

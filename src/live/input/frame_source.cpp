@@ -91,6 +91,7 @@ public:
             if (hold_ > 0) return --hold_, Next::filled;
             if (release_ > 0) {
                 std::fill(force.begin(), force.end(), 0.0);
+                is_released_ = true;
                 return --release_, Next::filled;
             }
             if (std::exchange(found_, false)) {
@@ -162,27 +163,40 @@ public:
 
 }  // namespace
 
-void FrameSource::assign_sites(std::vector<std::uint32_t> sites, std::size_t all_sites, std::span<const Biquad> filters) {
+void FrameSource::assign_sites(std::vector<std::uint32_t> sites, std::size_t all_sites, const ChannelFilters& filters) {
     std::uint32_t next = 0;
     const bool in_order = std::all_of(sites.begin(), sites.end(), [&](std::uint32_t site) { return site == next++; });
     if (in_order && sites.size() == all_sites && filters.empty()) return;
     sites_ = std::move(sites);
     frame_.resize(sites_.size());
-    if (!filters.empty()) filters_.assign(sites_.size(), {filters.begin(), filters.end()});
+    if (!filters.empty()) filters_.assign(sites_.size(), filters);
+}
+
+void FrameSource::assign_taxels(TaxelMap map, std::vector<std::uint32_t> taxels, const ChannelFilters& filters) {
+    sites_ = std::move(taxels), map_ = std::move(map);
+    frame_.resize(sites_.size()), taxel_force_.resize(map_.taxel_count);
+    if (!filters.empty()) filters_.assign(sites_.size(), filters);
+}
+
+/// Force k of the last frame, filtered. A frame that was inserted to have no force has the rest level of --zero, which becomes 0.
+double FrameSource::filtered(std::size_t k) {
+    if (filters_.empty()) return frame_[k];
+    const auto& rest = filters_[k].rest;
+    return filters_[k].next(is_released_ && rest.is_used() && rest.is_known() ? rest.level() : frame_[k]);
 }
 
 FrameSource::Next FrameSource::next(std::span<double> force) {
+    is_released_ = false;
     if (sites_.empty()) return read_frame(force);
+    const bool has_taxels = map_.taxel_count > 0;
     // Without filters, the last frame is taken from `force`. So a resumed stream, whose `force` is set by the caller, repeats the right
     // values.
-    for (std::size_t k = 0; filters_.empty() && k < sites_.size(); ++k) frame_[k] = force[sites_[k]];
+    for (std::size_t k = 0; filters_.empty() && !has_taxels && k < sites_.size(); ++k) frame_[k] = force[sites_[k]];
     const auto next = read_frame(frame_);
     if (next == Next::nothing) return next;
-    for (std::size_t k = 0; k < sites_.size(); ++k) {
-        double& filtered = force[sites_[k]] = frame_[k];
-        if (filters_.empty()) continue;
-        for (auto& filter : filters_[k]) filtered = filter.next(filtered);
-    }
+    const auto out = has_taxels ? std::span(taxel_force_) : force;
+    for (std::size_t k = 0; k < sites_.size(); ++k) out[sites_[k]] = filtered(k);
+    if (has_taxels) map_.spread(taxel_force_.data(), force.data());
     return next;
 }
 

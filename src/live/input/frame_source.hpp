@@ -5,6 +5,7 @@
 #include "io/quality/filters.hpp"
 #include "live/input/byte_source.hpp"
 #include "live/input/frame_layout.hpp"
+#include "skin/taxel/taxel_map.hpp"
 
 namespace corpuscle {
 
@@ -42,9 +43,14 @@ public:
     /// Overwrites `force` (N), which must contain the last frame, with the next frame that has been read, if there is one.
     Next next(std::span<double> force);
     /// For frames with fewer forces than a skin has sites, and for filters as those of a recording: from now on, force k of a frame is
-    /// filtered by all `filters`, in order, and assigned to site sites[k] of `all_sites`. The force at other sites is not changed. Frames
+    /// filtered by `filters`, and assigned to site sites[k] of `all_sites`. The force at other sites is not changed. Frames
     /// that are inserted for missing ones are filtered, too.
-    void assign_sites(std::vector<std::uint32_t> sites, std::size_t all_sites, std::span<const Biquad> filters = {});
+    void assign_sites(std::vector<std::uint32_t> sites, std::size_t all_sites, const ChannelFilters& filters = {});
+    /// For frames of taxels: from now on, force k of a frame is filtered and is that of taxel taxels[k] of the map, which gives the force
+    /// at the sites.
+    void assign_taxels(TaxelMap, std::vector<std::uint32_t> taxels, const ChannelFilters& filters = {});
+    /// The forces of the last frame, before filters, if taxels have been assigned; otherwise empty.
+    std::span<double> taxel_frame() { return map_.taxel_count > 0 ? std::span(frame_) : std::span<double>(); }
     virtual FrameCounts counts() const = 0;
     virtual std::string description() const = 0;
     /// True if frames arrive at their own pace. False: they can wait until a slow reader has accepted the spikes.
@@ -53,12 +59,19 @@ public:
     virtual std::optional<FrameError> first_error() const { return {}; }  ///< the first frame that could not be read
     virtual FrameSequence* sequence() { return nullptr; }                 ///< the order of numbered frames; null if frames are not numbered
 
+protected:
+    bool is_released_ = false;  // true: the last frame was inserted to have no force
+
 private:
     virtual Next read_frame(std::span<double> force) = 0;  ///< as next(), before sites are assigned
 
-    std::vector<std::uint32_t> sites_;          // the site of each force of a frame; empty: all sites in order, without filters
-    std::vector<std::vector<Biquad>> filters_;  // of each force; empty: none
-    std::vector<double> frame_;                 // the last frame before the filters, N; only if sites_ is not empty
+    double filtered(std::size_t k);
+
+    std::vector<std::uint32_t> sites_;     // the site or taxel of each force of a frame; empty: all sites in order, without filters
+    std::vector<ChannelFilters> filters_;  // of each force; empty: none
+    std::vector<double> frame_;            // the last frame before the filters, N; only if sites_ is not empty
+    TaxelMap map_;                         // without taxels: not used
+    std::vector<double> taxel_force_;      // of each taxel, N
 };
 
 /// A source that decodes frames from bytes. `hold` and `max_gap` are numbers of frames (see FrameSequence), `batch_frames` is the number of

@@ -5,6 +5,7 @@
 #include <numeric>
 
 #include "skin/plan/sites.hpp"
+#include "skin/taxel/stuck_taxels.hpp"
 
 namespace corpuscle {
 namespace {
@@ -61,6 +62,53 @@ public:
     RecordingQuality quality() const override { return source_.quality(); }
 };
 
+class TaxelsForce final : public SkinForce {
+    ForceSource& source_;
+    TaxelMap map_;
+    StuckTaxels stuck_;
+    std::vector<std::uint32_t> channels_;  // the channel of each taxel
+    Frames frames_;
+    std::vector<double> frame_;  // of the taxels at one sample, N
+    std::vector<double> force_;  // [site][step], N; 0 at sites without a taxel
+    std::vector<double> total_ = std::vector<double>(site_block);
+    std::vector<std::uint32_t> touched_;  // sites with force in the block
+
+    void find_touched() {
+        touched_.clear();
+        for (const auto site : map_.sites) {
+            const double* force = force_.data() + site * site_block;
+            if (std::any_of(force, force + frames_.count, [](double F) { return F != 0; })) touched_.push_back(site);
+        }
+    }
+
+public:
+    TaxelsForce(ForceSource& source, const TaxelLayout& layout, TaxelMap map, const std::vector<std::uint32_t>& taxels,
+                std::size_t all_sites)
+        : source_(source), map_(std::move(map)), stuck_(layout), channels_(taxels.size()), frames_(taxels.size(), site_block),
+          frame_(taxels.size()), force_(all_sites * site_block) {
+        for (std::uint32_t c = 0; c < taxels.size(); ++c) channels_[taxels[c]] = c;
+    }
+
+    Result<Block> next() override {
+        frames_.count = 0;
+        TRY(source_.read(frames_));
+        for (std::size_t t = 0; t < frames_.count; ++t) {
+            total_[t] = 0;
+            for (std::size_t k = 0; k < frame_.size(); ++k) {
+                frame_[k] = frames_.force[channels_[k]][t];
+                total_[t] += map_.total[k] * frame_[k];
+                stuck_.add(k, frame_[k]);
+            }
+            map_.spread(frame_.data(), force_.data() + t, site_block);
+        }
+        find_touched();
+        return Block{{force_.data(), site_block, touched_, false}, {total_.data(), frames_.count}};
+    }
+    double progress() const override { return source_.progress(); }
+    RecordingQuality quality() const override { return source_.quality(); }
+    std::vector<std::string> notes() const override { return stuck_.notes(); }
+};
+
 }  // namespace
 
 std::unique_ptr<SkinForce> make_pressed_force(ForceSource& source, Contact& contact) {
@@ -68,6 +116,10 @@ std::unique_ptr<SkinForce> make_pressed_force(ForceSource& source, Contact& cont
 }
 std::unique_ptr<SkinForce> make_site_force(ForceSource& source, std::vector<std::uint32_t> sites, std::size_t all_sites) {
     return std::make_unique<SitesForce>(source, std::move(sites), all_sites);
+}
+std::unique_ptr<SkinForce> make_taxel_force(ForceSource& source, const TaxelLayout& layout, TaxelMap map,
+                                            const std::vector<std::uint32_t>& taxels, std::size_t all_sites) {
+    return std::make_unique<TaxelsForce>(source, layout, std::move(map), taxels, all_sites);
 }
 
 Result<std::vector<std::uint32_t>> match_sites(const SkinPlan& plan, const ForceSource& source) {

@@ -6,6 +6,7 @@
 #include "core/force_source.hpp"
 #include "skin/contact/contact.hpp"
 #include "skin/skin.hpp"
+#include "skin/taxel/taxel_map.hpp"
 
 namespace corpuscle {
 
@@ -22,6 +23,8 @@ public:
     virtual Result<Block> next() = 0;
     virtual double progress() const = 0;                     ///< completed fraction, 0 to 1
     virtual RecordingQuality quality() const { return {}; }  ///< of the part of a recording that was read so far
+    /// Notes for the user about the part of the force that was read so far, besides those of quality().
+    virtual std::vector<std::string> notes() const { return {}; }
 };
 
 /// The force at the sites when a contact presses one channel of force onto the skin.
@@ -29,6 +32,9 @@ std::unique_ptr<SkinForce> make_pressed_force(ForceSource&, Contact&);
 /// The force at the sites from a recording with one channel for each site. `sites`: the site of each channel; `all_sites`: the number of
 /// sites of the skin.
 std::unique_ptr<SkinForce> make_site_force(ForceSource&, std::vector<std::uint32_t> sites, std::size_t all_sites);
+/// The force at the sites from a recording of taxels. `map`: of this layout. `taxels`: the taxel of each channel.
+std::unique_ptr<SkinForce> make_taxel_force(ForceSource&, const TaxelLayout&, TaxelMap map, const std::vector<std::uint32_t>& taxels,
+                                            std::size_t all_sites);
 /// The site of each channel of a recording: by name, or by order if there are as many channels as sites.
 Result<std::vector<std::uint32_t>> match_sites(const SkinPlan&, const ForceSource&);
 

@@ -1,0 +1,127 @@
+// Frames of taxels: live, in batches, resumed, and through the C interface they give the spikes of the recording.
+
+#include <fmt/format.h>
+#include <algorithm>
+#include <nlohmann/json.hpp>
+#include <sstream>
+
+#include "corpuscle.h"
+#include "live/input/frame_source.hpp"
+#include "support/program.hpp"
+#include "support/test_paths.hpp"
+
+namespace corpuscle {
+namespace {
+
+using test::read_file, test::run_program, test::source_root, test::TemporaryFolder, test::value_or_throw;
+
+/// The spikes "sa1#17,palm,0.123" of a text in the order of its lines, sorted.
+std::vector<std::string> sorted_spikes(const std::string& text) {
+    std::vector<std::string> out;
+    std::istringstream in(text);
+    for (std::string line; std::getline(in, line);)
+        if (line.find("time_s") == line.npos) out.push_back(line);
+    std::sort(out.begin(), out.end());
+    return out;
+}
+
+std::string palm_example() {
+    return fmt::format("--population hand --taxels '{0}/examples/taxels/palm.csv' --rate 1kHz", source_root());
+}
+std::string palm_recording() { return "'" + source_root() + "/examples/data/palm.csv'"; }
+
+TEST(TaxelStream, LiveFramesGiveTheSpikesOfTheRecording) {
+    const TemporaryFolder folder;
+    const auto offline = run_program(folder, "respond " + palm_recording() + " " + palm_example() + " -o out --quiet");
+    ASSERT_EQ(offline.status, 0) << offline.err;
+    const auto spikes = sorted_spikes(read_file(folder / "out/spikes.csv"));
+    ASSERT_GT(spikes.size(), 100U);
+    const std::vector<std::string> ways = {"< " + palm_recording(), "--in " + palm_recording() + " --pace fast",
+                                           "--batch-frames 7 < " + palm_recording()};
+    for (const auto& more : ways) {
+        const auto live = run_program(folder, "stream --quiet " + palm_example() + " " + more);
+        EXPECT_EQ(live.status, 0) << live.err;
+        EXPECT_EQ(sorted_spikes(live.out), spikes) << more;
+    }
+}
+
+TEST(TaxelStream, ARestLevelIsSubtractedLiveAsOffline) {
+    const TemporaryFolder folder;
+    std::string frames = "a,b\n", zeroed = "a,b\n";
+    for (int k = 0; k < 800; ++k) {
+        const double press = k < 100 ? 0 : std::min(3.0, 0.02 * (k - 100));
+        frames += fmt::format("{},{}\n", 1.5 + press, -0.25 + press / 2), zeroed += fmt::format("{},{}\n", press, press / 2);
+    }
+    folder.write("frames", frames), folder.write("zeroed", zeroed);
+    folder.write("taxels.csv", "name,x_mm,y_mm,width_mm,height_mm\na,3,3,6,6\nb,11,11,6,6\n");
+    const std::string skin = " --population 'grid 8x8' --taxels taxels.csv --rate 1kHz --unit N --quiet";
+    const auto expected = sorted_spikes(run_program(folder, "stream" + skin + " < zeroed").out);
+    ASSERT_GT(expected.size(), 100U);
+    EXPECT_EQ(sorted_spikes(run_program(folder, "stream --zero 100ms" + skin + " < frames").out), expected);
+    const auto offline = run_program(folder, "respond frames --zero 100ms -o out" + skin);
+    EXPECT_EQ(offline.status, 0) << offline.err;
+    EXPECT_EQ(sorted_spikes(read_file(folder / "out/spikes.csv")), expected);
+}
+
+TEST(TaxelStream, AResumedStreamContinuesWithTheLastFrame) {
+    const TemporaryFolder folder;
+    const auto text = read_file(source_root() + "/examples/data/palm.csv");
+    auto split = text.size() / 2;
+    split = text.find('\n', split) + 1;
+    const auto header = text.substr(text.find("r1c1"), text.find('\n', text.find("r1c1")) + 1 - text.find("r1c1"));
+    folder.write("first", text.substr(0, split)), folder.write("second", header + "bad frame\n" + text.substr(split));
+    folder.write("all", text.substr(0, split) + "bad frame\n" + text.substr(split));
+    const auto stream = "stream --quiet " + palm_example();
+    const auto whole = run_program(folder, stream + " < all");
+    const auto first = run_program(folder, stream + " --save-state now < first");
+    ASSERT_EQ(first.status, 0) << first.err;
+    const auto second = run_program(folder, stream + " --resume now < second");
+    ASSERT_EQ(second.status, 0) << second.err;
+    EXPECT_EQ(sorted_spikes(first.out + second.out), sorted_spikes(whole.out));
+    EXPECT_NE(run_program(folder, "stream --population hand --rate 1kHz --resume now < first").err.find("frame of 16 forces"),
+              std::string::npos);
+}
+
+TEST(TaxelStream, MistakesAreErrorsThatNameTheRemedy) {
+    const TemporaryFolder folder;
+    folder.write("taxels.csv", "name,x_mm,y_mm\na,0,0\nb,2,0\n");
+    const std::pair<std::string, std::string> cases[] = {
+        {"stream --taxels taxels.csv --rate 1kHz < /dev/null", "--taxels needs a skin; add --population hand"},
+        {"respond press --taxels taxels.csv", "--taxels"},
+        {"stream --population 'grid 2x2' --taxels taxels.csv --layout x --rate 1kHz < /dev/null", "use --taxels only"},
+        {"respond press --population 'grid 2x2' --taxels taxels.csv --contact flat", "use one"},
+        {"respond press --population 'grid 2x2' --taxels taxels.csv", "taxels.csv:3:3: press has 1 channels, but taxels.csv has 2 taxels"}};
+    for (const auto& [command, message] : cases) {
+        const auto ran = run_program(folder, command);
+        EXPECT_NE(ran.status, 0) << command;
+        EXPECT_NE(ran.err.find(message), std::string::npos) << ran.err;
+    }
+    folder.write("wide", "1,2,3\n");
+    const auto wide = run_program(folder, "stream --population 'grid 2x2' --taxels taxels.csv --rate 1kHz < wide");
+    EXPECT_NE(wide.err.find("frame 1 has 3 numbers; 'taxels.csv' has 2 taxels, so a frame must have 2 numbers"), std::string::npos)
+        << wide.err;
+}
+
+TEST(CHeader, SimulatesFramesOfTaxels) {
+    const TemporaryFolder folder;
+    char error[400];
+    const auto file = folder.write("taxels.csv", "name,x_mm,y_mm,width_mm,height_mm\na,3,3,6,6\nb,11,11,6,6\n");
+    auto* skin = corpuscle_create_taxels("grid 8x8", file.c_str(), 1000, nullptr, 0, error, sizeof error);
+    ASSERT_TRUE(skin) << error;
+    EXPECT_EQ(corpuscle_frame_size(skin), 2U);
+    EXPECT_EQ(corpuscle_sites(skin), 64U);
+    long count = 0;
+    const double frame[] = {3, 2};
+    const auto add = [](void* to, const corpuscle_spike*) { ++*static_cast<long*>(to); };
+    for (int k = 0; k < 500; ++k) EXPECT_EQ(corpuscle_push(skin, frame, 2, add, &count), 0);
+    EXPECT_GT(count, 10);
+    EXPECT_EQ(corpuscle_push(skin, frame, 1, add, &count), -1);
+    EXPECT_STREQ(corpuscle_error(skin), "a frame has 1 forces, but there are 2 taxels");
+    corpuscle_destroy(skin);
+    EXPECT_EQ(corpuscle_create_taxels("grid 8x8", nullptr, 1000, nullptr, 0, error, sizeof error), nullptr);
+    EXPECT_EQ(corpuscle_create_taxels("sa1", file.c_str(), 1000, nullptr, 0, error, sizeof error), nullptr);
+    EXPECT_NE(std::string(error).find("taxels need a skin"), std::string::npos) << error;
+}
+
+}  // namespace
+}  // namespace corpuscle
