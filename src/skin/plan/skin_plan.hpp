@@ -22,9 +22,9 @@ struct DirectionTuning {
 /// The contact wave that a class feels besides the force in its receptive fields (skin/wave/contact_wave.hpp).
 struct WaveParams {
     double speed = 0;      ///< m/s; 0: the class feels no wave
-    double decay = 40e-3;  ///< m; the distance in which the wave falls to 1/e, besides its spreading
+    double decay = 60e-3;  ///< m; the distance in which the wave falls to 1/e, besides its spreading
     double radius = 5e-3;  ///< m; the wave spreads beyond this distance
-    double gain = 0.1;     ///< force of the wave at its source, relative to the change of force there
+    double gain = 1;       ///< force of the wave at its source, relative to the change of force there
     double corner = 20;    ///< Hz; the wave has the changes of force above this frequency
     bool operator==(const WaveParams&) const = default;
 };

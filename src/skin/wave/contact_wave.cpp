@@ -7,7 +7,7 @@
 namespace corpuscle {
 namespace {
 
-constexpr double min_weight = 1e-3;  // relative to the gain; a weaker wave is left out. Choice
+constexpr double min_weight = 1e-3;  // a wave of less than 1 mN for 1 N at its source is left out. Choice
 
 /// The numbers of columns and rows of cells that the sites span.
 WaveCell extent_of(const Sites& sites) {
@@ -23,18 +23,19 @@ WaveCell extent_of(const Sites& sites) {
 }  // namespace
 
 ContactWave::Paths::Paths(const WaveParams& wave, std::int32_t column_count, std::int32_t row_count, double dt) {
-    // exp(-r/decay) alone is min_weight at 6.91 times the decay length. One cell more, because an afferent may be beside the sites.
-    const auto reach = static_cast<std::int32_t>(6.91 * wave.decay / wave_cell_side) + 1;
+    // exp(-r/decay) alone would bring the gain to min_weight at this distance.
+    const double max_distance = wave.decay * std::max(0.0, num::log(std::max(wave.gain, min_weight) / min_weight));
+    // One cell more, because an afferent may be beside the sites.
+    const auto reach = static_cast<std::int32_t>(max_distance / wave_cell_side) + 1;
     columns = std::min(column_count + 1, reach), rows = std::min(row_count + 1, reach);
     for (std::int32_t c = 0; c <= columns; ++c)
         for (std::int32_t r = 0; r <= rows; ++r) {
             const double distance = wave_cell_side * num::sqrt(static_cast<double>(c) * c + static_cast<double>(r) * r);
-            const double weight = num::exp(-distance / wave.decay) / num::sqrt(1 + distance / wave.radius);
+            const double weight = wave.gain * num::exp(-distance / wave.decay) / num::sqrt(1 + distance / wave.radius);
             const double delay = distance / (wave.speed * dt), steps = std::floor(delay);
             paths.emplace_back();
             if (weight < min_weight) continue;
-            paths.back() = {static_cast<std::int64_t>(steps), wave.gain * weight * (1 - (delay - steps)),
-                            wave.gain * weight * (delay - steps)};
+            paths.back() = {static_cast<std::int64_t>(steps), weight * (1 - (delay - steps)), weight * (delay - steps)};
             max_delay = std::max(max_delay, paths.back().delay);
         }
 }
@@ -103,7 +104,8 @@ void ContactWave::compute(const SiteForce& force, std::span<const std::uint32_t>
 }
 
 /// Writes the rows of one tile of forces: those from receptive fields, and the wave.
-void ContactWave::add_to_tile(std::size_t tile, const ForceTiles<double>& direct, std::size_t steps) {
+void ContactWave::add_to_tile(std::size_t tile, const TileCall& call) {
+    const auto& [direct, steps] = call;
     const std::size_t begin = tile / receptors_ * tile_width, end = std::min(cell_of_afferent_.size(), begin + tile_width);
     const std::size_t row = tile * tile_width * steps;
     const bool is_direct = direct.zero_force[tile] == 0;
@@ -122,7 +124,8 @@ ForceTiles<double> ContactWave::add(ForceTiles<double> direct, const SiteForce& 
                                     std::size_t at, std::size_t steps, ThreadPool& pool) {
     compute(force, touched, at, steps, pool);
     if (sources_.sources().empty()) return direct;
-    pool.for_each(zero_force_.size(), [&direct, steps, this](std::size_t tile, unsigned) { add_to_tile(tile, direct, steps); });
+    const TileCall call{direct, steps};  // one reference: a larger capture would allocate memory in each call
+    pool.for_each(zero_force_.size(), [&call, this](std::size_t tile, unsigned) { add_to_tile(tile, call); });
     return {rows_.data(), zero_force_.data()};
 }
 

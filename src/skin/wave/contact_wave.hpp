@@ -53,6 +53,12 @@ private:
         const Path* between(const WaveCell&, const WaveCell&) const;  ///< null: no wave arrives
     };
 
+    /// The arguments of add() for each tile.
+    struct TileCall {
+        ForceTiles<double> direct;
+        std::size_t steps;
+    };
+
     const lanes::FieldKernels& lanes_;
     std::size_t receptors_;  // of an afferent
     Paths paths_;
@@ -66,7 +72,7 @@ private:
     std::vector<std::uint8_t> zero_force_;                // result of add(): ForceTiles::zero_force
 
     ContactWave(const Innervation&, std::size_t class_index, std::size_t first, std::size_t count, double dt, InstructionSet, Paths);
-    void add_to_tile(std::size_t tile, const ForceTiles<double>& direct, std::size_t steps);
+    void add_to_tile(std::size_t tile, const TileCall&);
     void compute_cell(std::size_t cell, std::size_t steps, std::vector<lanes::DelayedTerm>&);
 };
 
