@@ -148,7 +148,7 @@ std::vector<double> presses(std::size_t sites, std::size_t steps) {
     return force;
 }
 
-std::unique_ptr<Skin> make_skin(const std::shared_ptr<const Innervation>& map, InstructionSet set, SkinPart part = {}) {
+std::unique_ptr<Skin> make_simulation(const std::shared_ptr<const Innervation>& map, InstructionSet set, SkinPart part = {}) {
     return test::value_or_throw(Skin::make(map, {1e-3}, set, part));
 }
 
@@ -164,7 +164,7 @@ TEST(HotSpots, WithReceptorsRespondLikePopulationsWithTheirForces) {
     const auto map = hot_spot_skin();
     const std::size_t steps = 5000;
     const auto force = presses(144, steps);
-    auto skin = make_skin(map, InstructionSet::baseline);
+    auto skin = make_simulation(map, InstructionSet::baseline);
     const auto spikes = respond(*skin, force, steps, 1);
     EXPECT_GT(skin->stats().skipped_steps, 0);
     std::vector<Spike> expected;
@@ -198,18 +198,18 @@ TEST(HotSpots, WithReceptorsGiveTheSameSpikesForBlocksThreadsShardsInstructionSe
     const auto map = hot_spot_skin();
     const std::size_t steps = 3000;
     const auto force = presses(144, steps);
-    const auto expected = respond(*make_skin(map, InstructionSet::baseline), force, steps, 1);
+    const auto expected = respond(*make_simulation(map, InstructionSet::baseline), force, steps, 1);
     for (const auto set : instruction_sets().subspan(1))
-        EXPECT_EQ(respond(*make_skin(map, set), force, steps, 3), expected) << name_of(set);
+        EXPECT_EQ(respond(*make_simulation(map, set), force, steps, 3), expected) << name_of(set);
     for (const std::size_t block : {1, 31, 500}) {
-        auto skin = make_skin(map, InstructionSet::baseline);
+        auto skin = make_simulation(map, InstructionSet::baseline);
         ThreadPool pool(1);
         std::vector<Spike> out;
         for (std::size_t at = 0; at < steps; at += block) {
             ASSERT_TRUE(skin->respond({force.data() + at, steps}, std::min(block, steps - at), out, pool));
             if (at / block % 50 != 0) continue;
             const auto saved = skin->save();
-            skin = make_skin(map, InstructionSet::baseline);
+            skin = make_simulation(map, InstructionSet::baseline);
             ASSERT_TRUE(skin->resume(saved));
         }
         skin->finish(out);
@@ -217,7 +217,7 @@ TEST(HotSpots, WithReceptorsGiveTheSameSpikesForBlocksThreadsShardsInstructionSe
     }
     std::vector<Spike> merged;
     for (std::uint32_t part = 0; part < 3; ++part) {
-        const auto spikes = respond(*make_skin(map, InstructionSet::baseline, {part, 3}), force, steps, 1);
+        const auto spikes = respond(*make_simulation(map, InstructionSet::baseline, {part, 3}), force, steps, 1);
         merged.insert(merged.end(), spikes.begin(), spikes.end());
     }
     std::sort(merged.begin(), merged.end());
@@ -238,7 +238,7 @@ TEST(HotSpots, WithEqualForcesFeelShearAndWavesAsOneReceptorDoes) {
     std::vector<std::vector<Spike>> spikes;
     for (const bool per_spot : {false, true}) {
         c.receptor_per_hot_spot = per_spot;
-        const auto skin = make_skin(*innervate(plan), InstructionSet::baseline);
+        const auto skin = make_simulation(*innervate(plan), InstructionSet::baseline);
         ThreadPool pool(2);
         spikes.emplace_back();
         SiteForce force{normal_force.data(), steps};
@@ -259,9 +259,9 @@ TEST(HotSpots, WithReceptorsFollowAGratingOfTwoMillimetresThatTheirMeanAveragesO
         for (std::size_t t = 0; t < steps; ++t)
             force[s * steps + t] =
                 1e-2 * (1 + std::cos(2 * M_PI * (plan.sites.positions[s].x - 40e-3 * 1e-3 * static_cast<double>(t)) / 2e-3));
-    const auto one = respond(*make_skin(*innervate(plan), InstructionSet::baseline), force, steps, 1).size();
+    const auto one = respond(*make_simulation(*innervate(plan), InstructionSet::baseline), force, steps, 1).size();
     plan.classes[0].receptor_per_hot_spot = true;
-    const auto each = respond(*make_skin(*innervate(plan), InstructionSet::baseline), force, steps, 1).size();
+    const auto each = respond(*make_simulation(*innervate(plan), InstructionSet::baseline), force, steps, 1).size();
     EXPECT_GT(each, 3 * one);
     EXPECT_GT(each, 10 * sites);
 }

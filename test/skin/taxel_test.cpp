@@ -5,6 +5,7 @@
 
 #include "skin/plan/skin_plan.hpp"
 #include "skin/taxel/overlap.hpp"
+#include "skin/taxel/stuck_taxels.hpp"
 #include "skin/taxel/taxel_map.hpp"
 #include "skin/taxel/taxel_placement.hpp"
 #include "support/property.hpp"
@@ -147,6 +148,27 @@ TEST(TaxelMaps, ADeadTaxelHasNoForceOrThatOfItsNeighbours) {
     // b is 10 mm from a and 5 mm from c: its force is (1 / 10 + 2 / 5) / (1 / 10 + 1 / 5) = 5/3 N.
     EXPECT_NEAR(sum_of(site_forces(interpolated, {1, 1000, 2}, sites.size())), 3 + 5.0 / 3, 1e-12);
     EXPECT_NEAR(sum_of(interpolated.total), 3, 1e-12);
+}
+
+TEST(StuckTaxel, IsNamedIfItsReadingNeverChangesOrStaysAtItsHighest) {
+    const auto layout =
+        value_or_throw(read_text("name,x_mm,y_mm,dead\nfine,0,0,\nconstant,1,0,\nrail,2,0,\nuntouched,3,0,\nknown,4,0,1\nheld,5,0,\n"));
+    StuckTaxels stuck(layout);
+    for (int k = 0; k < 100; ++k) {
+        const double force[] = {0.01 * k, 0.3, k < 40 ? 0.1 * k : 5.0, 0, 0.3, k < 60 ? 0.0 : 2.0};
+        for (std::size_t t = 0; t < std::size(force); ++t) stuck.add(t, force[t]);
+    }
+    EXPECT_EQ(stuck.notes(),
+              (std::vector<std::string>{"2 of 6 taxels are probably dead: constant (0.3 N throughout), rail (at its highest, 5 N, "
+                                        "for 60 % of the time); set dead = 1 in " +
+                                        layout.file + " to exclude them"}));
+    StuckTaxels pressed(layout);
+    for (int k = 0; k < 100; ++k)
+        for (std::size_t t = 0; t < 6; ++t) pressed.add(t, k < 20 ? 0.1 * k : 2);
+    EXPECT_TRUE(pressed.notes().empty()) << "a press that is held on all taxels";
+    StuckTaxels still(layout);
+    for (int k = 0; k < 100; ++k) still.add(1, 0.3);
+    EXPECT_TRUE(still.notes().empty()) << "nothing varies";
 }
 
 /// A random layout of taxels around the palm.

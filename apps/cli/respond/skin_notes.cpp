@@ -41,12 +41,6 @@ void SkinRun::add_force_notes() {
 
 /// A remedy for a force that is too weak: the setting or option that multiplies it by `factor`; "" if there is none.
 std::string SkinRun::stronger_stimulus_advice(double factor) const {
-    const auto& plan = innervation_->plan;
-    if (contact_ && plan.sites.area > 0 && !(plan.felt_area > 0)) {
-        const auto area = std::max(factor * plan.sites.area, default_felt_area);
-        return fmt::format("set felt_area = \"{} cm2\" in {}: without it an afferent receives the mean force of its sites",
-                           format_rounded_up(1e4 * area), args_.population);
-    }
     const auto metadata = source_->metadata();
     if (!is_stimulus(source_->name())) {
         // The metadata of a recording begins with the scale of its first channel.

@@ -117,14 +117,21 @@ std::vector<std::string_view> override_targets(const SkinPlan& plan, std::vector
 }
 
 std::string treat_as_skin(SkinPlan& plan) {
-    if (plan.sites.area > 0 || plan.felt_area > 0 || plan.sites.size() < 2) return "";
+    if (plan.felt_area > 0 || plan.sites.size() < 2) return "";
+    const bool has_area = plan.sites.area > 0;
+    const auto advice = fmt::format(
+        "an afferent responds to the force on {:.3g} cm2 of it, as in hand; felt_area in a population file "
+        "changes this (doc/skin.md)",
+        1e4 * default_felt_area);
+    if (has_area) {
+        plan.felt_area = default_felt_area;
+        return fmt::format("{} has no felt_area; {}", plan.name, advice);
+    }
     const SkinCells cells(plan.sites);
     if (!cells.is_lattice()) return "";
     plan.sites.area = cells.side() * cells.side(), plan.felt_area = default_felt_area;
-    return fmt::format(
-        "the force on {} is spread over its sites, so each site represents {:.3g} mm2 of skin; an afferent responds to the force on "
-        "{:.3g} cm2 of it, as in hand; felt_area in a population file changes this (doc/skin.md)",
-        plan.name, 1e6 * plan.sites.area, 1e4 * plan.felt_area);
+    return fmt::format("the force on {} is spread over its sites, so each site represents {:.3g} mm2 of skin; {}", plan.name,
+                       1e6 * plan.sites.area, advice);
 }
 
 }  // namespace corpuscle

@@ -90,9 +90,9 @@ Result<Applied<SkinPlan>> apply_overrides(SkinPlan, std::span<const ParameterOve
 /// The targets of overrides in a run of this skin: its classes, and `others`.
 std::vector<std::string_view> override_targets(const SkinPlan&, std::vector<std::string_view> others = {});
 
-/// Prepares a plan for an indenter: a sensor array that defines no area of its sites is treated as skin. Each site then represents a cell
-/// of the lattice of sites, and the plan gets the `felt_area` of the built-in skins. Returns a note that says so. If the plan defines the
-/// area of its sites or a felt_area, or if the sites are not on a lattice, nothing is changed, and the result is "".
+/// Prepares a plan for an indenter, or for taxels: a sensor array that defines no area of its sites is treated as skin. Each site then
+/// represents a cell of the lattice of sites. A plan without a `felt_area` gets that of the built-in skins. Returns a note that says so. If
+/// the plan defines a felt_area, or if sites without an area are not on a lattice, nothing is changed, and the result is "".
 std::string treat_as_skin(SkinPlan&);
 
 inline constexpr double default_felt_area = 1e-4;  ///< m2, as in the built-in skins

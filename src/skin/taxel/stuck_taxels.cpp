@@ -19,19 +19,21 @@ void StuckTaxels::add(std::size_t taxel, double force) {
 std::vector<std::string> StuckTaxels::notes() const {
     constexpr std::int64_t min_samples = 20;  // fewer say nothing
     if (std::none_of(readings_.begin(), readings_.end(), [](const Readings& r) { return r.varies; })) return {};
-    std::vector<std::string> names;
+    std::vector<std::string> constant, held;
     for (std::size_t k = 0; k < readings_.size(); ++k) {
         const auto& r = readings_[k];
         if (layout_.taxels[k].use != TaxelUse::measured || r.count < min_samples || r.highest == 0) continue;
         if (!r.varies)
-            names.push_back(fmt::format("{} ({:.3g} N throughout)", layout_.taxels[k].name, r.first));
+            constant.push_back(fmt::format("{} ({:.3g} N throughout)", layout_.taxels[k].name, r.first));
         else if (2 * r.longest_run > r.count)
-            names.push_back(fmt::format("{} (at its highest, {:.3g} N, for {:.0f} % of the time)", layout_.taxels[k].name, r.highest,
-                                        100.0 * static_cast<double>(r.longest_run) / static_cast<double>(r.count)));
+            held.push_back(fmt::format("{} (at its highest, {:.3g} N, for {:.0f} % of the time)", layout_.taxels[k].name, r.highest,
+                                       100.0 * static_cast<double>(r.longest_run) / static_cast<double>(r.count)));
     }
-    if (names.empty()) return {};
-    return {fmt::format("{} of {} taxels are probably dead: {}; set dead = 1 in {} to exclude them", names.size(), readings_.size(),
-                        joined(names), layout_.file)};
+    if (2 * held.size() > readings_.size()) held.clear();  // a press that is held
+    constant.insert(constant.end(), held.begin(), held.end());
+    if (constant.empty()) return {};
+    return {fmt::format("{} of {} taxels are probably dead: {}; set dead = 1 in {} to exclude them", constant.size(), readings_.size(),
+                        joined(constant), layout_.file)};
 }
 
 }  // namespace corpuscle

@@ -24,7 +24,8 @@ public:
     /// Adds the next force of a taxel, N.
     void add(std::size_t taxel, double force);
     /// The names of the taxels that are probably dead, with a remedy; empty without any. A taxel that is always 0 N may only never have
-    /// been touched, so it is left out. So are all taxels if none of them varies, and those that the layout says are dead.
+    /// been touched, so it is left out. So are all taxels if none of them varies, those that stay at their highest value if most do, and
+    /// those that the layout says are dead.
     std::vector<std::string> notes() const;
 };
 
