@@ -7,8 +7,8 @@
 
 namespace corpuscle {
 
-/// The force on afferent u of a class is F_n + g_x F_x + g_y F_y with g_x = gain cos(phi_u) and g_y = gain sin(phi_u). F_n, F_x and F_y are
-/// the weighted sums over the sites of its receptive field.
+/// The force on afferent u of a class is F_n + g_x F_x + g_y F_y, with g_x = gain cos(phi_u) and g_y = gain sin(phi_u). F_n, F_x and F_y
+/// are the weighted sums over the sites of its receptive field.
 ///
 /// The force is not limited to positive values. Shear against the preferred direction unloads the ending of an afferent, and more shear
 /// than the contact's own load leaves it with a negative force. The receptor decides what that means: the static current of a slowly

@@ -199,6 +199,21 @@ TEST(SkinSummary, FilesContainTheGivenSpikes) {
     EXPECT_NE(psth.find("fa1,tip,1,0.020000000,0.022000000,1,500\n"), psth.npos) << "the last bin ends after the last spike\n" << psth;
 }
 
+TEST(SkinSummary, PreferredDirectionsAreInTheFileOfAfferents) {
+    auto skin = small_skin();
+    skin.plan.classes[0].direction.gain = 0.5;
+    skin.afferents[1].direction = -1.5707963267948966;
+    const TemporaryFolder folder;
+    SkinSummary s;
+    const auto afferents = test::make_sink(afferents_format, folder.path(), {.skin = &s});
+    run_sinks(skin, {&s, afferents.get()});
+    ASSERT_TRUE(afferents->commit());
+    const auto file = test::read_file(folder / "afferents.csv");
+    EXPECT_NE(file.find("rate_Hz,direction_deg\n"), file.npos) << file;
+    EXPECT_NE(file.find("1,sa1#2,tip,2.000,0.000,0.000000,2,0.006000000,0.005,100,270.000\n"), file.npos) << file;
+    EXPECT_NE(file.find("4,fa1#2,palm,4.000,0.000,0.000000,0,,0,0,\n"), file.npos) << file;
+}
+
 TEST(SkinPage, ContainsForceMapsAndEverySpike) {
     const auto skin = small_skin();
     SkinSummary s;

@@ -226,8 +226,8 @@ TEST(ContactOptions, AreRefusedWithARemedy) {
     };
     EXPECT_EQ(error_text("spere", {}), "there is no indenter 'spere'; did you mean 'sphere'? (there are flat, sphere, edge, grating)");
     EXPECT_EQ(error_text("sphere", {"period=2mm"}),
-              "contact.period: sphere has no such parameter (it has radius, E_star, roughness, grain, and for its path x, y, x1, y1, "
-              "t_start, t_move, speed)");
+              "contact.period: sphere has no such parameter (it has radius, E_star, roughness, grain, and for its path and shear x, y, x1, "
+              "y1, t_start, t_move, speed, tilt, azimuth, friction)");
     EXPECT_EQ(error_text("sphere", {"x1=2mm"}),
               "contact: the speed of the movement to x1, y1 is missing; give contact.t_move or contact.speed");
     EXPECT_EQ(error_text("flat", {"t_move=2s"}), "contact: the end of the movement is missing; give contact.x1 or contact.y1");

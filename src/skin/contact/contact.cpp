@@ -4,7 +4,7 @@
 
 #include "core/stimulus/touch.hpp"
 #include "core/text/quantity.hpp"
-#include "skin/contact/indenters.hpp"
+#include "skin/contact/contact_shear.hpp"
 #include "skin/contact/skin_cells.hpp"
 #include "skin/contact/sliding_texture.hpp"
 
@@ -15,6 +15,15 @@ namespace {
 struct SiteFraction {
     std::uint32_t site;
     double fraction;
+};
+
+/// How a force is distributed over the sites by a contact at a position, of a size, and with a shift of the pattern under it. The fractions
+/// are computed again only if one of the others changes.
+struct Distribution {
+    Position at;
+    double size = -1, shift = 0;  // m; size -1: none yet
+    std::vector<SiteFraction> fractions = {};
+    double on_skin = 0;  // sum of the fractions: the fraction of the force that is on the skin
 };
 
 std::string in_mm(double x, double y) { return fmt::format("({:.4g}, {:.4g}) mm", x * 1e3, y * 1e3); }
@@ -46,17 +55,15 @@ class IndenterContact final : public Contact {
     std::unique_ptr<PressureDistribution> pressure_;
     SlidingTexture texture_;
 
-    // The contact at the last sample: position, size, shift of the pattern, and the fractions of the force that follow from them. The
-    // fractions are reused while the others do not change.
-    Position last_;
-    double last_size_ = -1, last_shift_ = 0;  // m; size -1: none yet
-    std::vector<SiteFraction> fractions_;
-    double on_skin_ = 0;          // sum of the fractions: the fraction of the force that is on the skin
-    std::vector<double> column_;  // scratch array of distribute()
+    ContactShear shear_;
+    bool has_shear_ = false;  // true: of shear_, or with the force of the block
+
+    Distribution pressed_by_, stuck_by_;  // of the force at the last sample, and of the part of the contact that sticks
+    std::vector<double> column_;          // scratch array of distribute()
 
     // The result of press() for the current block: members of SiteForce.
     std::size_t stride_ = 0;
-    std::vector<double> force_;
+    std::vector<double> force_, shear_x_force_, shear_y_force_;
     std::vector<std::uint32_t> touched_;
     std::vector<char> in_block_;  // for each site: 1 if it is in touched_
 
@@ -76,10 +83,10 @@ class IndenterContact final : public Contact {
     double pattern_shift(double t) const { return !is_moving(p_) && t > p_.t_start ? p_.speed * (t - p_.t_start) : 0; }
 
     /// Computes the fraction of the force on each site, for the position and size of the contact and the shift of a pattern under it (m).
-    void distribute(const Position& at, double size, double shift) {
-        if (size == last_size_ && shift == last_shift_ && at.x == last_.x && at.y == last_.y) return;
-        last_ = at, last_size_ = size, last_shift_ = shift;
-        fractions_.clear();
+    void distribute(const Position& at, double size, double shift, Distribution& out) {
+        if (size == out.size && shift == out.shift && at.x == out.at.x && at.y == out.at.y) return;
+        out.at = at, out.size = size, out.shift = shift;
+        out.fractions.clear();
         double all = 0, on = 0;
         const auto half = pressure_->box(size);
         cells_.for_each_column(at.x, at.y, half.width, half.height,
@@ -91,11 +98,32 @@ class IndenterContact final : public Contact {
                                    for (std::size_t k = 0; k < sites.size(); ++k) {
                                        all += column_[k];
                                        if (!(column_[k] > 0) || sites[k] == SkinCells::no_site) continue;
-                                       on += column_[k], fractions_.push_back({sites[k], column_[k]});
+                                       on += column_[k], out.fractions.push_back({sites[k], column_[k]});
                                    }
                                });
-        on_skin_ = all > 0 ? on / all : 0;
-        for (auto& s : fractions_) s.fraction /= all;
+        out.on_skin = all > 0 ? on / all : 0;
+        for (auto& s : out.fractions) s.fraction /= all;
+    }
+
+    /// Adds the traction q for a normal force (N) at a site to its shear in sample k of the block.
+    void add_shear(const ShearTraction& q, std::uint32_t site, double force, std::size_t k) {
+        shear_x_force_[site * stride_ + k] += q.x * (q.ratio * force), shear_y_force_[site * stride_ + k] += q.y * (q.ratio * force);
+    }
+
+    /// Spreads a tangential force (N) like the normal force of sample k of the block.
+    void spread_shear(double x, double y, std::size_t k) {
+        for (const auto& s : pressed_by_.fractions)
+            shear_x_force_[s.site * stride_ + k] = x * s.fraction, shear_y_force_[s.site * stride_ + k] = y * s.fraction;
+    }
+
+    /// Sets the shear of sample k of the block, at time t, under this normal force.
+    void shear_once(double t, double force, std::size_t k) {
+        const auto q = shear_.at(t, force, *pressure_);
+        if (q.ratio == 0) return;
+        for (const auto& s : pressed_by_.fractions) add_shear(q, s.site, force_[s.site * stride_ + k], k);
+        if (!(q.stuck_force > 0)) return;
+        distribute(pressed_by_.at, pressure_->size(q.stuck_force), pressed_by_.shift, stuck_by_);
+        for (const auto& s : stuck_by_.fractions) add_shear(q, s.site, -q.stuck_force * s.fraction, k);
     }
 
     /// Adds a site to those touched in the block, which has `steps` steps, with zero force.
@@ -103,7 +131,8 @@ class IndenterContact final : public Contact {
         if (in_block_[site]) return;
         in_block_[site] = 1;
         touched_.push_back(site);
-        std::fill_n(force_.begin() + static_cast<std::ptrdiff_t>(site * stride_), steps, 0.0);
+        for (auto* f : {&force_, &shear_x_force_, &shear_y_force_})
+            if (!f->empty()) std::fill_n(f->begin() + static_cast<std::ptrdiff_t>(site * stride_), steps, 0.0);
     }
 
     /// Refuses a contact that is too large for the cells of the skin.
@@ -120,17 +149,19 @@ class IndenterContact final : public Contact {
     Result<void> press_once(double force, std::int64_t sample, std::size_t k, std::size_t steps) {
         if (!(force > 0)) {
             negative_samples_ += force < 0;
+            shear_.release();
             return {};
         }
         const double t = clock_.time(sample), size = pressure_->size(force);
         TRY(check(size, force));
-        distribute(position_at(t), size, pattern_shift(t));
+        distribute(position_at(t), size, pattern_shift(t), pressed_by_);
         texture_.move_to(t);
-        pressed_ += force, off_skin_ += force * (1 - on_skin_), max_size_ = std::max(max_size_, size);
-        for (const auto& s : fractions_) {
+        pressed_ += force, off_skin_ += force * (1 - pressed_by_.on_skin), max_size_ = std::max(max_size_, size);
+        for (const auto& s : pressed_by_.fractions) {
             touch(s.site, steps);
             force_[s.site * stride_ + k] = force * s.fraction * std::max(0.0, 1 + texture_.at(s.site));
         }
+        if (shear_.any()) shear_once(t, force, k);
         return {};
     }
 
@@ -138,7 +169,8 @@ public:
     IndenterContact(const Indenter& indenter, const ContactParams& p, const Sites& sites, const Clock& clock, std::uint64_t seed)
         : indenter_(indenter), p_(p), clock_(clock), sites_(sites.size()), cells_(sites), move_duration_(move_duration(p)),
           pressure_(make_pressure_distribution(indenter, p, cells_.side())),
-          texture_(indenter, p, sites, surface_motion(indenter, p), clock.rate(), seed), in_block_(sites.size(), 0) {}
+          texture_(indenter, p, sites, surface_motion(indenter, p), clock.rate(), seed), shear_(p, surface_motion(indenter, p)),
+          in_block_(sites.size(), 0) {}
 
     std::string description() const override {
         const auto length = [](double m) { return format_quantity(m, "m"); };
@@ -159,6 +191,8 @@ public:
         for (const auto& f : contact_fields) {
             const bool is_end = f.name == "x1" || f.name == "y1", is_start = f.name == "x" || f.name == "y";
             const bool has_effect = is_end ? is_moving(p_) : is_start || p_.*f.member != 0;
+            // A flat punch uses E_star only for friction.
+            if (f.name == "E_star" && indenter_.name == "flat" && !(p_.friction > 0)) continue;
             if (std::find(used.begin(), used.end(), f.name) != used.end() || (is_path_parameter(f.name) && has_effect))
                 out.push_back({fmt::format("contact.{}", f.name), p_.*f.member, std::string(f.unit)});
         }
@@ -166,10 +200,11 @@ public:
     }
 
     std::vector<std::string> notes() const override {
-        std::vector<std::string> out = {
-            "the contact model is a rigid indenter on flat, elastic, frictionless and unbounded skin, without viscoelasticity, shear, "
-            "slip, "
-            "strain below the surface, or the curvature and edges of the finger"};
+        std::vector<std::string> out = {fmt::format(
+            "the contact model is a rigid indenter on flat, elastic{} and unbounded skin, without viscoelasticity, {}strain below "
+            "the surface, or the curvature and edges of the finger",
+            has_shear_ ? "" : ", frictionless", has_shear_ ? "" : "shear, slip, ")};
+        if (shear_.any()) out.push_back(contact_shear_note(indenter_, p_));
         if (!cells_.is_lattice())
             out.push_back(fmt::format(
                 "the sites are not on a lattice: each was treated as a square of {}, and together they receive all of the force",
@@ -190,21 +225,28 @@ public:
         return out;
     }
 
-    Result<SiteForce> press(std::span<const double> force, std::int64_t first) override {
+    Result<SiteForce> press(std::span<const double> force, std::int64_t first, std::span<const double> shear_x,
+                            std::span<const double> shear_y) override {
+        if (!shear_x.empty() && shear_.any())
+            return bad_input("contact: the force has its own shear; remove contact.tilt and contact.friction");
+        has_shear_ = shear_.any() || !shear_x.empty();
         for (const auto site : touched_) in_block_[site] = 0;
         touched_.clear();
         if (force.size() > stride_) {
             stride_ = force.size();
             force_.assign(sites_ * stride_, 0.0);
         }
+        if (has_shear_ && shear_x_force_.size() < force_.size()) shear_x_force_ = shear_y_force_ = force_;
         for (std::size_t k = 0; k < force.size(); ++k) {
             if (!std::isfinite(force[k]))
                 return bad_input(
                     fmt::format("the force of sample {} is {}, not a finite number", first + static_cast<std::int64_t>(k), force[k]));
             TRY(press_once(force[k], first + static_cast<std::int64_t>(k), k, force.size()));
+            if (!shear_x.empty() && force[k] > 0) spread_shear(shear_x[k], shear_y[k], k);
         }
         std::sort(touched_.begin(), touched_.end());
-        return SiteForce{force_.data(), stride_, touched_, false};
+        if (!has_shear_) return SiteForce{force_.data(), stride_, touched_, false};
+        return SiteForce{force_.data(), stride_, touched_, false, shear_x_force_.data(), shear_y_force_.data()};
     }
 };
 

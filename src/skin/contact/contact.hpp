@@ -15,7 +15,11 @@ public:
     /// The force at the sites for a block of normal force on the indenter (N). The first sample of the block has number `first` on the
     /// clock. In the result, the sum over all sites is the force on the indenter, except for the part off the skin and the vibration by the
     /// texture of a sliding surface, which changes no mean over time. It is valid until the next call.
-    virtual Result<SiteForce> press(std::span<const double> force, std::int64_t first) = 0;
+    Result<SiteForce> press(std::span<const double> force, std::int64_t first) { return press(force, first, {}, {}); }
+    /// The same with tangential force on the skin along x and y (N), which is spread like the normal force; empty: none. A contact with a
+    /// tilted force or friction of its own refuses it.
+    virtual Result<SiteForce> press(std::span<const double> force, std::int64_t first, std::span<const double> shear_x,
+                                    std::span<const double> shear_y) = 0;
 };
 
 /// A contact of an indenter ("flat", "sphere", "edge" or "grating") with these sites, for samples of this clock. Its parameters are set by

@@ -4,11 +4,12 @@
 
 #include "core/text/ascii_text.hpp"
 #include "skin/contact/contact.hpp"
+#include "skin/contact/contact_shear.hpp"
 
 namespace corpuscle {
 namespace {
 
-constexpr std::string_view path_parameters[] = {"x", "y", "x1", "y1", "t_start", "t_move", "speed"};
+constexpr std::string_view path_parameters[] = {"x", "y", "x1", "y1", "t_start", "t_move", "speed", "tilt", "azimuth", "friction"};
 
 bool has_parameter(const Indenter& i, std::string_view name) {
     return std::find(i.parameters.begin(), i.parameters.end(), name) != i.parameters.end() || is_path_parameter(name);
@@ -64,7 +65,7 @@ Result<Applied<ContactParams>> read_contact_params(const Indenter& indenter, std
     for (const auto& s : settings)
         if (!has_parameter(indenter, s.name))
             return bad_input(fmt::format(
-                "contact.{}: {} has no such parameter (it has {}, and for its path {})", s.name, indenter.name,
+                "contact.{}: {} has no such parameter (it has {}, and for its path and shear {})", s.name, indenter.name,
                 joined(std::span(indenter.parameters.begin(), std::find(indenter.parameters.begin(), indenter.parameters.end(), ""))),
                 joined(path_parameters)));
     auto p = with_settings<ContactParams>(contact_fields, settings);
@@ -75,6 +76,7 @@ Result<Applied<ContactParams>> read_contact_params(const Indenter& indenter, std
     if (!is_set("x1")) p.x1 = p.x;
     if (!is_set("y1")) p.y1 = p.y;
     TRY(check_contact(indenter, p));
+    TRY(check_contact_shear(indenter, p, is_set("E_star")));
     return Applied<ContactParams>{p, std::move(applied.unused)};
 }
 

@@ -14,6 +14,7 @@ struct ContactParams {
     double radius = 5e-3, edge_radius = 0.5e-3, length = 10e-3, period = 2e-3, ridge = 1e-3, angle = 0, E_star = 100e3;
     double vibration = 0.03, roughness = 0, grain = 0.5e-3;
     double x = 0, y = 0, x1 = 0, y1 = 0, t_start = 0, t_move = 0, speed = 0;
+    double tilt = 0, azimuth = 0, friction = 0;
 };
 
 inline constexpr ParameterDef<ContactParams> contact_fields[] = {
@@ -44,6 +45,12 @@ inline constexpr ParameterDef<ContactParams> contact_fields[] = {
     {"t_move", &ContactParams::t_move, "s", 0, 1e6, "duration of the movement to x1, y1; alternatively give speed"},
     {"speed", &ContactParams::speed, "m/s", 0, 100,
      "speed of the movement to x1, y1; without x1 and y1, speed of a grating or rough surface under its patch (along x if rough)"},
+    {"tilt", &ContactParams::tilt, "", 0, 80, "angle of the force from the normal, degrees; the stimulus is its normal component",
+     "choice"},
+    {"azimuth", &ContactParams::azimuth, "", -360, 360,
+     "direction of the tilted force along the skin, degrees counter-clockwise from x; 90 is away from the wrist", "choice"},
+    {"friction", &ContactParams::friction, "", 0, 10,
+     "coefficient of friction of a moving contact, and limit of a tilted force; 0: a movement causes no shear", "choice"},
 };
 
 /// One kind of indenter. In the formulas of the descriptions, p is the pressure and F the force. r is the distance from the centre, d that
@@ -57,7 +64,7 @@ inline constexpr Indenter indenters[] = {
     {"flat",
      "a rigid flat punch: p = F/(2 pi a^2) (1 - r^2/a^2)^(-1/2)",
      "Johnson 1985, Contact Mechanics, 3.8",
-     {"radius", "roughness", "grain"}},
+     {"radius", "roughness", "grain", "E_star"}},
     {"sphere",
      "a rigid sphere (Hertz): a^3 = 3 F R/(4 E*), p = 3F/(2 pi a^2) (1 - r^2/a^2)^(1/2)",
      "Johnson 1985, 4.2",
@@ -79,7 +86,7 @@ Result<const Indenter*> find_indenter(std::string_view name);
 /// first region of the sites. A parameter that the indenter does not use is an error.
 Result<Applied<ContactParams>> read_contact_params(const Indenter&, std::span<const ParameterOverride>, const Sites&);
 
-/// True for the name of a parameter of position or movement. Every indenter has these.
+/// True for the name of a parameter of position, movement or shear. Every indenter has these.
 bool is_path_parameter(std::string_view name);
 
 /// True if the contact moves over the skin, instead of resting.
@@ -97,6 +104,9 @@ public:
     /// The size of the contact under a force (N), which must be positive; m.
     virtual double size(double force) const = 0;
     virtual HalfBox box(double size) const = 0;  ///< encloses a contact of this size
+    /// The normal force (N) whose contact is the part that still sticks after a tangential displacement, divided by the coefficient of
+    /// friction, of `displacement` (m). Zero: everything slips. See ContactShear.
+    virtual double stuck_force(double /*force*/, double /*displacement*/) const { return 0; }
     /// Writes the force on each cell of a column to `fractions`: as a fraction of the whole force or, for edge and grating, as a number
     /// proportional to it. The cells are [x0, x0 + side] by [y[k], y[k + 1]], in m relative to the contact's centre. `shift`: the distance
     /// that a pattern has moved under the contact, m.

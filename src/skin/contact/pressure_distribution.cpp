@@ -60,9 +60,12 @@ void round_column(double a, double x0, double side, std::span<const double> y, d
     }
 }
 
+/// Tangential over normal displacement by equal forces, (2 - nu) / (2 - 2 nu), for incompressible skin.
+constexpr double tangential_compliance = 1.5;
+
 /// Pressure p per force F: p/F = 1/(2 pi a^2) (1 - r^2/a^2)^(-1/2) at distance r from the centre. Its integral along a chord is an arcsine.
 class FlatPressure final : public PressureDistribution {
-    double a_;
+    double a_, per_metre_;  // m; normal force by which the punch sinks in, N/m
     struct Chord {
         double a;
         double operator()(double u) const { return arcsine(u); }
@@ -70,8 +73,11 @@ class FlatPressure final : public PressureDistribution {
     };
 
 public:
-    explicit FlatPressure(const ContactParams& p) : a_(p.radius) {}
+    explicit FlatPressure(const ContactParams& p) : a_(p.radius), per_metre_(2 * p.radius * p.E_star) {}
     double size(double) const override { return a_; }
+    double stuck_force(double force, double displacement) const override {
+        return std::max(0.0, force - per_metre_ / tangential_compliance * displacement);
+    }
     HalfBox box(double a) const override { return {a, a}; }
     void column(double a, double, double x0, double side, std::span<const double> y, double* fractions) const override {
         round_column(a, x0, side, y, fractions, Chord{a});
@@ -88,7 +94,7 @@ double cube_root(double x) {
 /// Pressure p per force F: p/F = 3/(2 pi a^3) (a^2 - r^2)^(1/2) at distance r from the centre. Its integral along a chord of half length c
 /// is c^2/2 times arc_area(), apart from the constant factor.
 class SpherePressure final : public PressureDistribution {
-    double per_newton_;  // a^3 / F, m3/N
+    double radius_, per_newton_;  // m; a^3 / F, m3/N
     struct Chord {
         double a;
         double operator()(double u) const { return arc_area(std::clamp(u, -1.0, 1.0)); }
@@ -96,8 +102,12 @@ class SpherePressure final : public PressureDistribution {
     };
 
 public:
-    explicit SpherePressure(const ContactParams& p) : per_newton_(3 * p.radius / (4 * p.E_star)) {}
+    explicit SpherePressure(const ContactParams& p) : radius_(p.radius), per_newton_(3 * p.radius / (4 * p.E_star)) {}
     double size(double force) const override { return cube_root(per_newton_ * force); }
+    double stuck_force(double force, double displacement) const override {  // it sinks in by a^2 / R
+        const double a = size(force), square = a * a - displacement * radius_ / tangential_compliance;
+        return square > 0 ? square * num::sqrt(square) / per_newton_ : 0;
+    }
     HalfBox box(double a) const override { return {a, a}; }
     void column(double a, double, double x0, double side, std::span<const double> y, double* fractions) const override {
         round_column(a, x0, side, y, fractions, Chord{a});
