@@ -49,8 +49,13 @@ struct RecordingQuality {
 
 /// A block of consecutive samples of all channels: force[channel][sample], in newtons. All channels have the same sample times.
 struct Frames {
-    explicit Frames(std::size_t channels, std::size_t capacity) : force(channels, std::vector<double>(capacity)), capacity(capacity) {}
+    explicit Frames(std::size_t channels, std::size_t capacity, bool with_shear = false)
+        : force(channels, std::vector<double>(capacity)), capacity(capacity) {
+        if (with_shear) shear_x = shear_y = force;
+    }
     std::vector<std::vector<double>> force;
+    /// The tangential force of each channel, N; empty if the reader of the block does not want it. Only a source with has_shear() fills it.
+    std::vector<std::vector<double>> shear_x = {}, shear_y = {};
     std::size_t capacity;   ///< samples of each channel for which there is memory
     std::size_t count = 0;  ///< number of samples that read() has filled, equal for all channels
 };
@@ -62,6 +67,9 @@ public:
     virtual const std::string& name() const = 0;
     virtual const Clock& clock() const = 0;
     virtual const std::vector<Channel>& channels() const = 0;
+    /// True if the channels are sensors with three axes: `force` is then their normal force, and read() fills the shear of a block that
+    /// has it.
+    virtual bool has_shear() const { return false; }
     /// The fraction of the source that has been read, 0 to 1, for a progress display.
     virtual double progress() const = 0;
     /// The phases of a stimulus; empty if it has none.

@@ -1,7 +1,7 @@
 #pragma once
 // Selects the channels and the time column of a table, and determines their units. `path` is the path of the file, for messages.
 
-#include "io/recording/recording.hpp"
+#include "io/recording/force_axes.hpp"
 
 namespace corpuscle {
 
@@ -23,9 +23,10 @@ Result<double> newtons_per_unit(const Column&, const RecordingOptions&, const st
 Result<double> seconds_per_unit(const Column&, const RecordingOptions&, const std::string& path);
 
 struct SensorPlacement {
-    std::size_t column;                ///< index of the sensor's column in the table of the recording
+    std::size_t column;                ///< index of the sensor's column in the table of the recording, or of a three-axis sensor
     std::string name;                  ///< "": the name of the column
     std::optional<Position> position;  ///< nullopt: the layout states none
+    SensorAxes axes = {};              ///< of a three-axis sensor
 };
 
 /// A layout file, which states which channels of a recording are sensors, with their names and positions.
@@ -37,6 +38,10 @@ struct SensorLayout {
 /// Reads a text table with a header. Its column `channel` (or `sensor`) holds the name or number of a channel, as for --channel; the
 /// optional column `name` gives the channel a new name. The columns `x`, `y` and `z` are the position ("x_mm", "x [m]"); without a unit
 /// only relative positions are known. Other columns are ignored. `time` is the time column of the recording, if it has one.
-Result<SensorLayout> read_sensor_layout(const std::string& path, const Table&, std::optional<std::size_t> time);
+///
+/// If the recording has three-axis sensors, `channel` holds the name or number of one of them. The optional columns x_axis, y_axis and
+/// z_axis are the directions of its axes on the skin, see parse_sensor_axes().
+Result<SensorLayout> read_sensor_layout(const std::string& path, const Table&, std::optional<std::size_t> time,
+                                        std::span<const AxisSensor> = {});
 
 }  // namespace corpuscle

@@ -32,6 +32,8 @@ class Recording final : public ForceSource {
     std::vector<Channel> channels_;
     std::unordered_map<std::string, int> name_counts_;  // number of channels with each name
     std::vector<std::string> notes_, selection_notes_;  // selection_notes_: about the selected columns
+    std::vector<AxisSensor> axis_sensors_;              // the three-axis sensors whose columns are the channels; empty: none
+    std::vector<std::optional<Position>> placed_;       // the positions of the three-axis sensors, if a layout gives them
     std::unique_ptr<HumTable> hum_table_;
     std::optional<ForceRows> rows_;
     std::int64_t samples_ = 0;  // samples returned so far
@@ -41,9 +43,52 @@ class Recording final : public ForceSource {
     std::vector<double> before_, at_;  // forces of the last row but one, and of the last row, N
     double t_before_ = 0, t_at_ = 0;   // their times, s
 
+    /// Applies the layout to the three-axis sensors: their order, names, positions and axes.
+    Result<void> place_axis_sensors(std::optional<std::size_t> time) {
+        const auto layout = TRY(read_sensor_layout(options_.layout, *table_, time, axis_sensors_));
+        if (!layout.has_length_unit)
+            notes_.push_back("the layout has no unit of length, so only the relative positions of the sensors are used");
+        std::vector<AxisSensor> placed;
+        for (const auto& p : layout.sensors) {
+            placed.push_back(axis_sensors_[p.column]);
+            if (!p.name.empty()) placed.back().name = p.name;
+            placed.back().axes = p.axes;
+            placed_.push_back(p.position);
+        }
+        axis_sensors_ = std::move(placed);
+        return {};
+    }
+
+    /// The columns of the three-axis sensors. Adds a note about those that belong to no sensor.
+    Result<std::vector<SensorPlacement>> choose_axis_columns(std::optional<std::size_t> time) {
+        TRY(check_axis_options(options_, axis_sensors_));
+        std::vector<char> is_used(table_->columns().size(), 0);
+        for (const auto& s : axis_sensors_)
+            for (const auto c : s.columns) is_used[c] = 1;
+        if (!options_.layout.empty()) TRY(place_axis_sensors(time));
+        std::vector<SensorPlacement> out;
+        for (const auto& s : axis_sensors_)
+            for (const auto c : s.columns) out.push_back({c, "", {}});
+        std::vector<std::string> others;
+        for (std::size_t c = 0; c < is_used.size(); ++c)
+            if (!is_used[c] && c != time && table_->columns()[c].exclusion_reason.empty())
+                others.push_back("'" + table_->columns()[c].name + "'");
+        if (others.size() > 6) others.resize(6), others.push_back("...");
+        if (!others.empty())
+            selection_notes_.push_back(fmt::format("{} ignored: not an axis of a force (use --channel NAME to read one as a force)",
+                                                   joined(others) + (others.size() == 1 ? " was" : " were")));
+        return out;
+    }
+
+    bool is_angle(std::size_t column) const {
+        return std::any_of(axis_sensors_.begin(), axis_sensors_.end(),
+                           [column](const AxisSensor& s) { return s.has_angles && (s.columns[1] == column || s.columns[2] == column); });
+    }
+
     /// The columns that are channels, with their sensors' names and positions if a layout gives them. `time` is the time column.
     Result<std::vector<SensorPlacement>> choose_sensors(std::optional<std::size_t> time) {
         std::vector<SensorPlacement> chosen;
+        if (!axis_sensors_.empty()) return choose_axis_columns(time);
         if (!options_.layout.empty()) {
             auto layout = TRY(read_sensor_layout(options_.layout, *table_, time));
             if (!layout.has_length_unit)
@@ -74,7 +119,7 @@ class Recording final : public ForceSource {
     void add_channel(const SensorPlacement& placed, std::vector<std::string>& unitless) {
         const auto& column = table_->columns()[placed.column];
         if (column.unit.empty() && !options_.unit && !options_.scale) unitless.push_back("'" + column.name + "'");
-        if (!column.unit.empty() && options_.unit && *options_.unit != column.unit && !options_.scale)
+        if (!column.unit.empty() && options_.unit && *options_.unit != column.unit && !options_.scale && !is_angle(placed.column))
             notes_.push_back(
                 fmt::format("--unit {} overrides the unit of '{}' in the header, {}", *options_.unit, column.name, column.unit));
         const auto& name = placed.name.empty() ? column.name : placed.name;
@@ -190,6 +235,7 @@ public:
         if (const auto& notes = table_->info().time_notes; time && time == table_->info().time_column)
             notes_.insert(notes_.end(), notes.begin(), notes.end());
         if (holds_spikes(time)) return bad_input("this file holds spikes, not force; 'corpuscle compare' reads it", {path_});
+        if (options_.channels.empty()) axis_sensors_ = TRY(find_axis_sensors(*table_, time, path_));
         const auto chosen = TRY(choose_sensors(time));
         if (chosen.size() > max_channels)
             return bad_input(fmt::format("{} channels are more than the limit of {}; select some, such as --channel 1-1000", chosen.size(),
@@ -199,7 +245,8 @@ public:
         std::vector<double> gains;  // N per unit; computed before the file is read, so that a unit that is not a force is reported at once
         for (const auto& p : chosen) {
             columns.push_back(p.column);
-            gains.push_back(TRY(newtons_per_unit(table_->columns()[p.column], options_, path_)));
+            const auto& column = table_->columns()[p.column];
+            gains.push_back(is_angle(p.column) ? radians_per_unit(column) : TRY(newtons_per_unit(column, options_, path_)));
         }
         TRY(set_clock(time, columns));
         notes_.insert(notes_.end(), selection_notes_.begin(), selection_notes_.end());
@@ -214,6 +261,8 @@ public:
         return {};
     }
 
+    const std::vector<AxisSensor>& axis_sensors() const { return axis_sensors_; }
+    const std::vector<std::optional<Position>>& placed() const { return placed_; }
     const std::string& name() const override { return name_; }
     const Clock& clock() const override { return clock_; }
     const std::vector<Channel>& channels() const override { return channels_; }
@@ -221,7 +270,8 @@ public:
     std::vector<MetadataEntry> metadata() const override {
         std::vector<MetadataEntry> all;
         for (std::size_t c = 0; c < channels_.size(); ++c)
-            all.push_back({channels_[c].name + ": newtons per unit", rows_->pipelines()[c].gain(), "N"});
+            if (axis_sensors_.empty() || !axis_sensors_[c / 3].has_angles || c % 3 == 0)
+                all.push_back({channels_[c].name + ": newtons per unit", rows_->pipelines()[c].gain(), "N"});
         all.push_back({"absolute value", options_.absolute ? 1.0 : 0.0, ""});
         if (options_.offset != 0) all.push_back({"offset", options_.offset, ""});
         if (options_.range)
@@ -293,6 +343,10 @@ Result<std::unique_ptr<ForceSource>> open_recording(const std::string& path, con
     remember_input(path);
     auto recording = std::make_unique<Recording>(path, std::move(*table), options);
     TRY(recording->open());
+    if (auto sensors = recording->axis_sensors(); !sensors.empty()) {
+        auto placed = recording->placed();
+        return combine_axes(std::move(recording), std::move(sensors), std::move(placed), path);
+    }
     return std::unique_ptr<ForceSource>(std::move(recording));
 }
 
