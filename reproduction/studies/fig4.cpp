@@ -4,6 +4,7 @@
 
 #include "reproduction/claims/check_all.hpp"
 #include "reproduction/claims/studies.hpp"
+#include "reproduction/skin/direction_experiment.hpp"
 #include "reproduction/thesis/press.hpp"
 
 namespace corpuscle::studies::fig4 {
@@ -78,16 +79,17 @@ Result<StudyResult> compute(const StudyOptions&) {
         .add("as used here: retraction of 125 ms", force)
         .add("as printed: retraction of 250 ms", slow_retraction.curve())
         .describe_published("rest, sinusoidal ramp, plateau and a symmetrical retraction, 0.2 to 4 N");
-    out.note("The five directions and several places on the fingertip (fig. 4 A, B) are not modelled: the models have one force input.");
+    TRY(directions::report(out));
     out.note(
         "The abstract of Birznieks et al. 2001 reports 196 afferents, not \"196 afferent nerve impulses\" (errata B18a). The protocol of "
         "250, 125, 250 and 125 ms between 0.2 and 4 N was found in the thesis only.");
     return out;
 }
 
-const Study study{"fig4", "The force of the fingertip experiment",
-                  "Four phases between 0.2 and 4 N: 250 ms of rest, a sinusoidal ramp of 125 ms, a plateau of 250 ms, and a retraction "
-                  "described both as 250 ms and as symmetrical. Thesis 1.2, fig. 4",
-                  compute};
+const Study study{
+    "fig4", "The fingertip experiment: force, directions and places",
+    "Four phases between 0.2 and 4 N: 250 ms of rest, a sinusoidal ramp of 125 ms, a plateau of 250 ms, and a retraction "
+    "described both as 250 ms and as symmetrical. The force acts in five directions and at several places. Thesis 1.2, fig. 4",
+    compute};
 
 }  // namespace corpuscle::studies::fig4
