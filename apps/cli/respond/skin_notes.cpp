@@ -12,6 +12,23 @@
 
 namespace corpuscle {
 
+namespace {
+
+/// A note if the force has shear and no class feels it; otherwise "".
+std::string unfelt_shear_note(const SkinPlan& plan, bool source_has_shear, const std::vector<MetadataEntry>& metadata) {
+    const bool has_shear = source_has_shear || std::any_of(metadata.begin(), metadata.end(), [](const MetadataEntry& m) {
+                               return m.name == "contact.tilt" || m.name == "contact.friction";
+                           });
+    const bool is_felt = std::any_of(plan.classes.begin(), plan.classes.end(), [](const SkinClass& c) { return c.direction.gain > 0; });
+    if (!has_shear || is_felt) return "";
+    return fmt::format(
+        "the shear has no effect: no class of {} has a direction_gain; in a population file, write direction_gain = 0.5 in "
+        "[[class]]",
+        plan.name);
+}
+
+}  // namespace
+
 /// Collects metadata and notes of force and contact, and warnings about the force and the steps of the run. Call it after the run.
 void SkinRun::add_force_notes() {
     auto& notes = notes_;
@@ -28,6 +45,8 @@ void SkinRun::add_force_notes() {
         for (auto& f : contact_->metadata()) notes.metadata.push_back(std::move(f));
         for (auto& r : contact_->notes()) notes.notes.push_back(std::move(r));
     }
+    if (auto note = unfelt_shear_note(innervation_->plan, source_->has_shear(), notes.metadata); !note.empty())
+        notes.notes.push_back(std::move(note));
     for (const auto& c : innervation_->plan.classes)
         if (source_->clock().rate() < c.afferent.min_rate * (1 - 1e-9))
             notes.warnings.push_back(fmt::format("{}: the sampling rate of the force is {:g} Hz; {:g} Hz or more is needed", c.name,
