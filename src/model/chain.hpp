@@ -10,6 +10,7 @@
 #include "core/random.hpp"
 #include "model/current.hpp"
 #include "model/parameter_values.hpp"
+#include "model/random_stream.hpp"
 
 namespace corpuscle {
 
@@ -127,7 +128,7 @@ class Chain final : public Afferent {
     /// method has no interval to integrate yet, so the neurons take no step.
     void run_first_sample(double force, Values& s, ResponseBlock& response) const {
         s.receptor = receptor_.start(force);
-        for (auto& n : s.neuron) n = neuron_.start();
+        for (auto& n : s.neuron) n = start_neuron(neuron_, seed_, response.afferent_index);
         Currents i;
         receptor_.step(s.receptor, force, i);
         if (method_ == Method::backward_euler) {

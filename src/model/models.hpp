@@ -5,13 +5,16 @@
 
 #include "model/neuron/adaptive.hpp"
 #include "model/neuron/adex.hpp"
+#include "model/neuron/alif.hpp"
 #include "model/neuron/izhikevich.hpp"
 #include "model/neuron/lif_a.hpp"
 #include "model/neuron/lif_b.hpp"
 #include "model/receptor/fa1a.hpp"
 #include "model/receptor/fa1b.hpp"
+#include "model/receptor/fast_adapting.hpp"
 #include "model/receptor/sa1a.hpp"
 #include "model/receptor/sa1b.hpp"
+#include "model/receptor/slowly_adapting.hpp"
 #include "model/receptor/vibration_receptor.hpp"
 
 namespace corpuscle {
@@ -36,7 +39,7 @@ void visit_named(List list, std::string_view name, const F& f) {
     });
 }
 
-using Receptors = ModelList<Sa1a, Sa1b, Fa1a, Fa1b, Vibration>;
-using Neurons = ModelList<LifA, LifB, Adaptive, Izhikevich, Adex>;
+using Receptors = ModelList<Sa1a, Sa1b, Fa1a, Fa1b, Vibration, FastAdapting, SlowlyAdapting>;
+using Neurons = ModelList<LifA, LifB, Adaptive, Izhikevich, Adex, Alif>;
 
 }  // namespace corpuscle

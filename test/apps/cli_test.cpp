@@ -411,8 +411,8 @@ TEST(Program, ANonFiniteStateIsReported) {
 
 TEST(Program, AliasesAreAcceptedWhereverNamesAre) {
     const TemporaryFolder folder;
-    EXPECT_EQ(run_program(folder, "list RA").out, run_program(folder, "list fa1").out);
-    const auto by_alias = Json::parse(run_program(folder, "respond press -a fa1 --set RA.f=3Hz --json").out);
+    EXPECT_EQ(run_program(folder, "list FA-I").out, run_program(folder, "list fa1").out);
+    const auto by_alias = Json::parse(run_program(folder, "respond press -a fa1 --set FA-I.f=3Hz --json").out);
     EXPECT_EQ(by_alias["afferents"][0]["parameters"]["f"]["value"], 3.0);
 }
 

@@ -24,7 +24,8 @@ TEST(ImplementationGroup, IsTheAfferentTypeAtTheBeginningOfAName) {
     for (const auto* name :
          {"sa1", "SA1", "SA-I", "sa1-kim", "sa1-circuit", "sa1-macro", "circuits/sa1.cir", "./sa1_biased.cir", "/x.y/SA1-b.cir"})
         EXPECT_EQ(afferent_type_of(make_named(name)), "sa1") << name;
-    EXPECT_EQ(afferent_type_of(make_named("RA")), "fa1") << "an alias of fa1";
+    EXPECT_EQ(afferent_type_of(make_named("RA")), "fa1") << "an alias of fa1-nerve";
+    EXPECT_EQ(afferent_type_of(make_named("fa1-nerve")), "fa1");
     EXPECT_EQ(afferent_type_of(make_named("fa1-lee")), "fa1");
     for (const auto* name : {"sa1b+izhikevich", "fsr+f2i+sa1", "own-thing"})
         EXPECT_EQ(afferent_type_of(make_named(name)), name) << "not the name of an afferent type";

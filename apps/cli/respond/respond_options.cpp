@@ -19,7 +19,8 @@ sine, chirp, noise, grating, or a sum such as press+noise (after its end a short
 its last value).
 
 An afferent is one of
-  a model: sa1 fa1 sa2 fa2 sa1-kim fa1-lee (TouchSim's names SA1 RA PC work, too)
+  a model of the thesis: sa1 fa1; calibrated to nerves: sa1-nerve fa1-nerve sa2 fa2 (TouchSim's RA
+  and PC mean fa1-nerve and fa2); in fixed point: sa1-kim fa1-lee
   a receptor and a neuron: sa1b+izhikevich
   either of these behind a sensor, a transducer or a converter: fsr+f2i+sa1, fsr+f2v+adc+sa1b+lif-b
   a circuit: sa1-circuit fa1-circuit, or the path of a netlist with a force input and a spike output

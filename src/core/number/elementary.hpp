@@ -100,6 +100,7 @@ inline Dual exp(Dual x) {
     return {e, e * x.d};
 }
 inline Dual log(Dual x) { return {log(x.v), x.d / x.v}; }
+inline Dual nearest(Dual x) { return {nearest(x.v), 0.0}; }
 inline Dual sin_turns(Dual x) { return {sin_turns(x.v), 6.283185307179586 * cos_turns(x.v) * x.d}; }
 inline Dual cos_turns(Dual x) { return {cos_turns(x.v), -6.283185307179586 * sin_turns(x.v) * x.d}; }
 

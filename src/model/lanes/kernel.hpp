@@ -85,6 +85,7 @@ struct NeuronCall : TileCall<V> {
     const V* to;       ///< currents at the end of each step, in the same layout
     const V* end_sum;  ///< from + to for each step; only used if `gain` is not null
     const V* gain;     ///< [tile_size]: factor of each afferent for currents that all share; null: every afferent has its own currents
+    const V* streams;  ///< [tile_size]: random_stream() of each afferent; only for ModelKernel::start
     FiringList<V>* fired;
 };
 

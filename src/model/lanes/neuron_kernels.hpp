@@ -32,7 +32,13 @@ struct FiringRecorder {
 /// Sets the states of all neurons of a tile before the first step.
 template <class V, class N>
 void start_states(const NeuronCall<V>& c) {
-    for (int first = 0; first < tile_size; first += width<V>) write(model<N>(c.models, c.stride, first / width<V>).start(), c.state, first);
+    for (int first = 0; first < tile_size; first += width<V>) {
+        const auto& n = model<N>(c.models, c.stride, first / width<V>);
+        if constexpr (requires { n.start(load(c.streams)); })
+            write(n.start(load(c.streams + first)), c.state, first);
+        else
+            write(n.start(), c.state, first);
+    }
 }
 
 /// One step of a vector under its current, with all events.

@@ -81,7 +81,6 @@ template <class S, class V, std::size_t stored = value_count<S, V>>
         std::size_t k = 0;
         ((k < stored ? value.store_aligned(state + k * tile_size + first) : void(), ++k), ...);
     };
-    static_assert(values <= 5);
     if constexpr (values == 1) {
         const auto& [a] = s;
         put(a);
@@ -94,9 +93,15 @@ template <class S, class V, std::size_t stored = value_count<S, V>>
     } else if constexpr (values == 4) {
         const auto& [a, b, c, d] = s;
         put(a, b, c, d);
-    } else {
+    } else if constexpr (values == 5) {
         const auto& [a, b, c, d, e] = s;
         put(a, b, c, d, e);
+    } else {  // so many values do not fit the registers
+        struct All {
+            Batch<V> value[values];
+        };
+        const auto all = __builtin_bit_cast(All, s);
+        for (std::size_t k = 0; k < stored; ++k) all.value[k].store_aligned(state + k * tile_size + first);
     }
 }
 

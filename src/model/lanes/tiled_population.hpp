@@ -5,6 +5,7 @@
 #include "model/lanes/force_input.hpp"
 #include "model/lanes/spike_collector.hpp"
 #include "model/lanes/tile_states.hpp"
+#include "model/random_stream.hpp"
 
 namespace corpuscle::lanes {
 
@@ -49,6 +50,7 @@ class TiledPopulation final : public LanePopulation {
     PopulationLayout<V> layout_;
     Method method_;
     bool spikes_on_samples_;
+    std::uint64_t seed_;  // of random thresholds
     std::size_t tiles_;
     TileStates<V> states_;
     std::int64_t step_ = 0;  // number of samples simulated so far
@@ -211,13 +213,23 @@ class TiledPopulation final : public LanePopulation {
                 ahead = run_receptors(b, tile, 0, step, steps, first, s, job);
             for (int k = 0; k < layout_.receptor->outputs; ++k) {
                 const auto c = neuron_call(b, tile, k, step, steps, s, fired, k == 0 ? ahead : PrefetchRange{});
-                if (first) layout_.neuron->start(c);
+                if (first) start_neurons(c, tile, s);
                 if (!skips_neurons) layout_.neuron->run(c);
                 fired.flush();
             }
         }
         fired.flush();
         job.truncated_steps += fired.truncated_steps;
+    }
+
+    void start_neurons(NeuronCall<V> c, std::size_t tile, Scratch& s) const {
+        for (std::size_t u = 0; u < tile_size; ++u) {
+            const std::size_t afferent = std::min(tile * tile_size + u, layout_.size - 1);
+            const auto number = layout_.afferent_numbers.empty() ? static_cast<std::uint32_t>(afferent) : layout_.afferent_numbers[afferent];
+            s.rows.data()[u] = static_cast<V>(random_stream(seed_, number));
+        }
+        c.streams = s.rows.data();
+        layout_.neuron->start(c);
     }
 
     /// True if one of the forces on each afferent is known to be zero on a tile during the block.
@@ -350,7 +362,7 @@ class TiledPopulation final : public LanePopulation {
 
 public:
     TiledPopulation(PopulationLayout<V> layout, const SimulationOptions& run)
-        : layout_(std::move(layout)), method_(run.method), spikes_on_samples_(run.spikes_on_samples),
+        : layout_(std::move(layout)), method_(run.method), spikes_on_samples_(run.spikes_on_samples), seed_(run.seed),
           tiles_((layout_.size + tile_size - 1) / tile_size),
           states_(tiles_, layout_.receptor->state_values * layout_.forces,
                   layout_.neuron->state_values * static_cast<std::size_t>(layout_.receptor->outputs)),

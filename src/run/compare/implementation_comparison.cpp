@@ -131,9 +131,8 @@ int reference_rank(const AfferentPlan& plan, const std::string& afferent_type) {
 
 std::string afferent_type_of(const AfferentPlan& plan) {
     const auto stem = std::filesystem::path(plan.name).stem().string();  // without folder and extension, if the name is a path
-    const auto name = lower(stem);
-    // A type has a name without hyphen: the alias SA-I leads to sa1 here, but sa1-kim is reduced to its prefix below.
-    if (const auto* a = find_afferent(name); a && a->name.find('-') == a->name.npos) return std::string(a->name);
+    const auto* by_alias = find_afferent(lower(stem));  // SA-I is sa1, RA is fa1-nerve
+    const auto name = by_alias ? std::string(by_alias->name) : lower(stem);
     const auto* prefix_match = find_afferent(name.substr(0, name.find_first_of("-_")));
     return prefix_match ? std::string(prefix_match->name) : stem;
 }

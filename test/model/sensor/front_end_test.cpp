@@ -134,16 +134,16 @@ TEST(AfferentComponents, WrongOrUnknownComponentsAreRefusedWithASuggestion) {
         {"fsr+f2i", "fsr+f2i: 'fsr+f2i' must be followed by an afferent, such as 'fsr+f2i+sa1'"},
         {"adc+sa1-kim", "adc+sa1-kim: sa1-kim has its own front end (fsr+f2v+adc); put 'adc' before sa1a+lif-a instead"},
         {"adc+fa2",
-         "adc+fa2: vibration+lif-b has no fixed-point version; adc can be followed by sa1a, sa1b, fa1a, fa1b with lif-a, lif-b, adaptive"},
+         "adc+fa2: fast-adapting+alif has no fixed-point version; adc can be followed by sa1a, sa1b, fa1a, fa1b with lif-a, lif-b, adaptive"},
     };
     for (const auto& [text, message] : cases) EXPECT_EQ(plan_afferent(text).error().message, message);
 }
 
 TEST(AfferentComponents, NamesAreMatchedWithoutRegardToCaseAlsoInSettings) {
-    EXPECT_EQ(test::value_or_throw(plan_afferent("FSR+f2i+RA")).name, "fsr+f2i+fa1");
-    for (const auto* of : {"fsr+f2i+fa1", "FSR+f2i+RA", "fsr+F2I+FA1"}) {
+    EXPECT_EQ(test::value_or_throw(plan_afferent("FSR+f2i+FA-I")).name, "fsr+f2i+fa1");
+    for (const auto* of : {"fsr+f2i+fa1", "FSR+f2i+FA-I", "fsr+F2I+FA1"}) {
         const auto overrides = test::parse_settings({std::string(of) + ".f=3Hz", std::string(of) + ".F_cal=2N"});
-        const auto plan = test::applied_or_throw(plan_afferent("FSR+f2i+RA", overrides));
+        const auto plan = test::applied_or_throw(plan_afferent("FSR+f2i+FA-I", overrides));
         EXPECT_EQ(plan.value("f"), 3);
         EXPECT_EQ(plan.value("F_cal"), 2);
         EXPECT_EQ(plan.value("I_leak0"), 1e-6) << "the default of fa1";
