@@ -60,7 +60,7 @@ public:
     explicit LiveSkin(const std::string& population, double rate = 1e3, std::size_t channels = 1,
                       const std::vector<std::string>& settings = {});
     /// A skin whose frames are the forces of taxels, which a file lays out on it (doc/taxels.md). The order of the forces is that of the
-    /// taxels in the file, or of its channel numbers. Throws InputError.
+    /// taxels in the file, or of its channel numbers; if the file has axes, there are three for each taxel. Throws InputError.
     static LiveSkin with_taxels(const std::string& population, const std::string& taxels, double rate = 1e3,
                                 const std::vector<std::string>& settings = {});
     LiveSkin(LiveSkin&&) noexcept;

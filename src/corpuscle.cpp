@@ -9,7 +9,7 @@
 #include "run/afferent_plan.hpp"
 #include "run/simulate.hpp"
 #include "skin/plan/skin_plan.hpp"
-#include "skin/taxel/taxel_map.hpp"
+#include "skin/taxel/taxel_frames.hpp"
 
 namespace corpuscle {
 namespace {
@@ -48,9 +48,9 @@ std::vector<double> Response::instantaneous_rates() const { return corpuscle::in
 struct LiveSkin::Impl {
     std::unique_ptr<SkinStream> stream;
     EventAddressing addressing;
-    TaxelMap taxels = {};                 // without taxels: not used
-    std::vector<double> site_force = {};  // of the last frame of taxels, N
-    std::vector<Event> events = {};       // result of the last respond() or finish()
+    TaxelFrames taxels = {};                                      // without taxels: not used
+    std::vector<double> normal = {}, shear_x = {}, shear_y = {};  // at the sites in the last frame of taxels, N
+    std::vector<Event> events = {};                               // result of the last respond() or finish()
 
     /// Places the afferents of a plan.
     static std::unique_ptr<Impl> make(SkinPlan plan, double rate) {
@@ -62,14 +62,14 @@ struct LiveSkin::Impl {
         return impl;
     }
 
-    /// The forces at the sites in a frame of sites or taxels.
-    std::span<const double> forces_of(std::span<const double> frame) {
-        if (taxels.taxel_count == 0) return frame;
-        if (frame.size() != taxels.taxel_count)
-            throw InputError("a frame has " + std::to_string(frame.size()) + " forces, but there are " +
-                             std::to_string(taxels.taxel_count) + " taxels");
-        taxels.spread(frame.data(), site_force.data());
-        return site_force;
+    /// Simulates a frame of sites or taxels.
+    Result<std::span<const Spike>> push(std::span<const double> frame) {
+        if (taxels.frame_size() == 0) return stream->push(frame);
+        if (frame.size() != taxels.frame_size())
+            return bad_input("a frame has " + std::to_string(frame.size()) + " forces, but those of these taxels have " +
+                             std::to_string(taxels.frame_size()));
+        taxels.spread(frame.data(), normal.data(), shear_x.data(), shear_y.data());
+        return taxels.has_shear() ? stream->push(normal, shear_x, shear_y) : stream->push(normal);
     }
 
     std::span<const Event> to_events(std::span<const Spike> spikes) {
@@ -103,15 +103,15 @@ LiveSkin LiveSkin::with_taxels(const std::string& population, const std::string&
     treat_as_skin(plan);
     auto map = value_or_throw(map_taxels(layout, plan.sites));
     auto impl = Impl::make(std::move(plan), rate);
-    impl->site_force.resize(impl->stream->sites());
-    impl->taxels = std::move(map);
+    for (auto* force : {&impl->normal, &impl->shear_x, &impl->shear_y}) force->resize(impl->stream->sites());
+    impl->taxels = TaxelFrames(layout, std::move(map), layout.has_axes);
     return LiveSkin(std::move(impl));
 }
 LiveSkin::LiveSkin(LiveSkin&&) noexcept = default;
 LiveSkin& LiveSkin::operator=(LiveSkin&&) noexcept = default;
 LiveSkin::~LiveSkin() = default;
 
-std::size_t LiveSkin::frame_size() const { return impl_->taxels.taxel_count > 0 ? impl_->taxels.taxel_count : sites(); }
+std::size_t LiveSkin::frame_size() const { return impl_->taxels.frame_size() > 0 ? impl_->taxels.frame_size() : sites(); }
 std::size_t LiveSkin::sites() const { return impl_->stream->sites(); }
 LiveSkin::Site LiveSkin::site(std::size_t number) const {
     if (number >= sites()) throw InputError("there is no site " + std::to_string(number) + "; the last is " + std::to_string(sites() - 1));
@@ -127,7 +127,7 @@ std::string LiveSkin::afferent_name(std::uint32_t index) const {
 }
 
 std::span<const LiveSkin::Event> LiveSkin::respond(std::span<const double> frame) {
-    return impl_->to_events(value_or_throw(impl_->stream->push(impl_->forces_of(frame))));
+    return impl_->to_events(value_or_throw(impl_->push(frame)));
 }
 std::span<const LiveSkin::Event> LiveSkin::finish() { return impl_->to_events(impl_->stream->finish()); }
 

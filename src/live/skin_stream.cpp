@@ -58,21 +58,41 @@ std::span<const std::uint32_t> SkinStream::find_touched(std::span<const double> 
     return std::span(touched_).first(touched);
 }
 
-Result<std::span<const Spike>> SkinStream::push(std::span<const double> frame) {
+/// The sites whose normal force or shear is not 0.
+std::span<const std::uint32_t> SkinStream::find_sheared(std::span<const double> frame, std::span<const double> shear_x,
+                                                        std::span<const double> shear_y) {
+    std::size_t touched = 0;
+    for (std::uint32_t s = 0; s < frame.size(); ++s)
+        if (frame[s] != 0 || shear_x[s] != 0 || shear_y[s] != 0) touched_[touched++] = s;
+    return std::span(touched_).first(touched);
+}
+
+Result<std::span<const Spike>> SkinStream::push(std::span<const double> frame, std::span<const double> shear_x,
+                                                std::span<const double> shear_y) {
     if (frame.size() != sites()) return bad_input(fmt::format("a frame has {} forces, but there are {} sites", frame.size(), sites()));
     spikes_.clear();
-    TRY(skin_->respond({frame.data(), 1, find_touched(frame), false}, 1, spikes_, pool_));
+    SiteForce force{frame.data(), 1, shear_x.empty() ? find_touched(frame) : find_sheared(frame, shear_x, shear_y), false};
+    if (!shear_x.empty()) force.shear_x = shear_x.data(), force.shear_y = shear_y.data();
+    TRY(skin_->respond(force, 1, spikes_, pool_));
     return std::span<const Spike>(spikes_);
 }
 
-bool SkinStream::add_to_batch(std::span<const double> frame) {
-    for (const auto s : find_touched(frame)) {
+bool SkinStream::add_to_batch(std::span<const double> frame, std::span<const double> shear_x, std::span<const double> shear_y) {
+    const bool has_shear = !shear_x.empty();
+    for (auto& block : shear_blocks_)
+        if (has_shear && block.empty()) block.resize(block_.size());
+    for (const auto s : has_shear ? find_sheared(frame, shear_x, shear_y) : find_touched(frame)) {
+        const auto row = static_cast<std::ptrdiff_t>(s * batch_frames_);
         if (!is_in_batch_[s]) {
             is_in_batch_[s] = 1;
             batch_sites_.push_back(s);
-            std::fill_n(block_.begin() + static_cast<std::ptrdiff_t>(s * batch_frames_), batch_frames_, 0.0);
+            std::fill_n(block_.begin() + row, batch_frames_, 0.0);
+            if (has_shear)
+                for (auto& block : shear_blocks_) std::fill_n(block.begin() + row, batch_frames_, 0.0);
         }
-        block_[s * batch_frames_ + batched_] = frame[s];
+        const auto at = s * batch_frames_ + batched_;
+        block_[at] = frame[s];
+        if (has_shear) shear_blocks_[0][at] = shear_x[s], shear_blocks_[1][at] = shear_y[s];
     }
     return ++batched_ == batch_frames_;
 }
@@ -80,7 +100,9 @@ bool SkinStream::add_to_batch(std::span<const double> frame) {
 Result<std::span<const Spike>> SkinStream::run_batch() {
     spikes_.clear();
     std::sort(batch_sites_.begin(), batch_sites_.end());
-    const auto ok = skin_->respond({block_.data(), batch_frames_, batch_sites_, false}, batched_, spikes_, pool_);
+    SiteForce force{block_.data(), batch_frames_, batch_sites_, false};
+    if (!shear_blocks_[0].empty()) force.shear_x = shear_blocks_[0].data(), force.shear_y = shear_blocks_[1].data();
+    const auto ok = skin_->respond(force, batched_, spikes_, pool_);
     for (const auto s : batch_sites_) is_in_batch_[s] = 0;
     batch_sites_.clear();
     batched_ = 0;

@@ -14,6 +14,7 @@ class SkinStream {
     std::vector<std::uint32_t> touched_, all_sites_;  // touched_: scratch array of find_touched(); all_sites_: 0, 1, 2 ...
     std::vector<Spike> spikes_;                       // the last result
     std::size_t batch_frames_ = 1, batched_ = 0;      // frames of a full batch, and of the current one so far
+    std::vector<double> shear_blocks_[2];             // the same for the shear along x and y; empty before the first frame with shear
     std::vector<double> block_;                       // forces of the batch, [site][frame]; only those of batch_sites_ are valid
     std::vector<std::uint32_t> batch_sites_;          // sites with force in a frame of the batch
     std::vector<std::uint8_t> is_in_batch_;           // for each site: 1 if it is in batch_sites_
@@ -21,6 +22,8 @@ class SkinStream {
     SkinStream(std::shared_ptr<const Innervation>, const Clock&, std::unique_ptr<Skin>, std::size_t batch_frames);
     Result<void> warm_up();
     std::span<const std::uint32_t> find_touched(std::span<const double> frame);
+    std::span<const std::uint32_t> find_sheared(std::span<const double> frame, std::span<const double> shear_x,
+                                                std::span<const double> shear_y);
 
 public:
     /// `clock` gives the rate of the frames. If `spikes_on_samples` is true, a spike occurs at a sample, not between two. `batch_frames`:
@@ -34,13 +37,15 @@ public:
     std::int64_t frames() const { return skin_->step(); }  ///< number of frames simulated so far
     const SkinStats& stats() const { return skin_->stats(); }
 
-    /// Simulates one frame: one force (N) for each site. Returns the spikes that arrive during it, in order of time, then afferent. They
+    /// Simulates one frame: one force (N) for each site, and optionally the shear along x and y, which every
+    /// frame must then have. Returns the spikes that arrive during it, in order of time, then afferent. They
     /// are valid until the next call.
-    Result<std::span<const Spike>> push(std::span<const double> frame);
+    Result<std::span<const Spike>> push(std::span<const double> frame, std::span<const double> shear_x = {},
+                                        std::span<const double> shear_y = {});
     std::size_t batch_frames() const { return batch_frames_; }
     /// Adds a frame to the batch; returns true if the batch is now full and run_batch() must be called. Simulating a batch takes less time
     /// than simulating its frames one by one, but the spikes come later.
-    bool add_to_batch(std::span<const double> frame);
+    bool add_to_batch(std::span<const double> frame, std::span<const double> shear_x = {}, std::span<const double> shear_y = {});
     /// Simulates the frames of the batch, which may be empty. Returns the spikes that arrive during them; valid until the next call.
     Result<std::span<const Spike>> run_batch();
 

@@ -100,8 +100,9 @@ Result<void> StreamLoop::run_frame(bool was_received, std::int64_t now) {
     } else {
         ++stats_.filled;
     }
-    if (skin_.batch_frames() > 1 && !skin_.add_to_batch(force_)) return {};
-    return write_spikes(skin_.batch_frames() > 1 ? skin_.run_batch() : skin_.push(force_));
+    const auto x = frames_.shear_x(), y = frames_.shear_y();
+    if (skin_.batch_frames() > 1 && !skin_.add_to_batch(force_, x, y)) return {};
+    return write_spikes(skin_.batch_frames() > 1 ? skin_.run_batch() : skin_.push(force_, x, y));
 }
 
 /// Simulates the incomplete batch at the end of a stream.

@@ -25,9 +25,7 @@ std::vector<std::string> sorted_spikes(const std::string& text) {
     return out;
 }
 
-std::string palm_example() {
-    return fmt::format("--population hand --taxels '{0}/examples/taxels/palm.csv' --rate 1kHz", source_root());
-}
+std::string palm_example() { return fmt::format("--population hand --taxels '{0}/examples/taxels/palm.csv' --rate 1kHz", source_root()); }
 std::string palm_recording() { return "'" + source_root() + "/examples/data/palm.csv'"; }
 
 TEST(TaxelStream, LiveFramesGiveTheSpikesOfTheRecording) {
@@ -82,6 +80,36 @@ TEST(TaxelStream, AResumedStreamContinuesWithTheLastFrame) {
               std::string::npos);
 }
 
+TEST(TaxelStream, ShearOfThreeAxisTaxelsIsFeltLiveAsOffline) {
+    const TemporaryFolder folder;
+    folder.write(
+        "own.toml",
+        "[sites]\nrows = 8\ncolumns = 8\npitch = \"2 mm\"\n[[class]]\nafferent = \"sa1\"\nper_site = 1\nsigma = \"2 mm\"\ndirection_gain "
+        "= 0.5\n");
+    std::string frames = "b.Fx,b.Fy,b.Fz,a.Fx,a.Fy,a.Fz\n", turned = frames, bare;
+    for (int k = 0; k < 600; ++k) {
+        const double press = 2 * std::min(1.0, 0.01 * k) + 0.001 * (k % 7), pull = k < 200 ? 0 : 0.5 + 0.01 * (k % 5);
+        frames += fmt::format("{},{},{},{},{},{}\n", 0, pull, press, pull, -pull, press);
+        turned += fmt::format("{},{},{},{},{},{}\n", pull, 0, -press, -pull, -pull, -press);  // in the axes of the second table
+        bare += fmt::format("{},{},{},{},{},{}\n", pull, -pull, press, 0, pull, press);
+    }
+    folder.write("frames.csv", frames), folder.write("turned.csv", turned), folder.write("bare.csv", bare);
+    const std::string columns = "name,x_mm,y_mm,width_mm,height_mm,rotation_deg,x_axis,y_axis,z_axis\n";
+    folder.write("taxels.csv", columns + "a,3,3,6,6,20,+x,+y,\nb,8,4,6,6,50,,,\n");
+    folder.write("other.csv", columns + "a,3,3,6,6,20,+y,-x,out\nb,8,4,6,6,50,+y,-x,out\n");
+    const std::string skin = " --population own.toml --rate 1kHz --unit N --quiet --taxels ";
+    const auto offline = run_program(folder, "respond frames.csv -o out" + skin + "taxels.csv");
+    ASSERT_EQ(offline.status, 0) << offline.err;
+    const auto spikes = sorted_spikes(read_file(folder / "out/spikes.csv"));
+    ASSERT_GT(spikes.size(), 100U);
+    const std::vector<std::string> ways = {"taxels.csv < frames.csv", "taxels.csv --batch-frames 7 < frames.csv",
+                                           "taxels.csv --in frames.csv --pace fast", "taxels.csv < bare.csv"};
+    for (const auto& more : ways) EXPECT_EQ(sorted_spikes(run_program(folder, "stream" + skin + more).out), spikes) << more;
+    folder.write("normal.csv", "a,b\n1,1\n2,2\n");
+    EXPECT_NE(run_program(folder, "respond normal.csv" + skin + "taxels.csv").err.find("the taxels have axes, but normal has one force"),
+              std::string::npos);
+}
+
 TEST(TaxelStream, MistakesAreErrorsThatNameTheRemedy) {
     const TemporaryFolder folder;
     folder.write("taxels.csv", "name,x_mm,y_mm\na,0,0\nb,2,0\n");
@@ -116,7 +144,7 @@ TEST(CHeader, SimulatesFramesOfTaxels) {
     for (int k = 0; k < 500; ++k) EXPECT_EQ(corpuscle_push(skin, frame, 2, add, &count), 0);
     EXPECT_GT(count, 10);
     EXPECT_EQ(corpuscle_push(skin, frame, 1, add, &count), -1);
-    EXPECT_STREQ(corpuscle_error(skin), "a frame has 1 forces, but there are 2 taxels");
+    EXPECT_STREQ(corpuscle_error(skin), "a frame has 1 forces, but those of these taxels have 2");
     corpuscle_destroy(skin);
     EXPECT_EQ(corpuscle_create_taxels("grid 8x8", nullptr, 1000, nullptr, 0, error, sizeof error), nullptr);
     EXPECT_EQ(corpuscle_create_taxels("sa1", file.c_str(), 1000, nullptr, 0, error, sizeof error), nullptr);

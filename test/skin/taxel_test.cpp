@@ -6,7 +6,7 @@
 #include "skin/plan/skin_plan.hpp"
 #include "skin/taxel/overlap.hpp"
 #include "skin/taxel/stuck_taxels.hpp"
-#include "skin/taxel/taxel_map.hpp"
+#include "skin/taxel/taxel_frames.hpp"
 #include "skin/taxel/taxel_placement.hpp"
 #include "support/property.hpp"
 #include "support/support.hpp"
@@ -79,6 +79,8 @@ TEST(TaxelTable, ErrorsNameThePlaceTheValueAndARemedy) {
         {"channel,x_mm,y_mm\n1,0,0\n1,0,0\n", "taxels.csv:3:1: channel 1 has two rows; the first is line 2"},
         {"channel,x_mm,y_mm\n1,0,0\n3,0,0\n", "taxels.csv: channel 2 has no row, although channel 3 has one"},
         {"channel,x_mm,y_mm\n0,0,0\n", "taxels.csv:2:1: channel '0': must be a number from 1"},
+        {"name,x_mm,y_mm,x_axis,y_axis,z_axis\na,0,0,+x,+y,in\n", "taxels.csv:2:7: taxel 'a': these axes are left-handed"},
+        {"name,x_mm,y_mm,x_axis\na,0,0,up\n", "taxels.csv:2:7: taxel 'a': 'up' is not a direction on the skin; write +x"},
         {"name,x_mm,y_mm,dead\na,0,0,maybe\n", "taxels.csv:2:7: dead is 'maybe'; write 1"},
         {"name,x_mm,y_mm,patch,rotation_deg\na,0,0,p,1\nb,0,0,p,2\n",
          "taxels.csv:3:7: taxel 'b' gives patch 'p' another pose than line 2"}};
@@ -217,6 +219,26 @@ TEST(TaxelMaps, AFullTurnOfThePoseChangesNoBit) {
     }));
 }
 
+TEST(TaxelMaps, ShearIsTurnedFromTheTaxelToTheSkinAndConserved) {
+    EXPECT_TRUE(rc::check([] {
+        const auto turn = *rc::gen::inRange(-180, 181);
+        const auto layout = value_or_throw(read_text("name,x_mm,y_mm,area_mm2,region,rotation_deg,x_axis,y_axis,z_axis\na,3,-4,30,palm," +
+                                                     std::to_string(turn) + ",+y,-x,out\n"));
+        TaxelFrames taxels(layout, value_or_throw(map_taxels(layout, hand_sites())), true);
+        RC_ASSERT(taxels.frame_size() == 3U);
+        const double x = *rc::gen::inRange(-100, 100) * 0.01, y = *rc::gen::inRange(-100, 100) * 0.01;
+        const double frame[] = {x, y, -2}, angle = turn * std::acos(-1) / 180;
+        std::vector<double> force[3];
+        for (auto& f : force) f.resize(hand_sites().size());
+        RC_ASSERT(taxels.spread(frame, force[0].data(), force[1].data(), force[2].data()) == 2);
+        // The x axis of the taxel is the y axis of the patch, its y axis the negative x axis.
+        const double along_x = -y, along_y = x;
+        RC_ASSERT(std::abs(sum_of(force[0]) - 2) < 1e-12);
+        RC_ASSERT(std::abs(sum_of(force[1]) - (along_x * std::cos(angle) - along_y * std::sin(angle))) < 1e-12);
+        RC_ASSERT(std::abs(sum_of(force[2]) - (along_x * std::sin(angle) + along_y * std::cos(angle))) < 1e-12);
+    }));
+}
+
 TEST(TaxelChannels, AreMatchedByNameOrOrderAndErrorsNameTheRow) {
     const auto layout = value_or_throw(read_text("name,x_mm,y_mm\na,0,0\nb,1,0\nc,2,0\n"));
     using Names = std::vector<std::string>;
@@ -234,6 +256,11 @@ TEST(TaxelChannels, AreMatchedByNameOrOrderAndErrorsNameTheRow) {
         ASSERT_FALSE(matched);
         EXPECT_NE(matched.error().text().find(message), std::string::npos) << matched.error().text();
     }
+    const auto three = value_or_throw(read_text("name,x_mm,y_mm,x_axis\na,0,0,\nb,1,0,\n"));
+    EXPECT_EQ(value_or_throw(match_frame_columns(three, Names{"b_Fx", "b_Fz", "a_Fx", "a_Fy", "b_Fy", "a_Fz"}, "r")),
+              (std::vector<std::uint32_t>{3, 5, 0, 1, 4, 2}));
+    EXPECT_FALSE(match_frame_columns(three, Names{"b_Fx", "b_Fx", "a_Fx", "a_Fy", "b_Fy", "a_Fz"}, "r"));
+    EXPECT_FALSE(match_frame_columns(three, Names{"b_Fx", "b_Fz", "a_Fx", "a_Fy", "b_Fy", "what"}, "r"));
     const auto numbered = value_or_throw(read_text("channel,name,x_mm,y_mm\n2,a,0,0\n1,b,1,0\n"));
     EXPECT_EQ(numbered.taxels[0].name, "b") << "taxels are in the order of their channels";
     EXPECT_EQ(value_or_throw(match_taxels(numbered, Names{"x", "y"}, "r")), (std::vector<std::uint32_t>{0, 1}));

@@ -62,6 +62,7 @@ Result<void> SkinRun::open_taxels() {
     if (!args_.contact.empty()) return bad_usage("--contact presses one force on the skin, and --taxels spreads those of taxels; use one");
     if (!args_.recording.layout.empty()) return bad_usage("--layout and --taxels both say where the channels are; use --taxels only");
     const auto layout = TRY(read_taxel_layout(args_.taxels));
+    TRY(check_shear(layout, *source_));
     std::vector<std::string> names;
     for (const auto& c : source_->channels()) names.push_back(c.name);
     const auto taxels = TRY(match_taxels(layout, names, source_->name()));

@@ -69,9 +69,7 @@ class LiveRun {
         if (taxels_) {
             std::vector<std::string> names;
             for (const auto& c : source->channels()) names.push_back(c.name);
-            auto taxels = TRY(match_taxels(*taxels_, names, source->name()));
-            frames_ = make_frame_source(std::move(source), args_.pace == "real");
-            return assign_taxels(std::move(taxels), {});
+            return open_taxel_recording(std::move(source), TRY(match_taxels(*taxels_, names, source_->name())));
         }
         auto sites = TRY(match_sites(skin_->innervation().plan, *source));
         frames_ = make_frame_source(std::move(source), args_.pace == "real");
@@ -79,11 +77,25 @@ class LiveRun {
         return {};
     }
 
-    /// Spreads the forces of the taxels over the sites of the skin. `taxels`: of each force of a frame.
-    Result<void> assign_taxels(std::vector<std::uint32_t> taxels, const ChannelFilters& filters) {
+    /// `taxels`: of each channel of the recording.
+    Result<void> open_taxel_recording(std::unique_ptr<ForceSource> source, const std::vector<std::uint32_t>& taxels) {
+        const bool has_shear = source->has_shear();
+        std::vector<std::uint32_t> columns;
+        for (const auto taxel : taxels) {
+            if (has_shear) columns.push_back(3 * taxel), columns.push_back(3 * taxel + 1);
+            columns.push_back(has_shear ? 3 * taxel + 2 : taxel);
+        }
+        if (!has_shear) TRY(check_shear(*taxels_, *source));
+        frames_ = make_frame_source(std::move(source), args_.pace == "real", has_shear);
+        return assign_taxels(std::move(columns), has_shear, {});
+    }
+
+    /// Spreads the forces of the taxels over the sites of the skin. `columns`: for each force of a frame, its index in a frame of
+    /// TaxelFrames.
+    Result<void> assign_taxels(std::vector<std::uint32_t> columns, bool has_shear, const ChannelFilters& filters) {
         auto map = TRY(map_taxels(*taxels_, skin_->innervation().plan.sites));
         skin_notes_.insert(skin_notes_.end(), map.notes.begin(), map.notes.end());
-        frames_->assign_taxels(std::move(map), std::move(taxels), filters);
+        frames_->assign_taxels(TaxelFrames(*taxels_, std::move(map), has_shear), std::move(columns), skin_->sites(), filters);
         return {};
     }
 
@@ -99,8 +111,9 @@ class LiveRun {
 
     /// Makes the function that reads the names of taxels in a CSV header.
     HeaderReader taxel_header_reader() const {
-        return
-            [this](std::span<const std::string> names) { return match_taxels(*taxels_, names, "the header of " + input_name(args_.in)); };
+        return [this](std::span<const std::string> names) {
+            return match_frame_columns(*taxels_, names, "the header of " + input_name(args_.in));
+        };
     }
 
     /// Makes the function that reads the names in a CSV header. Either all names are sites, or none is. The function returns the site of
@@ -131,16 +144,16 @@ class LiveRun {
         const auto clock = TRY(live_clock(args_));
         TRY(open_skin({}, clock));
         std::vector<std::uint32_t> sites;  // the site of each force of a frame; empty: all sites in order
-        if (taxels_) sites.resize(taxels_->taxels.size()), std::iota(sites.begin(), sites.end(), 0U);
+        if (taxels_) sites.resize(taxels_->taxels.size() * (taxels_->has_axes ? 3 : 1)), std::iota(sites.begin(), sites.end(), 0U);
         if (const auto& path = args_.recording.layout; !path.empty()) sites = TRY(read_site_map(path, skin_->innervation().plan.sites));
         layout_ = TRY(live_layout(args_, sites.empty() ? skin_->sites() : sites.size(), clock));
-        if (taxels_) layout_.site_noun = "taxel";
+        if (taxels_) layout_.site_noun = taxels_->has_axes ? "axis" : "taxel";
         auto bytes = TRY(open_live_input(args_, layout_));
         const auto in_frames = [&](double seconds) { return static_cast<std::int64_t>(std::min(seconds * clock.rate(), 2e9)); };
         frames_ = make_frame_source(std::move(bytes), layout_, in_frames(args_.hold), in_frames(args_.max_gap), args_.batch_frames,
                                     taxels_ ? taxel_header_reader() : header_reader(sites));
         const auto filters = TRY(live_filters(args_.recording, clock));
-        if (taxels_) return assign_taxels(std::move(sites), filters);
+        if (taxels_) return assign_taxels(std::move(sites), taxels_->has_axes, filters);
         if (sites.empty()) sites.resize(layout_.sites), std::iota(sites.begin(), sites.end(), 0U);
         frames_->assign_sites(std::move(sites), skin_->sites(), filters);
         return {};

@@ -5,7 +5,9 @@
 namespace corpuscle {
 namespace {
 
-std::string counted_noun(std::size_t n, std::string_view noun) { return fmt::format("{} {}{}", n, noun, n == 1 ? "" : "s"); }
+std::string counted_noun(std::size_t n, std::string_view noun) {
+    return fmt::format("{} {}{}", n, noun == "axis" && n != 1 ? "axe" : noun, n == 1 ? "" : "s");
+}
 
 /// The stamp and the number of values of a frame: "a sequence number and 4793 numbers".
 std::string contents_of(const FrameLayout& layout, std::size_t numbers) {

@@ -29,7 +29,7 @@ struct FrameLayout {
     bool absolute = false;         ///< the absolute value of each value is used
     /// Lowest and highest valid value, after `absolute`. Others are not valid readings.
     std::optional<std::pair<double, double>> range = {};
-    std::string_view site_noun = "site";  ///< in messages; "taxel" if the forces are those of taxels
+    std::string_view site_noun = "site";  ///< in messages; "taxel" or "axis" if the forces are those of taxels
     std::size_t stamp_bytes() const { return stamp == FrameStamp::none ? 0 : stamp == FrameStamp::sequence ? 4 : 8; }
     std::size_t value_bytes() const { return kind == FrameKind::i16 ? 2 : kind == FrameKind::f32 ? 4 : 8; }
     std::size_t bytes() const { return stamp_bytes() + sites * value_bytes(); }  ///< size of a binary frame

@@ -124,6 +124,7 @@ class RecordedFrames final : public FrameSource {
     std::int64_t begun_ = -1;                // steady_now() of the first frame, ns; -1: not read yet
     std::int64_t count_ = 0, in_batch_ = 0;  // frames passed on: in total, and since the last call of receive()
     bool paced_;                             // true: each frame comes at its time
+    bool with_shear_;                        // true: a frame has three forces for each channel
 
     /// The steady_now() at which a frame comes, counted from 0.
     std::int64_t due_of(std::int64_t frame) const {
@@ -135,8 +136,8 @@ class RecordedFrames final : public FrameSource {
     }
 
 public:
-    RecordedFrames(std::unique_ptr<ForceSource> source, bool paced)
-        : source_(std::move(source)), frames_(source_->channels().size(), block), paced_(paced) {}
+    RecordedFrames(std::unique_ptr<ForceSource> source, bool paced, bool with_shear)
+        : source_(std::move(source)), frames_(source_->channels().size(), block, with_shear), paced_(paced), with_shear_(with_shear) {}
 
     std::string description() const override { return source_->description(); }
     std::int64_t due_time() const override { return begun_ < 0 || !paced_ ? 0 : due_of(count_); }
@@ -155,7 +156,12 @@ public:
 
     Next read_frame(std::span<double> force) override {
         if (at_ == frames_.count || in_batch_ == max_batch || (paced_ && steady_now() < due_of(count_))) return Next::nothing;
-        for (std::size_t s = 0; s < force.size(); ++s) force[s] = frames_.force[s][at_];
+        for (std::size_t c = 0; c < frames_.force.size(); ++c)
+            if (with_shear_)
+                force[3 * c] = frames_.shear_x[c][at_], force[3 * c + 1] = frames_.shear_y[c][at_],
+                          force[3 * c + 2] = frames_.force[c][at_];
+            else
+                force[c] = frames_.force[c][at_];
         ++at_, ++count_, ++in_batch_;
         return Next::frame;
     }
@@ -172,9 +178,11 @@ void FrameSource::assign_sites(std::vector<std::uint32_t> sites, std::size_t all
     if (!filters.empty()) filters_.assign(sites_.size(), filters);
 }
 
-void FrameSource::assign_taxels(TaxelMap map, std::vector<std::uint32_t> taxels, const ChannelFilters& filters) {
-    sites_ = std::move(taxels), map_ = std::move(map);
-    frame_.resize(sites_.size()), taxel_force_.resize(map_.taxel_count);
+void FrameSource::assign_taxels(TaxelFrames taxels, std::vector<std::uint32_t> columns, std::size_t all_sites,
+                                const ChannelFilters& filters) {
+    sites_ = std::move(columns), taxels_ = std::move(taxels);
+    frame_.resize(sites_.size()), taxel_force_.resize(taxels_.frame_size());
+    if (taxels_.has_shear()) shear_x_.resize(all_sites), shear_y_.resize(all_sites);
     if (!filters.empty()) filters_.assign(sites_.size(), filters);
 }
 
@@ -188,7 +196,7 @@ double FrameSource::filtered(std::size_t k) {
 FrameSource::Next FrameSource::next(std::span<double> force) {
     is_released_ = false;
     if (sites_.empty()) return read_frame(force);
-    const bool has_taxels = map_.taxel_count > 0;
+    const bool has_taxels = taxels_.frame_size() > 0;
     // Without filters, the last frame is taken from `force`. So a resumed stream, whose `force` is set by the caller, repeats the right
     // values.
     for (std::size_t k = 0; filters_.empty() && !has_taxels && k < sites_.size(); ++k) frame_[k] = force[sites_[k]];
@@ -196,7 +204,7 @@ FrameSource::Next FrameSource::next(std::span<double> force) {
     if (next == Next::nothing) return next;
     const auto out = has_taxels ? std::span(taxel_force_) : force;
     for (std::size_t k = 0; k < sites_.size(); ++k) out[sites_[k]] = filtered(k);
-    if (has_taxels) map_.spread(taxel_force_.data(), force.data());
+    if (has_taxels) taxels_.spread(taxel_force_.data(), force.data(), shear_x_.data(), shear_y_.data());
     return next;
 }
 
@@ -205,8 +213,8 @@ std::unique_ptr<FrameSource> make_frame_source(std::unique_ptr<ByteSource> sourc
     return std::make_unique<ByteFrames>(std::move(source), layout, hold, max_gap, batch_frames, std::move(read_header));
 }
 
-std::unique_ptr<FrameSource> make_frame_source(std::unique_ptr<ForceSource> source, bool real_time) {
-    return std::make_unique<RecordedFrames>(std::move(source), real_time);
+std::unique_ptr<FrameSource> make_frame_source(std::unique_ptr<ForceSource> source, bool real_time, bool with_shear) {
+    return std::make_unique<RecordedFrames>(std::move(source), real_time, with_shear);
 }
 
 }  // namespace corpuscle

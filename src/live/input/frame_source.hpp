@@ -5,7 +5,7 @@
 #include "io/quality/filters.hpp"
 #include "live/input/byte_source.hpp"
 #include "live/input/frame_layout.hpp"
-#include "skin/taxel/taxel_map.hpp"
+#include "skin/taxel/taxel_frames.hpp"
 
 namespace corpuscle {
 
@@ -46,11 +46,14 @@ public:
     /// filtered by `filters`, and assigned to site sites[k] of `all_sites`. The force at other sites is not changed. Frames
     /// that are inserted for missing ones are filtered, too.
     void assign_sites(std::vector<std::uint32_t> sites, std::size_t all_sites, const ChannelFilters& filters = {});
-    /// For frames of taxels: from now on, force k of a frame is filtered and is that of taxel taxels[k] of the map, which gives the force
-    /// at the sites.
-    void assign_taxels(TaxelMap, std::vector<std::uint32_t> taxels, const ChannelFilters& filters = {});
+    /// For frames of taxels: from now on, force k of a frame is filtered and is force columns[k] of a frame of `taxels`, which gives the
+    /// force at the `all_sites` sites.
+    void assign_taxels(TaxelFrames taxels, std::vector<std::uint32_t> columns, std::size_t all_sites, const ChannelFilters& filters = {});
+    /// The shear at all sites in the last frame along x and y, N; empty without three-axis taxels.
+    std::span<const double> shear_x() const { return shear_x_; }
+    std::span<const double> shear_y() const { return shear_y_; }
     /// The forces of the last frame, before filters, if taxels have been assigned; otherwise empty.
-    std::span<double> taxel_frame() { return map_.taxel_count > 0 ? std::span(frame_) : std::span<double>(); }
+    std::span<double> taxel_frame() { return taxels_.frame_size() > 0 ? std::span(frame_) : std::span<double>(); }
     virtual FrameCounts counts() const = 0;
     virtual std::string description() const = 0;
     /// True if frames arrive at their own pace. False: they can wait until a slow reader has accepted the spikes.
@@ -70,8 +73,9 @@ private:
     std::vector<std::uint32_t> sites_;     // the site or taxel of each force of a frame; empty: all sites in order, without filters
     std::vector<ChannelFilters> filters_;  // of each force; empty: none
     std::vector<double> frame_;            // the last frame before the filters, N; only if sites_ is not empty
-    TaxelMap map_;                         // without taxels: not used
-    std::vector<double> taxel_force_;      // of each taxel, N
+    TaxelFrames taxels_;                   // without taxels: default constructed
+    std::vector<double> taxel_force_;      // frame of taxels_, N
+    std::vector<double> shear_x_, shear_y_;
 };
 
 /// A source that decodes frames from bytes. `hold` and `max_gap` are numbers of frames (see FrameSequence), `batch_frames` is the number of
@@ -80,8 +84,9 @@ private:
 std::unique_ptr<FrameSource> make_frame_source(std::unique_ptr<ByteSource>, const FrameLayout&, std::int64_t hold, std::int64_t max_gap,
                                                std::size_t batch_frames = 1, HeaderReader = {});
 
-/// A source that reads a recording. `real_time` true: each sample becomes a frame at its time, counted from the first read; false: frames
+/// A source that reads a recording. If `with_shear`, a frame has three forces for each channel of a source with shear: shear along x, along
+/// y, normal force. `real_time` true: each sample becomes a frame at its time, counted from the first read; false: frames
 /// come as fast as they can be simulated.
-std::unique_ptr<FrameSource> make_frame_source(std::unique_ptr<ForceSource>, bool real_time);
+std::unique_ptr<FrameSource> make_frame_source(std::unique_ptr<ForceSource>, bool real_time, bool with_shear = false);
 
 }  // namespace corpuscle

@@ -2,12 +2,11 @@
 
 #include <fmt/format.h>
 #include <algorithm>
-#include <array>
 #include <numeric>
 
-#include "core/number/elementary.hpp"
 #include "skin/plan/sites.hpp"
 #include "skin/taxel/stuck_taxels.hpp"
+#include "skin/taxel/taxel_frames.hpp"
 
 namespace corpuscle {
 namespace {
@@ -81,71 +80,66 @@ public:
 
 class TaxelsForce final : public SkinForce {
     ForceSource& source_;
-    TaxelMap map_;
     StuckTaxels stuck_;
+    TaxelFrames taxels_;
     std::vector<std::uint32_t> channels_;  // the channel of each taxel
     Frames frames_;
-    std::vector<double> frame_;  // of the taxels at one sample, N
-    std::vector<double> force_;  // [site][step], N; 0 at sites without a taxel
+    std::vector<double> frame_;                      // of the taxels at one sample, N
+    std::vector<double> force_, shear_x_, shear_y_;  // [site][step], N; 0 at sites without a taxel; the last two are empty without shear
     std::vector<double> total_ = std::vector<double>(site_block);
     std::vector<std::uint32_t> touched_;  // sites with force in the block
-    // The following are empty if the source has no shear.
-    std::vector<std::array<double, 2>> rotation_;  // cosine and sine of the rotation of each taxel's patch
-    std::vector<double> frame_x_, frame_y_;        // shear of the taxels at one sample, along the axes of the skin, N
-    std::vector<double> shear_x_, shear_y_;        // [site][step], N
+
+    SiteForce site_force() const {
+        SiteForce out{force_.data(), site_block, touched_, false};
+        if (taxels_.has_shear()) out.shear_x = shear_x_.data(), out.shear_y = shear_y_.data();
+        return out;
+    }
 
     void find_touched() {
         touched_.clear();
-        for (const auto site : map_.sites) {
-            const auto has_force = [&](const std::vector<double>& component) {
-                const auto from = component.begin() + static_cast<std::ptrdiff_t>(component.empty() ? 0 : site * site_block);
-                return !component.empty() &&
-                       std::any_of(from, from + static_cast<std::ptrdiff_t>(frames_.count), [](double F) { return F != 0; });
-            };
-            if (has_force(force_) || has_force(shear_x_) || has_force(shear_y_)) touched_.push_back(site);
+        const auto all = site_force();
+        for (const auto site : taxels_.map().sites) {
+            bool is_touched = false;
+            all.for_each_component([&](const double* component) {
+                const double* force = component + site * site_block;
+                is_touched = is_touched || std::any_of(force, force + frames_.count, [](double F) { return F != 0; });
+            });
+            if (is_touched) touched_.push_back(site);
         }
     }
 
-    /// Turns the shear of sample t into the axes of the skin, and spreads it over the sites.
-    void spread_shear(std::size_t t) {
-        for (std::size_t k = 0; k < frame_x_.size(); ++k) {
-            const double x = frames_.shear_x[channels_[k]][t], y = frames_.shear_y[channels_[k]][t];
-            const auto [c, s] = rotation_[k];
-            frame_x_[k] = c * x - s * y, frame_y_[k] = s * x + c * y;
+    static double* shear_at(std::vector<double>& shear, std::size_t t) { return shear.empty() ? nullptr : shear.data() + t; }
+
+    void collect_frame(std::size_t t) {
+        for (std::size_t k = 0; k < channels_.size(); ++k) {
+            const auto c = channels_[k];
+            const double normal = frames_.force[c][t];
+            stuck_.add(k, normal);
+            if (taxels_.has_shear())
+                frame_[3 * k] = frames_.shear_x[c][t], frame_[3 * k + 1] = frames_.shear_y[c][t], frame_[3 * k + 2] = normal;
+            else
+                frame_[k] = normal;
         }
-        map_.spread(frame_x_.data(), shear_x_.data() + t, site_block);
-        map_.spread(frame_y_.data(), shear_y_.data() + t, site_block);
     }
 
 public:
     TaxelsForce(ForceSource& source, const TaxelLayout& layout, TaxelMap map, const std::vector<std::uint32_t>& taxels,
                 std::size_t all_sites)
-        : source_(source), map_(std::move(map)), stuck_(layout), channels_(taxels.size()),
-          frames_(taxels.size(), site_block, source.has_shear()), frame_(taxels.size()), force_(all_sites * site_block) {
+        : source_(source), stuck_(layout), taxels_(layout, std::move(map), source.has_shear()), channels_(taxels.size()),
+          frames_(taxels.size(), site_block, source.has_shear()), frame_(taxels_.frame_size()), force_(all_sites * site_block) {
         for (std::uint32_t c = 0; c < taxels.size(); ++c) channels_[taxels[c]] = c;
-        if (!source.has_shear()) return;
-        for (const auto& taxel : layout.taxels)
-            rotation_.push_back({num::cos_turns(taxel.pose.rotation), num::sin_turns(taxel.pose.rotation)});
-        frame_x_ = frame_y_ = frame_, shear_x_ = shear_y_ = force_;
+        if (source.has_shear()) shear_x_ = shear_y_ = force_;
     }
 
     Result<Block> next() override {
         frames_.count = 0;
         TRY(source_.read(frames_));
         for (std::size_t t = 0; t < frames_.count; ++t) {
-            total_[t] = 0;
-            for (std::size_t k = 0; k < frame_.size(); ++k) {
-                frame_[k] = frames_.force[channels_[k]][t];
-                total_[t] += map_.total[k] * frame_[k];
-                stuck_.add(k, frame_[k]);
-            }
-            map_.spread(frame_.data(), force_.data() + t, site_block);
-            if (!shear_x_.empty()) spread_shear(t);
+            collect_frame(t);
+            total_[t] = taxels_.spread(frame_.data(), force_.data() + t, shear_at(shear_x_, t), shear_at(shear_y_, t), site_block);
         }
         find_touched();
-        SiteForce force{force_.data(), site_block, touched_, false};
-        if (!shear_x_.empty()) force.shear_x = shear_x_.data(), force.shear_y = shear_y_.data();
-        return Block{force, {total_.data(), frames_.count}};
+        return Block{site_force(), {total_.data(), frames_.count}};
     }
     double progress() const override { return source_.progress(); }
     RecordingQuality quality() const override { return source_.quality(); }
@@ -163,6 +157,15 @@ std::unique_ptr<SkinForce> make_site_force(ForceSource& source, std::vector<std:
 std::unique_ptr<SkinForce> make_taxel_force(ForceSource& source, const TaxelLayout& layout, TaxelMap map,
                                             const std::vector<std::uint32_t>& taxels, std::size_t all_sites) {
     return std::make_unique<TaxelsForce>(source, layout, std::move(map), taxels, all_sites);
+}
+
+Result<void> check_shear(const TaxelLayout& layout, const ForceSource& source) {
+    if (!layout.has_axes || source.has_shear()) return {};
+    return bad_input(
+        fmt::format("the taxels have axes, but {} has one force for each; remove the columns x_axis, y_axis and z_axis, or use a "
+                    "recording with the columns {}.Fx, {}.Fy and {}.Fz",
+                    source.name(), layout.taxels[0].name, layout.taxels[0].name, layout.taxels[0].name),
+        {layout.file});
 }
 
 Result<std::vector<std::uint32_t>> match_sites(const SkinPlan& plan, const ForceSource& source) {

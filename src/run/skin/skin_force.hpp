@@ -35,6 +35,8 @@ std::unique_ptr<SkinForce> make_site_force(ForceSource&, std::vector<std::uint32
 /// The force at the sites from a recording of taxels. `map`: of this layout. `taxels`: the taxel of each channel.
 std::unique_ptr<SkinForce> make_taxel_force(ForceSource&, const TaxelLayout&, TaxelMap map, const std::vector<std::uint32_t>& taxels,
                                             std::size_t all_sites);
+/// Returns an error if the layout says how the axes of the taxels point, but the recording has no shear.
+Result<void> check_shear(const TaxelLayout&, const ForceSource&);
 /// The site of each channel of a recording: by name, or by order if there are as many channels as sites.
 Result<std::vector<std::uint32_t>> match_sites(const SkinPlan&, const ForceSource&);
 

@@ -78,4 +78,31 @@ Result<std::vector<std::uint32_t>> match_taxels(const TaxelLayout& layout, std::
     return in_order;
 }
 
+Result<std::vector<std::uint32_t>> match_frame_columns(const TaxelLayout& layout, std::span<const std::string> columns,
+                                                       const std::string& source) {
+    if (!layout.has_axes) return match_taxels(layout, columns, source);
+    std::vector<std::string> sensors;
+    std::vector<std::uint32_t> axes;  // of the columns: 0 is x, 1 is y, 2 is z
+    for (const auto& column : columns) {
+        const auto name = parse_axis_name(parse_heading(column).name);
+        if (!name || name->axis > ForceAxis::z) continue;
+        sensors.push_back(name->sensor), axes.push_back(static_cast<std::uint32_t>(name->axis));
+    }
+    std::vector<std::uint32_t> out(columns.size());
+    std::iota(out.begin(), out.end(), 0U);
+    if (sensors.empty()) return out;  // no names of axes: the order of the taxels
+    if (sensors.size() != columns.size())
+        return bad_input(
+            fmt::format("{} has columns that are not an axis of a taxel; name them t1.Fx, t1.Fy and t1.Fz for each taxel t1", source));
+    for (std::uint32_t axis = 0; axis < 3; ++axis) {
+        std::vector<std::string> along;  // the sensors with a column for this axis
+        std::vector<std::size_t> at;
+        for (std::size_t k = 0; k < columns.size(); ++k)
+            if (axes[k] == axis) along.push_back(sensors[k]), at.push_back(k);
+        const auto taxels = TRY(match_taxels(layout, along, source));
+        for (std::size_t k = 0; k < at.size(); ++k) out[at[k]] = 3 * taxels[k] + axis;
+    }
+    return out;
+}
+
 }  // namespace corpuscle

@@ -105,6 +105,14 @@ class TaxelReader {
                                patch);
     }
 
+    /// The axes of the shear, and the sign of the normal force.
+    Result<void> read_axes(Taxel& taxel) const {
+        const auto axes = parse_sensor_axes(table_.text(x_axis), table_.text(y_axis), table_.text(z_axis));
+        if (axes) return taxel.axes = *axes, Result<void>();
+        const auto column = table_.has(x_axis) ? x_axis : table_.has(y_axis) ? y_axis : z_axis;
+        return table_.error_at(fmt::format("taxel '{}': {}", taxel.name, axes.error().message), column);
+    }
+
     Result<Taxel> read_taxel() {
         Taxel taxel;
         TRY(read_name(taxel));
@@ -112,6 +120,7 @@ class TaxelReader {
         TRY(read_size(taxel));
         TRY(read_use(taxel));
         TRY(read_patch(taxel));
+        TRY(read_axes(taxel));
         taxel.location = table_.error_at("", x).location;
         return taxel;
     }
@@ -133,7 +142,7 @@ public:
 
     Result<TaxelLayout> read() {
         TRY(table_.read_header());
-        TaxelLayout out{table_.path(), {}};
+        TaxelLayout out{table_.path(), {}, table_.has(x_axis) || table_.has(y_axis) || table_.has(z_axis)};
         while (TRY(table_.next())) {
             if (out.taxels.size() == max_taxels) return table_.error_at(fmt::format("more than {} taxels", max_taxels));
             out.taxels.push_back(TRY(read_taxel()));

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 #include <algorithm>
+#include <map>
 
 #include "core/text/ascii_text.hpp"
 #include "skin/taxel/taxel_placement.hpp"

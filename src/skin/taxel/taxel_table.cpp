@@ -11,8 +11,9 @@
 namespace corpuscle {
 namespace {
 
-constexpr std::array<std::string_view, taxel_column_count> taxel_columns = {
-    "name", "channel", "x", "y", "area", "width", "height", "patch", "region", "patch_x", "patch_y", "rotation", "dead"};
+constexpr std::array<std::string_view, taxel_column_count> taxel_columns = {"name",   "channel", "x",      "y",       "area",    "width",
+                                                                            "height", "patch",   "region", "patch_x", "patch_y", "rotation",
+                                                                            "dead",   "x_axis",  "y_axis", "z_axis"};
 
 std::string_view taxel_column_name(TaxelColumn c) { return taxel_columns[static_cast<std::size_t>(c)]; }
 

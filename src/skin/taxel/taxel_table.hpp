@@ -7,8 +7,25 @@
 
 namespace corpuscle {
 
-enum class TaxelColumn { name, channel, x, y, area, width, height, patch, region, patch_x, patch_y, rotation, dead };
-inline constexpr std::size_t taxel_column_count = 13;
+enum class TaxelColumn {
+    name,
+    channel,
+    x,
+    y,
+    area,
+    width,
+    height,
+    patch,
+    region,
+    patch_x,
+    patch_y,
+    rotation,
+    dead,
+    x_axis,
+    y_axis,
+    z_axis
+};
+inline constexpr std::size_t taxel_column_count = 16;
 
 class TaxelTable {
     using enum TaxelColumn;
