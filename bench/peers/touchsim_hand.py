@@ -34,7 +34,8 @@ import time
 import warnings
 from pathlib import Path
 
-CLASSES = {"sa1": "SA1", "fa1": "RA", "fa2": "PC"}
+from touchsim_skin import CLASSES, read_afferents
+
 ONE_CORE = {f"{library}_NUM_THREADS": "1" for library in ("NUMBA", "OPENBLAS", "OMP", "MKL")}
 
 
@@ -56,21 +57,16 @@ def touchsim(folder, options):
     warnings.simplefilter("ignore")
     import numpy as np
     import touchsim as ts
+    from touchsim_pins import sphere_depth, sphere_pins
     p = {name: parameter["value"] for name, parameter in json.loads((folder / "summary.json").read_text())["input"]["parameters"].items()}
     R, E = 1e3 * p["contact.radius"], 1e-6 * p["contact.E_star"]  # mm, MPa
     t = np.arange(round(options.seconds * options.rate)) / options.rate  # s
-    depth = np.cbrt(9 * (p["ramp-hold.F_max"] * np.minimum(1, t / p["ramp-hold.t_up"])) ** 2 / (16 * R * E**2))
+    depth = sphere_depth(p["ramp-hold.F_max"] * np.minimum(1, t / p["ramp-hold.t_up"]), R, E)
     start, end = (1e3 * np.array([p["contact.x" + n], p["contact.y" + n]]) for n in ("", "1"))
     path = start + np.outer(t / p["contact.t_move"], end - start)
-    low, high = ((path.min(0), path.max(0)) + np.sqrt(2 * R * depth.max()) * np.array([[-1], [1]])) // options.pitch
-    lattice = np.meshgrid(np.arange(low[0], high[0] + 1), np.arange(low[1], high[1] + 1))
-    pins = options.pitch * (np.stack(lattice, -1).reshape(-1, 2) + 0.5)
-    indentation = np.maximum(0, depth - ((pins[:, None] - path) ** 2).sum(-1) / (2 * R))
-    pins, indentation = pins[indentation.any(1)], indentation[indentation.any(1)]
+    pins, indentation = sphere_pins(depth, path, R, options.pitch)
     random.seed(0)  # TouchSim chooses each afferent at random from its few fitted ones
-    rows = csv.DictReader((folder / "afferents.csv").open())
-    afferents = [(row["afferent"].split("#")[0], float(row["x_mm"]), float(row["y_mm"])) for row in rows]
-    skin = ts.AfferentPopulation(*[ts.Afferent(CLASSES[c], location=[x, y], noisy=options.noise) for c, x, y in afferents if c in CLASSES])
+    skin = ts.AfferentPopulation(*[ts.Afferent(c, location=[x, y], noisy=options.noise) for _, c, x, y, _ in read_afferents(folder)])
 
     def respond(skin, samples):
         stroke = ts.Stimulus(trace=indentation[:, :samples], location=pins, fs=options.rate, pin_radius=options.pitch / 2)
@@ -84,7 +80,7 @@ def touchsim(folder, options):
     kernel, user = after.ru_stime - before.ru_stime, after.ru_utime - before.ru_utime
     far = np.hypot(*(skin.location[:, None] - path[::20]).T).min(0)  # distance of each afferent from the path, mm
     fired_by_class = []
-    for c in CLASSES.values():
+    for c in dict.fromkeys(CLASSES.values()):
         fired = [(len(train), d) for a, train, d in zip(skin.affclass, trains, far) if a == c and len(train)]
         spikes, off = sum(k for k, _ in fired), np.median([d for _, d in fired] or [0])
         fired_by_class.append(f"{c} {spikes} spikes of {len(fired)} afferents, half of these within {off:.0f} mm")
