@@ -43,11 +43,6 @@ struct CompareArguments {
     CompareOptions options;
 };
 
-/// A quantity above 0.
-OptionReader above_zero_reader(double& to, std::string_view unit) {
-    return refuse_if([&to] { return !(to > 0); }, "must be greater than 0", quantity_reader(to, unit));
-}
-
 OptionReader cost_reader(double& to) {
     return refuse_if([&to] { return !(to >= 0); }, "must be 0 or more", quantity_reader(to, "Hz"));
 }

@@ -11,6 +11,7 @@
     VERB(run)                 \
     VERB(export)              \
     VERB(sweep)               \
+    VERB(fit)                 \
     VERB(stream)              \
     VERB(list)
 
@@ -25,6 +26,8 @@ Verb make_sweep_merge_verb();
 Verb make_sweep_dump_verb();
 Verb make_sweep_show_verb();
 Verb make_sweep_calibrate_verb();
+// The verb that may follow "fit".
+Verb make_fit_afferent_verb();
 
 /// Makes all verbs of the program.
 inline std::vector<Verb> make_verbs() {

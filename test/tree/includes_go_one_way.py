@@ -19,9 +19,10 @@ MAY_INCLUDE = {
     "live": BASE | {"model", "io", "skin"},
     "run": BASE | {"model", "circuit", "measure", "io", "skin", "live"},
     "sweep": BASE | {"model", "circuit", "measure", "io", "skin", "live", "run"},
+    "fit": BASE | {"model", "circuit", "measure", "io", "skin", "live", "run"},
     "report": BASE | {"model", "circuit", "measure", "io", "skin", "live", "run", "sweep"},
     "readers": BASE | {"io"},
-    "cli": BASE | {"model", "circuit", "measure", "io", "skin", "live", "run", "sweep", "report"},
+    "cli": BASE | {"model", "circuit", "measure", "io", "skin", "live", "run", "sweep", "fit", "report"},
     "reproduction": BASE | {"model", "circuit", "measure", "io", "skin", "live", "run", "report", "cli"},
 }
 MAX_FILES = 25

@@ -86,6 +86,10 @@ OptionReader quantity_reader(T& to, std::string_view unit) {
 }
 /// A reader that refuses a text after reading it if `is_invalid()`: "TEXT: MESSAGE".
 OptionReader refuse_if(std::function<bool()> is_invalid, std::string_view message, OptionReader);
+/// A quantity above 0.
+inline OptionReader above_zero_reader(double& to, std::string_view unit) {
+    return refuse_if([&to] { return !(to > 0); }, "must be greater than 0", quantity_reader(to, unit));
+}
 /// Reads texts into a list. `read` turns a text into an element of the list or an error.
 template <class T, class Read>
 OptionReader list_reader(std::vector<T>& to, Read read) {

@@ -1,0 +1,95 @@
+// The result of a fit as JSON, and its values as texts that the program reads again.
+
+#include <fmt/format.h>
+#include <cmath>
+#include <nlohmann/json.hpp>
+
+#include "fit/afferent_fit.hpp"
+
+namespace corpuscle {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+/// NaN and infinity have no form in JSON.
+Json number(double x) { return std::isfinite(x) ? Json(x) : Json(nullptr); }
+template <class T>
+Json optional(const std::optional<T>& x) {
+    return x ? Json(*x) : Json(nullptr);
+}
+
+Json document_of(const FittedParameter& p) {
+    return {{"name", p.parameter.name},        {"unit", p.parameter.unit},
+            {"start", p.parameter.start},      {"value", p.value},
+            {"low", optional(p.low)},          {"high", optional(p.high)},
+            {"identified", p.low.has_value()}, {"bounds", {p.parameter.low, p.parameter.high}},
+            {"at_bound", p.is_at_bound}};
+}
+
+Json document_of(const ParameterTrade& t) {
+    Json change = Json::object();
+    for (const auto& [name, factor] : t.factors) change[name] = factor;
+    return {{"change", change}, {"score_change", number(t.score_change)}};
+}
+
+Json document_of(const FitRow& r) {
+    return {{"data", r.data},
+            {"measure", r.measure},
+            {"unit", r.unit},
+            {"target", number(r.target)},
+            {"low", optional(r.low)},
+            {"high", optional(r.high)},
+            {"got", number(r.got)},
+            {"within", optional(r.is_within())},
+            {"set", r.is_test ? "test" : "train"},
+            {"source", r.source}};
+}
+
+template <class T>
+Json list_of(const std::vector<T>& all) {
+    Json out = Json::array();
+    for (const auto& x : all) out.push_back(document_of(x));
+    return out;
+}
+
+}  // namespace
+
+Json document_of(const FitResult& result, const std::string& score_meaning) {
+    return {{"afferent", result.plan.name},
+            {"parameters", list_of(result.parameters)},
+            {"trades", list_of(result.trades)},
+            {"score",
+             {{"start", number(result.start_score)},
+              {"train", number(result.score)},
+              {"test", optional(result.test_score)},
+              {"meaning", score_meaning}}},
+            {"rows", list_of(result.rows)},
+            {"search",
+             {{"evaluations", result.evaluations},
+              {"starts", result.starts},
+              {"agreeing_starts", result.agreeing_starts},
+              {"interrupted", result.is_interrupted}}},
+            {"warnings", result.warnings}};
+}
+
+std::string settings_file(const FitResult& result, const std::string& command) {
+    std::string out = fmt::format(
+        "# Written by '{}'.\n# This is a sweep file; [set] also fits into a [[class]] of a population file.\n\n"
+        "afferent = \"{}\"\n\n[set]\n",
+        command, result.plan.name);
+    for (const auto& p : result.parameters) {
+        const auto interval = p.low ? fmt::format("{:.4g} to {:.4g}", *p.low, *p.high) : std::string("not identified");
+        out += fmt::format("{} = {:.6g}  # {}{}{}\n", p.parameter.name, p.value, p.parameter.unit, p.parameter.unit.empty() ? "" : ", ",
+                           interval);
+    }
+    return out;
+}
+
+std::string settings_options(const FitResult& result) {
+    std::string out;
+    for (const auto& p : result.parameters)
+        out += fmt::format("{}--set {}.{}={:.6g}", out.empty() ? "" : " ", result.plan.name, p.parameter.name, p.value);
+    return out;
+}
+
+}  // namespace corpuscle
