@@ -120,13 +120,14 @@ TEST(Targets, KnownParametersAreRecoveredFromRates) {
     auto rows = numbers_of(folder, truth,
                            {{"ramp-hold", "F_max=2N", "peak_rate@protraction"},
                             {"ramp-hold", "F_max=2N; t_up=20ms", "peak_rate"},
-                            {"ramp-hold", "F_max=2N", "mean_rate@plateau"},
-                            {"ramp-hold", "F_max=4N", "mean_rate@plateau"},
                             {"ramp-hold", "F_max=4N; t_up=50ms", "peak_rate"},
-                            {"ramp-hold", "F_max=2N; t_up=200ms", "peak_rate@protraction"},
-                            {"ramp-hold", "F_max=3N; t_up=50ms", "peak_rate"}});
+                            {"ramp-hold", "F_max=3N; t_up=300ms", "mean_rate@protraction"},
+                            {"ramp-hold", "F_max=2N", "mean_rate@plateau"},
+                            {"ramp-hold", "t_hold=0.3s", "least_force"},
+                            {"sine", "f=10Hz; F_amp=0.8N", "mean_rate@0.5s..1s"},
+                            {"ramp-hold", "F_max=4N", "mean_rate@plateau"}});
     rows.back().is_test = true;
-    const auto problem = value_or_throw(make_target_problem(rows, {.rate = 2e3}));
+    const auto problem = value_or_throw(make_target_problem(rows, {}));
     const auto start = plan_of("sa1");
     const auto parameters = value_or_throw(free_parameters(start, std::vector<std::string>{"k_A", "K_B", "f_B"}, {}));
     ThreadPool pool(2);
