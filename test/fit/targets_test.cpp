@@ -103,13 +103,13 @@ TEST(Targets, MeasuresOfPhasesAndWindowsAreThoseOfTheTrain) {
 
 constexpr const char* row_format = "{},{},{},{:.6g},{:.6g},{:.6g},\n";
 
-/// A table with the numbers of an afferent, each with a range of 5 %.
+/// A table with the numbers of an afferent, each with a range of 2 %.
 std::vector<TargetRow> numbers_of(const TemporaryFolder& folder, const AfferentPlan& plan,
                                   const std::vector<std::array<std::string, 3>>& what) {
     std::string rows;
     for (const auto& [stimulus, settings, measure] : what) {
         const double value = measured(folder, plan, stimulus, settings, measure);
-        rows += fmt::format(fmt::runtime(row_format), stimulus, settings, measure, value, 0.95 * value, 1.05 * value);
+        rows += fmt::format(fmt::runtime(row_format), stimulus, settings, measure, value, 0.98 * value, 1.02 * value);
     }
     return targets(folder, rows);
 }
