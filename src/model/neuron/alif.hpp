@@ -56,6 +56,18 @@ struct Alif : AlifTraits {
     }
     void record(const State& s, T (&out)[2]) const { out[0] = s.u, out[1] = (V_th + s.a) * s.random.factor; }
 
+    /// Computes `next`, the state after a step in which nothing happens: no spike and no refractory time. Returns the lanes in which one of
+    /// these is possible, for which `next` is not valid. `check_refractory`: false if no lane can be refractory.
+    template <bool check_refractory, class I>
+    [[gnu::always_inline]] num::Mask<T> try_quiet_step(const State& s, const I& current, State& next) const {
+        const Current<T> i = current;
+        next = {after(s.u, i.from, i.to - i.from, T(1.0), decay, mean), s.a * threshold_decay, s.ref_steps, s.random};
+        num::Mask<T> events = is_above_threshold(next);
+        if (check_refractory) events = events | (s.ref_steps > T(0.0));
+        return events;
+    }
+    bool may_be_refractory() const { return num::any(ref > T(0.0)); }  ///< true if t_ref is above 0 on a lane
+
     /// Simulates one step under current i. For each spike calls fired(mask, offset): the lanes that fire, and the offset of the spike
     /// within the step. Returns the lanes that reached the limit of spikes in the step. Times within the step are 0 at its beginning and 1
     /// at its end. Time x is the end of the refractory time or the last spike; u and a are the values at x, s.u and s.a those at the end of
@@ -71,7 +83,7 @@ struct Alif : AlifTraits {
             s.u = num::select(was_refractory, after(u, i.from + g * x, g, T(1.0) - x), s.u);
             a = num::select(was_refractory, a * num::exp(-fall * x), a);
         }
-        auto over = s.u > (V_th + s.a) * s.random.factor;
+        auto over = is_above_threshold(s);
         for (int pass = 0; num::any(over) && pass < max_spikes_per_step; ++pass) {
             const T at = i.from + g * x;  // current at time x
             // The potential above the threshold at time x + h, and its slope.
@@ -93,7 +105,7 @@ struct Alif : AlifTraits {
             u = num::select(over, V_reset, u);
             x = num::select(over, from, x);
             s.u = num::select(over, after(u, i.from + g * x, g, T(1.0) - x), s.u);
-            over = over & (s.u > (V_th + s.a) * s.random.factor) & (x < T(1.0));
+            over = over & is_above_threshold(s) & (x < T(1.0));
         }
         return over;
     }
@@ -102,6 +114,8 @@ private:
     // ref = t_ref / dt; dt_by_tau = dt / (R_m C_m); decay = exp(-dt_by_tau) and mean = exprel(-dt_by_tau), for a whole step;
     // fall = dt / tau_th; threshold_decay = exp(-fall)
     T R_m, E_L, V_th, V_reset, dV_th, ref, jitter, dt_by_tau, decay, mean, fall, threshold_decay;
+
+    num::Mask<T> is_above_threshold(const State& s) const { return s.u > (V_th + s.a) * s.random.factor; }
 
     /// The potential after a fraction h of a step, from potential u, under a current that begins at i and changes by g per whole step.
     /// The arguments e and m must be exp(-dt_by_tau h) and exprel(-dt_by_tau h). Here exprel(x) = (exp(x) - 1) / x.

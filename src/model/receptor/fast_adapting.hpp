@@ -44,7 +44,7 @@ struct FastAdapting : FastAdaptingTraits {
     template <class Values>
     FastAdapting(const Values& value, double dt, Method method)
         : k_A(value("k_A")), k_B(value("k_B")), high(value("f_hp"), dt, method), low{HighPass<T>(value("f_lp"), dt, method)},
-          compression{value("I_0"), T(1.0) / value("F_0")}, first_order_hold(method == Method::exact) {}
+          compression(value("I_0"), value("F_0")), first_order_hold(method == Method::exact) {}
 
     State start(T F) const { return {F, T(0.0), T(0.0), TwoLowPasses<T>::start(T(0.0)), T(0.0)}; }
     void step(State& s, T F, Current<T> (&i)[outputs]) const {

@@ -34,11 +34,19 @@ struct TwoLowPasses {
 /// Compression of a filtered force y (N) to a current: I = I_0 asinh(y / F_0). It is linear well below F_0 and logarithmic well above, as a
 /// pair of transistors gives it. Negative y is cut off.
 template <class T>
-struct Compression {
-    T I_0, per_newton;  // A; 1 / F_0, 1/N
+class Compression {
+    static constexpr double series_limit = 0.01;  // the rest of the series is below 4e-18 of x
+    T I_0, per_newton;                            // A; 1 / F_0, 1/N
+
+public:
+    Compression(T I_0, T F_0) : I_0(I_0), per_newton(T(1.0) / F_0) {}
     T operator()(T y) const {
-        const T x = num::positive_part(y) * per_newton;
-        return I_0 * num::log(x + num::sqrt(x * x + T(1.0)));
+        const T x = num::positive_part(y) * per_newton, square = x * x;
+        // The Taylor series. Most afferents of a skin are far below F_0 at most times; if all lanes are, the logarithm is not computed.
+        const T series = x + x * square * (T(-1.0 / 6) + square * (T(3.0 / 40) + square * T(-15.0 / 336)));
+        const auto is_large = x > T(series_limit);
+        if (!num::any(is_large)) return I_0 * series;
+        return I_0 * num::select(is_large, num::log(x + num::sqrt(square + T(1.0))), series);
     }
 };
 

@@ -55,7 +55,7 @@ struct SlowlyAdapting : SlowlyAdaptingTraits {
         : k_A(value("k_A")), k_B(value("k_B")), g_1(value("g_1")), g_2(value("g_2")), g_3(value("g_3")), lasting(T(1.0) - g_1 - g_2 - g_3),
           high(value("f_hp"), dt, method), adapt_1(cutoff(value("tau_1")), dt, method), adapt_2(cutoff(value("tau_2")), dt, method),
           adapt_3(cutoff(value("tau_3")), dt, method), low{HighPass<T>(value("f_lp"), dt, method)},
-          compression{value("I_0"), T(1.0) / value("F_0")}, first_order_hold(method == Method::exact) {}
+          compression(value("I_0"), value("F_0")), first_order_hold(method == Method::exact) {}
 
     /// The state of a force that was always F.
     State start(T F) const {
