@@ -96,7 +96,7 @@ template <class S, class V, std::size_t stored = value_count<S, V>>
     } else if constexpr (values == 5) {
         const auto& [a, b, c, d, e] = s;
         put(a, b, c, d, e);
-    } else {  // so many values do not fit the registers
+    } else {  // a state this large does not fit the registers
         struct All {
             Batch<V> value[values];
         };
