@@ -75,6 +75,7 @@ def sines():
 
 
 def gratings():
+    """Without the vibration that Corpuscle adds to a sliding grating: TouchSim's pins have none."""
     radius, load, speed, hold = 4, 0.3, 40, 0.6  # mm, N, mm/s, s
     for period in (1, 2, 4):
         t, shape = ramp_hold(0.1, 0.05, hold, 0.05, 0.1)
@@ -83,8 +84,8 @@ def gratings():
             return *grating_pins(CENTRE, radius, period, period / 2, shift, force, PITCH / 2), PITCH / 4
 
         yield Stimulus(f"grating {period} mm, {speed} mm/s", "grating", load * shape,
-                       contact_options("grating", radius, period=f"{period}mm", ridge=f"{period / 2}mm", speed=f"{speed}mm/s"), pins,
-                       radius, {"onset": (0.1, 0.17), "steady": (0.25, 0.15 + hold)})
+                       contact_options("grating", radius, period=f"{period}mm", ridge=f"{period / 2}mm", speed=f"{speed}mm/s", vibration=0),
+                       pins, radius, {"onset": (0.1, 0.17), "steady": (0.25, 0.15 + hold)})
 
 
 def strokes():
