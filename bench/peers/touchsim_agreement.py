@@ -34,11 +34,18 @@ def of_rates(rows, part):
             "mean_Hz_ours": mean(ours), "mean_Hz_theirs": mean(theirs)}
 
 
+def without_worst(rows, part):
+    """The stimulus without which the correlation is greatest, and that correlation."""
+    found = [(of_rates(rows[:k] + rows[k + 1:], part)["pearson"], row["stimulus"]) for k, row in enumerate(rows)]
+    return max((pair for pair in found if pair[0] is not None), default=(None, None))
+
+
 def of_class(rows):
     groups = dict.fromkeys(row["group"] for row in rows)
     out = {part: of_rates(rows, part) for part in PARTS}
     for part in PARTS:
         out[part]["pearson_without"] = {g: of_rates([row for row in rows if row["group"] != g], part)["pearson"] for g in groups}
+        out[part]["pearson_without_worst"], out[part]["worst"] = without_worst(rows, part)
     out["totals"] = {"ours": sum(row["total_ours"] for row in rows), "theirs": sum(row["total_theirs"] for row in rows),
                      "ratio": ratio(rows, "total")}
     out["totals_by_group"] = {g: ratio([row for row in rows if row["group"] == g], "total") for g in groups}
@@ -91,13 +98,14 @@ def number(value, low=None, high=None):
 
 
 def print_correlations(classes, groups):
-    print("\nmean rates over the set, and correlations over it: of all stimuli, then Pearson's without one group of them")
+    print("\nmean rates over the set, and correlations over it: of all stimuli, then Pearson's without one group, and without one stimulus")
     print(f"{'class':<7}{'part':<7}{'ours Hz':>8}{'TouchSim':>9}{'Pearson':>9}{'Spearman':>9}" + "".join(f"{'- ' + g:>11}" for g in groups))
     for c, found in classes.items():
         for part in PARTS:
             r = found[part]
             print(f"{c:<7}{part:<7}{r['mean_Hz_ours']:>8.1f}{r['mean_Hz_theirs']:>9.1f}{number(r['pearson'], 0.8):>9}"
-                  f"{number(r['spearman'], 0.8):>9}" + "".join(f"{number(r['pearson_without'][g], 0.8):>11}" for g in groups))
+                  f"{number(r['spearman'], 0.8):>9}" + "".join(f"{number(r['pearson_without'][g], 0.8):>11}" for g in groups)
+                  + f"{number(r['pearson_without_worst'], 0.8):>8} {r['worst']}")
 
 
 def print_totals(classes, groups):
