@@ -65,13 +65,26 @@ const M& model(const std::byte* models, std::size_t stride, int vector) {
 template <class S, class V>
 inline constexpr std::size_t value_count = sizeof(S) / sizeof(Batch<V>);
 
+/// All state values of a vector, for states too large for the registers.
+template <class S, class V>
+struct AllValues {
+    Batch<V> value[value_count<S, V>];
+};
+
 /// Loads the first `stored` values of the state of a vector from its tile, at whose afferent `first` the vector begins; the others are 0.
 /// The state is returned by value: a loop variable whose address is never taken can stay in registers.
 template <class S, class V, std::size_t stored = value_count<S, V>>
 [[gnu::always_inline]] inline S read(const V* state, int first) {
-    return [&]<std::size_t... k>(std::index_sequence<k...>) __attribute__((always_inline)) {
-        return S{(k < stored ? load(state + k * tile_size + first) : Batch<V>(V(0)))...};
-    }(std::make_index_sequence<value_count<S, V>>{});
+    if constexpr (value_count<S, V> > 5) {
+        AllValues<S, V> all;
+        for (std::size_t k = 0; k < value_count<S, V>; ++k)
+            all.value[k] = k < stored ? load(state + k * tile_size + first) : Batch<V>(V(0));
+        return __builtin_bit_cast(S, all);
+    } else {
+        return [&]<std::size_t... k>(std::index_sequence<k...>) __attribute__((always_inline)) {
+            return S{(k < stored ? load(state + k * tile_size + first) : Batch<V>(V(0)))...};
+        }(std::make_index_sequence<value_count<S, V>>{});
+    }
 }
 /// Stores the first `stored` values of the state of a vector in its tile.
 template <class S, class V, std::size_t stored = value_count<S, V>>
@@ -96,11 +109,8 @@ template <class S, class V, std::size_t stored = value_count<S, V>>
     } else if constexpr (values == 5) {
         const auto& [a, b, c, d, e] = s;
         put(a, b, c, d, e);
-    } else {  // a state this large does not fit the registers
-        struct All {
-            Batch<V> value[values];
-        };
-        const auto all = __builtin_bit_cast(All, s);
+    } else {
+        const auto all = __builtin_bit_cast(AllValues<S, V>, s);
         for (std::size_t k = 0; k < stored; ++k) all.value[k].store_aligned(state + k * tile_size + first);
     }
 }
