@@ -95,7 +95,8 @@ Eigensystem symmetric_eigensystem(std::vector<double> a, std::size_t n) {
     }
     std::vector<std::size_t> order(n);
     std::iota(order.begin(), order.end(), std::size_t{0});
-    std::stable_sort(order.begin(), order.end(), [&](std::size_t i, std::size_t j) { return a[i * n + i] < a[j * n + j]; });
+    std::sort(order.begin(), order.end(),
+              [&](std::size_t i, std::size_t j) { return std::pair(a[i * n + i], i) < std::pair(a[j * n + j], j); });
     Eigensystem out;
     for (const auto i : order) {
         out.values.push_back(a[i * n + i]);

@@ -113,7 +113,8 @@ std::vector<Point> random_points(std::span<const double> start, const SearchOpti
 std::vector<Point> best_points(std::vector<Point> points, std::span<const double> costs, std::size_t count) {
     std::vector<std::size_t> order(points.size());
     std::iota(order.begin(), order.end(), std::size_t{0});
-    std::stable_sort(order.begin() + 1, order.end(), [&](std::size_t a, std::size_t b) { return costs[a] < costs[b]; });
+    std::sort(order.begin() + 1, order.end(),
+              [&](std::size_t a, std::size_t b) { return std::pair(costs[a], a) < std::pair(costs[b], b); });
     std::vector<Point> out;
     for (std::size_t k = 0; k < std::min(count, order.size()); ++k) out.push_back(std::move(points[order[k]]));
     return out;
