@@ -86,7 +86,7 @@ def print_rates(rows, forces):
             text += f"{row[part + '_Hz_ours']:>8.1f}{row[part + '_Hz_theirs']:>7.1f}"
             text += f"{row[part + '_spikes_per_unit_ours']:>7.2f}{row[part + '_spikes_per_unit_theirs']:>6.2f}"
         force = forces[row["stimulus"]]
-        print(f"{text}{row['total_ours']:>9}{row['total_theirs']:>7}"
+        print(f"{text}{row['total_ours']:>9.0f}{row['total_theirs']:>7.0f}"
               + (f"   {force['ours_N']:.3g} N, TouchSim's {force['theirs_N']:.3g} N" if first else ""))
 
 
@@ -105,7 +105,7 @@ def print_correlations(classes, groups):
             r = found[part]
             print(f"{c:<7}{part:<7}{r['mean_Hz_ours']:>8.1f}{r['mean_Hz_theirs']:>9.1f}{number(r['pearson'], 0.8):>9}"
                   f"{number(r['spearman'], 0.8):>9}" + "".join(f"{number(r['pearson_without'][g], 0.8):>11}" for g in groups)
-                  + f"{number(r['pearson_without_worst'], 0.8):>8} {r['worst']}")
+                  + f"{number(r['pearson_without_worst'], 0.8):>8} {r['worst'] or ''}".rstrip())
 
 
 def print_totals(classes, groups):
@@ -113,7 +113,7 @@ def print_totals(classes, groups):
     print(f"{'class':<7}{'ours':>8}{'TouchSim':>9}{'ratio':>9}" + "".join(f"{g:>11}" for g in groups))
     for c, found in classes.items():
         t = found["totals"]
-        print(f"{c:<7}{t['ours']:>8}{t['theirs']:>9}{number(t['ratio'], 0.5, 2):>9}"
+        print(f"{c:<7}{t['ours']:>8.0f}{t['theirs']:>9.0f}{number(t['ratio'], 0.5, 2):>9}"
               + "".join(f"{number(found['totals_by_group'][g], 0.5, 2):>11}" for g in groups))
 
 

@@ -8,9 +8,10 @@ and its force over time, sampled at 5 kHz. Corpuscle takes the force. TouchSim t
 TouchSim's own stiffness (touchsim_pins.py). Spikes are counted without conduction delay. TouchSim's noise is off unless --noise is given.
 
 The stimuli are in touchsim_stimuli.py: ramps and sines of a probe with a radius of 0.5 mm, presses and strokes with a sphere, and gratings
-that move under a patch of 4 mm. A rate is the mean over the touched afferents: SA-I and FA-I within 1.5 mm of the contact, and all FA-II of
-the fingertip. The onset part is the ramp and 20 ms (of a sine, its first 100 ms). The steady part is the end of the hold (of a sine, from 100
-ms on; of a stroke, the movement). Totals are spikes of all afferents over all time.
+that move under a patch of 4 mm. The probe touches four places in turn, which count as one stimulus. A rate is the mean over the touched
+afferents: SA-I and FA-I within 1.5 mm of the contact, and all FA-II of the fingertip. The onset part is the ramp and 20 ms (of a sine, its
+first 100 ms). The steady part is the end of the hold (of a sine, from 100 ms on; of a stroke, the movement). Totals are spikes of all
+afferents over all time, for one place.
 
 The output has rates and totals of each stimulus. For each class it has the correlation of rates over the set (Pearson's of rates, Spearman's
 of their ranks) and the ratio of totals, and last the rank order of the classes that fire. An asterisk marks what misses the aims: a
@@ -27,7 +28,7 @@ import numpy as np
 from touchsim_agreement import agreement, print_agreement, print_rates
 from touchsim_skin import CLASSES as OURS
 from touchsim_skin import corpuscle_trains, read_afferents, run_corpuscle, touchsim_population, touchsim_trains
-from touchsim_stimuli import CENTRE, RATE, all_stimuli
+from touchsim_stimuli import RATE, all_stimuli
 
 CLASSES = ("SA1", "RA", "PC")
 MARGIN = 1.5  # mm around the contact
@@ -41,25 +42,38 @@ def touched_units(afferents, stimulus):
             for c in CLASSES}
 
 
-def count(trains, units, window):
-    return sum(sum(window[0] <= t < window[1] for t in trains[k]) for k in units)
-
-
-def compare(stimulus, afferents, ours, theirs):
-    """Rows of one stimulus, one for each class."""
+def counts(stimulus, afferents, ours, theirs):
+    """Spike counts of one stimulus, a row for each class."""
     touched = touched_units(afferents, stimulus)
     for c in CLASSES:
         if not touched[c]:
             sys.exit(f"{stimulus.name}: the population has no {c} near the contact; use a skin with afferents of the classes "
-                     f"{', '.join(OURS)} around x = {CENTRE[0]:g} mm, y = {CENTRE[1]:g} mm, such as fingertip")
-        row = {"stimulus": stimulus.name, "group": stimulus.group, "class": c, "touched": len(touched[c])}
+                     f"{', '.join(OURS)} around x = {stimulus.path[0][0]:g} mm, y = {stimulus.path[0][1]:g} mm, such as fingertip")
+        row = {"stimulus": stimulus.name, "group": stimulus.group, "class": c, "touched": len(touched[c]), "places": 1}
         for program, trains in (("ours", ours), ("theirs", theirs)):
-            for part, window in stimulus.windows.items():
-                spikes = count(trains, touched[c], window)
-                row[f"{part}_spikes_per_unit_{program}"] = spikes / len(touched[c])
-                row[f"{part}_Hz_{program}"] = spikes / len(touched[c]) / (window[1] - window[0])
+            for part, (start, end) in stimulus.windows.items():
+                row[f"{part}_spikes_{program}"] = sum(bool(start <= t < end) for k in touched[c] for t in trains[k])
             row[f"total_{program}"] = sum(len(trains[k]) for k, a in enumerate(afferents) if a[1] == c)
         yield row
+
+
+def joined(rows):
+    """The sum of the rows of the same stimulus and class, which differ in place."""
+    out = {}
+    for row in rows:
+        first = out.setdefault((row["stimulus"], row["class"]), {})
+        first.update({key: value if isinstance(value, str) else first.get(key, 0) + value for key, value in row.items()})
+    return out.values()
+
+
+def with_rates(row, windows):
+    """The row with spikes per touched afferent, rates, and totals of one place."""
+    for program in ("ours", "theirs"):
+        for part, (start, end) in windows.items():
+            row[f"{part}_spikes_per_unit_{program}"] = row[f"{part}_spikes_{program}"] / row["touched"]
+            row[f"{part}_Hz_{program}"] = row[f"{part}_spikes_per_unit_{program}"] / (end - start)
+        row[f"total_{program}"] /= row["places"]
+    return row
 
 
 def main():
@@ -72,7 +86,7 @@ def main():
     options = parser.parse_args()
     stimuli = [s for s in all_stimuli() if options.only in s.name]
     if not stimuli:
-        parser.error(f"--only: no stimulus is called '{options.only}'; the names are: " + "; ".join(s.name for s in all_stimuli()))
+        parser.error(f"--only: no stimulus is called '{options.only}'; the names are: " + "; ".join(dict.fromkeys(s.name for s in all_stimuli())))
     rows, forces, population = [], {}, None
     with tempfile.TemporaryDirectory() as scratch:
         for stimulus in stimuli:
@@ -81,7 +95,9 @@ def main():
             population = population or touchsim_population(afferents, options.noise)
             theirs, force = touchsim_trains(population, stimulus, RATE)
             forces[stimulus.name] = {"ours_N": float(stimulus.force.max()), "theirs_N": force}
-            rows += compare(stimulus, afferents, corpuscle_trains(folder, afferents), theirs)
+            rows += counts(stimulus, afferents, corpuscle_trains(folder, afferents), theirs)
+    windows = {s.name: s.windows for s in stimuli}
+    rows = [with_rates(row, windows[row["stimulus"]]) for row in joined(rows)]
     result = {"population": options.population, "forces": forces, "rows": rows, "agreement": agreement(rows, CLASSES)}
     if options.json:
         print(json.dumps(result, indent=1))

@@ -8,6 +8,7 @@ from touchsim_pins import E_STAR, flat_depth, grating_pins, sphere_depth, sphere
 
 RATE = 5000  # Hz, of both programs; TouchSim's neurons always step at this rate
 CENTRE = np.array([0.0, 12.0])  # mm, on the fingertip
+PLACES = np.array([[-4.0, 8.0], [4.0, 8.0], [-4.0, 15.0], [4.0, 15.0]])  # mm, of the small probe, which touches few afferents at a time
 PITCH = 0.5  # mm, of Corpuscle's sites and of TouchSim's pins
 
 
@@ -23,8 +24,8 @@ class Stimulus:
     path: np.ndarray = dataclasses.field(default_factory=lambda: CENTRE[None])  # of the contact, mm
 
 
-def contact_options(indenter, radius, **settings):
-    settings = {"radius": f"{radius}mm", "x": f"{CENTRE[0]}mm", "y": f"{CENTRE[1]}mm"} | settings
+def contact_options(indenter, radius, place=CENTRE, **settings):
+    settings = {"radius": f"{radius}mm", "x": f"{place[0]}mm", "y": f"{place[1]}mm"} | settings
     if indenter == "sphere":
         settings["E_star"] = f"{1e3 * E_STAR}kPa"
     return ["--contact", indenter] + [word for key, value in settings.items() for word in ("--set", f"contact.{key}={value}")]
@@ -36,10 +37,12 @@ def ramp_hold(rest, up, hold, down, after):
     return t, np.interp(t, np.cumsum([rest, up, hold, down]), [0, 1, 1, 0])
 
 
-def flat(name, group, depth, radius, windows):
-    """A flat punch with this depth (mm) over time; a single pin in TouchSim."""
-    force = depth / flat_depth(1, radius)
-    return Stimulus(name, group, force, contact_options("flat", radius), lambda: (CENTRE[None], depth[None], radius), radius, windows)
+def probe(name, group, depth, windows):
+    """A flat probe with this depth (mm) over time, a single pin in TouchSim, at each of the places."""
+    radius = 0.5
+    for place in PLACES:
+        yield Stimulus(name, group, depth / flat_depth(1, radius), contact_options("flat", radius, place),
+                       lambda place=place: (place[None], depth[None], radius), radius, windows, place[None])
 
 
 def ramp_windows(up, hold):
@@ -52,7 +55,7 @@ def ramps():
         for speed in (2, 10, 50):  # mm/s
             up = depth / speed
             _, shape = ramp_hold(0.1, up, hold, up, 0.2)
-            yield flat(f"ramp {depth:g} mm, {speed} mm/s", "ramp", depth * shape, 0.5, ramp_windows(up, hold))
+            yield from probe(f"ramp {depth:g} mm, {speed} mm/s", "ramp", depth * shape, ramp_windows(up, hold))
 
 
 def presses():
@@ -70,8 +73,8 @@ def sines():
         for amplitude in (5, 25, 125):  # um
             t, preload = ramp_hold(0.0, 0.1, 0.8, 0.1, 0.1)
             vibration = np.where((t >= 0.3) & (t < 0.8), np.sin(2 * np.pi * frequency * (t - 0.3)), 0)
-            yield flat(f"sine {frequency} Hz, {amplitude} um", "sine", 0.5 * preload + 1e-3 * amplitude * vibration, 0.5,
-                       {"onset": (0.3, 0.4), "steady": (0.4, 0.8)})
+            yield from probe(f"sine {frequency} Hz, {amplitude} um", "sine", 0.5 * preload + 1e-3 * amplitude * vibration,
+                             {"onset": (0.3, 0.4), "steady": (0.4, 0.8)})
 
 
 def gratings():
@@ -101,4 +104,5 @@ def strokes():
 
 
 def all_stimuli():
+    """The stimuli; those with the same name are the same touch at different places, and stand together."""
     return [*ramps(), *presses(), *sines(), *gratings(), *strokes()]
