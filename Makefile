@@ -9,9 +9,11 @@ touched = press --afferent sa1 --afferent sa1-circuit --afferent fa1 --afferent 
 
 demo:
 	@start=$$(date +%s); $(MAKE) --no-print-directory build && built=$$(date +%s) && \
-	$(corpuscle) respond $(touched) --out out/press --report && done=$$(date +%s) && \
-	echo "Built $(corpuscle) in $$((built - start)) s, and ran it in $$((done - built)) s." && \
-	echo "Open out/press/report.html in a browser. The spikes are in out/press/spikes.csv."
+	$(corpuscle) respond $(touched) --out out/press --report && \
+	$(corpuscle) respond texture --population hand --quiet --out out/hand --report && done=$$(date +%s) && \
+	echo "Built $(corpuscle) in $$((built - start)) s, and ran it twice in $$((done - built)) s. Open these pages in a browser:" && \
+	echo "out/press/report.html  a press, and the spikes of two afferents as equations and as chips" && \
+	echo "out/hand/report.html   a finger that strokes a hand with a rough surface, and what 17,000 afferents feel"
 
 build: setup-run
 	@cmake --preset release > /dev/null

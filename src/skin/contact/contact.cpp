@@ -201,9 +201,9 @@ public:
 
     std::vector<std::string> notes() const override {
         std::vector<std::string> out = {fmt::format(
-            "the contact model is a rigid indenter on flat, elastic{} and unbounded skin, without viscoelasticity, {}strain below "
-            "the surface, or the curvature and edges of the finger",
-            has_shear_ ? "" : ", frictionless", has_shear_ ? "" : "shear, slip, ")};
+            "the contact model is a rigid indenter on flat, elastic{} and unbounded skin, without {}the curvature and edges of the finger; "
+            "depth and adaptation belong to the afferents",
+            has_shear_ ? "" : ", frictionless", has_shear_ ? "" : "shear, slip, or ")};
         if (shear_.any()) out.push_back(contact_shear_note(indenter_, p_));
         if (!cells_.is_lattice())
             out.push_back(fmt::format(
