@@ -35,7 +35,7 @@ struct StudyFunction {
 using Inputs = const FunctionArguments&;
 
 template <class M>
-double rate(Inputs a) {
+double measured(Inputs a) {
     return measure<M>(a.list(0), a.window(1));
 }
 
@@ -106,13 +106,14 @@ constexpr StudyFunction study_functions[] = {
     {"before", "ln", [](Inputs a) -> StudyValue { return before(a.list(0), a.number(1)); }},
     {"intervals", "l", [](Inputs a) -> StudyValue { return intervals(a.list(0)); }},
     {"count", "lw", [](Inputs a) -> StudyValue { return press::spike_count(a.list(0), a.window(1)); }},
-    {"first_rate", "lw", [](Inputs a) -> StudyValue { return rate<FirstRate>(a); }},
+    {"first_rate", "lw", [](Inputs a) -> StudyValue { return measured<FirstRate>(a); }},
     {"frequency_at_end", "l", [](Inputs a) -> StudyValue { return press::frequency_at_end(a.list(0)); }},
     {"frequency_at_start", "l", [](Inputs a) -> StudyValue { return press::frequency_at_start(a.list(0)); }},
-    {"last_rate", "lw", [](Inputs a) -> StudyValue { return rate<LastRate>(a); }},
-    {"mean_rate", "lw", [](Inputs a) -> StudyValue { return rate<MeanRate>(a); }},
+    {"latency", "lw", [](Inputs a) -> StudyValue { return measured<Latency>(a); }},
+    {"last_rate", "lw", [](Inputs a) -> StudyValue { return measured<LastRate>(a); }},
+    {"mean_rate", "lw", [](Inputs a) -> StudyValue { return measured<MeanRate>(a); }},
     {"median_delay", "ll", [](Inputs a) -> StudyValue { return timing_error(a).median; }},
-    {"peak_rate", "lw", [](Inputs a) -> StudyValue { return rate<PeakRate>(a); }},
+    {"peak_rate", "lw", [](Inputs a) -> StudyValue { return measured<PeakRate>(a); }},
     {"phase_counts", "l", [](Inputs a) -> StudyValue { return press::phase_counts(a.list(0)); }},
     {"rms_error", "ll", [](Inputs a) -> StudyValue { return timing_error(a).rms; }},
     {"unmatched", "ll", [](Inputs a) -> StudyValue { return timing_error(a).unmatched; }},

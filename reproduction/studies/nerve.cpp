@@ -1,12 +1,27 @@
-// The detection thresholds of vibration, for the study nerve.
+// The detection thresholds of vibration of the thesis's afferents, and the responses of the calibrated ones, for the study nerve.
 
 #include <fmt/format.h>
+#include <algorithm>
+#include <cmath>
 
+#include "core/median.hpp"
 #include "measure/measures.hpp"
+#include "reproduction/claims/claim.hpp"
 #include "reproduction/claims/studies.hpp"
+#include "reproduction/nerve/graded_trials.hpp"
+#include "reproduction/nerve/vibration_response.hpp"
+#include "reproduction/thesis/press.hpp"
 #include "reproduction/thesis/threshold_search.hpp"
 
 namespace corpuscle::studies::nerve {
+
+struct NerveAfferent {
+    const char *key, *name;  ///< key: in the names of values
+    std::size_t copies;      ///< in a vibration; more than one if the intervals are irregular
+};
+constexpr NerveAfferent nerve_afferents[] = {{"SAI", "sa1-nerve", 4}, {"SAII", "sa2", 4}, {"FAI", "fa1-nerve", 1}, {"FAII", "fa2", 1}};
+constexpr double frequencies[] = {2,  3,  4,  6,   8,   10,  12,  15,  20,  25,  30,  35,  40,
+                                  50, 60, 80, 100, 125, 150, 200, 250, 300, 400, 500, 600, 800};  // Hz
 
 /// The smallest amplitude (N) of a sine of `f` (Hz) that evokes a spike after the first 0.5 s; 4 N if no amplitude below does.
 Result<double> detection_threshold(const std::string& afferent, double f) {
@@ -21,10 +36,9 @@ Result<double> detection_threshold(const std::string& afferent, double f) {
         [](const std::vector<double>& spikes) { return measure<SpikeCount>(spikes, {0.5, 1.0}) > 0; });
 }
 
-/// tuning_sa1 ...: the threshold (mN) over the frequency (Hz), without the frequencies that have none.
-Result<StudyValues> compute_values(const StudyOptions& options) {
-    StudyValues out;
-    for (const char* afferent : {"sa1", "fa1", "fa2"}) {
+/// tuning_sa1, tuning_fa1: the threshold (mN) over the frequency (Hz), without the frequencies that have none.
+Result<void> add_thesis_thresholds(StudyValues& out, const StudyOptions& options) {
+    for (const char* afferent : {"sa1", "fa1"}) {
         StudyCurve tuning;
         for (const double f : {4.0, 8.0, 16.0, 32.0, 64.0, 128.0, 200.0, 250.0, 300.0, 400.0, 600.0}) {
             const auto amplitude = TRY(detection_threshold(afferent, f));
@@ -33,6 +47,84 @@ Result<StudyValues> compute_values(const StudyOptions& options) {
         }
         out.emplace(fmt::format("tuning_{}", afferent), std::move(tuning));
     }
+    return {};
+}
+
+/// Adds curves over the frequency (Hz). The curve tuning_FAI is the least amplitude (mN) with a spike per cycle. The curves low_FAI and
+/// high_FAI are the ends (mN) of the widest range of amplitudes with exactly one spike in each cycle. The curve strength_FAI is the
+/// smallest vector strength within it.
+void add_curves(StudyValues& out, const std::string& key, const std::vector<VibrationResponse>& vibrations) {
+    StudyCurve tuning, low, high, strength;
+    const auto add = [](StudyCurve& curve, double f, double y) {
+        if (!std::isnan(y)) curve.x.push_back(f), curve.y.push_back(y);
+    };
+    for (const auto& v : vibrations) {
+        const auto plateau = v.plateau();
+        add(tuning, v.f, 1e3 * v.threshold()), add(low, v.f, 1e3 * plateau.low), add(high, v.f, 1e3 * plateau.high);
+        add(strength, v.f, plateau.min_vector_strength);
+    }
+    const double least = 1e-3 * tuning.min();  // N
+    out.emplace("excitable_" + key, most_excitable(vibrations, 1.25 * least));
+    out.emplace("excitable_strong_" + key, most_excitable(vibrations, 12.5 * least));
+    out.emplace("tuning_" + key, std::move(tuning)), out.emplace("strength_" + key, std::move(strength));
+    out.emplace("low_" + key, std::move(low)), out.emplace("high_" + key, std::move(high));
+}
+
+/// Adds curves and numbers of each calibrated afferent under vibration. The shortest interval in all of these trials is shortest_FAI, s.
+Result<void> add_vibration(StudyValues& out, const StudyOptions& options) {
+    for (const auto& a : nerve_afferents) {
+        std::vector<VibrationResponse> vibrations;
+        for (const double f : frequencies) {
+            vibrations.push_back(TRY(vibrate(a.name, f, a.copies)));
+            TRY(options.report_progress(0));
+        }
+        add_curves(out, a.key, vibrations);
+        double shortest = vibrations.front().shortest_interval;
+        for (const auto& v : vibrations) shortest = std::min(shortest, v.shortest_interval);
+        out.emplace(fmt::format("shortest_{}", a.key), shortest);
+    }
+    return {};
+}
+
+/// The median over the copies of a measure; NaN if a copy has none.
+template <class F>
+double median_over(const std::vector<std::vector<double>>& trains, F measure_of) {
+    std::vector<double> all;
+    for (const auto& t : trains) all.push_back(measure_of(t));
+    const bool undefined = std::any_of(all.begin(), all.end(), [](double v) { return std::isnan(v); });
+    return undefined ? Claim::none : median_of(all);
+}
+
+/// Adds numbers of the slowly adapting afferents at 4 N, as medians of 64 copies. The highest instantaneous frequency in the protraction of
+/// the press stimulus is peak_SAI, and the mean rate in the last 100 ms of its plateau is hold_SAI, both in Hz. The rate from 5 to 5.5 s of
+/// a hold over that from 0.5 to 1 s is adaptation_SAI. The coefficient of variation of the intervals in the hold from 2 s on is
+/// variation_SAI.
+Result<void> add_holds(StudyValues& out) {
+    const std::vector<double> four_newtons(64, 4);
+    constexpr double begin = 0.25 + 0.125;  // s: of the hold
+    const auto rate = [](double from, double to) {
+        return [=](const auto& t) { return measure<MeanRate>(t, {begin + from, begin + to}); };
+    };
+    for (const char* key : {"SAI", "SAII"}) {
+        const std::string afferent = key == std::string_view("SAI") ? "sa1-nerve" : "sa2";
+        const auto pressed = TRY(simulate_factors({afferent, "press", {"press.F_max=1", "press.F_min=0.05"}}, four_newtons));
+        const auto held = TRY(simulate_factors({afferent, "ramp-hold", {"ramp-hold.t_up=0.125", "ramp-hold.t_hold=6"}, 5e3}, four_newtons));
+        out.emplace(fmt::format("peak_{}", key),
+                    median_over(pressed, [](const auto& t) { return measure<PeakRate>(t, press::protraction); }));
+        out.emplace(fmt::format("hold_{}", key),
+                    median_over(pressed, [](const auto& t) { return measure<MeanRate>(t, press::plateau_end); }));
+        out.emplace(fmt::format("adaptation_{}", key), median_over(held, rate(5, 5.5)) / median_over(held, rate(0.5, 1)));
+        out.emplace(fmt::format("variation_{}", key),
+                    median_over(held, [](const auto& t) { return measure<IntervalVariation>(t, {begin + 2, begin + 6}); }));
+    }
+    return {};
+}
+
+Result<StudyValues> compute_values(const StudyOptions& options) {
+    StudyValues out;
+    TRY(add_thesis_thresholds(out, options));
+    TRY(add_vibration(out, options));
+    TRY(add_holds(out));
     return out;
 }
 
