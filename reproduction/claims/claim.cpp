@@ -11,7 +11,7 @@ namespace corpuscle {
 namespace {
 
 /// Units that are not written with an SI prefix.
-constexpr std::array<std::string_view, 8> units_without_prefix = {"%", "C", "gf", "dB", "degrees", "spikes", "times", "um^2"};
+constexpr std::array<std::string_view, 9> units_without_prefix = {"%", "C", "gf", "dB", "degrees", "spikes", "times", "um^2", "mm^2"};
 
 /// True for a value that is only rounding error and may differ between machines: far smaller than the limits of the allowed range, or below
 /// 1e-9 percent.

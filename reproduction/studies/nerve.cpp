@@ -1,4 +1,5 @@
-// The detection thresholds of vibration of the thesis's afferents, and the responses of the calibrated ones, for the study nerve.
+// The detection thresholds of vibration of the thesis's afferents, and the responses of the calibrated ones to vibration, holds and a small
+// probe, for the study nerve.
 
 #include <fmt/format.h>
 #include <algorithm>
@@ -7,9 +8,11 @@
 #include "core/median.hpp"
 #include "measure/measures.hpp"
 #include "reproduction/claims/claim.hpp"
+#include "reproduction/claims/sample_statistics.hpp"
 #include "reproduction/claims/studies.hpp"
 #include "reproduction/nerve/graded_trials.hpp"
 #include "reproduction/nerve/vibration_response.hpp"
+#include "reproduction/skin/small_probe.hpp"
 #include "reproduction/thesis/press.hpp"
 #include "reproduction/thesis/threshold_search.hpp"
 
@@ -120,11 +123,60 @@ Result<void> add_holds(StudyValues& out) {
     return {};
 }
 
+/// The standardised third moment; 0 for a symmetric distribution.
+double skewness(const std::vector<double>& values) {
+    const auto all = sample_statistics(values);
+    double sum = 0;
+    for (const double v : values) sum += std::pow((v - all.mean) / all.standard_deviation, 3);
+    return sum / static_cast<double>(values.size());
+}
+
+/// The value below which this fraction of the sorted values lies, at least; NaN if there are none.
+double quantile(const std::vector<double>& sorted, double fraction) {
+    return sorted.empty() ? Claim::none : sorted[static_cast<std::size_t>(fraction * static_cast<double>(sorted.size() - 1) + 0.5)];
+}
+
+/// Adds numbers of one class of the fingertip under a small probe. The median of the least forces is probe_FAI, and their quantiles of 10
+/// and 90 % are probe_low_FAI and probe_high_FAI, all in N. The fraction above 5 mN is probe_above_FAI; afferents that never fire count.
+/// The skewness of the logarithms is probe_skew_FAI. The curve probe_curve_FAI is the fraction of the afferents over the force (mN). Median
+/// and quantiles of the areas of the fields are field_FAI, field_low_FAI and field_high_FAI, mm2.
+void add_probed_class(StudyValues& out, const std::string& key, ProbedClass probed) {
+    std::vector<double> forces, logarithms;
+    for (const double f : probed.least_force)
+        if (!std::isnan(f)) forces.push_back(f), logarithms.push_back(std::log(f));
+    std::sort(forces.begin(), forces.end()), std::sort(probed.field_area.begin(), probed.field_area.end());
+    const auto all = static_cast<double>(probed.least_force.size());
+    const auto below = std::upper_bound(forces.begin(), forces.end(), 5e-3) - forces.begin();
+    out.emplace("probe_above_" + key, 1 - static_cast<double>(below) / all);
+    out.emplace("probe_skew_" + key, skewness(logarithms));
+    for (const auto& [name, fraction] : {std::pair{"", 0.5}, {"low_", 0.1}, {"high_", 0.9}}) {
+        out.emplace(fmt::format("probe_{}{}", name, key), quantile(forces, fraction));
+        out.emplace(fmt::format("field_{}{}", name, key), 1e6 * quantile(probed.field_area, fraction));
+    }
+    StudyCurve curve;
+    for (std::size_t k = 0; k < forces.size(); ++k) curve.x.push_back(1e3 * forces[k]), curve.y.push_back(static_cast<double>(k + 1) / all);
+    out.emplace("probe_curve_" + key, std::move(curve));
+}
+
+Result<void> add_probe(StudyValues& out) {
+    constexpr std::size_t fields_per_class = 24;
+    auto plan = TRY(load_skin_plan("fingertip"));
+    const auto fingertip = TRY(innervate(std::move(plan)));
+    auto classes = TRY(probe_skin(*fingertip, fields_per_class));
+    for (auto& probed : classes) {
+        const std::string key =
+            fmt::format("{}{}", probed.afferent.starts_with("sa") ? "SA" : "FA", probed.afferent.ends_with('1') ? "I" : "II");
+        add_probed_class(out, key, std::move(probed));
+    }
+    return {};
+}
+
 Result<StudyValues> compute_values(const StudyOptions& options) {
     StudyValues out;
     TRY(add_thesis_thresholds(out, options));
     TRY(add_vibration(out, options));
     TRY(add_holds(out));
+    TRY(add_probe(out));
     return out;
 }
 
