@@ -1,6 +1,6 @@
 // How much faster than real time does a complete hand respond, and how much memory does it use?
 //
-//     bench-hand [SECONDS] [RUNS]      default: 10 s of touch, 7 runs
+//     bench-hand [SECONDS] [RUNS] [POPULATION]      default: 10 s of touch, 7 runs, hand
 //
 // Method: the built-in hand (17,144 afferents, 4,793 sites), one thread, spikes stored as binary address events, processor time of this
 // process. Construction and runs are timed separately. Output: median, minimum and maximum of the runs, then the work: steps of afferents
@@ -85,6 +85,7 @@ void print_times(const char* label, std::vector<double> seconds, double simulate
 int main(int argc, char** argv) {
     const double length = argc > 1 ? std::atof(argv[1]) : 10;
     const int runs = argc > 2 ? std::atoi(argv[2]) : 7;
+    const std::string name_of_skin = argc > 3 ? argv[3] : "hand";
     const auto folder = (std::filesystem::temp_directory_path() / fmt::format("bench-hand-{}", ::getpid())).string();
     const auto file = folder + "/spikes.aer";
     const auto set = value_or_exit(instruction_set());
@@ -92,11 +93,11 @@ int main(int argc, char** argv) {
     std::shared_ptr<const Innervation> skin;
     for (int k = 0; k < runs; ++k) {
         const double from = processor();
-        skin = value_or_exit(innervate(value_or_exit(load_skin_plan("hand"))));
+        skin = value_or_exit(innervate(value_or_exit(load_skin_plan(name_of_skin))));
         (void)value_or_exit(Skin::make(skin, {1e-3}, set));
         build_times.push_back(processor() - from);
     }
-    fmt::print("hand: {} afferents, {} sites, {}\n", skin->afferents.size(), skin->plan.sites.size(), name_of(set));
+    fmt::print("{}: {} afferents, {} sites, {}\n", skin->plan.name, skin->afferents.size(), skin->plan.sites.size(), name_of(set));
     print_times("built from its file", build_times, 0);
 
     const NamedTouch& stroke = named_touches()[0];

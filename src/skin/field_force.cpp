@@ -31,7 +31,15 @@ FieldForce::FieldForce(const ReceptiveFields& fields, std::size_t first, std::si
     : lanes_(lanes::field_kernels(set)), size_(force_count(fields, count)), tiles_((size_ + tile_width - 1) / tile_width),
       pieces_((tiles_ + tiles_per_piece - 1) / tiles_per_piece), rows_(tiles_ * skin_steps * tile_width), zero_force_(tiles_) {
     constexpr std::size_t piece_afferents = tiles_per_piece * tile_width;
-    for (auto& p : pieces_) p.begin.assign(1, 0);
+    std::vector<std::size_t> counts(pieces_.size());  // entries of each piece
+    for (const std::size_t number : fields.afferent)
+        if (number >= first * fields.receptors && number < (first + count) * fields.receptors)
+            ++counts[index_in_tiles(number - first * fields.receptors, fields.receptors) / piece_afferents];
+    for (std::size_t k = 0; k < pieces_.size(); ++k) {
+        auto& p = pieces_[k];
+        p.begin.reserve(sites + 1), p.begin.assign(1, 0);
+        p.afferent.reserve(counts[k]), p.weight.reserve(counts[k]);
+    }
     for (std::size_t s = 0; s < sites; ++s) {
         for (std::size_t k = fields.begin[s]; k < fields.begin[s + 1]; ++k) {
             const std::size_t receptors = fields.receptors, number = fields.afferent[k];

@@ -139,7 +139,8 @@ TEST(NerveLimit, RatesAboveAKilohertzCauseAWarningAndItsRemedyWorks) {
     EXPECT_NE(fast.err.find("--set sa1.t_ref=1ms"), std::string::npos) << fast.err;
     EXPECT_EQ(run_program(folder, strong + " --set sa1.t_ref=1ms").err.find("spikes come at up to"), std::string::npos);
     EXPECT_EQ(run_program(folder, "respond press --quiet").err, "") << "the thesis's press needs no warning";
-    const auto skin = run_program(folder, "respond press --population fingertip --set press.F_max=900N --quiet");
+    const auto skin = run_program(
+        folder, "respond press --population " + test::source_root() + "/test/skin/thesis_fingertip.toml --set press.F_max=900N --quiet");
     EXPECT_NE(skin.err.find("of 290 sa1 afferents: several spikes come within one sample of 1 ms, which is not a rate"), std::string::npos)
         << skin.err;
 }

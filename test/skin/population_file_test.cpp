@@ -7,6 +7,7 @@
 #include "skin/innervation.hpp"
 #include "skin/plan/site_grid.hpp"
 #include "support/property.hpp"
+#include "support/support.hpp"
 #include "support/test_paths.hpp"
 
 namespace corpuscle {
@@ -18,9 +19,10 @@ const Innervation& hand() {
     return **placed;
 }
 
-/// The receptive field of each afferent of a class, as pairs of site and weight.
+/// The receptive field of each receptor of a class, as pairs of site and weight.
 std::vector<std::vector<std::pair<std::uint32_t, double>>> fields_of_class(const Innervation& skin, std::size_t class_index) {
-    std::vector<std::vector<std::pair<std::uint32_t, double>>> out(skin.class_begin[class_index + 1] - skin.class_begin[class_index]);
+    std::vector<std::vector<std::pair<std::uint32_t, double>>> out((skin.class_begin[class_index + 1] - skin.class_begin[class_index]) *
+                                                                   skin.fields[class_index].receptors);
     const auto& f = skin.fields[class_index];
     for (std::uint32_t s = 0; s + 1 < f.begin.size(); ++s)
         for (auto k = f.begin[s]; k < f.begin[s + 1]; ++k) out[f.afferent[k]].emplace_back(s, f.weight[k]);
@@ -46,6 +48,28 @@ TEST(HandPopulation, HasThePublishedNumbersAndFractionsOfAfferents) {
     }
 }
 
+TEST(HandPopulation, HasTheAfferentsOfNervesAndAThesisParameterIsRefusedWithARemedy) {
+    for (const auto* name : {"hand", "fingertip"}) {
+        const auto plan = *load_skin_plan(name);
+        std::vector<std::string> afferents;
+        for (const auto& c : plan.classes) afferents.push_back(c.name + " " + c.afferent_name);
+        EXPECT_EQ(afferents, (std::vector<std::string>{"sa1 sa1-nerve", "fa1 fa1-nerve", "sa2 sa2", "fa2 fa2"}));
+        const auto refused = apply_overrides(plan, test::parse_settings({"sa1.f_B=25Hz"}));
+        ASSERT_FALSE(refused);
+        const auto message = refused.error().text();
+        EXPECT_TRUE(message.starts_with("sa1: unknown parameter 'f_B'")) << message;
+        EXPECT_NE(message.find("it has k_A, "), std::string::npos) << message;
+        EXPECT_NE(
+            message.find("; the class sa1 of " + std::string(name) +
+                         " is the afferent sa1-nerve; f_B is a parameter of the thesis's sa1, which a population file with afferent = "
+                         "\"sa1\" uses (doc/skin.md)"),
+            std::string::npos)
+            << message;
+        EXPECT_EQ(apply_overrides(plan, test::parse_settings({"sa1.f_X=25Hz"})).error().text().find("thesis"), std::string::npos);
+        EXPECT_TRUE(apply_overrides(plan, test::parse_settings({"sa1.F_0=20mN"})));
+    }
+}
+
 TEST(HandPopulation, EachAfferentIsInACellOfItsOwnRegion) {
     const auto& h = hand();
     const SiteGrid near(h.plan.sites.positions);
@@ -59,7 +83,7 @@ TEST(HandPopulation, EachAfferentIsInACellOfItsOwnRegion) {
 
 TEST(HandPopulation, AReceptiveFieldSumsToItsGainAndStaysOnOneFinger) {
     const auto& h = hand();
-    const double per_cell = h.plan.felt_area / h.plan.sites.area;  // the gain: felt area over the area of a site
+    const double per_cell = h.plan.felt_area / h.plan.sites.area;  // the gain without a surround: felt area over the area of a site
     const auto finger = [&](std::uint32_t region) {
         return h.plan.sites.regions[region].substr(0, h.plan.sites.regions[region].find('.'));
     };
@@ -68,12 +92,13 @@ TEST(HandPopulation, AReceptiveFieldSumsToItsGainAndStaysOnOneFinger) {
         for (std::size_t u = 0; u < receptive_fields.size(); ++u) {
             double sum = 0;
             for (const auto& [site, weight] : receptive_fields[u]) {
-                ASSERT_GT(weight, 0);
+                ASSERT_TRUE(weight > 0 || h.plan.classes[c].surround > 0);
                 sum += weight;
-                const auto from = finger(h.afferents[h.class_begin[c] + u].region), to = finger(h.plan.sites.region[site]);
+                const auto from = finger(h.afferents[h.class_begin[c] + u / h.fields[c].receptors].region),
+                           to = finger(h.plan.sites.region[site]);
                 ASSERT_TRUE(from == to || from == "palm" || to == "palm") << from << " feels " << to;
             }
-            ASSERT_NEAR(sum, per_cell, 1e-9 * per_cell);
+            ASSERT_NEAR(sum, per_cell * (1 - h.plan.classes[c].surround), 1e-9 * per_cell);
         }
     }
 }
@@ -145,6 +170,18 @@ TEST(PopulationNames, AreKnownSuggestedOrRefused) {
     EXPECT_EQ(load_skin_plan("no/such.toml").error().text(), "no/such.toml: cannot be read: there is no such file");
     EXPECT_EQ(load_skin_plan("grid 0x9").error().text(), "a grid of 0 rows and 9 columns: it must have 1 to 4194304 sites");
     for (const auto& s : named_skins()) EXPECT_TRUE(load_skin_plan(s.name)) << s.name;
+}
+
+TEST(PopulationFile, ThatNamesTheThesissAfferentsHasThemAndTheirParameters) {
+    const auto plan = load_skin_plan(test::source_root() + "/test/skin/thesis_fingertip.toml");
+    ASSERT_TRUE(plan) << plan.error().text();
+    EXPECT_EQ(plan->classes[0].afferent.composition(), "sa1b+lif-b");
+    EXPECT_EQ(plan->classes[1].afferent.composition(), "fa1b+lif-b");
+    const auto set = apply_overrides(*plan, test::parse_settings({"sa1.f_B=25Hz", "fa1.f=5Hz"}));
+    ASSERT_TRUE(set) << set.error().text();
+    EXPECT_TRUE(set->unused.empty());
+    EXPECT_EQ(set->result.classes[0].afferent.value("f_B"), 25);
+    EXPECT_TRUE(innervate(set->result));
 }
 
 constexpr std::string_view pad = R"(unit = "mm"

@@ -30,9 +30,9 @@ T exp(T x) {
     return num::times_power_of_two(p, k);
 }
 
-/// Natural logarithm of a normal x > 0.
+/// Natural logarithm of a normal x > 0. A call would save and restore all vector registers of a loop, so the function is always inlined.
 template <class T>
-T log(T x) {
+[[gnu::always_inline]] inline T log(T x) {
     T m = num::mantissa(x), k = num::exponent(x);
     const auto high = m > T(1.4142135623730951);  // above sqrt 2: halve m, so that it is in (0.7071, 1.4142]
     m = num::select(high, m * T(0.5), m);

@@ -181,11 +181,31 @@ class TiledPopulation final : public LanePopulation {
         if (force + 1 == layout_.forces) for_each_current(sums, currents, rows, [factor](V& sum, V& current) { current = sum * factor; });
     }
 
+    /// True if the receptors of each afferent of a tile have the same state and the same force over a chunk, to the bit. This is usual if
+    /// only a contact wave reaches the tile.
+    bool have_equal_receptors(const Block& b, std::size_t tile, std::size_t step, int steps) const {
+        const auto* tiles = std::get_if<ForceTiles<V>>(&b.force);
+        const std::size_t state = layout_.receptor->state_values * tile_size,
+                          bytes = static_cast<std::size_t>(steps) * tile_size * sizeof(V);
+        const auto rows = [&](std::size_t force) { return tiles->rows + ((tile * layout_.forces + force) * b.steps + step) * tile_size; };
+        for (std::size_t force = 1; force < layout_.forces; ++force) {
+            if (!tiles || is_zero(b, tile, force) != is_zero(b, tile, 0)) return false;
+            if (!is_zero(b, tile, 0) && std::memcmp(rows(force), rows(0), bytes) != 0) return false;
+            if (std::memcmp(states_.receptor(tile) + force * state, states_.receptor(tile), state * sizeof(V)) != 0) return false;
+        }
+        return true;
+    }
+
     /// Simulates all receptors of a tile whose afferents have several forces. The neurons then read the mean of their currents.
     void run_all_receptors(const Block& b, std::size_t tile, std::size_t step, int steps, bool first, Scratch& s, JobResult& job) const {
         const auto rows = static_cast<std::size_t>(steps);
+        const std::size_t state = layout_.receptor->state_values * tile_size;
+        const bool are_equal = have_equal_receptors(b, tile, step, steps);
         for (std::size_t force = 0; force < layout_.forces; ++force) {
-            (void)run_receptors(b, tile, force, step, steps, first, s, job);
+            if (force == 0 || !are_equal)
+                (void)run_receptors(b, tile, force, step, steps, first, s, job);
+            else  // the currents of the first receptor are also those of this one
+                std::copy_n(states_.receptor(tile), state, states_.receptor(tile) + force * state);
             add_currents(s.from_sum, s.from, layout_.receptor->continuous ? rows + 1 : rows, force);
             if (!layout_.receptor->continuous) add_currents(s.to_sum, s.to, rows, force);
         }
@@ -225,7 +245,8 @@ class TiledPopulation final : public LanePopulation {
     void start_neurons(NeuronCall<V> c, std::size_t tile, Scratch& s) const {
         for (std::size_t u = 0; u < tile_size; ++u) {
             const std::size_t afferent = std::min(tile * tile_size + u, layout_.size - 1);
-            const auto number = layout_.afferent_numbers.empty() ? static_cast<std::uint32_t>(afferent) : layout_.afferent_numbers[afferent];
+            const auto number =
+                layout_.afferent_numbers.empty() ? static_cast<std::uint32_t>(afferent) : layout_.afferent_numbers[afferent];
             s.rows.data()[u] = static_cast<V>(random_stream(seed_, number));
         }
         c.streams = s.rows.data();

@@ -165,6 +165,7 @@ Result<SkinClass> read_class(const ConfigNode& in, const Sites& sites, const Pop
     TRY(check_keys(in, class_keys, "[[class]]: "));
     SkinClass out;
     out.afferent = TRY(afferent_of(in));
+    out.afferent_name = out.afferent.name;
     out.name = in.has("name") ? in.get("name")->text : out.afferent.name;
     if (out.name.empty() || out.name.find_first_of("# \t,\n\r\"") != std::string::npos)
         return name_of(in).error_here(

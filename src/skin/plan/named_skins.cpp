@@ -30,7 +30,7 @@ std::optional<std::pair<std::size_t, std::size_t>> rows_by_columns(std::string_v
 /// A class of a named afferent (which must exist), with one afferent at each site.
 SkinClass class_with_one_per_site(std::string_view afferent) {
     SkinClass c;
-    c.name = afferent, c.afferent = *plan_afferent(afferent);
+    c.name = afferent, c.afferent_name = afferent, c.afferent = *plan_afferent(afferent);
     c.per_site = 1, c.sigma = grid_sigma;
     return c;
 }
@@ -100,10 +100,38 @@ Result<SkinPlan> load_skin_plan(std::string_view name, std::span<const Channel> 
     return unknown_skin(name);
 }
 
+namespace {
+
+/// True if one of these afferents has a parameter of this name.
+bool has_parameter(const AfferentPlan& plan, std::string_view name) {
+    const auto all = parameter_infos(plan);
+    return std::any_of(all.begin(), all.end(), [name](const ParameterInfo& p) { return p.name == name; });
+}
+
+/// The error of overrides for a class. If the class has the name of another afferent ("sa1", but it is a sa1-nerve), and a parameter is one
+/// of that afferent, the message says so.
+Error class_override_error(const SkinPlan& plan, const SkinClass& c, std::span<const ParameterOverride> overrides, Error error) {
+    const auto namesake = plan_afferent(c.name);
+    if (c.afferent_name.empty() || c.afferent_name == c.name || !namesake) return error;
+    for (const auto& o : overrides)
+        if (o.target == c.name && !has_parameter(c.afferent, o.parameter) && has_parameter(*namesake, o.parameter)) {
+            error.message += fmt::format(
+                "; the class {0} of {1} is the afferent {2}; {3} is a parameter of the thesis's {0}, which a population "
+                "file with afferent = \"{0}\" uses (doc/skin.md)",
+                c.name, plan.name, c.afferent_name, o.parameter);
+            break;
+        }
+    return error;
+}
+
+}  // namespace
+
 Result<Applied<SkinPlan>> apply_overrides(SkinPlan plan, std::span<const ParameterOverride> overrides) {
     std::vector<ParameterOverride> unused(overrides.begin(), overrides.end());
     for (auto& c : plan.classes) {
-        const auto settings = TRY(settings_for(c.name, parameter_infos(c.afferent), overrides));
+        auto read = settings_for(c.name, parameter_infos(c.afferent), overrides);
+        if (!read) return class_override_error(plan, c, overrides, read.error());
+        const auto settings = std::move(*read);
         keep_unused(unused, settings.unused);
         set_values(c.afferent, settings.result);
         TRY(check_plan(c.afferent));

@@ -48,6 +48,7 @@ struct SkinClass {
     double velocity = 0, velocity_spread = 0;  ///< conduction velocity, m/s: mean and standard deviation over afferents; 0: no delay
     DirectionTuning direction = {};
     WaveParams wave = {};
+    std::string afferent_name = {};  ///< the name of its afferent outside a skin, such as "sa1-nerve"; may differ from `name`
     std::vector<ParameterDistribution> distributions = {};  ///< how the parameters of its afferents vary
     std::vector<SourceNote> sources = {};
 };
