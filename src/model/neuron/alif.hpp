@@ -25,7 +25,7 @@ struct AlifTraits {
         {"V_th", "V", 0.5, -10, 10, "threshold at rest"},
         {"V_reset", "V", -0.062, -10, 10, "potential after a spike"},
         {"dV_th", "V", 2.1, 0, 100, "rise of the threshold at a spike"},
-        {"tau_th", "s", 18.6e-3, 1e-6, 1e3, "time constant of the threshold's decay"},
+        {"tau_th", "s", 18e-3, 1e-6, 1e3, "time constant of the threshold's decay"},
         {"t_ref", "s", 1e-3, 0, 10, "refractory time", "nerves: 1 to 2 ms, from memory"},
         {"jitter", "", 0, 0, 0.33, "standard deviation of the threshold, drawn at each spike, relative to its mean"},
     };
