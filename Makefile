@@ -68,7 +68,7 @@ pictures: release
 	$(draw) doc/press.png $(touched)
 	$(draw) doc/pictures/touch.png examples/data/touch.csv
 	$(draw) doc/pictures/touch-chips.png examples/data/touch.csv --afferent sa1,sa1-circuit,fa1,fa1-circuit
-	$(draw) doc/pictures/hand.png stroke --population hand
+	$(draw) doc/pictures/hand.png texture --population hand
 	$(draw) doc/pictures/grip.png $(CORPUSCLE_DATA)/grip_force_ati/grip_02_raw.csv --channel Fz --rate 242.64Hz --scale 0.002 --range 1..3500 --despike 1000 --notch 50Hz
 	$(draw) doc/pictures/insole.png $(CORPUSCLE_DATA)/gait_insole_vgrf/GaCo01_01.txt --layout examples/layouts/insole.csv --scale 0.008
 	$(draw) doc/pictures/eskin.png $(CORPUSCLE_DATA)/fbg_eskin_press/fbg_press_S6_T16.csv --rate 100Hz --scale 40 --layout $(CORPUSCLE_DATA)/fbg_eskin_press/sensor_positions.csv
