@@ -1,5 +1,6 @@
 #include "skin/conduction.hpp"
 
+#include <algorithm>
 #include <cmath>
 
 namespace corpuscle {
@@ -23,7 +24,8 @@ Conduction::Conduction(const Innervation& skin, double T) {
     }
     // A spike arrives at most max_steps + 1 steps after its own, which is at most max_samples after the last delivered one.
     arriving_.resize(static_cast<std::size_t>(max_steps) + 2 + max_samples);
-    for (auto& step : arriving_) step.reserve(skin.afferents.size() / 16 + 16);
+    // Space for a spike of every afferent of a small skin, so that bursts need no allocation.
+    for (auto& step : arriving_) step.reserve(std::min(skin.afferents.size(), skin.afferents.size() / 16 + 512));
 }
 
 void Conduction::deliver(std::span<const Spike> fired, std::int64_t now, std::vector<Spike>& arrived) {
