@@ -394,9 +394,9 @@ TEST(StreamProgram, ARecordingIsReadWithTheOptionsAndWarningsOfRespond) {
 TEST(StreamProgram, TheErrorForTheFirstFrameOfTheWrongWidthNamesTheExpectedWidth) {
     ignore_broken_pipes();
     const TemporaryFolder folder;
-    Child child(folder, {"--population", "fingertip", "--rate", "1kHz"});
+    Child child(folder, {"--population", "grid 8x8", "--rate", "1kHz"});
     child.send("1,2,3,4\n");
-    EXPECT_TRUE(child.wait_for_text("frame 1 has 4 numbers; 'fingertip' has ")) << "at once: " << child.error_text();
+    EXPECT_TRUE(child.wait_for_text("frame 1 has 4 numbers; 'grid 8x8' has 64 ")) << "at once: " << child.error_text();
     EXPECT_TRUE(child.wait_for_text("use --layout FILE to map")) << child.error_text();
     child.close_in();
     EXPECT_EQ(child.wait(), 1);
