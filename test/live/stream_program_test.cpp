@@ -1,5 +1,7 @@
 // corpuscle stream with real pipes, sockets and their failures: it never crashes or hangs, and counts and reports all losses.
 
+#include <fmt/format.h>
+
 #include <netinet/tcp.h>
 #include <poll.h>
 #include <pty.h>
