@@ -92,8 +92,8 @@ TEST(ParameterDistribution, OfAFactorIsLognormalWithTheValueAsItsMedian) {
 
 TEST(ParameterDistribution, OfAFactorIsTruncatedAtTheRangeAndDoesNotPileUpThere) {
     // The end of the range of f_B is close above the median, so nearly half of the samples are drawn again.
-    const auto info = *find_parameter({"sa1", "f_B", ""}, parameter_infos(value_or_throw(plan_afferent("sa1"))));
-    const double high = info->high, median = 0.9 * high, end = std::log(high / median) / std::log(2.0);
+    const auto infos = parameter_infos(value_or_throw(plan_afferent("sa1")));
+    const double high = (*find_parameter({"sa1", "f_B", ""}, infos))->high, median = 0.9 * high, end = std::log(high / median) / std::log(2.0);
     const auto x = values(sample_copies("sa1", {{fmt::format("sa1.f_B={}Hz", median)}, {"sa1.f_B=x2"}}), "f_B");
     EXPECT_LE(*std::max_element(x.begin(), x.end()), high);
     EXPECT_EQ(std::count(x.begin(), x.end(), high), 0);
