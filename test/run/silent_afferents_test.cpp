@@ -160,6 +160,15 @@ TEST(Rates, OfTwoSpikesWithinASampleAreBlankWithAWarning) {
     EXPECT_GT(blank, 0);
 }
 
+TEST(NerveLimit, ARefractoryAfferentUnderSlowSamplesAsksForFasterOnes) {
+    const TemporaryFolder folder;
+    const auto slow = run_program(folder, "respond press --afferent fa1-nerve --rate 20Hz --quiet");
+    EXPECT_NE(slow.err.find("several spikes come within one sample of 50 ms, so their rates are left out; record at 1 kHz or more"),
+              std::string::npos)
+        << slow.err;
+    EXPECT_EQ(slow.err.find("check the force's unit"), std::string::npos) << slow.err;
+}
+
 TEST(Rates, OfASingleSpikeAreBlank) {
     const TemporaryFolder folder;
     const auto rates = nlohmann::json::parse(run_program(folder, "respond press --afferent sa1 --json").out)["rates"];

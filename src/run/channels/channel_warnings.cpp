@@ -50,6 +50,10 @@ std::vector<std::string> rate_warnings(std::span<const std::unique_ptr<ForceSour
 
 std::string excessive_rate_warning(double rate, double T, const AfferentPlan& plan, const std::string& name) {
     const auto refractory = plan.value("t_ref");
+    // An afferent with the refractory time of a nerve cannot fire too fast. Then the samples are too far apart.
+    if (rate * T > 1 && refractory && *refractory >= 1 / max_nerve_rate)
+        return fmt::format("several spikes come within one sample of {}, so their rates are left out; record at {} or more",
+                           format_quantity(T, "s"), format_quantity(max_nerve_rate, "Hz"));
     const auto advice = refractory && *refractory < 1 / max_nerve_rate
                             ? fmt::format(", and give the afferent a refractory period: --set {}.t_ref=1ms", name)
                             : std::string();

@@ -21,8 +21,8 @@ std::vector<std::string> rate_warnings(std::span<const std::unique_ptr<ForceSour
 inline constexpr double max_nerve_rate = 1e3;
 
 /// The warning "spikes come at up to 3.1 kHz ...", with advice. `rate`: the highest firing rate of the afferent, Hz. If it is above the
-/// sample rate 1 / T (s), the warning does not name it, because two spikes within one sample do not define a rate. `name`: of the afferent
-/// for --set.
+/// sample rate 1 / T (s), the warning does not name it, because two spikes within one sample do not define a rate. If the afferent
+/// is refractory for 1 ms or more, the warning asks for faster samples instead. `name`: of the afferent for --set.
 std::string excessive_rate_warning(double rate, double T, const AfferentPlan&, const std::string& name);
 
 }  // namespace corpuscle
