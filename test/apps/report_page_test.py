@@ -810,8 +810,10 @@ class OnASkin(Page):
 
     def test_the_afferent_under_the_pointer_is_named(self):
         first = self.data["summary"]["first_spikes"][0]
-        x, y = self.js("const map = corpuscle.scene.maps[0]; return map.place(arguments[0])", first["afferent_index"])
-        canvas = self.browser.find_element(By.CSS_SELECTOR, '[data-map="sa1"] canvas')
+        index = first["afferent_index"]
+        at = next(k for k, one in enumerate(self.classes) if one["first"] <= index < one["first"] + one["afferents"])
+        x, y = self.js("return corpuscle.scene.maps[arguments[0]].place(arguments[1])", at, index)
+        canvas = self.browser.find_element(By.CSS_SELECTOR, f'[data-map="{self.classes[at]["name"]}"] canvas')
         self.js("arguments[0].scrollIntoView({block: 'center'})", canvas)
         ActionChains(self.browser, duration=50).move_to_element_with_offset(canvas, round(x - canvas.size["width"] / 2), round(y - canvas.size["height"] / 2)).perform()
         WebDriverWait(self.browser, 20).until(lambda _: self.browser.find_element(By.ID, "unit").text.startswith(first["afferent"] + ","))
