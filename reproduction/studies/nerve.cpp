@@ -99,8 +99,8 @@ double median_over(const std::vector<std::vector<double>>& trains, F measure_of)
 }
 
 /// Adds numbers of the slowly adapting afferents at 4 N, as medians of 64 copies. The highest instantaneous frequency in the protraction of
-/// the press stimulus is peak_SAI, and the mean rate in the last 100 ms of its plateau is hold_SAI, both in Hz. The rate from 5 to 5.5 s of
-/// a hold over that from 0.5 to 1 s is adaptation_SAI. The coefficient of variation of the intervals in the hold from 2 s on is
+/// the press stimulus is peak_SAI, and the mean rate in the last 100 ms of its plateau is hold_SAI, both in Hz. The rate from 5 to 6 s of
+/// a hold over that from 0.5 to 1.5 s is adaptation_SAI. The coefficient of variation of the intervals in the hold from 2 s on is
 /// variation_SAI.
 Result<void> add_holds(StudyValues& out) {
     const std::vector<double> four_newtons(64, 4);
@@ -116,7 +116,7 @@ Result<void> add_holds(StudyValues& out) {
                     median_over(pressed, [](const auto& t) { return measure<PeakRate>(t, press::protraction); }));
         out.emplace(fmt::format("hold_{}", key),
                     median_over(pressed, [](const auto& t) { return measure<MeanRate>(t, press::plateau_end); }));
-        out.emplace(fmt::format("adaptation_{}", key), median_over(held, rate(5, 5.5)) / median_over(held, rate(0.5, 1)));
+        out.emplace(fmt::format("adaptation_{}", key), median_over(held, rate(5, 6)) / median_over(held, rate(0.5, 1.5)));
         out.emplace(fmt::format("variation_{}", key),
                     median_over(held, [](const auto& t) { return measure<IntervalVariation>(t, {begin + 2, begin + 6}); }));
     }
