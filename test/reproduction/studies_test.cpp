@@ -51,6 +51,9 @@ TEST(Studies, GiveTheTextOfTheReproductionPage) {
     for (std::size_t k = 0; k < all_studies().size(); ++k) {
         EXPECT_TRUE(names.insert(all_studies()[k]->name).second) << all_studies()[k]->name;
         check(*all_studies()[k], (*outcomes)[k]);
+        for (const auto& c : (*outcomes)[k].claims)
+            EXPECT_TRUE(all_studies()[k]->name != "touch" || !c.has_allowed_range() || c.is_in_allowed_range())
+                << c.label << ": " << c.computed;
     }
     const auto text = markdown_of(all_studies(), *outcomes), page = test::read_file(test::source_root() + "/reproduction/reproduction.md");
     EXPECT_EQ(text, page) << "reproduction/reproduction.md is stale: make reproduction";
