@@ -14,6 +14,7 @@ class DepthKernel {
 
 public:
     explicit DepthKernel(double depth) : depth_(depth) {}
+    double depth() const { return depth_; }
 
     /// The integral over the rectangle between (0, 0) and (x, y), m. It is odd in x and in y.
     double corner(double x, double y) const;

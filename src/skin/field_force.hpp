@@ -3,6 +3,7 @@
 
 #include "model/lane_population.hpp"
 #include "model/lanes/aligned_buffer.hpp"
+#include "skin/field_pieces.hpp"
 #include "skin/lanes/kernel.hpp"
 #include "skin/skin.hpp"
 
@@ -23,8 +24,8 @@ inline std::size_t index_in_tiles(std::size_t number, std::size_t receptors) {
 /// for bit whether or not such sites are among the touched ones.
 class FieldForce {
 public:
-    /// For afferents [first, first + count) of a class; `sites`: number of sites of the skin.
-    FieldForce(const ReceptiveFields&, std::size_t first, std::size_t count, std::size_t sites, InstructionSet);
+    /// For afferents [first, first + count) of a class. The receptive fields must outlive this object.
+    FieldForce(const ReceptiveFields&, std::size_t first, std::size_t count, InstructionSet);
 
     /// Computes the force in `steps` steps, at most skin_steps, from step `at` of the block on. tiles() returns the result.
     void compute(const SiteForce&, std::span<const std::uint32_t> touched, std::size_t at, std::size_t steps, ThreadPool&);
@@ -33,13 +34,6 @@ public:
 
 private:
     static constexpr std::size_t tiles_per_piece = 16;  // tiles in a piece; a piece is computed by one thread
-    /// The receptive fields of the afferents of a piece, sorted by site as in ReceptiveFields. Afferents are counted from 0 at the first
-    /// one of the piece.
-    struct Piece {
-        std::vector<std::uint32_t> begin, afferent;
-        std::vector<double> weight;
-    };
-
     /// The weights of a tile for single steps, which live skins simulate. They are only built if the tile's afferents are arranged like the
     /// sites, as on a grid. Row k has one weight for each afferent u of the tile, for the force at site row[k] + u. The weight is 0 if the
     /// afferent does not respond to this site.
@@ -62,8 +56,8 @@ private:
     };
 
     const lanes::FieldKernels& lanes_;
-    std::size_t size_, tiles_;  // numbers of afferents and of tiles
-    std::vector<Piece> pieces_;
+    FieldPieces pieces_;
+    std::size_t size_, tiles_;                        // numbers of afferents and of tiles
     lanes::AlignedBuffer<double> weights_;            // groups of eight weights of OneStep, each distinct group once
     std::vector<OneStep> one_step_;                   // for each tile; built at the first single step
     std::vector<std::uint8_t> has_rows_;              // for each piece: 1 if all its tiles have rows; built with one_step_
@@ -82,7 +76,7 @@ private:
     void compute_tile(std::size_t tile, std::size_t steps);
     void build_one_step();
     class WeightGroups;
-    void build_tile(std::size_t tile, std::size_t sites, WeightGroups&);
+    void build_tile(std::size_t tile, WeightGroups&);
     void compute_one_step(const Call&);
     void compute_rows(std::size_t piece, const double* force_at_site_0);
     void compute_site_by_site(std::size_t piece, const Call&);

@@ -32,8 +32,7 @@ public:
 
 /// Builds the rows of one tile, if its afferents are arranged like the sites. This is so if they need at most 1.5 times as many rows as the
 /// largest receptive field has sites.
-void FieldForce::build_tile(std::size_t tile, std::size_t sites, WeightGroups& groups) {
-    const auto& p = pieces_[tile / tiles_per_piece];
+void FieldForce::build_tile(std::size_t tile, WeightGroups& groups) {
     const std::size_t first = tile % tiles_per_piece * tile_width;
     struct Entry {
         std::ptrdiff_t row;    // site - afferent
@@ -43,13 +42,15 @@ void FieldForce::build_tile(std::size_t tile, std::size_t sites, WeightGroups& g
     std::vector<Entry> entries;
     std::vector<std::size_t> counts(tile_width);  // number of sites of each afferent
     std::map<std::ptrdiff_t, std::size_t> rows;   // from an element of OneStep::row to its index
-    for (std::uint32_t s = 0; s < sites; ++s)
-        for (std::size_t k = p.begin[s]; k < p.begin[s + 1]; ++k) {
-            if (p.afferent[k] < first || p.afferent[k] >= first + tile_width) continue;
-            const std::size_t afferent = p.afferent[k] - first;
-            entries.push_back({static_cast<std::ptrdiff_t>(s) - static_cast<std::ptrdiff_t>(afferent), afferent, p.weight[k]});
+    for (std::uint32_t s = 0; s < pieces_.sites(); ++s) {
+        const auto e = pieces_.at(tile / tiles_per_piece, s);
+        for (std::size_t k = 0; k < e.count; ++k) {
+            const std::size_t afferent = e.afferent[k] - e.origin - first;
+            if (afferent >= tile_width) continue;  // of another tile
+            entries.push_back({static_cast<std::ptrdiff_t>(s) - static_cast<std::ptrdiff_t>(afferent), afferent, e.weight[k]});
             rows[entries.back().row] = 0, ++counts[afferent];
         }
+    }
     const auto max_count = *std::max_element(counts.begin(), counts.end());
     if (rows.size() > max_count + max_count / 2) return;
     auto& out = one_step_[tile];
@@ -60,12 +61,12 @@ void FieldForce::build_tile(std::size_t tile, std::size_t sites, WeightGroups& g
 }
 
 void FieldForce::build_one_step() {
-    const std::size_t sites = pieces_[0].begin.size() - 1;
+    const std::size_t sites = pieces_.sites();
     padded_force_.assign(sites + 2 * margin, 0);
     one_step_.resize(tiles_);
     WeightGroups groups;
-    for (std::size_t t = 0; t < tiles_; ++t) build_tile(t, sites, groups);
-    has_rows_.assign(pieces_.size(), 1);
+    for (std::size_t t = 0; t < tiles_; ++t) build_tile(t, groups);
+    has_rows_.assign(pieces_.pieces(), 1);
     for (std::size_t t = 0; t < tiles_; ++t)
         if (one_step_[t].row.empty()) has_rows_[t / tiles_per_piece] = 0;
     weights_ = lanes::AlignedBuffer<double>(groups.all.size());
@@ -73,11 +74,13 @@ void FieldForce::build_one_step() {
     std::vector<std::uint32_t> last(tiles_, std::uint32_t(-1));  // for each tile the last site that was added to responding_tiles_
     responding_begin_.assign(1, 0);
     for (std::uint32_t s = 0; s < sites; ++s) {
-        for (std::size_t p = 0; p < pieces_.size(); ++p)
-            for (std::size_t k = pieces_[p].begin[s]; k < pieces_[p].begin[s + 1]; ++k) {
-                const std::size_t t = p * tiles_per_piece + pieces_[p].afferent[k] / tile_width;
+        for (std::size_t p = 0; p < pieces_.pieces(); ++p) {
+            const auto e = pieces_.at(p, s);
+            for (std::size_t k = 0; k < e.count; ++k) {
+                const std::size_t t = p * tiles_per_piece + (e.afferent[k] - e.origin) / tile_width;
                 if (std::exchange(last[t], s) != s) responding_tiles_.push_back(static_cast<std::uint32_t>(t));
             }
+        }
         responding_begin_.push_back(responding_tiles_.size());
     }
 }
@@ -96,7 +99,7 @@ void FieldForce::compute_one_step(const Call& call) {
         std::copy_n(force, call.touched.size(), force_at_site_0);
     else
         for (const auto s : call.touched) force_at_site_0[s] = force[s * call.force.stride];
-    for (std::size_t piece = 0; piece < pieces_.size(); ++piece)
+    for (std::size_t piece = 0; piece < pieces_.pieces(); ++piece)
         has_rows_[piece] ? compute_rows(piece, force_at_site_0) : compute_site_by_site(piece, call);
     if (all_touched)
         std::fill_n(force_at_site_0, call.touched.size(), 0.0);
@@ -114,7 +117,6 @@ void FieldForce::compute_rows(std::size_t piece, const double* force_at_site_0) 
 
 /// Computes the force on a piece that has tiles without rows: adds the contribution of each site to all afferents that respond to it.
 void FieldForce::compute_site_by_site(std::size_t piece, const Call& call) {
-    const auto& p = pieces_[piece];
     const std::size_t first = piece * tiles_per_piece, tiles = std::min(tiles_per_piece, tiles_ - first);
     double* const sums = rows_.data() + first * tile_width;
     bool any = false;
@@ -123,7 +125,8 @@ void FieldForce::compute_site_by_site(std::size_t piece, const Call& call) {
     if (!any) return;
     for (const auto s : call.touched) {
         const double f = call.force.data[s * call.force.stride + call.at];
-        for (std::size_t k = p.begin[s]; k < p.begin[s + 1]; ++k) sums[p.afferent[k]] += p.weight[k] * f;
+        const auto e = pieces_.at(piece, s);
+        for (std::size_t k = 0; k < e.count; ++k) sums[e.afferent[k] - e.origin] += e.weight[k] * f;
     }
 }
 

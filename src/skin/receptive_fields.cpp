@@ -7,6 +7,7 @@
 #include "skin/contact/skin_cells.hpp"
 #include "skin/depth_kernel.hpp"
 #include "skin/innervation.hpp"
+#include "skin/lanes/kernel.hpp"
 
 namespace corpuscle {
 namespace {
@@ -15,6 +16,7 @@ constexpr double cutoff = 3;              // a Gaussian hot spot ends at this di
 constexpr double surround_depth = 3;      // depth at which the surround is felt, in depths of the class; choice
 constexpr double surround_cutoff = 0.05;  // the fraction of the surround that is left out
 constexpr double centre_cutoff = 0.01;    // the same for the stress at the depth of the class
+constexpr std::size_t max_expected_sites = 1 << 22;  // for which memory is reserved at once
 
 /// Rounds to a multiple of 2^-40, about 1e-12, so that sites at equal distances have equal weights in spite of round-off in their
 /// positions. Equal fields can then be stored once.
@@ -68,6 +70,8 @@ class FieldsOfClass {
     const DepthKernel centre_, wide_;           // of the class and of the surround, if the class has a depth
     double centre_reach_ = 0, wide_reach_ = 0;  // m, of these kernels
     std::optional<SkinCells> cells_;            // if the class has a depth
+    const lanes::FieldKernels& lanes_;
+    std::vector<double> edges_;             // y of the edges of a column of cells, m, from the hot spot
     std::vector<double> corners_, before_;  // integrals of a kernel at the corners of a column of cells, and at those of the column before
     // Sites within reach of the current hot spot, with their squared distances from it (m2), which are then replaced by weights.
     std::vector<std::pair<std::uint32_t, double>> near_spot_;
@@ -94,13 +98,16 @@ class FieldsOfClass {
         double end = -INFINITY;  // of the column before, m; columns that follow each other share corners
         cells_->for_each_column(x, y, reach, reach, [&](double left, auto edges, auto sites) {
             const auto compute = [&](double edge, std::vector<double>& corners) {
-                corners.clear();
-                for (const double at : edges) corners.push_back(kernel.corner(edge - x, at - y));
+                corners.resize(edges_.size());
+                lanes_.stress_corners(kernel.depth(), edge - x, edges_.data(), edges_.size(), corners.data());
             };
-            if (cells_->is_lattice() && end != -INFINITY)
+            if (cells_->is_lattice() && end != -INFINITY) {
                 std::swap(before_, corners_);
-            else
+            } else {
+                edges_.assign(edges.begin(), edges.end());
+                for (double& at : edges_) at -= y;
                 compute(left, before_);
+            }
             compute(end = left + cells_->side(), corners_);
             for (std::size_t k = 0; k < sites.size(); ++k)
                 if (sites[k] != SkinCells::no_site && may_feel(afferent, sites[k]))
@@ -135,13 +142,22 @@ class FieldsOfClass {
     }
 
 public:
-    FieldsOfClass(const SkinPlan& plan, const SkinClass& c, const SiteGrid& grid, const std::vector<char>& touching)
+    FieldsOfClass(const SkinPlan& plan, const SkinClass& c, const SiteGrid& grid, const std::vector<char>& touching, InstructionSet set)
         : plan_(plan), class_(c), grid_(grid), touching_(touching), per_square_(c.sigma > 0 ? 0.5 / (c.sigma * c.sigma) : 0),
           scale_(plan.felt_area > 0 && plan.sites.area > 0 ? plan.felt_area / plan.sites.area : 1), stream_(class_stream(c, "hot spots")),
-          weights_(plan.sites.size()), surround_(plan.sites.size()), centre_(c.depth), wide_(surround_depth * c.depth) {
+          weights_(plan.sites.size()), surround_(plan.sites.size()), centre_(c.depth), wide_(surround_depth * c.depth),
+          lanes_(lanes::field_kernels(set)) {
         if (!(c.depth > 0)) return;
         cells_.emplace(plan.sites);
         centre_reach_ = centre_.reach(centre_cutoff), wide_reach_ = wide_.reach(surround_cutoff);
+    }
+
+    /// About the number of sites in the receptive fields of one afferent, usually an upper bound.
+    std::size_t expected_sites() const {
+        const double sites = static_cast<double>(plan_.sites.size()), spots = std::max(class_.hot_spots, 1U);
+        if (!cells_) return class_.receptors();
+        const double side = 2 * (std::max(centre_reach_, class_.surround > 0 ? wide_reach_ : 0) / cells_->side() + 1);
+        return static_cast<std::size_t>(std::min(spots * side * side, class_.receptors() * sites));
     }
 
     /// Appends the receptive fields of one afferent: one, or one for each hot spot.
@@ -176,9 +192,12 @@ ReceptiveFields sorted_by_site(const FieldTable& table, std::size_t sites, std::
 Result<ReceptiveFields> receptive_fields_of(const SkinPlan& plan, std::uint32_t class_index, std::span<const SkinAfferent> afferents,
                                             const SiteGrid& grid, const std::vector<char>& touching) {
     const auto& c = plan.classes[class_index];
-    FieldsOfClass fields(plan, c, grid, touching);
+    FieldsOfClass fields(plan, c, grid, touching, TRY(instruction_set()));
     FieldTable table;
     table.end.reserve(afferents.size() * c.receptors());
+    // Growing arrays would be copied, and take new pages of memory each time.
+    const auto expected = std::min(afferents.size() * fields.expected_sites(), max_expected_sites);
+    table.site.reserve(expected), table.weight.reserve(expected);
     for (const auto& u : afferents) {
         fields.add(u, table);
         if (table.site.size() > max_weights)

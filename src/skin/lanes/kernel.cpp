@@ -4,6 +4,7 @@
 #include "skin/lanes/kernel.hpp"
 
 #include "core/number/number.hpp"
+#include "skin/stress_integral.hpp"
 
 namespace corpuscle::lanes {
 namespace {
@@ -30,11 +31,11 @@ void sum_rows(const std::ptrdiff_t* row, std::size_t rows, const std::uint32_t* 
     }
 }
 
-void add_site(const std::uint32_t* afferent, const double* weight, std::size_t count, const double* force, std::size_t steps, double* sums,
-              std::size_t stride) {
+void add_site(const std::uint32_t* afferent, const double* weight, std::size_t count, std::uint32_t origin, const double* force,
+              std::size_t steps, double* sums, std::size_t stride) {
     const std::size_t full_vectors = steps / width * width;
     for (std::size_t k = 0; k < count; ++k) {
-        double* const sum = sums + afferent[k] * stride;
+        double* const sum = sums + (afferent[k] - origin) * stride;
         const T w(weight[k]);
         for (std::size_t t = 0; t < full_vectors; t += width)
             (T::load_unaligned(sum + t) + w * T::load_unaligned(force + t)).store_unaligned(sum + t);
@@ -87,10 +88,20 @@ void sum_delayed(const DelayedTerm* terms, std::size_t count, std::size_t steps,
     }
 }
 
+void stress_corners(double depth, double x, const double* y, std::size_t count, double* out) {
+    std::size_t k = 0;
+    for (; k + width <= count; k += width) stress_integral(T(x), T::load_unaligned(y + k), T(depth)).store_unaligned(out + k);
+    if (k == count) return;
+    alignas(64) double rest[width];
+    for (std::size_t l = 0; l < width; ++l) rest[l] = y[k + l < count ? k + l : count - 1];
+    stress_integral(T(x), T::load_aligned(rest), T(depth)).store_aligned(rest);
+    for (std::size_t l = 0; k + l < count; ++l) out[k + l] = rest[l];
+}
+
 }  // namespace
 
 namespace CORPUSCLE_ISA {
-const FieldKernels field_kernels{sum_rows, add_site, sum_afferent, sum_delayed};
+const FieldKernels field_kernels{sum_rows, add_site, sum_afferent, sum_delayed, stress_corners};
 }
 
 }  // namespace corpuscle::lanes

@@ -24,15 +24,17 @@ struct FieldKernels {
     /// row k: weights[groups[(64 k + u) / group_size] + u % group_size].
     void (*sum_rows)(const std::ptrdiff_t* row, std::size_t rows, const std::uint32_t* groups, const double* weights, const double* now,
                      double* sums);
-    /// Adds the force of one site in all steps t to the `count` afferents that respond to it: sums[afferent[k] * stride + t] +=
+    /// Adds the force of one site in all steps t to the `count` afferents that respond to it: sums[(afferent[k] - origin) * stride + t] +=
     /// weight[k] * force[t].
-    void (*add_site)(const std::uint32_t* afferent, const double* weight, std::size_t count, const double* force, std::size_t steps,
-                     double* sums, std::size_t stride);
+    void (*add_site)(const std::uint32_t* afferent, const double* weight, std::size_t count, std::uint32_t origin, const double* force,
+                     std::size_t steps, double* sums, std::size_t stride);
     /// The force on one afferent in all steps t: column[t * stride] = sum over k < count of weight[k] * rows[site[k]][t].
     void (*sum_afferent)(const std::uint32_t* site, const double* weight, std::size_t count, const double* const* rows, std::size_t steps,
                          double* column, std::size_t stride);
     /// The sum of all terms in all steps t: sums[t].
     void (*sum_delayed)(const DelayedTerm* terms, std::size_t count, std::size_t steps, double* sums);
+    /// DepthKernel::corner() of a kernel at this depth, at `count` points with the same x: out[k] = corner(x, y[k]).
+    void (*stress_corners)(double depth, double x, const double* y, std::size_t count, double* out);
 };
 
 CORPUSCLE_KERNELS(FieldKernels, field_kernels)
