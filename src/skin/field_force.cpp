@@ -13,13 +13,6 @@ constexpr std::size_t dense_ratio = 2;  // if more than 1 / dense_ratio of the s
 /// Number of steps with padding.
 std::size_t padded(std::size_t steps) { return (steps + field_steps - 1) / field_steps * field_steps; }
 
-/// Transposes the sums of a tile from [afferent][stride] to [step][tile_width].
-void transpose(const double* sums, std::size_t stride, std::size_t steps, double* rows) {
-    for (std::size_t from = 0; from < steps; from += field_steps)
-        for (std::size_t u = 0; u < tile_width; ++u)
-            for (std::size_t t = from; t < std::min(from + field_steps, steps); ++t) rows[t * tile_width + u] = sums[u * stride + t];
-}
-
 }  // namespace
 
 FieldForce::FieldForce(const ReceptiveFields& fields, std::size_t first, std::size_t count, InstructionSet set)
@@ -94,8 +87,12 @@ void FieldForce::compute_piece(std::size_t piece, const Call& call, double* sums
                 std::fill_n(sums + tile * tile_width * stride, tile_width * stride, 0.0), zero_force[tile] = 0;
         lanes_.add_site(e.afferent, e.weight, e.count, e.origin, force.data + s * force.stride + at, steps, sums, stride);
     }
-    for (std::size_t tile = 0; tile < tiles; ++tile)
-        if (!zero_force[tile]) transpose(sums + tile * tile_width * stride, stride, steps, rows + tile * steps * tile_width);
+    std::array<const double*, tile_width> columns{};
+    for (std::size_t tile = 0; tile < tiles; ++tile) {
+        if (zero_force[tile]) continue;
+        for (std::size_t u = 0; u < tile_width; ++u) columns[u] = sums + (tile * tile_width + u) * stride;
+        lanes_.transpose(columns.data(), steps, nullptr, 0, rows + tile * steps * tile_width);
+    }
 }
 
 }  // namespace corpuscle

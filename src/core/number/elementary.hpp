@@ -84,14 +84,18 @@ T cos_turns(T turns) {
     return num::select(num::abs(num::abs(q) - T(1.0)) < T(0.5), odd, even);
 }
 
-/// (e^x - 1) / x without loss of digits for small x; 1 at x = 0.
+/// (e^x - 1) / x without loss of digits for small x; 1 at x = 0. `exp_x` must be exp(x).
 template <class T>
-T exprel(T x) {
+T exprel(T x, T exp_x) {
     // Taylor series to x^6. Below series_limit the remainder is at most 3e-19 for double (|x| < 0.01), and 6e-9 for float (|x| < 0.3).
     T series = T(1.0 / 5040);
     for (const double f : {720.0, 120.0, 24.0, 6.0, 2.0, 1.0}) series = series * x + T(1.0 / f);
     const auto small = num::abs(x) < T(series_limit<T>);
-    return num::select(small, series, (num::exp(x) - T(1.0)) / num::select(small, T(1.0), x));
+    return num::select(small, series, (exp_x - T(1.0)) / num::select(small, T(1.0), x));
+}
+template <class T>
+T exprel(T x) {
+    return exprel(x, num::exp(x));
 }
 
 // Functions of dual numbers: value and derivative. The value is identical to the result for a double.

@@ -155,7 +155,7 @@ bool any_refractory(const NeuronCall<V>& c, int first) {
 
 template <class V, class N>
 void run_neuron_tile(const NeuronCall<V>& c) {
-    constexpr int J = 4;
+    constexpr int J = value_count<typename N::State, V> > 5 ? 2 : 4;  // more would not fit the registers
     Prefetcher local(c.prefetch, iteration_count<V, J>(c));
     for (int first = 0; first < c.afferents; first += J * width<V>) {
         if constexpr (requires(const N& n) { n.may_be_refractory(); })

@@ -85,7 +85,7 @@ struct Adaptive : AdaptiveTraits {
                 } here{base + rise.at(y) - V_th - above, rise.a + rise.b * y + fall * above};
                 return here;
             };
-            const T at = spike_offset(rising_root(margin, num::max(x, first), last), num::max(x, first));
+            const T at = spike_offset(rising_root(margin, num::max(x, first), last, over), num::max(x, first));
             fired(over, at);
             // Ends of the refractory time, and of the part of it that is within the step.
             const T end = at + ref, from = num::min(end, T(1.0));

@@ -94,7 +94,7 @@ struct Alif : AlifTraits {
                 } here{v - V_th * s.random.factor - above, dt_by_tau * (E_L - v + R_m * (at + g * h)) + fall * above};
                 return here;
             };
-            const T spike = spike_offset(x + rising_root(rise, T(0.0), T(1.0) - x), x);
+            const T spike = spike_offset(x + rising_root(rise, T(0.0), T(1.0) - x, over), x);
             fired(over, spike);
             const T end = spike + ref, from = num::min(end, T(1.0));
             const T risen = a * num::exp(-fall * (spike - x)) + dV_th;  // just after the spike
@@ -120,7 +120,10 @@ private:
     /// The potential after a fraction h of a step, from potential u, under a current that begins at i and changes by g per whole step.
     /// The arguments e and m must be exp(-dt_by_tau h) and exprel(-dt_by_tau h). Here exprel(x) = (exp(x) - 1) / x.
     T after(T u, T i, T g, T h, T e, T m) const { return E_L + (u - E_L) * e + R_m * (i * (dt_by_tau * h * m) + g * h * (T(1.0) - m)); }
-    T after(T u, T i, T g, T h) const { return after(u, i, g, h, num::exp(-dt_by_tau * h), num::exprel(-dt_by_tau * h)); }
+    T after(T u, T i, T g, T h) const {
+        const T y = -dt_by_tau * h, e = num::exp(y);
+        return after(u, i, g, h, e, num::exprel(y, e));
+    }
 
     /// The random state after a spike of the lanes of the mask.
     IrregularThreshold<T> draw(const IrregularThreshold<T>& old, num::Mask<T> fired) const {

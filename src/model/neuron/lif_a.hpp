@@ -60,7 +60,10 @@ private:
     /// The potential after a fraction h of a step, from potential u, under a current that begins at i and changes by g per whole step.
     /// The arguments e and m must be exp(-dt_by_tau h) and exprel(-dt_by_tau h). Here exprel(x) = (exp(x) - 1) / x.
     T after(T u, T i, T g, T h, T e, T m) const { return E_L + (u - E_L) * e + R_m * (i * (dt_by_tau * h * m) + g * h * (T(1.0) - m)); }
-    T after(T u, T i, T g, T h) const { return after(u, i, g, h, num::exp(-dt_by_tau * h), num::exprel(-dt_by_tau * h)); }
+    T after(T u, T i, T g, T h) const {
+        const T y = -dt_by_tau * h, e = num::exp(y);
+        return after(u, i, g, h, e, num::exprel(y, e));
+    }
 
     /// A step of the exact method. Times within the step are 0 at its beginning and 1 at its end. Time x is the end of the refractory time
     /// or the last spike, u the potential at x, and s.u the potential at the end of the step, as far as spikes have been fired.
@@ -83,7 +86,7 @@ private:
                 } here{v - V_th, dt_by_tau * (E_L - v + R_m * (at + g * h))};
                 return here;
             };
-            x = num::select(over, spike_offset(x + rising_root(rise, T(0.0), T(1.0) - x), x), x);
+            x = num::select(over, spike_offset(x + rising_root(rise, T(0.0), T(1.0) - x, over), x), x);
             fired(over, x);
             const T end = x + ref, from = num::min(end, T(1.0));
             s.ref_steps = num::select(over, end - from, s.ref_steps);

@@ -2,6 +2,9 @@
 // Helpers of the integrate-and-fire neurons for events within one step. x is the time within the step: 0 at its beginning, which is the
 // previous sample, and 1 at its end.
 
+#include <type_traits>
+#include <utility>
+
 #include "core/number/elementary.hpp"
 
 namespace corpuscle {
@@ -37,17 +40,24 @@ T spike_offset(T x, T x0) {
     return num::min(num::max(x, num::max(x0, T(0x1p-52))), T(1.0));
 }
 
+/// True if T has no derivatives, so that equal values are equal numbers: a number or lanes.
+template <class T>
+inline constexpr bool is_plain = std::is_floating_point_v<T> || requires { T::size; };
+
 /// The root of a function that rises through 0 between low and high, by Newton's method, with bisection where a step would leave the
-/// bracket. The number of passes is fixed, so that lanes and scalars compute the same. f(x) returns {value, slope}.
+/// bracket. The number of passes is fixed, so that lanes and scalars compute the same. The passes end early if a pass does not change x on
+/// the lanes of `needed`, because then no further pass does. Other lanes have no meaning. f(x) returns {value, slope}.
 template <class T, class F>
-T rising_root(F f, T low, T high) {
+T rising_root(F f, T low, T high, num::Mask<T> needed) {
     T x = T(0.5) * (low + high);
     for (int pass = 0; pass < 12; ++pass) {
         const auto [v, slope] = f(x);
         high = num::select(v > T(0.0), x, high);
         low = num::select(v > T(0.0), low, x);
         const T newton = x - v / slope;
-        x = num::select((newton >= low) & (newton <= high), newton, T(0.5) * (low + high));
+        const T before = std::exchange(x, num::select((newton >= low) & (newton <= high), newton, T(0.5) * (low + high)));
+        if constexpr (is_plain<T>)
+            if (!num::any(needed & (x != before))) break;
     }
     return x;
 }

@@ -3,6 +3,9 @@
 
 #include "skin/lanes/kernel.hpp"
 
+#include <cstring>
+#include <utility>
+
 #include "core/number/number.hpp"
 #include "skin/stress_integral.hpp"
 
@@ -88,6 +91,50 @@ void sum_delayed(const DelayedTerm* terms, std::size_t count, std::size_t steps,
     }
 }
 
+/// A register of T, whose elements the compiler can shuffle.
+using Shuffled [[gnu::vector_size(width * sizeof(double))]] = double;
+
+/// The elements 0, width, 1, width + 1 ... of `low` and `high` one after the other, from element `from` of each on.
+template <std::size_t from, std::size_t... k>
+[[gnu::always_inline]] inline Shuffled interleaved(Shuffled low, Shuffled high, std::index_sequence<k...>) {
+    return __builtin_shufflevector(low, high, static_cast<int>(from + k / 2 + k % 2 * width)...);
+}
+
+/// Transposes a square of `width` registers: in each pass, register i is interleaved with register i + width / 2.
+[[gnu::always_inline]] inline void transpose_square(Shuffled (&x)[width]) {
+    constexpr auto all = std::make_index_sequence<width>{};
+    for (std::size_t pass = 1; pass < width; pass *= 2) {
+        Shuffled next[width];
+        for (std::size_t i = 0; i < width / 2; ++i) {
+            next[2 * i] = interleaved<0>(x[i], x[i + width / 2], all);
+            next[2 * i + 1] = interleaved<width / 2>(x[i], x[i + width / 2], all);
+        }
+        for (std::size_t i = 0; i < width; ++i) x[i] = next[i];
+    }
+}
+
+template <bool adds>
+void transpose_tile(const double* const* columns, std::size_t steps, const double* base, std::size_t base_stride, double* rows) {
+    constexpr std::size_t afferents = 64;
+    const std::size_t squares = steps / width * width;
+    for (std::size_t u = 0; u < afferents; u += width)
+        for (std::size_t t = 0; t < squares; t += width) {
+            Shuffled x[width];
+            for (std::size_t i = 0; i < width; ++i) x[i] = (Shuffled)T::load_unaligned(columns[u + i] + t).data;
+            transpose_square(x);
+            for (std::size_t i = 0; i < width; ++i) {
+                if constexpr (adds) x[i] = (Shuffled)T::load_unaligned(base + (t + i) * base_stride + u).data + x[i];
+                std::memcpy(rows + (t + i) * afferents + u, &x[i], sizeof x[i]);
+            }
+        }
+    for (std::size_t t = squares; t < steps; ++t)
+        for (std::size_t u = 0; u < afferents; ++u)
+            rows[t * afferents + u] = adds ? base[t * base_stride + u] + columns[u][t] : columns[u][t];
+}
+void transpose(const double* const* columns, std::size_t steps, const double* base, std::size_t base_stride, double* rows) {
+    base ? transpose_tile<true>(columns, steps, base, base_stride, rows) : transpose_tile<false>(columns, steps, base, base_stride, rows);
+}
+
 void stress_corners(double depth, double x, const double* y, std::size_t count, double* out) {
     std::size_t k = 0;
     for (; k + width <= count; k += width) stress_integral(T(x), T::load_unaligned(y + k), T(depth)).store_unaligned(out + k);
@@ -101,7 +148,7 @@ void stress_corners(double depth, double x, const double* y, std::size_t count, 
 }  // namespace
 
 namespace CORPUSCLE_ISA {
-const FieldKernels field_kernels{sum_rows, add_site, sum_afferent, sum_delayed, stress_corners};
+const FieldKernels field_kernels{sum_rows, add_site, sum_afferent, sum_delayed, transpose, stress_corners};
 }
 
 }  // namespace corpuscle::lanes

@@ -33,6 +33,9 @@ struct FieldKernels {
                          double* column, std::size_t stride);
     /// The sum of all terms in all steps t: sums[t].
     void (*sum_delayed)(const DelayedTerm* terms, std::size_t count, std::size_t steps, double* sums);
+    /// Transposes the columns of a tile: rows[64 t + u] = columns[u][t] for 64 u and all steps t. If `base` is not null, columns[u][t] is
+    /// added to base[base_stride * t + u].
+    void (*transpose)(const double* const* columns, std::size_t steps, const double* base, std::size_t base_stride, double* rows);
     /// DepthKernel::corner() of a kernel at this depth, at `count` points with the same x: out[k] = corner(x, y[k]).
     void (*stress_corners)(double depth, double x, const double* y, std::size_t count, double* out);
 };

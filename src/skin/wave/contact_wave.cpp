@@ -114,17 +114,12 @@ void ContactWave::add_to_tile(std::size_t tile, const TileCall& call) {
     for (std::size_t u = begin; u < end; ++u) is_reached = is_reached || has_wave_[cell_of_afferent_[u]];
     zero_force_[tile] = !is_direct && !is_reached;
     if (zero_force_[tile]) return;
-    double* const rows = rows_.data() + row;
-    is_direct ? std::copy_n(direct.rows + row, steps * tile_width, rows) : std::fill_n(rows, steps * tile_width, 0.0);
+    static constexpr std::array<double, std::max(tile_width, WaveSources::max_steps)> zeros = {};
     std::array<const double*, tile_width> waves{};
-    for (std::size_t u = begin; u < end; ++u) waves[u - begin] = force_on(u);
-    if (std::find(waves.begin(), waves.end(), nullptr) == waves.end()) {  // usual in a class that feels waves from far away
-        for (std::size_t t = 0; t < steps; ++t)
-            for (std::size_t u = 0; u < tile_width; ++u) rows[t * tile_width + u] += waves[u][t];
-        return;
-    }
-    for (std::size_t u = 0; u < tile_width; ++u)
-        for (std::size_t t = 0; t < steps && waves[u]; ++t) rows[t * tile_width + u] += waves[u][t];
+    waves.fill(zeros.data());
+    for (std::size_t u = begin; u < end; ++u)
+        if (const double* const wave = force_on(u)) waves[u - begin] = wave;
+    lanes_.transpose(waves.data(), steps, is_direct ? direct.rows + row : zeros.data(), is_direct ? tile_width : 0, rows_.data() + row);
 }
 
 ForceTiles<double> ContactWave::add(ForceTiles<double> direct, const SiteForce& force, std::span<const std::uint32_t> touched,
