@@ -18,26 +18,29 @@ FieldPieces::FieldPieces(const ReceptiveFields& fields, std::size_t first, std::
     : forces_(force_count(fields, count)), piece_forces_(piece_forces), sites_(fields.begin.size() - 1), first_(first),
       afferent_(fields.afferent.data()), weight_(fields.weight.data()) {
     if (fields.receptors > 1) {
-        sort_by_tile(fields, first, count);
+        sort_by_piece(fields, first, count);
         first_ = 0, afferent_ = sorted_.afferent.data(), weight_ = sorted_.weight.data();
     }
     find_pieces(fields.receptors > 1 ? sorted_.begin : fields.begin);
 }
 
-/// Copies the entries of these afferents to sorted_: for each site in ascending order of their numbers in ForceTiles.
-void FieldPieces::sort_by_tile(const ReceptiveFields& fields, std::size_t first, std::size_t count) {
+/// Copies the entries of these afferents to sorted_, with their numbers in ForceTiles, and for each site in the order of the pieces.
+void FieldPieces::sort_by_piece(const ReceptiveFields& fields, std::size_t first, std::size_t count) {
     const std::size_t from = first * fields.receptors, to = (first + count) * fields.receptors;
-    std::vector<std::pair<std::uint32_t, double>> entries;  // of one site
-    sorted_.begin.reserve(sites_ + 1), sorted_.begin.push_back(0);
-    sorted_.afferent.reserve(fields.afferent.size()), sorted_.weight.reserve(fields.weight.size());
+    auto& [begin, afferents, weights, receptors] = sorted_;
+    begin.reserve(sites_ + 1), begin.push_back(0);
+    afferents.reserve(fields.afferent.size()), weights.reserve(fields.weight.size());
     for (std::size_t s = 0; s < sites_; ++s) {
-        entries.clear();
-        for (std::size_t k = fields.begin[s]; k < fields.begin[s + 1]; ++k)
-            if (const std::size_t number = fields.afferent[k]; number >= from && number < to)
-                entries.emplace_back(static_cast<std::uint32_t>(index_in_tiles(number - from, fields.receptors)), fields.weight[k]);
-        std::sort(entries.begin(), entries.end());
-        for (const auto& [afferent, weight] : entries) sorted_.afferent.push_back(afferent), sorted_.weight.push_back(weight);
-        sorted_.begin.push_back(sorted_.afferent.size());
+        for (std::size_t k = fields.begin[s]; k < fields.begin[s + 1]; ++k) {
+            const std::size_t number = fields.afferent[k];
+            if (number < from || number >= to) continue;
+            afferents.push_back(static_cast<std::uint32_t>(index_in_tiles(number - from, fields.receptors)));
+            weights.push_back(fields.weight[k]);
+            // The entries are almost in order already: only the receptors of 64 afferents alternate.
+            for (auto at = afferents.size() - 1; at > begin[s] && afferents[at] / piece_forces_ < afferents[at - 1] / piece_forces_; --at)
+                std::swap(afferents[at], afferents[at - 1]), std::swap(weights[at], weights[at - 1]);
+        }
+        begin.push_back(afferents.size());
     }
 }
 

@@ -14,7 +14,7 @@ struct FieldEntries {
 };
 
 /// Finds the entries of a site in a piece. Afferents with several receptors have a force for each, in the order of ForceTiles, for which
-/// their entries are copied and sorted. The entries of all others are those of the ReceptiveFields, which must outlive this object.
+/// their entries are copied. The entries of all others are those of the ReceptiveFields, which must outlive this object.
 class FieldPieces {
 public:
     /// For the afferents [first, first + count) of a class; a piece has `piece_forces` forces, a multiple of tile_width.
@@ -31,12 +31,12 @@ public:
 private:
     std::size_t forces_, piece_forces_, sites_;
     std::size_t first_;                // number in afferent_ of the first force of the first piece
-    ReceptiveFields sorted_;           // a copy in the order of ForceTiles; empty: not needed
+    ReceptiveFields sorted_;           // a copy with the numbers of ForceTiles; empty: not needed
     const std::uint32_t* afferent_;    // those of `sorted_` or of the given fields
     const double* weight_;             // the same
     std::vector<std::uint32_t> begin_; // [piece][site]: first entry of this piece or a later one; after the last piece: the end
 
-    void sort_by_tile(const ReceptiveFields&, std::size_t first, std::size_t count);
+    void sort_by_piece(const ReceptiveFields&, std::size_t first, std::size_t count);
     void find_pieces(const std::vector<std::size_t>& begin);
 };
 

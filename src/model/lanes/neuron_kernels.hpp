@@ -145,6 +145,62 @@ void run_neurons(const NeuronCall<V>& c, int first, Prefetcher& prefetch) {
     unrolled<J>([&](auto j) __attribute__((always_inline)) { write(s[j], c.state, first + j * w); });
 }
 
+/// One step of a vector with all events, for run_quiet_neurons(). The state is in the tile.
+template <class V, class N>
+[[gnu::noinline]] void step_in_tile(const NeuronCall<V>& c, const N& n, int first, int step) {
+    auto state = read<typename N::State>(c.state, first);
+    c.fired->step = step;
+    const auto at = step * tile_size + first;
+    step_one(n, state, Current<Batch<V>>{load(c.from + at), load(c.to + at)}, FiringRecorder<V>{c.fired, first});
+    write(state, c.state, first);
+}
+
+/// As run_neurons() for neurons that have currents of their own and quiet_values: values of the state that come first in it, and are the
+/// only ones that change in a step without events. Only these are kept in registers; the others are read from the tile in each step.
+template <class V, class N, bool check_refractory, int J>
+void run_quiet_neurons(const NeuronCall<V>& c, int first, Prefetcher& prefetch) {
+    constexpr int w = width<V>, changing = sizeof N::quiet_values / sizeof N::quiet_values[0];
+    using T = Batch<V>;
+    using S = typename N::State;
+    const N* n[J];
+    T value[J][changing];
+    const auto in_tile = [&](int j, int k) { return c.state + k * tile_size + first + j * w; };
+    unrolled<J>([&](auto j) __attribute__((always_inline)) {
+        n[j] = &model<N>(c.models, c.stride, first / w + j);
+        unrolled<changing>([&](auto k) __attribute__((always_inline)) { value[j][k] = load(in_tile(j, k)); });
+    });
+    const V *from = c.from + first, *to = c.to + first;
+    Prefetcher local = prefetch;
+    for (int t = 0, steps = c.steps; t < steps; ++t, from += tile_size, to += tile_size) {
+        local.prefetch_next();
+        T next[J][changing];
+        num::Mask<T> events[J];
+        unrolled<J>([&](auto j) __attribute__((always_inline)) {
+            const auto state = [&]<int... k>(std::integer_sequence<int, k...>) __attribute__((always_inline)) {
+                return S{(k < changing ? value[j][k < changing ? k : 0] : load(in_tile(j, k)))...};
+            }(std::make_integer_sequence<int, static_cast<int>(value_count<S, V>)>{});
+            S after;
+            events[j] = n[j]->template try_quiet_step<check_refractory>(state, Current<T>{load(from + j * w), load(to + j * w)}, after);
+            unrolled<changing>([&](auto k) __attribute__((always_inline)) { next[j][k] = after.*N::quiet_values[k]; });
+        });
+        if (num::any_of(events)) [[unlikely]] {
+            unrolled<J>([&](auto j) __attribute__((always_inline)) {
+                if (!num::any(events[j])) return;
+                unrolled<changing>([&](auto k) __attribute__((always_inline)) { value[j][k].store_aligned(in_tile(j, k)); });
+                step_in_tile<V, N>(c, *n[j], first + j * w, t);
+                unrolled<changing>([&](auto k) __attribute__((always_inline)) { next[j][k] = load(in_tile(j, k)); });
+            });
+        }
+        unrolled<J>([&](auto j) __attribute__((always_inline)) {
+            unrolled<changing>([&](auto k) __attribute__((always_inline)) { value[j][k] = next[j][k]; });
+        });
+    }
+    prefetch = local;
+    unrolled<J>([&](auto j) __attribute__((always_inline)) {
+        unrolled<changing>([&](auto k) __attribute__((always_inline)) { value[j][k].store_aligned(in_tile(j, k)); });
+    });
+}
+
 /// True if a neuron in one of J vectors of a tile, from afferent `first` on, may be refractory.
 template <class V, class N, int J>
 bool any_refractory(const NeuronCall<V>& c, int first) {
@@ -155,9 +211,15 @@ bool any_refractory(const NeuronCall<V>& c, int first) {
 
 template <class V, class N>
 void run_neuron_tile(const NeuronCall<V>& c) {
-    constexpr int J = value_count<typename N::State, V> > 5 ? 2 : 4;  // more would not fit the registers
+    constexpr int J = 4;
     Prefetcher local(c.prefetch, iteration_count<V, J>(c));
     for (int first = 0; first < c.afferents; first += J * width<V>) {
+        if constexpr (requires { N::quiet_values; })
+            if (!c.gain) {
+                any_refractory<V, N, J>(c, first) ? run_quiet_neurons<V, N, true, J>(c, first, local)
+                                                  : run_quiet_neurons<V, N, false, J>(c, first, local);
+                continue;
+            }
         if constexpr (requires(const N& n) { n.may_be_refractory(); })
             if (!any_refractory<V, N, J>(c, first)) {
                 if (c.gain)

@@ -47,7 +47,8 @@ struct Alif : AlifTraits {
     Alif(const Values& value, double dt, Method)
         : R_m(value("R_m")), E_L(value("E_L")), V_th(value("V_th")), V_reset(value("V_reset")), dV_th(value("dV_th")),
           ref(value("t_ref") / dt), jitter(value("jitter")), dt_by_tau(T(dt) / (R_m * value("C_m"))), decay(num::exp(-dt_by_tau)),
-          mean(num::exprel(-dt_by_tau)), fall(T(dt) / value("tau_th")), threshold_decay(num::exp(-fall)) {}
+          mean(num::exprel(-dt_by_tau)), charge(dt_by_tau * mean), lag(T(1.0) - mean), fall(T(dt) / value("tau_th")),
+          threshold_decay(num::exp(-fall)) {}
 
     /// `stream` in [0, 1) selects the random numbers of an afferent.
     State start(T stream = T(0.0)) const { return {E_L, T(0.0), T(0.0), IrregularThreshold<T>::start(stream)}; }
@@ -56,12 +57,15 @@ struct Alif : AlifTraits {
     }
     void record(const State& s, T (&out)[2]) const { out[0] = s.u, out[1] = (V_th + s.a) * s.random.factor; }
 
+    /// The values of the state that change in a step without spike and refractory time. All others stay.
+    static constexpr T State::*quiet_values[] = {&State::u, &State::a};
+
     /// Computes `next`, the state after a step in which nothing happens: no spike and no refractory time. Returns the lanes in which one of
     /// these is possible, for which `next` is not valid. `check_refractory`: false if no lane can be refractory.
     template <bool check_refractory, class I>
     [[gnu::always_inline]] num::Mask<T> try_quiet_step(const State& s, const I& current, State& next) const {
         const Current<T> i = current;
-        next = {after(s.u, i.from, i.to - i.from, T(1.0), decay, mean), s.a * threshold_decay, s.ref_steps, s.random};
+        next = {after_step(s.u, i.from, i.to - i.from), s.a * threshold_decay, s.ref_steps, s.random};
         num::Mask<T> events = is_above_threshold(next);
         if (check_refractory) events = events | (s.ref_steps > T(0.0));
         return events;
@@ -77,7 +81,7 @@ struct Alif : AlifTraits {
         const T g = i.to - i.from;
         T x = num::min(s.ref_steps, T(1.0)), u = s.u, a = s.a;
         s.ref_steps = s.ref_steps - x;
-        s.u = after(u, i.from, g, T(1.0), decay, mean), s.a = a * threshold_decay;
+        s.u = after_step(u, i.from, g), s.a = a * threshold_decay;
         const auto was_refractory = x > T(0.0);
         if (num::any(was_refractory)) {
             s.u = num::select(was_refractory, after(u, i.from + g * x, g, T(1.0) - x), s.u);
@@ -111,19 +115,20 @@ struct Alif : AlifTraits {
     }
 
 private:
-    // ref = t_ref / dt; dt_by_tau = dt / (R_m C_m); decay = exp(-dt_by_tau) and mean = exprel(-dt_by_tau), for a whole step. Also
-    // fall = dt / tau_th; threshold_decay = exp(-fall).
-    T R_m, E_L, V_th, V_reset, dV_th, ref, jitter, dt_by_tau, decay, mean, fall, threshold_decay;
+    // ref = t_ref / dt; dt_by_tau = dt / (R_m C_m); decay = exp(-dt_by_tau) and mean = exprel(-dt_by_tau), for a whole step; charge =
+    // dt_by_tau mean; lag = 1 - mean. Also fall = dt / tau_th; threshold_decay = exp(-fall).
+    T R_m, E_L, V_th, V_reset, dV_th, ref, jitter, dt_by_tau, decay, mean, charge, lag, fall, threshold_decay;
 
     num::Mask<T> is_above_threshold(const State& s) const { return s.u > (V_th + s.a) * s.random.factor; }
 
     /// The potential after a fraction h of a step, from potential u, under a current that begins at i and changes by g per whole step.
-    /// The arguments e and m must be exp(-dt_by_tau h) and exprel(-dt_by_tau h). Here exprel(x) = (exp(x) - 1) / x.
-    T after(T u, T i, T g, T h, T e, T m) const { return E_L + (u - E_L) * e + R_m * (i * (dt_by_tau * h * m) + g * h * (T(1.0) - m)); }
+    /// Here exprel(x) = (exp(x) - 1) / x.
     T after(T u, T i, T g, T h) const {
-        const T y = -dt_by_tau * h, e = num::exp(y);
-        return after(u, i, g, h, e, num::exprel(y, e));
+        const T y = -dt_by_tau * h, e = num::exp(y), m = num::exprel(y, e);
+        return E_L + (u - E_L) * e + R_m * (i * (dt_by_tau * h * m) + g * h * (T(1.0) - m));
     }
+    /// The same for a whole step.
+    T after_step(T u, T i, T g) const { return E_L + (u - E_L) * decay + R_m * (i * charge + g * lag); }
 
     /// The random state after a spike of the lanes of the mask.
     IrregularThreshold<T> draw(const IrregularThreshold<T>& old, num::Mask<T> fired) const {

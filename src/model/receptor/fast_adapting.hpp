@@ -44,7 +44,7 @@ struct FastAdapting : FastAdaptingTraits {
     template <class Values>
     FastAdapting(const Values& value, double dt, Method method)
         : k_A(value("k_A")), k_B(value("k_B")), high(value("f_hp"), dt, method), low{HighPass<T>(value("f_lp"), dt, method)},
-          compression(value("I_0"), value("F_0")), first_order_hold(method == Method::exact) {}
+          compression(value("I_0"), value("F_0")), feels_fall(num::any(k_B > T(0.0))), first_order_hold(method == Method::exact) {}
 
     State start(T F) const { return {F, T(0.0), T(0.0), TwoLowPasses<T>::start(T(0.0)), T(0.0)}; }
     void step(State& s, T F, Current<T> (&i)[outputs]) const {
@@ -55,7 +55,8 @@ struct FastAdapting : FastAdaptingTraits {
     }
     T current(const State& s) const {
         const T x = low.output(s.low);
-        return compression(k_A * num::positive_part(x) + k_B * num::positive_part(T(-1.0) * x));
+        const T rise = k_A * num::positive_part(x);
+        return compression(feels_fall ? rise + k_B * num::positive_part(T(-1.0) * x) : rise);
     }
     void flush_decayed(State& s) const {
         s.x_1 = snap_to_level(s.x_1, negligible_force), s.x_2 = snap_to_level(s.x_2, negligible_force);
@@ -70,6 +71,7 @@ private:
     HighPass<T> high;
     TwoLowPasses<T> low;
     Compression<T> compression;
+    bool feels_fall;        // false: k_B is 0, and its term is left out
     bool first_order_hold;  // true: the exact method
 };
 

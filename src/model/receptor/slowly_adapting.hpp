@@ -55,7 +55,7 @@ struct SlowlyAdapting : SlowlyAdaptingTraits {
         : k_A(value("k_A")), k_B(value("k_B")), g_1(value("g_1")), g_2(value("g_2")), g_3(value("g_3")), lasting(T(1.0) - g_1 - g_2 - g_3),
           high(value("f_hp"), dt, method), adapt_1(cutoff(value("tau_1")), dt, method), adapt_2(cutoff(value("tau_2")), dt, method),
           adapt_3(cutoff(value("tau_3")), dt, method), low{HighPass<T>(value("f_lp"), dt, method)},
-          compression(value("I_0"), value("F_0")), first_order_hold(method == Method::exact) {}
+          compression(value("I_0"), value("F_0")), feels_fall(num::any(k_B > T(0.0))), first_order_hold(method == Method::exact) {}
 
     /// The state of a force that was always F.
     State start(T F) const {
@@ -73,7 +73,8 @@ struct SlowlyAdapting : SlowlyAdaptingTraits {
     }
     T current(const State& s) const {
         const T x = low.output(s.change);
-        return compression(low.output(s.held) + k_A * num::positive_part(x) + k_B * num::positive_part(T(-1.0) * x));
+        const T y = low.output(s.held) + k_A * num::positive_part(x);
+        return compression(feels_fall ? y + k_B * num::positive_part(T(-1.0) * x) : y);
     }
     void flush_decayed(State& s) const {
         for (T* h : {&s.h_1, &s.h_2, &s.h_3}) *h = snap_to_level(*h, negligible_adaptation);
@@ -92,6 +93,7 @@ private:
     HighPass<T> high, adapt_1, adapt_2, adapt_3;
     TwoLowPasses<T> low;
     Compression<T> compression;
+    bool feels_fall;        // false: k_B is 0, and its term is left out
     bool first_order_hold;  // true: the exact method
 
     /// The cutoff frequency of a filter with time constant tau, Hz.

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <numbers>
 
 #include "core/text/csv_field.hpp"
@@ -18,27 +19,32 @@ bool has_directions(const SkinPlan& plan) {
     return std::any_of(plan.classes.begin(), plan.classes.end(), [](const SkinClass& c) { return c.direction.gain > 0; });
 }
 
-/// The last field of a row, with the comma before it: the preferred direction in degrees from 0 to 360, or nothing if its class has none.
-std::string direction_field(const SkinPlan& plan, const SkinAfferent& afferent) {
-    if (!has_directions(plan)) return "";
-    if (!(plan.classes[afferent.class_index].direction.gain > 0)) return ",";
+/// Appends the last field of a row, with the comma before it: the preferred direction in degrees from 0 to 360, or nothing if its class has
+/// none.
+void append_direction(const SkinPlan& plan, const SkinAfferent& afferent, fmt::memory_buffer& text) {
+    text.push_back(',');
+    if (!(plan.classes[afferent.class_index].direction.gain > 0)) return;
     const double turns = afferent.direction / (2 * std::numbers::pi);
-    return fmt::format(",{:.3f}", 360 * (turns - std::floor(turns)));
+    fmt::format_to(std::back_inserter(text), "{:.3f}", 360 * (turns - std::floor(turns)));
 }
 
-std::string afferent_row(const SkinSummary& summary, std::size_t u) {
+void append_row(const SkinSummary& summary, std::size_t u, bool has_direction, fmt::memory_buffer& text) {
     const auto& skin = *summary.skin;
     const auto& afferent = skin.afferents[u];
     const double first = summary.first_times[u], seconds = summary.seconds();
     const auto spikes = summary.counts[u];
-    return fmt::format("{},{},{},{:.3f},{:.3f},{:.6f},{},{},{:.9g},{:.6g}{}\n", u, quote_csv_field(skin.afferent_name(u)),
-                       quote_csv_field(skin.plan.sites.regions[afferent.region]), 1e3 * afferent.position.x, 1e3 * afferent.position.y,
-                       1e3 * afferent.delay, spikes, std::isnan(first) ? "" : fmt::format("{:.9f}", summary.input.clock.t0 + first),
-                       summary.touched_times[u], seconds > 0 ? static_cast<double>(spikes) / seconds : 0,
-                       direction_field(skin.plan, afferent));
+    const auto to = std::back_inserter(text);
+    fmt::format_to(to, "{},{},{},{:.3f},{:.3f},{:.6f},{},", u, quote_csv_field(skin.afferent_name(u)),
+                   quote_csv_field(skin.plan.sites.regions[afferent.region]), 1e3 * afferent.position.x, 1e3 * afferent.position.y,
+                   1e3 * afferent.delay, spikes);
+    if (!std::isnan(first)) fmt::format_to(to, "{:.9f}", summary.input.clock.t0 + first);
+    fmt::format_to(to, ",{:.9g},{:.6g}", summary.touched_times[u], seconds > 0 ? static_cast<double>(spikes) / seconds : 0);
+    if (has_direction) append_direction(skin.plan, afferent, text);
+    text.push_back('\n');
 }
 
 class AfferentsFile final : public FileSink {
+    static constexpr std::size_t max_text = 1 << 16;  // bytes that are kept before they are written
     const SkinSummary& summary_;
 
 public:
@@ -49,8 +55,13 @@ public:
                                            has_directions(input.skin().plan) ? ",direction_deg" : ""));
     }
     Result<void> end(const Input& input, std::int64_t, std::span<const Spike>) override {
-        for (std::size_t u = 0; u < input.population.size(); ++u) TRY(files_[0].write(afferent_row(summary_, u)));
-        return {};
+        const bool has_direction = has_directions(input.skin().plan);
+        fmt::memory_buffer text;
+        for (std::size_t u = 0; u < input.population.size(); ++u) {
+            append_row(summary_, u, has_direction, text);
+            if (text.size() > max_text) TRY(write_text(text));
+        }
+        return write_text(text);
     }
 };
 

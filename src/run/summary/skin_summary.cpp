@@ -15,9 +15,10 @@ std::vector<std::uint32_t> main_sites(const Innervation& skin) {
     std::vector<double> weight(skin.afferents.size());
     for (std::size_t c = 0; c < skin.fields.size(); ++c) {
         const auto& field = skin.fields[c];
+        const auto afferent_of = [&](std::uint32_t number) { return field.receptors == 1 ? number : number / field.receptors; };
         for (std::uint32_t s = 0; s + 1 < field.begin.size(); ++s)
             for (std::size_t k = field.begin[s]; k < field.begin[s + 1]; ++k)
-                if (const auto afferent_index = skin.class_begin[c] + field.afferent[k] / field.receptors;
+                if (const auto afferent_index = skin.class_begin[c] + afferent_of(field.afferent[k]);
                     field.weight[k] > weight[afferent_index])
                     weight[afferent_index] = field.weight[k], site[afferent_index] = s;
     }
