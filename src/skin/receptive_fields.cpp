@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 #include <numeric>
 
-#include "core/large_pages.hpp"
 #include "core/random.hpp"
 #include "skin/contact/skin_cells.hpp"
 #include "skin/depth_kernel.hpp"
@@ -175,9 +174,8 @@ public:
 
 /// The receptive fields of a table, sorted by site. `receptors`: of one afferent.
 ReceptiveFields sorted_by_site(const FieldTable& table, std::size_t sites, std::uint32_t receptors) {
-    ReceptiveFields out{std::vector<std::size_t>(sites + 1), {}, {}, receptors};
-    reserve_large(out.afferent, table.site.size()), reserve_large(out.weight, table.site.size());
-    out.afferent.resize(table.site.size()), out.weight.resize(table.site.size());
+    ReceptiveFields out{std::vector<std::size_t>(sites + 1), std::vector<std::uint32_t>(table.site.size()),
+                        std::vector<double>(table.site.size()), receptors};
     for (const auto s : table.site) ++out.begin[s + 1];
     std::partial_sum(out.begin.begin(), out.begin.end(), out.begin.begin());
     std::vector<std::size_t> next(out.begin.begin(), out.begin.end() - 1);
@@ -199,7 +197,7 @@ Result<ReceptiveFields> receptive_fields_of(const SkinPlan& plan, std::uint32_t 
     table.end.reserve(afferents.size() * c.receptors());
     // Growing arrays would be copied, and take new pages of memory each time.
     const auto expected = std::min(afferents.size() * fields.expected_sites(), max_expected_sites);
-    reserve_large(table.site, expected), reserve_large(table.weight, expected);
+    table.site.reserve(expected), table.weight.reserve(expected);
     for (const auto& u : afferents) {
         fields.add(u, table);
         if (table.site.size() > max_weights)

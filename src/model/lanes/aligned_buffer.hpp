@@ -6,8 +6,9 @@
 #include <new>
 #include <type_traits>
 #include <utility>
-
-#include "core/large_pages.hpp"
+#ifdef __linux__
+#include <sys/mman.h>
+#endif
 
 namespace corpuscle::lanes {
 
@@ -20,16 +21,19 @@ class AlignedBuffer {
     void* allocated_ = nullptr;  // by calloc; data_ is the first aligned address in it
     V* data_ = nullptr;
     std::size_t size_ = 0;
+    static constexpr std::size_t large_page = std::size_t{1} << 21;
 
 public:
     AlignedBuffer() = default;
     explicit AlignedBuffer(std::size_t size) : size_(size) {
-        const std::size_t bytes = size * sizeof(V), alignment = bytes >= 2 * large_page_size ? large_page_size : 64;
+        const std::size_t bytes = size * sizeof(V), alignment = bytes >= 2 * large_page ? large_page : 64;
         allocated_ = std::calloc(bytes + alignment, 1);
         if (!allocated_) throw std::bad_alloc();
         const std::size_t beyond = reinterpret_cast<std::uintptr_t>(allocated_) % alignment;
         data_ = reinterpret_cast<V*>(static_cast<std::byte*>(allocated_) + (alignment - beyond) % alignment);
-        if (alignment == large_page_size) request_large_pages(data_, bytes);
+#ifdef __linux__
+        if (alignment == large_page) (void)madvise(data_, bytes, MADV_HUGEPAGE);
+#endif
     }
     AlignedBuffer(AlignedBuffer&& other) noexcept { swap(other); }
     AlignedBuffer& operator=(AlignedBuffer&& other) noexcept {
