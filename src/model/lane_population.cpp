@@ -17,22 +17,26 @@ const Kernel* find_by_name(std::span<const Kernel> all, std::string_view name) {
     return at == all.end() ? nullptr : &*at;
 }
 
-/// Appends the values of one component's parameters.
-void append_values(const AfferentPlan& plan, std::string_view component, std::vector<double>& to) {
+/// The indices of the parameters of a plan for which is_wanted(parameter) is true.
+template <class F>
+std::vector<std::size_t> parameters_where(const AfferentPlan& plan, const F& is_wanted) {
+    std::vector<std::size_t> out;
     for (std::size_t k = 0; k < plan.values.size(); ++k)
-        if ((*plan.parameters)[k].component == component) to.push_back(plan.values[k]);
+        if (is_wanted((*plan.parameters)[k])) out.push_back(k);
+    return out;
 }
 
 /// Returns an error for plans that cannot share lanes.
 Result<void> check_same_models(std::span<const AfferentPlan* const> plans) {
     const auto& first = *plans[0];
+    const auto shared = parameters_where(first, [](const AfferentParameter& p) { return p.info.is_shared_by_copies; });
     for (const auto* plan : plans) {
         if (plan->receptor != first.receptor || plan->neuron != first.neuron)
             return bad_input(fmt::format("a population of {} cannot contain a {}", first.composition(), plan->composition()));
-        for (std::size_t k = 0; k < first.values.size(); ++k)
-            if (const auto& p = (*first.parameters)[k]; p.info.is_shared_by_copies && plan->values[k] != first.values[k])
-                return bad_input(fmt::format("{} must be the same for a whole population, but {:g} and {:g} were given", p.info.name,
-                                             first.values[k], plan->values[k]));
+        for (const auto k : shared)
+            if (plan->values[k] != first.values[k])
+                return bad_input(fmt::format("{} must be the same for a whole population, but {:g} and {:g} were given",
+                                             (*first.parameters)[k].info.name, first.values[k], plan->values[k]));
     }
     return {};
 }
@@ -42,13 +46,15 @@ Result<void> check_same_models(std::span<const AfferentPlan* const> plans) {
 template <class Kernel>
 AlignedBuffer<std::byte> models_of(const Kernel& kernel, int width, std::span<const AfferentPlan* const> plans, std::size_t size,
                                    const SimulationOptions& run) {
-    std::vector<double> values, first;
-    append_values(*plans[0], kernel.name, first);
-    for (const auto* plan : plans) append_values(*plan, kernel.name, values);
-    const std::size_t parameters = first.size();
+    const auto own = parameters_where(*plans[0], [&](const AfferentParameter& p) { return p.component == kernel.name; });
+    const std::size_t parameters = own.size();
+    std::vector<double> values;
+    values.reserve((plans.size() + tile_size) * parameters);
+    for (const auto* plan : plans)
+        for (const auto k : own) values.push_back(plan->values[k]);
     if (std::equal(values.begin() + static_cast<std::ptrdiff_t>(parameters), values.end(), values.begin())) {
         AlignedBuffer<std::byte> model(kernel.model_bytes);
-        kernel.build(model.data(), first.data(), 1, run.dt, run.method);
+        kernel.build(model.data(), values.data(), 1, run.dt, run.method);
         return model;
     }
     const std::size_t tiles = (size + tile_size - 1) / tile_size,

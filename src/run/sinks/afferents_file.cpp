@@ -9,6 +9,7 @@
 #include <numbers>
 
 #include "core/text/csv_field.hpp"
+#include "core/text/fixed_number.hpp"
 #include "run/sinks.hpp"
 #include "run/summary/skin_summary.hpp"
 
@@ -25,7 +26,7 @@ void append_direction(const SkinPlan& plan, const SkinAfferent& afferent, fmt::m
     text.push_back(',');
     if (!(plan.classes[afferent.class_index].direction.gain > 0)) return;
     const double turns = afferent.direction / (2 * std::numbers::pi);
-    fmt::format_to(std::back_inserter(text), "{:.3f}", 360 * (turns - std::floor(turns)));
+    append_fixed(text, 360 * (turns - std::floor(turns)), 3);
 }
 
 void append_row(const SkinSummary& summary, std::size_t u, bool has_direction, fmt::memory_buffer& text) {
@@ -34,10 +35,11 @@ void append_row(const SkinSummary& summary, std::size_t u, bool has_direction, f
     const double first = summary.first_times[u], seconds = summary.seconds();
     const auto spikes = summary.counts[u];
     const auto to = std::back_inserter(text);
-    fmt::format_to(to, "{},{},{},{:.3f},{:.3f},{:.6f},{},", u, quote_csv_field(skin.afferent_name(u)),
-                   quote_csv_field(skin.plan.sites.regions[afferent.region]), 1e3 * afferent.position.x, 1e3 * afferent.position.y,
-                   1e3 * afferent.delay, spikes);
-    if (!std::isnan(first)) fmt::format_to(to, "{:.9f}", summary.input.clock.t0 + first);
+    fmt::format_to(to, "{},{},{}", u, quote_csv_field(skin.afferent_name(u)), quote_csv_field(skin.plan.sites.regions[afferent.region]));
+    const auto append = [&](double x, int decimals) { text.push_back(','), append_fixed(text, x, decimals); };
+    append(1e3 * afferent.position.x, 3), append(1e3 * afferent.position.y, 3), append(1e3 * afferent.delay, 6);
+    fmt::format_to(to, ",{},", spikes);
+    if (!std::isnan(first)) append_fixed(text, summary.input.clock.t0 + first, 9);
     fmt::format_to(to, ",{:.9g},{:.6g}", summary.touched_times[u], seconds > 0 ? static_cast<double>(spikes) / seconds : 0);
     if (has_direction) append_direction(skin.plan, afferent, text);
     text.push_back('\n');

@@ -1,7 +1,6 @@
 // spikes.csv: afferent,channel,time_s; input after input, each in order of time. Times are on the clock of the input, to the nanosecond.
 
-#include <iterator>
-
+#include "core/text/fixed_number.hpp"
 #include "run/sinks.hpp"
 
 namespace corpuscle {
@@ -12,8 +11,13 @@ class SpikesFile final : public SpikeFileSink {
     fmt::memory_buffer text_;
 
     Result<void> add(const Input& input, std::span<const Spike> spikes) override {
-        for (const auto& s : spikes)
-            fmt::format_to(std::back_inserter(text_), "{},{:.9f}\n", names_[input.afferent_of(s)], input.clock.time(s.step, s.offset));
+        for (const auto& s : spikes) {
+            const auto& name = names_[input.afferent_of(s)];
+            text_.append(name.data(), name.data() + name.size());
+            text_.push_back(',');
+            append_fixed(text_, input.clock.time(s.step, s.offset), 9);
+            text_.push_back('\n');
+        }
         return write_text(text_);
     }
 
