@@ -1,6 +1,6 @@
 // How long after a frame of forces do its spikes come from `corpuscle stream`, how much of a core does this take, and is it stable over
 // time?
-//   bench-live MODE [SECONDS [PROGRAM]]
+//   bench-live MODE [SECONDS [PROGRAM [POPULATION]]]
 // - delay: "grid 64x64" (4096 sites, 8192 afferents) at 5.2 kHz, the densest published skin: 2.1e7 forces per second
 // - sleep: as delay, without --busy-poll: the program, the sender and the reader sleep until a frame comes
 // - share: "hand" (17,000 afferents) at 1 kHz under a stroke: the fraction of a core that the program uses
@@ -8,8 +8,9 @@
 // - noise: as share, with noise that keeps every afferent active
 // - soak: "grid 16x16" at 1 kHz over loopback, frames numbered: memory, drift, lost events
 //
-// Defaults: 60 s (3600 s are recommended for soak) and ./corpuscle. PROGRAM is run as `PROGRAM stream`, on the last core only; it is called
-// "the program" here. The sender of the frames and the reader of the spikes are threads of this process, on the other cores.
+// Defaults: 60 s (3600 s are recommended for soak) and ./corpuscle. POPULATION replaces that of the mode; soak has no other. PROGRAM is run
+// as `PROGRAM stream`, on the last core only; it is called "the program" here. The sender of the frames and the reader of the spikes are
+// threads of this process, on the other cores.
 //
 // In the mode delay, the program (--busy-poll) and the sender busy-wait, which excludes the time to wake a thread.
 // In all modes but soak, frames are binary float32 through a pipe, or through TCP in the mode together. Each is written at its scheduled
@@ -227,11 +228,12 @@ int main(int argc, char** argv) {
     const std::string mode = argc > 1 ? argv[1] : "";
     const int seconds = argc > 2 ? std::atoi(argv[2]) : 60;
     const std::string program = argc > 3 ? argv[3] : "./corpuscle";
-    if (mode == "delay") return measure_delay(program, "grid 64x64", 5200, seconds, 12e-3, true, true);
-    if (mode == "sleep") return measure_delay(program, "grid 64x64", 5200, seconds, 12e-3, false, true);
-    if (mode == "share") return measure_delay(program, "hand", 1000, seconds, 4e-3, false, false, 1, 5e-3);
-    if (mode == "together") return measure_delay(program, "hand", 1000, seconds, 4e-3, false, false, 16, 5e-3);
-    if (mode == "noise") return measure_delay(program, "hand", 1000, seconds, 12e-3, false, true);
+    const auto population = [&](const char* usual) { return std::string(argc > 4 ? argv[4] : usual); };
+    if (mode == "delay") return measure_delay(program, population("grid 64x64"), 5200, seconds, 12e-3, true, true);
+    if (mode == "sleep") return measure_delay(program, population("grid 64x64"), 5200, seconds, 12e-3, false, true);
+    if (mode == "share") return measure_delay(program, population("hand"), 1000, seconds, 4e-3, false, false, 1, 5e-3);
+    if (mode == "together") return measure_delay(program, population("hand"), 1000, seconds, 4e-3, false, false, 16, 5e-3);
+    if (mode == "noise") return measure_delay(program, population("hand"), 1000, seconds, 12e-3, false, true);
     if (mode == "soak") return soak(program, seconds);
-    return fmt::print("bench-live delay|sleep|share|together|noise|soak [SECONDS [PROGRAM]]\n"), 2;
+    return fmt::print("bench-live delay|sleep|share|together|noise|soak [SECONDS [PROGRAM [POPULATION]]]\n"), 2;
 }

@@ -30,11 +30,11 @@ public:
 
 private:
     std::size_t forces_, piece_forces_, sites_;
-    std::size_t first_;                // number in afferent_ of the first force of the first piece
-    ReceptiveFields sorted_;           // a copy with the numbers of ForceTiles; empty: not needed
-    const std::uint32_t* afferent_;    // those of `sorted_` or of the given fields
-    const double* weight_;             // the same
-    std::vector<std::uint32_t> begin_; // [piece][site]: first entry of this piece or a later one; after the last piece: the end
+    std::size_t first_;                 // number in afferent_ of the first force of the first piece
+    ReceptiveFields sorted_;            // a copy with the numbers of ForceTiles; empty: not needed
+    const std::uint32_t* afferent_;     // those of `sorted_` or of the given fields
+    const double* weight_;              // the same
+    std::vector<std::uint32_t> begin_;  // [piece][site]: the first entry of this piece or a later one, and a last row with the ends
 
     void sort_by_piece(const ReceptiveFields&, std::size_t first, std::size_t count);
     void find_pieces(const std::vector<std::size_t>& begin);

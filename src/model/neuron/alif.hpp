@@ -115,8 +115,8 @@ struct Alif : AlifTraits {
     }
 
 private:
-    // ref = t_ref / dt; dt_by_tau = dt / (R_m C_m); decay = exp(-dt_by_tau) and mean = exprel(-dt_by_tau), for a whole step; charge =
-    // dt_by_tau mean; lag = 1 - mean. Also fall = dt / tau_th; threshold_decay = exp(-fall).
+    // ref = t_ref / dt; dt_by_tau = dt / (R_m C_m); decay = exp(-dt_by_tau) and mean = exprel(-dt_by_tau), for a whole step. Also
+    // charge = dt_by_tau mean; lag = 1 - mean. The threshold has fall = dt / tau_th; threshold_decay = exp(-fall).
     T R_m, E_L, V_th, V_reset, dV_th, ref, jitter, dt_by_tau, decay, mean, charge, lag, fall, threshold_decay;
 
     num::Mask<T> is_above_threshold(const State& s) const { return s.u > (V_th + s.a) * s.random.factor; }
