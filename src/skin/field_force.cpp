@@ -25,7 +25,8 @@ void FieldForce::compute(const SiteForce& force, std::span<const std::uint32_t> 
     if (steps == 1) return compute_one_step(call);
     if (touched.size() * dense_ratio > pieces_.sites() + 1) return compute_by_afferent(call, pool);
     while (sums_.size() < pool.threads()) sums_.emplace_back(tiles_per_piece * tile_width * skin_steps);
-    pool.for_each(pieces_.pieces(), [&call, this](std::size_t piece, unsigned thread) { compute_piece(piece, call, sums_[thread].data()); });
+    pool.for_each(pieces_.pieces(),
+                  [&call, this](std::size_t piece, unsigned thread) { compute_piece(piece, call, sums_[thread].data()); });
 }
 
 void FieldForce::build_by_afferent() {
@@ -35,8 +36,7 @@ void FieldForce::build_by_afferent() {
         for (std::size_t n = 0; n < pieces_.pieces(); ++n)
             for (std::uint32_t s = 0; s < pieces_.sites(); ++s) {
                 const auto e = pieces_.at(n, s);
-                for (std::size_t k = 0; k < e.count; ++k)
-                    add(n * tiles_per_piece * tile_width + e.afferent[k] - e.origin, s, e.weight[k]);
+                for (std::size_t k = 0; k < e.count; ++k) add(n * tiles_per_piece * tile_width + e.afferent[k] - e.origin, s, e.weight[k]);
             }
     };
     begin.assign(size_ + 1, 0);

@@ -12,10 +12,10 @@
 namespace corpuscle {
 namespace {
 
-constexpr double cutoff = 3;              // a Gaussian hot spot ends at this distance, in standard deviations
-constexpr double surround_depth = 3;      // depth at which the surround is felt, in depths of the class; choice
-constexpr double surround_cutoff = 0.05;  // the fraction of the surround that is left out
-constexpr double centre_cutoff = 0.01;    // the same for the stress at the depth of the class
+constexpr double cutoff = 3;                         // a Gaussian hot spot ends at this distance, in standard deviations
+constexpr double surround_depth = 3;                 // depth at which the surround is felt, in depths of the class; choice
+constexpr double surround_cutoff = 0.05;             // the fraction of the surround that is left out
+constexpr double centre_cutoff = 0.01;               // the same for the stress at the depth of the class
 constexpr std::size_t max_expected_sites = 1 << 22;  // for which memory is reserved at once
 
 /// Rounds to a multiple of 2^-40, about 1e-12, so that sites at equal distances have equal weights in spite of round-off in their

@@ -92,9 +92,8 @@ Result<std::optional<ClassSimulation>> make_class(const Innervation& skin, std::
     const auto same =
         static_cast<std::size_t>(std::find(skin.fields.begin(), skin.fields.end(), skin.fields[class_index]) - skin.fields.begin());
     const bool shares_force = field_forces[same] && skin.class_begin[same + 1] - skin.class_begin[same] == all;
-    field_forces[class_index] = shares_force
-                                    ? field_forces[same]
-                                    : std::make_shared<FieldForce>(skin.fields[class_index], first, count, set);
+    field_forces[class_index] =
+        shares_force ? field_forces[same] : std::make_shared<FieldForce>(skin.fields[class_index], first, count, set);
     ClassSimulation out{std::move(population), field_forces[class_index], shares_force,
                         ShearForce(c.direction, std::span(skin.afferents).subspan(numbers[0], count), c.receptors())};
     if (c.wave.speed > 0) out.wave = TRY(ContactWave::make(skin, class_index, first, count, run.dt, set));

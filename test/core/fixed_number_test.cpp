@@ -19,7 +19,8 @@ std::string fixed(double x, int decimals) {
 
 TEST(FixedNumber, IsTheSameTextAsThatOfTheLibrary) {
     const double largest = std::numeric_limits<double>::max(), infinity = std::numeric_limits<double>::infinity();
-    for (const double x : {0.0, -0.0, 0.5, 1.5, 2.5, 0.0005, -0.0004, 9.9999999995, 999999.9999999, 1e15, 1e22, largest, infinity, -infinity})
+    for (const double x :
+         {0.0, -0.0, 0.5, 1.5, 2.5, 0.0005, -0.0004, 9.9999999995, 999999.9999999, 1e15, 1e22, largest, infinity, -infinity})
         for (int decimals = 0; decimals < 10; ++decimals) EXPECT_EQ(fixed(x, decimals), fmt::format("{:.{}f}", x, decimals));
     for (std::uint32_t k = 0; k < 100'000; ++k) {
         const auto w = philox({k, 0, 0, 0}, 1);

@@ -155,6 +155,9 @@ template <class V, class N>
     write(state, c.state, first);
 }
 
+#pragma GCC diagnostic push
+#pragma GCC diagnostic ignored "-Wmissing-braces"  // a state is initialised value by value, and may contain structures
+
 /// As run_neurons() for neurons that have currents of their own and quiet_values: values of the state that come first in it, and are the
 /// only ones that change in a step without events. Only these are kept in registers; the others are read from the tile in each step.
 template <class V, class N, bool check_refractory, int J>
@@ -200,6 +203,8 @@ void run_quiet_neurons(const NeuronCall<V>& c, int first, Prefetcher& prefetch) 
         unrolled<changing>([&](auto k) __attribute__((always_inline)) { value[j][k].store_aligned(in_tile(j, k)); });
     });
 }
+
+#pragma GCC diagnostic pop
 
 /// True if a neuron in one of J vectors of a tile, from afferent `first` on, may be refractory.
 template <class V, class N, int J>
