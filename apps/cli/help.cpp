@@ -166,13 +166,26 @@ std::string unknown_option_error(const CLI::App& app, const std::vector<std::str
 }
 
 std::string unknown_verb_error(const CLI::App& app, const std::vector<std::string>& arguments) {
-    if (arguments.empty() || arguments[0].empty() || arguments[0].starts_with('-')) return "";
-    std::vector<std::string> names;
-    for (const auto* verb : app.get_subcommands([](const CLI::App*) { return true; })) names.push_back(verb->get_name());
-    if (std::find(names.begin(), names.end(), arguments[0]) != names.end()) return "";
-    const std::vector<std::string_view> known(names.begin(), names.end());
-    const auto hint = did_you_mean(arguments[0], known);
-    return fmt::format("unknown verb '{}'{}", arguments[0], hint.empty() ? fmt::format("; the verbs are {}", joined(names)) : hint);
+    const auto all = [](const CLI::App*) { return true; };
+    const auto has_positional = [](const CLI::App& verb) {
+        return !verb.get_options([](const CLI::Option* o) { return o->get_positional(); }).empty();
+    };
+    const CLI::App* current = &app;
+    std::string context;                  // "fit: " behind the verb fit
+    for (const auto& word : arguments) {  // follows the verbs: "sweep", "show"
+        const auto verbs = current->get_subcommands(all);
+        if (verbs.empty() || word.empty() || word.starts_with('-') || has_positional(*current)) return "";
+        const auto at = std::find_if(verbs.begin(), verbs.end(), [&](const CLI::App* verb) { return verb->get_name() == word; });
+        if (at == verbs.end()) {
+            std::vector<std::string> names;
+            for (const auto* verb : verbs) names.push_back(verb->get_name());
+            const auto hint = did_you_mean(word, std::vector<std::string_view>(names.begin(), names.end()));
+            return fmt::format("{}unknown verb '{}'{}", context, word,
+                               hint.empty() ? fmt::format("; the verbs are {}", joined(names)) : hint);
+        }
+        current = *at, context += word + ": ";
+    }
+    return "";
 }
 
 }  // namespace corpuscle
