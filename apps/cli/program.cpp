@@ -94,7 +94,8 @@ int run_program(const std::string& about, const std::string& first_steps, const 
                 const char* const* argv) {
     std::signal(SIGXFSZ, SIG_IGN);  // exceeding the file size limit is a write error
     CommonArguments common;
-    common.command = quote_command(argc, argv), common.words = normalize_help({argv + 1, argv + argc});
+    common.command = quote_command(argc, argv, false), common.complete_command = quote_command(argc, argv, true);
+    common.words = normalize_help({argv + 1, argv + argc});
     if (verbs.size() == 1 && common.words[0] != verbs[0].name) common.words.insert(common.words.begin(), verbs[0].name);
     for (const auto& verb : verbs)
         if (verb.is_program && common.words[0] == verb.name) return verb.run(common);

@@ -17,6 +17,7 @@ struct CommonArguments {
     bool quiet = false;                   ///< print neither tables nor progress nor notes
     bool overwrite = false;               ///< also replace files that were not written by an earlier run
     std::string command;                  ///< the command line, see quote_command(); for the report page
+    std::string complete_command = {};    ///< with the directories of files, so that it can be typed again
     std::vector<TypedOption> typed = {};  ///< the options that were given to the verb, in the order of --help-all
     std::vector<std::string> words = {};  ///< the words of the command line, beginning with the verb
 };

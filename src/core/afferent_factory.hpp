@@ -20,6 +20,7 @@ struct AfferentTraits {
     bool may_diverge = false;               ///< its solver may fail to converge; the run then continues without it
     bool is_implementation = false;         ///< it implements a model, as a circuit does, and is compared with models of its type
     bool ignores_case = false;              ///< of the names of its parameters
+    bool is_irregular = false;              ///< its spikes depend on SimulationOptions::seed even without noise
     std::string_view lane_obstacles = {};   ///< for messages: the properties of such afferents that prevent lanes, "netlists"
     std::string_view reason_no_noise = {};  ///< why SimulationOptions::noise has no effect; "" if it has one
 };

@@ -3,8 +3,8 @@
 #include <fmt/format.h>
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
-#include "core/number/elementary.hpp"
 #include "fit/identifiability.hpp"
 #include "model/catalog.hpp"
 
@@ -55,8 +55,8 @@ constexpr double named_part = 0.25;  // of a direction's largest component; smal
 /// The change along a weak direction: to twice or half the values, where the bounds leave more room.
 ParameterTrade trade_along(const FitPoints& points, std::span<const FreeParameter> parameters, std::span<const double> point,
                            std::span<const double> direction, std::size_t stage, double cost, double reference) {
-    constexpr double ln_2 = 0.69314718055994531;
-    const auto up = moved(parameters, point, direction, ln_2), down = moved(parameters, point, direction, -ln_2);
+    using std::numbers::ln2;
+    const auto up = moved(parameters, point, direction, ln2), down = moved(parameters, point, direction, -ln2);
     const auto distance = [&](const std::vector<double>& to) {
         double sum = 0;
         for (std::size_t k = 0; k < to.size(); ++k) sum += std::abs(to[k] - point[k]);
@@ -81,30 +81,37 @@ void add_intervals(FitResult& result, const Identifiability& known, std::span<co
         if (!known.parameters[k].is_identified || p.is_at_bound) continue;
         const double half = known.parameters[k].half_width / p.parameter.width();
         // The interval may be wider than the bounds, which only limit the search.
-        const auto value = [&](double x) {
-            return p.parameter.is_logarithmic() ? p.parameter.low * num::exp(x * p.parameter.width())
-                                                : p.parameter.low + x * (p.parameter.high - p.parameter.low);
-        };
-        p.low = value(point[k] - half), p.high = value(point[k] + half);
+        p.low = p.parameter.unbounded_value(point[k] - half), p.high = p.parameter.unbounded_value(point[k] + half);
     }
 }
 
-Result<void> add_warnings(FitResult& result, const FitProblem& problem) {
+std::string bound_warning(const FreeParameter& parameter, double value) {
+    const bool upper = parameter.coordinate(value) > 0.5;
+    const auto wider = parameter.wider_bounds(upper);
+    if (wider.empty()) return fmt::format("{} ended at {:.4g}, the end of its range", parameter.name, value);
+    return fmt::format("{0} ended at its bound {1:.4g}; if {2} is plausible, widen: --bounds {0}={3}", parameter.name, value,
+                       upper ? "more" : "less", wider);
+}
+
+std::vector<std::string> warnings_of(const FitResult& result, const FitProblem& problem) {
+    auto out = problem.warnings(result.plan);
     for (const auto& p : result.parameters)
-        if (p.is_at_bound)
-            result.warnings.push_back(
-                fmt::format("{0} ended at its bound {1:.4g}; if more is plausible, widen: --bounds {0}={2:.4g}:{3:.4g}", p.parameter.name,
-                            p.value, p.parameter.low, p.parameter.high));
+        if (p.is_at_bound) out.push_back(bound_warning(p.parameter, p.value));
     if (result.parameters.size() > problem.size())
-        result.warnings.push_back(
+        out.push_back(
             fmt::format("{} free parameters but only {} data: many values fit equally well", result.parameters.size(), problem.size()));
-    return {};
+    for (const auto& row : result.rows)
+        if (!row.reason.empty()) out.push_back(fmt::format("{} {}: {}", row.data, row.measure, row.reason));
+    return out;
 }
 
 }  // namespace
 
 Result<FitResult> fit(const FitProblem& problem, const AfferentPlan& plan, std::span<const FreeParameter> parameters, ThreadPool& pool,
                       SearchOptions options) {
+    for (const auto& p : parameters)
+        if (const auto reason = problem.reason_not_determined(p.name); !reason.empty())
+            return bad_input(fmt::format("--free {}: {}", p.name, reason));
     const FitPoints points(problem, plan, parameters);
     const std::size_t last = problem.stages() - 1;
     std::vector<double> start;
@@ -144,7 +151,7 @@ Result<FitResult> fit(const FitProblem& problem, const AfferentPlan& plan, std::
         for (const auto& w : known.weak)
             out.trades.push_back(trade_along(points, parameters, found.point, w.direction, last, found.cost, reference));
     }
-    TRY(add_warnings(out, problem));
+    out.warnings = warnings_of(out, problem);
     return out;
 }
 

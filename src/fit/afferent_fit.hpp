@@ -1,8 +1,6 @@
 #pragma once
 // Fits parameters of an afferent to data, and judges how well the data determine them.
 
-#include <nlohmann/json_fwd.hpp>
-
 #include "fit/fit_problem.hpp"
 #include "fit/free_parameter.hpp"
 #include "fit/search.hpp"
@@ -38,13 +36,5 @@ struct FitResult {
 
 /// Fits the parameters. If the search is interrupted, the result is the best point so far, without intervals.
 Result<FitResult> fit(const FitProblem&, const AfferentPlan&, std::span<const FreeParameter>, ThreadPool&, SearchOptions);
-
-/// The JSON document of a result. `score_meaning`: see FitProblem.
-nlohmann::ordered_json document_of(const FitResult&, const std::string& score_meaning);
-
-/// The fitted values as a sweep file (TOML), whose [set] also fits into a class of a population file.
-std::string settings_file(const FitResult&, const std::string& command);
-/// The fitted values as options: "--set sa1.k_A=1.2e-06 --set sa1.f_B=25".
-std::string settings_options(const FitResult&);
 
 }  // namespace corpuscle

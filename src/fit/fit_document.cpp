@@ -1,10 +1,8 @@
-// The result of a fit as JSON, and its values as texts that the program reads again.
+#include "fit/fit_document.hpp"
 
 #include <fmt/format.h>
 #include <cmath>
 #include <nlohmann/json.hpp>
-
-#include "fit/afferent_fit.hpp"
 
 namespace corpuscle {
 namespace {
@@ -39,7 +37,7 @@ Json document_of(const FitRow& r) {
             {"target", number(r.target)},
             {"low", optional(r.low)},
             {"high", optional(r.high)},
-            {"got", number(r.got)},
+            {"fitted", number(r.fitted)},
             {"within", optional(r.is_within())},
             {"set", r.is_test ? "test" : "train"},
             {"source", r.source}};
@@ -74,8 +72,9 @@ Json document_of(const FitResult& result, const std::string& score_meaning) {
 
 std::string settings_file(const FitResult& result, const std::string& command) {
     std::string out = fmt::format(
-        "# Written by '{}'.\n# This is a sweep file; [set] also fits into a [[class]] of a population file.\n\n"
-        "afferent = \"{}\"\n\n[set]\n",
+        "# Written by '{0}'.\n# This is a sweep file; its [set] may also be the [class.set] of a [[class]] of a population file whose "
+        "afferent is {1}.\n\n"
+        "afferent = \"{1}\"\n\n[set]\n",
         command, result.plan.name);
     for (const auto& p : result.parameters) {
         const auto interval = p.low ? fmt::format("{:.4g} to {:.4g}", *p.low, *p.high) : std::string("not identified");
@@ -86,9 +85,8 @@ std::string settings_file(const FitResult& result, const std::string& command) {
 }
 
 std::string settings_options(const FitResult& result) {
-    std::string out;
-    for (const auto& p : result.parameters)
-        out += fmt::format("{}--set {}.{}={:.6g}", out.empty() ? "" : " ", result.plan.name, p.parameter.name, p.value);
+    auto out = fmt::format("--afferent {}", result.plan.name);
+    for (const auto& p : result.parameters) out += fmt::format(" --set {}.{}={:.6g}", result.plan.name, p.parameter.name, p.value);
     return out;
 }
 

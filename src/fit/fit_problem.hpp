@@ -5,6 +5,9 @@
 
 namespace corpuscle {
 
+/// The number of simulations of an irregular afferent (see AfferentTraits), of which its rate or measure is the mean.
+inline constexpr std::size_t irregular_realisations = 32;
+
 /// Residuals that belong together: a stretch of time of a recording, or one row of a table of targets. Different blocks are independent.
 struct ResidualBlock {
     std::vector<double> residuals;
@@ -18,14 +21,15 @@ struct FitRow {
     std::string unit = {};
     double target = 0;
     std::optional<double> low = {}, high = {};  ///< the range of the target, if it has one
-    double got = 0;                             ///< NaN: undefined, for example a latency without a spike
+    double fitted = 0;                          ///< of the fitted afferent; NaN: undefined, for example a latency without a spike
     bool is_test = false;
     std::string source = {};
+    std::string reason = {};  ///< why `fitted` has no value, for the user; "" if it has one or no reason is known
 
     /// Whether the number is in the range of the target; no value if there is no range.
     std::optional<bool> is_within() const {
         if (!low || !high) return {};
-        return got >= *low && got <= *high;
+        return fitted >= *low && fitted <= *high;
     }
 };
 
@@ -60,8 +64,10 @@ public:
     virtual std::size_t size() const = 0;
     /// The meaning of the score, for the user: "squared distance ... (0: equal, 1: as far as silence)".
     virtual std::string score_meaning() const = 0;
-    /// Remarks for the user about the data.
-    virtual std::vector<std::string> notes() const { return {}; }
+    /// Warnings about the data, for the afferent that was fitted.
+    virtual std::vector<std::string> warnings(const AfferentPlan&) const { return {}; }
+    /// Why data of this kind cannot determine the parameter with this name; "" if they may.
+    virtual std::string reason_not_determined(std::string_view /*parameter*/) const { return ""; }
 };
 
 /// The sum of the squares of the residuals that are (or are not) held out.

@@ -24,7 +24,9 @@ Result<FreeParameter> find_free_parameter(const AfferentPlan& plan, std::string_
     std::vector<std::string_view> names;
     for (std::size_t k = 0; k < plan.values.size(); ++k) {
         const auto& info = (*plan.parameters)[k].info;
-        if (info.name == name) return FreeParameter{k, std::string(info.name), std::string(info.unit), plan.values[k], info.low, info.high};
+        if (info.name == name)
+            return FreeParameter{k,        std::string(info.name), std::string(info.unit), plan.values[k], info.low, info.high, info.low,
+                                 info.high};
         names.push_back(info.name);
     }
     return bad_input(fmt::format("{}: unknown parameter '{}'{} (it has {})", plan.name, typed, did_you_mean(name, names), joined(names)));
@@ -63,9 +65,17 @@ Result<void> set_default_bounds(FreeParameter& parameter) {
 
 double FreeParameter::width() const { return is_logarithmic() ? num::log(high / low) : 1; }
 
-double FreeParameter::value(double x) const {
-    x = std::clamp(x, 0.0, 1.0);
-    return std::clamp(is_logarithmic() ? low * num::exp(x * width()) : low + x * (high - low), low, high);
+double FreeParameter::unbounded_value(double x) const { return is_logarithmic() ? low * num::exp(x * width()) : low + x * (high - low); }
+
+double FreeParameter::value(double x) const { return std::clamp(unbounded_value(std::clamp(x, 0.0, 1.0)), low, high); }
+
+std::string FreeParameter::wider_bounds(bool upper) const {
+    double from = low, to = high;
+    if (upper)
+        to = std::min(range_high, is_logarithmic() ? high * default_span : high + (high - low));
+    else
+        from = std::max(range_low, is_logarithmic() ? low / default_span : low - (high - low));
+    return from < low || to > high ? fmt::format("{:.6g}:{:.6g}", from, to) : "";
 }
 
 double FreeParameter::coordinate(double of) const {

@@ -9,13 +9,18 @@ namespace corpuscle {
 struct FreeParameter {
     std::size_t index = 0;  ///< among the parameters of the plan
     std::string name, unit;
-    double start = 0;          ///< value before the fit, in `unit`
-    double low = 0, high = 0;  ///< bounds of the search, in `unit`
+    double start = 0;                      ///< value before the fit, in `unit`
+    double low = 0, high = 0;              ///< bounds of the search, in `unit`
+    double range_low = 0, range_high = 0;  ///< allowed values, in `unit`
 
     bool is_logarithmic() const { return low > 0; }
     /// The width of the search in natural coordinates: ln(high / low), or 1 if the parameter is not logarithmic.
     double width() const;
-    double value(double x) const;           ///< of a coordinate, which is limited to 0 to 1
+    double value(double x) const;            ///< of a coordinate, which is limited to 0 to 1
+    double unbounded_value(double x) const;  ///< of a coordinate, which may lie beyond 0 to 1, and the value beyond the bounds
+    /// Bounds for the option --bounds in which the lower (or upper) end is farther out, as far as the range allows: "2.5e-09:2e-05". "":
+    /// the end is that of the range.
+    std::string wider_bounds(bool upper) const;
     double coordinate(double value) const;  ///< of a value, limited to 0 to 1
 };
 

@@ -3,14 +3,12 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numbers>
 
 namespace corpuscle {
 namespace {
 
-using Matrix = std::vector<double>;  // n by n, row after row
-using Vector = std::vector<double>;
-
-constexpr double factor_of_two = 0.69314718055994531;  // ln 2; of a parameter that is not logarithmic: this fraction of its bounds
+constexpr double factor_of_two = std::numbers::ln2;  // ln 2; of a parameter that is not logarithmic: this fraction of its bounds
 
 constexpr double negligible_part = 0.05;  // of a parameter in the weak directions
 
@@ -23,16 +21,17 @@ struct BlockSums {
 /// Sums over blocks. Those without effect, such as pauses, are left out.
 BlockSums sums_along(const Linearization& at, std::span<const Vector> vectors) {
     const std::size_t n = vectors.size();
+    const auto& [residuals, block, blocks] = at.residuals;
     BlockSums out;
-    for (std::size_t begin = 0, end = 0; begin < at.residuals.size(); begin = end) {
+    for (std::size_t begin = 0, end = 0; begin < residuals.size(); begin = end) {
         Vector gradient(n), slopes(n);
         Matrix curvature(n * n);
         double squares = 0;
-        for (; end < at.residuals.size() && at.block[end] == at.block[begin]; ++end) {
+        for (; end < residuals.size() && block[end] == block[begin]; ++end) {
             for (std::size_t j = 0; j < n; ++j) {
                 slopes[j] = 0;
                 for (std::size_t k = 0; k < at.size(); ++k) slopes[j] += vectors[j][k] * at.slopes[k][end];
-                gradient[j] += slopes[j] * at.residuals[end], squares += slopes[j] * slopes[j];
+                gradient[j] += slopes[j] * residuals[end], squares += slopes[j] * slopes[j];
             }
             for (std::size_t i = 0; i < n; ++i)
                 for (std::size_t j = 0; j < n; ++j) curvature[i * n + j] += slopes[i] * slopes[j];
@@ -73,7 +72,7 @@ using Repetitions = std::vector<Vector>;
 
 Result<Repetitions> repeat(const RepetitionFunction& repetition, double noise, std::size_t count) {
     Repetitions out;
-    for (std::size_t seed = 0; seed < count; ++seed) out.push_back(fitted_values(TRY(repetition(noise, seed))));
+    for (std::size_t seed = 0; seed < count; ++seed) out.push_back(fitted_residuals(TRY(repetition(noise, seed))).values);
     return out;
 }
 
@@ -107,18 +106,20 @@ RefittedCost refitted_cost(const Linearization& at, const Repetitions& repetitio
     return out;
 }
 
-/// Repetitions with the noise at which the refitted cost is that of the data. None, if there is no such noise.
+/// Repetitions with the noise at which the refitted cost is that of the data. If even the least noise gives more, as an irregular afferent
+/// may, repetitions with that; none, if no noise is enough.
 Result<Repetitions> repetitions_like(const Linearization& at, const RepetitionFunction& repetition, std::span<const Vector> vectors,
                                      std::span<const double> values) {
     constexpr double least = 1e-15, most = 1e-3;  // noise, A
     constexpr std::size_t few = 8, many = 60;     // repetitions to find the noise, and for the result
-    const double cost = dot_product(at.residuals, at.residuals);
+    const double cost = dot_product(at.residuals.values, at.residuals.values);
     const auto is_below = [&](double noise) -> Result<bool> {
         return refitted_cost(at, TRY(repeat(repetition, noise, few)), vectors, values).mean < cost;
     };
     double low = least, high = least;
     while (high < most && TRY(is_below(high))) low = high, high *= 4;
-    if (high == least || high >= most) return Repetitions();
+    if (high == least) return repeat(repetition, least, many);
+    if (high >= most) return Repetitions();
     for (int pass = 0; pass < 6; ++pass) {
         const double middle = std::sqrt(low * high);
         (TRY(is_below(middle)) ? low : high) = middle;
@@ -143,8 +144,8 @@ Matrix repeated_covariance(const Linearization& at, const Repetitions& repetitio
 /// The covariance if the deviations of the residuals are known, enlarged if the residuals are larger than these say.
 Matrix known_covariance(const Linearization& at, std::span<const double> values) {
     const std::size_t n = values.size();
-    const double freedom = static_cast<double>(at.residuals.size()) - static_cast<double>(at.size());
-    const double scale = freedom > 0 ? std::max(1.0, dot_product(at.residuals, at.residuals) / freedom) : 1.0;
+    const double freedom = static_cast<double>(at.residuals.values.size()) - static_cast<double>(at.size());
+    const double scale = freedom > 0 ? std::max(1.0, dot_product(at.residuals.values, at.residuals.values) / freedom) : 1.0;
     Matrix out(n * n);
     for (std::size_t i = 0; i < n; ++i) out[i * n + i] = scale / values[i];
     return out;
@@ -212,7 +213,7 @@ Result<Identifiability> identifiability(const ResidualFunction& residuals, std::
     const std::size_t n = parameters.size();
     const auto at = TRY(linearize(residuals, parameters, point, slope_effect));
     auto eigen = symmetric_eigensystem(at.JJ, n);
-    const double cost = dot_product(at.residuals, at.residuals);
+    const double cost = dot_product(at.residuals.values, at.residuals.values);
     for (std::size_t j = 0; j < n && has_known_deviations; ++j)
         eigen.values[j] = std::max(eigen.values[j], curvature_along(residuals, parameters, point, eigen.vectors[j], cost));
     Identifiability out;

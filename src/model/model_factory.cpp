@@ -25,6 +25,7 @@ public:
     }
     AfferentTraits traits(const AfferentPlan& plan) const override {
         return {.can_use_lanes = plan.sensor.empty() && plan.transducer.empty() && plan.converter.empty(),
+                .is_irregular = plan.value(jitter_name).value_or(0) > 0,
                 .lane_obstacles = "sensors, converters and noise",
                 .reason_no_noise = plan.converter.empty() ? "" : "behind a converter the membrane is digital"};
     }

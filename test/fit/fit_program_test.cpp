@@ -44,11 +44,27 @@ TEST(FitProgram, PrintsOptionsThatCanBePasted) {
     const auto ran = run_program(
         folder, fmt::format("fit afferent {0}touch.csv --spikes {0}touch_spikes.csv --free k_A --hold-out 0.3{1}", data, quick));
     ASSERT_EQ(ran.status, 0) << ran.err;
-    const auto at = ran.out.find("--set sa1.k_A=");
+    const auto at = ran.out.find("--afferent sa1 --set sa1.k_A=");
     ASSERT_NE(at, std::string::npos) << ran.out;
     EXPECT_NE(ran.out.find("held out"), std::string::npos);
     const auto options = ran.out.substr(at, ran.out.find('\n', at) - at);
-    EXPECT_EQ(run_program(folder, "respond press --afferent sa1 " + options).status, 0) << options;
+    EXPECT_EQ(run_program(folder, "respond press " + options).status, 0) << options;
+}
+
+TEST(FitProgram, ReadsMillisecondsWithTheHeaderThatTheErrorNames) {
+    const TemporaryFolder folder;
+    folder.write("ms.csv", "time_ms\n500\n512\n530\n");
+    EXPECT_EQ(run_program(folder, fmt::format("fit afferent {}touch.csv --spikes ms.csv --free k_A -q{}", data, quick)).status, 0);
+}
+
+TEST(FitProgram, WritesTheCommandWithItsFolders) {
+    const TemporaryFolder folder;
+    ASSERT_EQ(
+        run_program(folder, fmt::format("fit afferent {0}touch.csv --spikes {0}touch_spikes.csv --free k_A -o f.toml -q{1}", data, quick))
+            .status,
+        0);
+    const auto text = test::read_file(folder / "f.toml");
+    EXPECT_NE(text.find("corpuscle fit afferent " + data + "touch.csv"), std::string::npos) << text;
 }
 
 TEST(FitProgram, RefusesWhatCannotBeFitted) {
@@ -56,6 +72,7 @@ TEST(FitProgram, RefusesWhatCannotBeFitted) {
     folder.write("empty.csv", "");
     folder.write("none.csv", "afferent,channel,time_s\n");
     folder.write("late.csv", "time_s\n1000\n1001\n");
+    folder.write("ms.csv", "500\n512\n530\n");
     folder.write("two.csv", "unit,time_s\n1,0.5\n2,0.6\n");
     const auto touch = data + "touch.csv ";
     const std::pair<std::string, std::string> rows[] = {
@@ -64,7 +81,11 @@ TEST(FitProgram, RefusesWhatCannotBeFitted) {
         {"fit afferent " + touch + "--free k_A", "no data"},
         {"fit afferent " + touch + "--spikes empty.csv --free k_A", "empty.csv"},
         {"fit afferent " + touch + "--spikes none.csv --free k_A", "none.csv"},
-        {"fit afferent " + touch + "--spikes late.csv --free k_A", "no recorded spike lies in the time of the force"},
+        {"fit afferent " + touch + "--spikes late.csv --free k_A",
+         "late.csv: no spike lies in the time of touch: the spikes are from 1000 s to 1001 s, the force from 0 s to "},
+        {"fit afferent " + touch + "--spikes ms.csv --free k_A", "write the header time_ms above their column"},
+        {"fit afferent " + touch + "--spikes ms.csv --free k_A --delay 12", "write --delay 12ms if milliseconds are meant"},
+        {"fit afferents " + touch + "--spikes ms.csv --free k_A", "fit: unknown verb 'afferents'; did you mean 'afferent'?"},
         {"fit afferent " + touch + "--spikes two.csv --free k_A", "--train NAME: 1, 2"},
         {"fit afferent " + touch + "--spikes two.csv --train 3 --free k_A", "has no such train; it has 1, 2"},
         {"fit afferent " + touch + touch + "--spikes two.csv --free k_A", "one --spikes FILE for each FORCE"},

@@ -4,6 +4,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include "fit/fit_document.hpp"
 #include "fit/gauss_newton.hpp"
 #include "fit/spike_problem.hpp"
 #include "run/simulate.hpp"
@@ -127,7 +128,61 @@ TEST(Fit, WarnsOfAValueAtItsBound) {
     EXPECT_TRUE(result.parameters[0].is_at_bound);
     EXPECT_FALSE(result.parameters[0].low.has_value());
     ASSERT_FALSE(result.warnings.empty());
-    EXPECT_NE(result.warnings[0].find("--bounds k_A="), std::string::npos);
+    // The bounds that the warning prints have room below.
+    const std::string option = "--bounds ";
+    const auto at = result.warnings[0].find(option);
+    ASSERT_NE(at, std::string::npos) << result.warnings[0];
+    const auto wider = fit_to({recording(true_settings)}, plan_of(true_settings), {}, 2, {result.warnings[0].substr(at + option.size())});
+    EXPECT_FALSE(wider.parameters[0].is_at_bound);
+    EXPECT_NEAR(wider.parameters[0].value / 1.5e-6, 1, 1e-3);
+}
+
+TEST(Fit, AtAKinkOfTheCostTheIntervalIsNotNarrow) {
+    // The residuals jump where a spike appears. At such a point the slopes must be those around it.
+    const auto residuals = [](std::span<const double> x) -> Result<std::vector<ResidualBlock>> {
+        return std::vector<ResidualBlock>{{{20 * x[0], x[0] < 0.5 ? 0.0 : 1.0, 3.0}}};
+    };
+    const FreeParameter linear{0, "a", "", 0, 0, 1, 0, 1};
+    const auto at = value_or_throw(linearize(residuals, std::vector{linear}, std::vector{0.5}, 0.1));
+    EXPECT_NEAR(std::sqrt(at.JJ[0]), 20, 5);
+}
+
+TEST(Fit, TheIntervalOfAPoorFitIsNotAPoint) {
+    // With the gain of the fast part wrong, the best point lies where a spike appears.
+    const auto result = fit_to({recording(true_settings)}, plan_of({}), {"k_A"});
+    const auto& p = result.parameters[0];
+    EXPECT_GT(result.score, 0.01);
+    ASSERT_TRUE(p.low.has_value());
+    EXPECT_GT(*p.high / *p.low, 1.005);
+}
+
+TEST(Fit, WarnsOfSpikesThatAreNotUsed) {
+    auto recorded = recording(true_settings);
+    recorded.spike_file = "nerve.csv";
+    recorded.trains[0].times.push_back(7);
+    const auto warnings = recording_warnings(std::vector{recorded}, plan_of({}));
+    ASSERT_EQ(warnings.size(), 1U);
+    EXPECT_NE(warnings[0].find("nerve.csv: 1 of "), std::string::npos) << warnings[0];
+    EXPECT_NE(warnings[0].find("lie outside the time of chirp, 0 s to 2 s"), std::string::npos) << warnings[0];
+    recorded.trains[0].times = {0.5, 0.7};
+    EXPECT_NE(recording_warnings(std::vector{recorded}, plan_of({})).at(0).find("only 2 spikes"), std::string::npos);
+}
+
+TEST(Fit, WarnsOfSamplesThatAreTooFarApart) {
+    auto recorded = recording(true_settings);
+    recorded.clock = value_or_throw(make_clock(500));
+    const auto plan = test::applied_or_throw(plan_afferent("fa2", {}));
+    const auto warnings = recording_warnings(std::vector{recorded}, plan);
+    ASSERT_EQ(warnings.size(), 1U);
+    EXPECT_NE(warnings[0].find("the sample rate is 500 Hz, but this afferent needs 1000 Hz"), std::string::npos) << warnings[0];
+}
+
+TEST(FreeParameters, WiderBoundsEndAtTheRange) {
+    const FreeParameter logarithmic{0, "a", "", 1, 0.5, 2, 0.1, 2}, linear{0, "b", "", 0, -1, 1, -2, 10};
+    EXPECT_EQ(logarithmic.wider_bounds(false), "0.1:2");
+    EXPECT_EQ(logarithmic.wider_bounds(true), "");
+    EXPECT_EQ(linear.wider_bounds(false), "-2:1");
+    EXPECT_EQ(linear.wider_bounds(true), "-1:3");
 }
 
 TEST(Fit, AnInterruptedSearchReturnsTheBestPointSoFar) {

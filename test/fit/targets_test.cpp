@@ -3,7 +3,7 @@
 #include <fmt/format.h>
 
 #include "fit/afferent_fit.hpp"
-#include "fit/target_problem.hpp"
+#include "fit/targets/target_problem.hpp"
 #include "support/support.hpp"
 
 namespace corpuscle {
@@ -23,7 +23,7 @@ std::vector<TargetRow> targets(const TemporaryFolder& folder, const std::string&
 double measured(const TemporaryFolder& folder, const AfferentPlan& plan, const std::string& stimulus, const std::string& settings,
                 const std::string& measure) {
     const auto rows = targets(folder, fmt::format("{},{},{},1,0.5,2,\n", stimulus, settings, measure));
-    return value_or_throw(value_or_throw(make_target_problem(rows, {}))->rows(plan))[0].got;
+    return value_or_throw(value_or_throw(make_target_problem(rows, {}))->rows(plan))[0].fitted;
 }
 
 TEST(Targets, ErrorsNameLineColumnAndRemedy) {
@@ -48,6 +48,7 @@ TEST(Targets, ErrorsNameLineColumnAndRemedy) {
         {header + "press,,peak_rate@2s..1s,1,,\n", "is not a window"},
         {header + "press,,vector_strength,1,,\n", "needs a periodic stimulus"},
         {header + "ramp-hold,,least_force,-1,-2,1\n", "must be above 0"},
+        {header + "press,,spikes,-5,-6,1\n", "t.csv:2:15: value -5: spikes cannot be negative"},
         {header + "press,F_max=2N,t_up=1s,peak_rate,1,,\n", "t.csv:2: 7 columns where 6 are expected"},
         {"stimulus,measure,value,set\npress,peak_rate,1,tst\n", "t.csv:2:19: set 'tst': write train"},
         {"stimulus,measure,value,weight\npress,peak_rate,1,0\n", "t.csv:2:19: weight 0 must be above 0"}};
@@ -56,6 +57,24 @@ TEST(Targets, ErrorsNameLineColumnAndRemedy) {
         ASSERT_FALSE(result) << message;
         EXPECT_NE(result.error().text().find(message), std::string::npos) << result.error().text() << "\nexpected: " << message;
     }
+}
+
+TEST(Targets, AWindowMustLieWithinTheStimulus) {
+    const TemporaryFolder folder;
+    for (const auto* window : {"0.9s..9s", "-1s..0.5s"}) {
+        const auto problem = make_target_problem(targets(folder, fmt::format("press,,mean_rate@{},3,1,5,\n", window)), {});
+        ASSERT_FALSE(problem) << window;
+        EXPECT_NE(problem.error().text().find("targets.csv:2:8: the window"), std::string::npos) << problem.error().text();
+        EXPECT_NE(problem.error().text().find("from 0 to 1 s"), std::string::npos) << problem.error().text();
+    }
+}
+
+TEST(Targets, AForceThatIsReachedWithoutStrengthHasNoValue) {
+    const TemporaryFolder folder;
+    const auto problem = value_or_throw(make_target_problem(targets(folder, "press,,least_force,1,0.5,2,\n"), {}));
+    const auto row = value_or_throw(problem->rows(plan_of("sa1-nerve")))[0];
+    EXPECT_TRUE(std::isinf(row.fitted)) << row.fitted;
+    EXPECT_NE(row.reason.find("press excites the afferent without it"), std::string::npos) << row.reason;
 }
 
 TEST(Targets, ThatAreAllHeldOutAreAnError) {
@@ -140,7 +159,7 @@ TEST(Targets, KnownParametersAreRecoveredFromRates) {
         EXPECT_GE(*p.high, expected[k]) << p.parameter.name;
         EXPECT_NEAR(p.value / expected[k], 1, 0.1) << p.parameter.name;
     }
-    for (const auto& row : result.rows) EXPECT_TRUE(*row.is_within()) << row.data << " " << row.measure << ": " << row.got;
+    for (const auto& row : result.rows) EXPECT_TRUE(*row.is_within()) << row.data << " " << row.measure << ": " << row.fitted;
     EXPECT_LT(*result.test_score, 1);
 }
 

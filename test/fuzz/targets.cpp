@@ -1,6 +1,6 @@
 // Arbitrary bytes as a table of targets. Expected: rows with finite numbers in order, or an error that names an existing line.
 
-#include "fit/target_table.hpp"
+#include "fit/targets/target_table.hpp"
 
 #include <unistd.h>
 

@@ -7,7 +7,8 @@
 #include "cli/output/output_files.hpp"
 #include "cli/output/terminal.hpp"
 #include "cli/verbs.hpp"
-#include "fit/target_problem.hpp"
+#include "fit/fit_document.hpp"
+#include "fit/targets/target_problem.hpp"
 #include "io/output/output_check.hpp"
 #include "run/afferent_plan.hpp"
 
@@ -43,7 +44,11 @@ present values and at the best of --points random points within the bounds (by d
 twenty times the present value), and runs --starts local searches. Same data, options and --seed: the
 same result, with any number of threads. After Ctrl-C the best values so far are printed.
 
-The 95 % intervals follow from the differences that remain, by leaving out stretches of 5 tau. 'not
+The times of irregular spikes (afferents with a jitter above 0) have no counterpart in a simulation. For
+them the recorded rate, smoothed over 8 tau, is compared with the mean rate of 32 simulations, which takes
+longer, and jitter itself can only be fitted to the measure isi_cv of a table of targets.
+
+The 95 % intervals follow from simulated repetitions, and from leaving out stretches of the data. 'not
 identified' is printed where the data do not determine a parameter: it could be twice or half as large.
 Parameters that trade against each other are named; fix one of them by leaving it out of --free.)";
 
@@ -76,7 +81,7 @@ Result<FitResult> search(const FitArguments& args, const FitProblem& problem, co
 
 Result<std::unique_ptr<FitProblem>> read_problem(const FitArguments& args, const AfferentPlan& plan,
                                                  std::vector<ParameterOverride>& unused) {
-    if (args.targets.empty()) return read_spike_problem(args, unused);
+    if (args.targets.empty()) return read_spike_problem(args, plan, unused);
     const double rate = args.recording.rate.value_or(std::max(FitArguments::default_rate, plan.min_rate));
     return make_target_problem(TRY(read_targets(args.targets)), {.rate = rate, .seed = args.seed, .hold_out = args.hold_out});
 }
@@ -108,7 +113,7 @@ Result<void> fit_afferent(const FitArguments& args, const CommonArguments& commo
     }
     const auto result = TRY(search(args, *problem, plan, parameters, common.quiet));
     for (const auto& warning : result.warnings) print_warning(warning);
-    if (!args.out.empty()) TRY(write_file(args.out, settings_file(result, common.command)));
+    if (!args.out.empty()) TRY(write_file(args.out, settings_file(result, common.complete_command)));
     if (common.json)
         fmt::print("{}\n", json_text(document_of(result, problem->score_meaning())));
     else if (!common.quiet)

@@ -25,7 +25,7 @@ struct FitArguments {
 };
 
 /// Reads the forces and the spikes that were recorded under them.
-Result<std::unique_ptr<FitProblem>> read_spike_problem(const FitArguments&, std::vector<ParameterOverride>& unused);
+Result<std::unique_ptr<FitProblem>> read_spike_problem(const FitArguments&, const AfferentPlan&, std::vector<ParameterOverride>& unused);
 
 /// The tables of a result.
 std::string fit_tables(const FitResult&, const FitProblem&);

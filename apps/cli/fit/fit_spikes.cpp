@@ -61,7 +61,8 @@ Result<std::vector<SpikeRecording>> pair_channels(ForceSource& source, std::vect
     const auto& channels = source.channels();
     for (std::size_t c = 0; c < channels.size(); ++c) {
         const auto name = channels.size() == 1 ? source.name() : fmt::format("{} {}", source.name(), channels[c].name);
-        out.push_back({.name = name, .force = std::move(force[c]), .clock = source.clock(), .trains = {}});
+        out.push_back(
+            {.name = name, .force = std::move(force[c]), .clock = source.clock(), .trains = {}, .spike_file = file, .delay = delay});
     }
     for (auto& t : trains) {
         const auto at = std::find_if(channels.begin(), channels.end(), [&](const Channel& c) { return c.name == t.channel; });
@@ -78,7 +79,8 @@ Result<std::vector<SpikeRecording>> pair_channels(ForceSource& source, std::vect
 
 }  // namespace
 
-Result<std::unique_ptr<FitProblem>> read_spike_problem(const FitArguments& args, std::vector<ParameterOverride>& unused) {
+Result<std::unique_ptr<FitProblem>> read_spike_problem(const FitArguments& args, const AfferentPlan& plan,
+                                                       std::vector<ParameterOverride>& unused) {
     if (args.forces.size() != args.spike_files.size())
         return bad_usage(
             fmt::format("fit afferent: {} forces but {} files of spikes; give one --spikes FILE for each FORCE, in their order",
@@ -93,7 +95,7 @@ Result<std::unique_ptr<FitProblem>> read_spike_problem(const FitArguments& args,
             recordings.push_back(std::move(r));
     }
     hold_out(recordings, args.hold_out);
-    return make_spike_problem(std::move(recordings), {.tau = args.tau});
+    return make_spike_problem(std::move(recordings), {.tau = args.tau, .is_irregular = plan.traits().is_irregular});
 }
 
 }  // namespace corpuscle

@@ -7,6 +7,7 @@
 #include "cli/output/terminal.hpp"
 #include "core/text/ascii_text.hpp"
 #include "core/text/quantity.hpp"
+#include "fit/fit_document.hpp"
 
 namespace corpuscle {
 namespace {
@@ -42,7 +43,7 @@ std::string row_table(const FitResult& result) {
     if (has_ranges) rows[0].insert(rows[0].end(), {"range", "within"});
     if (has_tests) rows[0].push_back("set");
     for (const auto& r : result.rows) {
-        auto row = table_row(r.data, r.measure, quantity(r.target, r.unit), quantity(r.got, r.unit));
+        auto row = table_row(r.data, r.measure, quantity(r.target, r.unit), quantity(r.fitted, r.unit));
         if (has_ranges) {
             const auto within = r.is_within();
             row.push_back(within ? fmt::format("{} to {}", quantity(*r.low, r.unit), quantity(*r.high, r.unit)) : "");

@@ -90,7 +90,7 @@ public:
     void update(double fraction);
 };
 
-/// The command line quoted for a shell. Files appear without their directories, so that a published page does not reveal them.
-std::string quote_command(int argc, const char* const* argv);
+/// The command line quoted for a shell. Without `directories`, files appear without theirs, so that a published page does not reveal them.
+std::string quote_command(int argc, const char* const* argv, bool directories);
 
 }  // namespace corpuscle

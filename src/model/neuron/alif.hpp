@@ -27,7 +27,7 @@ struct AlifTraits {
         {"dV_th", "V", 3.3, 0, 100, "rise of the threshold at a spike"},
         {"tau_th", "s", 15.2e-3, 1e-6, 1e3, "time constant of the threshold's decay"},
         {"t_ref", "s", 1e-3, 0, 10, "refractory time", "nerves: 1 to 2 ms, from memory"},
-        {"jitter", "", 0, 0, 0.33, "standard deviation of the threshold, drawn at each spike, relative to its mean"},
+        {jitter_name, "", 0, 0, 0.33, "standard deviation of the threshold, drawn at each spike, relative to its mean"},
     };
     static constexpr ParameterOrder order_constraints[] = {
         {"V_reset", "V_th"},
@@ -52,9 +52,7 @@ struct Alif : AlifTraits {
 
     /// `stream` in [0, 1) selects the random numbers of an afferent.
     State start(T stream = T(0.0)) const { return {E_L, T(0.0), T(0.0), IrregularThreshold<T>::start(stream)}; }
-    void flush_decayed(State& s) const {
-        s.u = snap_to_level(s.u, negligible_voltage, E_L), s.a = snap_to_level(s.a, negligible_voltage);
-    }
+    void flush_decayed(State& s) const { s.u = snap_to_level(s.u, negligible_voltage, E_L), s.a = snap_to_level(s.a, negligible_voltage); }
     void record(const State& s, T (&out)[2]) const { out[0] = s.u, out[1] = (V_th + s.a) * s.random.factor; }
 
     /// The values of the state that change in a step without spike and refractory time. All others stay.

@@ -1,9 +1,14 @@
 #pragma once
 // A random factor for the threshold of a neuron, drawn anew at each spike: intervals between spikes become irregular.
 
+#include <string_view>
+
 #include "core/number/elementary.hpp"
 
 namespace corpuscle {
+
+/// The parameter of a neuron that is the deviation of this factor.
+inline constexpr std::string_view jitter_name = "jitter";
 
 /// The random numbers are those of Wichmann and Hill (Applied Statistics 31:188, 1982, AS 183). Their integers stay below 2^23, so lanes of
 /// float and double compute them exactly, and every machine draws the same.

@@ -37,14 +37,18 @@ std::vector<std::string> response_warnings(const RunStats& stats) {
     return warnings;
 }
 
+std::string rate_warning(const AfferentPlan& plan, const std::string& source, double rate) {
+    if (!(rate < plan.min_rate)) return "";
+    return fmt::format("{} on {}: the sample rate is {:g} Hz, but this afferent needs {:g} Hz or more; do not trust its spikes", plan.name,
+                       source, rate, plan.min_rate);
+}
+
 std::vector<std::string> rate_warnings(std::span<const std::unique_ptr<ForceSource>> sources, std::span<const AfferentPlan> afferents) {
     std::vector<std::string> warnings;
     for (const auto& source : sources)
         for (const auto& a : afferents)
-            if (const double rate = source->clock().rate(); rate < a.min_rate)
-                warnings.push_back(
-                    fmt::format("{} on {}: the sample rate is {:g} Hz, but this afferent needs {:g} Hz or more; do not trust its spikes",
-                                a.name, source->name(), rate, a.min_rate));
+            if (auto warning = rate_warning(a, source->name(), source->clock().rate()); !warning.empty())
+                warnings.push_back(std::move(warning));
     return warnings;
 }
 

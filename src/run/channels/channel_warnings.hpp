@@ -14,6 +14,9 @@ std::vector<std::string> noise_warnings(std::span<const AfferentPlan> afferents,
 /// Warnings about the response: truncated steps, saturation, overflow, quantities outside their range, and circuits that did not converge.
 std::vector<std::string> response_warnings(const RunStats&);
 
+/// The warning that the sample rate (Hz) of a source is too low for an afferent; "" if it is not.
+std::string rate_warning(const AfferentPlan&, const std::string& source, double rate);
+
 /// Warnings, known before the run, about sources with a sample rate that is too low for an afferent.
 std::vector<std::string> rate_warnings(std::span<const std::unique_ptr<ForceSource>> sources, std::span<const AfferentPlan> afferents);
 

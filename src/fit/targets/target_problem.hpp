@@ -4,7 +4,7 @@
 
 #include "core/simulation_options.hpp"
 #include "fit/fit_problem.hpp"
-#include "fit/target_table.hpp"
+#include "fit/targets/target_table.hpp"
 
 namespace corpuscle {
 

@@ -1,4 +1,4 @@
-#include "fit/target_problem.hpp"
+#include "fit/targets/target_problem.hpp"
 
 #include <fmt/format.h>
 #include <algorithm>
@@ -6,6 +6,7 @@
 
 #include "core/number/elementary.hpp"
 #include "core/stimulus/stimuli.hpp"
+#include "core/text/quantity.hpp"
 #include "run/simulate.hpp"
 
 namespace corpuscle {
@@ -60,8 +61,16 @@ class TargetProblem final : public FitProblem {
     };
     std::vector<Target> targets_;
 
+    /// The value of an irregular afferent is the mean of several simulations, without those in which it is undefined.
     static Result<double> value_of(const Target& target, const AfferentPlan& plan) {
-        const auto afferent = make_afferent(plan, {target.stimulus.clock.T()});
+        if (!plan.traits().is_irregular || target.row.measure->needs_strength) return value_once(target, plan, 0);
+        double sum = 0, count = 0;
+        for (std::size_t seed = 0; seed < irregular_realisations; ++seed)
+            if (const double value = TRY(value_once(target, plan, seed)); !std::isnan(value)) sum += value, ++count;
+        return count > 0 ? sum / count : no_value;
+    }
+    static Result<double> value_once(const Target& target, const AfferentPlan& plan, std::uint64_t seed) {
+        const auto afferent = make_afferent(plan, {.dt = target.stimulus.clock.T(), .seed = seed});
         StimulusResponse response;
         response.window = target.window, response.has_strength = !target.stimulus.shape.empty();
         response.train = [&](std::optional<double> strength) -> Result<std::vector<double>> {
@@ -74,13 +83,35 @@ class TargetProblem final : public FitProblem {
         return target.row.measure->compute(response);
     }
     /// The deviation from the target, in standard deviations.
-    static double deviation(const TargetRow& row, double got) {
+    static double deviation(const TargetRow& row, double value) {
         const auto scaled = [&](double x) { return row.measure->is_logarithmic ? num::log(x) : x; };
-        if (std::isnan(got) || std::isinf(got) || (row.measure->is_logarithmic && !(got > 0))) return worst_deviation;
-        const double difference = scaled(got) - scaled(row.value);
+        if (!std::isfinite(value) || (row.measure->is_logarithmic && !(value > 0))) return worst_deviation;
+        const double difference = scaled(value) - scaled(row.value);
         const double up = scaled(row.high) - scaled(row.value), down = scaled(row.value) - scaled(row.low);
         const double range = difference > 0 ? (up > 0 ? up : down) : (down > 0 ? down : up);
         return std::clamp(deviations_of_range * difference / range, -worst_deviation, worst_deviation);
+    }
+
+    /// A window must lie within the stimulus.
+    static Result<void> check_window(const Target& t) {
+        const double end = t.stimulus.clock.T() * static_cast<double>(t.stimulus.force.size());
+        if (!t.row.window || (t.window.from >= 0 && t.window.to <= end * (1 + 1e-9))) return {};
+        return bad_input(
+            fmt::format("the window '{}' is not within {}, which is from 0 to {:.4g} s; write a window within it, such as "
+                        "{}@0s..{:.4g}s",
+                        t.row.measure_text.substr(t.row.measure_text.find('@') + 1), t.row.stimulus, end, t.row.measure->info.name, end),
+            t.row.measure_location);
+    }
+    /// Why a row has no value, for the user.
+    static std::string reason_of(const Target& t, double value) {
+        if (std::isfinite(value)) return "";
+        if (std::isnan(value)) return "it is undefined for the fitted afferent";
+        return value > 0 ? fmt::format("not reached with any strength up to {}", format_quantity(strongest, "N"))
+                         : fmt::format(
+                               "reached already with the weakest strength that is tried, {}: {} excites the afferent without it, by its "
+                               "force at rest or "
+                               "its mean, so the measure has no value",
+                               format_quantity(weakest, "N"), t.row.stimulus);
     }
 
 public:
@@ -90,6 +121,7 @@ public:
     Result<void> prepare(const TargetProblemOptions& options) {
         for (auto& t : targets_) {
             t.stimulus = TRY(scaled_stimulus(t.row, options, t.window));
+            TRY(check_window(t));
             if (t.row.measure->needs_strength && t.stimulus.shape.empty())
                 return bad_input(fmt::format("{} needs a stimulus with a strength, such as ramp-hold or sine", t.row.measure->info.name),
                                  t.row.location);
@@ -112,16 +144,19 @@ public:
     bool has_known_deviations() const override { return true; }
     Result<std::vector<FitRow>> rows(const AfferentPlan& plan) const override {
         std::vector<FitRow> out;
-        for (const auto& t : targets_)
+        for (const auto& t : targets_) {
+            const double value = TRY(value_of(t, plan));
             out.push_back({.data = t.row.settings_text.empty() ? t.row.stimulus : t.row.stimulus + " " + t.row.settings_text,
                            .measure = t.row.measure_text,
                            .unit = std::string(t.row.measure->info.unit),
                            .target = t.row.value,
                            .low = t.row.low,
                            .high = t.row.high,
-                           .got = TRY(value_of(t, plan)),
+                           .fitted = value,
                            .is_test = t.row.is_test,
-                           .source = t.row.source});
+                           .source = t.row.source,
+                           .reason = reason_of(t, value)});
+        }
         return out;
     }
     double reference_cost(bool is_test) const override {

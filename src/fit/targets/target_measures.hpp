@@ -17,12 +17,14 @@ struct StimulusResponse {
     bool has_strength = false;  ///< the stimulus has a parameter that is its strength: F_amp, F_max ...
 };
 
+inline constexpr double weakest = 1e-5, strongest = 100;  ///< N, of the strengths that are tried
+
 /// A measure of the response to a stimulus.
 struct TargetMeasure {
     MeasureInfo info;
     bool is_logarithmic = false;  ///< deviations are those of the logarithm, as for thresholds
     bool needs_cycle = false, needs_strength = false;
-    /// The value; NaN: undefined. Infinite: not reached with any strength.
+    /// The value; NaN: undefined. Infinity: not reached with any strength; minus infinity: reached with the weakest.
     std::function<Result<double>(const StimulusResponse&)> compute;
 };
 

@@ -1,4 +1,4 @@
-#include "fit/target_measures.hpp"
+#include "fit/targets/target_measures.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -7,14 +7,13 @@
 namespace corpuscle {
 namespace {
 
-constexpr double weakest = 1e-5, strongest = 100;  // N, of the strengths that are tried
-
 /// The spikes in the window.
 std::size_t spikes_inside(std::span<const double> train, const TimeWindow& window) {
     return static_cast<std::size_t>(std::count_if(train.begin(), train.end(), [&](double t) { return t >= window.from && t < window.to; }));
 }
 
-/// The strength at which is_above() becomes true, to 0.4 %. It must be false below and true above. Infinite: it is never true.
+/// The strength at which is_above() becomes true, to 0.4 %. It must be false below and true above. Infinity: it is never true;
+/// minus infinity: it is true at the weakest strength.
 template <class F>
 Result<double> threshold(const F& is_above) {
     constexpr double ratio = 4;
@@ -23,7 +22,7 @@ Result<double> threshold(const F& is_above) {
         if (high >= strongest) return std::numeric_limits<double>::infinity();
         low = high, high *= ratio;
     }
-    if (low == high) return low;
+    if (low == high) return -std::numeric_limits<double>::infinity();
     for (int pass = 0; pass < 8; ++pass) {
         const double middle = std::sqrt(low * high);
         (TRY(is_above(middle)) ? high : low) = middle;

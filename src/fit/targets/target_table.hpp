@@ -2,7 +2,7 @@
 // A table of published numbers to which an afferent is fitted, as a CSV file: one row for each number.
 
 #include "core/parameter_override.hpp"
-#include "fit/target_measures.hpp"
+#include "fit/targets/target_measures.hpp"
 
 namespace corpuscle {
 
@@ -19,7 +19,7 @@ struct TargetRow {
     double weight = 1;
     bool is_test = false;  ///< column set: test
     std::string source;
-    SourceLocation location;
+    SourceLocation location, measure_location;
 };
 
 /// Reads a table. Its columns, by their names, are:

@@ -1,4 +1,4 @@
-#include "fit/target_table.hpp"
+#include "fit/targets/target_table.hpp"
 
 #include <fmt/format.h>
 #include <algorithm>
@@ -122,6 +122,7 @@ class TargetReader {
         if (row.measure->is_logarithmic && !(row.low > 0))
             return error_at(columns_[low] && has_low ? low : value,
                             fmt::format("{} must be above 0, and its low, too", row.measure->info.name));
+        if (row.value < 0) return error_at(value, fmt::format("value {:g}: {} cannot be negative", row.value, row.measure->info.name));
         if (field(weight).empty()) return {};
         row.weight = TRY(quantity(weight, ""));
         if (!(row.weight > 0))
@@ -135,7 +136,7 @@ class TargetReader {
                 fmt::format("{} columns where {} are expected; put quotes around a field with commas, or separate settings by ';'",
                             table_.fields().size(), table_.headings().size()));
         TargetRow row;
-        row.location = table_.error_at("").location;
+        row.location = table_.error_at("").location, row.measure_location = error_at(measure, "").location;
         TRY(read_measure(row));
         TRY(read_stimulus(row));
         TRY(read_numbers(row));
