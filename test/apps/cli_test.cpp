@@ -321,6 +321,8 @@ TEST(Program, BadInputAndBadUsageHaveTheirStatusAndMessageAndLeaveNoFiles) {
          "--vectors works with at most 50 copies, not 51; use fewer, or simulate one copy: --set its values from copies.csv"},
         {"respond press --copies 30000 --wav --out answer --set press.t_hold=0s", 1,
          "'press': 60000 afferents at once would make each click too soft for 16 bits; run it without --wav"},
+        {"respond press --set press.F_max=2N press.t_up=5ms", 2,
+         "press.t_up=5ms: neither a stimulus nor a file; each setting needs its own option: --set press.t_up=5ms"},
         {"respond press --scale 2", 2, "--scale is for recordings, but press is a stimulus; change it by --set press.PARAMETER=VALUE"},
         {"respond press --wav", 2, "--wav needs --out DIR"},
         {"respond press --bin 0s --out answer", 2, "--bin 0s: must be greater than 0, such as 10ms"},

@@ -116,6 +116,9 @@ std::vector<std::string> given_recording_options(const CommonArguments& common) 
 }
 
 Result<void> check_recording_arguments(const CommonArguments& common, std::span<const ForceArgument> forces) {
+    for (const auto& f : forces)
+        if (f.text.find('=') != std::string::npos && !is_force(f.text))
+            return bad_usage(fmt::format("{0}: neither a stimulus nor a file; each setting needs its own option: --set {0}", f.text));
     if (forces.empty() || !std::all_of(forces.begin(), forces.end(), [](const auto& f) { return f.is_stimulus; })) return {};
     const auto options = given_recording_options(common);
     if (options.empty()) return {};

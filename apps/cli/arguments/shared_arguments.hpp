@@ -30,7 +30,7 @@ OptionGroup recording_option_group(RecordingOptions&);
 /// The options of this group that were given, such as "--channel".
 std::vector<std::string> given_recording_options(const CommonArguments&);
 
-/// Returns an error if a recording option was given although all `forces` are stimuli.
+/// Returns an error if a force is a setting without its --set, or if a recording option was given although all `forces` are stimuli.
 Result<void> check_recording_arguments(const CommonArguments&, std::span<const ForceArgument> forces);
 
 /// Options that apply to every netlist of the run.
