@@ -83,7 +83,7 @@ TEST(RealRecordings, AWrongFirstCommandGetsTheRemedy) {
         {"fbg_eskin_press/fbg_press_S6_T16.csv --scale 40",
          "Use --rate 100.04Hz to take the samples as evenly spaced, or --resample 100Hz"},
         {"fbg_eskin_press/motor_spikes_S6_T16.csv", "this file holds spikes, not force; 'corpuscle compare' reads it"},
-        {"gait_insole_vgrf/GaCo01_01.txt", "but the models are fitted to 0.2 to 4 N; use --scale S"},
+        {"gait_insole_vgrf/GaCo01_01.txt", "but the thesis's models are fitted to 0.2 to 4 N; use --scale S"},
         {"gait_insole_vgrf/GaCo01_01.txt",
          "'ch17' is the sum of 'ch1' to 'ch8', not a sensor of its own; use --channel or --layout to exclude it"},
         {"grip_force_ati/grip_02_raw.csv", "give a rate, such as --rate 1kHz"},

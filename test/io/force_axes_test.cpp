@@ -123,7 +123,7 @@ TEST(ForceAxes, ErrorsNameTheSensorAndARemedy) {
         EXPECT_NE(found.find(error), std::string::npos) << found;
     };
     has("time_s,a.Fx_N,a.Fz_N\n0,1,2\n1,1,2\n",
-        "sensor 'a' has 'a.Fx' and 'a.Fz', but no Fy; add the column 'a.Fy', or use --channel 'a.Fz' to read one axis as a force");
+        "sensor 'a' has 'a.Fx' and 'a.Fz', but no Fy; add the column 'a.Fy', or use --channel 'a.Fz' to read one column as a force");
     has("time_s,a.Fx_N,a.Fy_N,a.Fz_N,b.Fz_N\n0,1,2,3,4\n1,1,2,3,4\n", "sensor 'b' has 'b.Fz', but no");
     has("time_s,a.F_N,a.inclination_deg\n0,1,2\n1,1,2\n", "but no azimuth");
     has("time_s,a.F_N,a.inclination,a.azimuth_deg\n0,1,2,3\n1,1,2,3\n",
@@ -133,7 +133,7 @@ TEST(ForceAxes, ErrorsNameTheSensorAndARemedy) {
     const std::string angles = "time_s,a.F_N,a.inclination_deg,a.azimuth_deg\n0,1,20,3\n1,1,20,3\n",
                       axes = "time_s,a.Fx_N,a.Fy_N,a.Fz_N\n0,1,20,3\n1,1,20,3\n";
     has(angles, "--resample would interpolate across 360 degrees", {.resample = 3});
-    has(axes, "--absolute removes the direction of the force of the three-axis sensor 'a'", {.absolute = true});
+    has(axes, "--abs removes the direction of the force of the three-axis sensor 'a'", {.absolute = true});
     has(axes, "layout.csv:2:3: 'a': these axes are left-handed: with x_axis +x and y_axis +y, z points out of the skin", {},
         "channel,z_axis\na,in\n");
     has(axes, "layout.csv:2:3: 'a': x_axis +x and y_axis -x are parallel", {}, "channel,x_axis,y_axis\na,+x,-x\n");

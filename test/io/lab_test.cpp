@@ -187,7 +187,7 @@ TEST(QualityReport, WarnsOnlyOfMisleadingData) {
     };
     EXPECT_TRUE(quality(good).warnings.empty());
     EXPECT_TRUE(quality(good).descriptions.empty());
-    EXPECT_TRUE(mentions(quality(heavy).warnings, "up to 200 N, but the models are fitted to 0.2 to 4 N"));
+    EXPECT_TRUE(mentions(quality(heavy).warnings, "up to 200 N, but the thesis's models are fitted to 0.2 to 4 N"));
     EXPECT_TRUE(mentions(quality(negative).warnings, "but a press must be positive"));
     EXPECT_TRUE(mentions(quality(weak).descriptions, "all forces are below 0.2 N"));
     EXPECT_NEAR(quality_metric(read_lab(folder.write("x.csv", good), {}), "below_0.2N"), 0.205,

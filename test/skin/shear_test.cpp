@@ -184,6 +184,7 @@ std::string error_of_class(const std::string& keys) {
 
 TEST(Shear, KeysOfAClassAreReadOrRefusedWithARemedy) {
     EXPECT_EQ(error_of_class("direction_gain = 0.5\n"), "");
+    EXPECT_EQ(error_of_class("direction_gain = 0.5\ndirection = \"90 deg\"\ndirection_spread = \"0.5 rad\"\n"), "");
     EXPECT_EQ(error_of_class("direction_gain = 0.5\ndirection_spread = \"uniform\"\n"), "");
     EXPECT_EQ(error_of_class("direction_gain = 0.5\ndirection = 90\ndirection_spread = 30\nsource = {direction_gain = \"choice\"}\n"), "");
     const auto has = [](const std::string& keys, const char* text) {
@@ -193,7 +194,8 @@ TEST(Shear, KeysOfAClassAreReadOrRefusedWithARemedy) {
     has("direction_gain = -1\n", "outside [0, 100]");
     has("direction_gain = 1\ndirection = 90\ndirection_spread = \"uniform\"\n", "remove direction");
     has("direction_gain = 1\ndirection_spread = 30\n", "direction = 90");
-    has("direction_gain = 1\ndirection = 400\n", "outside [-360, 360]");
+    has("direction_gain = 1\ndirection = 400\n", "direction = 400 deg is outside [-360 deg, 360 deg]");
+    has("direction_gain = 1\ndirection = \"90 mm\"\n", "direction: '90 mm' is a length; expected a value in deg, such as '2 deg'");
     has("direction_gain = 1\ndirection = \"up\"\n", "direction");
 }
 

@@ -93,7 +93,8 @@ void SkinRun::add_silence_notes() {
         else
             text += fmt::format(" received at most {:.2g} N, and needs about {} N of the same stimulus to fire ({} times as much)",
                                 s.max_force, format_rounded_up(*s.factor * s.max_force), format_rounded_up(*s.factor));
-        if (const auto advice = nerve_advice(innervation_->plan.classes[s.class_index].afferent); !advice.empty()) text += "; " + advice;
+        if (const auto advice = nerve_advice(innervation_->plan.classes[s.class_index].afferent); s.max_force > 0 && !advice.empty())
+            text += "; " + advice;
         messages.push_back(std::move(text));
         if (s.factor) min_factor = std::min(*s.factor, min_factor.value_or(*s.factor));
     }

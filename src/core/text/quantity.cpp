@@ -1,7 +1,9 @@
 #include "core/text/quantity.hpp"
 
 #include <fmt/format.h>
+#include <algorithm>
 #include <cmath>
+#include <numbers>
 
 #include "core/text/ascii_text.hpp"
 
@@ -12,7 +14,7 @@ struct NamedUnit {
     std::string_view name;
     Unit unit;
 };
-// For each unit: the factor to SI, and the exponents of s, m, N, V and A.
+// For each unit: the factor to SI, or to degrees, and the exponents of s, m, N, V, A and degree.
 constexpr NamedUnit units[] = {
     {"s", {1, 1, 0, 0, 0, 0}},    {"min", {60, 1, 0, 0, 0, 0}},        {"Hz", {1, -1, 0, 0, 0, 0}},
     {"m", {1, 0, 1, 0, 0, 0}},    {"cm", {0.01, 0, 1, 0, 0, 0}},       {"N", {1, 0, 0, 1, 0, 0}},
@@ -20,7 +22,8 @@ constexpr NamedUnit units[] = {
     {"V", {1, 0, 0, 0, 1, 0}},    {"A", {1, 0, 0, 0, 0, 1}},           {"ohm", {1, 0, 0, 0, 1, -1}},
     {"Ohm", {1, 0, 0, 0, 1, -1}}, {"\u03a9", {1, 0, 0, 0, 1, -1}},     {"S", {1, 0, 0, 0, -1, 1}},
     {"F", {1, 1, 0, 0, -1, 1}},   {"H", {1, 1, 0, 0, 1, -1}},          {"W", {1, 0, 0, 0, 1, 1}},
-    {"%", {0.01, 0, 0, 0, 0, 0}}, {"1", {1, 0, 0, 0, 0, 0}},
+    {"%", {0.01, 0, 0, 0, 0, 0}}, {"1", {1, 0, 0, 0, 0, 0}},           {"deg", {1, 0, 0, 0, 0, 0, 1}},
+    {"\u00b0", {1, 0, 0, 0, 0, 0, 1}}, {"rad", {180 / std::numbers::pi, 0, 0, 0, 0, 0, 1}},
 };
 
 struct Prefix {
@@ -40,11 +43,11 @@ std::optional<double> prefix_factor(std::string_view s) {
 std::optional<Unit> unit_of_symbol(std::string_view s) {
     for (const auto& u : units)
         if (u.name == s) return u.unit;
-    for (const auto& p : prefixes)  // with a prefix; %, 1, min, lbf and cm take none
+    constexpr std::string_view without_prefix[] = {"%", "1", "min", "lbf", "cm", "deg", "\u00b0", "rad"};
+    for (const auto& p : prefixes)
         if (s.starts_with(p.text))
             for (const auto& u : units)
-                if (u.name == s.substr(p.text.size()) && u.name != "%" && u.name != "1" && u.name != "min" && u.name != "lbf" &&
-                    u.name != "cm") {
+                if (u.name == s.substr(p.text.size()) && std::ranges::find(without_prefix, u.name) == std::end(without_prefix)) {
                     Unit scaled = u.unit;
                     scaled.factor *= p.factor;
                     return scaled;
@@ -52,14 +55,21 @@ std::optional<Unit> unit_of_symbol(std::string_view s) {
     return {};
 }
 
+/// Removes the power at the end of a symbol, such as that of "cm2", "cm^2" or "cm\u00b2", and returns it; 1 if there is none.
+int strip_power(std::string_view& s) {
+    for (const auto& [text, power] : {std::pair("^2", 2), {"^3", 3}, {"\u00b2", 2}, {"\u00b3", 3}, {"2", 2}, {"3", 3}})
+        if (s.size() > std::string_view(text).size() && s.ends_with(text)) return s.remove_suffix(std::string_view(text).size()), power;
+    return 1;
+}
+
 /// A symbol followed by its power: "cm2".
 std::optional<Unit> unit_of_powered_symbol(std::string_view s) {
-    const int power = s.size() > 1 && (s.back() == '2' || s.back() == '3') ? s.back() - '0' : 1;
-    const auto base = unit_of_symbol(s.substr(0, s.size() - (power > 1)));
+    const int power = strip_power(s);
+    const auto base = unit_of_symbol(s);
     if (!base || power == 1) return base;
     const auto by = [power](signed char p) { return static_cast<signed char>(p * power); };
     const double factor = power == 2 ? base->factor * base->factor : base->factor * base->factor * base->factor;
-    return Unit{factor, by(base->second), by(base->metre), by(base->newton), by(base->volt), by(base->ampere)};
+    return Unit{factor, by(base->second), by(base->metre), by(base->newton), by(base->volt), by(base->ampere), by(base->degree)};
 }
 
 /// The kind of quantity that has this dimension, for messages; empty if it has no name here.
@@ -81,7 +91,8 @@ std::string_view dimension_name(const Unit& u) {
                               {"m/s", "a speed"},
                               {"W", "a power"},
                               {"m2", "an area"},
-                              {"Pa", "a pressure"}};
+                              {"Pa", "a pressure"},
+                              {"deg", "an angle"}};
     for (const auto& k : kinds)
         if (parse_unit(k.unit)->has_same_dimension(u)) return k.name;
     return {};
@@ -112,7 +123,7 @@ Result<Unit> parse_unit(std::string_view text) {
         const auto add = [&](signed char& to, signed char by) { to = static_cast<signed char>(to + (power > 0 ? by : -by)); };
         total.factor *= power > 0 ? u->factor : 1 / u->factor;
         add(total.second, u->second), add(total.metre, u->metre), add(total.newton, u->newton), add(total.volt, u->volt),
-            add(total.ampere, u->ampere);
+            add(total.ampere, u->ampere), add(total.degree, u->degree);
         if (end == std::string_view::npos) return total;
         const auto next = rest.find_first_not_of(" \t", end);
         if (next == std::string_view::npos) return bad_input(fmt::format("unit '{}' is incomplete: a symbol is missing at the end", text));
@@ -159,7 +170,7 @@ Result<double> parse_quantity(std::string_view text, std::string_view unit) {
 
 std::string format_quantity(double value, std::string_view unit) {
     const bool has_power = unit.ends_with('2') || unit.ends_with('3');  // without prefix, as the power applies to it too: 1 um2 is 1e-12 m2
-    const bool prefixed = !unit.empty() && !unit.starts_with("1/") && !has_power && value != 0 && std::isfinite(value);
+    const bool prefixed = !unit.empty() && !unit.starts_with("1/") && unit != "deg" && !has_power && value != 0 && std::isfinite(value);
     constexpr std::string_view prefix_names[] = {"f", "p", "n", "u", "m", "", "k", "M", "G", "T"};
     int i = 5;  // no prefix
     if (prefixed) {

@@ -1,7 +1,11 @@
 #include "io/quality/quality_report.hpp"
 
 #include <fmt/format.h>
+#include <algorithm>
 #include <cmath>
+#include <span>
+
+#include "core/text/ascii_text.hpp"
 
 namespace corpuscle {
 namespace {
@@ -111,27 +115,46 @@ class ReportWriter {
     void levels() {
         const auto high = affected_channels([](const auto& p) { return p.levels.max > max_plausible_force ? p.levels.max : 0; });
         if (!high.channels.empty())
-            add(true, fmt::format("{}: up to {:.4g} N, but the models are fitted to 0.2 to 4 N; use --scale S to convert to the force on "
-                                  "one receptor",
+            add(true, fmt::format("{}: up to {:.4g} N, but the thesis's models are fitted to 0.2 to 4 N; use --scale S to convert to the "
+                                  "force on one receptor",
                                   high.names, pipelines_[high.worst].levels.max));
-        const auto low = affected_channels([](const auto& p) { return p.levels.max < 0.2 && p.levels.max > p.levels.min ? 1 : 0; });
-        if (!low.channels.empty() && low.channels.size() == pipelines_.size())
-            add(false, fmt::format("all forces are below 0.2 N, the lower end of the models' range (maximum {:.3g} N); check the unit",
-                                   pipelines_[low.worst].levels.max));
-        const auto negative =
-            affected_channels([](const auto& p) { return p.levels.min < -0.2 && -p.levels.min > p.levels.max ? -p.levels.min : 0; });
+        low_levels();
+        const auto negative = affected_channels([](const auto& p) {
+            return !p.is_component && p.levels.min < -0.2 && -p.levels.min > p.levels.max ? -p.levels.min : 0;
+        });
         if (!negative.channels.empty())
             add(true, fmt::format("{}: mostly negative, down to {:.4g} N, but a press must be positive; use --abs or a negative --scale",
                                   negative.names, pipelines_[negative.worst].levels.min));
+        constant_levels();
+    }
+
+    void low_levels() {
+        double largest = 0;
+        bool changes = false;
+        for (const auto& p : pipelines_)
+            largest = std::max({largest, p.levels.max, p.is_component ? -p.levels.min : 0}), changes |= p.levels.max > p.levels.min;
+        if (changes && largest < 0.2)
+            add(false, fmt::format("all forces are below 0.2 N (maximum {:.3g} N): the thesis's models hardly respond, those calibrated to "
+                                   "nerves respond from millinewtons on; check the unit",
+                                   largest));
+    }
+
+    void constant_levels() {
         const auto constant = affected_channels([](const auto& p) { return p.levels.max == p.levels.min ? 1 : 0; });
-        const auto& first = pipelines_[0].levels;
+        if (constant.channels.empty()) return;
         const bool all = constant.channels.size() == pipelines_.size();
-        if (pipelines_.size() == 1 && all && first.count > 1)
-            add(true, fmt::format("the force is constant, {:.4g} N; check the file and the channel", first.max));
-        else if (pipelines_.size() > 1 && constant.channels.size() == 1)
-            add(false, fmt::format("{} is constant", constant.names));
-        else if (pipelines_.size() > 1 && !constant.channels.empty())
-            add(all, fmt::format("{} channels are constant{}", constant.channels.size(), all ? "; check the file and the channels" : ""));
+        if (pipelines_.size() == 1) {
+            if (const auto& only = pipelines_[0].levels; only.count > 1)
+                add(true, fmt::format("the force is constant, {:.4g} N; check the file and the channel", only.max));
+        } else if (all || !pipelines_[0].is_component) {
+            constexpr std::size_t max_names = 4;
+            std::vector<std::string> names;
+            for (const auto k : std::span(constant.channels).first(std::min(constant.channels.size(), max_names)))
+                names.push_back(fmt::format("'{}'", channels_[k].name));
+            if (constant.channels.size() > max_names) names.push_back("...");
+            add(all, all ? fmt::format("all {} channels are constant; check the file and the channels", constant.channels.size())
+                         : fmt::format("{} of {} channels are constant: {}", constant.channels.size(), pipelines_.size(), joined(names)));
+        }
     }
 
     /// Reports the levels at rest that --zero subtracts.

@@ -77,15 +77,26 @@ std::vector<SensorColumns> sensors_of_form(const Table& table, std::optional<std
     return out;
 }
 
+/// A sensor that lacks one of its columns. The first column that is present names the missing one: "Fx2" gives "Fz2".
 Error missing_axis(const Table& table, const SensorColumns& sensor, bool has_angles, const std::string& path) {
     constexpr std::string_view words[] = {"Fx", "Fy", "Fz", "F", "inclination", "azimuth"};
     std::vector<std::string> present;
     std::string_view missing;
-    for (std::size_t k = 0; k < 3; ++k)
-        sensor.columns[k] ? present.push_back("'" + table.columns()[*sensor.columns[k]].name + "'")
-                          : static_cast<void>(missing = words[k + (has_angles ? 3 : 0)]);
-    return bad_input(fmt::format("sensor '{}' has {}, but no {}; add the column '{}.{}', or use --channel {} to read one axis as a force",
-                                 sensor.name, joined(present, " and "), missing, sensor.name, missing, present.back()),
+    std::string force;  // the column that can be read as a force
+    for (std::size_t k = 0; k < 3; ++k) {
+        if (!sensor.columns[k]) {
+            missing = words[k + (has_angles ? 3 : 0)];
+            continue;
+        }
+        present.push_back("'" + table.columns()[*sensor.columns[k]].name + "'");
+        if (!has_angles || k == 0) force = present.back();
+    }
+    const bool is_numbered = sensor.name.size() > 1 && sensor.name[0] == 'F' && sensor.name.find_first_not_of(digits, 1) == std::string::npos;
+    const auto column = is_numbered       ? fmt::format("{}{}", missing, sensor.name.substr(1))
+                        : sensor.name == "F" ? std::string(missing)
+                                             : fmt::format("{}.{}", sensor.name, missing);
+    return bad_input(fmt::format("sensor '{}' has {}, but no {}; add the column '{}'{}", sensor.name, joined(present, " and "), missing,
+                                 column, force.empty() ? "" : fmt::format(", or use --channel {} to read one column as a force", force)),
                      {path});
 }
 
@@ -161,7 +172,7 @@ Result<SensorAxes> parse_sensor_axes(std::string_view x_axis, std::string_view y
     if (!z_axis.empty() && (turn > 0) != (z_axis == "out"))
         return bad_input(
             fmt::format("these axes are left-handed: with x_axis {} and y_axis {}, z points {} the skin; correct z_axis, or "
-                        "reverse one of the others",
+                        "reverse one of the others. If z is positive under a press, however the axes are called, leave z_axis empty",
                         x_axis.empty() ? "+x" : x_axis, y_axis.empty() ? "+y" : y_axis, turn > 0 ? "out of" : "into"));
     // The force along x of the skin is the sum over the sensor's axes of their x components times the force along them.
     out.x = {(*x)[0], (*y)[0]}, out.y = {(*x)[1], (*y)[1]};
@@ -176,7 +187,7 @@ Result<void> check_axis_options(const RecordingOptions& options, std::span<const
                                                            option, why, sensors[0].name)))
                       : Result<void>();
     };
-    TRY(refuse(options.absolute, "--absolute", "removes the direction of the force"));
+    TRY(refuse(options.absolute, "--abs", "removes the direction of the force"));
     if (std::none_of(sensors.begin(), sensors.end(), [](const AxisSensor& s) { return s.has_angles; })) return {};
     TRY(refuse(options.offset != 0, "--offset", "does not apply to the angles"));
     TRY(refuse(options.zero.has_value(), "--zero", "does not apply to the angles"));

@@ -37,6 +37,7 @@ public:
     static Result<ChannelPipeline> make(const RecordingOptions&, double gain, const Clock& filter_clock, bool filters_rows,
                                         const HumTable&);
 
+    bool is_component = false;      ///< true: an axis or an angle of a three-axis sensor; it may be negative or constant
     RestLevel rest = {};            ///< subtracted from the final force
     OutlierDetector outliers;       ///< of the samples before the filters
     SaturationDetector saturation;  ///< of the samples before the filters

@@ -172,7 +172,7 @@ class Recording final : public ForceSource {
         for (const double gain : gains) {
             auto pipeline =
                 TRY(ChannelPipeline::make(options_, gain, rows_are_even ? row_clock_.clock : clock_, rows_are_even, *hum_table_));
-            pipeline.rest = rest;
+            pipeline.rest = rest, pipeline.is_component = !axis_sensors_.empty();
             pipelines.push_back(std::move(pipeline));
         }
         return pipelines;

@@ -126,7 +126,9 @@ std::vector<SilentClass> SilenceDetector::silent_classes(const RespondOptions& o
 
 std::string nerve_advice(const AfferentPlan& plan) {
     const auto name = plan.name + "-nerve";
-    return plan_afferent(name) ? fmt::format("try {}, which is calibrated to recordings of nerves", name) : "";
+    const auto calibrated = plan_afferent(name);
+    const bool is_other = calibrated && (calibrated->receptor != plan.receptor || calibrated->neuron != plan.neuron);
+    return is_other ? fmt::format("try {}, which is calibrated to recordings of nerves", name) : "";
 }
 
 std::string silence_message(const std::string& name, const SilentClass& silent) {

@@ -47,12 +47,11 @@ public:
     std::vector<SilentClass> silent_classes(const RespondOptions&) const;
 };
 
-/// A text such as "try fa1-nerve, which is calibrated to recordings of nerves", if there is such an afferent beside the one of the plan;
-/// otherwise "".
+/// A text such as "try fa1-nerve, which is calibrated to recordings of nerves", if there is such an afferent and the plan is of
+/// another one; otherwise "".
 std::string nerve_advice(const AfferentPlan&);
 
-/// A message such as "fa1 never fired: the largest force was 0.5 N; it would fire at about 6.3 times this
-/// force". `name`: of the class.
+/// A message such as "fa1 never fired: the largest force was 0.5 N; it would fire at about 6.3 times this force". `name`: of the class.
 std::string silence_message(const std::string& name, const SilentClass&);
 
 /// A number with two significant digits, rounded up: "1.5", "0.0021".

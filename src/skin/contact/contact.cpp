@@ -229,7 +229,7 @@ public:
                             std::span<const double> shear_y) override {
         if (!shear_x.empty() && shear_.any())
             return bad_input("contact: the force has its own shear; remove contact.tilt and contact.friction");
-        has_shear_ = shear_.any() || !shear_x.empty();
+        has_shear_ = has_shear_ || shear_.any() || !shear_x.empty();  // the last block of a force is empty
         for (const auto site : touched_) in_block_[site] = 0;
         touched_.clear();
         if (force.size() > stride_) {

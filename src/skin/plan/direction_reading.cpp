@@ -26,8 +26,8 @@ Result<DirectionTuning> read_direction_tuning(const ConfigNode& in, const Popula
     if (spread && !mean)
         return spread->error_here(
             "direction_spread in degrees needs the mean direction: direction = 90; or write direction_spread = \"uniform\"");
-    if (mean) out.mean = radians_per_degree * TRY(values.number(*mean, "direction", "", -360, 360));
-    if (spread) out.spread = radians_per_degree * TRY(values.number(*spread, "direction_spread", "", 0, 360));
+    if (mean) out.mean = radians_per_degree * TRY(values.number(*mean, "direction", "deg", -360, 360));
+    if (spread) out.spread = radians_per_degree * TRY(values.number(*spread, "direction_spread", "deg", 0, 360));
     return out;
 }
 

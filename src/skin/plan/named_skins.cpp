@@ -108,20 +108,40 @@ bool has_parameter(const AfferentPlan& plan, std::string_view name) {
     return std::any_of(all.begin(), all.end(), [name](const ParameterInfo& p) { return p.name == name; });
 }
 
-/// The error of overrides for a class. If the class has the name of another afferent ("sa1", but it is a sa1-nerve), and a parameter is one
-/// of that afferent, the message says so.
-Error class_override_error(const SkinPlan& plan, const SkinClass& c, std::span<const ParameterOverride> overrides, Error error) {
+/// True if overrides with this target are for the class: it is its name, or its afferent ("sa1-nerve", "RA") and no class has that name.
+bool is_for(const SkinPlan& plan, const SkinClass& c, std::string_view target) {
+    const auto is_named = [target](const SkinClass& one) { return one.name == target; };
+    if (std::any_of(plan.classes.begin(), plan.classes.end(), is_named)) return is_named(c);
+    const auto afferent = plan_afferent(target);
+    return afferent && afferent->name == c.afferent_name;
+}
+
+/// Refuses an override of a class that has the name of another afferent ("sa1", but it is a sa1-nerve) if its parameter is also one of that
+/// afferent: the same number would mean something else.
+Result<void> check_meaning(const SkinPlan& plan, const SkinClass& c, const ParameterOverride& given) {
+    if (given.target != c.name || c.afferent_name.empty() || c.afferent_name == c.name) return {};
     const auto namesake = plan_afferent(c.name);
-    if (c.afferent_name.empty() || c.afferent_name == c.name || !namesake) return error;
-    for (const auto& o : overrides)
-        if (o.target == c.name && !has_parameter(c.afferent, o.parameter) && has_parameter(*namesake, o.parameter)) {
-            error.message += fmt::format(
-                "; the class {0} of {1} is the afferent {2}; {3} is a parameter of the thesis's {0}, which a population "
-                "file with afferent = \"{0}\" uses (doc/skin.md)",
-                c.name, plan.name, c.afferent_name, o.parameter);
-            break;
-        }
-    return error;
+    if (!namesake || !has_parameter(*namesake, given.parameter)) return {};
+    const auto remedy = has_parameter(c.afferent, given.parameter)
+                            ? fmt::format("its {1} is set by {0}.{1}, and ", c.afferent_name, given.parameter)
+                            : std::string();
+    return bad_usage(fmt::format("{}: the class {} of {} is the afferent {}; {}the thesis's {} is in a population file with afferent = \"{}\" "
+                                 "(doc/skin.md)",
+                                 given.typed, c.name, plan.name, c.afferent_name, remedy, c.name, c.name));
+}
+
+/// The settings of a class; `unused` receives the overrides that are not for it.
+Result<std::vector<Setting>> class_settings(const SkinPlan& plan, const SkinClass& c, std::span<const ParameterOverride> overrides,
+                                            std::vector<ParameterOverride>& unused) {
+    auto [own, others] = select_overrides(overrides, [&](std::string_view target) { return is_for(plan, c, target); });
+    keep_unused(unused, others);
+    const auto rows = parameter_infos(c.afferent);
+    std::vector<Setting> settings;
+    for (const auto& given : own) {
+        TRY(check_meaning(plan, c, given));
+        settings.push_back(TRY(setting_of(given, rows)));
+    }
+    return settings;
 }
 
 }  // namespace
@@ -129,11 +149,7 @@ Error class_override_error(const SkinPlan& plan, const SkinClass& c, std::span<c
 Result<Applied<SkinPlan>> apply_overrides(SkinPlan plan, std::span<const ParameterOverride> overrides) {
     std::vector<ParameterOverride> unused(overrides.begin(), overrides.end());
     for (auto& c : plan.classes) {
-        auto read = settings_for(c.name, parameter_infos(c.afferent), overrides);
-        if (!read) return class_override_error(plan, c, overrides, read.error());
-        const auto settings = std::move(*read);
-        keep_unused(unused, settings.unused);
-        set_values(c.afferent, settings.result);
+        set_values(c.afferent, TRY(class_settings(plan, c, overrides, unused)));
         TRY(check_plan(c.afferent));
     }
     return Applied<SkinPlan>{std::move(plan), std::move(unused)};

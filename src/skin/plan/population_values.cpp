@@ -26,7 +26,7 @@ Result<PopulationValues> PopulationValues::of(const ConfigNode& top) {
 Result<double> PopulationValues::number(const LocatedText& item, std::string_view name, std::string_view unit, double low,
                                         double high) const {
     const bool without_unit = parse_bare_number<double>(trimmed(item.text)).has_value(), is_length = unit == "m";
-    if (without_unit && !unit.empty() && (!is_length || !metres_))
+    if (without_unit && !unit.empty() && unit != "deg" && (!is_length || !metres_))
         return item.error_here(fmt::format("{} = {}: the unit is missing; write {} = \"{} {}\"{}", name, item.text, name,
                                            trimmed(item.text),
                                            is_length        ? "mm"

@@ -79,7 +79,7 @@ Result<SkinShape> read_shape(const ConfigNode& in, const PopulationValues& value
     out.end_width = TRY(is_ellipse ? values.number_of(in, "height", "m", min_pitch, max_length)
                                    : values.number(widths.back(), "width", "m", min_pitch, max_length));
     const auto* angle = in.get("angle");
-    const double degrees = TRY(angle ? values.number(*angle, "angle (degrees)", "", -360, 360) : 0);
+    const double degrees = TRY(angle ? values.number(*angle, "angle", "deg", -360, 360) : 0);
     out.turns = degrees / 360;
     return out;
 }

@@ -109,7 +109,12 @@ class TaxelReader {
     Result<void> read_axes(Taxel& taxel) const {
         const auto axes = parse_sensor_axes(table_.text(x_axis), table_.text(y_axis), table_.text(z_axis));
         if (axes) return taxel.axes = *axes, Result<void>();
-        const auto column = table_.has(x_axis) ? x_axis : table_.has(y_axis) ? y_axis : z_axis;
+        // The error is that of the last axis without which the others are valid, or that of x.
+        const auto is_valid_without = [this](TaxelColumn left_out) {
+            const auto axis = [&](TaxelColumn c) { return c == left_out ? std::string_view() : table_.text(c); };
+            return !table_.text(left_out).empty() && parse_sensor_axes(axis(x_axis), axis(y_axis), axis(z_axis));
+        };
+        const auto column = is_valid_without(z_axis) ? z_axis : is_valid_without(y_axis) ? y_axis : x_axis;
         return table_.error_at(fmt::format("taxel '{}': {}", taxel.name, axes.error().message), column);
     }
 

@@ -28,6 +28,20 @@ std::string_view dimension_of(TaxelColumn c) {
     return std::find(std::begin(lengths), std::end(lengths), c) != std::end(lengths) ? "m" : "";
 }
 
+/// The names of the columns with usual units, as a file has them: "width_mm".
+std::vector<std::string_view> full_column_names() {
+    static const auto names = [] {
+        std::vector<std::string> all;
+        for (std::size_t c = 0; c < taxel_column_count; ++c) {
+            const auto dimension = dimension_of(static_cast<TaxelColumn>(c));
+            all.push_back(std::string(taxel_columns[c]) + (dimension.empty() ? "" : dimension == "deg" ? "_deg" : "_m") +
+                          (dimension.starts_with('m') ? std::string(dimension) : ""));
+        }
+        return all;
+    }();
+    return {names.begin(), names.end()};
+}
+
 }  // namespace
 
 /// The factor from the unit in the heading to m, m2 or degrees.
@@ -36,8 +50,9 @@ Result<double> TaxelTable::factor_of(TaxelColumn c, std::size_t field) const {
     const auto& unit = table_.headings()[field].unit;
     if (dimension.empty()) return 1;
     if (dimension == "deg") {
-        if (unit == "deg" || unit == "\u00b0") return 1;
-        return table_.error_at("the rotation must be in degrees; write rotation_deg", field);
+        const auto angle = unit.empty() ? Result<Unit>(Unit{}) : parse_unit(unit);
+        if (angle && angle->has_same_dimension(*parse_unit("deg"))) return angle->factor;
+        return table_.error_at("the rotation needs a unit of angle; write rotation_deg", field);
     }
     const auto parsed = unit.empty() ? Result<Unit>(Unit{}) : parse_unit(unit);
     if (parsed && parsed->has_same_dimension(*parse_unit(dimension))) return parsed->factor;
@@ -51,10 +66,10 @@ Result<void> TaxelTable::read_heading(std::size_t field) {
     if (is_ignored_column(heading)) return {};
     const auto found = std::find(taxel_columns.begin(), taxel_columns.end(), heading);
     if (found == taxel_columns.end())
-        return table_.error_at(
-            fmt::format("unknown column '{}'{}; the columns are {}; z and note are ignored", table_.fields()[field].substr(0, 40),
-                        did_you_mean(heading, taxel_columns), joined(std::span<const std::string_view>(taxel_columns))),
-            field);
+        return table_.error_at(fmt::format("unknown column '{}'{}; the columns are {}; z and note are ignored",
+                                           table_.fields()[field].substr(0, 40), did_you_mean(lower(table_.fields()[field]), full_column_names()),
+                                           joined(full_column_names())),
+                               field);
     const auto c = static_cast<std::size_t>(found - taxel_columns.begin());
     if (columns_[c]) return table_.error_at(fmt::format("column '{}' occurs twice", *found), field);
     columns_[c] = field;
@@ -94,7 +109,7 @@ Result<std::optional<double>> TaxelTable::number(TaxelColumn c, double limit) co
     if (text(c).empty()) return std::optional<double>();
     double value;
     if (!table_.number(index(c), value) || !std::isfinite(value))
-        return error_at(fmt::format("'{}' is not a number", text(c).substr(0, 40)), c);
+        return error_at(fmt::format("{}: '{}' is not a number", taxel_column_name(c), text(c).substr(0, 40)), c);
     const double factor = factors_[static_cast<std::size_t>(c)];
     if (!(std::abs(value * factor) <= limit))
         return error_at(fmt::format("{} = {:g} is out of range: at most {:g} {}", taxel_column_name(c), value, limit / factor,
