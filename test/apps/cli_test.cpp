@@ -306,7 +306,7 @@ TEST(Program, BadInputAndBadUsageHaveTheirStatusAndMessageAndLeaveNoFiles) {
         {"respond press --afferent sa1-circuit --vectors --out answer", 2,
          "--vectors: sa1-circuit has no converter, and so no fixed-point values; try --afferent sa1-kim"},
         {"respond press --noise -1nA", 2, "--noise '-1nA' is negative; write a standard deviation, such as '50 nA'"},
-        {"respond press -a sa1 -a SA1", 2, "--afferent SA1: given twice"},
+        {"respond press -a sa1 -a SA1", 2, "--afferent SA1: sa1 is given twice"},
         {"respond", 2, "respond: no FORCE given; try 'corpuscle respond press'"},
         {"respond press --spread sa1.f_B=10%", 2, "--spread sa1.f_B=10% needs --copies N, such as --copies 100"},
         {"respond press --copies 9 --spread f_B=10%", 2,

@@ -66,7 +66,7 @@ Result<void> ChannelRun::plan_afferents() {
     for (const auto& name : args_.afferents) {
         auto planned = TRY(plan_any_afferent(name, overrides_, probes));
         if (std::any_of(afferents_.begin(), afferents_.end(), [&](const auto& a) { return a.name == planned.result.name; }))
-            return bad_usage(fmt::format("--afferent {}: given twice", name));
+            return bad_usage(fmt::format("--afferent {}: {} is given twice", name, planned.result.name));
         keep_unused(unused_, planned.unused);
         afferents_.push_back(std::move(planned.result));
         if (!planned.probes.empty()) found.push_back(std::move(planned.probes));

@@ -21,7 +21,7 @@ function showFirstSpikes(skin, host) {
 
 // The columns of the table of rates: key in the summary, heading, decimals.
 const RATE_COLUMNS = [["phase", "phase"], ["afferents", "afferents", 0], ["touched", "touched", 0], ["active", "active", 0], ["spikes", "spikes", 0], ["rate_while_touched_Hz", "rate while touched (Hz)", 1],
-                      ["rate_of_active_Hz", "mean rate of active (Hz)", 1], ["max_rate_Hz", "max (Hz)", 1], ["first_spike_s", "first spike (s)", 4], ["median_first_spike_s", "median first spike (s)", 4]];
+                      ["rate_of_active_Hz", "mean rate of active (Hz)", 1], ["max_rate_Hz", "busiest (Hz, over the phase)", 1], ["first_spike_s", "first spike (s)", 4], ["median_first_spike_s", "median first spike (s)", 4]];
 
 /// The rates of all classes and phases in a region; "all" for the complete skin.
 function showSkinRates(skin, host, region) {

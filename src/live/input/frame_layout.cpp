@@ -23,6 +23,12 @@ std::string expected_frame(const FrameLayout& layout, std::string_view populatio
                        contents_of(layout, layout.sites));
 }
 
+/// A remedy for frames of taxels with three axes whose layout does not say so; otherwise "".
+std::string axes_advice(const FrameLayout& layout, std::size_t numbers) {
+    return layout.site_noun == "taxel" && numbers == 3 * layout.sites ? "; for Fx, Fy and Fz of each taxel add a column x_axis to their layout"
+                                                                      : "";
+}
+
 }  // namespace
 
 std::string describe_frame_error(const FrameError& error, const FrameLayout& layout, std::string_view population) {
@@ -31,7 +37,8 @@ std::string describe_frame_error(const FrameError& error, const FrameLayout& lay
         case FrameError::width:
             return fmt::format("frame {} has {}; {}", error.frame,
                                error.found < stamps ? "nothing" : contents_of(layout, error.found - stamps),
-                               expected_frame(layout, population));
+                               expected_frame(layout, population)) +
+                   axes_advice(layout, error.found - stamps);
         case FrameError::stamp:
             return fmt::format("frame {} does not begin with {}; {}", error.frame,
                                layout.stamp == FrameStamp::sequence ? "its sequence number, an integer" : "its time in seconds",

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "model/receptor/front_end_blocks.hpp"
+#include "model/receptor/filter_blocks.hpp"
 
 namespace corpuscle {
 

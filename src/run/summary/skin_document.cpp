@@ -136,7 +136,7 @@ std::vector<std::vector<std::string>> SkinSummary::table() const {
     std::vector<std::vector<std::string>> out = {{"afferent"}};
     if (regions) out[0].push_back("region");
     if (phases) out[0].push_back("phase");
-    for (const auto* heading : {"afferents", "touched", "active", "spikes", "touched (Hz)", "max (Hz)", "first (ms)", "median first (ms)"})
+    for (const auto* heading : {"afferents", "touched", "active", "spikes", "while touched (Hz)", "busiest (Hz)", "first (ms)", "median first (ms)"})
         out[0].push_back(heading);
     const auto put = [&](const SkinSummaryRow& r) {
         std::vector<std::string> cells = {skin->plan.classes[r.class_index].name};

@@ -65,7 +65,10 @@ std::vector<ParameterOverride> overrides_of(const ConfigNode& in, std::string_vi
 Result<AfferentPlan> afferent_of(const ConfigNode& in) {
     const auto* text = in.get("afferent");
     if (!text) return in.error_here("[[class]]: afferent is missing: afferent = \"sa1\"");
-    const auto afferent = TRY(text->located(read_model_spec(text->text)));
+    auto spec = read_model_spec(text->text);
+    if (!spec && (text->text.find("-circuit") != std::string::npos || text->text.find_first_of("./") != std::string::npos))
+        return text->error_here(fmt::format("afferent = '{}': a skin has afferents of equations, not netlists", text->text.substr(0, 64)));
+    const auto afferent = TRY(text->located(std::move(spec)));
     auto planned = TRY(afferent->plan(overrides_of(in, "set"), {}));
     TRY(check_all_used(planned.unused, std::array{std::string_view(text->text)}));
     return std::move(planned.result);
@@ -147,6 +150,8 @@ Result<void> read_fields(const ConfigNode& in, const PopulationValues& values, S
     out.hot_spots = static_cast<std::uint32_t>(TRY(values.integer(in, "hot_spots", 1, 100, 1)));
     if (out.hot_spots > 1 && !((out.sigma > 0 || out.depth > 0) && out.hot_spot_spread > 0))
         return in.get("hot_spots")->error_here("several hot spots need a depth or a sigma, and a hot_spot_spread");
+    if (out.hot_spots == 1 && out.hot_spot_spread > 0)
+        return in.get("hot_spot_spread")->error_here("hot_spot_spread needs several hot_spots, such as hot_spots = 4");
     return read_receptors(in, out);
 }
 

@@ -1,5 +1,5 @@
 #pragma once
-// Blocks of the receptors that are calibrated to nerves: low-pass, relaxation of the felt force, and compression.
+// Blocks of the receptors that are calibrated to nerves: two low-passes in series, and compression.
 
 #include "model/current.hpp"
 
@@ -13,7 +13,7 @@ struct TwoLowPasses {
     struct State {
         T in_1, x_1, in_2, x_2;
     };
-    HighPass<T> high;
+    HighPass<T> high;  // of each
 
     /// The state that an input has reached which was always the same.
     static State start(T in) { return {in, T(0.0), in, T(0.0)}; }
