@@ -66,6 +66,12 @@ double VibrationResponse::threshold() const {
     return none;
 }
 
+double VibrationResponse::detection_threshold() const {
+    for (const auto& r : responses)
+        if (r.spikes_per_cycle > 0) return r.amplitude;
+    return none;
+}
+
 VibrationResponse::Plateau VibrationResponse::plateau() const {
     Plateau widest{none, none, none}, now = widest;
     for (const auto& r : responses) {

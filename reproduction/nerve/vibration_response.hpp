@@ -25,6 +25,8 @@ struct VibrationResponse {
 
     /// The least amplitude (N) with at least one spike per cycle; NaN if there is none.
     double threshold() const;
+    /// The least amplitude (N) that evokes a spike; NaN if there is none. A slowly adapting afferent fires because of the preload, too.
+    double detection_threshold() const;
     /// The widest range of amplitudes, without a gap, with exactly one spike in each cycle.
     struct Plateau {
         double low, high;            ///< N; NaN if there is no such amplitude

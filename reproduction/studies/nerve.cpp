@@ -27,7 +27,7 @@ constexpr double frequencies[] = {2,  3,  4,  6,   8,   10,  12,  15,  20,  25, 
                                   50, 60, 80, 100, 125, 150, 200, 250, 300, 400, 500, 600, 800};  // Hz
 
 /// The smallest amplitude (N) of a sine of `f` (Hz) that evokes a spike after the first 0.5 s; 4 N if no amplitude below does.
-Result<double> detection_threshold(const std::string& afferent, double f) {
+Result<double> thesis_threshold(const std::string& afferent, double f) {
     return find_threshold(
         1e-4, 4, 14, SearchScale::logarithmic,
         [&](double amplitude) {
@@ -44,7 +44,7 @@ Result<void> add_thesis_thresholds(StudyValues& out, const StudyOptions& options
     for (const char* afferent : {"sa1", "fa1"}) {
         StudyCurve tuning;
         for (const double f : {4.0, 8.0, 16.0, 32.0, 64.0, 128.0, 200.0, 250.0, 300.0, 400.0, 600.0}) {
-            const auto amplitude = TRY(detection_threshold(afferent, f));
+            const auto amplitude = TRY(thesis_threshold(afferent, f));
             if (amplitude < 4) tuning.x.push_back(f), tuning.y.push_back(1e3 * amplitude);
             TRY(options.report_progress(0));
         }
@@ -53,22 +53,25 @@ Result<void> add_thesis_thresholds(StudyValues& out, const StudyOptions& options
     return {};
 }
 
-/// Adds curves over the frequency (Hz). The curve tuning_FAI is the least amplitude (mN) with a spike per cycle. The curves low_FAI and
+/// Adds curves over the frequency (Hz). The curve tuning_FAI is the least amplitude (mN) with a spike per cycle, and
+/// detection_FAI the least one with a spike. The curves low_FAI and
 /// high_FAI are the ends (mN) of the widest range of amplitudes with exactly one spike in each cycle. The curve strength_FAI is the
 /// smallest vector strength within it.
 void add_curves(StudyValues& out, const std::string& key, const std::vector<VibrationResponse>& vibrations) {
-    StudyCurve tuning, low, high, strength;
+    StudyCurve tuning, detection, low, high, strength;
     const auto add = [](StudyCurve& curve, double f, double y) {
         if (!std::isnan(y)) curve.x.push_back(f), curve.y.push_back(y);
     };
     for (const auto& v : vibrations) {
         const auto plateau = v.plateau();
-        add(tuning, v.f, 1e3 * v.threshold()), add(low, v.f, 1e3 * plateau.low), add(high, v.f, 1e3 * plateau.high);
+        add(tuning, v.f, 1e3 * v.threshold()), add(detection, v.f, 1e3 * v.detection_threshold()), add(low, v.f, 1e3 * plateau.low),
+            add(high, v.f, 1e3 * plateau.high);
         add(strength, v.f, plateau.min_vector_strength);
     }
     const double least = 1e-3 * tuning.min();  // N
     out.emplace("excitable_" + key, most_excitable(vibrations, 1.25 * least));
     out.emplace("excitable_strong_" + key, most_excitable(vibrations, 12.5 * least));
+    out.emplace("detection_" + key, std::move(detection));
     out.emplace("tuning_" + key, std::move(tuning)), out.emplace("strength_" + key, std::move(strength));
     out.emplace("low_" + key, std::move(low)), out.emplace("high_" + key, std::move(high));
 }

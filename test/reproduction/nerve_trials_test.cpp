@@ -66,6 +66,11 @@ TEST(NerveTrials, TheThresholdIsTheLeastAmplitudeWithASpikeACycle) {
     EXPECT_TRUE(std::isnan(responses(10, {{0, 0.5}, {0, 0.9}}).threshold()));
 }
 
+TEST(NerveTrials, TheDetectionThresholdIsTheLeastAmplitudeWithASpike) {
+    EXPECT_EQ(responses(10, {{0, 0}, {0, 0.1}, {0, 1}}).detection_threshold(), 2);
+    EXPECT_TRUE(std::isnan(responses(10, {{0, 0}, {0, 0}}).detection_threshold()));
+}
+
 TEST(NerveTrials, ThePlateauIsTheWidestRangeWithoutAGap) {
     const auto p =
         responses(10,
