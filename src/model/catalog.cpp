@@ -79,6 +79,7 @@ AfferentPlan plan_of_components(std::string_view text, const AfferentComponents&
     visit_named(Receptors{}, plan.receptor, [&]<template <class> class R>(ModelTag<R>) {
         if constexpr (requires { R<double>::min_rate; }) plan.min_rate = R<double>::min_rate;
     });
+    if (named && named->min_rate > 0) plan.min_rate = named->min_rate;
     std::vector<AfferentParameter> parameters;
     for (const auto& entry : entries)
         for (const auto& row : entry.parameters) parameters.push_back({row, entry.name}), plan.values.push_back(row.default_value);

@@ -12,6 +12,7 @@ struct NamedAfferent {
     std::vector<std::string_view> aliases;  ///< other names that the user may type, in upper or lower case
     std::string_view description, source;
     std::string_view front_end = {};  ///< sensor, transducer and converter before the receptor: "fsr+f2v+adc"; "": none
+    double min_rate = 0;              ///< Hz, see AfferentPlan::min_rate; 0: that of the receptor
 };
 const std::vector<NamedAfferent>& named_afferents();
 

@@ -1,5 +1,5 @@
 // The named afferents. Each row has the members of NamedAfferent in order: name, receptor, neuron, parameters that differ from the defaults
-// of these models, aliases, description, source, front end.
+// of these models, aliases, description, source, front end, lowest sampling rate.
 
 #include "model/catalog.hpp"
 
@@ -34,7 +34,9 @@ const std::vector<NamedAfferent>& named_afferents() {
          {},
          {"fa1-n", "ra", "ra1"},
          "FA-I calibrated to nerves: answers contact, release, slip and flutter (best at 30 to 40 Hz)",
-         "calibrated to doc/nerve-data.md"},
+         "calibrated to doc/nerve-data.md",
+         "",
+         500},
         {"sa2",
          "slowly-adapting",
          "alif",
@@ -55,7 +57,14 @@ const std::vector<NamedAfferent>& named_afferents() {
         {"fa2",
          "fast-adapting",
          "alif",
-         {{"k_B", 0.05}, {"f_hp", 200}, {"f_lp", 500}, {"F_0", 69e-6}, {"C_m", 3.26e-9}, {"V_reset", 0}, {"dV_th", 0.635}, {"tau_th", 1.2e-3}},
+         {{"k_B", 0.05},
+          {"f_hp", 200},
+          {"f_lp", 500},
+          {"F_0", 69e-6},
+          {"C_m", 3.26e-9},
+          {"V_reset", 0},
+          {"dV_th", 0.635},
+          {"tau_th", 1.2e-3}},
          {"fa-ii", "pc"},
          "fast adapting type II: vibration, best at 200 to 300 Hz, contact and release; does not respond to slow force",
          "calibrated to doc/nerve-data.md"},

@@ -1,5 +1,6 @@
 // Every recording option, for respond, for a stream of the same recording, and for live frames.
 
+#include <fmt/format.h>
 #include <algorithm>
 #include <nlohmann/json.hpp>
 #include <sstream>
@@ -29,12 +30,14 @@ const OptionCase option_cases[] = {
     {"--notch", "50Hz", "--unit mN"},
     {"--lowpass", "20Hz", "--unit mN"},
     {"--zero", "50ms", "--unit mN"},
+    {"--deadband", "150mN", "--unit mN"},
     {"--layout", "layout.csv", "--unit mN"},
     {"--range", "0..1900", "--unit mN"},
     {"--bad-fields", "interpolate", "--unit mN --range 0..1900"},
     {"--channel", "2", "--unit mN", "two.csv"},
     {"--despike", "500", "--unit mN"},
     {"--resample", "2kHz", "--unit mN"},
+    {"--interpolation", "smooth", "--unit mN --resample 2kHz"},
     {"--time", "1", "--unit mN", "timed.csv"},
     {"--time-unit", "ms", "--unit mN --time 1", "timed.csv"},
     {"--skip", "2", "--unit mN", "skipped.csv"},

@@ -42,6 +42,18 @@ Result<DespikeOptions> parse_despike(const std::string& text) {
     return DespikeOptions{*limit};
 }
 
+/// Half the width of the band, N.
+Result<DeadbandOptions> parse_deadband(const std::string& text) {
+    if (text == "auto") return DeadbandOptions{};
+    const auto band = parse_quantity(text, "N");
+    if (!band || !(*band > 0)) return bad_usage(fmt::format("{}: write 'auto', or a force above 0, such as 20mN", text));
+    return DeadbandOptions{*band};
+}
+
+Result<Interpolation> parse_interpolation(const std::string& text) {
+    return text == "smooth" ? Interpolation::smooth : Interpolation::linear;
+}
+
 Result<std::size_t> parse_count(const std::string& text) { return std::stoul(text); }
 
 }  // namespace
@@ -101,8 +113,15 @@ OptionGroup recording_option_group(RecordingOptions& options) {
               "low-pass filter at this frequency (Butterworth, second order)"},
              {"--zero", refuse_if([&options] { return !(*options.zero > 0); }, "must be above 0", quantity_reader(options.zero, "s")),
               "TIME", "subtract the level of each channel at rest: its median during the first TIME, in which the force is taken as 0"},
+             {"--deadband", value_reader(options.deadband, parse_deadband), "BAND",
+              "remove the sensor's noise: the force follows changes beyond +-BAND only, such as 20mN (auto: 4 times the noise of each "
+              "channel during --zero TIME)"},
              {"--layout", &options.layout, "FILE", "CSV table of sensor names and positions: channel,name,x_mm,y_mm"},
-             {"--resample", quantity_reader(options.resample, "Hz"), "FREQUENCY", "resample a recording to this rate by interpolation"}}};
+             {"--resample", quantity_reader(options.resample, "Hz"), "FREQUENCY", "resample a recording to this rate by interpolation"},
+             {"--interpolation", value_reader(options.interpolation, parse_interpolation), "CURVE",
+              "between the samples for --resample: linear (straight lines, the default), or smooth (a curve without corners, which excite "
+              "FA-I and FA-II)",
+              one_of("linear", "smooth")}}};
 }
 
 std::vector<std::string> given_recording_options(const CommonArguments& common) {

@@ -5,6 +5,7 @@
 #include "cli/output/terminal.hpp"
 #include "run/afferent_plan.hpp"
 #include "run/channels/channel_warnings.hpp"
+#include "run/channels/sensor_noise.hpp"
 
 namespace corpuscle {
 namespace {
@@ -115,6 +116,14 @@ void ChannelRun::warn(std::string message) {
     warnings_.push_back(std::move(message));
 }
 
+void ChannelRun::warn_of_sensor_noise() {
+    std::vector<NoiseSubject> subjects;
+    for (const auto& a : afferents_) subjects.push_back({a.name, &a});
+    for (const auto& source : sources_)
+        if (const auto text = sensor_noise_warning(*source, subjects, options_.for_clock(source->clock())); !text.empty())
+            warn(fmt::format("{}: {}", source->name(), text));
+}
+
 /// Warns of afferents that fire faster than a nerve fibre can; for each of them, the warning names the channel with the highest rate.
 void ChannelRun::warn_of_rates() {
     constexpr auto peak = measure_index<PeakRate>;
@@ -137,6 +146,7 @@ nlohmann::ordered_json ChannelRun::summarize(const RunStats& stats) {
         print_notes(i.name, i.quality.descriptions, common_.quiet);
         for (const auto& s : i.quality.warnings) warn(fmt::format("{}: {}", i.name, s));
     }
+    warn_of_sensor_noise();
     for (const auto& warning : response_warnings(stats)) warn(warning);
     warn_of_rates();
     auto result = summary_.document(afferents_, stats, options_, warnings_);

@@ -24,6 +24,7 @@ class ChannelRun final : public PlannedRun {
     Result<void> check_overrides() const;
     Result<void> check_afferent_count() const;
     void warn(std::string message);
+    void warn_of_sensor_noise();
     void warn_of_rates();
     std::size_t netlist_count() const;
 

@@ -8,6 +8,7 @@
 #include "core/text/ascii_text.hpp"
 #include "io/table/foreign_format.hpp"
 #include "run/channels/channel_warnings.hpp"
+#include "run/channels/sensor_noise.hpp"
 #include "skin/plan/skin_plan.hpp"
 
 namespace corpuscle {
@@ -49,8 +50,14 @@ void SkinRun::add_force_notes() {
         notes.notes.push_back(std::move(note));
     for (const auto& c : innervation_->plan.classes)
         if (source_->clock().rate() < c.afferent.min_rate * (1 - 1e-9))
-            notes.warnings.push_back(fmt::format("{}: the sampling rate of the force is {:g} Hz; {:g} Hz or more is needed", c.name,
-                                                 source_->clock().rate(), c.afferent.min_rate));
+            notes.warnings.push_back(
+                fmt::format("{}: the sampling rate of the force is {:g} Hz; {:g} Hz or more is needed: vibration above "
+                            "{:g} Hz is missing",
+                            c.name, source_->clock().rate(), c.afferent.min_rate, source_->clock().rate() / 2));
+    std::vector<NoiseSubject> subjects;
+    for (const auto& c : innervation_->plan.classes) subjects.push_back({c.name, &c.afferent});
+    if (auto text = sensor_noise_warning(*source_, subjects, options_.for_clock(source_->clock())); !text.empty())
+        notes.warnings.push_back(std::move(text));
     if (notes.stats.truncated_steps > 0)
         notes.warnings.push_back(
             fmt::format("{} time steps reached the spike limit of one step and were truncated; increase the sampling rate or the "

@@ -12,6 +12,7 @@
 #include "core/text/ascii_text.hpp"
 #include "core/text/input_files.hpp"
 #include "io/output/output_check.hpp"
+#include "io/recording/force_rows.hpp"
 #include "live/live_population.hpp"
 #include "live/stream_state.hpp"
 #include "run/skin/skin_force.hpp"
@@ -152,7 +153,7 @@ class LiveRun {
         const auto in_frames = [&](double seconds) { return static_cast<std::int64_t>(std::min(seconds * clock.rate(), 2e9)); };
         frames_ = make_frame_source(std::move(bytes), layout_, in_frames(args_.hold), in_frames(args_.max_gap), args_.batch_frames,
                                     taxels_ ? taxel_header_reader() : header_reader(sites));
-        const auto filters = TRY(live_filters(args_.recording, clock));
+        const auto filters = TRY(make_channel_filters(args_.recording, clock));
         if (taxels_) return assign_taxels(std::move(sites), taxels_->has_axes, filters);
         if (sites.empty()) sites.resize(layout_.sites), std::iota(sites.begin(), sites.end(), 0U);
         frames_->assign_sites(std::move(sites), skin_->sites(), filters);

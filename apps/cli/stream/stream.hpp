@@ -46,6 +46,7 @@ inline constexpr LiveOption live_options[] = {
     {"--notch", LiveEffect::same, "as for a recording; not together with --save-state and --resume"},
     {"--lowpass", LiveEffect::same, "as for a recording; not together with --save-state and --resume"},
     {"--zero", LiveEffect::same, "as for a recording; not together with --save-state and --resume"},
+    {"--deadband", LiveEffect::same, "as for a recording; not together with --save-state and --resume"},
     {"--layout", LiveEffect::same, "as for a recording; `channel` is the position in the frame"},
     {"--range", LiveEffect::different, "a reading out of range is replaced by the last force of its site, not interpolated"},
     {"--bad-fields", LiveEffect::refused,
@@ -54,6 +55,8 @@ inline constexpr LiveOption live_options[] = {
      "every number of a frame belongs to a site, in the order of the sites or of --layout; send only these columns, as cut -d, -f2 does"},
     {"--despike", LiveEffect::refused, "it needs twelve later readings, and live frames are processed at once; use --range or --lowpass"},
     {"--resample", LiveEffect::refused,
+     "it needs later readings, and live frames are processed at once; send frames of the rate that --rate says"},
+    {"--interpolation", LiveEffect::refused,
      "it needs later readings, and live frames are processed at once; send frames of the rate that --rate says"},
     {"--time", LiveEffect::refused, times_follow_from_the_rate},
     {"--time-unit", LiveEffect::refused, times_follow_from_the_rate},
@@ -77,8 +80,6 @@ Result<void> check_live_options(const StreamArguments&, const CommonArguments&);
 Result<Clock> live_clock(const StreamArguments&);
 /// The layout of live frames. `sites`: number of forces in a frame.
 Result<FrameLayout> live_layout(const StreamArguments&, std::size_t sites, const Clock&);
-/// The filters of --notch, --lowpass and --zero.
-Result<ChannelFilters> live_filters(const RecordingOptions&, const Clock&);
 /// Opens a live input: standard input, a port or a serial device.
 Result<std::unique_ptr<ByteSource>> open_live_input(const StreamArguments&, const FrameLayout&);
 

@@ -43,7 +43,8 @@ Result<void> check_live_options(const StreamArguments& args, const CommonArgumen
             if (o.effect == LiveEffect::refused)
                 return bad_usage(
                     fmt::format("{} is for recordings (--in FILE), not for live frames from {}: {}", given, input_name(args.in), o.text));
-            if ((given == "--notch" || given == "--lowpass" || given == "--zero") && !(args.save_state.empty() && args.resume.empty()))
+            if ((given == "--notch" || given == "--lowpass" || given == "--zero" || given == "--deadband") &&
+                !(args.save_state.empty() && args.resume.empty()))
                 return bad_usage(fmt::format("{}: a saved state does not contain the filters; remove --save-state and --resume", given));
         }
     return {};
@@ -68,14 +69,6 @@ Result<FrameLayout> live_layout(const StreamArguments& args, std::size_t sites, 
     layout.absolute = args.recording.absolute, layout.range = args.recording.range;
     layout.scale = scale, layout.offset = args.recording.offset, layout.limit = args.max_force;
     return layout;
-}
-
-Result<ChannelFilters> live_filters(const RecordingOptions& options, const Clock& clock) {
-    ChannelFilters filters;
-    for (const double f : options.notch) filters.biquads.push_back(TRY(Biquad::notch(f, clock)));
-    if (options.lowpass) filters.biquads.push_back(TRY(Biquad::lowpass(*options.lowpass, clock)));
-    if (options.zero) filters.rest = TRY(RestLevel::make(*options.zero, clock));
-    return filters;
 }
 
 Result<std::unique_ptr<ByteSource>> open_live_input(const StreamArguments& args, const FrameLayout& layout) {

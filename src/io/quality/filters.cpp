@@ -6,6 +6,7 @@
 
 #include "core/median.hpp"
 #include "core/number/elementary.hpp"
+#include "core/text/quantity.hpp"
 
 namespace corpuscle {
 namespace {
@@ -119,8 +120,22 @@ Result<RestLevel> RestLevel::make(double seconds, const Clock& clock) {
 double RestLevel::next(double x) {
     if (is_known()) return x - level_;
     first_[seen_++] = x;
-    if (is_known()) level_ = median_of(first_);
+    if (is_known()) level_ = median_of(first_), noise_ = noise_deviation(first_, level_);
     return 0;
+}
+
+Result<void> ChannelFilters::add_deadband(const DeadbandOptions& options, const Clock& clock) {
+    if (options.band) return deadband = Deadband(*options.band), Result<void>();
+    measures_deadband = true;
+    const auto enough = fmt::format("{:.4g}s", RestLevel::min_noise_samples * clock.T());
+    if (!rest.is_used())
+        return bad_usage(
+            fmt::format("--deadband auto measures the noise while nothing touches the sensor; add such a time at the "
+                        "beginning, at least --zero {}, or give the band: --deadband 20mN",
+                        enough));
+    if (rest.samples() >= RestLevel::min_noise_samples) return {};
+    return bad_usage(fmt::format("--deadband auto: a rest period of {} samples is too short to measure the noise; use --zero {} or more",
+                                 rest.samples(), enough));
 }
 
 }  // namespace corpuscle

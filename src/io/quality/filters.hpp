@@ -1,8 +1,8 @@
 #pragma once
 // Filters of a recording's channel: repair (HampelFilter removes isolated outliers, GapFiller fills missing samples, NaN, by linear
-// interpolation), and causal filters (Biquad, RestLevel). The result for a sample of the repair depends only on that sample and its
-// neighbours, not on the size of the blocks that are read. The output of a causal filter depends only on the current and earlier samples,
-// so a stream and a file give the same result.
+// interpolation), and causal filters (Biquad, RestLevel, Deadband). The result for a sample of the repair depends only on that sample and
+// its neighbours, not on the size of the blocks that are read. The output of a causal filter depends only on the current and earlier
+// samples, so a stream and a file give the same result.
 //
 // In the repair, push() adds samples and appends finished ones to `out`, after a delay. finish() appends the last ones at the end of the
 // file.
@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "core/clock.hpp"
+#include "io/quality/deadband.hpp"
 
 namespace corpuscle {
 
@@ -96,9 +97,10 @@ private:
 class RestLevel {
     std::vector<double> first_ = {};  // the samples of the rest period; `seen_` of them are known
     std::size_t seen_ = 0;
-    double level_ = 0;  // valid after the rest period
+    double level_ = 0, noise_ = 0;  // valid after the rest period
 
 public:
+    static constexpr std::size_t min_noise_samples = 20;  ///< a shorter rest period does not measure the noise
     RestLevel() = default;
     /// `seconds`: length of the rest period, at least one sample.
     static Result<RestLevel> make(double seconds, const Clock&);
@@ -106,17 +108,30 @@ public:
     bool is_used() const { return !first_.empty(); }
     bool is_known() const { return seen_ == first_.size(); }  ///< true after the rest period
     double level() const { return level_; }                   ///< valid if is_known()
+    double noise() const { return noise_; }                   ///< standard deviation in the rest period, N; valid if is_known()
+    std::size_t samples() const { return first_.size(); }     ///< number of samples of the rest period
 };
 
 /// The causal filters of one channel, in the order in which they apply.
 struct ChannelFilters {
     std::vector<Biquad> biquads = {};
     RestLevel rest = {};
+    Deadband deadband = {};
+    bool measures_deadband = false;  ///< true: the band follows from the noise in the rest period
 
-    bool empty() const { return biquads.empty() && !rest.is_used(); }
-    double next(double x) {
+    bool empty() const { return biquads.empty() && !rest.is_used() && !deadband.is_used(); }
+    /// The deadband of --deadband, after `rest` has been set. A band that cannot be measured is an error.
+    Result<void> add_deadband(const DeadbandOptions&, const Clock&);
+    double next(double x) { return hold(smooth(x)); }
+    // The two parts of next(): the linear filters, then the rest level and the deadband.
+    double smooth(double x) {
         for (auto& b : biquads) x = b.next(x);
-        return rest.next(x);
+        return x;
+    }
+    double hold(double x) {
+        x = rest.next(x);
+        if (measures_deadband && !deadband.is_used() && rest.is_known()) deadband.set_band(Deadband::max_noise * rest.noise());
+        return deadband.next(x);
     }
 };
 

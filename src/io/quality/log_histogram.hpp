@@ -37,6 +37,20 @@ public:
         return b == 0 ? 0 : std::bit_cast<double>(static_cast<std::uint64_t>(static_cast<std::int64_t>(b) + first_key) << 50);
     }
 
+    /// The middle of the bin below which this fraction of the numbers are; 0 for bin 0 and without numbers.
+    double quantile(double fraction) const {
+        const double wanted = fraction * static_cast<double>(count());
+        std::int64_t seen = 0;
+        for (std::size_t b = 0; b < counts_.size(); ++b) {
+            seen += counts_[b];
+            if (counts_[b] == 0 || static_cast<double>(seen) < wanted) continue;
+            return b == 0 ? 0
+                          : std::bit_cast<double>((static_cast<std::uint64_t>(static_cast<std::int64_t>(b) + first_key) << 50) +
+                                                  (std::uint64_t{1} << 49));
+        }
+        return 0;
+    }
+
     /// The number of numbers in the bins above the bin of x.
     std::int64_t count_above(double x) const {
         std::int64_t count = 0;

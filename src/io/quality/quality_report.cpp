@@ -7,6 +7,8 @@
 
 #include "core/text/ascii_text.hpp"
 
+#include "core/text/quantity.hpp"
+
 namespace corpuscle {
 namespace {
 
@@ -159,13 +161,29 @@ class ReportWriter {
 
     /// Reports the levels at rest that --zero subtracts.
     void rest_levels() {
-        if (!pipelines_[0].rest.is_used()) return;
-        if (!pipelines_[0].rest.is_known())
+        const auto rest = [](const ChannelPipeline& p) -> const RestLevel& { return p.filters().rest; };
+        if (!rest(pipelines_[0]).is_used()) return;
+        if (!rest(pipelines_[0]).is_known())
             return add(true, "the recording is shorter than the rest period of --zero, so the force is 0 throughout");
-        double low = pipelines_[0].rest.level(), high = low;
-        for (const auto& p : pipelines_) low = std::min(low, p.rest.level()), high = std::max(high, p.rest.level());
+        double low = rest(pipelines_[0]).level(), high = low;
+        for (const auto& p : pipelines_) low = std::min(low, rest(p).level()), high = std::max(high, rest(p).level());
         add(false, low == high ? fmt::format("--zero: the level at rest, {:.4g} N, was subtracted", low)
                                : fmt::format("--zero: levels at rest from {:.4g} to {:.4g} N were subtracted", low, high));
+    }
+
+    /// Reports the band of --deadband.
+    void deadbands() {
+        const auto band = [](const ChannelPipeline& p) { return p.filters().deadband.band(); };
+        if (!pipelines_[0].filters().deadband.is_used()) return;  // not requested, or not measured because the recording is too short
+        double low = band(pipelines_[0]), high = low;
+        for (const auto& p : pipelines_) low = std::min(low, band(p)), high = std::max(high, band(p));
+        const auto bands = low == high ? format_quantity(low, "N") : format_quantity(low, "N") + " to " + format_quantity(high, "N");
+        add(false, fmt::format("--deadband: changes within +-{}{} were removed; forces up to twice that are 0, and rising forces are "
+                               "smaller by as much",
+                               bands,
+                               pipelines_[0].filters().measures_deadband
+                                   ? fmt::format(" ({:g} times the noise of each channel in the rest period)", Deadband::max_noise)
+                                   : ""));
     }
 
     void repaired(const RowReader& rows) {
@@ -199,6 +217,8 @@ class ReportWriter {
             add_metric(k, "hum", p.hum.result().fraction);
             add_metric(k, "hum_frequency", p.hum.result().frequency, "Hz");
             add_metric(k, "filled", static_cast<double>(p.filled()));
+            add_metric(k, "noise", p.noise.deviation(), "N");
+            if (p.filters().deadband.is_used()) add_metric(k, "deadband", p.filters().deadband.band(), "N");
         }
     }
 
@@ -216,6 +236,7 @@ public:
         full_scale();
         levels();
         rest_levels();
+        deadbands();
         add_metrics();
         return std::move(out_);
     }

@@ -91,6 +91,7 @@ public:
         std::vector<QualityMetric> metrics;
         for (auto& m : out.metrics) {  // of the column with the normal force or the magnitude
             const auto& sensor = sensors_[m.channel / 3];
+            if (sensor.has_angles && m.name == "noise") continue;  // a deadband, its remedy, does not apply to angles
             if (m.channel % 3 == (sensor.has_angles ? 0U : 2U)) m.channel /= 3, metrics.push_back(m);
         }
         out.metrics = std::move(metrics);

@@ -191,6 +191,7 @@ Result<void> check_axis_options(const RecordingOptions& options, std::span<const
     if (std::none_of(sensors.begin(), sensors.end(), [](const AxisSensor& s) { return s.has_angles; })) return {};
     TRY(refuse(options.offset != 0, "--offset", "does not apply to the angles"));
     TRY(refuse(options.zero.has_value(), "--zero", "does not apply to the angles"));
+    TRY(refuse(options.deadband.has_value(), "--deadband", "does not apply to the angles"));
     TRY(refuse(options.range.has_value(), "--range", "does not apply to the angles"));
     TRY(refuse(options.resample.has_value(), "--resample", "would interpolate across 360 degrees between angles"));
     TRY(refuse(options.despike || options.lowpass || !options.notch.empty(), "a filter", "would average across 360 degrees the angles"));

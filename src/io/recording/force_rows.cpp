@@ -22,6 +22,15 @@ void ForceLevels::add(std::span<const double> force) {
     count += static_cast<std::int64_t>(force.size());
 }
 
+Result<ChannelFilters> make_channel_filters(const RecordingOptions& options, const Clock& clock) {
+    ChannelFilters filters;
+    for (const double f : options.notch) filters.biquads.push_back(TRY(Biquad::notch(f, clock)));
+    if (options.lowpass) filters.biquads.push_back(TRY(Biquad::lowpass(*options.lowpass, clock)));
+    if (options.zero) filters.rest = TRY(RestLevel::make(*options.zero, clock));
+    if (options.deadband) TRY(filters.add_deadband(*options.deadband, clock));
+    return filters;
+}
+
 ChannelPipeline::ChannelPipeline(const RecordingOptions& options, double gain, bool filters_rows, const HumTable& table)
     : offset_(options.offset), gain_(gain), filters_rows_(filters_rows), hum(table) {
     if (options.despike) outlier_filter_.emplace(*options.despike);
@@ -30,8 +39,7 @@ ChannelPipeline::ChannelPipeline(const RecordingOptions& options, double gain, b
 Result<ChannelPipeline> ChannelPipeline::make(const RecordingOptions& options, double gain, const Clock& filter_clock, bool filters_rows,
                                               const HumTable& table) {
     ChannelPipeline pipeline(options, gain, filters_rows, table);
-    for (const double f : options.notch) pipeline.filters_.push_back(TRY(Biquad::notch(f, filter_clock)));
-    if (options.lowpass) pipeline.filters_.push_back(TRY(Biquad::lowpass(*options.lowpass, filter_clock)));
+    pipeline.filters_ = TRY(make_channel_filters(options, filter_clock));
     return pipeline;
 }
 
@@ -50,9 +58,7 @@ void ChannelPipeline::append(std::vector<double>& out) {
     for (double& x : repaired_) x = gain_ * (x - offset_);
     outliers.add(repaired_);
     saturation.add(repaired_);
-    if (filters_rows_)
-        for (auto& filter : filters_)
-            for (double& x : repaired_) x = filter.next(x);
+    if (filters_rows_) filter(repaired_);
     out.insert(out.end(), repaired_.begin(), repaired_.end());
     repaired_.clear();
 }
@@ -72,12 +78,16 @@ Result<void> ChannelPipeline::finish(std::vector<double>& out) {
     return {};
 }
 
+void ChannelPipeline::filter(std::span<double> force) {
+    if (!filters_.biquads.empty())
+        for (double& x : force) x = filters_.smooth(x);
+    noise.add(force);
+    if (filters_.rest.is_used() || filters_.deadband.is_used())
+        for (double& x : force) x = filters_.hold(x);
+}
+
 void ChannelPipeline::finish_force(std::span<double> force) {
-    if (!filters_rows_)
-        for (auto& filter : filters_)
-            for (double& x : force) x = filter.next(x);
-    if (rest.is_used())
-        for (double& x : force) x = rest.next(x);
+    if (!filters_rows_) filter(force);
     hum.add(force);
     levels.add(force);
 }

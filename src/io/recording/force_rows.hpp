@@ -3,6 +3,7 @@
 // channel computes.
 
 #include "io/quality/fault_detectors.hpp"
+#include "io/quality/noise_detector.hpp"
 #include "io/recording/recording.hpp"
 
 namespace corpuscle {
@@ -17,6 +18,9 @@ struct ForceLevels {
     double fraction(std::int64_t n) const { return count > 0 ? static_cast<double>(n) / static_cast<double>(count) : 0; }
 };
 
+/// The filters of --notch, --lowpass, --zero and --deadband for samples of this clock, in the order in which they apply.
+Result<ChannelFilters> make_channel_filters(const RecordingOptions&, const Clock&);
+
 /// The processing of one channel from the values in the file to newtons. The steps are, in this order: removal of outliers, filling of
 /// gaps, offset and gain, filters. Fault detectors examine the samples between the steps. Rows are the samples as they are in the file,
 /// before resampling. The caller resamples the output of push() and finish(), if requested, and then calls finish_force().
@@ -24,7 +28,7 @@ class ChannelPipeline {
     std::optional<HampelFilter> outlier_filter_;  // nullopt: --despike was not given
     GapFiller gaps_;
     double offset_, gain_;  // force in newtons = gain_ * (value in the file - offset_)
-    std::vector<Biquad> filters_;
+    ChannelFilters filters_;
     bool filters_rows_;                        // true: filters the rows, which are evenly spaced; false: filters after resampling
     std::vector<double> despiked_, repaired_;  // scratch memory
 
@@ -38,14 +42,15 @@ public:
                                         const HumTable&);
 
     bool is_component = false;      ///< true: an axis or an angle of a three-axis sensor; it may be negative or constant
-    RestLevel rest = {};            ///< subtracted from the final force
     OutlierDetector outliers;       ///< of the samples before the filters
     SaturationDetector saturation;  ///< of the samples before the filters
+    NoiseDetector noise;            ///< of the samples after the filters, before the deadband
     HumDetector hum;                ///< of the final force
     ForceLevels levels;             ///< of the final force
 
     double gain() const { return gain_; }
     double offset() const { return offset_; }
+    const ChannelFilters& filters() const { return filters_; }
     /// The number of samples that --despike removed.
     std::int64_t outliers_removed() const { return outlier_filter_ ? outlier_filter_->outliers : 0; }
     /// The number of missing samples that were interpolated, including removed outliers.
@@ -56,13 +61,13 @@ public:
     Result<void> push(std::span<const double> values, std::vector<double>& out);
     /// Appends the samples that are still waiting for later ones, at the end of the file.
     Result<void> finish(std::vector<double>& out);
-    /// Filters the resampled samples if the filters do not run on the rows, subtracts the rest level, and passes the final force to `hum`
-    /// and `levels`.
+    /// Filters the resampled samples if the filters do not run on the rows, and passes the final force to `hum` and `levels`.
     void finish_force(std::span<double> force);
 
 private:
     ChannelPipeline(const RecordingOptions&, double gain, bool filters_rows, const HumTable&);
     void append(std::vector<double>& out);
+    void filter(std::span<double> force);
 };
 
 /// Reads the rows of a table as the options require: takes absolute values, and treats values that are not numbers or are outside --range.

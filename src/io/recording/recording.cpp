@@ -10,6 +10,7 @@
 #include "io/quality/quality_report.hpp"
 #include "io/recording/column_selection.hpp"
 #include "io/recording/recording_formats.hpp"
+#include "io/recording/row_curve.hpp"
 #include "io/recording/samples.hpp"
 #include "io/table/foreign_format.hpp"
 
@@ -37,11 +38,10 @@ class Recording final : public ForceSource {
     std::unique_ptr<HumTable> hum_table_;
     std::optional<ForceRows> rows_;
     std::int64_t samples_ = 0;  // samples returned so far
-    // For resampling. The next sample is interpolated between the last two rows.
-    std::int64_t next_ = 0;            // index of the next sample
-    std::int64_t row_number_ = 0;      // number of rows used so far
-    std::vector<double> before_, at_;  // forces of the last row but one, and of the last row, N
-    double t_before_ = 0, t_at_ = 0;   // their times, s
+    // For resampling.
+    std::int64_t next_ = 0;        // index of the next sample
+    std::int64_t row_number_ = 0;  // number of rows read so far
+    RowCurve curve_;
 
     /// Applies the layout to the three-axis sensors: their order, names, positions and axes.
     Result<void> place_axis_sensors(std::optional<std::size_t> time) {
@@ -105,11 +105,18 @@ class Recording final : public ForceSource {
         return out;
     }
 
+    Result<void> check_interpolation() const {
+        if (!options_.interpolation) return {};
+        if (!options_.resample) return bad_usage("--interpolation is the curve for --resample; add a rate, such as --resample 2kHz");
+        return {};
+    }
+
     /// Determines the clocks of the rows and of the samples.
     Result<void> set_clock(std::optional<std::size_t> time, const std::vector<std::size_t>& columns) {
         row_clock_ = TRY(find_row_clock(*table_, options_, path_, time, columns));
         clock_ = row_clock_.clock;
         notes_.insert(notes_.end(), row_clock_.notes.begin(), row_clock_.notes.end());
+        TRY(check_interpolation());
         if (!options_.resample) return {};
         clock_ = TRY(make_clock(*options_.resample, clock_.t0));
         return {};
@@ -167,25 +174,22 @@ class Recording final : public ForceSource {
         hum_table_ = std::make_unique<HumTable>(clock_);
         const bool rows_are_even = !row_clock_.uses_row_times;
         std::vector<ChannelPipeline> pipelines;
-        RestLevel rest;
-        if (options_.zero) rest = TRY(RestLevel::make(*options_.zero, clock_));
         for (const double gain : gains) {
             auto pipeline =
                 TRY(ChannelPipeline::make(options_, gain, rows_are_even ? row_clock_.clock : clock_, rows_are_even, *hum_table_));
-            pipeline.rest = rest, pipeline.is_component = !axis_sensors_.empty();
+            pipeline.is_component = !axis_sensors_.empty();
             pipelines.push_back(std::move(pipeline));
         }
         return pipelines;
     }
 
-    /// Moves at_ to before_ and the next row to at_. Returns false at the end of the file.
-    Result<bool> advance_to_next_row() {
+    /// Reads the next row. Returns false at the end of the file.
+    Result<bool> read_row(RowCurve::Row& row) {
         const auto has_row = rows_->fetch_row();
         if (!has_row || !*has_row) return has_row;
-        before_ = at_, t_before_ = t_at_;
-        at_.resize(channels_.size());
-        for (std::size_t c = 0; c < channels_.size(); ++c) at_[c] = rows_->force(c);
-        t_at_ = row_clock_.uses_row_times ? row_clock_.seconds(rows_->time())
+        row.force.resize(channels_.size());
+        for (std::size_t c = 0; c < channels_.size(); ++c) row.force[c] = rows_->force(c);
+        row.t = row_clock_.uses_row_times ? row_clock_.seconds(rows_->time())
                                           : clock_.t0 + static_cast<double>(row_number_) * row_clock_.clock.T();
         rows_->advance();
         ++row_number_;
@@ -194,18 +198,16 @@ class Recording final : public ForceSource {
 
     /// Fills the block with samples that are interpolated between rows.
     Result<void> read_resampled(Frames& block) {
-        if (row_number_ == 0)
-            if (const auto first = advance_to_next_row(); !first || !*first) return first ? Result<void>() : first.error();
+        const auto next_row = [this](RowCurve::Row& row) { return read_row(row); };
+        if (!curve_.has_begun())
+            if (const auto first = curve_.advance(next_row); !first || !*first) return first ? Result<void>() : first.error();
         for (; block.count < block.capacity; ++block.count, ++next_) {
             const double t = clock_.time(next_);
-            while (t_at_ < t - 1e-9 * clock_.T()) {  // a row at the time of the sample, apart from rounding, is not before it
-                const auto next = TRY(advance_to_next_row());
+            while (curve_.time() < t - 1e-9 * clock_.T()) {  // a row at the time of the sample, apart from rounding, is not before it
+                const auto next = TRY(curve_.advance(next_row));
                 if (!next) return {};
             }
-            // The position between the last two rows, 0 to 1. If there is only one row so far, its force is used.
-            const double x = row_number_ == 1 ? 1 : std::clamp((t - t_before_) / (t_at_ - t_before_), 0.0, 1.0);
-            for (std::size_t c = 0; c < channels_.size(); ++c)
-                block.force[c][block.count] = row_number_ == 1 ? at_[c] : before_[c] + (at_[c] - before_[c]) * x;
+            for (std::size_t c = 0; c < channels_.size(); ++c) block.force[c][block.count] = curve_.force(c, t);
         }
         return {};
     }
@@ -226,7 +228,8 @@ class Recording final : public ForceSource {
 
 public:
     Recording(std::string path, std::unique_ptr<Table> table, RecordingOptions options)
-        : table_(std::move(table)), options_(std::move(options)), path_(std::move(path)), name_(name_of_recording(path_)) {}
+        : table_(std::move(table)), options_(std::move(options)), path_(std::move(path)), name_(name_of_recording(path_)),
+          curve_(options_.interpolation.value_or(Interpolation::linear)) {}
 
     /// Selects the columns, determines the clock and prepares reading.
     Result<void> open() {
@@ -280,6 +283,8 @@ public:
         for (const double f : options_.notch) all.push_back({"notch", f, "Hz"});
         if (options_.lowpass) all.push_back({"low-pass", *options_.lowpass, "Hz"});
         if (options_.zero) all.push_back({"rest period", *options_.zero, "s"});
+        if (options_.deadband) all.push_back({"deadband", options_.deadband->band.value_or(0), "N"});
+        if (options_.interpolation == Interpolation::smooth) all.push_back({"smooth interpolation", 1, ""});
         if (options_.resample) all.push_back({"resampled from", row_clock_.uses_row_times ? 0 : row_clock_.clock.rate(), "Hz"});
         return all;
     }

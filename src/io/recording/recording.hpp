@@ -11,13 +11,17 @@ namespace corpuscle {
 /// interpolation.
 enum class BadFields { error, drop, interpolate };
 
+/// The curve between two rows: a straight line, or a cubic B-spline, which has no corners and stays between the largest and the smallest
+/// of four rows around it.
+enum class Interpolation { linear, smooth };
+
 struct RecordingOptions {
     TableOptions table = {};
     std::vector<std::string> channels = {};     ///< names, numbers (from 1) or ranges ("fbg11", "3", "2-5"); empty: all force columns
     std::optional<std::string> time = {};       ///< name or number of the time column, or "none"; default: as in the file
     std::optional<std::string> time_unit = {};  ///< unit of the time column; default: as in the header, otherwise seconds
     std::optional<double> rate = {};            ///< Hz; treats the rows as evenly spaced at this rate and ignores their times
-    std::optional<double> resample = {};        ///< Hz; interpolates the samples linearly to this rate
+    std::optional<double> resample = {};        ///< Hz; interpolates the samples to this rate
     std::optional<std::string> unit = {};       ///< of the channels: "N", "mN", "gf", "kgf" or "raw"; default: as in the header
     std::optional<double> scale = {};           ///< newtons per unit of the values in the file
     bool absolute = false;                      ///< takes the absolute value of the values in the file
@@ -28,7 +32,10 @@ struct RecordingOptions {
     std::vector<double> notch = {};                       ///< Hz, frequencies to remove
     std::optional<double> lowpass = {};                   ///< Hz, -3 dB frequency; nullopt: no low-pass filter
     std::optional<double> zero = {};                      ///< s, length of the rest period at the beginning; see RestLevel; nullopt: none
-    std::string layout = {};                              ///< path of a file with the names and positions of the sensors; "": none
+    std::optional<DeadbandOptions> deadband = {};         ///< removes the noise of the sensor; nullopt: none
+    /// The curve through the rows from which `resample` takes its samples. Smooth needs evenly spaced rows.
+    std::optional<Interpolation> interpolation = {};
+    std::string layout = {};  ///< path of a file with the names and positions of the sensors; "": none
     /// Called for each block while the file is read to determine its clock, with the fraction read so far. If it returns false, opening
     /// stops with an error.
     std::function<bool(double)> should_continue = [](double) { return true; };

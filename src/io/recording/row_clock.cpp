@@ -100,6 +100,11 @@ Result<Clock> clock_by_times(const std::string& name, const TimeCheck& times, co
     if (times.is_even()) return times.clock();
     if (!options.resample) return bad_input(uneven_message(name, times));
     if (times.duplicate) return *times.duplicate;
+    if (options.interpolation == Interpolation::smooth)
+        return bad_input(
+            fmt::format("the times in '{}' are uneven, and --interpolation smooth needs evenly spaced rows; add --rate {:.5g}Hz "
+                        "to take them as evenly spaced, or use --interpolation linear",
+                        name, 1 / times.mean_step()));
     out.uses_row_times = true;
     out.notes.push_back(
         fmt::format("the uneven times in '{}' ({}) were interpolated at {}", name, step_range(times), hertz(*options.resample)));

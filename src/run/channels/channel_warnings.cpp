@@ -39,8 +39,10 @@ std::vector<std::string> response_warnings(const RunStats& stats) {
 
 std::string rate_warning(const AfferentPlan& plan, const std::string& source, double rate) {
     if (!(rate < plan.min_rate)) return "";
-    return fmt::format("{} on {}: the sample rate is {:g} Hz, but this afferent needs {:g} Hz or more; do not trust its spikes", plan.name,
-                       source, rate, plan.min_rate);
+    return fmt::format(
+        "{} on {}: the sample rate is {:g} Hz, but this afferent needs {:g} Hz or more: vibration above {:g} Hz is missing, and it "
+        "responds to the slower part of the force only",
+        plan.name, source, rate, plan.min_rate, rate / 2);
 }
 
 std::vector<std::string> rate_warnings(std::span<const std::unique_ptr<ForceSource>> sources, std::span<const AfferentPlan> afferents) {
@@ -56,8 +58,10 @@ std::string excessive_rate_warning(double rate, double T, const AfferentPlan& pl
     const auto refractory = plan.value("t_ref");
     // An afferent with the refractory time of a nerve cannot fire too fast. Then the samples are too far apart.
     if (rate * T > 1 && refractory && *refractory >= 1 / max_nerve_rate)
-        return fmt::format("several spikes come within one sample of {}, so their rates are left out; record at {} or more",
-                           format_quantity(T, "s"), format_quantity(max_nerve_rate, "Hz"));
+        return fmt::format(
+            "several spikes come within one sample of {}, so their rates are left out; record at {} or more, or read a "
+            "recording with --resample 2kHz --interpolation smooth",
+            format_quantity(T, "s"), format_quantity(max_nerve_rate, "Hz"));
     const auto advice = refractory && *refractory < 1 / max_nerve_rate
                             ? fmt::format(", and give the afferent a refractory period: --set {}.t_ref=1ms", name)
                             : std::string();

@@ -1,0 +1,61 @@
+#include "run/channels/sensor_noise.hpp"
+
+#include <fmt/format.h>
+
+#include "core/random.hpp"
+#include "core/text/ascii_text.hpp"
+#include "core/text/quantity.hpp"
+#include "io/quality/deadband.hpp"
+#include "run/summary/silent_afferents.hpp"
+
+namespace corpuscle {
+namespace {
+
+/// Two seconds of white noise with this standard deviation (N), at most 20,000 samples.
+std::vector<double> white_noise(double deviation, double rate) {
+    constexpr std::uint64_t seed = 1;
+    std::vector<double> out(static_cast<std::size_t>(std::min(2 * rate, 20e3)));
+    for (std::uint32_t k = 0; k < out.size(); ++k)
+        out[k] = deviation * normal_pair(seed, k, static_cast<std::uint32_t>(stream_id("sensor noise")), 0).first;
+    return out;
+}
+
+/// A channel, and the standard deviation of its noise.
+struct NoisyChannel {
+    std::string name = "";
+    double deviation = 0;  ///< N
+};
+
+/// The noisiest of the channels whose noise is not inside a deadband.
+NoisyChannel noisiest_channel(const ForceSource& source) {
+    constexpr double min_band = 2;  // standard deviations; a narrower band lets the noise pass
+    const auto quality = source.quality();
+    std::vector<double> bands(source.channels().size(), 0);
+    for (const auto& m : quality.metrics)
+        if (m.name == "deadband") bands[m.channel] = m.value;
+    NoisyChannel out;
+    for (const auto& m : quality.metrics)
+        if (m.name == "noise" && m.value > out.deviation && bands[m.channel] < min_band * m.value)
+            out = {source.channels()[m.channel].name, m.value};
+    return out;
+}
+
+}  // namespace
+
+std::string sensor_noise_warning(const ForceSource& source, std::span<const NoiseSubject> subjects, const SimulationOptions& run) {
+    const auto [channel, deviation] = noisiest_channel(source);
+    if (!(deviation > 0)) return "";
+    const auto noise = white_noise(deviation, source.clock().rate());
+    std::vector<std::string> firing;
+    for (const auto& s : subjects)
+        if (s.plan->traits().can_search_factor && factor_to_fire(*s.plan, run, noise) == 1.0) firing.push_back(s.name);
+    if (firing.empty()) return "";
+    const auto channels = source.channels().size();
+    return fmt::format(
+        "the noise of the sensor, about {} on '{}'{}, is enough to make {} fire. Use --zero 500ms --deadband auto if nothing touches the "
+        "sensor in the first half second, otherwise --deadband {}mN",
+        format_quantity(deviation, "N"), channel, channels > 1 ? fmt::format(" (the worst of {} channels)", channels) : "", joined(firing),
+        format_rounded_up(Deadband::max_noise * deviation * 1e3));
+}
+
+}  // namespace corpuscle
