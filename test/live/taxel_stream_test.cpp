@@ -61,6 +61,28 @@ TEST(TaxelStream, ARestLevelIsSubtractedLiveAsOffline) {
     EXPECT_EQ(sorted_spikes(read_file(folder / "out/spikes.csv")), expected);
 }
 
+TEST(TaxelStream, ATextureSlidesLiveAsOffline) {
+    const TemporaryFolder folder;
+    const std::string texture =
+        " --set contact.roughness=0.05 --set contact.grain=1mm --set contact.speed=80mm/s --set contact.t_start=0.1s ";
+    const auto offline = run_program(folder, "respond " + palm_recording() + " " + palm_example() + texture + " -o out --quiet");
+    ASSERT_EQ(offline.status, 0) << offline.err;
+    const auto spikes = sorted_spikes(read_file(folder / "out/spikes.csv"));
+    const std::vector<std::string> ways = {"< " + palm_recording(), "--batch-frames 7 < " + palm_recording(),
+                                           "--in " + palm_recording() + " --pace fast"};
+    for (const auto& more : ways) {
+        const auto live = run_program(folder, "stream --quiet " + palm_example() + texture + more);
+        EXPECT_EQ(live.status, 0) << live.err;
+        EXPECT_EQ(sorted_spikes(live.out), spikes) << more;
+    }
+    const auto without = sorted_spikes(run_program(folder, "stream --quiet " + palm_example() + " < " + palm_recording()).out);
+    EXPECT_NE(spikes, without);
+    const auto saved = run_program(folder, "stream --save-state s " + palm_example() + texture + "< " + palm_recording());
+    EXPECT_NE(saved.err.find("a saved state does not contain the position of the texture; remove --save-state and --resume"),
+              std::string::npos)
+        << saved.err;
+}
+
 TEST(TaxelStream, AResumedStreamContinuesWithTheLastFrame) {
     const TemporaryFolder folder;
     const auto text = read_file(source_root() + "/examples/data/palm.csv");

@@ -69,7 +69,11 @@ Result<void> SkinRun::open_taxels() {
     const auto& sites = innervation_->plan.sites;
     auto map = TRY(map_taxels(layout, sites));
     taxel_notes_ = map.notes;
-    force_ = make_taxel_force(*source_, layout, std::move(map), taxels, sites.size());
+    auto texture = TRY(make_taxel_texture(overrides_, sites, source_->clock().rate(), innervation_->plan.seed));
+    keep_unused(unused_, texture.unused);
+    if (texture.result)
+        for (auto& note : texture.result->notes()) taxel_notes_.push_back(std::move(note));
+    force_ = make_taxel_force(*source_, layout, std::move(map), taxels, sites.size(), std::move(texture.result));
     return {};
 }
 

@@ -96,8 +96,22 @@ class LiveRun {
     Result<void> assign_taxels(std::vector<std::uint32_t> columns, bool has_shear, const ChannelFilters& filters) {
         auto map = TRY(map_taxels(*taxels_, skin_->innervation().plan.sites));
         skin_notes_.insert(skin_notes_.end(), map.notes.begin(), map.notes.end());
-        frames_->assign_taxels(TaxelFrames(*taxels_, std::move(map), has_shear), std::move(columns), skin_->sites(), filters);
+        TaxelFrames frames(*taxels_, std::move(map), has_shear);
+        frames.set_texture(TRY(make_texture()));
+        frames_->assign_taxels(std::move(frames), std::move(columns), skin_->sites(), filters);
         return {};
+    }
+
+    /// The texture that slides over the taxels; null: none.
+    Result<std::unique_ptr<TaxelTexture>> make_texture() {
+        const auto& plan = skin_->innervation().plan;
+        auto texture = TRY(make_taxel_texture(args_.settings, plan.sites, skin_->clock().rate(), plan.seed));
+        keep_unused(unused_, texture.unused);
+        if (!texture.result) return std::move(texture.result);
+        if (!args_.save_state.empty() || !args_.resume.empty())
+            return bad_usage("--set contact: a saved state does not contain the position of the texture; remove --save-state and --resume");
+        for (auto& note : texture.result->notes()) skin_notes_.push_back(std::move(note));
+        return std::move(texture.result);
     }
 
     /// Reads the layout of --taxels.

@@ -124,9 +124,10 @@ class TaxelsForce final : public SkinForce {
 
 public:
     TaxelsForce(ForceSource& source, const TaxelLayout& layout, TaxelMap map, const std::vector<std::uint32_t>& taxels,
-                std::size_t all_sites)
+                std::size_t all_sites, std::unique_ptr<TaxelTexture> texture)
         : source_(source), stuck_(layout), taxels_(layout, std::move(map), source.has_shear()), channels_(taxels.size()),
           frames_(taxels.size(), site_block, source.has_shear()), frame_(taxels_.frame_size()), force_(all_sites * site_block) {
+        taxels_.set_texture(std::move(texture));
         for (std::uint32_t c = 0; c < taxels.size(); ++c) channels_[taxels[c]] = c;
         if (source.has_shear()) shear_x_ = shear_y_ = force_;
     }
@@ -155,8 +156,9 @@ std::unique_ptr<SkinForce> make_site_force(ForceSource& source, std::vector<std:
     return std::make_unique<SitesForce>(source, std::move(sites), all_sites);
 }
 std::unique_ptr<SkinForce> make_taxel_force(ForceSource& source, const TaxelLayout& layout, TaxelMap map,
-                                            const std::vector<std::uint32_t>& taxels, std::size_t all_sites) {
-    return std::make_unique<TaxelsForce>(source, layout, std::move(map), taxels, all_sites);
+                                            const std::vector<std::uint32_t>& taxels, std::size_t all_sites,
+                                            std::unique_ptr<TaxelTexture> texture) {
+    return std::make_unique<TaxelsForce>(source, layout, std::move(map), taxels, all_sites, std::move(texture));
 }
 
 Result<void> check_shear(const TaxelLayout& layout, const ForceSource& source) {

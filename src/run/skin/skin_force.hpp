@@ -7,6 +7,7 @@
 #include "skin/contact/contact.hpp"
 #include "skin/skin.hpp"
 #include "skin/taxel/taxel_map.hpp"
+#include "skin/taxel/taxel_texture.hpp"
 
 namespace corpuscle {
 
@@ -33,8 +34,9 @@ std::unique_ptr<SkinForce> make_pressed_force(ForceSource&, Contact&);
 /// sites of the skin.
 std::unique_ptr<SkinForce> make_site_force(ForceSource&, std::vector<std::uint32_t> sites, std::size_t all_sites);
 /// The force at the sites from a recording of taxels. `map`: of this layout. `taxels`: the taxel of each channel.
+/// `texture`: of a surface that slides over the taxels; null: none.
 std::unique_ptr<SkinForce> make_taxel_force(ForceSource&, const TaxelLayout&, TaxelMap map, const std::vector<std::uint32_t>& taxels,
-                                            std::size_t all_sites);
+                                            std::size_t all_sites, std::unique_ptr<TaxelTexture> texture = nullptr);
 /// Returns an error if the layout says how the axes of the taxels point, but the recording has no shear.
 Result<void> check_shear(const TaxelLayout&, const ForceSource&);
 /// The site of each channel of a recording: by name, or by order if there are as many channels as sites.

@@ -25,7 +25,17 @@ double TaxelFrames::spread(const double* frame, double* normal, double* shear_x,
     }
     map_.spread(normal_.data(), normal, stride);
     if (has_shear()) map_.spread(along_x_.data(), shear_x, stride), map_.spread(along_y_.data(), shear_y, stride);
+    if (texture_) add_texture(normal, shear_x, shear_y, stride);
     return total;
+}
+
+void TaxelFrames::add_texture(double* normal, double* shear_x, double* shear_y, std::size_t stride) {
+    texture_->next();
+    for (const auto site : map_.sites) {
+        const double factor = texture_->factor(site);
+        normal[site * stride] *= factor;
+        if (has_shear()) shear_x[site * stride] *= factor, shear_y[site * stride] *= factor;
+    }
 }
 
 }  // namespace corpuscle
