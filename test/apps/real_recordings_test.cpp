@@ -1,5 +1,6 @@
 // Real recordings: every command of doc/real-recordings.md, the errors for a wrong first command, and raw files compared with cleaned ones.
 
+#include <algorithm>
 #include <cmath>
 #include <map>
 #include <nlohmann/json.hpp>
@@ -95,6 +96,98 @@ TEST(RealRecordings, AWrongFirstCommandGetsTheRemedy) {
     for (const auto& c : cases) {
         const auto ran = run_program(folder, std::string("respond ") + c.arguments);
         EXPECT_NE(ran.err.find(c.message), std::string::npos) << c.arguments << '\n' << ran.err;
+    }
+}
+
+/// Numbers of spikes of "afferent,channel" in time windows [edges[k], edges[k + 1]), s. `afferent` of a skin: without the number.
+std::map<std::string, std::vector<int>> count_spikes(const std::string& path, const std::vector<double>& edges) {
+    std::map<std::string, std::vector<int>> counts;
+    std::istringstream text(test::read_file(path));
+    for (std::string line; std::getline(text, line);) {
+        const auto comma = line.rfind(',');
+        if (comma == line.npos || line.ends_with("time_s")) continue;
+        const auto window = std::upper_bound(edges.begin(), edges.end(), std::stod(line.substr(comma + 1))) - edges.begin();
+        auto key = line.substr(0, comma);
+        if (const auto number = key.find('#'); number != key.npos) key.erase(number, key.find(',') - number);
+        auto& all = counts.try_emplace(std::move(key), edges.size() + 1).first->second;
+        ++all[static_cast<std::size_t>(window)];
+    }
+    return counts;
+}
+
+/// The documented command that contains this text.
+std::string documented_command_with(const std::string& text) {
+    for (const auto& command : documented_commands())
+        if (command.find(text) != command.npos) return command;
+    ADD_FAILURE() << "no command with " << text;
+    return "";
+}
+
+TEST(RealRecordings, APressOnTheSkinIsFeltByTheRightClassesAndRestIsSilent) {
+    CORPUSCLE_NEEDS(test::shared_file_path("fbg_eskin_press"));
+    const TemporaryFolder folder;
+    link_recordings(folder);
+    const auto ran = run_program(folder, documented_command_with("--zero 2s --deadband auto"));
+    ASSERT_EQ(ran.status, 0) << ran.err;
+    EXPECT_EQ(ran.err.find("the noise of the sensor"), std::string::npos) << ran.err;
+    auto counts = count_spikes(folder / "answer/spikes.csv", {17.2, 17.6, 21.05});  // ends of rest, onset and hold
+    for (const auto& [name, in] : counts) EXPECT_EQ(in[0], 0) << name << " at rest";
+    const auto all = [&](const std::string& afferent, const std::string& channel) {
+        return counts.try_emplace(afferent + "," + channel, 4).first->second;
+    };
+    for (const char* afferent : {"sa1-nerve", "fa1-nerve", "fa2"})
+        for (int phase = 1; phase <= 3; ++phase)
+            EXPECT_GE(all(afferent, "fbg11")[static_cast<std::size_t>(phase)], 3) << afferent << " in phase " << phase;
+    EXPECT_GT(all("sa1-nerve", "fbg11")[2], 100);
+    for (const std::string pressed : {"fbg09", "fbg10", "fbg12", "fbg13"}) {
+        EXPECT_GE(all("fa1-nerve", pressed)[1], 3) << pressed;
+        EXPECT_GE(all("fa1-nerve", pressed)[3], 3) << pressed;
+        EXPECT_GT(all("fa2", pressed)[1] + all("fa2", pressed)[3], 3 * all("fa2", pressed)[2]) << pressed;
+    }
+    for (const std::string distant : {"fbg05", "fbg06", "fbg16", "fbg17", "fbg18", "fbg19", "fbg20", "fbg21"})
+        for (const char* afferent : {"sa1-nerve", "fa1-nerve", "fa2"})
+            for (const int n : all(afferent, distant)) EXPECT_LE(n, 1) << afferent << distant;
+}
+
+TEST(RealRecordings, TheWarningAboutTheNoiseOfTheSkinHasARemedyThatWorks) {
+    CORPUSCLE_NEEDS(test::shared_file_path("fbg_eskin_press"));
+    const TemporaryFolder folder;
+    link_recordings(folder);
+    const std::string command =
+        "respond fbg_eskin_press/fbg_press_S6_T16.csv --rate 100Hz --scale 40 --afferent fa1-nerve --out out --overwrite ";
+    const auto noisy = run_program(folder, command);
+    EXPECT_NE(noisy.err.find("is enough to make fa1-nerve fire. Use --zero 500ms --deadband auto"), std::string::npos) << noisy.err;
+    for (const auto& [name, in] : count_spikes(folder / "out/spikes.csv", {1, 17})) EXPECT_GT(in[1], 200) << name;
+    const auto quiet = run_program(folder, command + "--zero 500ms --deadband auto");
+    EXPECT_EQ(quiet.err.find("the noise of the sensor"), std::string::npos) << quiet.err;
+    for (const auto& [name, in] : count_spikes(folder / "out/spikes.csv", {17.2})) EXPECT_EQ(in[0], 0) << name;
+}
+
+TEST(RealRecordings, ATextureOverTaxelsExcitesTheFastClassesThroughoutTheSlide) {
+    CORPUSCLE_NEEDS(test::shared_file_path("fabric_slide_cpm"));
+    const TemporaryFolder folder;
+    link_recordings(folder);
+    const auto per_second = [&](std::string command, double start, int seconds) {
+        const auto ran = run_program(folder, command);
+        EXPECT_EQ(ran.status, 0) << ran.err;
+        std::vector<double> edges;
+        for (int k = 0; k <= seconds; ++k) edges.push_back(start + k);
+        return count_spikes(folder / "answer/spikes.csv", edges);
+    };
+    auto slow = per_second(documented_command_with("contact.speed=20mm/s"), 4057535, 29),
+         fast = per_second(documented_command_with("contact.speed=100mm/s"), 4283.419, 5);
+    auto command = documented_command_with("contact.speed=100mm/s");
+    auto still = per_second(command.substr(0, command.find("--set")) + "--out answer", 4283.419, 5);
+    for (std::size_t second = 1; second <= 29; ++second) {
+        EXPECT_GT(slow["fa1,tip"][second], 1000) << second;
+        EXPECT_GT(slow["fa2,tip"][second], 100) << second;
+    }
+    for (std::size_t second = 1; second <= 5; ++second) {
+        EXPECT_GT(fast["fa1,tip"][second], 2 * slow["fa1,tip"][second]) << second;
+        EXPECT_GT(fast["fa2,tip"][second], 5 * slow["fa2,tip"][second]) << second;
+        if (second == 1) continue;
+        EXPECT_LT(still["fa1,tip"][second], 20) << second;
+        EXPECT_NEAR(fast["sa1,tip"][second], still["sa1,tip"][second], 0.05 * still["sa1,tip"][second]) << second;
     }
 }
 
