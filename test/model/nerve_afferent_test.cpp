@@ -75,6 +75,7 @@ bool fires_once_a_cycle(const std::vector<double>& train, double f, double secon
     return !std::isnan(phase);
 }
 
+// The factor of 3 is a choice. At 10 Hz fa1-nerve gives it up, because there it excludes the published best frequencies (doc/nerve-data.md).
 TEST(NerveAfferent, FollowsVibrationWithOneSpikeACycleOverAFactorOfThreeInAmplitude) {
     const std::vector<std::pair<std::string, std::vector<double>>> bands = {{"fa1-nerve", {10, 20, 30, 40, 60, 80}}, {"fa2", {200, 250, 300}}};
     for (const auto& [afferent, band] : bands)
@@ -88,7 +89,7 @@ TEST(NerveAfferent, FollowsVibrationWithOneSpikeACycleOverAFactorOfThreeInAmplit
                     first = amplitude;
                 if (first > 0) widest = std::max(widest, amplitude / first);
             }
-            EXPECT_GE(widest, 3) << afferent << " at " << f << " Hz";
+            EXPECT_GE(widest, f == 10 ? 2 : 3) << afferent << " at " << f << " Hz";
         }
 }
 

@@ -34,12 +34,15 @@ TEST(SamplingRate, AtTheLowestRateOfAClassItFiresAsAtTenKilohertz) {
     const Case cases[] = {{"fa1-nerve", {10, 20, 40, 80}}, {"fa2", {100, 200, 250}}};
     for (const auto& c : cases) {
         const auto plan = test::value_or_throw(plan_afferent(c.afferent));
-        for (const double f : c.frequencies)
-            for (const double amplitude : {10e-3, 0.1, 0.5}) {
+        for (const double f : c.frequencies) {
+            // At an amplitude where a second spike in each cycle begins, counts differ however fine the samples are. So many are compared.
+            double difference = 0, all = 0;
+            for (double amplitude = 2e-3; amplitude < 0.5; amplitude *= 1.3) {
                 const double fine = spikes_of_vibration(plan, f, amplitude, 10e3);
-                EXPECT_NEAR(spikes_of_vibration(plan, f, amplitude, plan.min_rate), fine, 0.08 * fine + 1)
-                    << c.afferent << f << ' ' << amplitude;
+                difference += std::abs(spikes_of_vibration(plan, f, amplitude, plan.min_rate) - fine), all += fine;
             }
+            EXPECT_LE(difference, 0.05 * all) << c.afferent << ' ' << f << " Hz";
+        }
     }
 }
 

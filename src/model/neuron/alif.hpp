@@ -19,13 +19,13 @@ struct AlifTraits {
     static constexpr std::string_view name = "alif", description = "leaky integrate and fire, with a threshold that rises at each spike";
     static constexpr std::string_view source = "leaky integrate and fire as thesis eq. 5; defaults are fa1-nerve's (doc/nerve-data.md)";
     static constexpr ParameterInfo parameters[] = {
-        {"C_m", "F", 2.06e-9, 1e-18, 1, "membrane capacitance"},
+        {"C_m", "F", 4.58e-9, 1e-18, 1, "membrane capacitance"},
         {"R_m", "ohm", 500e3, 1, 1e18, "membrane resistance"},
         {"E_L", "V", 0, -10, 10, "resting potential"},
         {"V_th", "V", 0.5, -10, 10, "threshold at rest"},
-        {"V_reset", "V", -0.076, -10, 10, "potential after a spike"},
-        {"dV_th", "V", 3.3, 0, 100, "rise of the threshold at a spike"},
-        {"tau_th", "s", 15.2e-3, 1e-6, 1e3, "time constant of the threshold's decay"},
+        {"V_reset", "V", -0.014, -10, 10, "potential after a spike"},
+        {"dV_th", "V", 2.32, 0, 100, "rise of the threshold at a spike"},
+        {"tau_th", "s", 13.9e-3, 1e-6, 1e3, "time constant of the threshold's decay"},
         {"t_ref", "s", 1e-3, 0, 10, "refractory time", "nerves: 1 to 2 ms, from memory"},
         {jitter_name, "", 0, 0, 0.33, "standard deviation of the threshold, drawn at each spike, relative to its mean"},
     };

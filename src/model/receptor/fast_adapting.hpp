@@ -18,9 +18,9 @@ struct FastAdaptingTraits {
     static constexpr ParameterInfo parameters[] = {
         {"k_A", "", 1, 0, 1e3, "gain for the band-passed force where it is positive"},
         {"k_B", "", 0, 0, 1e3, "gain where it is negative"},
-        {"f_hp", "Hz", 266, 1e-6, 1e6, "cutoff frequency of the two high-passes"},
-        {"f_lp", "Hz", 334, 1e-6, 1e6, "cutoff frequency of the two low-passes"},
-        {"F_0", "N", 5e-6, 1e-12, 1e3, "band-passed force at which the compression begins"},
+        {"f_hp", "Hz", 60, 1e-6, 1e6, "cutoff frequency of the two high-passes"},
+        {"f_lp", "Hz", 114, 1e-6, 1e6, "cutoff frequency of the two low-passes"},
+        {"F_0", "N", 100e-6, 1e-12, 1e3, "band-passed force at which the compression begins"},
         {"I_0", "A", 1e-6, 0, 1, "scale of the current"},
     };
     static constexpr int outputs = 1;
