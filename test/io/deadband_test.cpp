@@ -114,9 +114,9 @@ TEST(Deadband, ErrorsNameARemedyThatWorks) {
     EXPECT_EQ(respond("--deadband 20mN").status, 0);
     for (const std::string wrong : {"0N", "-1mN", "20mV", "x"})
         EXPECT_NE(respond("--deadband " + wrong).err.find("write 'auto', or a force above 0, such as 20mN"), std::string::npos) << wrong;
-    const auto told = respond("--zero 500ms --deadband auto");
-    EXPECT_NE(told.err.find("--deadband: changes within +-"), std::string::npos) << told.err;
-    EXPECT_NE(told.out.find("\"deadband\""), std::string::npos);
+    const auto reported = respond("--zero 500ms --deadband auto");
+    EXPECT_NE(reported.err.find("--deadband: changes within +-"), std::string::npos) << reported.err;
+    EXPECT_NE(reported.out.find("\"deadband\""), std::string::npos);
 }
 
 }  // namespace

@@ -4,8 +4,8 @@
 //     y[k] = the value nearest to y[k-1] between x[k] - b and x[k] + b        (play, or backlash; y[-1] = 0)
 //     output = y - b for y > b, y + b for y < -b, otherwise 0
 //
-// x: the force, b: half the width of the band, N. While the noise stays within +-b, a constant force gives a constant output, and a force
-// of 0 gives 0, whatever came before. A rising force is 2 b too low, a falling one is exact. Turning round takes 2 b.
+// x: the force, b: half the width of the band, N. While the noise stays within +-b, a constant force gives a constant output. A force of
+// 0 then gives 0, independent of the force before. A rising force is 2 b too low, a falling one is exact. A reversal takes 2 b.
 
 #include <vector>
 

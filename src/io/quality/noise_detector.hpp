@@ -8,7 +8,7 @@
 namespace corpuscle {
 
 /// Divides a channel into chunks of 16 samples. A chunk is noise if the mean of its third differences is at least 2.3 times that of its
-/// first ones: the ratio is sqrt(10) for white noise, below 1 for forces that change slowly, and (2 sin(pi f / rate))^2 for a vibration.
+/// first ones. The ratio is sqrt(10) for white noise, below 1 for forces that change slowly, and (2 sin(pi f / rate))^2 for a vibration.
 /// The result does not depend on the size of the blocks that are added.
 class NoiseDetector {
     static constexpr std::int64_t chunk = 16;
