@@ -35,7 +35,7 @@ TEST(SamplingRate, AtTheLowestRateOfAClassItFiresAsAtTenKilohertz) {
     for (const auto& c : cases) {
         const auto plan = test::value_or_throw(plan_afferent(c.afferent));
         for (const double f : c.frequencies) {
-            // At an amplitude where a second spike in each cycle begins, counts differ at any rate. So many amplitudes are compared.
+            // At an amplitude where a second spike in each cycle begins, counts differ at any rate, so the sum over amplitudes is compared.
             double difference = 0, all = 0;
             for (double amplitude = 2e-3; amplitude < 0.5; amplitude *= 1.3) {
                 const double fine = spikes_of_vibration(plan, f, amplitude, 10e3);
