@@ -72,17 +72,6 @@ CLI::Validator validator_of(const OptionCheck& check) {
 
 }  // namespace
 
-OptionReader refuse_if(std::function<bool()> is_invalid, std::string_view message, OptionReader read) {
-    return [=](const std::string& text) -> Result<void> {
-        TRY(read(text));
-        return is_invalid() ? bad_usage(fmt::format("{}: {}", text, message)) : Result<void>();
-    };
-}
-
-OptionReader override_reader(std::vector<ParameterOverride>& to, std::string option) {
-    return list_reader(to, [option = std::move(option)](const std::string& text) { return parse_override(text, option); });
-}
-
 void add_options(CLI::App& part, const OptionGroup& group) {
     for (const auto& row : group.rows) {
         auto& option = *add_option(part, row);

@@ -3,7 +3,7 @@
 // recording, and options of netlists.
 
 #include "cli/verb.hpp"
-#include "io/recording/recording.hpp"
+#include "io/recording/recording_options.hpp"
 #include "skin/contact/contact.hpp"
 
 namespace corpuscle {
@@ -24,10 +24,7 @@ ForceArgument read_force(std::string text);
 /// True if an argument names a stimulus, a touch of a skin or an existing file, or is "-" (standard input).
 bool is_force(const std::string& argument);
 
-/// The options for reading a recording, except --rate, which means something different in each verb.
-OptionGroup recording_option_group(RecordingOptions&);
-
-/// The options of this group that were given, such as "--channel".
+/// The options of recording_option_group() that were given, such as "--channel".
 std::vector<std::string> given_recording_options(const CommonArguments&);
 
 /// Returns an error if a force is a setting without its --set, or if a recording option was given although all `forces` are stimuli.
