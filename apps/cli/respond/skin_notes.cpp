@@ -38,24 +38,23 @@ void SkinRun::add_force_notes() {
     const auto quality = source_->quality();
     notes.notes.insert(notes.notes.end(), quality.descriptions.begin(), quality.descriptions.end());
     notes.warnings.insert(notes.warnings.end(), quality.warnings.begin(), quality.warnings.end());
-    for (auto& note : force_->notes()) notes.notes.push_back(std::move(note));
-    if (!skin_note_.empty()) notes.notes.push_back(skin_note_);
-    notes.notes.insert(notes.notes.end(), taxel_notes_.begin(), taxel_notes_.end());
-    if (contact_) {
-        notes.contact = contact_->description();
-        for (auto& f : contact_->metadata()) notes.metadata.push_back(std::move(f));
-        for (auto& r : contact_->notes()) notes.notes.push_back(std::move(r));
+    for (auto& note : scene_.force->notes()) notes.notes.push_back(std::move(note));
+    notes.notes.insert(notes.notes.end(), scene_.notes.begin(), scene_.notes.end());
+    if (scene_.contact) {
+        notes.contact = scene_.contact->description();
+        for (auto& f : scene_.contact->metadata()) notes.metadata.push_back(std::move(f));
+        for (auto& r : scene_.contact->notes()) notes.notes.push_back(std::move(r));
     }
-    if (auto note = unfelt_shear_note(innervation_->plan, source_->has_shear(), notes.metadata); !note.empty())
+    if (auto note = unfelt_shear_note(scene_.innervation->plan, source_->has_shear(), notes.metadata); !note.empty())
         notes.notes.push_back(std::move(note));
-    for (const auto& c : innervation_->plan.classes)
+    for (const auto& c : scene_.innervation->plan.classes)
         if (source_->clock().rate() < c.afferent.min_rate * (1 - 1e-9))
             notes.warnings.push_back(
                 fmt::format("{}: the sampling rate of the force is {:g} Hz; {:g} Hz or more is needed: vibration above "
                             "{:g} Hz is missing",
                             c.name, source_->clock().rate(), c.afferent.min_rate, source_->clock().rate() / 2));
     std::vector<NoiseSubject> subjects;
-    for (const auto& c : innervation_->plan.classes) subjects.push_back({c.name, &c.afferent});
+    for (const auto& c : scene_.innervation->plan.classes) subjects.push_back({c.name, &c.afferent});
     if (auto text = sensor_noise_warning(*source_, subjects, options_.for_clock(source_->clock())); !text.empty())
         notes.warnings.push_back(std::move(text));
     if (notes.stats.truncated_steps > 0)
@@ -89,7 +88,7 @@ void SkinRun::add_silence_notes() {
     std::vector<std::string> messages;
     std::optional<double> min_factor;  // of the class that needs the least additional force
     for (const auto& s : silent) {
-        auto text = innervation_->plan.classes[s.class_index].name;
+        auto text = scene_.innervation->plan.classes[s.class_index].name;
         if (!(s.max_force > 0))
             text += " received no force";
         else if (!s.factor)
@@ -100,18 +99,18 @@ void SkinRun::add_silence_notes() {
         else
             text += fmt::format(" received at most {:.2g} N, and needs about {} N of the same stimulus to fire ({} times as much)",
                                 s.max_force, format_rounded_up(*s.factor * s.max_force), format_rounded_up(*s.factor));
-        if (const auto advice = nerve_advice(innervation_->plan.classes[s.class_index].afferent); s.max_force > 0 && !advice.empty())
+        if (const auto advice = nerve_advice(scene_.innervation->plan.classes[s.class_index].afferent); s.max_force > 0 && !advice.empty())
             text += "; " + advice;
         messages.push_back(std::move(text));
         if (s.factor) min_factor = std::min(*s.factor, min_factor.value_or(*s.factor));
     }
     if (silent.empty()) return;
     const bool any_force = std::any_of(silent.begin(), silent.end(), [](const SilentClass& s) { return s.max_force > 0; });
-    const bool all = silent.size() == innervation_->plan.classes.size();
+    const bool all = silent.size() == scene_.innervation->plan.classes.size();
     auto text = fmt::format("{}: {}", all ? "no afferent fired" : "never fired", joined(messages, "; "));
     if (all && min_factor)
         if (const auto remedy = stronger_stimulus_advice(margin * *min_factor); !remedy.empty()) text += "; " + remedy;
-    if (all && !any_force && contact_)
+    if (all && !any_force && scene_.contact)
         text += fmt::format(
             "; --set contact.x=... and --set contact.y=... place the indenter (for positions see afferents.csv, or type: corpuscle list {} "
             "--sites)",
@@ -121,14 +120,14 @@ void SkinRun::add_silence_notes() {
 
 /// Warns of classes in which afferents fire faster than a nerve fibre can.
 void SkinRun::add_rate_warnings() {
-    for (std::size_t c = 0; c < innervation_->plan.classes.size(); ++c) {
-        const auto& plan = innervation_->plan.classes[c].afferent;
+    for (std::size_t c = 0; c < scene_.innervation->plan.classes.size(); ++c) {
+        const auto& plan = scene_.innervation->plan.classes[c].afferent;
         const auto [count, rate] = summary_.count_faster_than(c, max_nerve_rate);
         if (count > 0)
             notes_.warnings.push_back(
-                fmt::format("{} of {} {} afferents: {}", count, innervation_->class_begin[c + 1] - innervation_->class_begin[c],
-                            innervation_->plan.classes[c].name,
-                            excessive_rate_warning(rate, source_->clock().T(), plan, innervation_->plan.classes[c].name)));
+                fmt::format("{} of {} {} afferents: {}", count, scene_.innervation->class_begin[c + 1] - scene_.innervation->class_begin[c],
+                            scene_.innervation->plan.classes[c].name,
+                            excessive_rate_warning(rate, source_->clock().T(), plan, scene_.innervation->plan.classes[c].name)));
     }
 }
 

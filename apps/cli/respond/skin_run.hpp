@@ -3,6 +3,7 @@
 
 #include "cli/respond/planned_run.hpp"
 #include "report/skin/skin_report.hpp"
+#include "run/skin/skin_scene.hpp"
 #include "run/skin/skin_simulator.hpp"
 #include "run/summary/silent_afferents.hpp"
 #include "run/summary/skin_summary.hpp"
@@ -12,23 +13,16 @@ namespace corpuscle {
 class SkinRun final : public PlannedRun {
     Ranks* ranks_;  // null: a single process
     std::unique_ptr<ForceSource> source_;
-    std::shared_ptr<const Innervation> innervation_;
-    std::unique_ptr<Contact> contact_;  // null: each channel is the force at one site
-    std::unique_ptr<SkinForce> force_;
+    SkinScene scene_;
     SkinRunNotes notes_;
-    std::string name_;       // of the touch, stimulus or recording
-    std::string skin_note_;  // note that a sensor array is treated as skin; "" if it is not
+    std::string name_;  // of the touch, stimulus or recording
     std::optional<SkinPopulation> population_;
     std::unique_ptr<Skin> skin_;  // the afferents that this process simulates
     std::unique_ptr<SkinCheckpoint> checkpoint_;
     SkinSummary summary_;
     SilenceDetector silence_;
     std::optional<SkinReport> report_;
-    std::vector<std::string> taxel_notes_;
 
-    Result<void> place_afferents();
-    Result<void> open_taxels();
-    Result<void> open_contact(std::string indenter, const NamedTouch*);
     Result<void> make_skin();
     /// All that determines the response: the program's version, the force, all options except those of outputs, and the contents of the
     /// files that they name.
