@@ -5,9 +5,10 @@
 
 namespace corpuscle {
 
-ThreadPool::ThreadPool(unsigned threads) {
-    const unsigned total = threads > 0 ? threads : std::max(1U, std::thread::hardware_concurrency());
-    for (unsigned t = 1; t < total; ++t) workers_.emplace_back([this, t] { worker_loop(t); });
+ThreadPool::ThreadPool(unsigned threads) : threads_(threads > 0 ? threads : std::max(1U, std::thread::hardware_concurrency())) {}
+
+void ThreadPool::start_workers() {
+    for (unsigned t = 1; t < threads_; ++t) workers_.emplace_back([this, t] { worker_loop(t); });
 }
 
 ThreadPool::~ThreadPool() {
@@ -20,6 +21,7 @@ ThreadPool::~ThreadPool() {
 }
 
 void ThreadPool::for_each(std::size_t count, const Task& task) {
+    if (workers_.empty() && threads_ > 1 && count > 1) start_workers();
     if (workers_.empty()) {  // without a lock, to keep the overhead small
         for (std::size_t k = 0; k < count; ++k) task(k, 0);
         return;

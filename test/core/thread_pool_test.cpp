@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <filesystem>
 #include <stdexcept>
 
 namespace corpuscle {
@@ -26,6 +27,22 @@ TEST(ThreadPool, EveryTaskRunsOnceForAnyNumberOfThreads) {
         }
     }
     EXPECT_GE(ThreadPool().threads(), 1U);
+}
+
+TEST(ThreadPool, StartsItsThreadsForTheFirstTasksThatCanRunAtOnce) {
+    const auto threads_of_process = [] {
+        const std::filesystem::directory_iterator all("/proc/self/task");
+        return std::distance(begin(all), end(all));
+    };
+    const auto before = threads_of_process();
+    ThreadPool pool(3);
+    std::atomic<int> done = 0;
+    const auto count = [&](std::size_t, unsigned) { ++done; };
+    for (int k = 0; k < 5; ++k) pool.for_each(1, count);
+    EXPECT_EQ(threads_of_process(), before);
+    pool.for_each(2, count);
+    EXPECT_EQ(threads_of_process(), before + 2);
+    EXPECT_EQ(done, 7);
 }
 
 TEST(ThreadPool, AnExceptionReachesTheCallerAndThePoolContinues) {
