@@ -50,9 +50,9 @@ int main(int argc, char** argv) {
     calibration.overrides = {{"", "corner", "mc", "corner=mc"}};
     calibration.batch.max_iterations = 60'000;
     const auto press = stimulus("press");
-    calibration.force = press.force, calibration.T = 1 / press.rate;
+    calibration.force = press.samples[0], calibration.T = 1 / press.rate;
     const TimeWindow phases[] = {{0, 0.25}, {0.25, 0.375}, {0.375, 0.625}, {0.625, 0.75}, {0.75, 1}};  // of the press, s
-    calibration.limits = FiringLimits::around(respond(chosen_case->model, press).spikes, phases, 10e-3);
+    calibration.limits = FiringLimits::around(respond(chosen_case->model, press).times, phases, 10e-3);
     calibration.on_progress = [](std::size_t left, std::size_t presses) {
         std::fprintf(stderr, "%zu chips left, %zu presses\n", left, presses);
     };

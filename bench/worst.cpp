@@ -39,7 +39,7 @@ std::shared_ptr<const CircuitAfferentFactory> factory_of(const std::string& name
 }
 
 /// Simulates all chips of this design under the press.
-Trains press_chips(const std::shared_ptr<const CircuitAfferentFactory>& factory, const ChipSpec& chips, const ForceSignal& press) {
+Trains press_chips(const std::shared_ptr<const CircuitAfferentFactory>& factory, const ChipSpec& chips, const Force& press) {
     Trains out(static_cast<std::size_t>(chips.count));
     std::mutex guard;
     std::size_t next = 0;
@@ -53,7 +53,7 @@ Trains press_chips(const std::shared_ptr<const CircuitAfferentFactory>& factory,
                 const std::lock_guard lock(guard);
                 if (next == out.size()) return {};
                 const auto k = next++;
-                return Chip{static_cast<std::int64_t>(k), factory, chips.sample(k), press.force, 1 / press.rate};
+                return Chip{static_cast<std::int64_t>(k), factory, chips.sample(k), press.samples[0], 1 / press.rate};
             },
             [&](const Chip& chip, ChipResponse&& response) {
                 if (response.error)
@@ -105,7 +105,7 @@ int main(int argc, char** argv) {
     const ChipSpec chips{argc > 2 ? std::atof(argv[2]) : 200, argc > 3 ? std::strtoull(argv[3], nullptr, 10) : 1, false, true};
     const auto press = stimulus("press");
     const TimeWindow phases[] = {{0, 0.25}, {0.25, 0.375}, {0.375, 0.625}, {0.625, 0.75}, {0.75, 1}};
-    const auto limits = FiringLimits::around(respond(model, press).spikes, phases, 10e-3);
+    const auto limits = FiringLimits::around(respond(model, press).times, phases, 10e-3);
     fmt::print("{}: {}\n", netlist, limits.text());
 
     const auto designed = factory_of(netlist, {});
@@ -154,7 +154,7 @@ int main(int argc, char** argv) {
     const auto larger = factory_of(netlist, all);
     print_statistics("all three", press_chips(larger, chips, press), limits);
     const auto spikes_without_mismatch = [&](const std::shared_ptr<const CircuitAfferentFactory>& factory) {
-        return run_chip_scalar({0, factory, {}, press.force, 1 / press.rate}, {}).spikes.size();
+        return run_chip_scalar({0, factory, {}, press.samples[0], 1 / press.rate}, {}).spikes.size();
     };
     fmt::print("without mismatch: {} spikes as designed, {} with all three\n", spikes_without_mismatch(designed),
                spikes_without_mismatch(larger));

@@ -66,6 +66,6 @@ double measure(std::span<const double> train, const TimeWindow& window) {
 }
 
 /// The instantaneous frequencies of a train (spike times in s), in Hz: one at each spike except the last one.
-std::vector<double> instantaneous_rates(std::span<const double> train);
+__attribute__((visibility("default"))) std::vector<double> instantaneous_rates(std::span<const double> train);
 
 }  // namespace corpuscle

@@ -48,7 +48,7 @@ TEST(Pages, EveryFileTheyLinkToExists) {
                              "doc/chips.md",      "doc/lanes.md",       "doc/populations.md", "doc/real-recordings.md",
                              "doc/live.md",       "doc/events.md",      "doc/skin.md",        "doc/sweeps.md",
                              "doc/README.md",     "doc/tutorial.md",    "doc/glossary.md",    "doc/troubleshooting.md",
-                             "doc/benchmarks.md"}) {
+                             "doc/benchmarks.md", "doc/python.md"}) {
         const auto text = test::read_file(project_root + "/" + page);
         ASSERT_FALSE(text.empty()) << page;
         for (std::size_t at = text.find("]("); at != std::string::npos; at = text.find("](", at + 1)) {

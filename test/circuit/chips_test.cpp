@@ -27,7 +27,7 @@ struct ChipRun {
     }
 };
 
-ChipRun run_chip(const std::string& file, const ForceSignal& stimulus_force, const Values& parameters = {}, double celsius = 27) {
+ChipRun run_chip(const std::string& file, const Force& stimulus_force, const Values& parameters = {}, double celsius = 27) {
     ChipRun out;
     const auto netlist = Netlist::read(corpuscle::test::source_root() + "/circuits/" + file);
     if (!netlist) return ADD_FAILURE() << netlist.error().text(), out;
@@ -38,7 +38,7 @@ ChipRun run_chip(const std::string& file, const ForceSignal& stimulus_force, con
     if (!design) return ADD_FAILURE() << design.error().text(), out;
     const auto afferent = (*design)->make(1 / stimulus_force.rate, false);
     const auto delay = static_cast<std::size_t>(afferent->delay());
-    auto force = stimulus_force.force;
+    auto force = stimulus_force.samples[0];
     force.insert(force.end(), delay, force.back());
     std::vector<std::vector<double>> curves(afferent->probes().size(), std::vector<double>(force.size()));
     std::vector<double*> probes;

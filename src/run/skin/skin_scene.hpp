@@ -6,7 +6,7 @@
 
 namespace corpuscle {
 
-/// What is touched, and how. Names and texts are those of the command line.
+/// A population and the touch on it. Names and texts are those of the command line.
 struct SkinSceneRequest {
     std::string population;
     std::string contact = {};           ///< the indenter; "": not given

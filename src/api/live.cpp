@@ -1,49 +1,12 @@
-#include "corpuscle.hpp"
+#include "corpuscle/live.hpp"
 
-#include <array>
-
-#include "core/stimulus/stimuli.hpp"
+#include "api/result.hpp"
 #include "live/live_population.hpp"
 #include "live/skin_stream.hpp"
-#include "measure/measures.hpp"
-#include "run/afferent_plan.hpp"
-#include "run/simulate.hpp"
 #include "skin/plan/skin_plan.hpp"
 #include "skin/taxel/taxel_frames.hpp"
 
 namespace corpuscle {
-namespace {
-
-/// The value of a result; throws its error.
-template <class T>
-T value_or_throw(Result<T> result) {
-    if (!result) throw InputError(result.error().text());
-    if constexpr (!std::is_void_v<T>) return std::move(*result);
-}
-
-/// The result of applied overrides; throws if one of them has another target than the thing called `name`.
-template <class T>
-T result_or_throw(Applied<T> applied, std::string_view name) {
-    if (const auto ok = check_all_used(applied.unused, std::array{name}); !ok) throw InputError(ok.error().text());
-    return std::move(applied.result);
-}
-
-}  // namespace
-
-ForceSignal stimulus(const std::string& name, const std::vector<std::string>& settings, double rate, std::uint64_t seed) {
-    const auto source = result_or_throw(value_or_throw(make_stimulus(name, value_or_throw(parse_overrides(settings)), rate, seed)), name);
-    return {source->clock().rate(), value_or_throw(read_channel(*source))};
-}
-
-Response respond(const std::string& afferent, const ForceSignal& signal, const std::vector<std::string>& settings) {
-    Applied<AfferentPlan> planned = value_or_throw(plan_any_afferent(afferent, value_or_throw(parse_overrides(settings))));
-    const auto plan = result_or_throw(std::move(planned), afferent);
-    const auto clock = value_or_throw(make_clock(signal.rate));
-    const auto model = make_afferent(plan, {clock.T()});
-    return {spike_times(value_or_throw(simulate(*model, signal.force)).spikes, clock)};
-}
-
-std::vector<double> Response::instantaneous_rates() const { return corpuscle::instantaneous_rates(spikes); }
 
 struct LiveSkin::Impl {
     std::unique_ptr<SkinStream> stream;
@@ -54,10 +17,10 @@ struct LiveSkin::Impl {
 
     /// Places the afferents of a plan.
     static std::unique_ptr<Impl> make(SkinPlan plan, double rate) {
-        const auto clock = value_or_throw(make_clock(rate));
-        auto placed = value_or_throw(innervate(std::move(plan)));
+        const auto clock = api::value_or_throw(make_clock(rate));
+        auto placed = api::value_or_throw(innervate(std::move(plan)));
         auto addressing = make_event_addressing(*placed, clock);
-        auto impl = std::unique_ptr<Impl>(new Impl{value_or_throw(SkinStream::make(std::move(placed), clock)), std::move(addressing)});
+        auto impl = std::unique_ptr<Impl>(new Impl{api::value_or_throw(SkinStream::make(std::move(placed), clock)), std::move(addressing)});
         impl->events.reserve(8 * impl->addressing.names.size() + 64);
         return impl;
     }
@@ -84,8 +47,8 @@ namespace {
 
 /// The plan of a live skin with all settings applied.
 SkinPlan plan_with_settings(const std::string& population, std::size_t channels, const std::vector<std::string>& settings) {
-    auto applied = value_or_throw(make_live_plan(population, channels, value_or_throw(parse_overrides(settings))));
-    value_or_throw(check_all_used(applied.unused, override_targets(applied.result)));
+    auto applied = api::value_or_throw(make_live_plan(population, channels, api::value_or_throw(parse_overrides(settings))));
+    api::value_or_throw(check_all_used(applied.unused, override_targets(applied.result)));
     return std::move(applied.result);
 }
 
@@ -98,10 +61,10 @@ LiveSkin::LiveSkin(const std::string& population, double rate, std::size_t chann
 LiveSkin LiveSkin::with_taxels(const std::string& population, const std::string& taxels, double rate,
                                const std::vector<std::string>& settings) {
     if (is_afferent_list(population)) throw InputError("taxels need a skin, such as hand, fingertip or \"grid 8x8\", not " + population);
-    const auto layout = value_or_throw(read_taxel_layout(taxels));
+    const auto layout = api::value_or_throw(read_taxel_layout(taxels));
     auto plan = plan_with_settings(population, 1, settings);
     treat_as_skin(plan);
-    auto map = value_or_throw(map_taxels(layout, plan.sites));
+    auto map = api::value_or_throw(map_taxels(layout, plan.sites));
     auto impl = Impl::make(std::move(plan), rate);
     for (auto* force : {&impl->normal, &impl->shear_x, &impl->shear_y}) force->resize(impl->stream->sites());
     impl->taxels = TaxelFrames(layout, std::move(map), layout.has_axes);
@@ -127,11 +90,11 @@ std::string LiveSkin::afferent_name(std::uint32_t index) const {
 }
 
 std::span<const LiveSkin::Event> LiveSkin::respond(std::span<const double> frame) {
-    return impl_->to_events(value_or_throw(impl_->push(frame)));
+    return impl_->to_events(api::value_or_throw(impl_->push(frame)));
 }
 std::span<const LiveSkin::Event> LiveSkin::finish() { return impl_->to_events(impl_->stream->finish()); }
 
 std::vector<std::byte> LiveSkin::save() const { return impl_->stream->save(); }
-void LiveSkin::resume(std::span<const std::byte> state) { value_or_throw(impl_->stream->resume(state)); }
+void LiveSkin::resume(std::span<const std::byte> state) { api::value_or_throw(impl_->stream->resume(state)); }
 
 }  // namespace corpuscle

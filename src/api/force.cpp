@@ -1,0 +1,105 @@
+#include "corpuscle/force.hpp"
+
+#include "api/result.hpp"
+#include "api/view_source.hpp"
+#include "core/stimulus/stimuli.hpp"
+#include "io/recording/recording_options.hpp"
+
+namespace corpuscle {
+namespace {
+
+using api::result_or_throw;
+using api::value_or_throw;
+
+/// Reads a source to its end.
+Force read_all(ForceSource& source) {
+    Force out{.name = source.name(), .rate = source.clock().rate(), .start = source.clock().t0};
+    for (const auto& c : source.channels()) out.channels.push_back(c.name);
+    out.samples.resize(out.channels.size());
+    for (Frames block(out.channels.size(), 4096);;) {
+        value_or_throw(source.read(block));
+        if (block.count == 0) break;
+        for (std::size_t c = 0; c < out.samples.size(); ++c)
+            out.samples[c].insert(out.samples[c].end(), block.force[c].begin(),
+                                  block.force[c].begin() + static_cast<std::ptrdiff_t>(block.count));
+    }
+    out.notes = source.notes();
+    auto quality = source.quality();
+    out.notes.insert(out.notes.end(), quality.descriptions.begin(), quality.descriptions.end());
+    out.warnings = std::move(quality.warnings);
+    return out;
+}
+
+}  // namespace
+
+ForceView::ForceView(const Force& force)
+    : name(force.name), rate(force.rate), start(force.start), channels(force.channels),
+      count(force.samples.empty() ? 0 : force.samples[0].size()) {
+    for (const auto& channel : force.samples) {
+        if (channel.size() != count) throw InputError("all channels of a force must have equally many samples");
+        samples.push_back(channel.data());
+    }
+}
+
+ForceView::ForceView(double sample_rate, std::span<const double> force) : rate(sample_rate), samples{force.data()}, count(force.size()) {}
+
+Force stimulus(const std::string& name, const std::vector<std::string>& settings, double rate, std::uint64_t seed) {
+    return read_all(*result_or_throw(value_or_throw(make_stimulus(name, value_or_throw(parse_overrides(settings)), rate, seed)), name));
+}
+
+Force read_recording(const std::string& path, const Options& options) {
+    RecordingOptions reading;
+    const auto group = recording_option_group(reading);
+    for (const auto& [name, value] : options)
+        name == "rate" ? static_cast<void>(reading.rate = value_or_throw(parse_quantity(value, "Hz")))
+                       : value_or_throw(set_option(group, name, value));
+    return read_all(*value_or_throw(open_recording(path, reading)));
+}
+
+namespace api {
+namespace {
+
+/// Reads a ForceView.
+class ViewSource final : public ForceSource {
+    const ForceView& view_;
+    Clock clock_;
+    std::vector<Channel> channels_;
+    std::size_t next_ = 0;  // sample
+
+public:
+    ViewSource(const ForceView& view, const Clock& clock) : view_(view), clock_(clock) {
+        clock_.t0 = view.start;
+        for (std::size_t c = 0; c < view.samples.size(); ++c)
+            channels_.push_back(
+                {static_cast<std::uint32_t>(c), c < view.channels.size() ? view.channels[c] : "ch" + std::to_string(c + 1)});
+    }
+    const std::string& name() const override { return view_.name; }
+    const Clock& clock() const override { return clock_; }
+    const std::vector<Channel>& channels() const override { return channels_; }
+    double progress() const override { return view_.count > 0 ? static_cast<double>(next_) / static_cast<double>(view_.count) : 1; }
+    std::string description() const override { return std::to_string(channels_.size()) + " channels of a program"; }
+    Result<void> read(Frames& block) override {
+        block.count = std::min(block.capacity, view_.count - next_);
+        for (std::size_t c = 0; c < channels_.size(); ++c)
+            for (std::size_t k = 0; k < block.count; ++k) {
+                const double f = view_.samples[c][static_cast<std::ptrdiff_t>(next_ + k) * view_.stride];
+                if (!std::isfinite(f))
+                    return bad_input("'" + channels_[c].name + "': the force of sample " + std::to_string(next_ + k) +
+                                     " is not a finite number");
+                block.force[c][k] = f;
+            }
+        next_ += block.count;
+        return {};
+    }
+};
+
+}  // namespace
+
+std::unique_ptr<ForceSource> make_view_source(const ForceView& view) {
+    if (view.samples.empty() || view.count == 0) throw InputError("the force has no samples");
+    if (!std::isfinite(view.start)) throw InputError("the start of the force is not a finite time");
+    return std::make_unique<ViewSource>(view, value_or_throw(make_clock(view.rate)));
+}
+
+}  // namespace api
+}  // namespace corpuscle
