@@ -1,5 +1,5 @@
 # The commands of the README. Each installs the packages it needs (setup/packages).
-.PHONY: demo build test bench fuzz format lint install pictures reproduction setup-run setup-test setup-bench release asan clean
+.PHONY: demo build test bench fuzz format lint install pictures reproduction setup-run setup-test setup-bench setup-python release asan clean
 
 FUZZ_SECONDS ?= 600
 PREFIX ?= /usr/local
@@ -24,8 +24,8 @@ test: release asan
 	ctest --test-dir build/asan --output-on-failure -j 3 -LE once
 	$(MAKE) fuzz FUZZ_SECONDS=5
 
-release: setup-test
-	cmake --preset release -D CORPUSCLE_TESTS=ON
+release: setup-test setup-python
+	cmake --preset release -D CORPUSCLE_TESTS=ON -D CORPUSCLE_PYTHON=ON
 	cmake --build --preset release
 
 asan: setup-test
@@ -82,6 +82,9 @@ setup-test:
 
 setup-bench:
 	@setup/install run test bench
+
+setup-python:
+	@setup/install run python
 
 clean:
 	rm -rf build out

@@ -1,0 +1,33 @@
+"""Artificial touch: force goes in, nerve-like spikes come out.
+
+    import corpuscle
+    force = corpuscle.read("grip.csv", unit="mN")
+    response = corpuscle.respond(force, afferent="fa1-nerve")
+    response.plot()
+
+Forces are in newtons, times in seconds, rates in hertz, positions in metres. Errors are `corpuscle.InputError` (a ValueError) with the text
+of the command line. Each stimulus of the catalogue is a function: corpuscle.press(F_max="2 N").
+"""
+
+from ._corpuscle import InputError, NotConvergedError
+from ._catalogue import Catalogue, Entry, Parameter, afferents, catalogue, catalogues
+from ._force import Force, Stimulus, read, stimulus
+from ._live import LiveSkin
+from ._respond import Population, fingertip, grid, hand, population, respond
+from ._response import Response, measures
+from . import _force
+
+__all__ = ["Catalogue", "Entry", "Force", "InputError", "LiveSkin", "NotConvergedError", "Parameter", "Population", "Response", "Stimulus", "afferents",
+           "catalogue", "catalogues", "fingertip", "grid", "hand", "measures", "population", "read", "respond", "stimulus"]
+
+InputError.__module__ = NotConvergedError.__module__ = __name__  # the public name, for tracebacks
+
+
+def __getattr__(name):
+    """The function of a stimulus."""
+    function = globals()[name] = _force.stimulus_function(name)
+    return function
+
+
+def __dir__():
+    return sorted({*globals(), *_force.stimulus_names()})
