@@ -6,7 +6,7 @@ prefix=$1
 compiler=$2
 status=0
 "$prefix/bin/corpuscle" study fig4 --quiet || { echo "the installed corpuscle does not find corpuscle-study"; status=1; }
-for file in bin/corpuscle bin/corpuscle-study libexec/corpuscle/corpuscle-hdf5 libexec/corpuscle/corpuscle-sound include/corpuscle/corpuscle.hpp include/corpuscle/corpuscle.h share/corpuscle/circuits/sa1.cir \
+for file in bin/corpuscle bin/corpuscle-study libexec/corpuscle/corpuscle-hdf5 libexec/corpuscle/corpuscle-sound include/corpuscle.hpp include/corpuscle.h share/corpuscle/circuits/sa1.cir \
   share/corpuscle/skins/hand.toml share/corpuscle/examples/respond.cpp share/corpuscle/examples/data/touch.csv \
   share/corpuscle/examples/sweeps/bias.toml share/doc/corpuscle/README.md share/doc/corpuscle/LICENSE share/doc/corpuscle/NOTICE \
   share/doc/corpuscle/doc/concepts.md share/doc/corpuscle/doc/press.png; do
@@ -15,8 +15,8 @@ done
 for work in dygraphs CLI11 nlohmann-json xsimd toml++ fmt 'Frances Y. Kuo and Stephen Joe'; do
   grep -qF "$work" "$prefix/share/doc/corpuscle/NOTICE" || { echo "NOTICE lacks $work"; status=1; }
 done
-headers=$(cd "$prefix/include/corpuscle" && find . -type f | sort | tr '\n' ' ')
-[ "$headers" = "./corpuscle.h ./corpuscle.hpp " ] || { echo "installed headers: $headers; only the public ones are expected"; status=1; }
+headers=$(cd "$prefix/include" && find . -type f | sort | tr '\n' ' ')
+[ "$headers" = "$(cd "$(dirname "$0")/../../include" && find . -type f | sort | tr '\n' ' ')" ] || { echo "installed headers: $headers; only the public ones are expected"; status=1; }
 library=$(find "$prefix" -name libcorpuscle.a)
 shared=$prefix/try.so
 "$compiler" -shared -o "$shared" -Wl,-z,text -Wl,--whole-archive "$library" -Wl,--no-whole-archive || status=1

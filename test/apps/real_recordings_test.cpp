@@ -136,8 +136,8 @@ TEST(RealRecordings, APressOnTheSkinIsFeltByTheRightClassesAndRestIsSilent) {
         return counts.try_emplace(afferent + "," + channel, 4).first->second;
     };
     for (const char* afferent : {"sa1-nerve", "fa1-nerve", "fa2"})
-        for (int phase = 1; phase <= 3; ++phase)
-            EXPECT_GE(all(afferent, "fbg11")[static_cast<std::size_t>(phase)], 3) << afferent << " in phase " << phase;
+        for (int phase = 1; phase <= 3; ++phase)  // the file ends in the middle of the last phase, the release
+            EXPECT_GE(all(afferent, "fbg11")[static_cast<std::size_t>(phase)], phase == 3 ? 1 : 3) << afferent << " in phase " << phase;
     EXPECT_GT(all("sa1-nerve", "fbg11")[2], 100);
     for (const std::string pressed : {"fbg09", "fbg10", "fbg12", "fbg13"}) {
         EXPECT_GE(all("fa1-nerve", pressed)[1], 3) << pressed;
