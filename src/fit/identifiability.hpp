@@ -27,9 +27,9 @@ inline constexpr double negligible_cost = 0.1;
 /// The residuals of an imagined repetition with this noise and seed, see FitProblem::repetition().
 using RepetitionFunction = std::function<Result<std::vector<ResidualBlock>>(double noise, std::uint64_t seed)>;
 
-/// Finds which parameters the residuals determine at a point, and how well. Held-out blocks do not count. If the deviations of the residuals are not known, two estimates of each
-/// interval are made, and the wider one is used. One comes from repetitions with the noise that explains the residuals (if there is a
-/// function), the other from leaving out blocks.
+/// Finds which parameters the residuals determine at a point, and how well. Held-out blocks do not count. If the deviations of the
+/// residuals are not known, two estimates of each interval are made, and the wider one is used. One comes from repetitions with the noise
+/// that explains the residuals (if there is a function), the other from leaving out blocks.
 Result<Identifiability> identifiability(const ResidualFunction&, std::span<const FreeParameter>, std::span<const double> point,
                                         double slope_effect, bool has_known_deviations, const RepetitionFunction& = {});
 
