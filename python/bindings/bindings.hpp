@@ -1,0 +1,37 @@
+#pragma once
+// The extension module: the public interface with numpy arrays. Arrays go in and out without a copy. The package in corpuscle/ adds what
+// is easier to say in Python. There is one file for each topic; module.cpp calls them all.
+
+#include <pybind11/functional.h>
+#include <pybind11/numpy.h>
+#include <pybind11/pybind11.h>
+#include <pybind11/stl.h>
+
+#include <functional>
+#include <vector>
+
+#include "corpuscle.hpp"
+
+namespace corpuscle::python {
+
+namespace py = pybind11;
+
+void bind_errors(py::module_&);
+void bind_force(py::module_&);
+void bind_respond(py::module_&);
+void bind_measures(py::module_&);
+void bind_catalogue(py::module_&);
+void bind_live(py::module_&);
+
+/// An array that shows memory of `owner`, and keeps it alive.
+template <class T>
+py::array view_of(const std::vector<T>& values, py::handle owner) {
+    py::array_t<T> out(static_cast<py::ssize_t>(values.size()), values.data(), owner);
+    py::detail::array_proxy(out.ptr())->flags &= ~py::detail::npy_api::NPY_ARRAY_WRITEABLE_;
+    return out;
+}
+
+/// The progress function of Python, called at most 20 times a second, and Ctrl-C.
+std::function<bool(double)> progress_of(const py::object& function);
+
+}  // namespace corpuscle::python
