@@ -2,7 +2,9 @@
 // The public interface of Corpuscle: name an afferent, pass a force, get spikes.
 
 #include "corpuscle/catalogue.hpp"
+#include "corpuscle/fit.hpp"
 #include "corpuscle/force.hpp"
 #include "corpuscle/live.hpp"
 #include "corpuscle/measures.hpp"
 #include "corpuscle/respond.hpp"
+#include "corpuscle/spikes.hpp"

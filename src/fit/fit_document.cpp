@@ -84,9 +84,15 @@ std::string settings_file(const FitResult& result, const std::string& command) {
     return out;
 }
 
+std::vector<std::string> fitted_settings(const FitResult& result) {
+    std::vector<std::string> out;
+    for (const auto& p : result.parameters) out.push_back(fmt::format("{}.{}={:.6g}", result.plan.name, p.parameter.name, p.value));
+    return out;
+}
+
 std::string settings_options(const FitResult& result) {
     auto out = fmt::format("--afferent {}", result.plan.name);
-    for (const auto& p : result.parameters) out += fmt::format(" --set {}.{}={:.6g}", result.plan.name, p.parameter.name, p.value);
+    for (const auto& setting : fitted_settings(result)) out += " --set " + setting;
     return out;
 }
 

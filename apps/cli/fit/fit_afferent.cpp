@@ -8,9 +8,9 @@
 #include "cli/output/terminal.hpp"
 #include "cli/verbs.hpp"
 #include "fit/fit_document.hpp"
+#include "fit/fit_plan.hpp"
 #include "fit/targets/target_problem.hpp"
 #include "io/output/output_check.hpp"
-#include "run/afferent_plan.hpp"
 
 namespace corpuscle {
 namespace {
@@ -59,17 +59,6 @@ OptionReader names_reader(std::vector<std::string>& to) {
 
 bool is_own_settings(std::string_view beginning) { return beginning.starts_with("# Written by 'corpuscle fit "); }
 
-Result<AfferentPlan> plan_to_fit(const FitArguments& args, std::vector<ParameterOverride>& unused) {
-    auto planned = TRY(plan_any_afferent(args.afferent, args.settings));
-    keep_unused(unused, planned.unused);
-    if (!planned.result.traits().can_search_factor)
-        return bad_usage(
-            fmt::format("--afferent {}: circuits are too slow to be fitted; fit an afferent of equations, or trim the circuit by "
-                        "'corpuscle sweep calibrate {}'",
-                        args.afferent, args.afferent));
-    return std::move(planned.result);
-}
-
 Result<FitResult> search(const FitArguments& args, const FitProblem& problem, const AfferentPlan& plan,
                          std::span<const FreeParameter> parameters, bool quiet) {
     ThreadPool pool(args.threads);
@@ -103,7 +92,9 @@ Result<void> check_arguments(const FitArguments& args, const CommonArguments& co
 Result<void> fit_afferent(const FitArguments& args, const CommonArguments& common) {
     TRY(check_arguments(args, common));
     auto unused = args.settings;
-    const auto plan = TRY(plan_to_fit(args, unused));
+    const auto planned = TRY(plan_to_fit(args.afferent, args.settings));
+    keep_unused(unused, planned.unused);
+    const auto& plan = planned.result;
     const auto parameters = TRY(free_parameters(plan, args.free, args.bounds));
     const auto problem = TRY(read_problem(args, plan, unused));
     TRY(check_all_used(unused, std::array{std::string_view(plan.name)}));
