@@ -10,4 +10,5 @@ PYBIND11_MODULE(_corpuscle, m) {
     bind_measures(m);
     bind_catalogue(m);
     bind_live(m);
+    bind_fit(m);
 }

@@ -22,6 +22,7 @@ void bind_respond(py::module_&);
 void bind_measures(py::module_&);
 void bind_catalogue(py::module_&);
 void bind_live(py::module_&);
+void bind_fit(py::module_&);
 
 /// An array that shows memory of `owner`, and keeps it alive.
 template <class T>
@@ -30,6 +31,12 @@ py::array view_of(const std::vector<T>& values, py::handle owner) {
     py::detail::array_proxy(out.ptr())->flags &= ~py::detail::npy_api::NPY_ARRAY_WRITEABLE_;
     return out;
 }
+
+/// The force of an array with a row for each sample and a column for each channel, or with one channel. It must be of aligned doubles.
+ForceView view_of_array(const py::array_t<double>&, double rate, double start, std::vector<std::string> channels, std::string name);
+
+/// Notices Ctrl-C, and calls a progress function of Python, or None. False: the function asks to stop. Needs Python's lock.
+bool call_progress(const py::object& function, double fraction);
 
 /// The progress function of Python, called at most 20 times a second, and Ctrl-C.
 std::function<bool(double)> progress_of(const py::object& function);

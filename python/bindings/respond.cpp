@@ -3,23 +3,6 @@
 namespace corpuscle::python {
 namespace {
 
-/// The force of an array with a row for each sample and a column for each channel, or with one channel. It must be of aligned doubles.
-ForceView view_of_array(const py::array_t<double>& array, double rate, double start, std::vector<std::string> channels, std::string name) {
-    if (array.ndim() != 1 && array.ndim() != 2)
-        throw InputError("force: the array has " + std::to_string(array.ndim()) +
-                         " dimensions; it must have one, or two: [sample, channel]");
-    constexpr auto size = static_cast<py::ssize_t>(sizeof(double));
-    if (array.strides(0) % size != 0) throw InputError("force: the array is not aligned");
-    ForceView out;
-    out.name = std::move(name), out.rate = rate, out.start = start, out.channels = std::move(channels);
-    out.count = static_cast<std::size_t>(array.shape(0));
-    out.stride = array.strides(0) / size;
-    if (out.count == 0) return out;  // refused by respond(); data() would be outside the array
-    const auto columns = array.ndim() == 2 ? array.shape(1) : 1;
-    for (py::ssize_t c = 0; c < columns; ++c) out.samples.push_back(array.ndim() == 2 ? array.data(0, c) : array.data());
-    return out;
-}
-
 std::vector<std::string> column(const Response& response, std::string RespondingAfferent::* member) {
     std::vector<std::string> out;
     for (const auto& a : response.afferents) out.push_back(a.*member);

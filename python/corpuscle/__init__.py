@@ -11,14 +11,16 @@ of the command line. Each stimulus of the catalogue is a function: corpuscle.pre
 
 from ._corpuscle import InputError, NotConvergedError
 from ._catalogue import Catalogue, Entry, Parameter, afferents, catalogue, catalogues
+from ._fit import Fit, fit
 from ._force import Force, Stimulus, read, stimulus
 from ._live import LiveSkin
 from ._respond import Population, fingertip, grid, hand, population, respond
 from ._response import Response, measures
+from ._spikes import read_spikes
 from . import _force
 
-__all__ = ["Catalogue", "Entry", "Force", "InputError", "LiveSkin", "NotConvergedError", "Parameter", "Population", "Response", "Stimulus", "afferents",
-           "catalogue", "catalogues", "fingertip", "grid", "hand", "measures", "population", "read", "respond", "stimulus"]
+__all__ = ["Catalogue", "Entry", "Fit", "Force", "InputError", "LiveSkin", "NotConvergedError", "Parameter", "Population", "Response", "Stimulus", "afferents",
+           "catalogue", "catalogues", "fingertip", "fit", "grid", "hand", "measures", "population", "read", "read_spikes", "respond", "stimulus"]
 
 InputError.__module__ = NotConvergedError.__module__ = __name__  # the public name, for tracebacks
 

@@ -78,6 +78,31 @@ class Population:
     def respond(self, force: ArrayLike | Force | str, rate: float | None = None, *, contact: str = "", taxels: str | os.PathLike[str] = "",
                 settings: Settings = None, seed: int = 0, threads: int = 0, progress: Progress = None) -> Response: ...
 
+class FittedValue:
+    name: str
+    unit: str
+    start: float
+    value: float
+    low: float | None
+    high: float | None
+    is_at_bound: bool
+
+class Fit:
+    afferent: str
+    parameters: list[FittedValue]
+    score: float
+    start_score: float
+    test_score: float | None
+    is_interrupted: bool
+    warnings: list[str]
+    @property
+    def settings(self) -> list[str]: ...
+    @property
+    def document(self) -> dict[str, Any]: ...
+    def __getitem__(self, name: str) -> float: ...
+    def to_pandas(self) -> pandas.DataFrame: ...
+    def save(self, path: str | os.PathLike[str]) -> None: ...
+
 class LiveSkin:
     def __init__(self, population: str | os.PathLike[str], rate: float = 1000.0, channels: int = 1, settings: Settings = None,
                  taxels: str | os.PathLike[str] | None = None) -> None: ...
@@ -141,3 +166,8 @@ def sine(rate: float = 10e3, seed: int = 0, **parameters: float | str) -> Stimul
 def chirp(rate: float = 10e3, seed: int = 0, **parameters: float | str) -> Stimulus: ...
 def noise(rate: float = 10e3, seed: int = 0, **parameters: float | str) -> Stimulus: ...
 def grating(rate: float = 10e3, seed: int = 0, **parameters: float | str) -> Stimulus: ...
+def read_spikes(path: str | os.PathLike[str], time: str | int | None = None, train: str | int | None = None) -> dict[str, NDArray[np.float64]]: ...
+def fit(force: Any = None, spikes: Any = None, rate: float | None = None, *, targets: str | os.PathLike[str] | None = None, afferent: str = "sa1",
+        free: str | Iterable[str] = (), bounds: Any = None, settings: Settings = None, train: str | Iterable[str] | None = None, tau: float = 0.01,
+        delay: float = 0.0, hold_out: float = 0.0, points: int = 256, starts: int = 8, evaluations: int = 400, seed: int = 1, threads: int = 0,
+        progress: Progress = None) -> Fit: ...

@@ -89,7 +89,8 @@ class Interrupts(unittest.TestCase):
 
     def test_ctrl_c_ends_a_long_run_and_python_goes_on(self):
         for run in ('corpuscle.respond("sine", afferent="sa1", copies=20000, settings=["sine.duration=1000s"], progress=started)',
-                    'corpuscle.hand().respond("sine", contact="sphere", settings=["sine.duration=1000s"], progress=started)'):
+                    'corpuscle.hand().respond("sine", contact="sphere", settings=["sine.duration=1000s"], progress=started)',
+                    'corpuscle.fit(corpuscle.sine(duration="100 s"), [0.1 * k for k in range(900)], free="k_A", starts=1000, progress=started)'):
             output, seconds = self.interrupt(run)
             self.assertEqual(output, ["interrupted", "True"])
             self.assertLess(seconds, 20)
