@@ -128,12 +128,16 @@ def fit(force=None, spikes=None, rate=None, *, targets=None, afferent="sa1", fre
     """Fits parameters of an afferent to the spikes that were recorded under a force, and returns a Fit.
 
     - force: newtons of one channel, shape [sample], with `rate` in Hz; or a Force. Or a list of pairs (force, spikes), one for each recording.
-    - spikes: spike times in s in the time of the force, shape [spike]; a list of such arrays for repetitions; the path of a spike file; a Response.
+    - spikes: spike times in s in the time of the force, shape [spike]. Or a list of such arrays for repetitions, the path of a spike file, or a
+      Response.
     - train: names of the trains to use, if a file or Response has several.
     - targets: instead of force and spikes, the path of a table of published numbers. `rate` is then the sample rate of its stimuli.
-    - afferent: of equations. free: names of the parameters to fit, ["k_A", "f_B"]. bounds: {"f_B": ("5 Hz", "50 Hz")}.
+    - afferent: one of equations.
+    - free: names of the parameters to fit, ["k_A", "f_B"].
+    - bounds: of parameters, {"f_B": ("5 Hz", "50 Hz")}.
     - settings: parameters that are kept, and starts of the search.
-    - tau: width of the Gaussian that smooths the spikes, s. delay: conduction delay, s, which is subtracted from the recorded times.
+    - tau: width of the Gaussian that smooths the spikes, s.
+    - delay: conduction delay, s, which is subtracted from the recorded times.
     - hold_out: fraction of the data that is not fitted, but scored: 0 to 0.9.
     - points, starts, evaluations, seed: of the search. The result does not depend on threads.
     - progress: a function that gets the completed fraction, 0 to 1, 20 times a second. If it returns False, the Fit has the best values so
