@@ -7,7 +7,7 @@ namespace {
 
 TEST(Licences, EveryPageWithTheChartLibraryContainsItsLicence) {
     std::size_t templates = 0;
-    for (const auto& file : std::filesystem::recursive_directory_iterator(test::source_root() + "/apps/report")) {
+    for (const auto& file : std::filesystem::recursive_directory_iterator(test::source_root() + "/src/report")) {
         if (file.path().extension() != ".html") continue;
         const auto text = test::read_file(file.path().string());
         if (text.find("{{dygraph.min.js}}") == std::string::npos) continue;

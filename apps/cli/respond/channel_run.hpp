@@ -3,29 +3,20 @@
 
 #include "cli/respond/planned_run.hpp"
 #include "report/respond/respond_report.hpp"
-#include "run/summary/run_summary.hpp"
-#include "run/summary/silent_afferents.hpp"
+#include "run/channels/channel_outcome.hpp"
 
 namespace corpuscle {
 
 class ChannelRun final : public PlannedRun {
-    std::vector<ParameterOverride> spreads_;  // of --spread; those that no afferent so far has used
-    std::vector<AfferentPlan> afferents_;     // the afferents of --afferent
-    CopySpec copy_spec_;
-    std::vector<AfferentPlan> copies_;  // the simulated afferents: all copies, or without --copies the afferents themselves
+    ChannelPlan plan_;
     std::vector<std::unique_ptr<ForceSource>> sources_;
-    std::vector<std::string> warnings_;
-    RunSummary summary_;
-    SilenceDetector silence_;
+    std::optional<ChannelOutcome> outcome_;  // after plan()
+    std::size_t printed_notes_ = 0, printed_warnings_ = 0;
     std::optional<RespondReport> report_;
 
-    Result<void> plan_afferents();
-    Result<void> add_copies();
     Result<void> check_overrides() const;
-    Result<void> check_afferent_count() const;
-    void warn(std::string message);
-    void warn_of_sensor_noise();
-    void warn_of_rates();
+    std::size_t channel_count() const;
+    void print_new_notes();
     std::size_t netlist_count() const;
 
 public:
@@ -34,7 +25,7 @@ public:
     OutputRequest output_request() const override;
     Sink& start_report() override;
     Result<std::vector<std::unique_ptr<BlockSimulator>>> simulators() override;
-    std::vector<Sink*> summaries() override { return {&summary_, &silence_}; }
+    std::vector<Sink*> summaries() override { return outcome_->sinks(); }
     nlohmann::ordered_json summarize(const RunStats&) override;
     std::string page(const nlohmann::ordered_json& document) const override;
     std::string table() const override;

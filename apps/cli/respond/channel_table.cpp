@@ -130,7 +130,7 @@ std::string implementations_table(const ImplementationComparisons& comparisons) 
 }  // namespace
 
 std::string ChannelRun::table() const {
-    return inputs_table(summary_) + copies_line(copy_spec_) + rate_table(summary_) + implementations_table(summary_.comparisons);
+    return inputs_table(outcome_->summary) + copies_line(outcome_->copies) + rate_table(outcome_->summary) + implementations_table(outcome_->summary.comparisons);
 }
 
 }  // namespace corpuscle

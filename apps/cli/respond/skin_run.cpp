@@ -61,6 +61,7 @@ Result<void> SkinRun::plan() {
                                  *source_));
     keep_unused(unused_, scene_.unused);
     population_.emplace(*scene_.innervation, name_);
+    outcome_.emplace(scene_, options_);
     return check_all_used(unused_, override_targets(scene_.innervation->plan, {"contact", source_->name()}));
 }
 
@@ -112,22 +113,21 @@ Result<std::vector<std::unique_ptr<BlockSimulator>>> SkinRun::simulators() {
 }
 
 nlohmann::ordered_json SkinRun::summarize(const RunStats& stats) {
-    notes_.stats = stats;
-    add_force_notes();
-    add_silence_notes();
-    add_rate_warnings();
-    print_notes(name_, notes_.notes, common_.quiet);
-    for (const auto& warning : notes_.warnings) print_warning(warning);
-    return summary_.document(options_, notes_);
+    outcome_->finish(*source_, scene_, stats, {args_.population, args_.recording.unit.has_value()});
+    print_notes(name_, outcome_->notes.notes, common_.quiet);
+    for (const auto& warning : outcome_->notes.warnings) print_warning(warning);
+    return outcome_->document();
 }
 
-std::string SkinRun::page(const nlohmann::ordered_json&) const { return skin_page(summary_, *report_, options_, notes_, common_.command); }
+std::string SkinRun::page(const nlohmann::ordered_json&) const {
+    return skin_page(outcome_->summary, *report_, outcome_->options, outcome_->notes, common_.command);
+}
 
 Result<void> SkinRun::finish(const RunStats&) {
     if (checkpoint_) checkpoint_->remove_files();
     return {};
 }
 
-std::string SkinRun::table() const { return format_table(summary_.table()); }
+std::string SkinRun::table() const { return format_table(outcome_->summary.table()); }
 
 }  // namespace corpuscle

@@ -3,10 +3,8 @@
 
 #include "cli/respond/planned_run.hpp"
 #include "report/skin/skin_report.hpp"
-#include "run/skin/skin_scene.hpp"
+#include "run/skin/skin_outcome.hpp"
 #include "run/skin/skin_simulator.hpp"
-#include "run/summary/silent_afferents.hpp"
-#include "run/summary/skin_summary.hpp"
 
 namespace corpuscle {
 
@@ -14,13 +12,11 @@ class SkinRun final : public PlannedRun {
     Ranks* ranks_;  // null: a single process
     std::unique_ptr<ForceSource> source_;
     SkinScene scene_;
-    SkinRunNotes notes_;
     std::string name_;  // of the touch, stimulus or recording
     std::optional<SkinPopulation> population_;
     std::unique_ptr<Skin> skin_;  // the afferents that this process simulates
     std::unique_ptr<SkinCheckpoint> checkpoint_;
-    SkinSummary summary_;
-    SilenceDetector silence_;
+    std::optional<SkinOutcome> outcome_;  // after plan()
     std::optional<SkinReport> report_;
 
     Result<void> make_skin();
@@ -28,11 +24,6 @@ class SkinRun final : public PlannedRun {
     /// files that they name.
     Result<RunFingerprint> fingerprint() const;
     Result<void> open_checkpoint();
-    // Notes and warnings, after the run:
-    void add_force_notes();
-    std::string stronger_stimulus_advice(double factor) const;
-    void add_silence_notes();
-    void add_rate_warnings();
 
 public:
     /// `ranks`: the processes that share the run; null: a single process.
@@ -40,10 +31,10 @@ public:
     /// For an MPI rank other than 0: plans the run and simulates its part of the afferents. Errors are sent to rank 0.
     void work();
     Result<void> plan() override;
-    OutputRequest output_request() const override { return {.skin = &summary_}; }
+    OutputRequest output_request() const override { return {.skin = &outcome_->summary}; }
     Sink& start_report() override { return report_.emplace(); }
     Result<std::vector<std::unique_ptr<BlockSimulator>>> simulators() override;
-    std::vector<Sink*> summaries() override { return {&summary_, &silence_}; }
+    std::vector<Sink*> summaries() override { return outcome_->sinks(); }
     nlohmann::ordered_json summarize(const RunStats&) override;
     std::string page(const nlohmann::ordered_json& document) const override;
     Result<void> finish(const RunStats&) override;

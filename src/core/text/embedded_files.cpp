@@ -12,6 +12,12 @@ Result<std::string> embedded_text(const std::string& path) {
     return bad_input(fmt::format("there is no embedded file '{}'", path), {path});
 }
 
+std::string_view embedded_text_of(std::string_view name) {
+    for (const auto& f : embedded_file_table)
+        if (f.path.substr(f.path.rfind('/') + 1) == name) return f.text();
+    return {};
+}
+
 std::vector<std::string_view> embedded_files() {
     std::vector<std::string_view> out;
     for (const auto& f : embedded_file_table) out.push_back(f.path);

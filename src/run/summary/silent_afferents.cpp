@@ -108,18 +108,27 @@ Result<void> SilenceDetector::end(const Input& input, std::int64_t, std::span<co
         largest_force_samples_ = std::move(row_samples_[static_cast<std::size_t>(max - row_max_.begin())]);
     }
     row_samples_.clear();
+    if (input.index + 1 == input.input_count) keep_silent_plans();
     return {};
+}
+
+void SilenceDetector::keep_silent_plans() {
+    silent_plans_.assign(plans_.size(), {});
+    for (std::size_t c = 0; c < plans_.size(); ++c)
+        if (is_silent_[c]) silent_plans_[c] = *plans_[c];
+    if (std::find(is_silent_.begin(), is_silent_.end(), 1) == is_silent_.end()) largest_force_samples_ = {};
+    plans_.clear();
 }
 
 std::vector<SilentClass> SilenceDetector::silent_classes(const RespondOptions& options) const {
     std::vector<SilentClass> out;
     for (std::size_t c = 0; c < is_silent_.size(); ++c) {
-        if (!is_silent_[c] || !plans_[c]->traits().can_search_factor) continue;
+        if (!is_silent_[c] || !silent_plans_[c].traits().can_search_factor) continue;
         out.push_back({c, class_force_.empty() ? largest_force_ : class_force_[c], {}});
         if (!(out.back().max_force > 0 && largest_force_ > 0)) continue;
         auto force = largest_force_samples_;  // scaled to the largest force on an afferent of the class
         for (auto& f : force) f *= out.back().max_force / largest_force_;
-        out.back().factor = factor_to_fire(*plans_[c], {dt_, options.method, options.sampled, 0, 0}, force);
+        out.back().factor = factor_to_fire(silent_plans_[c], {dt_, options.method, options.sampled, 0, 0}, force);
     }
     return out;
 }

@@ -3,21 +3,14 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
+#include "core/text/embedded_files.hpp"
 #include "core/version.hpp"
-#include "embedded_file_table.hpp"
 
 namespace corpuscle {
 
 namespace {
 
 using Json = nlohmann::ordered_json;
-
-/// The content of an embedded file of apps/report or of the chart library; "" if there is no such file.
-std::string_view asset(std::string_view name) {
-    for (const auto& f : embedded_file_table)
-        if (f.path.substr(f.path.rfind('/') + 1) == name) return f.text();
-    return {};
-}
 
 /// JSON for a script element: '<' is escaped, so that the data cannot end the element.
 std::string script_json(const Json& document) {
@@ -43,7 +36,7 @@ std::string fill_template(std::string_view page_template, std::string_view title
         out += page_template.substr(0, open);
         if (open == std::string_view::npos || close == std::string_view::npos) return out;
         const auto name = page_template.substr(open + 2, close - open - 2);
-        const auto value = name == "title" ? title : name == "data" ? data : asset(name);
+        const auto value = name == "title" ? title : name == "data" ? data : embedded_text_of(name);
         out += value.empty() ? fmt::format("{{{{{}}}}}", name) : value;  // an unknown name stays visible as {{name}}
         page_template.remove_prefix(close + 2);
     }
@@ -81,7 +74,7 @@ Json parameters_document(const AfferentPlan& plan, std::span<const ParameterDist
 std::string report_page(std::string_view page_template, const std::string& title, const std::string& command, const Json& document) {
     Json data = {{"title", title}, {"program", fmt::format("corpuscle {}", version)}, {"command", command}};
     data.update(document);
-    return fill_template(asset(page_template), escape_html(title), script_json(data));
+    return fill_template(embedded_text_of(page_template), escape_html(title), script_json(data));
 }
 
 }  // namespace corpuscle
