@@ -6,106 +6,34 @@
 #include <memory>
 #include <nlohmann/json.hpp>
 
-#include "circuit/analyses.hpp"
-#include "circuit/device/mos/ekv_card.hpp"
-#include "circuit/device/mos/mos1_card.hpp"
-#include "circuit/device/uicm_card.hpp"
-#include "circuit/devices.hpp"
-#include "cli/list_entry.hpp"
+#include "cli/list_sites.hpp"
 #include "cli/output/terminal.hpp"
 #include "cli/verbs.hpp"
-#include "core/stimulus/stimuli.hpp"
 #include "core/text/ascii_text.hpp"
 #include "core/text/quantity.hpp"
-#include "io/recording/recording_formats.hpp"
-#include "measure/measures.hpp"
 #include "model/catalog.hpp"
-#include "run/afferent_plan.hpp"
+#include "run/catalogue/catalogue_sections.hpp"
 
 namespace corpuscle {
 namespace {
 
 using Json = nlohmann::ordered_json;
 
-ListEntry entry_of(const CatalogEntry& model) {
-    auto e = list_entry(model.name, "", model.description, model.source);
-    for (const auto& row : model.parameters) e.parameters.push_back({row, model.name});
-    return e;
-}
-
-/// An entry for each row of a table. `entry` makes it from the row.
-template <class Table, class MakeEntry>
-std::vector<ListEntry> entries_of(const Table& table, std::string_view detail_key, MakeEntry entry) {
+/// A section and its entries.
+struct ListSection {
+    std::string_view name;
     std::vector<ListEntry> entries;
-    for (const auto& row : table) entries.push_back(entry(row)), entries.back().detail_key = detail_key;
-    return entries;
-}
+};
 
-std::vector<ListEntry> entries_of(const std::vector<CatalogEntry>& models) { return entries_of(models, "", entry_of); }
-
-/// Keeps an object alive until the program ends. It is used for parameters of netlists, to whose names the entries only refer.
-template <class T>
-const std::shared_ptr<T>& keep_alive(const std::shared_ptr<T>& object) {
-    static std::vector<std::shared_ptr<T>> all;
-    return all.emplace_back(object);
-}
-
-std::vector<ListEntry> afferent_entries() {
-    std::vector<ListEntry> entries;
-    const auto add = [&](std::string_view name, const AfferentPlan& plan, const std::string& description, std::string_view source) {
-        entries.push_back(list_entry(name, plan.composition(), description, source));
-        entries.back().parameters = *keep_alive(plan.parameters);
-    };
-    for (const auto& a : named_afferents()) {
-        add(a.name, *plan_afferent(a.name), std::string(a.description), a.source);
-        entries.back().other_names.assign(a.aliases.begin(), a.aliases.end());
-    }
-    for (const auto& c : circuit::embedded_netlists)
-        if (const auto plan = plan_any_afferent(c.name))
-            add(plan->result.name, plan->result,
-                std::string(plan->result.description) + "; also settable: temp, corner, mismatch, every array and device (doc/circuits.md)",
-                c.file);
-    entries.push_back(list_entry("path/own.cir", "netlist",
-                                 "any netlist with a force input (a source with FORCE) and a spike output (.spike)",
-                                 "doc/circuits.md; circuits/spiker.cir"));
-    return entries;
-}
-
-/// Sections about netlists: devices by letter, parameters of .model and M lines, analyses.
-std::vector<ListSection> circuit_sections() {
-    using namespace circuit;
-    const CatalogEntry card{UicmCard::name, UicmCard::description, UicmCard::source, parameters_of<UicmCard>(UicmCard::fields)};
-    const CatalogEntry mos1{Mos1Card::name, Mos1Card::description, Mos1Card::source, parameters_of<Mos1Card>(Mos1Card::fields)};
-    const CatalogEntry ekv{EkvCard::name, EkvCard::description, EkvCard::source, parameters_of<EkvCard>(EkvCard::fields)};
-    const CatalogEntry size{"m", "size of a UICM transistor: the parameters of an M line", "choice: 1 um / 1 um",
-                            parameters_of<UicmInstance>(UicmInstance::fields)};
-    const auto element = [](const auto* d) { return list_entry({&d->letter, 1}, "", d->description); };
-    const auto analysis = [](const auto* a) { return list_entry("." + std::string(a->name), a->usage, a->description); };
-    return {{"devices", entries_of(device_kinds, "", element)},
-            {"models", entries_of({card, mos1, ekv, size})},
-            {"analyses", entries_of(circuit::analyses, "usage", analysis)}};
-}
-
-std::vector<ListSection> catalogue() {
-    const auto measure = [](const auto& m) { return list_entry(m.name, m.unit, m.description); };
-    const auto format = [](const auto& f) { return list_entry(f.name, f.extensions, f.description); };
-    std::vector<ListSection> all = {{"afferents", afferent_entries()},
-                                    {"sensors", entries_of(sensor_entries())},
-                                    {"transducers", entries_of(transducer_entries())},
-                                    {"converters", entries_of(converter_entries())},
-                                    {"receptors", entries_of(receptor_entries())},
-                                    {"neurons", entries_of(neuron_entries())},
-                                    {"stimuli", entries_of(stimulus_catalog())},
-                                    {"measures", entries_of(measures, "unit", measure)},
-                                    {"formats", entries_of(recording_formats, "extensions", format)}};
-    for (auto& s : skin_sections()) all.push_back(std::move(s));
-    for (auto& s : circuit_sections()) all.push_back(std::move(s));
+std::vector<ListSection> all_sections() {
+    std::vector<ListSection> all;
+    for (const auto& section : catalogue_sections()) all.push_back({section.name, section.entries()});
     return all;
 }
 
 /// The sections and entries that are named in `what`; all sections if it is empty.
 Result<std::vector<ListSection>> select_sections(const std::vector<std::string>& what) {
-    auto all = catalogue();
+    auto all = all_sections();
     if (what.empty()) return all;
     std::vector<ListSection> out;
     std::vector<std::string_view> known;

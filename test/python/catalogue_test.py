@@ -19,13 +19,14 @@ class Catalogues(unittest.TestCase):
 
     def test_every_entry_and_parameter_is_that_of_the_command_line(self):
         for name in corpuscle.catalogues():
-            ours, listed = corpuscle.catalogue(name), {e["name"]: e for e in self.listed[name]}
-            self.assertGreater(len(ours), 0)
+            ours = corpuscle.catalogue(name)
             # The command line also lists what is not one entry: grids, own files, the path of a contact.
-            self.assertLessEqual(set(listed) - set(ours.names()), {"path/own.cir", "path/own.toml", "grid 8x8", "path"})
-            for entry in ours:
-                self.assertEqual(entry.description, listed[entry.name]["description"].split("; also settable")[0])
-                parameters = listed[entry.name].get("parameters", [])
+            listed = [e for e in self.listed[name] if e["name"] not in ("path/own.cir", "path/own.toml", "grid 8x8", "path")]
+            self.assertGreater(len(ours), 0)
+            self.assertEqual(ours.names(), [e["name"] for e in listed])
+            for entry, line in zip(ours, listed):
+                self.assertEqual(entry.description, line["description"])
+                parameters = line.get("parameters", [])
                 self.assertEqual([(p.name, p.unit, p.default) for p in entry.parameters], [(p["name"], p["unit"], p["default"]) for p in parameters])
                 for p, other in zip(entry.parameters, parameters):
                     if other["low"] is not None and abs(other["low"]) < 1e308:
@@ -87,7 +88,7 @@ class Documentation(unittest.TestCase):
             tree = ast.parse(file.read())
         stubs = {n.name: n for n in tree.body if isinstance(n, (ast.FunctionDef, ast.ClassDef))}
         stimuli = [e.name.replace("-", "_") for e in corpuscle.catalogue("stimuli")]
-        self.assertEqual(set(stubs), set(corpuscle.__all__) | set(stimuli))
+        self.assertEqual(set(stubs), {*corpuscle.__all__, *stimuli, "FittedValue", "Warning"})
         for name, stub in stubs.items():
             thing = getattr(corpuscle, name)
             if isinstance(stub, ast.FunctionDef):

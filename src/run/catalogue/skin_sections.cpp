@@ -1,14 +1,11 @@
-// corpuscle list skins, corpuscle list contact: populations with their classes, and indenters and touches with their parameters.
+// Populations with their classes, and indenters and touches with their parameters.
 
 #include <fmt/format.h>
 #include <algorithm>
-#include <nlohmann/json.hpp>
 #include <numeric>
 
-#include "cli/list_entry.hpp"
-#include "cli/output/terminal.hpp"
-#include "core/text/csv_field.hpp"
 #include "core/text/quantity.hpp"
+#include "run/catalogue/catalogue_sections.hpp"
 #include "skin/contact/contact.hpp"
 #include "skin/contact/indenters.hpp"
 #include "skin/innervation.hpp"
@@ -94,6 +91,8 @@ ListEntry entry_of_skin(const NamedSkin& named) {
     return e;
 }
 
+}  // namespace
+
 std::vector<ListEntry> contact_entries() {
     std::vector<ListEntry> out;
     const auto rows = contact_parameters();
@@ -104,7 +103,7 @@ std::vector<ListEntry> contact_entries() {
                 e.parameters.push_back({row, "contact"});
         out.push_back(std::move(e));
     }
-    auto path = list_entry("path", "", "position and movement of any indenter");
+    auto path = list_pattern("path", "", "position and movement of any indenter");
     for (const auto& row : rows)
         if (is_path_parameter(row.name)) path.parameters.push_back({row, "contact"});
     out.push_back(std::move(path));
@@ -121,38 +120,14 @@ std::vector<ListEntry> contact_entries() {
     return out;
 }
 
-}  // namespace
-
-Result<std::string> sites_listing(const std::vector<std::string>& populations, bool json) {
-    if (populations.size() != 1)
-        return bad_usage(
-            fmt::format("list --sites takes one population, such as 'corpuscle list hand --sites', not {}", populations.size()));
-    const auto plan = TRY(load_skin_plan(populations[0]));
-    const auto& sites = plan.sites;
-    if (json) {
-        nlohmann::ordered_json out = {{"population", plan.name}, {"site_area_m2", sites.area}, {"sites", nlohmann::ordered_json::array()}};
-        for (std::size_t s = 0; s < sites.size(); ++s)
-            out["sites"].push_back({{"name", sites.names[s]},
-                                    {"x_m", sites.positions[s].x},
-                                    {"y_m", sites.positions[s].y},
-                                    {"region", sites.regions[sites.region[s]]}});
-        return json_text(out) + "\n";
-    }
-    std::string out = "name,x_mm,y_mm,region\n";
-    for (std::size_t s = 0; s < sites.size(); ++s)
-        out += fmt::format("{},{:.10g},{:.10g},{}\n", quote_csv_field(sites.names[s]), 1e3 * sites.positions[s].x,
-                           1e3 * sites.positions[s].y, quote_csv_field(sites.regions[sites.region[s]]));
-    return out;
-}
-
-std::vector<ListSection> skin_sections() {
+std::vector<ListEntry> skin_entries() {
     std::vector<ListEntry> skins;
     for (const auto& s : named_skins()) skins.push_back(entry_of_skin(s));
-    skins.push_back(list_entry("grid 8x8", "",
-                               "a sensor array of this many rows and columns, 2 mm apart, with an SA-I and an FA-I afferent at each site",
-                               "choice"));
-    skins.push_back(list_entry("path/own.toml", "", "any population file", "doc/skin.md"));
-    return {{"skins", skins}, {"contact", contact_entries()}};
+    skins.push_back(list_pattern("grid 8x8", "",
+                                 "a sensor array of this many rows and columns, 2 mm apart, with an SA-I and an FA-I afferent at each site",
+                                 "choice"));
+    skins.push_back(list_pattern("path/own.toml", "", "any population file", "doc/skin.md"));
+    return skins;
 }
 
 }  // namespace corpuscle

@@ -1,5 +1,5 @@
 #pragma once
-// The sections and entries that `corpuscle list` prints.
+// The catalogues that `corpuscle list` prints, and that the public interface returns.
 
 #include "model/catalog.hpp"
 
@@ -18,22 +18,30 @@ struct ListEntry {
     std::vector<std::string> other_names;
     std::string_view detail_key = "composition";  ///< the JSON key of `detail` for this kind of entry
     std::vector<CatalogNote> notes = {};
+    bool is_pattern = false;  ///< it stands for many things, as "path/own.cir" does
 };
 
 inline ListEntry list_entry(std::string_view name, std::string_view detail, std::string_view description, std::string_view source = {}) {
     return {std::string(name), std::string(detail), std::string(description), std::string(source), {}, {}};
 }
 
-struct ListSection {
+/// An entry that stands for many things.
+inline ListEntry list_pattern(std::string_view name, std::string_view detail, std::string_view description, std::string_view source = {}) {
+    auto out = list_entry(name, detail, description, source);
+    out.is_pattern = true;
+    return out;
+}
+
+/// A catalogue. Its entries are made when they are asked for, because some take milliseconds.
+struct CatalogueSection {
     std::string_view name;
-    std::vector<ListEntry> entries;
+    std::vector<ListEntry> (*entries)();
 };
 
-/// The sections "skins" (populations) and "contact" (indenters and touches).
-std::vector<ListSection> skin_sections();
+/// All catalogues, in the order in which they are listed.
+std::span<const CatalogueSection> catalogue_sections();
 
-/// The sites of one population, in the order of the forces in a frame, as CSV or JSON. Returns an error unless `populations` has one entry.
-/// The CSV can be used as the site list of a population file.
-Result<std::string> sites_listing(const std::vector<std::string>& populations, bool json);
+std::vector<ListEntry> skin_entries();     ///< populations
+std::vector<ListEntry> contact_entries();  ///< indenters and touches
 
 }  // namespace corpuscle
