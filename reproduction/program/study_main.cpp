@@ -4,6 +4,7 @@
 
 #include "cli/output/output_files.hpp"
 #include "cli/verb.hpp"
+#include "report/page_file.hpp"
 #include "reproduction/claims/studies.hpp"
 #include "reproduction/program/study_command.hpp"
 

@@ -74,13 +74,6 @@ Result<void> write_file(const std::string& path, const std::string& text) {
     return file ? write_and_commit(*file, text) : file.error();
 }
 
-Result<void> check_page_name(const std::string& name) {
-    if (name.empty() || name.ends_with(".html")) return {};
-    const auto dot = name.rfind('.');
-    const auto stem = dot == std::string::npos || dot == 0 || name.find('/', dot) != std::string::npos ? name : name.substr(0, dot);
-    return bad_usage(fmt::format("--report {}: the name must end in .html, such as {}.html", name, stem));
-}
-
 bool is_own_raw(std::string_view beginning) {
     const auto title = take_line(beginning), plot = take_line(beginning), flags = take_line(beginning), variables = take_line(beginning),
                points = take_line(beginning);

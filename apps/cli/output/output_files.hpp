@@ -1,5 +1,5 @@
 #pragma once
-// Output files: the name of a report page, writing a complete file, and recognising the files of earlier runs.
+// Output files: writing a complete file, and recognising the files of earlier runs.
 
 #include "io/output/output_file.hpp"
 
@@ -8,9 +8,6 @@ namespace corpuscle {
 /// Writes the complete content of a file and renames the file to its final name.
 Result<void> write_and_commit(OutputFile&, const std::string& text);
 Result<void> write_file(const std::string& path, const std::string& text);
-
-/// Returns an error if a report page is requested by a name that does not end in .html. "": none, or the default name.
-Result<void> check_page_name(const std::string& name);
 
 // Recognises, by its first bytes, a file that an earlier run of the program wrote. Such a file may be replaced without --overwrite. Each
 // function is an OutputCheck::Signature for the outputs of one verb.

@@ -130,7 +130,8 @@ std::string implementations_table(const ImplementationComparisons& comparisons) 
 }  // namespace
 
 std::string ChannelRun::table() const {
-    return inputs_table(outcome_->summary) + copies_line(outcome_->copies) + rate_table(outcome_->summary) + implementations_table(outcome_->summary.comparisons);
+    return inputs_table(outcome_->summary) + copies_line(outcome_->copies) + rate_table(outcome_->summary) +
+           implementations_table(outcome_->summary.comparisons);
 }
 
 }  // namespace corpuscle

@@ -9,6 +9,7 @@
 #include "cli/verbs.hpp"
 #include "io/table/foreign_format.hpp"
 #include "model/copies.hpp"
+#include "report/page_file.hpp"
 
 namespace corpuscle {
 namespace {

@@ -15,6 +15,7 @@
 #include "io/recording/force_rows.hpp"
 #include "live/live_population.hpp"
 #include "live/stream_state.hpp"
+#include "run/channels/sensor_noise.hpp"
 #include "run/skin/skin_force.hpp"
 #include "skin/plan/sites.hpp"
 #include "skin/plan/skin_plan.hpp"
@@ -240,6 +241,13 @@ class LiveRun {
                                  c.afferent.min_rate));
     }
 
+    /// The warning about the noise of the sensor of a recording, if it is enough for spikes.
+    std::string noise_warning() const {
+        std::vector<NoiseSubject> subjects;
+        for (const auto& c : skin_->innervation().plan.classes) subjects.push_back({c.name, &c.afferent});
+        return sensor_noise_warning(*source_, subjects, {.dt = skin_->clock().T(), .spikes_on_samples = args_.sampled});
+    }
+
     /// Prints the findings about the quality of a recording.
     void print_quality() {
         if (!source_) return;
@@ -247,6 +255,7 @@ class LiveRun {
         clear_status();
         corpuscle::print_notes(source_->name(), quality.descriptions, common_.quiet);
         for (const auto& s : quality.warnings) print_warning(fmt::format("{}: {}", source_->name(), s));
+        if (const auto text = noise_warning(); !text.empty()) print_warning(fmt::format("{}: {}", source_->name(), text));
     }
 
     /// Describes the error of a frame. If the width of a frame is wrong, adds the option that would make it right.

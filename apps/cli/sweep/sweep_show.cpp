@@ -11,6 +11,7 @@
 #include "cli/verbs.hpp"
 #include "core/text/input_files.hpp"
 #include "io/output/output_check.hpp"
+#include "report/page_file.hpp"
 #include "report/sweep/sweep_page.hpp"
 #include "run/earlier_outputs.hpp"
 

@@ -32,6 +32,35 @@ Json cell_document(const MeasureRow& row, std::size_t m) {
     return {json_number(row.copy_statistics[m].mean()), json_number(row.copy_statistics[m].standard_deviation())};
 }
 
+/// The entries of a list whose channel is one of the first `count`.
+Json first_channels(const Json& all, std::uint32_t count, const char* key = "channel") {
+    Json out = Json::array();
+    for (const auto& entry : all)
+        if (entry[key] < count) out.push_back(entry);
+    return out;
+}
+
+/// The rows of a table whose cell in this column is one of the names.
+Json rows_of(const Json& rows, std::size_t column, const std::vector<std::string>& names) {
+    Json out = Json::array();
+    for (const auto& row : rows)
+        if (std::find(names.begin(), names.end(), row[column].get_ref<const std::string&>()) != names.end()) out.push_back(row);
+    return out;
+}
+
+/// Reduces the data of a page to the first channels.
+void keep_first_channels(Json& document, std::uint32_t count) {
+    std::vector<std::string> names;
+    for (auto& input : document["inputs"]) {
+        input["channels"] = first_channels(input["channels"], count, "id");
+        for (const auto& channel : input["channels"]) names.push_back(channel["name"]);
+    }
+    for (const auto* list : {"traces", "spikes"}) document[list] = first_channels(document[list], count);
+    if (document.contains("copies")) document["copies"]["rates"] = first_channels(document["copies"]["rates"], count);
+    for (const auto& [table, column] : {std::pair{"table", 1U}, {"comparisons", 1U}, {"quality", 0U}})
+        document[table]["rows"] = rows_of(document[table]["rows"], column, names);
+}
+
 /// The table of all measures, with a row for each afferent, channel and phase.
 Json table_document(const RunSummary& summary) {
     Json columns = {"afferent", "channel", "phase"}, decimals = {nullptr, nullptr, nullptr}, rows = Json::array();
@@ -162,7 +191,7 @@ Result<void> RespondReport::end(const Input& input, std::int64_t samples, std::s
 }
 
 std::string RespondReport::page(const RunSummary& summary, std::span<const AfferentPlan> plans, const std::string& command,
-                                const std::vector<std::string>& warnings, const Json& costs) const {
+                                const std::vector<std::string>& warnings, const Json& costs, std::size_t max_bytes) const {
     std::string title;
     for (const auto& i : summary.inputs) title += (title.empty() ? "" : ", ") + i.name;
     Json afferents = Json::array(), notes = Json::array();
@@ -194,7 +223,24 @@ std::string RespondReport::page(const RunSummary& summary, std::span<const Affer
     if (copies_.count > 0)
         document["copies"] = {
             {"count", copies_.count}, {"shown", std::min(copies_.count, max_copies)}, {"has_probes", wants_probes()}, {"rates", rates_}};
+    const auto shown = channels_within(max_bytes);
+    if (shown == 0) return "";
+    if (shown < first_channel_) {
+        keep_first_channels(document, shown);
+        document["notes"].push_back(fmt::format("This page shows {} of {} channels.", shown, first_channel_));
+    }
     return report_page("page.html", title, command, document);
+}
+
+std::uint32_t RespondReport::channels_within(std::size_t max_bytes) const {
+    constexpr std::size_t per_entry = 200;  // bytes of names and punctuation
+    std::vector<std::size_t> bytes(first_channel_);
+    for (const auto& t : traces_) bytes[t["channel"]] += t["data"].get_ref<const std::string&>().size() + per_entry;
+    for (const auto& s : spikes_) bytes[s["channel"]] += s["times"].get_ref<const std::string&>().size() + 2 * per_entry;  // a row of the table
+    std::size_t total = 0;
+    std::uint32_t count = 0;
+    while (count < bytes.size() && (total += bytes[count]) <= max_bytes) ++count;
+    return count;
 }
 
 }  // namespace corpuscle

@@ -14,6 +14,9 @@ class RespondReport final : public Sink {
 public:
     /// Limit on the stored values of all traces of a page together. With more channels, probes or inputs each trace has fewer points.
     static constexpr std::size_t max_total_points = std::size_t{32} << 20;
+    /// The same for a page in a notebook, and the limit on the bytes of its data.
+    static constexpr std::size_t max_brief_points = 100'000, max_brief_bytes = 1'500'000;
+    static constexpr std::size_t unlimited = static_cast<std::size_t>(-1);
     /// `max_points`: limit on the stored values of all traces. `with_probes`: show currents and membranes if there are at most max_copies
     /// copies of each afferent.
     explicit RespondReport(std::size_t max_points = max_total_points, CopySpec copies = {}, bool with_probes = true)
@@ -29,9 +32,10 @@ public:
     Result<void> end(const Input&, std::int64_t samples, std::span<const Spike> last) override;
 
     /// The page as HTML. Call it after the end of the last input. The plans are those of the afferents before they are copied. `costs`: the
-    /// document of costs_of().
+    /// document of costs_of(). If the data would be more than `max_bytes`, only the first channels are shown, which a note says; "" if not
+    /// even one channel fits.
     std::string page(const RunSummary&, std::span<const AfferentPlan>, const std::string& command, const std::vector<std::string>& warnings,
-                     const nlohmann::ordered_json& costs) const;
+                     const nlohmann::ordered_json& costs, std::size_t max_bytes = unlimited) const;
 
 private:
     using Json = nlohmann::ordered_json;
@@ -49,6 +53,8 @@ private:
     std::size_t groups() const { return groups_.size() - 1; }
     /// The index, within the current input, of the first afferent of a group on a channel.
     std::size_t afferent_index(std::size_t channel, std::size_t group) const { return channel * groups_.back() + groups_[group]; }
+    /// The number of channels, counted over all inputs, whose data are at most `max_bytes`.
+    std::uint32_t channels_within(std::size_t max_bytes) const;
     void add_spikes(const Input&, std::size_t channel, std::size_t group);
     void add_rate(const Input&, std::size_t channel, std::size_t group, std::int64_t samples);
     std::vector<AfferentPlan> first_copies_;  // of each group, with the parameters that were drawn for it

@@ -16,6 +16,9 @@ struct SkinReportLimits {
     std::size_t timed_spikes = 2'000'000;  ///< spikes whose times are kept; if there are more, only counts per frame are kept
 };
 
+/// The limits of a page in a notebook, which has at most 2 MB.
+inline constexpr SkinReportLimits brief_skin_report{.frames = 60, .bins = 2048, .marks = 5000, .timed_spikes = 200'000};
+
 class SkinReport final : public Sink {
 public:
     explicit SkinReport(SkinReportLimits limits = {}) : limits_(limits), forces_(std::size_t{1} << 16) {}

@@ -15,9 +15,7 @@ void add_of(std::vector<std::string>& to, const std::string& source, const std::
     for (const auto& text : texts) to.push_back(fmt::format("{}: {}", source, text));
 }
 
-void append(std::vector<std::string>& to, std::vector<std::string> more) {
-    std::move(more.begin(), more.end(), std::back_inserter(to));
-}
+void append(std::vector<std::string>& to, std::vector<std::string> more) { std::move(more.begin(), more.end(), std::back_inserter(to)); }
 
 /// The highest firing rate of a row, Hz; infinite if several spikes come within one sample.
 double highest_rate(const MeasureRow& row) {
@@ -48,8 +46,7 @@ void ChannelOutcome::finish(Sources sources, const RunStats& run) {
 }
 
 void ChannelOutcome::add_quality() {
-    for (const auto& i : summary.inputs)
-        add_of(notes, i.name, i.quality.descriptions), add_of(warnings, i.name, i.quality.warnings);
+    for (const auto& i : summary.inputs) add_of(notes, i.name, i.quality.descriptions), add_of(warnings, i.name, i.quality.warnings);
 }
 
 void ChannelOutcome::add_sensor_noise_warnings(Sources sources) {
@@ -68,8 +65,7 @@ void ChannelOutcome::add_rate_warnings(double T) {
         for (const auto& row : summary.rows)
             if (const double r = highest_rate(row); row.afferent == plan.name && r > rate) fastest = &row, rate = r;
         if (fastest)
-            warnings.push_back(
-                fmt::format("{}: on {} {}", plan.name, fastest->channel, excessive_rate_warning(rate, T, plan, plan.name)));
+            warnings.push_back(fmt::format("{}: on {} {}", plan.name, fastest->channel, excessive_rate_warning(rate, T, plan, plan.name)));
     }
 }
 

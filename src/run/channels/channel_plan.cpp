@@ -42,8 +42,7 @@ Result<void> add_copies(ChannelPlan& plan, const ChannelPlanRequest& request) {
         return request.spreads.empty() ? Result<void>()
                                        : bad_usage(fmt::format("{} needs --copies N, such as --copies 100", request.spreads[0].typed));
     }
-    if (request.copies > max_copies)
-        return bad_usage(fmt::format("--copies {}: the largest number is {}", request.copies, max_copies));
+    if (request.copies > max_copies) return bad_usage(fmt::format("--copies {}: the largest number is {}", request.copies, max_copies));
     std::vector<ParameterOverride> spreads(request.spreads.begin(), request.spreads.end());  // those that no afferent so far has used
     std::vector<std::string_view> names;
     for (const auto& afferent : plan.afferents) {

@@ -14,17 +14,17 @@ namespace corpuscle {
 struct ChannelPlanRequest {
     std::span<const std::string> afferents;
     std::span<const ParameterOverride> overrides = {};
-    std::span<const std::string> probes = {};            ///< of netlists
-    std::uint32_t copies = 0;                            ///< of each afferent; 0: the afferents themselves
-    std::span<const ParameterOverride> spreads = {};     ///< "sa1.f_B=10%"
+    std::span<const std::string> probes = {};         ///< of netlists
+    std::uint32_t copies = 0;                         ///< of each afferent; 0: the afferents themselves
+    std::span<const ParameterOverride> spreads = {};  ///< "sa1.f_B=10%"
     std::uint64_t seed = 0;
 };
 
 struct ChannelPlan {
-    std::vector<AfferentPlan> afferents = {};          ///< as requested, without copies
+    std::vector<AfferentPlan> afferents = {};  ///< as requested, without copies
     CopySpec copies = {};
-    std::vector<AfferentPlan> simulated = {};          ///< all copies; without copies, the afferents
-    std::vector<ParameterOverride> unused = {};        ///< of the overrides
+    std::vector<AfferentPlan> simulated = {};    ///< all copies; without copies, the afferents
+    std::vector<ParameterOverride> unused = {};  ///< of the overrides
 };
 
 /// Plans the afferents. Refuses one that is given twice, a probe that no netlist has, and a spread that no afferent uses.

@@ -39,9 +39,9 @@ std::string stronger_stimulus_advice(const ForceSource& source, double factor, b
     if (!is_stimulus(source.name())) {
         // The metadata of a recording begins with the scale of its first channel.
         const bool has_gain = !metadata.empty() && metadata[0].name.ends_with("newtons per unit");
-        return has_gain ? fmt::format("try --scale {}{}", format_rounded_up(factor * metadata[0].value),
-                                      has_unit ? " instead of --unit" : "")
-                        : "";
+        return has_gain
+                   ? fmt::format("try --scale {}{}", format_rounded_up(factor * metadata[0].value), has_unit ? " instead of --unit" : "")
+                   : "";
     }
     // The parameter of the stimulus with the largest force is assumed to be its amplitude.
     const MetadataEntry* largest = nullptr;

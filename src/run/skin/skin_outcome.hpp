@@ -9,8 +9,8 @@ namespace corpuscle {
 
 /// How the user described the run, for remedies that can be typed.
 struct SkinRunWords {
-    std::string population;   ///< "hand", a path
-    bool has_unit = false;    ///< the unit of the recording was given
+    std::string population;  ///< "hand", a path
+    bool has_unit = false;   ///< the unit of the recording was given
 };
 
 class SkinOutcome {
