@@ -8,6 +8,7 @@
 #include <pybind11/stl.h>
 
 #include <functional>
+#include <memory>
 #include <vector>
 
 #include "corpuscle.hpp"
@@ -23,6 +24,11 @@ void bind_measures(py::module_&);
 void bind_catalogue(py::module_&);
 void bind_live(py::module_&);
 void bind_fit(py::module_&);
+
+/// The origin of a force, which Python only hands on.
+struct OriginHandle {
+    std::shared_ptr<const ForceOrigin> origin = {};
+};
 
 /// An array that shows memory of `owner`, and keeps it alive.
 template <class T>

@@ -28,7 +28,11 @@ ForceView view_of_array(const py::array_t<double>& array, double rate, double st
 }
 
 void bind_force(py::module_& m) {
+    py::class_<OriginHandle>(m, "Origin")
+        .def(py::pickle([](const OriginHandle& handle) { return save_origin(*handle.origin); },
+                        [](const std::string& text) { return OriginHandle{load_origin(text)}; }));
     py::class_<Force>(m, "Force")
+        .def_property_readonly("origin", [](const Force& force) { return OriginHandle{force.origin}; })
         .def_readonly("name", &Force::name)
         .def_readonly("rate", &Force::rate)
         .def_readonly("start", &Force::start)

@@ -9,9 +9,32 @@ std::vector<std::string> column(const Response& response, std::string Responding
     return out;
 }
 
+/// The fields of a simulation for copy and pickle, without the progress function.
+py::tuple state_of(const Simulation& s) {
+    return py::make_tuple(s.afferents, s.population, s.contact, s.taxels, s.settings, s.copies, s.spreads, s.seed, s.noise,
+                          s.backward_euler, s.sampled, s.single_precision, s.threads);
+}
+
+Simulation simulation_of(const py::tuple& state) {
+    if (state.size() != 13) throw InputError("the saved simulation is of another version");
+    Simulation s;
+    std::size_t k = 0;
+    const auto read = [&](auto& member) { member = state[k++].cast<std::remove_reference_t<decltype(member)>>(); };
+    read(s.afferents), read(s.population), read(s.contact), read(s.taxels), read(s.settings), read(s.copies), read(s.spreads), read(s.seed);
+    read(s.noise), read(s.backward_euler), read(s.sampled), read(s.single_precision), read(s.threads);
+    return s;
+}
+
 }  // namespace
 
 void bind_respond(py::module_& m) {
+    py::enum_<ReportDetail>(m, "ReportDetail")
+        .value("none", ReportDetail::none)
+        .value("brief", ReportDetail::brief)
+        .value("complete", ReportDetail::complete);
+    m.def("check_report", &check_report);
+    m.def("write_report", &write_report);
+
     py::class_<Simulation>(m, "Simulation")
         .def(py::init<>())
         .def_readwrite("afferents", &Simulation::afferents)
@@ -26,7 +49,9 @@ void bind_respond(py::module_& m) {
         .def_readwrite("backward_euler", &Simulation::backward_euler)
         .def_readwrite("sampled", &Simulation::sampled)
         .def_readwrite("single_precision", &Simulation::single_precision)
-        .def_readwrite("threads", &Simulation::threads);
+        .def_readwrite("threads", &Simulation::threads)
+        .def_readwrite("report", &Simulation::report)
+        .def(py::pickle(&state_of, &simulation_of));
 
     py::class_<Response>(m, "Response")
         .def_property_readonly("times", [](py::object self) { return view_of(self.cast<const Response&>().times, self); })
@@ -45,19 +70,22 @@ void bind_respond(py::module_& m) {
         .def_readonly("duration", &Response::duration)
         .def_readonly("notes", &Response::notes)
         .def_readonly("warnings", &Response::warnings)
-        .def("summary", [](const Response& r) { return r.summary(); });
+        .def("silence_notes", [](const Response& r) { return r.silence_notes(); })
+        .def("summary", [](const Response& r) { return r.summary(); })
+        .def("report", [](const Response& r, const std::string& command) { return r.report(command); });
 
     m.def(
         "respond",
         [](const py::array_t<double>& force, double rate, double start, std::vector<std::string> channels, std::string name,
-           Simulation simulation, const py::object& progress) {
-            const auto view = view_of_array(force, rate, start, std::move(channels), std::move(name));
+           const OriginHandle* origin, Simulation simulation, const py::object& progress) {
+            auto view = view_of_array(force, rate, start, std::move(channels), std::move(name));
+            if (origin) view.origin = origin->origin;
             simulation.progress = progress_of(progress);
             py::gil_scoped_release released;
             return respond(view, simulation);
         },
-        py::arg("force").noconvert(), py::arg("rate"), py::arg("start"), py::arg("channels"), py::arg("name"), py::arg("simulation"),
-        py::arg("progress"));
+        py::arg("force").noconvert(), py::arg("rate"), py::arg("start"), py::arg("channels"), py::arg("name"), py::arg("origin"),
+        py::arg("simulation"), py::arg("progress"));
     m.def(
         "respond_to",
         [](const std::string& name, Simulation simulation, double rate, const py::object& progress) {

@@ -15,6 +15,7 @@ from ._fit import Fit, fit
 from ._force import Force, Stimulus, read, stimulus
 from ._live import LiveSkin
 from ._respond import Population, fingertip, grid, hand, population, respond
+from ._options import Warning  # not in __all__, because it would hide the built-in name
 from ._response import Response, measures
 from ._spikes import read_spikes
 from . import _force
@@ -22,7 +23,7 @@ from . import _force
 __all__ = ["Catalogue", "Entry", "Fit", "Force", "InputError", "LiveSkin", "NotConvergedError", "Parameter", "Population", "Response", "Stimulus", "afferents",
            "catalogue", "catalogues", "fingertip", "fit", "grid", "hand", "measures", "population", "read", "read_spikes", "respond", "stimulus"]
 
-InputError.__module__ = NotConvergedError.__module__ = __name__  # the public name, for tracebacks
+InputError.__module__ = NotConvergedError.__module__ = Warning.__module__ = __name__  # the public name, for tracebacks
 
 
 def __getattr__(name):

@@ -4,7 +4,7 @@ import dataclasses
 import html
 
 from . import _corpuscle
-from ._options import text
+from ._options import name_of
 
 
 @dataclasses.dataclass(frozen=True)
@@ -75,7 +75,7 @@ def catalogues():
 def catalogue(name):
     """The entries of one catalogue, with all parameters. Raises InputError if there is no such catalogue."""
     return Catalogue(Entry(n, detail, description, source, tuple(Parameter(*p) for p in parameters))
-                     for n, detail, description, source, parameters in _corpuscle.catalogue(text(name, "catalogue")))
+                     for n, detail, description, source, parameters in _corpuscle.catalogue(name_of(name, "catalogue")))
 
 
 def afferents():

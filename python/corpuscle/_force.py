@@ -1,10 +1,15 @@
 """Force over time."""
 
+from collections.abc import Iterable
+
 import numpy as np
 
 from . import _corpuscle
 from . import _catalogue
-from ._options import count, number, options_of, path_of, real_array, settings_of, text
+from ._options import count, name_of, number, options_of, path_of, real_array, settings_of, show_warnings, text
+
+
+_MAX_CHANNELS = 1 << 22
 
 
 class Force:
@@ -21,17 +26,35 @@ class Force:
     """
 
     def __init__(self, samples, rate, channels=None, start=0.0, name="force", notes=(), warnings=()):
-        self.samples = real_array(samples, "force")
-        if self.samples.ndim not in (1, 2):
-            raise _corpuscle.InputError(f"force: the array has {self.samples.ndim} dimensions; it must have one, or two: [sample, channel]")
-        columns = 1 if self.samples.ndim == 1 else self.samples.shape[1]
-        if channels is None:
-            channels = [f"ch{k + 1}" for k in range(columns)]
-        self.channels = [text(c, "channels") for c in ([channels] if isinstance(channels, str) else channels)]
-        if len(self.channels) != columns:
-            raise _corpuscle.InputError(f"force: {len(self.channels)} names for {columns} channels")
-        self.rate, self.start, self.name = number(rate, "rate"), number(start, "start"), text(name, "name")
+        self.samples = samples
+        self.channels = [f"ch{k + 1}" for k in range(self._columns())] if channels is None else channels
+        self.rate, self.start, self.name = rate, start, name
         self.notes, self.warnings = list(notes), list(warnings)
+        self._origin = None  # how the library read or computed it
+
+    def __setattr__(self, name, value):
+        """Checks a field, which the user may change later."""
+        if name == "samples":
+            value = real_array(value, "force")
+            if value.ndim not in (1, 2):
+                raise _corpuscle.InputError(f"force: the array has {value.ndim} dimensions; it must have one, or two: [sample, channel]")
+            if value.ndim == 2 and value.shape[1] > _MAX_CHANNELS:
+                raise _corpuscle.InputError(f"force: {value.shape[1]} channels are too many; the rows of an array are samples, its columns are channels")
+        elif name == "channels":
+            value = [value] if isinstance(value, str) else value
+            if not isinstance(value, Iterable):
+                raise _corpuscle.InputError(f"channels = {value!r} is not a list of names")
+            value = [text(c, "channels") for c in value]
+            if len(value) != self._columns():
+                raise _corpuscle.InputError(f"force: {len(value)} names for {self._columns()} channels")
+        elif name in ("rate", "start"):
+            value = number(value, name)
+        elif name == "name":
+            value = name_of(value, "name")
+        object.__setattr__(self, name, value)
+
+    def _columns(self):
+        return 1 if self.samples.ndim == 1 else self.samples.shape[1]
 
     @property
     def times(self):
@@ -70,13 +93,16 @@ class Stimulus(Force):
         self.settings = settings
         computed = _corpuscle.stimulus(name, settings, number(rate, "rate"), count(seed, "seed", 2**64 - 1))
         super().__init__(computed.samples[0], computed.rate, computed.channels, computed.start, computed.name)
+        self._origin = computed.origin
 
 
 def _of(force):
     """A Force of the library as one of ours, without copying one channel."""
     columns = force.samples
     samples = columns[0] if len(columns) == 1 else np.column_stack(columns)
-    return Force(samples, force.rate, force.channels, force.start, force.name, force.notes, force.warnings)
+    out = Force(samples, force.rate, force.channels, force.start, force.name, force.notes, force.warnings)
+    out._origin = force.origin
+    return out
 
 
 def read(path, **options):
@@ -85,9 +111,12 @@ def read(path, **options):
     path: of the file. Options are those of `corpuscle respond --help-all` for recordings, such as unit="mN", scale=0.002, rate=1000, channel=["fz"],
     lowpass="50 Hz", resample=1000, zero="0.5 s". A list gives an option several times. catalogue("formats") lists the formats.
 
-    Raises InputError, with file and line where they are known.
+    Raises InputError, with file and line where they are known. Shows a corpuscle.Warning for each fault of the recording; they are also in
+    `warnings` of the Force.
     """
-    return _of(_corpuscle.read_recording(path_of(path), options_of(options)))
+    force = _of(_corpuscle.read_recording(path_of(path), options_of(options)))
+    show_warnings([f"{force.name}: {w}" for w in force.warnings], 2)
+    return force
 
 
 def stimulus(name, rate=10e3, seed=0, **parameters):
@@ -100,7 +129,7 @@ def stimulus(name, rate=10e3, seed=0, **parameters):
 
     Raises InputError.
     """
-    name = text(name, "stimulus")
+    name = name_of(name, "stimulus")
     return Stimulus(name, settings_of(parameters, name.split("+")[0]), rate, seed)
 
 

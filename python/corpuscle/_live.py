@@ -1,7 +1,7 @@
 """A skin that runs while frames of force arrive."""
 
 from . import _corpuscle
-from ._options import count, number, real_array, settings_of, text
+from ._options import count, name_of, number, real_array, settings_of
 
 
 class LiveSkin:
@@ -16,8 +16,8 @@ class LiveSkin:
     """
 
     def __init__(self, population, rate=1000.0, channels=1, settings=None, taxels=None):
-        self._arguments = (text(population, "population"), number(rate, "rate"), count(channels, "channels", 2**32 - 1), settings_of(settings),
-                           None if taxels is None else text(taxels, "taxels"))
+        self._arguments = (name_of(population, "population"), number(rate, "rate"), count(channels, "channels", 2**32 - 1), settings_of(settings),
+                           None if taxels is None else name_of(taxels, "taxels"))
         population, rate, channels, texts, taxels = self._arguments
         self._skin = (_corpuscle.LiveSkin(population, rate, channels, texts) if taxels is None
                       else _corpuscle.LiveSkin.with_taxels(population, taxels, rate, texts))
@@ -75,4 +75,6 @@ class LiveSkin:
 
     def resume(self, state):
         """Restores a saved state of a skin that was made with the same arguments. Raises InputError for other bytes."""
+        if not isinstance(state, (bytes, bytearray, memoryview)):
+            raise _corpuscle.InputError(f"state = {state!r} is not the bytes of save()")
         self._skin.resume(bytes(state))

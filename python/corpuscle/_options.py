@@ -2,17 +2,39 @@
 
 import numbers
 import os
+import warnings
+from collections.abc import Iterable
 
 import numpy as np
 
 from ._corpuscle import InputError
 
+MAX_BINS = 10_000_000
 _REAL_KINDS = "iuf"  # of numpy dtypes: integers and floats
+
+
+class Warning(UserWarning):
+    """A reason why a force or a response may be wrong."""
+
+
+def show_warnings(texts, level):
+    """Shows each text as a Python warning, at the line of the caller that is `level` calls above."""
+    for one in texts:
+        warnings.warn(one, Warning, stacklevel=level + 1)
+
+
+def name_of(value, name):
+    """A name or a path as text."""
+    if not isinstance(value, (str, os.PathLike)):
+        raise InputError(f"{name} = {value!r} is not a name")
+    return text(os.fspath(value), name)
 
 
 def text(value, name):
     """A value as text that the library can read."""
     out = str(value)
+    if "\0" in out:
+        raise InputError(f"{name}: {out!r} has a NUL character")
     if not out.isascii():
         try:
             out.encode()
@@ -24,9 +46,12 @@ def text(value, name):
 def path_of(value):
     """A path as bytes, which need not be valid Unicode."""
     try:
-        return os.fsencode(value)
+        path = os.fsencode(value)
     except (TypeError, UnicodeEncodeError):
         raise InputError(f"{value!r} is not a path") from None
+    if b"\0" in path:
+        raise InputError(f"{value!r} has a NUL character")
+    return path
 
 
 def text_of(value):
@@ -47,7 +72,9 @@ def settings_of(settings, target=None):
     if isinstance(settings, str):
         settings = [settings]
     if not isinstance(settings, dict):
-        return [text(s, "settings") for s in settings]
+        if not isinstance(settings, Iterable) or isinstance(settings, bytes):
+            raise InputError(f'settings = {settings!r} must be a dictionary such as {{"sa1.f_B": "25 Hz"}}, or texts')
+        return [name_of(s, "settings") for s in settings]
     full = lambda name: name if "." in name or target is None else f"{target}.{name}"
     return [f"{full(text(name, 'settings'))}={text_of(value)}" for name, value in settings.items()]
 
@@ -83,6 +110,14 @@ def count(value, name, limit):
     if not 0 <= value <= limit:
         raise InputError(f"{name} = {value} is outside [0, {limit}]")
     return value
+
+
+def bin_count(length, bin):
+    """The number of bins in a length, both in s: a finite real number, at least 0."""
+    bins = max(length / bin, 0.0)
+    if not bins <= MAX_BINS:
+        raise InputError(f"{bins:.3g} bins are too many; the largest number is {MAX_BINS}")
+    return bins
 
 
 def real_array(values, name):

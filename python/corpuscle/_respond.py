@@ -1,10 +1,13 @@
 """Force in, spikes out."""
 
 import os
+import time
+from collections.abc import Iterable
 
 from . import _corpuscle
 from ._force import Force
-from ._options import count, number, settings_of, text
+from ._options import count, name_of, number, settings_of, show_warnings, text
+from ._report import Run
 from ._response import Response
 
 
@@ -21,14 +24,25 @@ def _run(force, rate, simulation, progress):
     if progress is not None and not callable(progress):
         raise _corpuscle.InputError(f"progress = {progress!r} is not a function")
     if isinstance(force, str):
-        return Response(_corpuscle.respond_to(text(force, "force"), simulation, 0.0 if rate is None else _positive(rate), progress), None)
+        return _response(Run(text(force, "force"), 0.0 if rate is None else _positive(rate), simulation), None, progress)
     if not isinstance(force, Force):
         if rate is None:
             raise _corpuscle.InputError("respond: the rate of the force is missing: rate=1000 (Hz)")
         force = Force(force, rate)
     elif rate is not None and number(rate, "rate") != force.rate:
         raise _corpuscle.InputError(f"respond: rate={rate:g} Hz, but the force has {force.rate:g} Hz")
-    return Response(_corpuscle.respond(force.samples, force.rate, force.start, force.channels, force.name, simulation, progress), force)
+    return _response(Run(force, force.rate, simulation), force, progress)
+
+
+def _response(run, force, progress):
+    start = time.perf_counter()
+    raw = run(progress)
+    response = Response(raw, force, run, time.perf_counter() - start)
+    texts = raw.warnings
+    if texts:
+        known = () if force is None else {*force.warnings, *(f"{force.name}: {w}" for w in force.warnings)}  # read() has shown them
+        show_warnings([w for w in texts if w not in known], 4)
+    return response
 
 
 def _positive(rate):
@@ -58,8 +72,10 @@ def respond(force, rate=None, afferent=("sa1", "fa1"), *, settings=None, copies=
       An exception of the function ends the run.
 
     Raises InputError for a force, name, setting or value that is refused, NotConvergedError if a circuit has no solution. Ctrl-C ends the run.
+    Shows a corpuscle.Warning for each reason why the response may be wrong; they are also in `warnings` of the response.
     """
-    names = [text(a, "afferent") for a in ([afferent] if isinstance(afferent, (str, os.PathLike)) else afferent)]
+    several = isinstance(afferent, Iterable) and not isinstance(afferent, (str, bytes, os.PathLike))
+    names = [name_of(a, "afferent") for a in (afferent if several else [afferent])]
     if not names:
         raise _corpuscle.InputError("respond: there is no afferent")
     target = names[0] if len(names) == 1 else None
@@ -84,7 +100,7 @@ class Population:
     """
 
     def __init__(self, name, settings=None):
-        self.name, self.settings = text(name, "population"), settings_of(settings)
+        self.name, self.settings = name_of(name, "population"), settings_of(settings)
 
     def respond(self, force, rate=None, *, contact="", taxels="", settings=None, seed=0, threads=0, progress=None):
         """Simulates the skin under a force, and returns a Response.
@@ -96,8 +112,8 @@ class Population:
         - taxels: path of the layout of the taxels (doc/taxels.md).
         - rate, settings, seed, threads, progress, and errors: as for respond().
         """
-        simulation = _simulation(self.settings + settings_of(settings), seed, threads, population=self.name, contact=text(contact, "contact"),
-                                 taxels=text(taxels, "taxels"))
+        simulation = _simulation(self.settings + settings_of(settings), seed, threads, population=self.name, contact=name_of(contact, "contact"),
+                                 taxels=name_of(taxels, "taxels"))
         return _run(force, rate, simulation, progress)
 
     def __repr__(self):

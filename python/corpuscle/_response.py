@@ -2,11 +2,13 @@
 
 import functools
 import json
+import numbers
 
 import numpy as np
 
 from . import _corpuscle
-from ._options import number, real_array
+from . import _report
+from ._options import bin_count, number, real_array
 
 _FIELDS = ("times", "indices", "names", "types", "channels", "positions", "start", "duration", "notes", "warnings")
 
@@ -57,15 +59,19 @@ class Response:
     positions = _RawField("positions", "The position of each afferent in a skin, m, shape [afferent, 2]; NaN on channels.")
     start = _RawField("start", "Time of the first sample of the force, s.")
     duration = _RawField("duration", "Length of the force, s.")
-    notes = _RawField("notes", "Notes about the force and the run.")
-    warnings = _RawField("warnings", "Reasons why the response may be wrong.")
+    warnings = _RawField("warnings", "Reasons why the response may be wrong, with the texts of the command line.")
 
-    def __init__(self, raw, force):
-        self._raw, self.force = raw, force
+    def __init__(self, raw, force, run=None, seconds=0.0):
+        self._raw, self.force, self._run, self._seconds = raw, force, run, seconds
+
+    @functools.cached_property
+    def notes(self):
+        """Notes about the force and the run, with the texts of the command line. If an afferent never fired, they say which force it needs."""
+        return self._raw.notes + self._raw.silence_notes()
 
     def __getstate__(self):
         """For copy and pickle: all fields, with the memory of the arrays."""
-        return {"_raw": None, "force": self.force, "summary": self.summary, **{name: getattr(self, name) for name in _FIELDS}}
+        return {"_raw": None, "_run": self._run, "_seconds": self._seconds, "force": self.force, "summary": self.summary, **{name: getattr(self, name) for name in _FIELDS}}
 
     @functools.cached_property
     def summary(self):
@@ -94,6 +100,8 @@ class Response:
             if not found:
                 raise _corpuscle.InputError(f"there is no afferent '{which}'; there are {', '.join(self.names[:8])}" + (" ..." if len(self.names) > 8 else ""))
             which = found[0]
+        if isinstance(which, (bool, np.bool_)) or not isinstance(which, numbers.Integral):
+            raise _corpuscle.InputError(f"which = {which!r} is not an integer")
         if not -len(self.names) <= which < len(self.names):
             raise _corpuscle.InputError(f"there is no afferent {which}; the last is {len(self.names) - 1}")
         return self._trains[which]
@@ -112,7 +120,7 @@ class Response:
         chosen = np.array([type is None or t == type for t in self.types])
         if not chosen.any():
             raise _corpuscle.InputError(f"there is no afferent of type '{type}'; there are {', '.join(dict.fromkeys(self.types))}")
-        edges = self.start + np.arange(int(np.ceil(self.duration / bin)) + 1) * bin
+        edges = self.start + np.arange(int(np.ceil(bin_count(self.duration, bin))) + 1) * bin
         counts = np.histogram(self.times[chosen[self.indices]], edges)[0]
         return (edges[:-1] + edges[1:]) / 2, counts / (bin * chosen.sum())
 
@@ -128,7 +136,8 @@ class Response:
         if events.ndim != 1 or len(events) == 0 or not np.isfinite(events).all():
             raise _corpuscle.InputError("events: there must be one or more finite times, in one dimension")
         bin = _positive(bin, "bin")
-        edges = -number(before, "before") + np.arange(int(round((before + after) / bin)) + 1) * bin
+        before, after = number(before, "before"), number(after, "after")
+        edges = -before + np.arange(int(round(bin_count(before + after, bin))) + 1) * bin
         if len(edges) < 2:
             raise _corpuscle.InputError("psth: before + after must be at least one bin")
         train = self.train(which)
@@ -178,6 +187,18 @@ class Response:
         ax.invert_yaxis()
         ax.set(xlabel="time (s)", xlim=(self.start, self.start + self.duration))
         return ax
+
+    def report(self, path):
+        """Writes the report page of `corpuscle respond --report`: self-contained HTML with force, spikes, rates, currents and parameters.
+
+        path: of the page, which must end in .html. An earlier report page is replaced, another file is not. The run is simulated again. Raises
+        InputError for another path, and if the force or a file of the run has changed.
+        """
+        _report.write(self, path)
+
+    def _repr_html_(self):
+        """The report in a notebook, at most 2 MB. A run that took more than 5 s is not repeated: only text is shown."""
+        return _report.display(self)
 
     def __repr__(self):
         plural = lambda n, noun: f"{n:,} {noun}{'s' * (n != 1)}"

@@ -100,7 +100,7 @@ class TextsAreThoseOfTheCommandLine(unittest.TestCase):
     def test_no_afferent_or_another_method_is_refused(self):
         self.assertIn("there is no afferent", error_of(corpuscle.respond, "press", afferent=[]))
         self.assertIn("euler", error_of(corpuscle.respond, "press", method="euler"))
-        self.assertIn("spreads need copies", error_of(corpuscle.respond, "press", afferent="sa1", spread={"f_B": "10%"}))
+        self.assertIn("sa1.f_B=10% needs --copies N, such as --copies 100", error_of(corpuscle.respond, "press", afferent="sa1", spread={"f_B": "10%"}))
 
 
 class Results(unittest.TestCase):
