@@ -74,8 +74,11 @@ constexpr long allowed[] = {SYS_read,       SYS_pread64,      SYS_readv,        
                             SYS_gettid,     SYS_rt_sigaction, SYS_rt_sigprocmask, SYS_rt_sigreturn, SYS_sigaltstack, SYS_sched_yield,
                             SYS_getrusage,  SYS_exit,         SYS_exit_group};
 
+/// System calls that change the open file. Every descriptor that the program has is allowed to use them.
+constexpr long allowed_to_writers[] = {SYS_pwrite64, SYS_ftruncate};
+
 /// Installs a seccomp filter: first it compares the architecture, then the number of the system call with each allowed one.
-void forbid_system_calls() {
+void forbid_system_calls(FileAccess access) {
     if (architecture == 0) return;
     const auto load = [](std::size_t offset) { return sock_filter BPF_STMT(BPF_LD | BPF_W | BPF_ABS, static_cast<std::uint32_t>(offset)); };
     const auto return_action = [](std::uint32_t action) { return sock_filter BPF_STMT(BPF_RET | BPF_K, action); };
@@ -83,7 +86,9 @@ void forbid_system_calls() {
     std::vector<sock_filter> program = {load(offsetof(seccomp_data, arch)),
                                         sock_filter BPF_JUMP(BPF_JMP | BPF_JEQ | BPF_K, architecture, 1, 0), return_action(denied),
                                         load(offsetof(seccomp_data, nr))};
-    for (const long call : allowed) {
+    std::vector<long> calls(std::begin(allowed), std::end(allowed));
+    if (access == FileAccess::write) calls.insert(calls.end(), std::begin(allowed_to_writers), std::end(allowed_to_writers));
+    for (const long call : calls) {
         program.push_back(sock_filter BPF_JUMP(BPF_JMP | BPF_JEQ | BPF_K, static_cast<std::uint32_t>(call), 0, 1));
         program.push_back(return_action(SECCOMP_RET_ALLOW));
     }
@@ -98,15 +103,15 @@ void forbid_system_calls() {
 
 }  // namespace
 
-void confine(int last_descriptor, std::uint64_t memory) {
+void confine(int last_descriptor, std::uint64_t memory, FileAccess access) {
     lower(RLIMIT_AS, address_space_in_use() + memory);
     lower(RLIMIT_CORE, 0);
-    lower(RLIMIT_FSIZE, 0);
+    if (access == FileAccess::read) lower(RLIMIT_FSIZE, 0);
     (void)::prctl(PR_SET_DUMPABLE, 0);
     (void)::prctl(PR_SET_NO_NEW_PRIVS, 1, 0, 0, 0);
     forbid_paths();
     lower(RLIMIT_NOFILE, static_cast<std::uint64_t>(last_descriptor) + 1);
-    forbid_system_calls();
+    forbid_system_calls(access);
 }
 
 }  // namespace corpuscle

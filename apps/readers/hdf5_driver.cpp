@@ -1,5 +1,5 @@
-// HDF5 file driver that reads the one file that the helper program has open, through its descriptor. Other files, to which an HDF5 file may
-// link, cannot be opened.
+// HDF5 file driver that reads or writes the one file that the helper program has open, through its descriptor. Other files, to which an
+// HDF5 file may link, cannot be opened.
 
 #include "hdf5_file.hpp"
 
@@ -8,6 +8,7 @@
 #endif
 #include <sys/stat.h>
 #include <unistd.h>
+#include <algorithm>
 #include <cerrno>
 #include <cstring>
 #include <new>
@@ -15,7 +16,10 @@
 namespace corpuscle::hdf5 {
 namespace {
 
-int file_descriptor = -1;  // set by descriptor_access(); a global, because HDF5 passes no context to the driver's open function
+// Set by descriptor_access(); globals, because HDF5 passes no context to the driver's open function.
+int file_descriptor = -1;
+bool is_writable = false;
+int write_error = 0;  // result of last_write_error()
 
 struct DescriptorFile : H5FD_t {
     int descriptor = -1;
@@ -25,7 +29,7 @@ struct DescriptorFile : H5FD_t {
 
 H5FD_t* open_descriptor(const char* name, unsigned flags, hid_t, haddr_t) {
     struct stat about{};
-    if (std::strcmp(name, only_file_name) != 0 || (flags & H5F_ACC_RDWR) || ::fstat(file_descriptor, &about) != 0) return nullptr;
+    if (std::strcmp(name, only_file_name) != 0 || ((flags & H5F_ACC_RDWR) && !is_writable) || ::fstat(file_descriptor, &about) != 0) return nullptr;
     auto* file = new (std::nothrow) DescriptorFile{};
     if (!file) return nullptr;
     file->descriptor = file_descriptor;
@@ -60,8 +64,27 @@ herr_t read(H5FD_t* file, H5FD_mem_t, hid_t, haddr_t at, size_t size, void* out)
     return 0;
 }
 
-// The file is open for reading only.
-herr_t write(H5FD_t*, H5FD_mem_t, hid_t, haddr_t, size_t, const void*) { return -1; }
+herr_t write(H5FD_t* to, H5FD_mem_t, hid_t, haddr_t at, size_t size, const void* data) {
+    if (!is_writable) return -1;
+    auto* file = static_cast<DescriptorFile*>(to);
+    const auto* from = static_cast<const char*>(data);
+    while (size > 0) {
+        const auto count = ::pwrite(file->descriptor, from, size, static_cast<off_t>(at));
+        if (count < 0 && errno == EINTR) continue;
+        if (count <= 0) return write_error = count < 0 ? errno : ENOSPC, -1;
+        from += count, at += static_cast<haddr_t>(count), size -= static_cast<size_t>(count);
+        file->end = std::max(file->end, at);
+    }
+    return 0;
+}
+
+/// Sets the length of the file to its allocated end. A shorter file would be taken for a truncated one.
+herr_t truncate(H5FD_t* to, hid_t, hbool_t) {
+    auto* file = static_cast<DescriptorFile*>(to);
+    if (!is_writable || file->end == file->allocated) return 0;
+    if (::ftruncate(file->descriptor, static_cast<off_t>(file->allocated)) != 0) return write_error = errno, -1;
+    return file->end = file->allocated, 0;
+}
 
 /// The identifier of the driver, which the first call registers. The fields of H5FD_class_t that are not set here differ between versions
 /// of HDF5 and stay 0.
@@ -84,6 +107,7 @@ hid_t driver() {
         methods.get_eof = file_end;
         methods.read = read;
         methods.write = write;
+        methods.truncate = truncate;
         for (auto& kind : methods.fl_map) kind = H5FD_MEM_SUPER;
         return H5FDregister(&methods);
     }();
@@ -92,8 +116,10 @@ hid_t driver() {
 
 }  // namespace
 
-hid_t descriptor_access(int descriptor) {
-    file_descriptor = descriptor;
+int last_write_error() { return write_error; }
+
+hid_t descriptor_access(int descriptor, bool writable) {
+    file_descriptor = descriptor, is_writable = writable;
     const hid_t access = H5Pcreate(H5P_FILE_ACCESS);
     if (access >= 0 && H5Pset_driver(access, driver(), nullptr) < 0) {
         H5Pclose(access);

@@ -23,24 +23,38 @@ std::string trimmed(std::string s) {
     return s.substr(0, s.find_last_not_of(' ') + 1);
 }
 
-// The `count` strings of an attribute, by the kind of its string type; empty on failure.
-std::vector<std::string> variable_length_strings(hid_t attribute, hid_t type, hid_t space, std::size_t count) {
+/// Reads all elements of an attribute or a dataset; false on failure.
+bool read_attribute(hid_t attribute, hid_t type, void* to) { return H5Aread(attribute, type, to) >= 0; }
+bool read_dataset(hid_t dataset, hid_t type, void* to) { return H5Dread(dataset, type, H5S_ALL, H5S_ALL, H5P_DEFAULT, to) >= 0; }
+using ReadAll = bool (*)(hid_t object, hid_t type, void* to);
+
+// The `count` strings of an object, by the kind of its string type; empty on failure.
+std::vector<std::string> variable_length_strings(hid_t object, ReadAll read, hid_t type, hid_t space, std::size_t count) {
     std::vector<char*> texts(count);
-    if (H5Aread(attribute, type, texts.data()) < 0) return {};
+    if (!read(object, type, texts.data())) return {};
     std::vector<std::string> out;
     for (const char* text : texts) out.push_back(text ? trimmed(text) : "");
     H5Dvlen_reclaim(type, space, H5P_DEFAULT, texts.data());
     return out;
 }
 
-std::vector<std::string> fixed_length_strings(hid_t attribute, hid_t type, std::size_t count) {
+std::vector<std::string> fixed_length_strings(hid_t object, ReadAll read, hid_t type, std::size_t count, std::size_t limit) {
     const std::size_t length = H5Tget_size(type);
-    if (length == 0 || length > max_text / count) return {};
+    if (length == 0 || length > limit / count) return {};
     std::string all(count * length, '\0');
-    if (H5Aread(attribute, type, all.data()) < 0) return {};
+    if (!read(object, type, all.data())) return {};
     std::vector<std::string> out;
     for (std::size_t k = 0; k < count; ++k) out.push_back(trimmed(all.substr(k * length, length)));
     return out;
+}
+
+/// The strings of an object that has this type and space; `limit`: of their number, and of the characters of strings of a fixed length.
+std::vector<std::string> strings_of(hid_t object, ReadAll read, const Handle& type, const Handle& space, std::size_t limit) {
+    const auto count = H5Sget_simple_extent_npoints(space);
+    if (H5Tget_class(type) != H5T_STRING || count < 1 || static_cast<std::size_t>(count) > limit) return {};
+    const auto n = static_cast<std::size_t>(count);
+    return H5Tis_variable_str(type) > 0 ? variable_length_strings(object, read, type, space, n)
+                                        : fixed_length_strings(object, read, type, n, limit);
 }
 
 /// True if the HDF5 signature is at byte 0 or, after a user block, at byte 512, 1024, 2048 ...
@@ -131,10 +145,13 @@ std::vector<std::string> string_attributes(hid_t object, const std::string& name
     const auto attribute = attribute_of(object, name);
     if (!attribute) return {};
     const Handle type(H5Aget_type(attribute), H5Tclose), space(H5Aget_space(attribute), H5Sclose);
-    const auto count = H5Sget_simple_extent_npoints(space);
-    if (H5Tget_class(type) != H5T_STRING || count < 1 || static_cast<std::size_t>(count) > max_text) return {};
-    return H5Tis_variable_str(type) > 0 ? variable_length_strings(attribute, type, space, static_cast<std::size_t>(count))
-                                        : fixed_length_strings(attribute, type, static_cast<std::size_t>(count));
+    return strings_of(attribute, read_attribute, type, space, max_text);
+}
+
+std::vector<std::string> strings_in(hid_t dataset) {
+    constexpr std::size_t limit = std::size_t{1} << 28;
+    const Handle type(H5Dget_type(dataset), H5Tclose), space = space_of(dataset);
+    return strings_of(dataset, read_dataset, type, space, limit);
 }
 
 std::optional<std::string> text_attribute(hid_t object, const std::string& name) {

@@ -26,9 +26,11 @@ public:
 };
 
 inline constexpr const char* only_file_name = "file";  ///< the only name that H5Fopen accepts with descriptor_access()
-/// A file access property list with which H5Fopen reads `descriptor`; negative on failure. The caller closes the list. Only one descriptor
-/// can be used at a time.
-hid_t descriptor_access(int descriptor);
+/// A file access property list with which H5Fopen reads `descriptor`, or H5Fcreate writes it if it is `writable`; negative on failure. The
+/// caller closes the list. Only one descriptor can be used at a time.
+hid_t descriptor_access(int descriptor, bool writable = false);
+/// errno of the last write to the descriptor that failed; 0: none has failed.
+int last_write_error();
 
 /// Opens the HDF5 file that is open as `descriptor`; `path` is for messages.
 Result<Handle> open_file(int descriptor, const std::string& path);
@@ -59,6 +61,9 @@ std::optional<std::string> text_attribute(hid_t object, const std::string& attri
 std::vector<std::string> string_attributes(hid_t object, const std::string& attribute);
 /// The names of all attributes of a dataset or group.
 std::vector<std::string> attribute_names(hid_t object);
+
+/// The strings in a dataset; empty if it has other values, or on failure.
+std::vector<std::string> strings_in(hid_t dataset);
 
 /// The number in a dataset that contains exactly one; otherwise nullopt.
 std::optional<double> single_number(hid_t dataset);

@@ -1,6 +1,7 @@
 #include "helper_main.hpp"
 
 #include <fmt/format.h>
+#include <algorithm>
 #include <cstdlib>
 #include <exception>
 #include <new>
@@ -10,19 +11,6 @@
 
 namespace corpuscle {
 namespace {
-
-/// Receives a request and starts the time limit of its reply: an alarm that ends the program. Returns false if the socket was closed.
-bool next_request(int socket, std::string& m) {
-    if (!receive_message(socket, m)) return false;
-    ::alarm(HelperProcess::response_timeout_s);
-    return true;
-}
-
-/// Ends the time limit and sends the reply.
-bool send_reply(int socket, const std::string& m) {
-    ::alarm(0);
-    return send_message(socket, m);
-}
 
 /// The requested samples, or the error.
 std::string reply_to(const FetchRequest& request, Samples& samples) {
@@ -43,28 +31,50 @@ void serve_requests(int socket, int file, const OpenRequest& first, const OpenSa
 
 }  // namespace
 
-void serve(int socket, int file, const OpenSamples& open) {
-    std::string m;
-    OpenRequest first;
-    if (!next_request(socket, m) || !decode(m, first)) return;
-    try {
-        serve_requests(socket, file, first, open);
-    } catch (const std::bad_alloc&) {
-        send_reply(socket, encode(bad_input("not enough memory for this file", {first.path})));
-    } catch (const std::exception& e) {
-        send_reply(socket, encode(bad_input(fmt::format("cannot be read: {}", e.what()), {first.path})));
-    } catch (...) {
-        send_reply(socket, encode(bad_input("cannot be read", {first.path})));
-    }
+bool next_request(int socket, std::string& m) {
+    if (!receive_message(socket, m)) return false;
+    ::alarm(HelperProcess::response_timeout_s);
+    return true;
 }
 
-int helper_main(int argc, char** argv, const char* kind, const OpenSamples& open) {
-    if (argc != 2 || std::string_view(argv[1]) != HelperProcess::protocol) {
+bool send_reply(int socket, const std::string& m) {
+    ::alarm(0);
+    return send_message(socket, m);
+}
+
+void reply_safely(int socket, const std::string& path, const std::function<std::string()>& reply) {
+    std::string m;
+    try {
+        m = reply();
+    } catch (const std::bad_alloc&) {
+        m = encode(bad_input("not enough memory for this file", {path}));
+    } catch (const std::exception& e) {
+        m = encode(bad_input(fmt::format("cannot be read: {}", e.what()), {path}));
+    } catch (...) {
+        m = encode(bad_input("cannot be read", {path}));
+    }
+    if (!m.empty()) send_reply(socket, m);
+}
+
+HelperService samples_service(const OpenSamples& open) {
+    const auto serve = [open](int socket, int file) {
+        std::string m;
+        OpenRequest first;
+        if (!next_request(socket, m) || !decode(m, first)) return;
+        reply_safely(socket, first.path, [&] { return serve_requests(socket, file, first, open), std::string(); });
+    };
+    return {HelperProcess::protocol, FileAccess::read, serve};
+}
+
+int helper_main(int argc, char** argv, const char* kind, const std::vector<HelperService>& services) {
+    const auto is_requested = [&](const HelperService& s) { return argc == 2 && s.protocol == argv[1]; };
+    const auto service = std::find_if(services.begin(), services.end(), is_requested);
+    if (service == services.end()) {
         fmt::print(stderr, "Corpuscle starts this program to read {} files; it cannot be used on its own.\n", kind);
         return HelperProcess::exit_unknown_protocol;
     }
-    confine(HelperProcess::file_descriptor, HelperProcess::memory_limit);
-    serve(HelperProcess::socket_descriptor, HelperProcess::file_descriptor, open);
+    confine(HelperProcess::file_descriptor, HelperProcess::memory_limit, service->access);
+    service->serve(HelperProcess::socket_descriptor, HelperProcess::file_descriptor);
     std::_Exit(0);  // skips the exit handlers of the format's library, which a damaged file may have broken
 }
 

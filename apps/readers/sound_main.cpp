@@ -2,4 +2,7 @@
 
 #include "helper_main.hpp"
 
-int main(int argc, char** argv) { return corpuscle::helper_main(argc, argv, "sound", corpuscle::open_sound_samples); }
+int main(int argc, char** argv) {
+    using namespace corpuscle;
+    return helper_main(argc, argv, "sound", {samples_service(open_sound_samples)});
+}

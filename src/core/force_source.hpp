@@ -70,6 +70,8 @@ public:
     /// True if the channels are sensors with three axes: `force` is then their normal force, and read() fills the shear of a block that
     /// has it.
     virtual bool has_shear() const { return false; }
+    /// True if the force was measured: it is read from a file.
+    virtual bool is_recording() const { return false; }
     /// The fraction of the source that has been read, 0 to 1, for a progress display.
     virtual double progress() const = 0;
     /// The phases of a stimulus; empty if it has none.

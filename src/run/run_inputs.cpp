@@ -33,7 +33,7 @@ Result<void> run_input(BlockSimulator& simulator, std::span<Sink* const> sinks, 
 
 Input make_input(const Population& population, std::string name, const ForceSource& source) {
     return {{std::move(name), source.description(), source.clock(), source.phases(), source.cycle_frequency(), source.metadata(),
-             source.notes()},
+             source.notes(), source.is_recording()},
             population};
 }
 

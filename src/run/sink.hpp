@@ -27,6 +27,12 @@ struct BinGroups {
     std::vector<std::uint32_t> group_of;  ///< for each afferent, the index of its group
 };
 
+/// The plan of each afferent of a population. Afferents with equal plans share one.
+struct PlanTable {
+    std::vector<AfferentPlan> plans;
+    std::vector<std::uint32_t> plan_of;  ///< for each afferent, the index of its plan
+};
+
 /// The afferents of one input of a run: afferents on channels, or the afferents of a skin. The argument `u` is the index of an afferent
 /// within the input, from 0. Spike::afferent_index is greater by Input::first_afferent.
 class Population {
@@ -41,6 +47,7 @@ public:
     virtual const AfferentPlan& class_plan(std::size_t c) const = 0;  ///< of the first copy, or around which the class of a skin varies
     virtual std::span<const Probe> probes(std::size_t u) const = 0;   ///< the recorded quantities; empty if none are recorded
     virtual BinGroups bin_groups() const = 0;
+    virtual Result<PlanTable> plan_table() const = 0;
     /// Names and addresses in event formats, for spikes whose afferent indexes are those within the input.
     virtual EventAddressing event_addressing(const Clock&) const = 0;
     /// In the skin, m; no value on channels, because a layout need not state the unit of its positions.
@@ -60,6 +67,7 @@ struct InputDescription {
     double cycle_frequency = 0;      ///< Hz, at which the force repeats; 0 if it is not periodic
     std::vector<MetadataEntry> metadata = {};
     std::vector<std::string> notes = {};
+    bool is_recording = false;      ///< the force was measured
     RecordingQuality quality = {};  ///< complete only in Sink::end()
 
     /// The clock with the first sample at 0 s. Times since 1970 would lose precision.

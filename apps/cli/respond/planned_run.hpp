@@ -13,6 +13,7 @@ struct OutputArguments {
     std::optional<std::string> page;                          ///< path of the report page; no value without --report
     std::string checkpoint;                                   ///< "": not given
     std::map<std::string, std::string, std::less<>> formats;  ///< the options of the output formats (run/sinks.hpp)
+    std::vector<std::string> nwb_fields;                      ///< of --nwb-field
 };
 
 struct RespondArguments {
@@ -28,6 +29,9 @@ struct RespondArguments {
     std::uint32_t copies = 0;                 ///< 0: not given
     std::uint32_t threads = 0;                ///< 0: one per core, or one per MPI rank
 };
+
+/// True for an option that changes where or how results are written and how fast, but not the response.
+bool is_output_option(std::string_view name);
 
 /// Runs the verb. Returns the exit status.
 int respond(const RespondArguments&, const CommonArguments&);
@@ -87,7 +91,7 @@ public:
     RunOutputs& operator=(const RunOutputs&) = delete;
     ~RunOutputs();
     /// Checks that all files may be written, and creates them.
-    Result<void> open(const OutputArguments&, PlannedRun&, bool overwrite);
+    Result<void> open(const OutputArguments&, PlannedRun&, const CommonArguments&);
     /// Adds the sinks of all files to the sinks of the run.
     void add_sinks(std::vector<Sink*>&) const;
     /// The names of the files that are written into the directory.

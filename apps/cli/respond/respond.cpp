@@ -110,7 +110,7 @@ void print_result(const PlannedRun& run, const RunOutputs& outputs, nlohmann::or
 /// Simulates a planned run, and writes and prints its result.
 Result<void> respond_with(PlannedRun& run, const OutputArguments& args, std::uint32_t threads, const CommonArguments& common) {
     RunOutputs outputs;
-    TRY(outputs.open(args, run, common.overwrite));
+    TRY(outputs.open(args, run, common));
     SpikeTimes times;
     auto sinks = run.summaries();
     outputs.add_sinks(sinks);

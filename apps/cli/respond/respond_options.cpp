@@ -127,6 +127,10 @@ OptionGroup output_options(RespondArguments& args) {
             const auto keep = [&args, option](const std::string& text) { return args.outputs.formats[option] = text, Result<void>(); };
             group.rows.push_back({format->option, keep, format->value_name, format->help});
         }
+    const auto add_field = [&args](const std::string& text) { return args.outputs.nwb_fields.push_back(text), Result<void>(); };
+    group.rows.push_back(repeatable({"--nwb-field", add_field, "FIELD=TEXT",
+                                     "with --nwb: a field of the file, such as session_start_time=2026-03-01T12:00:00+01:00 or "
+                                     "'experimenter=Doe, Jane'"}));
     group.rows.push_back(counted(
         0, 1, {"--report", &args.report_file, "[FILE.html]", "write a report page (default: report.html, in the directory of --out)"}));
     return group;

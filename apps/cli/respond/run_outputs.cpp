@@ -6,6 +6,7 @@
 #include "cli/output/terminal.hpp"
 #include "cli/respond/planned_run.hpp"
 #include "core/text/ascii_text.hpp"
+#include "io/table/foreign_format.hpp"
 #include "io/output/output_check.hpp"
 #include "run/earlier_outputs.hpp"
 
@@ -34,6 +35,18 @@ std::vector<std::string> file_names_in(const std::string& directory, const std::
     return all;
 }
 
+/// The command line without the options that do not change the response, so that files that contain it do not depend on them.
+std::string response_command(const CommonArguments& common) {
+    std::string out = "corpuscle respond";
+    for (const auto& [name, values] : common.typed) {
+        if (is_output_option(name)) continue;
+        const bool is_flag = values.empty() || values == std::vector<std::string>{"true"};
+        if (is_flag) out += " " + name;
+        for (std::size_t k = 0; k < values.size() && !is_flag; ++k) out += (name == "FORCE" ? " " : " " + name + " ") + quote_shell_word(values[k]);
+    }
+    return out;
+}
+
 /// Checks that each output may be written: the files `names` in the directory, the report page and the checkpoint.
 Result<void> check_outputs(const OutputArguments& args, std::vector<std::string> names, bool overwrite) {
     OutputCheck check(overwrite);
@@ -51,6 +64,14 @@ Result<void> check_outputs(const OutputArguments& args, std::vector<std::string>
 
 }  // namespace
 
+bool is_output_option(std::string_view name) {
+    constexpr std::string_view options[] = {"--checkpoint", "--out", "--report", "--overwrite",
+                                            "--quiet",      "--json", "--threads", "--nwb-field"};
+    const auto is_of = [&](const OutputFormat* format) { return format->option == name; };
+    return std::find(std::begin(options), std::end(options), name) != std::end(options) ||
+           std::any_of(std::begin(output_formats), std::end(output_formats), is_of);
+}
+
 /// Removes the files that were not committed. The last one is removed first: the first one may have created the directory, and removes it
 /// if it is empty by then.
 RunOutputs::~RunOutputs() {
@@ -58,15 +79,17 @@ RunOutputs::~RunOutputs() {
     while (!files_.empty()) files_.pop_back();
 }
 
-Result<void> RunOutputs::open(const OutputArguments& args, PlannedRun& run, bool overwrite) {
+Result<void> RunOutputs::open(const OutputArguments& args, PlannedRun& run, const CommonArguments& common) {
     auto request = run.output_request();
     request.directory = directory_ = args.directory, request.options = args.formats;
+    request.nwb_fields = args.nwb_fields, request.command = response_command(common);
+    request.seed = run.options().seed, request.sampled = run.options().sampled;
     const auto formats = TRY(wanted_formats(request));
     std::vector<std::string> names;
     for (const auto* format : formats)
         for (auto& name : file_names_of(*format, request)) names.push_back(std::move(name));
     if (!directory_.empty()) names.emplace_back("summary.json");
-    TRY(check_outputs(args, std::move(names), overwrite));
+    TRY(check_outputs(args, std::move(names), common.overwrite));
     for (const auto* format : formats) files_.push_back(TRY(format->make(request)));
     if (!directory_.empty()) summary_file_ = TRY(OutputFile::create(directory_ + "/summary.json"));
     if (!args.page) return {};

@@ -14,14 +14,6 @@ namespace {
 
 constexpr double skin_rate = 1e3;  // Hz, default sample rate of stimuli
 
-/// True for an option that changes where or how results are written and how fast, but not the response.
-bool is_output_option(std::string_view name) {
-    constexpr std::string_view options[] = {"--checkpoint", "--out", "--report", "--overwrite", "--quiet", "--json", "--threads"};
-    const auto is_of = [&](const OutputFormat* format) { return format->option == name; };
-    return std::find(std::begin(options), std::end(options), name) != std::end(options) ||
-           std::any_of(std::begin(output_formats), std::end(output_formats), is_of);
-}
-
 /// Adds the checksum of a file's contents, if the file exists. `kind`: "recording", "population file" ...
 Result<void> add_contents(RunFingerprint& all, const std::string& kind, const std::string& path) {
     std::error_code status;

@@ -67,7 +67,7 @@ int create_part(const std::string& path, std::string& part) {
     constexpr int max_tries = 1000;
     for (int k = 1; k <= max_tries; ++k) {
         part = fmt::format("{}.part-{}{}", path, ::getpid(), k == 1 ? "" : fmt::format("-{}", k));
-        const int file = ::open(part.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_NOFOLLOW | O_CLOEXEC, 0666);
+        const int file = ::open(part.c_str(), O_RDWR | O_CREAT | O_EXCL | O_NOFOLLOW | O_CLOEXEC, 0666);
         if (file < 0 && errno == EEXIST) continue;
         if (file < 0) return file;
         struct ::stat file_status = {};

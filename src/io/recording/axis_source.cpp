@@ -65,6 +65,7 @@ public:
             channels_.push_back({static_cast<std::uint32_t>(s), sensors_[s].name, placed.empty() ? std::nullopt : placed[s]});
     }
 
+    bool is_recording() const override { return true; }
     const std::string& name() const override { return columns_->name(); }
     const Clock& clock() const override { return columns_->clock(); }
     const std::vector<Channel>& channels() const override { return channels_; }

@@ -266,6 +266,7 @@ public:
 
     const std::vector<AxisSensor>& axis_sensors() const { return axis_sensors_; }
     const std::vector<std::optional<Position>>& placed() const { return placed_; }
+    bool is_recording() const override { return true; }
     const std::string& name() const override { return name_; }
     const Clock& clock() const override { return clock_; }
     const std::vector<Channel>& channels() const override { return channels_; }

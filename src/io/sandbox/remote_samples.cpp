@@ -101,6 +101,11 @@ std::string encode(const std::vector<std::vector<double>>& columns) {
     return out.take();
 }
 
+Result<void> decode_status(const std::string& m, const std::string& path) {
+    ByteReader in(m);
+    return read_status(in, path);
+}
+
 Result<SamplesInfo> decode_info(const std::string& m, const std::string& path) {
     ByteReader in(m);
     TRY(read_status(in, path));

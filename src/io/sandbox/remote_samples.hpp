@@ -35,6 +35,9 @@ Result<SamplesInfo> decode_info(const std::string&, const std::string& path);
 Result<void> decode_rows(const std::string&, std::size_t at, std::size_t rows, std::vector<std::vector<double>>& out,
                          const std::string& path);
 
+/// Success, or the error that a response states. Any bytes after a success are ignored.
+Result<void> decode_status(const std::string&, const std::string& path);
+
 /// The helper program for one file format.
 struct HelperProgram {
     std::string program;  ///< name of the program: "corpuscle-hdf5"

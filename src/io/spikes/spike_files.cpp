@@ -114,10 +114,11 @@ std::vector<NamedTrain> TrainCollector::sorted() && {
 
 Result<std::vector<NamedTrain>> read_spikes(const std::string& path, const SpikeColumns& columns) {
     const auto first = peek_input(path, 512);
-    for (const auto& [begin, what] : {std::pair{"\x89HDF", "an HDF5 file"}, {"RIFF", "a sound file"}, {"fLaC", "a sound file"}})
-        if (first.starts_with(begin))
-            return bad_input(
-                fmt::format("this is {}, not a spike file; supported are CSV, JSON lines, .npy, .npz and address events", what), {path});
+    for (const std::string_view sound : {"RIFF", "fLaC"})
+        if (first.starts_with(sound))
+            return bad_input("this is a sound file, not a spike file; supported are CSV, JSON lines, .npy, .npz, NWB and address events",
+                             {path});
+    if (first.starts_with("\x89HDF")) return read_nwb_spikes(path, columns);
     if (first.starts_with("PK") && (first.find(".npy") != first.npos || path.ends_with(".npz"))) return read_npz_spikes(path);
     if (first.starts_with("\x93NUMPY")) return read_npy_spikes(path, columns);
     return first.starts_with(address_events::magic) ? read_aer_spikes(path)

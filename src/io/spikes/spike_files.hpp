@@ -29,11 +29,13 @@ struct SpikeColumns {
 /// - NPZ of Corpuscle, or of SpikeInterface, in which segments after the first become the channels "segment 2", "segment 3" ...
 /// - address events of Corpuscle and AEDAT 2 (doc/events.md)
 /// - NPY arrays of times in seconds
+/// - NWB: the table of units. Each is named after the column `SpikeColumns::train`; by default after the columns afferent and channel of
+///   Corpuscle, after unit_name, or after its id
 ///
 /// Any other file is a text table with one row for each spike, or JSON with one record for each spike. It has a column of spike times
 /// (time_s, t [ms], spike_times ...; in seconds if its heading has no unit). The columns afferent or unit (cluster, neuron ...) and channel
 /// identify the train. A table with only a column of times needs no header; all its spikes are one train. Trains without spikes are
-/// returned only for an NPZ of Corpuscle.
+/// returned only for NWB and an NPZ of Corpuscle.
 Result<std::vector<NamedTrain>> read_spikes(const std::string& path, const SpikeColumns& = {});
 
 }  // namespace corpuscle

@@ -23,6 +23,7 @@ public:
 Result<std::vector<NamedTrain>> read_text_spikes(const std::string& path, const SpikeColumns&);
 Result<std::vector<NamedTrain>> read_npy_spikes(const std::string& path, const SpikeColumns&);
 Result<std::vector<NamedTrain>> read_npz_spikes(const std::string& path);
+Result<std::vector<NamedTrain>> read_nwb_spikes(const std::string& path, const SpikeColumns&);
 Result<std::vector<NamedTrain>> read_aer_spikes(const std::string& path);
 Result<std::vector<NamedTrain>> read_aedat2_spikes(const std::string& path);
 

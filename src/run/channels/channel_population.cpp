@@ -34,6 +34,12 @@ BinGroups ChannelPopulation::bin_groups() const {
 }
 
 /// An afferent has the number of its channel, as on a grid of sites, and its index is its address.
+Result<PlanTable> ChannelPopulation::plan_table() const {
+    PlanTable out{{plans_.begin(), plans_.end()}, {}};
+    for (std::size_t u = 0; u < size(); ++u) out.plan_of.push_back(static_cast<std::uint32_t>(u % plans_.size()));
+    return out;
+}
+
 EventAddressing ChannelPopulation::event_addressing(const Clock& clock) const {
     EventAddressing out{clock, {}, {}, {}, {}};
     for (std::size_t u = 0; u < size(); ++u) {

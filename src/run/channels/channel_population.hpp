@@ -32,6 +32,7 @@ public:
     const AfferentPlan& class_plan(std::size_t c) const override;
     std::span<const Probe> probes(std::size_t u) const override { return plan_probes(u % plans_.size()); }
     BinGroups bin_groups() const override;
+    Result<PlanTable> plan_table() const override;
     EventAddressing event_addressing(const Clock&) const override;
     const ChannelPopulation* on_channels() const override { return this; }
 

@@ -21,6 +21,10 @@ struct OutputRequest {
     std::size_t channels = 1;                                      ///< on channels: number of channels of all inputs
     std::span<const AfferentPlan> plans = {};                      ///< on channels: the simulated afferents
     CopySpec copies = {};
+    std::vector<std::string> nwb_fields = {};                      ///< of --nwb-field
+    std::string command = {};    ///< the command line, without the options that do not change the response
+    std::uint64_t seed = 0;      ///< of all random numbers
+    bool sampled = false;        ///< spikes have the times of samples
     const SkinSummary* skin = nullptr;  ///< for a skin: its summary, which precedes the files among the sinks
 
     bool has(std::string_view option) const { return options.contains(option); }
@@ -44,7 +48,7 @@ public:
     ~FileSink() override;
     /// Creates the files that are needed before begin(). make_file_sink() calls the open() of the derived class.
     Result<void> open() { return {}; }
-    std::vector<std::string> paths() const;  ///< final paths of the files
+    virtual std::vector<std::string> paths() const;  ///< final paths of the files
     virtual Result<void> commit();
 };
 

@@ -24,6 +24,23 @@ BinGroups SkinPopulation::bin_groups() const {
     return out;
 }
 
+/// The plans of a class whose parameters vary are sampled as in the simulation.
+Result<PlanTable> SkinPopulation::plan_table() const {
+    PlanTable out;
+    for (std::size_t c = 0; c < skin_.plan.classes.size(); ++c) {
+        const auto& plan = skin_.plan.classes[c];
+        const auto count = skin_.class_begin[c + 1] - skin_.class_begin[c];
+        const bool varies = !plan.distributions.empty();
+        const auto first = static_cast<std::uint32_t>(out.plans.size());
+        for (std::uint32_t k = 0; k < count; ++k) out.plan_of.push_back(varies ? first + k : first);
+        if (!varies) out.plans.push_back(plan.afferent);
+        if (varies)
+            for (auto& p : TRY(make_copies(plan.afferent, static_cast<std::uint32_t>(count), plan.distributions, skin_.plan.seed)))
+                out.plans.push_back(std::move(p));
+    }
+    return out;
+}
+
 EventAddressing SkinPopulation::event_addressing(const Clock& clock) const { return make_event_addressing(skin_, clock); }
 
 }  // namespace corpuscle

@@ -28,6 +28,7 @@ public:
         return probes_.empty() ? std::span<const Probe>{} : probes_[class_of(u)];
     }
     BinGroups bin_groups() const override;
+    Result<PlanTable> plan_table() const override;
     EventAddressing event_addressing(const Clock&) const override;
     std::optional<Position> position(std::size_t u) const override { return afferent(u).position; }
     const Innervation* skin() const override { return &skin_; }
