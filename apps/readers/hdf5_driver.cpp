@@ -29,7 +29,8 @@ struct DescriptorFile : H5FD_t {
 
 H5FD_t* open_descriptor(const char* name, unsigned flags, hid_t, haddr_t) {
     struct stat about{};
-    if (std::strcmp(name, only_file_name) != 0 || ((flags & H5F_ACC_RDWR) && !is_writable) || ::fstat(file_descriptor, &about) != 0) return nullptr;
+    if (std::strcmp(name, only_file_name) != 0 || ((flags & H5F_ACC_RDWR) && !is_writable) || ::fstat(file_descriptor, &about) != 0)
+        return nullptr;
     auto* file = new (std::nothrow) DescriptorFile{};
     if (!file) return nullptr;
     file->descriptor = file_descriptor;

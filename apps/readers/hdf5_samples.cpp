@@ -3,10 +3,12 @@
 #include <fmt/format.h>
 #include <algorithm>
 #include <array>
+#include <cmath>
 
 #include "hdf5_file.hpp"
 #include "helper_main.hpp"
 #include "io/table/foreign_format.hpp"
+#include "nwb_series.hpp"
 
 namespace corpuscle {
 namespace {
@@ -228,6 +230,14 @@ std::optional<double> rate_of(hid_t file, const std::string& name, std::span<con
     }
 }
 
+/// The time of the first sample in s: NWB's starting_time beside the dataset. 0 if there is none.
+double start_of(hid_t file, const std::string& name) {
+    const auto path = parent_of(name) + "/starting_time";
+    const auto dataset = H5Lexists(file, path.c_str(), H5P_DEFAULT) > 0 ? hdf5::open_dataset(file, path) : Handle();
+    const auto start = dataset && rate_at(dataset) ? hdf5::single_number(dataset) : std::nullopt;
+    return start && std::isfinite(*start) ? *start : 0;
+}
+
 /// Opens an array of the file as samples, without a sampling rate.
 Result<std::unique_ptr<Hdf5Samples>> samples_of(hid_t file, const std::string& path, const ArrayInfo& array, const ExtentHints& hints) {
     auto dataset = hdf5::open_dataset(file, array.name);
@@ -264,7 +274,8 @@ bool is_external_link(hid_t file, const std::string& name) {
 SamplesResult open_hdf5_samples(int descriptor, const std::string& path, const TableOptions& options) {
     const auto file = TRY(hdf5::open_file(descriptor, path));
     const auto arrays = hdf5::datasets_in(file);
-    const auto chosen = choose_array(arrays, options.dataset, path);
+    const auto force = options.dataset || !is_nwb(file) ? std::optional<std::size_t>() : TRY(choose_force_series(file, arrays, path));
+    const auto chosen = force ? *force : choose_array(arrays, options.dataset, path);
     if (!chosen && options.dataset && is_external_link(file, *options.dataset))
         return bad_input(fmt::format("'{}' is a link to another file, which is not followed; open that file instead", *options.dataset),
                          {path});
@@ -274,6 +285,7 @@ SamplesResult open_hdf5_samples(int descriptor, const std::string& path, const T
     for (const auto* times : time_arrays(array, arrays)) hints.time_lengths.push_back(*time_list_length(*times));
     auto samples = TRY(samples_of(file, path, array, hints));
     samples->set_rate(rate_of(file, array.name, arrays));
+    samples->set_start(start_of(file, array.name));
     const auto* times = times_of(array, samples->info().rows, arrays);
     if (!times) return std::unique_ptr<Samples>(std::move(samples));
     auto clock = TRY(samples_of(file, path, *times, {}));

@@ -1,6 +1,6 @@
 #pragma once
-// The helper programs: the main loop, which they share, and the readers and writers of each file format. Only helper programs call the readers, because
-// damaged files have crashed the libraries of the formats, or could make them loop forever.
+// The helper programs: the main loop, which they share, and the readers and writers of each file format. Only helper programs call the
+// readers, because damaged files have crashed the libraries of the formats, or could make them loop forever.
 
 #include <functional>
 
@@ -50,8 +50,8 @@ bool send_reply(int socket, const std::string& message);
 /// Sends what `reply` returns for the file at `path`, or the error if it throws an exception.
 void reply_safely(int socket, const std::string& path, const std::function<std::string()>& reply);
 
-/// The main function of a helper program: it confines itself and serves requests until the socket is closed. `kind` names the file format in
-/// the message to a user who starts the program by hand.
+/// The main function of a helper program: it confines itself and serves requests until the socket is closed. `kind` names the file format
+/// in the message to a user who starts the program by hand.
 int helper_main(int argc, char** argv, const char* kind, const std::vector<HelperService>&);
 
 }  // namespace corpuscle

@@ -10,6 +10,7 @@
 #include "io/nwb/hdf5_messages.hpp"
 #include "io/sandbox/helper_process.hpp"
 #include "io/sandbox/remote_samples.hpp"
+#include "nwb_series.hpp"
 
 namespace corpuscle {
 namespace {
@@ -52,8 +53,7 @@ class UnitsReader {
         if (!find(column)->is_numeric) return bad(fmt::format("{}: numbers are expected", describe(*find(column))));
         std::vector<T> out(find(column)->shape[0]);
         const Handle type(H5Dget_type(dataset), H5Tclose);
-        if (!hdf5::is_number(type) ||
-            (!out.empty() && H5Dread(dataset, memory, H5S_ALL, H5S_ALL, H5P_DEFAULT, out.data()) < 0))
+        if (!hdf5::is_number(type) || (!out.empty() && H5Dread(dataset, memory, H5S_ALL, H5S_ALL, H5P_DEFAULT, out.data()) < 0))
             return damaged(find(column)->name);
         return out;
     }
@@ -114,9 +114,10 @@ class UnitsReader {
         for (std::size_t u = 0; u < units.size(); ++u) {
             units[u].name = names[u], units[u].channel = channels.empty() ? "" : places[u];
             if (!all.emplace(units[u].name, units[u].channel).second)
-                return bad(fmt::format("several units have '{}' in the column '{}'; select a column with different values, such as --train "
-                                       "id. Columns: {}",
-                                       names[u], column, fmt::join(column_names(), ", ")));
+                return bad(
+                    fmt::format("several units have '{}' in the column '{}'; select a column with different values, such as --train "
+                                "id. Columns: {}",
+                                names[u], column, fmt::join(column_names(), ", ")));
         }
         return {};
     }
@@ -148,7 +149,7 @@ public:
 
 Result<std::vector<NwbUnit>> read_nwb_units(int descriptor, const UnitsRequest& request) {
     const auto file = TRY(hdf5::open_file(descriptor, request.path));
-    if (hdf5::text_attribute(file, "neurodata_type") != "NWBFile")
+    if (!is_nwb(file))
         return bad_input(
             "this HDF5 file is not an NWB file, the only HDF5 format with spikes that is read: its root has no attribute neurodata_type = "
             "NWBFile",

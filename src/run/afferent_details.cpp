@@ -13,7 +13,7 @@ namespace {
 class Columns {
     std::vector<ParameterColumn> columns_;
     std::map<std::pair<std::string_view, std::string_view>, std::size_t> index_;  // by name and unit
-    std::map<const void*, std::vector<std::size_t>> known_;  // the columns of the parameters of plans that share them
+    std::map<const void*, std::vector<std::size_t>> known_;                       // the columns of the parameters of plans that share them
     std::size_t afferents_;
 
     std::size_t column_of(const ParameterInfo& p) {
@@ -77,8 +77,8 @@ std::vector<NwbColumn> nwb_columns(AfferentNames afferents, AfferentDetails deta
         out.push_back({"x", "position in the skin, m", {}, std::move(afferents.x)});
         out.push_back({"y", "position in the skin, m", {}, std::move(afferents.y)});
     }
-    std::set<std::string> taken = {"id", "spike_times", "obs_intervals", "electrodes", "electrode_group", "waveform_mean", "waveform_sd",
-                                   "waveforms"};
+    std::set<std::string> taken = {"id",          "spike_times", "obs_intervals", "electrodes", "electrode_group", "waveform_mean",
+                                   "waveform_sd", "waveforms"};
     for (const auto& c : out) taken.insert(c.name);
     for (auto& p : details.parameters)
         out.push_back({free_name(p.name, taken),

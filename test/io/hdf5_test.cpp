@@ -82,6 +82,7 @@ TEST(Hdf5, ATimeSeriesOfNwbIsReadInItsUnit) {
     EXPECT_EQ(grip.names, std::vector<std::string>{"grip"});
     EXPECT_EQ(grip.force[0], (std::vector<double>{1, 1.25, 1.5, 1.75}));
     EXPECT_EQ(grip.clock.rate(), 500);
+    EXPECT_EQ(grip.clock.t0, 12);
     const auto skin = load_recording(folder / "x.nwb", {.table = {"acquisition/skin/data"}, .scale = 2});
     EXPECT_EQ(skin.force[0], (std::vector<double>{0, 2, 4, 6}));
     EXPECT_EQ(skin.clock.rate(), 100);

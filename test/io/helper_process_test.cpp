@@ -150,7 +150,8 @@ template <class Thrown>
 std::string error_after_throw(const Thrown& thrown) {
     int ends[2];
     if (::socketpair(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC, 0, ends) != 0) return "no socket";
-    std::thread program([&] { serve(ends[1], -1, [&](int, const std::string&, const TableOptions&) -> SamplesResult { throw thrown; }); });
+    std::thread program(
+        [&] { samples_service([&](int, const std::string&, const TableOptions&) -> SamplesResult { throw thrown; }).serve(ends[1], -1); });
     std::string message;
     const bool has_message = send_message(ends[0], encode(OpenRequest{"x.h5", {}})) && receive_message(ends[0], message);
     program.join();
@@ -192,7 +193,7 @@ TEST(HelperProcess, GivesUpRightsThatItDoesNotNeedAndRaisesNoLimit) {
         ::close(wait_pipe[1]);  // so that the read below ends when the parent closes the pipe or dies
         const rlimit lower{std::uint64_t{3} << 30, std::uint64_t{3} << 30};
         ::setrlimit(RLIMIT_AS, &lower);
-        confine(HelperProcess::file_descriptor, HelperProcess::memory_limit);
+        confine(HelperProcess::file_descriptor, HelperProcess::memory_limit, FileAccess::read);
         const unsigned bits = allowed_operations();
         char end;
         if (::write(report_pipe[1], &bits, sizeof bits) == sizeof bits) (void)!::read(wait_pipe[0], &end, 1);

@@ -122,8 +122,9 @@ TEST(SpikeFiles, NumpyTimesAreReadAndSampleNumbersAreRefused) {
 
 TEST(SpikeFiles, ErrorsForOtherBinaryFilesDoNotPrintTheirBytes) {
     const TemporaryFolder folder;
-    EXPECT_EQ(refused(folder.write("x.h5", "\x89HDF\r\n")),
-              "x.h5: this is an HDF5 file, not a spike file; supported are CSV, JSON lines, .npy, .npz and address events");
+    EXPECT_EQ(refused(folder.write("x.h5", "\x89HDF\r\n")), "x.h5: not an HDF5 file (in MATLAB use save -v7.3)");
+    EXPECT_EQ(refused(folder.write("x.wav", "RIFF1234")),
+              "x.wav: this is a sound file, not a spike file; supported are CSV, JSON lines, .npy, .npz, NWB and address events");
     EXPECT_EQ(refused(folder.write("x.bin", std::string("\x01\0\x02", 3))),
               "x.bin: not a text file: it contains NUL bytes, as binary files do");
 }

@@ -1,5 +1,7 @@
 """Validates NWB files against the published schema with hdmf, a library that others wrote."""
 
+import contextlib
+import functools
 import os
 import warnings
 
@@ -49,13 +51,30 @@ def _catalogue():
     return NamespaceCatalog(_spec_class(GroupSpec), _spec_class.dataset, NwbNamespace)
 
 
-def load():
+@functools.cache
+def _schema():
     """(type map, validators) of the schema."""
     from hdmf.build import TypeMap
     from hdmf.validate import ValidatorMap
+    catalogue = _catalogue()
+    catalogue.load_namespaces(os.path.join(SCHEMA, "hdmf-common", "namespace.yaml"), resolve=True)
+    catalogue.load_namespaces(os.path.join(SCHEMA, "core", "nwb.namespace.yaml"), resolve=True)
+    return TypeMap(catalogue), ValidatorMap(catalogue.get_namespace("core"))
+
+
+@contextlib.contextmanager
+def opened(path):
+    """The contents of a file, as hdmf reads them."""
+    from hdmf.backends.hdf5 import HDF5IO
+    from hdmf.build import BuildManager
     with warnings.catch_warnings():
         warnings.simplefilter("ignore")
-        catalogue = _catalogue()
-        catalogue.load_namespaces(os.path.join(SCHEMA, "hdmf-common", "namespace.yaml"), resolve=True)
-        catalogue.load_namespaces(os.path.join(SCHEMA, "core", "nwb.namespace.yaml"), resolve=True)
-    return TypeMap(catalogue), ValidatorMap(catalogue.get_namespace("core"))
+        types, _ = _schema()
+        with HDF5IO(path, manager=BuildManager(types), mode="r") as file:
+            yield file.read_builder()
+
+
+def errors(path):
+    """The errors of the validator, as texts."""
+    with opened(path) as builder:
+        return [str(error) for error in _schema()[1].validate(builder)]

@@ -6,8 +6,8 @@
 #include "cli/output/terminal.hpp"
 #include "cli/respond/planned_run.hpp"
 #include "core/text/ascii_text.hpp"
-#include "io/table/foreign_format.hpp"
 #include "io/output/output_check.hpp"
+#include "io/table/foreign_format.hpp"
 #include "run/earlier_outputs.hpp"
 
 namespace corpuscle {
@@ -42,7 +42,8 @@ std::string response_command(const CommonArguments& common) {
         if (is_output_option(name)) continue;
         const bool is_flag = values.empty() || values == std::vector<std::string>{"true"};
         if (is_flag) out += " " + name;
-        for (std::size_t k = 0; k < values.size() && !is_flag; ++k) out += (name == "FORCE" ? " " : " " + name + " ") + quote_shell_word(values[k]);
+        for (std::size_t k = 0; k < values.size() && !is_flag; ++k)
+            out += (name == "FORCE" ? " " : " " + name + " ") + quote_shell_word(values[k]);
     }
     return out;
 }
@@ -65,7 +66,7 @@ Result<void> check_outputs(const OutputArguments& args, std::vector<std::string>
 }  // namespace
 
 bool is_output_option(std::string_view name) {
-    constexpr std::string_view options[] = {"--checkpoint", "--out", "--report", "--overwrite",
+    constexpr std::string_view options[] = {"--checkpoint", "--out",  "--report",  "--overwrite",
                                             "--quiet",      "--json", "--threads", "--nwb-field"};
     const auto is_of = [&](const OutputFormat* format) { return format->option == name; };
     return std::find(std::begin(options), std::end(options), name) != std::end(options) ||

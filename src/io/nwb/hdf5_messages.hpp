@@ -1,5 +1,5 @@
 #pragma once
-// The messages with which a helper program is told what to write into an HDF5 file, and what it returns of the units of an NWB file.
+// The messages that tell a helper program to write an HDF5 file, and those in which it returns the units of an NWB file.
 
 #include <cstdint>
 #include <string>
@@ -34,9 +34,7 @@ struct Hdf5Step {
     std::vector<std::string> texts{};  ///< the elements of a dataset of texts
     std::vector<char> bytes{};         ///< the elements of a dataset of numbers, or those that are appended
 };
-inline auto byte_fields(Hdf5Step& s) {
-    return std::tie(s.kind, s.path, s.type, s.shape, s.is_growing, s.attributes, s.texts, s.bytes);
-}
+inline auto byte_fields(Hdf5Step& s) { return std::tie(s.kind, s.path, s.type, s.shape, s.is_growing, s.attributes, s.texts, s.bytes); }
 
 /// The request to read the units of an NWB file.
 struct UnitsRequest {

@@ -24,8 +24,7 @@ void Hdf5Writer::add_attributes(const std::string& path, std::vector<Hdf5Attribu
     send({.kind = Hdf5Step::Kind::attributes, .path = path, .attributes = std::move(attributes)});
 }
 
-void Hdf5Writer::add_texts(const std::string& path, std::vector<std::string> texts, bool is_scalar,
-                           std::vector<Hdf5Attribute> attributes) {
+void Hdf5Writer::add_texts(const std::string& path, std::vector<std::string> texts, bool is_scalar, std::vector<Hdf5Attribute> attributes) {
     std::vector<std::uint64_t> shape;
     if (!is_scalar) shape = {texts.size()};
     send({.kind = Hdf5Step::Kind::dataset,

@@ -29,14 +29,14 @@ std::vector<Hdf5Attribute> type_attributes(std::string_view type, std::vector<Hd
 std::optional<std::string> train_error(const std::vector<double>& train, double from, double to) {
     for (std::size_t k = 0; k < train.size(); ++k) {
         if (train[k] < 0)
-            return fmt::format("a spike at {} s. NWB counts times from the start of the session, so that they are not negative. Use times "
-                               "that begin at 0, such as those of --rate; if the spike is before the first sample, --sampled",
-                               train[k]);
-        if (!(train[k] >= from && train[k] <= to)) return fmt::format("a spike at {} s, outside the observed {} s to {} s", train[k], from, to);
+            return fmt::format(
+                "a spike at {} s. NWB counts times from the start of the session, so that they are not negative. Use times "
+                "that begin at 0, such as those of --rate; if the spike is before the first sample, --sampled",
+                train[k]);
+        if (!(train[k] >= from && train[k] <= to))
+            return fmt::format("a spike at {} s, outside the observed {} s to {} s", train[k], from, to);
         if (k > 0 && train[k] == train[k - 1])
-            return fmt::format("two spikes at {} s. NWB needs different times for the spikes of a unit. Set a refractory time, such as --set "
-                               "t_ref=1ms for each afferent, or leave out --sampled if it is given",
-                               train[k]);
+            return fmt::format("two spikes at {} s. NWB needs different times for the spikes of a unit", train[k]);
         if (k > 0 && train[k] < train[k - 1]) return fmt::format("spikes that are not in order, at {} s", train[k]);
     }
     return {};
@@ -48,7 +48,8 @@ Result<NwbFile> NwbFile::create(const std::string& path, NwbMetadata metadata) {
     auto file = TRY(OutputFile::create(path));
     auto writer = TRY(Hdf5Writer::start(file));
     NwbFile out(std::move(file), std::move(writer), std::move(metadata));
-    for (const auto* group : {"/acquisition", "/analysis", "/general", "/processing", "/stimulus", "/stimulus/presentation", "/stimulus/templates"})
+    for (const auto* group :
+         {"/acquisition", "/analysis", "/general", "/processing", "/stimulus", "/stimulus/presentation", "/stimulus/templates"})
         out.writer_.add_group(group);
     out.typed_.push_back("/");
     return out;
@@ -127,6 +128,15 @@ void NwbFile::add_spike_times(const NwbUnits& units) {
     add_index("/units/spike_times_index", path, ends);
 }
 
+/// The remedy for equal times of unit u, as further sentences.
+std::string refractory_remedy(const NwbUnits& units, std::size_t u, const std::string& type) {
+    constexpr double usual = 1e-3;  // s, of nerves
+    const auto has_t_ref = [&](const NwbColumn& c) { return c.name == "t_ref" && u < c.numbers.size() && !std::isnan(c.numbers[u]); };
+    if (std::none_of(units.columns.begin(), units.columns.end(), has_t_ref)) return ". Leave out --sampled if it is given";
+    return fmt::format(". Leave out --sampled if it is given, or set a refractory time: --set {}.t_ref={:g}ms", type,
+                       1e3 * std::max(usual, units.resolution));
+}
+
 Result<void> NwbFile::add_units(const NwbUnits& units) {
     const auto text = [&](std::string_view column, std::size_t u) {
         for (const auto& c : units.columns)
@@ -135,7 +145,9 @@ Result<void> NwbFile::add_units(const NwbUnits& units) {
     };
     for (std::size_t u = 0; u < units.trains.size(); ++u)
         if (const auto error = train_error(units.trains[u], units.from, units.to))
-            return bad_input(fmt::format("{} on {} has {}", text("afferent", u), text("channel", u), *error), {file_.path()});
+            return bad_input(fmt::format("{} on {} has {}{}", text("afferent", u), text("channel", u), *error,
+                                         error->starts_with("two") ? refractory_remedy(units, u, text("afferent_type", u)) : ""),
+                             {file_.path()});
     if (units.trains.empty()) return {};
     std::vector<std::string> names = {"spike_times", "obs_intervals"};
     for (const auto& c : units.columns) names.push_back(c.name);
@@ -144,7 +156,8 @@ Result<void> NwbFile::add_units(const NwbUnits& units) {
     add_spike_times(units);
     std::vector<double> intervals;
     std::vector<std::uint64_t> ends;
-    for (std::size_t u = 0; u < units.trains.size(); ++u) intervals.push_back(units.from), intervals.push_back(units.to), ends.push_back(u + 1);
+    for (std::size_t u = 0; u < units.trains.size(); ++u)
+        intervals.push_back(units.from), intervals.push_back(units.to), ends.push_back(u + 1);
     writer_.add_numbers<double>("/units/obs_intervals", Hdf5Type::real, intervals, {units.trains.size(), 2},
                                 type_attributes("VectorData", {text_value("description", "interval in which the unit was observed, s")}));
     typed_.push_back("/units/obs_intervals");

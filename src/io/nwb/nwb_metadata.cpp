@@ -4,16 +4,16 @@
 #include <algorithm>
 #include <chrono>
 
-#include "core/text/ascii_text.hpp"
 #include "core/parameter.hpp"
+#include "core/text/ascii_text.hpp"
 #include "io/text/time_stamp.hpp"
 
 namespace corpuscle {
 namespace {
 
 constexpr std::string_view lists[] = {"experimenter", "keywords"};
-constexpr std::string_view texts[] = {"experiment_description", "institution", "lab",   "session_id",    "notes", "protocol",
-                                      "data_collection",        "surgery",     "virus", "pharmacology",  "slices", "stimulus"};
+constexpr std::string_view texts[] = {"experiment_description", "institution", "lab",   "session_id",   "notes",  "protocol",
+                                      "data_collection",        "surgery",     "virus", "pharmacology", "slices", "stimulus"};
 constexpr std::string_view subject_texts[] = {"age", "description", "genotype", "sex", "species", "subject_id", "strain", "weight"};
 
 bool contains(std::span<const std::string_view> names, std::string_view name) {
@@ -40,8 +40,8 @@ bool has_time_zone(std::string_view text) {
 Result<void> check_start(const std::string& text) {
     const auto stamp = parse_time_stamp(text);
     if (!stamp || !stamp->has_date || text.size() < 11 || text[4] != '-' || text[10] != 'T' || !has_time_zone(text))
-        return bad_usage(fmt::format(
-            "session_start_time={}: write date, time and time zone as in session_start_time=2026-03-01T12:00:00+01:00", text));
+        return bad_usage(
+            fmt::format("session_start_time={}: write date, time and time zone as in session_start_time=2026-03-01T12:00:00+01:00", text));
     const auto now = std::chrono::duration<double>(std::chrono::system_clock::now().time_since_epoch()).count();
     if (seconds_between({0, 0, true}, *stamp) <= now) return {};
     return bad_usage(fmt::format("session_start_time={} is in the future; give the time at which the session began", text));

@@ -230,7 +230,7 @@ Result<RowClock> find_row_clock(Table& table, const RecordingOptions& options, c
                 fmt::format("no time column found (columns: {}); name one with --time, or give a rate, such as --rate 1kHz", joined(names)),
                 {path});
         }
-        out.clock = TRY(make_clock(*rate));
+        out.clock = TRY(make_clock(*rate, options.rate ? 0 : table.info().start));
         return out;
     }
     out.time_column = column;

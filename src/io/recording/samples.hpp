@@ -24,6 +24,7 @@ public:
     virtual ~Samples() = default;
     const SamplesInfo& info() const { return info_; }
     void add_note(std::string note) { info_.notes.push_back(std::move(note)); }
+    void set_start(double start) { info_.start = start; }
     void set_rate(std::optional<double> rate) { info_.rate = rate; }
     /// The location of a row in the file, for messages. Without lines, the number of the row takes their place. Rows and columns count from
     /// 0.

@@ -28,9 +28,9 @@ public:
     static constexpr unsigned response_timeout_s = 60;                     ///< s, for one response
     static constexpr std::uint64_t memory_limit = std::uint64_t{4} << 30;  ///< bytes that the child may allocate after its start
     static constexpr int socket_descriptor = 3, file_descriptor = 4;       ///< descriptors in the child
-    static constexpr int exit_unknown_protocol = 2;      ///< exit status of a child of another version, which does not know `protocol`
+    static constexpr int exit_unknown_protocol = 2;  ///< exit status of a child of another version, which does not know `protocol`
     // The service that the child offers, with the version of its messages; the only argument of the child.
-    static constexpr const char* protocol = "reader-2";         ///< reads samples (remote_samples.hpp)
+    static constexpr const char* protocol = "reader-3";         ///< reads samples (remote_samples.hpp)
     static constexpr const char* units_protocol = "units-1";    ///< reads the units of an NWB file (io/nwb/hdf5_messages.hpp)
     static constexpr const char* writer_protocol = "writer-1";  ///< writes an HDF5 file (io/nwb/hdf5_writer.hpp)
 

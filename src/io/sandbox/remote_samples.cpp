@@ -91,7 +91,7 @@ bool decode(const std::string& m, FetchRequest& request) { return ByteReader(m).
 std::string encode(const Error& error) { return message_of(static_cast<std::uint64_t>(error.code), error.message, error.location.file); }
 
 std::string encode(const SamplesInfo& info) {
-    return message_of(success, info.rows, info.rate, info.time_column, info.columns, info.notes);
+    return message_of(success, info.rows, info.rate, info.start, info.time_column, info.columns, info.notes);
 }
 
 std::string encode(const std::vector<std::vector<double>>& columns) {
@@ -110,7 +110,7 @@ Result<SamplesInfo> decode_info(const std::string& m, const std::string& path) {
     ByteReader in(m);
     TRY(read_status(in, path));
     SamplesInfo info;
-    if (!in.get(info.rows, info.rate, info.time_column, info.columns, info.notes) ||
+    if (!in.get(info.rows, info.rate, info.start, info.time_column, info.columns, info.notes) ||
         (info.time_column && *info.time_column >= info.columns.size()))
         return broken_response(path);
     return info;

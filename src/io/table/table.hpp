@@ -37,6 +37,7 @@ struct TableInfo {
     std::optional<std::size_t> time_column = {};  ///< nullopt if the reader found none
     bool is_time_guessed = false;                 ///< true if the time column was recognised by its values, not by its name
     std::optional<double> rate = {};              ///< Hz; nullopt if the file does not state it
+    double start = 0;                             ///< s, time of the first row of a table with a rate and without a time column
     bool is_orientation_known =
         true;  ///< true if the reader of the format has determined whether the rows in the file are samples or channels
     std::vector<std::string> notes = {};       ///< for the user about how the file is read

@@ -21,11 +21,11 @@ struct OutputRequest {
     std::size_t channels = 1;                                      ///< on channels: number of channels of all inputs
     std::span<const AfferentPlan> plans = {};                      ///< on channels: the simulated afferents
     CopySpec copies = {};
-    std::vector<std::string> nwb_fields = {};                      ///< of --nwb-field
-    std::string command = {};    ///< the command line, without the options that do not change the response
-    std::uint64_t seed = 0;      ///< of all random numbers
-    bool sampled = false;        ///< spikes have the times of samples
-    const SkinSummary* skin = nullptr;  ///< for a skin: its summary, which precedes the files among the sinks
+    std::vector<std::string> nwb_fields = {};  ///< of --nwb-field
+    std::string command = {};                  ///< the command line, without the options that do not change the response
+    std::uint64_t seed = 0;                    ///< of all random numbers
+    bool sampled = false;                      ///< spikes have the times of samples
+    const SkinSummary* skin = nullptr;         ///< for a skin: its summary, which precedes the files among the sinks
 
     bool has(std::string_view option) const { return options.contains(option); }
 };

@@ -20,10 +20,14 @@ constexpr std::uint64_t numbers_per_chunk = 8192;  // of a growing dataset: 64 k
 
 hid_t stored_type(Hdf5Type type) {
     switch (type) {
-        case Hdf5Type::int32: return H5T_STD_I32LE;
-        case Hdf5Type::int64: return H5T_STD_I64LE;
-        case Hdf5Type::uint64: return H5T_STD_U64LE;
-        default: return H5T_IEEE_F64LE;
+        case Hdf5Type::int32:
+            return H5T_STD_I32LE;
+        case Hdf5Type::int64:
+            return H5T_STD_I64LE;
+        case Hdf5Type::uint64:
+            return H5T_STD_U64LE;
+        default:
+            return H5T_IEEE_F64LE;
     }
 }
 
@@ -166,11 +170,16 @@ public:
 
     bool run(const Hdf5Step& s) {
         switch (s.kind) {
-            case Hdf5Step::Kind::group: return add_group(s);
-            case Hdf5Step::Kind::dataset: return add_dataset(s);
-            case Hdf5Step::Kind::append: return append(s);
-            case Hdf5Step::Kind::attributes: return add_attributes(s);
-            case Hdf5Step::Kind::finish: return finish();
+            case Hdf5Step::Kind::group:
+                return add_group(s);
+            case Hdf5Step::Kind::dataset:
+                return add_dataset(s);
+            case Hdf5Step::Kind::append:
+                return append(s);
+            case Hdf5Step::Kind::attributes:
+                return add_attributes(s);
+            case Hdf5Step::Kind::finish:
+                return finish();
         }
         return false;
     }
