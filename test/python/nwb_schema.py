@@ -5,7 +5,7 @@ import functools
 import os
 import warnings
 
-SCHEMA = os.path.join(os.environ.get("CORPUSCLE_DATA", ""), "nwb_schema")
+SCHEMA = os.path.join(os.environ.get("CORPUSCLE_DATA") or os.path.join(os.environ["CORPUSCLE_ROOT"], "..", "shared", "data"), "nwb_schema")
 
 
 def missing():
