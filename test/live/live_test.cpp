@@ -401,7 +401,7 @@ TEST(LatencyHistogram, QuantilesAreWithinThreePercent) {
 }
 
 TEST(CHeader, GivesThePositionOfEachSite) {
-    auto* const skin = corpuscle_create("grid 2x3", 1000, 1, nullptr, 0);
+    auto* const skin = corpuscle_create("grid 2x3", 1000, 1);
     ASSERT_TRUE(skin);
     double x = 0, y = 0;
     EXPECT_STREQ(corpuscle_site_name(skin, 4), "r2c2");
@@ -409,8 +409,9 @@ TEST(CHeader, GivesThePositionOfEachSite) {
     EXPECT_NEAR(x, 2e-3, 1e-12);
     EXPECT_NEAR(y, 2e-3, 1e-12);
     EXPECT_EQ(corpuscle_site_name(skin, 6), nullptr);
-    EXPECT_EQ(corpuscle_site_position(skin, 6, &x, &y), -1);
-    EXPECT_EQ(corpuscle_site_position(nullptr, 0, &x, &y), -1);
+    EXPECT_EQ(corpuscle_site_position(skin, 6, &x, &y), CORPUSCLE_BAD_CALL);
+    EXPECT_STREQ(corpuscle_error(), "there is no site 6; the skin has 6, which count from 0");
+    EXPECT_EQ(corpuscle_site_position(nullptr, 0, &x, &y), CORPUSCLE_BAD_CALL);
     corpuscle_destroy(skin);
 }
 
@@ -499,29 +500,28 @@ TEST(SiteMap, RequiresThatAllNamesOrNoneAreSites) {
 }
 
 TEST(CHeader, ReportsErrorsAndResumesASavedState) {
-    char error[200];
-    EXPECT_EQ(corpuscle_create("nobody", 1000, 1, error, sizeof error), nullptr);
-    EXPECT_NE(std::string(error).find("nobody"), std::string::npos) << error;
-    EXPECT_EQ(corpuscle_create(nullptr, 1000, 1, nullptr, 0), nullptr);
-    auto* one = corpuscle_create("sa1", 1000, 1, error, sizeof error);
-    auto* other = corpuscle_create("sa1", 1000, 1, error, sizeof error);
-    ASSERT_TRUE(one && other) << error;
+    EXPECT_EQ(corpuscle_create("nobody", 1000, 1), nullptr);
+    EXPECT_NE(std::string(corpuscle_error()).find("nobody"), std::string::npos) << corpuscle_error();
+    EXPECT_EQ(corpuscle_create(nullptr, 1000, 1), nullptr);
+    auto* one = corpuscle_create("sa1", 1000, 1);
+    auto* other = corpuscle_create("sa1", 1000, 1);
+    ASSERT_TRUE(one && other) << corpuscle_error();
     const auto list = [](void* to, const corpuscle_spike* s) { static_cast<std::vector<double>*>(to)->push_back(s->time); };
     std::vector<double> all, second;
     const double force = 2;
-    EXPECT_EQ(corpuscle_push(one, &force, 2, list, &all), -1);
-    EXPECT_STREQ(corpuscle_error(one), "a frame has 2 forces, but there are 1 sites");
+    EXPECT_EQ(corpuscle_push(one, &force, 2, list, &all), CORPUSCLE_BAD_INPUT);
+    EXPECT_STREQ(corpuscle_error(), "a frame has 2 forces, but there are 1 sites");
     for (int k = 0; k < 1000; ++k) {
         if (k == 150) {
             std::vector<char> state(corpuscle_save(one, nullptr, 0));
             EXPECT_EQ(corpuscle_save(one, state.data(), state.size()), state.size());
             EXPECT_EQ(corpuscle_save(one, state.data(), 3), 0U);
             EXPECT_EQ(corpuscle_resume(other, state.data(), state.size()), 0);
-            EXPECT_EQ(corpuscle_resume(other, state.data(), 3), -1);
+            EXPECT_EQ(corpuscle_resume(other, state.data(), 3), CORPUSCLE_BAD_INPUT);
             for (std::size_t at = 0; at < state.size(); ++at) {
                 auto damaged = state;
                 damaged[at] = static_cast<char>(damaged[at] ^ (1 << at % 8));
-                EXPECT_EQ(corpuscle_resume(other, damaged.data(), damaged.size()), -1) << at;
+                EXPECT_EQ(corpuscle_resume(other, damaged.data(), damaged.size()), CORPUSCLE_BAD_INPUT) << at;
             }
             second = all;
         }
@@ -536,10 +536,9 @@ TEST(CHeader, ReportsErrorsAndResumesASavedState) {
 }
 
 TEST(CHeader, AppliesSettingsToTheClassesOfAPopulation) {
-    char error[400];
     const auto spikes = [&](std::vector<const char*> settings) {
-        auto* skin = corpuscle_create_with("grid 2x2", 1000, 1, settings.data(), settings.size(), error, sizeof error);
-        EXPECT_TRUE(skin) << error;
+        auto* skin = corpuscle_create_with("grid 2x2", 1000, 1, settings.data(), settings.size());
+        EXPECT_TRUE(skin) << corpuscle_error();
         long count = 0;
         const std::vector<double> frame(corpuscle_sites(skin), 2.0);
         for (int k = 0; k < 500; ++k)
@@ -553,12 +552,12 @@ TEST(CHeader, AppliesSettingsToTheClassesOfAPopulation) {
     for (const auto& [setting, message] : {std::pair{"sa9.V_th=1V", "nothing here is named 'sa9'; did you mean 'sa1'?"},
                                            {"sa1.V=1V", "unknown parameter 'V'"},
                                            {"sa1", "write NAME.PARAMETER=VALUE"}}) {
-        EXPECT_EQ(corpuscle_create_with("grid 2x2", 1000, 1, &setting, 1, error, sizeof error), nullptr);
-        EXPECT_NE(std::string(error).find(message), std::string::npos) << error;
+        EXPECT_EQ(corpuscle_create_with("grid 2x2", 1000, 1, &setting, 1), nullptr);
+        EXPECT_NE(std::string(corpuscle_error()).find(message), std::string::npos) << corpuscle_error();
     }
     const char* none = nullptr;
-    EXPECT_EQ(corpuscle_create_with("grid 2x2", 1000, 1, &none, 1, error, sizeof error), nullptr);
-    EXPECT_EQ(corpuscle_create_with("grid 2x2", 1000, 1, nullptr, 1, error, sizeof error), nullptr);
+    EXPECT_EQ(corpuscle_create_with("grid 2x2", 1000, 1, &none, 1), nullptr);
+    EXPECT_EQ(corpuscle_create_with("grid 2x2", 1000, 1, nullptr, 1), nullptr);
 }
 
 }  // namespace

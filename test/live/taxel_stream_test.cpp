@@ -154,10 +154,9 @@ TEST(TaxelStream, MistakesAreErrorsThatNameTheRemedy) {
 
 TEST(CHeader, SimulatesFramesOfTaxels) {
     const TemporaryFolder folder;
-    char error[400];
     const auto file = folder.write("taxels.csv", "name,x_mm,y_mm,width_mm,height_mm\na,3,3,6,6\nb,11,11,6,6\n");
-    auto* skin = corpuscle_create_taxels("grid 8x8", file.c_str(), 1000, nullptr, 0, error, sizeof error);
-    ASSERT_TRUE(skin) << error;
+    auto* skin = corpuscle_create_taxels("grid 8x8", file.c_str(), 1000, nullptr, 0);
+    ASSERT_TRUE(skin) << corpuscle_error();
     EXPECT_EQ(corpuscle_frame_size(skin), 2U);
     EXPECT_EQ(corpuscle_sites(skin), 64U);
     long count = 0;
@@ -165,12 +164,12 @@ TEST(CHeader, SimulatesFramesOfTaxels) {
     const auto add = [](void* to, const corpuscle_spike*) { ++*static_cast<long*>(to); };
     for (int k = 0; k < 500; ++k) EXPECT_EQ(corpuscle_push(skin, frame, 2, add, &count), 0);
     EXPECT_GT(count, 10);
-    EXPECT_EQ(corpuscle_push(skin, frame, 1, add, &count), -1);
-    EXPECT_STREQ(corpuscle_error(skin), "a frame has 1 forces, but those of these taxels have 2");
+    EXPECT_EQ(corpuscle_push(skin, frame, 1, add, &count), CORPUSCLE_BAD_INPUT);
+    EXPECT_STREQ(corpuscle_error(), "a frame has 1 forces, but those of these taxels have 2");
     corpuscle_destroy(skin);
-    EXPECT_EQ(corpuscle_create_taxels("grid 8x8", nullptr, 1000, nullptr, 0, error, sizeof error), nullptr);
-    EXPECT_EQ(corpuscle_create_taxels("sa1", file.c_str(), 1000, nullptr, 0, error, sizeof error), nullptr);
-    EXPECT_NE(std::string(error).find("taxels need a skin"), std::string::npos) << error;
+    EXPECT_EQ(corpuscle_create_taxels("grid 8x8", nullptr, 1000, nullptr, 0), nullptr);
+    EXPECT_EQ(corpuscle_create_taxels("sa1", file.c_str(), 1000, nullptr, 0), nullptr);
+    EXPECT_NE(std::string(corpuscle_error()).find("taxels need a skin"), std::string::npos) << corpuscle_error();
 }
 
 }  // namespace
