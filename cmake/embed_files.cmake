@@ -18,7 +18,7 @@ function(embed_files target source)
         cmake_path(GET file FILENAME path)
       endif()
       set(symbol "${target}_embedded_${number}")
-      string(APPEND assembly ".global ${symbol}\n.global ${symbol}_end\n"
+      string(APPEND assembly ".global ${symbol}\n.hidden ${symbol}\n.global ${symbol}_end\n.hidden ${symbol}_end\n"
         "${symbol}:\n.incbin \"${file}\"\n${symbol}_end:\n.byte 0\n")
       string(APPEND declarations "extern \"C\" const char ${symbol}[], ${symbol}_end[];\n")
       string(APPEND rows "    {\"${path}\", ${symbol}, ${symbol}_end},\n")

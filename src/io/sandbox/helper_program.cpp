@@ -1,5 +1,6 @@
 // Finds the helper programs. This is a separate file because only its compile options define the names of the libexec directory:
-// CORPUSCLE_LIBEXEC_DIRECTORY (complete path) and CORPUSCLE_LIBEXEC_NAME (relative to the install prefix).
+// CORPUSCLE_LIBEXEC_DIRECTORY (complete path), CORPUSCLE_LIBEXEC_NAME (relative to the install prefix) and CORPUSCLE_LIBEXEC_FROM_LIBRARY
+// (relative to the directory of the installed shared library).
 
 #include <dlfcn.h>
 #include <fmt/format.h>
@@ -12,8 +13,8 @@
 namespace corpuscle {
 namespace {
 
-/// The directory of the shared object that contains this code, such as the extension module of the Python package; empty if it is not
-/// known.
+/// The directory of the shared object that contains this code: the shared library, or the extension module of the Python package. Empty if
+/// it is not known.
 std::filesystem::path object_directory() {
     Dl_info info{};
     if (::dladdr(reinterpret_cast<const void*>(&find_helper_program), &info) == 0 || !info.dli_fname) return {};
@@ -25,7 +26,8 @@ std::filesystem::path object_directory() {
 std::vector<std::filesystem::path> directories() {
     if (const char* set = ::secure_getenv("CORPUSCLE_LIBEXEC"); set && *set) return {set};
     std::vector<std::filesystem::path> out;
-    if (auto object = object_directory(); !object.empty()) out.push_back(std::move(object));
+    if (const auto object = object_directory(); !object.empty())
+        out.push_back(object), out.push_back((object / CORPUSCLE_LIBEXEC_FROM_LIBRARY).lexically_normal());
     std::error_code unknown;  // set if the path of the running program is not known; `self` is then empty
     if (const auto self = std::filesystem::read_symlink("/proc/self/exe", unknown).parent_path(); !self.empty()) {
         out.push_back(self);

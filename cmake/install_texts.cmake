@@ -1,0 +1,13 @@
+# Manual pages and completions of shells. The programs write their own manual pages, from the texts of --help, whenever they are linked.
+if(NOT CORPUSCLE_SANITIZE)
+  foreach(program corpuscle-cli corpuscle-study)
+    set(pages ${PROJECT_BINARY_DIR}/man/${program})
+    file(MAKE_DIRECTORY ${pages})
+    add_custom_target(man-${program} ALL COMMAND ${program} __man ${pages} DEPENDS ${program} COMMENT "Writing the manual pages of ${program}")
+    install(DIRECTORY ${pages}/ DESTINATION ${CMAKE_INSTALL_MANDIR}/man1)
+  endforeach()
+endif()
+set(scripts apps/cli/shell/scripts)
+install(FILES ${scripts}/corpuscle.bash DESTINATION ${CMAKE_INSTALL_DATADIR}/bash-completion/completions RENAME corpuscle)
+install(FILES ${scripts}/_corpuscle DESTINATION ${CMAKE_INSTALL_DATADIR}/zsh/site-functions)
+install(FILES ${scripts}/corpuscle.fish DESTINATION ${CMAKE_INSTALL_DATADIR}/fish/vendor_completions.d)
