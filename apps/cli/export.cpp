@@ -7,6 +7,7 @@
 #include "circuit/variant/netlist_overrides.hpp"
 #include "cli/output/output_files.hpp"
 #include "cli/output/terminal.hpp"
+#include "cli/shell/suggestions.hpp"
 #include "cli/verbs.hpp"
 #include "io/output/output_check.hpp"
 
@@ -62,7 +63,8 @@ Verb make_export_verb() {
             .description = "convert a netlist to the format of another simulator",
             .examples = export_examples,
             .options = {{"",
-                         {required({"NETLIST", &args->netlist, "", "a SPICE netlist, or a built-in one: sa1-circuit, fa1-circuit"}),
+                         {suggesting(netlist_names, required({"NETLIST", &args->netlist, "",
+                                                              "a SPICE netlist, or a built-in one: sa1-circuit, fa1-circuit"})),
                           {"--for", &args->target, "SIMULATOR", "the target simulator: ngspice (version 39)", one_of("ngspice")}}},
                         {"Output", {{"--out,-o", &args->out, "FILE", "write to this file (default: standard output)"}}}},
             .reports = true,

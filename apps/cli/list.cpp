@@ -8,6 +8,7 @@
 
 #include "cli/list_sites.hpp"
 #include "cli/output/terminal.hpp"
+#include "cli/shell/suggestions.hpp"
 #include "cli/verbs.hpp"
 #include "core/text/ascii_text.hpp"
 #include "core/text/quantity.hpp"
@@ -135,20 +136,21 @@ Result<void> print_sites(const ListArguments& args, const CommonArguments& commo
 
 Verb make_list_verb() {
     const auto args = std::make_shared<ListArguments>();
-    return {.name = "list",
-            .description = "list all models, stimuli, circuits ... with the default, range and description of every parameter",
-            .examples =
-                "Examples:\n  corpuscle list\n  corpuscle list neurons\n  corpuscle list sa1 press\n  corpuscle list 'grid 4x4' --sites",
-            .options =
-                {{"",
-                  {{"WHAT", &args->names, "",
-                    "afferents, sensors, transducers, converters, receptors, neurons, stimuli, measures, formats, or the name of an entry"},
-                   {"--sites", &args->list_sites, "",
-                    "print the sites of a population (hand, 'grid 4x4', own.toml) in frame order, as CSV: name, x_mm, y_mm, region"}}}},
-            .reports = true,
-            .run = [args](const CommonArguments& common) {
-                return exit_status(args->list_sites ? print_sites(*args, common) : print_sections(*args, common));
-            }};
+    return {
+        .name = "list",
+        .description = "list all models, stimuli, circuits ... with the default, range and description of every parameter",
+        .examples =
+            "Examples:\n  corpuscle list\n  corpuscle list neurons\n  corpuscle list sa1 press\n  corpuscle list 'grid 4x4' --sites",
+        .options = {{"",
+                     {suggesting(catalogue_names, {"WHAT", &args->names, "",
+                                                   "afferents, sensors, transducers, converters, receptors, neurons, stimuli, measures, "
+                                                   "formats, or the name of an entry"}),
+                      {"--sites", &args->list_sites, "",
+                       "print the sites of a population (hand, 'grid 4x4', own.toml) in frame order, as CSV: name, x_mm, y_mm, region"}}}},
+        .reports = true,
+        .run = [args](const CommonArguments& common) {
+            return exit_status(args->list_sites ? print_sites(*args, common) : print_sections(*args, common));
+        }};
 }
 
 }  // namespace corpuscle

@@ -8,23 +8,15 @@
 #include <system_error>
 
 #include "cli/help.hpp"
+#include "cli/output/output_files.hpp"
 #include "cli/output/terminal.hpp"
+#include "cli/shell/completion.hpp"
+#include "cli/shell/man_page.hpp"
+#include "cli/verb_options.hpp"
 #include "core/version.hpp"
 
 namespace corpuscle {
 namespace {
-
-/// The options that verbs have in common.
-OptionGroup common_options(const Verb& verb, CommonArguments& common) {
-    OptionGroup out;
-    if (verb.reports)
-        out.rows = {{"--json", &common.json, "", "print one JSON document on standard output, and nothing else"},
-                    {"--quiet,-q", &common.quiet, "", "do not print tables, progress and notes; warnings are still printed"}};
-    if (verb.writes_files)
-        out.rows.push_back({"--overwrite", &common.overwrite, "",
-                            "also replace files that were not written by an earlier run; input files are never replaced"});
-    return out;
-}
 
 /// Adds the part of each verb, and of the verbs that may follow it, to the command line.
 void add_verbs(CLI::App& app, const std::vector<Verb>& verbs, CommonArguments& common) {
@@ -33,8 +25,7 @@ void add_verbs(CLI::App& app, const std::vector<Verb>& verbs, CommonArguments& c
         part.footer(verb.examples);
         if (verb.is_program) continue;
         part.set_version_flag("--version", fmt::format("corpuscle {}", version))->group("");
-        for (const auto& group : verb.options) add_options(part, group);
-        add_options(part, common_options(verb, common));
+        for (const auto& group : all_options(verb, common)) add_options(part, group);
         if (!verb.sub_verbs.empty()) part.require_subcommand(0, 1);
         add_verbs(part, verb.sub_verbs, common);
     }
@@ -88,6 +79,25 @@ int run_command_line(CLI::App& app, const std::vector<Verb>& verbs, CommonArgume
     return verb.run(common);
 }
 
+/// Prints the words that may follow those behind __complete.
+int print_completions(const std::vector<Verb>& verbs, const CommonArguments& common) {
+    std::vector<std::string> words(common.words.begin() + 1, common.words.end());
+    if (verbs.size() == 1 && !words.empty() && words[0] != verbs[0].name) words.insert(words.begin(), verbs[0].name);
+    const auto text = completions(verbs, words, {"--help", "--help-all", "--version"});
+    std::fwrite(text.data(), 1, text.size(), stdout);
+    return 0;
+}
+
+/// Writes the manual pages into the directory behind __man.
+Result<void> write_man_pages(const std::string& about, const std::string& first_steps, const std::vector<Verb>& verbs,
+                             CommonArguments& common) {
+    if (common.words.size() != 2) return bad_usage("__man: the directory for the manual pages is required");
+    const auto app = make_command_line(about, verbs, common);
+    app->footer(first_steps);
+    for (const auto& page : man_pages(*app, verbs)) TRY(write_file(common.words[1] + "/" + page.name, page.text));
+    return {};
+}
+
 }  // namespace
 
 int run_program(const std::string& about, const std::string& first_steps, const std::vector<Verb>& verbs, int argc,
@@ -96,6 +106,11 @@ int run_program(const std::string& about, const std::string& first_steps, const 
     CommonArguments common;
     common.command = quote_command(argc, argv, false), common.complete_command = quote_command(argc, argv, true);
     common.words = normalize_help({argv + 1, argv + argc});
+    if (common.words[0] == "__man") return exit_status(write_man_pages(about, first_steps, verbs, common));
+    for (const auto& verb : verbs)  // completed by the other program
+        if (verb.is_program && common.words.size() > 2 && common.words[0] == "__complete" && common.words[1] == verb.name)
+            return verb.run(common);
+    if (common.words[0] == "__complete") return print_completions(verbs, common);
     if (verbs.size() == 1 && common.words[0] != verbs[0].name) common.words.insert(common.words.begin(), verbs[0].name);
     for (const auto& verb : verbs)
         if (verb.is_program && common.words[0] == verb.name) return verb.run(common);

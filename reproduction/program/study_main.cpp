@@ -22,13 +22,20 @@ std::string study_help() {
            "  corpuscle study fig3 --json";
 }
 
+std::vector<std::string> study_names() {
+    std::vector<std::string> out = {"all"};
+    for (const auto* s : all_studies()) out.emplace_back(s->name);
+    for (const auto* s : recorded_studies) out.emplace_back(s->name);
+    return out;
+}
+
 Verb make_study_verb() {
     const auto args = std::make_shared<StudyArguments>();
     return {.name = "study",
             .description = "reproduce published results and compare them with the published numbers",
             .examples = study_help(),
             .options = {{"",
-                         {{"NAME", &args->names, "", "the studies to run (default: all)"},
+                         {suggesting(study_names, {"NAME", &args->names, "", "the studies to run (default: all)"}),
                           {"--report", &args->report_file, "FILE.html", "write a report page: figures, published and computed numbers"},
                           {"--markdown", &args->markdown_file, "FILE.md", "write all numbers as Markdown"}}}},
             .reports = true,

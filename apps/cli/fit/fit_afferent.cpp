@@ -6,6 +6,7 @@
 #include "cli/fit/fit_arguments.hpp"
 #include "cli/output/output_files.hpp"
 #include "cli/output/terminal.hpp"
+#include "cli/shell/suggestions.hpp"
 #include "cli/verbs.hpp"
 #include "fit/fit_document.hpp"
 #include "fit/fit_plan.hpp"
@@ -116,14 +117,15 @@ Result<void> fit_afferent(const FitArguments& args, const CommonArguments& commo
 OptionGroup data_options(FitArguments& args) {
     return {
         "",
-        {repeatable({"FORCE", list_reader(args.forces, read_force), "FORCE", "recordings and stimuli"}),
+        {suggesting(force_names, repeatable({"FORCE", list_reader(args.forces, read_force), "FORCE", "recordings and stimuli"})),
          {"--targets", &args.targets, "FILE", "instead: a table of published numbers (see below, and doc/fit.md)"},
          {"--spikes", &args.spike_files, "FILE", "spikes recorded under a FORCE; one for each, in their order"},
          split_at_commas({"--train", names_reader(args.trains), "NAME", "the trains of the afferent, if a file has several (repeatable)"}),
          {"--delay", quantity_reader(args.delay, "s"), "TIME", "conduction delay, which is subtracted from the recorded times"},
-         {"--afferent,-a", &args.afferent, "NAME", "the afferent to fit"},
-         repeatable({"--set,-s", override_reader(args.settings, "--set"), "NAME.PARAMETER=VALUE",
-                     "set a parameter of the afferent, which is kept or is the start of the search, or of a stimulus"}),
+         suggesting(afferent_names, {"--afferent,-a", &args.afferent, "NAME", "the afferent to fit"}),
+         suggesting(setting_names,
+                    repeatable({"--set,-s", override_reader(args.settings, "--set"), "NAME.PARAMETER=VALUE",
+                                "set a parameter of the afferent, which is kept or is the start of the search, or of a stimulus"})),
          split_at_commas(
              {"--free,-f", names_reader(args.free), "NAME", "the parameters to fit (repeat the option, or separate by commas)"}),
          split_at_commas({"--bounds,-b", names_reader(args.bounds), "NAME=LOW:HIGH", "fit this parameter within bounds: f_B=5Hz:50Hz"})}};

@@ -6,6 +6,7 @@
 
 #include "cli/output/output_files.hpp"
 #include "cli/respond/planned_run.hpp"
+#include "cli/shell/suggestions.hpp"
 #include "cli/verbs.hpp"
 #include "io/table/foreign_format.hpp"
 #include "model/copies.hpp"
@@ -68,27 +69,33 @@ OptionReader spread_reader(std::vector<ParameterOverride>& spreads) {
 OptionGroup afferent_options(RespondArguments& args) {
     return {
         "",
-        {repeatable({"FORCE", list_reader(args.forces, read_force), "TEXT", "recordings and stimuli"}),
-         with_default("sa1,fa1",
-                      split_at_commas({"--afferent,-a",
-                                       list_reader(args.afferents, [](const std::string& name) { return Result<std::string>(name); }),
-                                       "NAME", "the afferents to simulate (repeat the option, or separate by commas)"})),
-         repeatable({"--set,-s", override_reader(args.settings, "--set"), "NAME.PARAMETER=VALUE",
-                     "set a parameter of an afferent or a stimulus, such as sa1.f_B=25Hz"}),
+        {suggesting(force_names, repeatable({"FORCE", list_reader(args.forces, read_force), "TEXT", "recordings and stimuli"})),
+         suggesting(
+             afferent_names,
+             with_default("sa1,fa1",
+                          split_at_commas({"--afferent,-a",
+                                           list_reader(args.afferents, [](const std::string& name) { return Result<std::string>(name); }),
+                                           "NAME", "the afferents to simulate (repeat the option, or separate by commas)"}))),
+         suggesting(setting_names, repeatable({"--set,-s", override_reader(args.settings, "--set"), "NAME.PARAMETER=VALUE",
+                                               "set a parameter of an afferent or a stimulus, such as sa1.f_B=25Hz"})),
          {"--copies", &args.copies, "N", "simulate N copies of each afferent on every channel: sa1#1 ... sa1#N", std::pair(1U, max_copies)},
-         repeatable({"--spread", spread_reader(args.spreads), "NAME.PARAMETER=10%",
-                     "vary a parameter between copies: by its standard deviation, relative (10%) or with its unit, or by a factor (x3, "
-                     "lognormal)"})}};
+         suggesting(
+             setting_names,
+             repeatable({"--spread", spread_reader(args.spreads), "NAME.PARAMETER=10%",
+                         "vary a parameter between copies: by its standard deviation, relative (10%) or with its unit, or by a factor (x3, "
+                         "lognormal)"}))}};
 }
 
 OptionGroup skin_options(RespondArguments& args) {
     return {
         "Skins",
-        {{"--population,-p", &args.population, "NAME|FILE",
-          "simulate a skin (instead of --afferent): hand, fingertip, 'grid 8x8', or a population file (doc/skin.md)"},
-         {"--contact", &args.contact, "INDENTER",
-          "indenter that applies the force of a single channel to the skin: flat (default), sphere, edge, grating; for its "
-          "parameters see 'corpuscle list contact', and set them by --set contact.radius=5mm"},
+        {suggesting(population_names,
+                    {"--population,-p", &args.population, "NAME|FILE",
+                     "simulate a skin (instead of --afferent): hand, fingertip, 'grid 8x8', or a population file (doc/skin.md)"}),
+         suggesting(indenter_names,
+                    {"--contact", &args.contact, "INDENTER",
+                     "indenter that applies the force of a single channel to the skin: flat (default), sphere, edge, grating; for its "
+                     "parameters see 'corpuscle list contact', and set them by --set contact.radius=5mm"}),
          {"--taxels", &args.taxels, "FILE",
           "layout of the taxels that the recording is from (name,x_mm,y_mm,width_mm,height_mm,region ...): their forces are spread over "
           "the sites of the skin in their areas (doc/taxels.md)"},

@@ -12,6 +12,7 @@
 #include "cli/output/terminal.hpp"
 #include "cli/run/curve_files.hpp"
 #include "cli/run/variant_printer.hpp"
+#include "cli/shell/suggestions.hpp"
 #include "cli/verbs.hpp"
 
 namespace corpuscle {
@@ -197,7 +198,8 @@ Verb make_run_verb() {
             .description = "run the analyses of a netlist -> .raw, CSV, printed measurements",
             .examples = run_help(),
             .options = {{"",
-                         {required({"NETLIST", &args->netlist, "", "a SPICE netlist, or a built-in one: sa1-circuit, fa1-circuit"}),
+                         {suggesting(netlist_names, required({"NETLIST", &args->netlist, "",
+                                                              "a SPICE netlist, or a built-in one: sa1-circuit, fa1-circuit"})),
                           {"--set,-s", &args->settings, "NAME=VALUE",
                            "set a .param, an array (summer.N3B=8x4), a device value (cco.cu=4pF) or a device parameter (N3B.w=1.2um)"},
                           {"--budget", &args->budget, "", "also print power, area and leakage of each block"}}},

@@ -2,6 +2,7 @@
 
 #include "cli/stream/stream.hpp"
 #include "cli/output/terminal.hpp"
+#include "cli/shell/suggestions.hpp"
 #include "cli/verbs.hpp"
 
 namespace corpuscle {
@@ -48,14 +49,15 @@ OptionReader buffer_reader(double& to) {
 OptionGroup population_options(StreamArguments& args) {
     return {
         "",
-        {{"--population,-p", &args.population, "POPULATION", "the afferents to simulate"},
+        {suggesting(live_population_names, {"--population,-p", &args.population, "POPULATION", "the afferents to simulate"}),
          {"--channels,-n", &args.channel_count, "N", "forces per frame, if the population is given by names of afferents",
           std::pair(1, 1 << 22)},
          {"--taxels", &args.taxels, "FILE",
           "layout of the taxels that the frames are from (name,x_mm,y_mm,width_mm,height_mm,region ...): their forces are spread over the "
           "sites of the skin in their areas (doc/taxels.md)"},
-         repeatable({"--set,-s", override_reader(args.settings, "--set"), "NAME.PARAMETER=VALUE",
-                     "set a parameter of an afferent, a class of the population or a stimulus, such as sa1.f_B=25Hz"}),
+         suggesting(setting_names,
+                    repeatable({"--set,-s", override_reader(args.settings, "--set"), "NAME.PARAMETER=VALUE",
+                                "set a parameter of an afferent, a class of the population or a stimulus, such as sa1.f_B=25Hz"})),
          {"--sampled", &args.sampled, "", "put spikes on the sampling times, as in the thesis (default: interpolate within the step)"},
          {"--batch-frames", &args.batch_frames, "N",
           "process N frames at once: less CPU time, but up to N frames more latency; the spikes are the same", std::pair(1, 1024)},

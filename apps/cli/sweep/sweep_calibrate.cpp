@@ -5,6 +5,7 @@
 
 #include "circuit/variant/netlist_variants.hpp"
 #include "cli/output/terminal.hpp"
+#include "cli/shell/suggestions.hpp"
 #include "cli/verbs.hpp"
 #include "core/stimulus/stimuli.hpp"
 #include "core/text/ascii_text.hpp"
@@ -142,9 +143,10 @@ Verb make_sweep_calibrate_verb() {
         .description = "trim simulated chips to match a model -> yield for each number of trim bits",
         .examples = calibrate_examples,
         .options = {{"",
-                     {required(
-                          {"NETLIST", &args->netlist, "", "sa1-circuit, fa1-circuit, or a netlist with a force input and a spike output"}),
-                      {"--like", &args->like, "AFFERENT", "the model to match (default: sa1 for sa1-circuit, fa1 for fa1-circuit)"},
+                     {suggesting(netlist_names, required({"NETLIST", &args->netlist, "",
+                                                          "sa1-circuit, fa1-circuit, or a netlist with a force input and a spike output"})),
+                      suggesting(afferent_names, {"--like", &args->like, "AFFERENT",
+                                                  "the model to match (default: sa1 for sa1-circuit, fa1 for fa1-circuit)"}),
                       counted(1, any_number_of_values,
                               {"--trim", &args->trims, "NAME=RANGE",
                                "a trimmed .param or device parameter (several are joined by +) and its range: the increase at the highest "
@@ -153,7 +155,7 @@ Verb make_sweep_calibrate_verb() {
                       {"--samples", &args->samples, "N", "number of chips", OptionSign::positive},
                       {"--seed", &args->seed, "N", "random seed of process and mismatch"},
                       {"--corner", &args->corner, "", "process corner; mc includes process variation"},
-                      {"--force", &args->force, "STIMULUS", "the stimulus"},
+                      suggesting(stimulus_names, {"--force", &args->force, "STIMULUS", "the stimulus"}),
                       {"--separately", &args->separately, "", "also evaluate each trim alone"},
                       {"--threads,-j", &args->threads, "N", "number of threads (0: one per core); results do not depend on it",
                        std::pair(0U, 1024U)}}}},

@@ -7,6 +7,7 @@
 
 #include "cli/output/output_files.hpp"
 #include "cli/output/terminal.hpp"
+#include "cli/shell/suggestions.hpp"
 #include "cli/sweep/sweep_output.hpp"
 #include "cli/verbs.hpp"
 #include "core/text/input_files.hpp"
@@ -87,7 +88,8 @@ Verb make_sweep_show_verb() {
                          {required({"RESULTS", &args->results, "", "a results file; the sweep may still be running"}),
                           {"--by", &args->by, "AXIS",
                            "group the results by these axes (default: all listed axes); random axes are divided into five bands"},
-                          {"--measure,-m", &args->measures, "NAME", "analyse only these measures; limits of other measures are ignored"},
+                          suggesting(measure_names, {"--measure,-m", &args->measures, "NAME",
+                                                     "analyse only these measures; limits of other measures are ignored"}),
                           {"--quantile", &args->quantiles, "FRACTION", "print this quantile with its confidence interval, such as 0.01"}}},
                         {"Output", {{"--report", &args->report_file, "FILE.html", "write a report page"}}}},
             .reports = true,

@@ -49,6 +49,8 @@ struct OptionRow {
     bool splits_at_commas = false;        ///< with a reader: each part of a value is read
     const char* shown_default = nullptr;  ///< with a reader: the default that --help prints
     const char* excludes = nullptr;       ///< an option that must not be given, too
+    /// Values that a shell offers for this option, beside those of `check`; it may have others. Null: none.
+    std::vector<std::string> (*suggestions)() = nullptr;
 };
 
 /// A row with a further property; the properties are those of the members.
@@ -56,6 +58,7 @@ inline OptionRow required(OptionRow row) { return row.is_required = true, row; }
 inline OptionRow counted(int lowest, int highest, OptionRow row) { return row.count = {lowest, highest}, row; }
 inline OptionRow excluding(const char* option, OptionRow row) { return row.excludes = option, row; }
 inline OptionRow repeatable(OptionRow row) { return row.is_repeatable = true, row; }
+inline OptionRow suggesting(std::vector<std::string> (*values)(), OptionRow row) { return row.suggestions = values, row; }
 inline OptionRow with_default(const char* text, OptionRow row) { return row.shown_default = text, row; }
 inline OptionRow split_at_commas(OptionRow row) { return row.is_repeatable = row.splits_at_commas = true, row; }
 
