@@ -1,5 +1,5 @@
 # The commands of the README. Each installs the packages it needs (setup/packages).
-.PHONY: demo build test bench fuzz format lint install pictures reproduction setup-run setup-test setup-bench setup-python release asan clean
+.PHONY: demo build test bench fuzz format lint install pictures reproduction deb setup-run setup-test setup-bench setup-python setup-deb release asan clean
 
 FUZZ_SECONDS ?= 600
 PREFIX ?= /usr/local
@@ -58,8 +58,12 @@ reproduction: setup-run
 
 install: build
 	@cmake --preset release -D CMAKE_INSTALL_PREFIX=$(PREFIX) > /dev/null  # programs that link the library look for the helper programs there
-	@cmake --build --preset release --target corpuscle-cli corpuscle-study
+	@cmake --build --preset release --target corpuscle-cli corpuscle-study corpuscle_shared man-corpuscle-cli man-corpuscle-study
 	cmake --install build/release --prefix $(PREFIX)
+
+# Debian packages of this release of Debian, in build/deb.
+deb: setup-deb
+	@setup/deb
 
 # The pictures of README and doc/. Those of real recordings need the recordings in the directory CORPUSCLE_DATA.
 CORPUSCLE_DATA ?= ../shared/data
@@ -85,6 +89,9 @@ setup-bench:
 
 setup-python:
 	@setup/install run python
+
+setup-deb:
+	@setup/install run deb
 
 clean:
 	rm -rf build out
