@@ -29,7 +29,7 @@ def measures(train, start, stop):
     return {name: value for (name, _, _), value in zip(_corpuscle.measure_catalogue(), values)}
 
 
-measures.__doc__ += "\n    The measures:\n\n" + "\n".join(
+measures.__doc__ = (measures.__doc__ or "") + "\n    The measures:\n\n" + "\n".join(
     f"        {name}{unit and f' ({unit})'}: {description}" for name, unit, description in _corpuscle.measure_catalogue()) + "\n"
 
 
