@@ -26,6 +26,7 @@ const OptionCase option_cases[] = {
     {"--unit", "gf"},
     {"--scale", "2mN"},
     {"--offset", "200", "--unit mN"},
+    {"--calibrate", "zero=-100,load=1500@2N", ""},
     {"--abs", "", "--unit mN"},
     {"--notch", "50Hz", "--unit mN"},
     {"--lowpass", "20Hz", "--unit mN"},

@@ -42,6 +42,7 @@ inline constexpr LiveOption live_options[] = {
     {"--unit", LiveEffect::same, "as for a recording"},
     {"--scale", LiveEffect::same, "as for a recording"},
     {"--offset", LiveEffect::same, "as for a recording"},
+    {"--calibrate", LiveEffect::refused, "give --offset and --scale; 'corpuscle respond' prints them for a recording that is calibrated"},
     {"--abs", LiveEffect::same, "as for a recording"},
     {"--notch", LiveEffect::same, "as for a recording; not together with --save-state and --resume"},
     {"--lowpass", LiveEffect::same, "as for a recording; not together with --save-state and --resume"},

@@ -190,6 +190,7 @@ Result<void> check_axis_options(const RecordingOptions& options, std::span<const
     TRY(refuse(options.absolute, "--abs", "removes the direction of the force"));
     if (std::none_of(sensors.begin(), sensors.end(), [](const AxisSensor& s) { return s.has_angles; })) return {};
     TRY(refuse(options.offset != 0, "--offset", "does not apply to the angles"));
+    TRY(refuse(!options.calibrations.empty(), "--calibrate", "does not apply to the angles"));
     TRY(refuse(options.zero.has_value(), "--zero", "does not apply to the angles"));
     TRY(refuse(options.deadband.has_value(), "--deadband", "does not apply to the angles"));
     TRY(refuse(options.range.has_value(), "--range", "does not apply to the angles"));

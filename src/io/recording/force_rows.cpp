@@ -31,14 +31,14 @@ Result<ChannelFilters> make_channel_filters(const RecordingOptions& options, con
     return filters;
 }
 
-ChannelPipeline::ChannelPipeline(const RecordingOptions& options, double gain, bool filters_rows, const HumTable& table)
-    : offset_(options.offset), gain_(gain), filters_rows_(filters_rows), hum(table) {
+ChannelPipeline::ChannelPipeline(const RecordingOptions& options, const ChannelScale& scale, bool filters_rows, const HumTable& table)
+    : offset_(scale.offset), gain_(scale.gain), filters_rows_(filters_rows), hum(table) {
     if (options.despike) outlier_filter_.emplace(*options.despike);
 }
 
-Result<ChannelPipeline> ChannelPipeline::make(const RecordingOptions& options, double gain, const Clock& filter_clock, bool filters_rows,
-                                              const HumTable& table) {
-    ChannelPipeline pipeline(options, gain, filters_rows, table);
+Result<ChannelPipeline> ChannelPipeline::make(const RecordingOptions& options, const ChannelScale& scale, const Clock& filter_clock,
+                                              bool filters_rows, const HumTable& table) {
+    ChannelPipeline pipeline(options, scale, filters_rows, table);
     pipeline.filters_ = TRY(make_channel_filters(options, filter_clock));
     return pipeline;
 }

@@ -36,9 +36,9 @@ class ChannelPipeline {
     Result<void> repair(std::span<const double> values);
 
 public:
-    /// `gain` is in newtons per unit of the values in the file. The filters run on the rows if `filters_rows`, otherwise on the resampled
+    /// The filters run on the rows if `filters_rows`, otherwise on the resampled
     /// samples; `filter_clock` is the clock of the samples on which they run.
-    static Result<ChannelPipeline> make(const RecordingOptions&, double gain, const Clock& filter_clock, bool filters_rows,
+    static Result<ChannelPipeline> make(const RecordingOptions&, const ChannelScale&, const Clock& filter_clock, bool filters_rows,
                                         const HumTable&);
 
     bool is_component = false;      ///< true: an axis or an angle of a three-axis sensor; it may be negative or constant
@@ -65,7 +65,7 @@ public:
     void finish_force(std::span<double> force);
 
 private:
-    ChannelPipeline(const RecordingOptions&, double gain, bool filters_rows, const HumTable&);
+    ChannelPipeline(const RecordingOptions&, const ChannelScale&, bool filters_rows, const HumTable&);
     void append(std::vector<double>& out);
     void filter(std::span<double> force);
 };

@@ -33,6 +33,7 @@ class Recording final : public ForceSource {
     std::vector<Channel> channels_;
     std::unordered_map<std::string, int> name_counts_;  // number of channels with each name
     std::vector<std::string> notes_, selection_notes_;  // selection_notes_: about the selected columns
+    std::vector<std::string> calibration_warnings_;
     std::vector<AxisSensor> axis_sensors_;              // the three-axis sensors whose columns are the channels; empty: none
     std::vector<std::optional<Position>> placed_;       // the positions of the three-axis sensors, if a layout gives them
     std::unique_ptr<HumTable> hum_table_;
@@ -122,10 +123,48 @@ class Recording final : public ForceSource {
         return {};
     }
 
+    std::string channel_name(const SensorPlacement& placed) const {
+        return placed.name.empty() ? table_->columns()[placed.column].name : placed.name;
+    }
+    /// True if a calibration gives newtons per unit.
+    bool has_load(const SensorPlacement& placed) const {
+        const auto* calibration = find_calibration(options_.calibrations, channel_name(placed));
+        return calibration && calibration->load;
+    }
+
+    /// The scales of the chosen columns, as far as they are known before the rows are read. So a unit that is not a force is reported at
+    /// once.
+    Result<std::vector<ChannelScale>> find_scales(const std::vector<SensorPlacement>& chosen) const {
+        std::vector<ChannelScale> out;
+        for (const auto& p : chosen) {
+            const auto& column = table_->columns()[p.column];
+            const double gain = is_angle(p.column) ? radians_per_unit(column)
+                                : has_load(p)      ? 1.0  // until the rows are read
+                                                   : TRY(newtons_per_unit(column, options_, path_));
+            out.push_back({gain, options_.offset});
+        }
+        return out;
+    }
+
+    /// Calibrates the channels by rows of the recording.
+    Result<void> calibrate_channels(const std::vector<std::size_t>& columns, std::optional<std::size_t> time,
+                                    std::vector<ChannelScale>& scales) {
+        if (options_.calibrations.empty()) return {};
+        std::vector<std::string> names;
+        for (const auto& c : channels_) names.push_back(c.name);
+        TRY(check_calibrations(options_, names, path_));
+        CalibrationNotes found;
+        const auto own_time = row_clock_.uses_row_times || row_clock_.drops_untimed ? time : std::nullopt;
+        TRY(calibrate(options_, names, RowReader(*table_, options_, columns, own_time), row_clock_, path_, scales, found));
+        notes_.insert(notes_.end(), found.notes.begin(), found.notes.end());
+        calibration_warnings_ = std::move(found.warnings);
+        return table_->rewind();
+    }
+
     /// Adds a channel. If neither the file nor an option gives its unit, appends its name to `unitless`.
     void add_channel(const SensorPlacement& placed, std::vector<std::string>& unitless) {
         const auto& column = table_->columns()[placed.column];
-        if (column.unit.empty() && !options_.unit && !options_.scale) unitless.push_back("'" + column.name + "'");
+        if (column.unit.empty() && !options_.unit && !options_.scale && !has_load(placed)) unitless.push_back("'" + column.name + "'");
         if (!column.unit.empty() && options_.unit && *options_.unit != column.unit && !options_.scale && !is_angle(placed.column))
             notes_.push_back(
                 fmt::format("--unit {} overrides the unit of '{}' in the header, {}", *options_.unit, column.name, column.unit));
@@ -170,13 +209,13 @@ class Recording final : public ForceSource {
     }
 
     /// Creates the pipelines of all channels. The filters run on the rows if these are evenly spaced, otherwise on the resampled samples.
-    Result<std::vector<ChannelPipeline>> make_pipelines(const std::vector<double>& gains) {
+    Result<std::vector<ChannelPipeline>> make_pipelines(const std::vector<ChannelScale>& scales) {
         hum_table_ = std::make_unique<HumTable>(clock_);
         const bool rows_are_even = !row_clock_.uses_row_times;
         std::vector<ChannelPipeline> pipelines;
-        for (const double gain : gains) {
+        for (const auto& scale : scales) {
             auto pipeline =
-                TRY(ChannelPipeline::make(options_, gain, rows_are_even ? row_clock_.clock : clock_, rows_are_even, *hum_table_));
+                TRY(ChannelPipeline::make(options_, scale, rows_are_even ? row_clock_.clock : clock_, rows_are_even, *hum_table_));
             pipeline.is_component = !axis_sensors_.empty();
             pipelines.push_back(std::move(pipeline));
         }
@@ -227,8 +266,10 @@ class Recording final : public ForceSource {
     }
 
 public:
-    Recording(std::string path, std::unique_ptr<Table> table, RecordingOptions options)
-        : table_(std::move(table)), options_(std::move(options)), path_(std::move(path)), name_(name_of_recording(path_)),
+    /// `name`: "" for that of the file.
+    Recording(std::string path, const std::string& name, std::unique_ptr<Table> table, RecordingOptions options)
+        : table_(std::move(table)), options_(std::move(options)), path_(std::move(path)),
+          name_(name.empty() ? name_of_recording(path_) : name),
           curve_(options_.interpolation.value_or(Interpolation::linear)) {}
 
     /// Selects the columns, determines the clock and prepares reading.
@@ -245,16 +286,13 @@ public:
                                          max_channels),
                              {path_});
         std::vector<std::size_t> columns;
-        std::vector<double> gains;  // N per unit; computed before the file is read, so that a unit that is not a force is reported at once
-        for (const auto& p : chosen) {
-            columns.push_back(p.column);
-            const auto& column = table_->columns()[p.column];
-            gains.push_back(is_angle(p.column) ? radians_per_unit(column) : TRY(newtons_per_unit(column, options_, path_)));
-        }
+        for (const auto& p : chosen) columns.push_back(p.column);
+        auto scales = TRY(find_scales(chosen));
         TRY(set_clock(time, columns));
         notes_.insert(notes_.end(), selection_notes_.begin(), selection_notes_.end());
         add_channels(chosen);
-        auto pipelines = TRY(make_pipelines(gains));
+        TRY(calibrate_channels(columns, time, scales));
+        auto pipelines = TRY(make_pipelines(scales));
         std::vector<std::string> names;
         for (const auto& c : channels_) names.push_back(c.name);
         // The times are read with the rows if each row has its own time, or if rows without a time are dropped.
@@ -276,6 +314,8 @@ public:
         for (std::size_t c = 0; c < channels_.size(); ++c)
             if (axis_sensors_.empty() || !axis_sensors_[c / 3].has_angles || c % 3 == 0)
                 all.push_back({channels_[c].name + ": newtons per unit", rows_->pipelines()[c].gain(), "N"});
+        for (std::size_t c = 0; c < channels_.size() && !options_.calibrations.empty(); ++c)
+            all.push_back({channels_[c].name + ": reading at zero force", rows_->pipelines()[c].offset(), ""});
         all.push_back({"absolute value", options_.absolute ? 1.0 : 0.0, ""});
         if (options_.offset != 0) all.push_back({"offset", options_.offset, ""});
         if (options_.range)
@@ -296,6 +336,7 @@ public:
     std::vector<std::string> notes() const override { return notes_; }
     RecordingQuality quality() const override {
         auto found = assess_quality(channels_, *rows_, row_clock_);
+        found.warnings.insert(found.warnings.end(), calibration_warnings_.begin(), calibration_warnings_.end());
         warn_about_orientation(found);
         return found;
     }
@@ -329,7 +370,7 @@ const RecordingFormat& format_of_recording(const std::string& path) {
 
 }  // namespace
 
-Result<std::unique_ptr<ForceSource>> open_recording(const std::string& path, const RecordingOptions& options) {
+Result<std::unique_ptr<Table>> open_recording_table(const std::string& path, const RecordingOptions& options) {
     if (options.unit && options.scale && *options.unit != "raw")
         return bad_usage("--unit and --scale exclude each other: both convert the values to newtons");
     const auto& format = format_of_recording(path);
@@ -345,15 +386,24 @@ Result<std::unique_ptr<ForceSource>> open_recording(const std::string& path, con
     auto table = format.open(path, table_options);
     if (!table) return table.error();
     if (options.table.transpose == true && !(*table)->info().is_orientation_known) table = transpose_table(std::move(*table), path);
-    if (!table) return table.error();
-    remember_input(path);
-    auto recording = std::make_unique<Recording>(path, std::move(*table), options);
+    if (table) remember_input(path);
+    return table;
+}
+
+Result<std::unique_ptr<ForceSource>> make_recording(std::unique_ptr<Table> table, const std::string& path, const std::string& name,
+                                                    const RecordingOptions& options) {
+    auto recording = std::make_unique<Recording>(path, name, std::move(table), options);
     TRY(recording->open());
     if (auto sensors = recording->axis_sensors(); !sensors.empty()) {
         auto placed = recording->placed();
         return combine_axes(std::move(recording), std::move(sensors), std::move(placed), path);
     }
     return std::unique_ptr<ForceSource>(std::move(recording));
+}
+
+Result<std::unique_ptr<ForceSource>> open_recording(const std::string& path, const RecordingOptions& options) {
+    auto table = TRY(open_recording_table(path, options));
+    return make_recording(std::move(table), path, "", options);
 }
 
 }  // namespace corpuscle

@@ -3,6 +3,7 @@
 
 #include "core/force_source.hpp"
 #include "io/quality/filters.hpp"
+#include "io/recording/calibration.hpp"
 #include "io/table/table.hpp"
 
 namespace corpuscle {
@@ -26,6 +27,7 @@ struct RecordingOptions {
     std::optional<double> scale = {};           ///< newtons per unit of the values in the file
     bool absolute = false;                      ///< takes the absolute value of the values in the file
     double offset = 0;                          ///< the value in the file at zero force
+    std::vector<Calibration> calibrations = {};           ///< instead of scale and offset
     std::optional<std::pair<double, double>> range = {};  ///< lowest and highest valid value in the file; others are bad fields
     std::optional<BadFields> bad_fields = {};             ///< default: an error for a field that is not a number, otherwise interpolation
     std::optional<DespikeOptions> despike = {};           ///< removes outliers; nullopt: keeps them
@@ -40,6 +42,12 @@ struct RecordingOptions {
     /// stops with an error.
     std::function<bool(double)> should_continue = [](double) { return true; };
 };
+
+/// Opens the table of a recording.
+Result<std::unique_ptr<Table>> open_recording_table(const std::string& path, const RecordingOptions&);
+/// A table as a source of force. `name`: of the source; "": that of the file.
+Result<std::unique_ptr<ForceSource>> make_recording(std::unique_ptr<Table>, const std::string& path, const std::string& name,
+                                                    const RecordingOptions&);
 
 /// Opens a recording in one of the formats of recording_formats.hpp. A unit that is not a force requires a scale. An uneven clock
 /// requires `rate` or `resample`. A file with a time column is read completely when it is opened, to determine its clock, and again by

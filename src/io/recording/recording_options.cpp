@@ -66,6 +66,9 @@ OptionGroup recording_option_group(RecordingOptions& options) {
              {"--scale", value_reader(options.scale, parse_scale), "S", "newtons per unit of the recording: 0.002, 2mN"},
              {"--abs", &options.absolute, "", "use the absolute value of each reading"},
              {"--offset", quantity_reader(options.offset, ""), "X", "reading at zero force, subtracted before --scale"},
+             repeatable({"--calibrate", list_reader(options.calibrations, parse_calibration), "zero=COUNT,load=COUNT@FORCE",
+                         "instead of --offset and --scale: the readings at zero force and under a known load, zero=812,load=2140@2N, or the "
+                         "times at which the recording has them, zero=0s..1s,load=3s..4s@2N (repeatable: fz:zero=...)"}),
              {"--range", value_reader(options.range, parse_range), "LO..HI",
               "valid range of readings; --bad-fields says what happens to others"},
              {"--bad-fields", value_reader(options.bad_fields, parse_bad_fields), "WHAT",
