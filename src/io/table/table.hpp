@@ -60,9 +60,12 @@ public:
     virtual Result<std::size_t> read(const std::vector<std::size_t>& wanted, std::size_t rows, std::vector<std::vector<double>>& out) = 0;
     /// Continues at the first row.
     virtual Result<void> rewind() = 0;
-    /// Advice for a file in which the time decreases at row `row` of the last block. If a new trial begins there: how to make a file of a
-    /// single trial. Otherwise "". Call rewind() before the next read().
+    /// Advice for a file in which the time decreases at row `row` of the last block. If a new trial begins there: how to read all trials, or
+    /// to make a file of a single one. Otherwise "". Call rewind() before the next read().
     virtual std::string single_trial_advice(std::size_t row) { return static_cast<void>(row), std::string(); }
+    /// The text of a column in every row, for columns that identify trials. Numbers are written as short as possible. Call rewind() before
+    /// the next read().
+    virtual Result<std::vector<std::string>> texts(std::size_t column);
     /// The names of all rows if each row begins with a name, otherwise empty. Call rewind() before the next read().
     virtual Result<std::vector<std::string>> row_names() { return std::vector<std::string>(); }
     /// The fraction of the file that has been read since rewind(), 0 to 1.

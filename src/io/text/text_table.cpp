@@ -296,8 +296,23 @@ public:
         const auto distinguishing = std::find_if(trials->begin(), trials->end(), [](const TrialColumn& t) { return t.changes; });
         const auto filter = trial_filter(*trials);
         const auto command = filter.empty() ? filter : lines_.copy_command(filter, "-trial1");
-        return fmt::format("the file has several trials, identified by '{}', but only one can be read at a time; make a file of {}{}",
+        return fmt::format("the file has several trials, identified by '{0}'; 'corpuscle respond' reads all of them with --by {0}; or make a file of {1}{2}",
                            info_.columns[distinguishing->column].name, command.empty() ? "each" : "one: ", command);
+    }
+
+    Result<std::vector<std::string>> texts(std::size_t column) override {
+        TRY(rewind());
+        std::vector<std::string> out;
+        std::string_view line;
+        while (TRY(next_row(line))) {
+            split(line);
+            if (fields_.size() != info_.columns.size())
+                return error_at(fmt::format("{} columns where {} are expected", fields_.size(), info_.columns.size()));
+            if (fields_[column].empty())
+                return error_at(fmt::format("column {}: an empty field where the name of a trial is expected", column_label(column)));
+            out.emplace_back(fields_[column]);
+        }
+        return out;
     }
 
     Result<std::vector<std::string>> row_names() override {
