@@ -16,6 +16,7 @@ constexpr PopulationException exceptions[] = {
     {PopulationKind::skin, "--copies", in_file, own_file},
     {PopulationKind::skin, "--spread", in_file, own_file},
     {PopulationKind::skin, "copies.csv", in_file, "afferents.csv has a row for each afferent"},
+    {PopulationKind::skin, "--by", "a skin is simulated under one force", "extract one trial, or use --trials with a table of times"},
     {PopulationKind::skin, "--noise", "membranes of a skin have no noise", "for a noisy force use press+noise as FORCE"},
     {PopulationKind::skin, "--float", "a skin is simulated in double precision only", "remove --float"},
     {PopulationKind::skin, "--vectors", "afferents of a skin have no converter",

@@ -6,10 +6,11 @@
 namespace corpuscle {
 
 extern const OutputFormat spikes_format, events_format, copies_format, afferents_format, npz_format, psth_format, sound_format,
-    probes_format, vectors_format, nwb_format;
+    probes_format, vectors_format, trials_format, nwb_format;
 
 /// In the order in which outputs are listed.
-inline const OutputFormat* const output_formats[] = {&spikes_format, &events_format, &copies_format, &afferents_format, &npz_format,
-                                                     &psth_format,   &sound_format,  &probes_format, &vectors_format,   &nwb_format};
+inline const OutputFormat* const output_formats[] = {&spikes_format, &events_format, &copies_format,  &afferents_format,
+                                                     &npz_format,    &psth_format,   &sound_format,   &probes_format,
+                                                     &vectors_format, &trials_format, &nwb_format};
 
 }  // namespace corpuscle

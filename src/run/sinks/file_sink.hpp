@@ -12,6 +12,7 @@
 namespace corpuscle {
 
 class SkinSummary;
+class TrialCollector;
 
 /// The files that the user requests, and the properties of the run that are known before it starts.
 struct OutputRequest {
@@ -26,6 +27,7 @@ struct OutputRequest {
     std::uint64_t seed = 0;                    ///< of all random numbers
     bool sampled = false;                      ///< spikes have the times of samples
     const SkinSummary* skin = nullptr;         ///< for a skin: its summary, which precedes the files among the sinks
+    const TrialCollector* trials = nullptr;    ///< with trials: their responses; it precedes the files among the sinks
 
     bool has(std::string_view option) const { return options.contains(option); }
 };
