@@ -499,6 +499,62 @@ class Versions(Page):
         self.assertEqual((rows[0]["matched"], rows[0]["change (%)"]), ("–", "–"))
 
 
+class Trials(Page):
+    """Eight presses with two labels, one below another in a table, aligned to their onsets."""
+
+    @classmethod
+    def report(cls):
+        rows = ["trial,texture,time_s,fz_N"]
+        for trial in range(1, 9):
+            top = 2.0 if trial % 2 else 0.8
+            for k in range(500):
+                force = min(max((k * 0.002 - 0.2 - 0.02 * trial) * 10, 0), 1) * top
+                rows.append(f"{trial},{'rough' if trial % 2 else 'smooth'},{k * 0.002:.3f},{force if k < 400 else 0:.5f}")
+        (OUT / "long.csv").write_text("\n".join(rows) + "\n")
+        path = OUT / "trials.html"
+        subprocess.run([CORPUSCLE, "respond", str(OUT / "long.csv"), "--by", "trial", "--label", "texture", "--align", "onset", "--window", "-0.1..0.6",
+                        "-a", "sa1-nerve,fa1-nerve", "--report", str(path), "--quiet"], check=True)
+        return path
+
+    def drawn_spikes(self):
+        """The number of ticks of the raster."""
+        return self.js("return [...document.querySelectorAll('.trial-plots svg:nth-child(2) path')].reduce((n, p) => n + p.getAttribute('d').split('M').length - 1, 0)")
+
+    def test_each_spike_of_the_selected_afferent_is_one_tick(self):
+        select = Select(self.browser.find_element(By.CSS_SELECTOR, "#trials select"))
+        for group in range(2):
+            select.select_by_index(group)
+            spikes = sum(len(numbers("d", r["times"])) for r in self.data["trials"]["spikes"] if r["group"] == group)
+            self.assertGreater(spikes, 20)
+            self.assertEqual(self.drawn_spikes(), spikes)
+
+    def test_force_and_histogram_have_a_curve_for_each_trial_and_label(self):
+        count = lambda selector: self.js("return document.querySelectorAll(arguments[0]).length", ".trial-plots " + selector)
+        self.assertEqual(count("svg"), 3)
+        self.assertEqual(count("svg:nth-child(1) polyline"), 8)
+        self.assertEqual(count("svg:nth-child(3) path"), 2)
+        self.assertGreater(count("svg:nth-child(3) rect"), 10, "the band of the standard error")
+
+    def test_the_histogram_is_that_of_the_spikes(self):
+        trials = self.data["trials"]
+        histogram = next(h for h in trials["histograms"] if h["label"] == "rough" and h["group"] == 0)
+        times = [t for r in trials["spikes"] if r["group"] == 0 and trials["trials"][r["trial"]]["label"] == "rough" for t in numbers("d", r["times"])]
+        edges = [*histogram["edges"], histogram["end"]]
+        for k, rate in enumerate(histogram["rate"]):
+            inside = sum(edges[k] <= t < edges[k + 1] for t in times)
+            self.assertAlmostEqual(rate, inside / 4 / (edges[k + 1] - edges[k]), delta=1e-6 * (1 + rate) + 1.01 / 4 / trials["bin"] * any(abs(t - e) < 1e-9 for t in times for e in edges))
+
+    def test_it_fits_a_telephone_and_a_dark_theme(self):
+        self.screenshot("trials.png")
+        for theme in ("light", "dark"):
+            self.browser.execute_cdp_cmd("Emulation.setEmulatedMedia", {"features": [{"name": "prefers-color-scheme", "value": theme}]})
+            with self.screen(390, 844, 2):
+                self.assertEqual(self.js("return document.documentElement.scrollWidth"), 390)
+                self.assertGreater(self.js("return document.querySelector('.trial-plots svg').clientWidth"), 0.85 * 390)
+                self.browser.save_screenshot(str(OUT / f"trials-phone-{theme}.png"))
+        self.browser.execute_cdp_cmd("Emulation.setEmulatedMedia", {"features": []})
+
+
 class NetlistsAlone(Page):
     @classmethod
     def report(cls):

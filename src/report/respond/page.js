@@ -175,6 +175,7 @@ showHeading(report.data);
 showParameters(report.data.afferents);
 showCosts(report.data.costs, report.data.afferents);
 showQuality(report.data.quality);
+showTrials(report.data.trials);
 showVersions(report.data.versions);
 connect();
 show(report.data.inputs[0], mostActiveChannel(report.data.inputs[0]));

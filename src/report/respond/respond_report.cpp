@@ -4,6 +4,7 @@
 
 #include "report/page_template.hpp"
 #include "run/channels/channel_population.hpp"
+#include "run/summary/grouped_notes.hpp"
 #include "run/summary/json_number.hpp"
 
 namespace corpuscle {
@@ -191,9 +192,10 @@ Result<void> RespondReport::end(const Input& input, std::int64_t samples, std::s
 }
 
 std::string RespondReport::page(const RunSummary& summary, std::span<const AfferentPlan> plans, const std::string& command,
-                                const std::vector<std::string>& warnings, const Json& costs, std::size_t max_bytes) const {
-    std::string title;
-    for (const auto& i : summary.inputs) title += (title.empty() ? "" : ", ") + i.name;
+                                const std::vector<std::string>& warnings, const Json& costs, std::size_t max_bytes, const Json& trials) const {
+    std::vector<std::string> names, texts(warnings);
+    for (const auto& i : summary.inputs) names.push_back(i.name);
+    const auto title = short_list(names);
     Json afferents = Json::array(), notes = Json::array();
     for (std::size_t a = 0; a < plans.size(); ++a) {
         const auto& plan = plans[a];
@@ -207,9 +209,9 @@ std::string RespondReport::page(const RunSummary& summary, std::span<const Affer
                              {"parameters", parameters_document(plan, copies_.distributions)},
                              {"probes", recordables_[a]}});
     }
-    for (const auto& w : warnings) notes.push_back(w);
     for (const auto& i : summary.inputs)
-        for (const auto& r : i.notes) notes.push_back(i.name + ": " + r);
+        for (const auto& r : i.notes) texts.push_back(i.name + ": " + r);
+    for (auto& text : grouped_notes(texts)) notes.push_back(std::move(text));
     Json document = {{"inputs", inputs_},
                      {"afferents", afferents},
                      {"traces", traces_},
@@ -220,6 +222,7 @@ std::string RespondReport::page(const RunSummary& summary, std::span<const Affer
                      {"notes", notes},
                      {"versions", versions_document()},
                      {"costs", costs}};
+    if (!trials.is_null()) document["trials"] = trials;
     if (copies_.count > 0)
         document["copies"] = {
             {"count", copies_.count}, {"shown", std::min(copies_.count, max_copies)}, {"has_probes", wants_probes()}, {"rates", rates_}};

@@ -6,6 +6,7 @@
 #include "report/envelope.hpp"
 #include "run/sinks/file_sink.hpp"
 #include "run/summary/run_summary.hpp"
+#include "run/trials/trial_collector.hpp"
 
 namespace corpuscle {
 
@@ -33,9 +34,9 @@ public:
 
     /// The page as HTML. Call it after the end of the last input. The plans are those of the afferents before they are copied. `costs`: the
     /// document of costs_of(). If the data would be more than `max_bytes`, only the first channels are shown, which a note says; "" if not
-    /// even one channel fits.
+    /// even one channel fits. `trials`: trials_document(), or null.
     std::string page(const RunSummary&, std::span<const AfferentPlan>, const std::string& command, const std::vector<std::string>& warnings,
-                     const nlohmann::ordered_json& costs, std::size_t max_bytes = unlimited) const;
+                     const nlohmann::ordered_json& costs, std::size_t max_bytes = unlimited, const nlohmann::ordered_json& trials = nullptr) const;
 
 private:
     using Json = nlohmann::ordered_json;
@@ -61,6 +62,9 @@ private:
     Json recordables_ = Json::array();        // names and units of the probes of each group
     Json inputs_ = Json::array(), traces_ = Json::array(), spikes_ = Json::array(), rates_ = Json::array();
 };
+
+/// The aligned force, spikes and histograms of trials. `bin`: the width of the bins, s.
+nlohmann::ordered_json trials_document(const TrialCollector&, double bin);
 
 /// The table of implementations: for each afferent type and channel a row of the reference, then a row for each other implementation.
 nlohmann::ordered_json implementations_document(const ImplementationComparisons&);
