@@ -38,7 +38,7 @@ Result<Applied<std::unique_ptr<ForceSource>>> ForceArgument::open(const Recordin
         error.message += fmt::format(" (and no file '{}' exists)", text.substr(0, 64));
         return error;
     }
-    auto recording = TRY(open_recording(text == "-" ? "/dev/stdin" : text, options));
+    auto recording = TRY(open_recording(path(), options));
     return Applied<std::unique_ptr<ForceSource>>{std::move(recording), {overrides.begin(), overrides.end()}};
 }
 

@@ -17,6 +17,7 @@ struct ForceArgument {
     /// Opens the stimulus or recording. `rate` (Hz) and `seed` are for stimuli; RecordingOptions::rate, if set, replaces `rate`.
     Result<Applied<std::unique_ptr<ForceSource>>> open(const RecordingOptions&, std::span<const ParameterOverride>, double rate,
                                                        std::uint64_t seed) const;
+    std::string path() const { return text == "-" ? "/dev/stdin" : text; }  ///< of a recording
 };
 
 ForceArgument read_force(std::string text);

@@ -1,6 +1,8 @@
 #include "cli/respond/channel_run.hpp"
 
 #include "cli/output/terminal.hpp"
+#include "io/recording/trial_recordings.hpp"
+#include "run/summary/grouped_notes.hpp"
 
 namespace corpuscle {
 namespace {
@@ -23,6 +25,31 @@ std::size_t ChannelRun::channel_count() const {
     return count;
 }
 
+/// Opens each trial of a recording as a source.
+Result<void> ChannelRun::open_trials(const ForceArgument& force) {
+    if (force.is_stimulus) return bad_usage(fmt::format("--by {}: {} is a stimulus, which has no columns", args_.trials.by[0], force.text));
+    auto recording = args_.recording;
+    recording.should_continue = [](double) { return !interrupted(); };
+    for (auto& trial : TRY(open_trial_recordings(force.path(), recording, {args_.trials.by, args_.trials.label})))
+        sources_.push_back(std::move(trial.source)), labels_.push_back(std::move(trial.label));
+    return {};
+}
+
+Result<void> ChannelRun::open_sources() {
+    for (const auto& force : args_.forces)
+        if (args_.trials.by.empty())
+            sources_.push_back(TRY(open_source(force, default_rate)));
+        else
+            TRY(open_trials(force));
+    return {};
+}
+
+Result<void> ChannelRun::plan_trials() {
+    TRY(PlannedRun::plan_trials());
+    if (trials_) trials_->input_labels = labels_;
+    return {};
+}
+
 Result<void> ChannelRun::plan() {
     if (args_.forces.empty()) return bad_usage("respond: no FORCE given; try 'corpuscle respond press'");
     overrides_ = args_.netlists.overrides;  // first, so that a setting for one netlist takes precedence
@@ -34,7 +61,7 @@ Result<void> ChannelRun::plan() {
                                .spreads = args_.spreads,
                                .seed = options_.seed}));
     unused_ = plan_.unused;
-    for (const auto& force : args_.forces) sources_.push_back(TRY(open_source(force, default_rate)));
+    TRY(open_sources());
     TRY(check_overrides());
     TRY(check_afferent_count(plan_, channel_count()));
     outcome_.emplace(plan_, options_);
@@ -60,9 +87,10 @@ Result<std::vector<std::unique_ptr<BlockSimulator>>> ChannelRun::simulators() {
 /// Prints the notes and warnings that have not been printed.
 void ChannelRun::print_new_notes() {
     const auto &notes = outcome_->notes, &warnings = outcome_->warnings;
-    for (; printed_notes_ < notes.size(); ++printed_notes_)
-        if (!common_.quiet) print_message(notes[printed_notes_]);
-    for (; printed_warnings_ < warnings.size(); ++printed_warnings_) print_warning(warnings[printed_warnings_]);
+    for (const auto& note : grouped_notes(std::span(notes).subspan(std::exchange(printed_notes_, notes.size()))))
+        if (!common_.quiet) print_message(note);
+    for (const auto& warning : grouped_notes(std::span(warnings).subspan(std::exchange(printed_warnings_, warnings.size()))))
+        print_warning(warning);
 }
 
 nlohmann::ordered_json ChannelRun::summarize(const RunStats& stats) {
@@ -76,7 +104,8 @@ nlohmann::ordered_json ChannelRun::summarize(const RunStats& stats) {
 
 std::string ChannelRun::page(const nlohmann::ordered_json& document) const {
     const auto costs = document.value("costs", nlohmann::ordered_json::array());
-    return report_->page(outcome_->summary, plan_.afferents, common_.command, outcome_->warnings, costs);
+    return report_->page(outcome_->summary, plan_.afferents, common_.command, outcome_->warnings, costs, RespondReport::unlimited,
+                         trials_ ? trials_document(*trials_, trial_bin()) : nlohmann::ordered_json());
 }
 
 /// The number of simulated netlists: one for each copy on each channel of each source.

@@ -10,10 +10,14 @@ namespace corpuscle {
 class ChannelRun final : public PlannedRun {
     ChannelPlan plan_;
     std::vector<std::unique_ptr<ForceSource>> sources_;
+    std::vector<std::string> labels_;  // with --by: of the trials that the sources are
     std::optional<ChannelOutcome> outcome_;  // after plan()
     std::size_t printed_notes_ = 0, printed_warnings_ = 0;
     std::optional<RespondReport> report_;
 
+    Result<void> open_sources();
+    Result<void> open_trials(const ForceArgument&);
+    Result<void> plan_trials() override;
     Result<void> check_overrides() const;
     std::size_t channel_count() const;
     void print_new_notes();

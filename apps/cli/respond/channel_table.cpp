@@ -13,6 +13,7 @@
 namespace corpuscle {
 namespace {
 
+constexpr std::size_t max_input_lines = 60;
 constexpr std::size_t max_rate_rows = 60;              // of the printed table of measures
 constexpr std::size_t max_rate_rows_with_silent = 24;  // longer tables omit afferents without spikes
 
@@ -30,11 +31,13 @@ std::string cell(const MeasureRow& row, std::size_t m) {
 /// One line for each input. It shows sample rate, duration and range of force, so that the user notices a wrong unit or rate.
 std::string inputs_table(const RunSummary& summary) {
     std::string text;
-    for (const auto& i : summary.inputs)
+    const auto shown = std::span(summary.inputs).first(std::min(summary.inputs.size(), max_input_lines));
+    for (const auto& i : shown)
         text += fmt::format("{}: {}{} samples at {}, {}, {:.4g} to {:.4g} N\n", printable(i.name),
                             i.channels.size() == 1 ? "" : fmt::format("{} channels, ", i.channels.size()), i.samples,
                             format_quantity(i.clock.rate(), "Hz"), format_quantity(static_cast<double>(i.samples) * i.clock.T(), "s"),
                             i.min_force + 0.0, i.max_force + 0.0);  // no -0
+    if (shown.size() < summary.inputs.size()) text += fmt::format("... and {} more inputs\n", summary.inputs.size() - shown.size());
     return text;
 }
 

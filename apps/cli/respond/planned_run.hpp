@@ -4,6 +4,7 @@
 #include "cli/arguments/shared_arguments.hpp"
 #include "run/run_inputs.hpp"
 #include "run/sinks.hpp"
+#include "run/trials/trial_collector.hpp"
 
 namespace corpuscle {
 
@@ -23,6 +24,7 @@ struct RespondArguments {
     NetlistArguments netlists;
     RecordingOptions recording;  ///< `rate` also applies to stimuli
     RespondOptions simulation;
+    TrialOptions trials;
     OutputArguments outputs;
     std::string report_file;                  ///< of --report; "" without a name
     std::string population, contact, taxels;  ///< options of a skin; "": not given
@@ -42,6 +44,7 @@ protected:
     const CommonArguments& common_;
     std::vector<ParameterOverride> overrides_, unused_;  // unused_: those of the user that no part of the run so far has used
     RespondOptions options_;
+    std::unique_ptr<TrialCollector> trials_;  // null without trials
 
     /// Opens a force with the overrides, and with a progress bar unless --quiet was given. `rate`: default sampling rate of stimuli, Hz.
     Result<std::unique_ptr<ForceSource>> open_source(const ForceArgument&, double rate);
@@ -54,7 +57,12 @@ public:
     virtual ~PlannedRun() = default;
     /// Plans the afferents and opens the force. Call it first.
     virtual Result<void> plan() = 0;
-    /// The properties of the run for the output formats. `directory` and `options` are set by the caller.
+    /// Reads the table of trials, if trials are requested. Call it after plan().
+    virtual Result<void> plan_trials();
+    TrialCollector* trials() const { return trials_.get(); }
+    /// The width of the bins of histograms over trials, s: that of --bin, or one that suits them. Call it after the run.
+    double trial_bin() const;
+    /// The properties of the run for the output formats. `directory`, `options` and `trials` are set by the caller.
     virtual OutputRequest output_request() const = 0;
     /// The sink of the report page. From then on, the page is part of the run.
     virtual Sink& start_report() = 0;

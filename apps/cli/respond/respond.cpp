@@ -7,8 +7,10 @@
 #include "cli/output/terminal.hpp"
 #include "cli/respond/channel_run.hpp"
 #include "cli/respond/skin_run.hpp"
+#include "cli/respond/trial_table.hpp"
 #include "run/population_exceptions.hpp"
 #include "run/sink.hpp"
+#include "run/trials/trial_option_group.hpp"
 
 namespace corpuscle {
 namespace {
@@ -77,6 +79,7 @@ Result<std::unique_ptr<PlannedRun>> plan_run(const RespondArguments& args, const
     else
         run = std::make_unique<SkinRun>(args, common, ranks);
     TRY(run->plan());
+    TRY(run->plan_trials());
     return run;
 }
 
@@ -101,9 +104,10 @@ void print_result(const PlannedRun& run, const RunOutputs& outputs, nlohmann::or
                                   times.input_name(), SpikeTimes::max_spikes / 1'000'000));
     if (common.json) {
         document["spikes"] = times.document();
+        if (run.trials()) document["trials"] = run.trials()->document(run.trial_bin());
         fmt::print("{}\n", json_text(document));
     } else if (!common.quiet) {
-        print_text(run.table() + outputs.written_text());
+        print_text(run.table() + (run.trials() ? trial_table(*run.trials()) : "") + outputs.written_text());
     }
 }
 
@@ -113,10 +117,17 @@ Result<void> respond_with(PlannedRun& run, const OutputArguments& args, std::uin
     TRY(outputs.open(args, run, common));
     SpikeTimes times;
     auto sinks = run.summaries();
+    if (run.trials()) sinks.push_back(run.trials());
     outputs.add_sinks(sinks);
     if (common.json) sinks.push_back(&times);
     const auto stats = TRY(simulate_run(run, sinks, args.checkpoint, threads, common.quiet));
     auto document = run.summarize(stats);
+    if (run.trials()) {
+        TRY(run.trials()->responses.histograms(run.trial_bin(), run.trials()->options().window));  // too many bins are an error
+        if (!common.quiet)
+            for (const auto& note : run.trials()->notes) print_message(note);
+        document["trials"] = run.trials()->document();
+    }
     document["files"] = outputs.file_names();
     TRY(outputs.commit(run, document));
     const auto finished = run.finish(stats);
@@ -145,6 +156,20 @@ Result<std::unique_ptr<ForceSource>> PlannedRun::open_source(const ForceArgument
     auto source = TRY(force.open(recording, overrides_, rate, options_.seed));
     keep_unused(unused_, source.unused);
     return std::move(source.result);
+}
+
+Result<void> PlannedRun::plan_trials() {
+    if (!args_.trials.is_used()) return check_trial_options(args_.trials);
+    if (!args_.outputs.checkpoint.empty())
+        return bad_usage("--checkpoint cannot be used with trials, which need the complete run; remove it, or --trials, --align and --window");
+    TRY(check_trial_options(args_.trials));
+    trials_ = TRY(make_trial_collector(args_.trials));
+    return {};
+}
+
+double PlannedRun::trial_bin() const {
+    const auto bin = args_.outputs.formats.find("--bin");
+    return bin == args_.outputs.formats.end() ? trials_->responses.default_bin(args_.trials.window) : *parse_quantity(bin->second, "s");
 }
 
 int respond(const RespondArguments& given, const CommonArguments& common) {

@@ -11,6 +11,7 @@
 #include "io/table/foreign_format.hpp"
 #include "model/copies.hpp"
 #include "report/page_file.hpp"
+#include "run/trials/trial_option_group.hpp"
 
 namespace corpuscle {
 namespace {
@@ -43,6 +44,7 @@ Examples:
   corpuscle respond frames.csv --population 'grid 8x8' --out skin     64 sensor channels, one per skin site
   corpuscle respond palm.csv --rate 1kHz --population hand --taxels palm-taxels.csv     16 taxels on the palm of a hand
   corpuscle respond touch.csv --channel fz --scale 0.02 --abs --out result --report
+  corpuscle respond touch.csv --trials onset --window -0.1..0.5 --report      each contact is a trial, aligned to its onset
   corpuscle respond eskin.csv --rate 100Hz --scale 40      irregular timestamps: assume even sampling
   corpuscle respond grip.csv --rate 250Hz --scale 0.002 --range 0..4095 --despike 200 --notch 50Hz     remove outliers and mains hum
 
@@ -172,9 +174,10 @@ Verb make_respond_verb() {
     return {.name = "respond",
             .description = "simulate afferents: force recordings or stimuli -> spikes, rates, report",
             .examples = respond_examples,
-            .common_options = {"--afferent", "--set", "--population", "--copies", "--spread", "--rate", "--channel", "--unit", "--scale",
+            .common_options = {"--afferent", "--set", "--population", "--copies", "--spread", "--trials", "--rate", "--channel", "--unit", "--scale",
                                "--out", "--report", "--json"},
-            .options = {afferent_options(*args), skin_options(*args), simulation_options(*args), recording_option_group(args->recording),
+            .options = {afferent_options(*args), skin_options(*args), simulation_options(*args), trial_option_group(args->trials),
+                        recording_option_group(args->recording),
                         output_options(*args), netlist_options(args->netlists)},
             .reports = true,
             .writes_files = true,

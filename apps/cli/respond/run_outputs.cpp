@@ -18,7 +18,9 @@ Result<std::vector<const OutputFormat*>> wanted_formats(const OutputRequest& req
     std::vector<const OutputFormat*> wanted;
     for (const auto* format : output_formats) {
         if (!is_wanted(*format, request)) continue;
-        if (!format->option.empty() && request.directory.empty()) return bad_usage(fmt::format("{} needs --out DIR", format->option));
+        const bool is_of_trials = format == &psth_format && request.trials;  // --bin is then also for the page and --json
+        if (!format->option.empty() && request.directory.empty() && !is_of_trials)
+            return bad_usage(fmt::format("{} needs --out DIR", format->option));
         wanted.push_back(format);
     }
     for (const auto* format : wanted) TRY(format->check(request));
@@ -82,7 +84,7 @@ RunOutputs::~RunOutputs() {
 
 Result<void> RunOutputs::open(const OutputArguments& args, PlannedRun& run, const CommonArguments& common) {
     auto request = run.output_request();
-    request.directory = directory_ = args.directory, request.options = args.formats;
+    request.directory = directory_ = args.directory, request.options = args.formats, request.trials = run.trials();
     request.nwb_fields = args.nwb_fields, request.command = response_command(common);
     request.seed = run.options().seed, request.sampled = run.options().sampled;
     const auto formats = TRY(wanted_formats(request));
