@@ -8,3 +8,4 @@
 #include "corpuscle/measures.hpp"
 #include "corpuscle/respond.hpp"
 #include "corpuscle/spikes.hpp"
+#include "corpuscle/trials.hpp"

@@ -11,4 +11,5 @@ PYBIND11_MODULE(_corpuscle, m) {
     bind_catalogue(m);
     bind_live(m);
     bind_fit(m);
+    bind_trials(m);
 }

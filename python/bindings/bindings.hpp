@@ -24,6 +24,7 @@ void bind_measures(py::module_&);
 void bind_catalogue(py::module_&);
 void bind_live(py::module_&);
 void bind_fit(py::module_&);
+void bind_trials(py::module_&);
 
 /// The origin of a force, which Python only hands on.
 struct OriginHandle {

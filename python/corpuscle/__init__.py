@@ -18,10 +18,12 @@ from ._respond import Population, fingertip, grid, hand, population, respond
 from ._options import Warning  # not in __all__, because it would hide the built-in name
 from ._response import Response, measures
 from ._spikes import read_spikes
+from ._trials import Contacts, Epoch, ForceTrials, Histogram, TrialResponses, contacts, onsets, trials
 from . import _force
 
-__all__ = ["Catalogue", "Entry", "Fit", "Force", "InputError", "LiveSkin", "NotConvergedError", "Parameter", "Population", "Response", "Stimulus", "afferents",
-           "catalogue", "catalogues", "fingertip", "fit", "grid", "hand", "measures", "population", "read", "read_spikes", "respond", "stimulus"]
+__all__ = ["Catalogue", "Contacts", "Entry", "Epoch", "Fit", "Force", "ForceTrials", "Histogram", "InputError", "LiveSkin", "NotConvergedError", "Parameter", "Population", "Response", "Stimulus", "TrialResponses",
+           "afferents", "catalogue", "catalogues", "contacts", "fingertip", "fit", "grid", "hand", "measures", "onsets", "population", "read", "read_spikes", "respond", "stimulus",
+           "trials"]
 
 InputError.__module__ = NotConvergedError.__module__ = Warning.__module__ = __name__  # the public name, for tracebacks
 

@@ -105,15 +105,23 @@ def _of(force):
     return out
 
 
-def read(path, **options):
+def read(path, by=None, label=None, **options):
     """Reads a recording and returns a Force: CSV, TSV, NPY, NPZ, HDF5, MATLAB 7.3, WAV and more (doc/recordings.md).
 
     path: of the file. Options are those of `corpuscle respond --help-all` for recordings, such as unit="mN", scale=0.002, rate=1000, channel=["fz"],
     lowpass="50 Hz", resample=1000, zero="0.5 s". A list gives an option several times. catalogue("formats") lists the formats.
 
+    by: the column, or the columns, that identify the trials of a table in long format. Each trial is then a Force of its own, and the result is
+    ForceTrials; label: the column of their labels.
+
     Raises InputError, with file and line where they are known. Shows a corpuscle.Warning for each fault of the recording; they are also in
     `warnings` of the Force.
     """
+    if by is not None:
+        from ._trials import read_trials
+        return read_trials(path_of(path), by, label, options_of(options))
+    if label is not None:
+        raise _corpuscle.InputError("read: label needs by, the column that identifies the trials")
     force = _of(_corpuscle.read_recording(path_of(path), options_of(options)))
     show_warnings([f"{force.name}: {w}" for w in force.warnings], 2)
     return force

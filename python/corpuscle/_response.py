@@ -147,6 +147,27 @@ class Response:
             counts += np.histogram(train[first:last] - event, edges)[0]
         return (edges[:-1] + edges[1:]) / 2, counts / (bin * len(events))
 
+    def trials(self, epochs=None, align="start", window=None, threshold=None):
+        """The responses to parts of the force, as TrialResponses.
+
+        - epochs: as of corpuscle.trials(): (start, stop, label) in s, a DataFrame or a path. None: each contact of the force.
+        - align: time 0 of a trial: its "start", or its first contact "onset".
+        - window: (from, to), the measured time around it, s. None: the complete trial.
+        - threshold: of a contact onset, N. None: from the noise at rest.
+
+        Raises InputError for a trial outside of the force.
+        """
+        from . import _trials
+        if epochs is None:
+            if self.force is None:
+                raise _corpuscle.InputError("trials: contacts need the force: respond to a Force instead of the name of a stimulus, or give epochs")
+            found = _trials.contacts(self.force, threshold).trials(self.start + self.duration)
+            if not found:
+                raise _corpuscle.InputError("trials: there is no contact in the force; give a lower threshold, or epochs")
+        else:
+            found = _trials.trials(epochs)
+        return _trials.analyse([(self, self.force, found)], align, window, threshold)
+
     def measures(self, start=None, stop=None):
         """All measures of each afferent in the window [start, stop) in s (default: the whole force), as a pandas DataFrame."""
         import pandas

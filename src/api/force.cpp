@@ -12,8 +12,22 @@ namespace {
 using api::result_or_throw;
 using api::value_or_throw;
 
-/// Reads a source to its end. `has_unit`: the unit of a recording was given.
-Force read_all(ForceSource& source, bool has_unit = false) {
+}  // namespace
+
+ForceView::ForceView(const Force& force)
+    : name(force.name), rate(force.rate), start(force.start), channels(force.channels),
+      count(force.samples.empty() ? 0 : force.samples[0].size()), origin(force.origin) {
+    for (const auto& channel : force.samples) {
+        if (channel.size() != count) throw InputError("all channels of a force must have equally many samples");
+        samples.push_back(channel.data());
+    }
+}
+
+ForceView::ForceView(double sample_rate, std::span<const double> force) : rate(sample_rate), samples{force.data()}, count(force.size()) {}
+
+namespace api {
+
+Force read_force(ForceSource& source, bool has_unit) {
     Force out{.name = source.name(), .rate = source.clock().rate(), .start = source.clock().t0};
     for (const auto& c : source.channels()) out.channels.push_back(c.name);
     out.samples.resize(out.channels.size());
@@ -33,30 +47,24 @@ Force read_all(ForceSource& source, bool has_unit = false) {
     return out;
 }
 
-}  // namespace
-
-ForceView::ForceView(const Force& force)
-    : name(force.name), rate(force.rate), start(force.start), channels(force.channels),
-      count(force.samples.empty() ? 0 : force.samples[0].size()), origin(force.origin) {
-    for (const auto& channel : force.samples) {
-        if (channel.size() != count) throw InputError("all channels of a force must have equally many samples");
-        samples.push_back(channel.data());
-    }
-}
-
-ForceView::ForceView(double sample_rate, std::span<const double> force) : rate(sample_rate), samples{force.data()}, count(force.size()) {}
-
-Force stimulus(const std::string& name, const std::vector<std::string>& settings, double rate, std::uint64_t seed) {
-    return read_all(*result_or_throw(value_or_throw(make_stimulus(name, value_or_throw(parse_overrides(settings)), rate, seed)), name));
-}
-
-Force read_recording(const std::string& path, const Options& options) {
+RecordingOptions recording_options(const Options& options) {
     RecordingOptions reading;
     const auto group = recording_option_group(reading);
     for (const auto& [name, value] : options)
         name == "rate" ? static_cast<void>(reading.rate = value_or_throw(parse_quantity(value, "Hz")))
                        : value_or_throw(set_option(group, name, value));
-    return read_all(*value_or_throw(open_recording(path, reading)), reading.unit.has_value());
+    return reading;
+}
+
+}  // namespace api
+
+Force stimulus(const std::string& name, const std::vector<std::string>& settings, double rate, std::uint64_t seed) {
+    return api::read_force(*result_or_throw(value_or_throw(make_stimulus(name, value_or_throw(parse_overrides(settings)), rate, seed)), name));
+}
+
+Force read_recording(const std::string& path, const Options& options) {
+    const auto reading = api::recording_options(options);
+    return api::read_force(*value_or_throw(open_recording(path, reading)), reading.unit.has_value());
 }
 
 namespace api {

@@ -1,4 +1,4 @@
-"""The code of doc/python.md and of the README runs, and prints what the page shows."""
+"""The code of doc/python.md, doc/trials.md and of the README runs, and prints what the page shows."""
 
 import contextlib
 import io
@@ -43,6 +43,10 @@ class Documents(unittest.TestCase):
         self.run_page("doc/python.md")
         with open("raster.png", "rb") as file:
             self.assertEqual(file.read(8), b"\x89PNG\r\n\x1a\n")
+
+    def test_the_code_of_the_page_of_trials_runs(self):
+        self.assertEqual(len(blocks_of("doc/trials.md")), 3)
+        self.run_page("doc/trials.md")
 
     def test_the_code_of_the_readme_runs(self):
         self.assertEqual(len(blocks_of("README.md")), 1)
