@@ -20,12 +20,12 @@ std::vector<std::string> commands(const std::string& page) {
 }
 
 /// Runs the commands of a page in the order in which they are shown.
-void run_commands_of(const std::string& page) {
+void run_commands_of(const std::string& page, std::size_t count = 6) {
     const test::TemporaryFolder folder;  // stands for the clone, with the files that a user finds in it and no others
     for (const auto* part : {"circuits", "process", "examples"})
         std::filesystem::copy(project_root + "/" + part, folder / part, std::filesystem::copy_options::recursive);
     const auto shown = commands(page);
-    ASSERT_GE(shown.size(), 6U) << "the commands of the page were not found";
+    ASSERT_GE(shown.size(), count) << "the commands of the page were not found";
     for (const auto& command : shown) {
         const auto arguments = command.substr(std::string("corpuscle").size());
         const auto ran = test::run_program(folder, arguments);
@@ -36,6 +36,8 @@ void run_commands_of(const std::string& page) {
 TEST(Readme, EveryCommandItShowsRuns) { run_commands_of("README.md"); }
 
 TEST(Tutorial, EveryCommandItShowsRuns) { run_commands_of("doc/tutorial.md"); }
+
+TEST(TrialsPage, EveryCommandItShowsRuns) { run_commands_of("doc/trials.md", 5); }
 
 TEST(Readme, ItsProgramIsTheExampleThatRuns) {
     const auto example = test::read_file(project_root + "/examples/respond.cpp"), readme = test::read_file(project_root + "/README.md");
@@ -48,7 +50,7 @@ TEST(Pages, EveryFileTheyLinkToExists) {
                              "doc/chips.md",      "doc/lanes.md",       "doc/populations.md", "doc/real-recordings.md",
                              "doc/live.md",       "doc/events.md",      "doc/skin.md",        "doc/sweeps.md",
                              "doc/README.md",     "doc/tutorial.md",    "doc/glossary.md",    "doc/troubleshooting.md",
-                             "doc/benchmarks.md", "doc/python.md"}) {
+                             "doc/benchmarks.md", "doc/python.md",      "doc/trials.md"}) {
         const auto text = test::read_file(project_root + "/" + page);
         ASSERT_FALSE(text.empty()) << page;
         for (std::size_t at = text.find("]("); at != std::string::npos; at = text.find("](", at + 1)) {
