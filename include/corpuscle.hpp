@@ -6,6 +6,7 @@
 #include "corpuscle/force.hpp"
 #include "corpuscle/live.hpp"
 #include "corpuscle/measures.hpp"
+#include "corpuscle/nwb.hpp"
 #include "corpuscle/respond.hpp"
 #include "corpuscle/spikes.hpp"
 #include "corpuscle/trials.hpp"

@@ -37,6 +37,19 @@ struct RespondingAfferent {
     double x = 0, y = 0;  ///< position in a skin, m; NaN on channels
 };
 
+/// A parameter of the afferents of a run.
+struct ModelParameter {
+    std::string name, unit, description;
+    std::vector<double> values;  ///< for each afferent, SI; NaN if it has no such parameter
+};
+
+/// The models of the afferents of a run, for each afferent.
+struct AfferentModels {
+    std::vector<std::string> models;      ///< "sa1b+lif-b", "netlist"
+    std::vector<std::string> properties;  ///< those that are not numbers: "receptor = sa1b, neuron = lif-b"
+    std::vector<ModelParameter> parameters;
+};
+
 /// The spikes of all afferents of a run.
 struct Response {
     std::vector<double> times = {};           ///< s, in order
@@ -46,7 +59,8 @@ struct Response {
     std::vector<std::string> notes = {}, warnings = {};  ///< those of the command line
     /// Computes notes about afferents on channels that never fired, with the force that they need. It simulates them some ten times.
     std::function<std::vector<std::string>()> silence_notes = {};
-    std::function<std::string()> summary = {};  ///< computes the document of summary.json, which costs more than a short run
+    std::function<AfferentModels()> models = {};  ///< computes the models of the afferents
+    std::function<std::string()> summary = {};    ///< computes the document of summary.json, which costs more than a short run
     /// Makes the report page, self-contained HTML; null without Simulation::report. `command`: the text that the page shows as its command.
     std::function<std::string(const std::string& command)> report = {};
 

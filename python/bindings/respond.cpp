@@ -70,6 +70,15 @@ void bind_respond(py::module_& m) {
         .def_readonly("duration", &Response::duration)
         .def_readonly("notes", &Response::notes)
         .def_readonly("warnings", &Response::warnings)
+        .def("models",
+             [](const Response& r) {
+                 const auto all = r.models();
+                 py::list parameters;
+                 for (const auto& p : all.parameters)
+                     parameters.append(py::make_tuple(p.name, p.unit, p.description,
+                                                      py::array_t<double>(static_cast<py::ssize_t>(p.values.size()), p.values.data())));
+                 return py::make_tuple(all.models, all.properties, parameters);
+             })
         .def("silence_notes", [](const Response& r) { return r.silence_notes(); })
         .def("summary", [](const Response& r) { return r.summary(); })
         .def("report", [](const Response& r, const std::string& command) { return r.report(command); });
@@ -86,6 +95,22 @@ void bind_respond(py::module_& m) {
         },
         py::arg("force").noconvert(), py::arg("rate"), py::arg("start"), py::arg("channels"), py::arg("name"), py::arg("origin"),
         py::arg("simulation"), py::arg("progress"));
+    m.def(
+        "write_nwb",
+        [](const std::string& path, const Response& response, const py::object& force, const std::vector<std::string>& fields,
+           const std::string& source, bool is_measured, double resolution, std::uint64_t seed,
+           const std::vector<std::tuple<double, double, std::string>>& trials, bool overwrite) {
+            NwbOptions options{fields, source, is_measured, resolution, seed, {}, overwrite};
+            for (const auto& [start, stop, label] : trials) options.trials.push_back({start, stop, label});
+            if (force.is_none()) return write_nwb(path, response, nullptr, options);
+            const auto samples = force.attr("samples").cast<py::array_t<double>>();
+            const auto view =
+                view_of_array(samples, force.attr("rate").cast<double>(), force.attr("start").cast<double>(),
+                              force.attr("channels").cast<std::vector<std::string>>(), force.attr("name").cast<std::string>());
+            write_nwb(path, response, &view, options);
+        },
+        py::arg("path"), py::arg("response"), py::arg("force"), py::arg("fields"), py::arg("source"), py::arg("is_measured"),
+        py::arg("resolution"), py::arg("seed"), py::arg("trials"), py::arg("overwrite"));
     m.def(
         "respond_to",
         [](const std::string& name, Simulation simulation, double rate, const py::object& progress) {

@@ -6,6 +6,7 @@ import numpy as np
 
 from . import _corpuscle
 from . import _catalogue
+from . import _neo
 from ._options import count, name_of, number, options_of, path_of, real_array, settings_of, show_warnings, text
 
 
@@ -56,6 +57,14 @@ class Force:
     def _columns(self):
         return 1 if self.samples.ndim == 1 else self.samples.shape[1]
 
+    @classmethod
+    def from_neo(cls, signal):
+        """The Force of a neo.AnalogSignal in a unit of force. A channel has the name in the array annotation channel_names, if there is one.
+
+        Raises InputError for another object, and for a unit that is not one of force.
+        """
+        return _neo.force_of(cls, signal)
+
     @property
     def times(self):
         """The time of each sample, s; shape [sample]."""
@@ -65,6 +74,11 @@ class Force:
     def duration(self):
         """Length of the force, s."""
         return len(self.samples) / self.rate
+
+    @property
+    def is_recording(self):
+        """True if the force was read from a file."""
+        return self._origin is not None and not isinstance(self, Stimulus)
 
     def __len__(self):
         return len(self.samples)

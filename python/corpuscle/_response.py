@@ -7,6 +7,8 @@ import numbers
 import numpy as np
 
 from . import _corpuscle
+from . import _neo
+from . import _nwb
 from . import _report
 from ._options import bin_count, number, real_array
 
@@ -185,6 +187,42 @@ class Response:
     def _codes(self, values):
         categories, codes = np.unique(np.asarray(values, dtype=object).astype(str), return_inverse=True)
         return codes[self.indices], categories
+
+    @functools.cached_property
+    def models(self):
+        """The models: for each afferent a dictionary with "model", "properties", and each of its parameters by name, in SI units."""
+        names, properties, parameters = self._compiled().models()
+        out = [{"model": name, "properties": text} for name, text in zip(names, properties)]
+        for name, _, _, values in parameters:
+            for k in np.flatnonzero(~np.isnan(values)):
+                out[k].setdefault(name, float(values[k]))
+        return out
+
+    def _compiled(self):
+        """The compiled response. That of a copied or pickled response is simulated again."""
+        if self._raw is None:
+            self._raw = self._run()
+        return self._raw
+
+    def to_nwb(self, path, *, trials=(), measured=None, overwrite=False, **fields):
+        """Writes spikes, force and parameters as an NWB 2 file (doc/formats.md).
+
+        - path: of the file. An existing file is replaced only if overwrite=True.
+        - trials: of the session, (start in s, stop in s, label) each.
+        - measured: True if the force was measured. By default it is if it was read from a file.
+        - fields: of NWB, by their names: session_start_time="2026-03-01T12:00:00+01:00", experimenter=["Doe, Jane"], subject={"subject_id": "m1"}.
+
+        Raises InputError for a response that NWB cannot express, such as two spikes of an afferent at one time.
+        """
+        _nwb.write(self, path, trials, measured, overwrite, fields)
+
+    def to_neo(self, trials=()):
+        """A neo.Block with one segment: a SpikeTrain for each afferent, annotated with its names, model and parameters, the force as an
+        AnalogSignal in N, and an Epoch of the trials, (start in s, stop in s, label) each.
+
+        Raises ImportError if neo is not installed (Debian: python3-neo).
+        """
+        return _neo.block_of(self, trials)
 
     def plot(self, ax=None, max_rows=200):
         """Draws force and spikes with matplotlib, and returns the axes of the raster."""

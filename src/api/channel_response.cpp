@@ -6,6 +6,7 @@
 
 #include "api/response_parts.hpp"
 #include "report/respond/respond_report.hpp"
+#include "run/afferent_details.hpp"
 #include "run/channels/channel_outcome.hpp"
 
 namespace corpuscle::api {
@@ -60,7 +61,7 @@ void set_functions(Response& response, const std::shared_ptr<const ChannelOutcom
 
 Response respond_on_channels(ForceInput input, const Simulation& simulation, Settings& settings) {
     const std::array sources{std::move(input.source)};
-    const auto plan = plan_of(simulation, settings, *sources[0]);
+    auto plan = plan_of(simulation, settings, *sources[0]);
     ThreadPool pool(threads_for(simulation, plan.simulated, input.samples));
     const auto options = options_of(simulation, pool);
     const auto outcome = std::make_shared<ChannelOutcome>(plan, options);
@@ -76,6 +77,11 @@ Response respond_on_channels(ForceInput input, const Simulation& simulation, Set
     outcome->finish(sources, stats);
     out.notes = outcome->notes, out.warnings = outcome->warnings;
     set_functions(out, outcome, report, simulation.report);
+    out.models = [plans = std::make_shared<const std::vector<AfferentPlan>>(std::move(plan.simulated)), count = out.afferents.size()] {
+        PlanTable table{*plans, std::vector<std::uint32_t>(count)};
+        for (std::size_t u = 0; u < count; ++u) table.plan_of[u] = static_cast<std::uint32_t>(u % plans->size());
+        return models_of(details_of(table));
+    };
     return out;
 }
 

@@ -10,6 +10,7 @@
 namespace corpuscle {
 
 struct NamedTouch;
+struct AfferentDetails;
 
 namespace api {
 
@@ -32,6 +33,8 @@ Response respond_on_channels(ForceInput, const Simulation&, Settings&);
 Response respond_of_skin(ForceInput, const Simulation&, Settings&);
 
 RespondOptions options_of(const Simulation&, ThreadPool&);
+
+AfferentModels models_of(AfferentDetails);
 
 /// Collects the spikes of a run.
 class SpikeCollector final : public Sink {

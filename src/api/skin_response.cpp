@@ -4,6 +4,7 @@
 
 #include "api/response_parts.hpp"
 #include "report/skin/skin_report.hpp"
+#include "run/afferent_details.hpp"
 #include "run/skin/skin_outcome.hpp"
 #include "run/skin/skin_simulator.hpp"
 #include "skin/plan/skin_plan.hpp"
@@ -62,6 +63,7 @@ Response respond_of_skin(ForceInput input, const Simulation& simulation, Setting
     outcome->finish(source, scene, stats, {simulation.population, input.has_unit});
     out.notes = outcome->notes.notes, out.warnings = outcome->notes.warnings;
     set_functions(out, outcome, report);
+    out.models = [skin = scene.innervation] { return models_of(details_of(value_or_throw(SkinPopulation(*skin).plan_table()))); };
     return out;
 }
 
