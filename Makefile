@@ -1,5 +1,5 @@
 # The commands of the README. Each installs the packages it needs (setup/packages).
-.PHONY: demo build test bench fuzz format lint install pictures reproduction deb setup-run setup-test setup-bench setup-python setup-deb release asan clean
+.PHONY: demo build test bench fuzz format lint install pictures notebooks reproduction deb setup-run setup-test setup-bench setup-python setup-deb release asan clean
 
 FUZZ_SECONDS ?= 600
 PREFIX ?= /usr/local
@@ -77,6 +77,11 @@ pictures: release
 	$(draw) doc/pictures/insole.png $(CORPUSCLE_DATA)/gait_insole_vgrf/GaCo01_01.txt --layout examples/layouts/insole.csv --scale 0.008
 	$(draw) doc/pictures/eskin.png $(CORPUSCLE_DATA)/fbg_eskin_press/fbg_press_S6_T16.csv --rate 100Hz --scale 40 --layout $(CORPUSCLE_DATA)/fbg_eskin_press/sensor_positions.csv
 	$(draw) doc/pictures/fabric.png $(CORPUSCLE_DATA)/fabric_slide_cpm/Board10mm_F150_V-5mmps_0.csv --time-unit ms --channel 3-18 --scale 0.01
+
+# The notebooks with their pictures, in out/notebooks. `make test` runs two of them.
+notebooks: release
+	CORPUSCLE_NOTEBOOKS=all CORPUSCLE_NOTEBOOKS_OUT=$(CURDIR)/out/notebooks ctest --test-dir build/release --output-on-failure -R Python.example_notebooks
+	@echo "Open the pages in out/notebooks, or the notebooks themselves in Jupyter."
 
 setup-run:
 	@setup/install run

@@ -11,6 +11,7 @@ The rules are in rules.toml, the exceptions in excuses.toml. An excuse that matc
 import collections
 import fnmatch
 import functools
+import json
 import pathlib
 import re
 import subprocess
@@ -207,6 +208,10 @@ def document(text):
     return prose
 
 
+def notebook_texts(text, kind):
+    return ["".join(cell["source"]) for cell in json.loads(text)["cells"] if cell["cell_type"] == kind]
+
+
 def read(path, name):
     text = path.read_text(errors="replace")
     if path.suffix in C_LIKE:
@@ -215,6 +220,9 @@ def read(path, name):
         return document(text), []
     if path.suffix == ".py":
         return python(text)
+    if path.suffix == ".ipynb":
+        return [prose for text in notebook_texts(text, "markdown") for prose in document(text)] + \
+            [prose for text in notebook_texts(text, "code") for prose in python(text)[0]], []
     if path.suffix in HASH or path.name in ("Makefile", "CMakeLists.txt", "packages", "install", "run"):
         names = [(n, word) for n, row in enumerate(text.split("\n"), 1) for word in re.findall(r"[A-Za-z_]\w*", row.split("#")[0])]
         return hash_comments(text), names if path.suffix == ".cmake" or path.name == "CMakeLists.txt" else []
