@@ -1,15 +1,9 @@
 #pragma once
 // Responses as files of Neurodata Without Borders (doc/formats.md).
 
-#include "corpuscle/respond.hpp"
+#include "corpuscle/trials.hpp"
 
 namespace corpuscle {
-
-/// A trial of a session.
-struct Trial {
-    double start = 0, stop = 0;  ///< s
-    std::string label = {};
-};
 
 /// What an NWB file says besides the response.
 struct NwbOptions {
@@ -18,7 +12,7 @@ struct NwbOptions {
     bool is_measured = false;              ///< the force was measured
     double resolution = 1e-9;              ///< s, of the spike times; the sample period if Simulation::sampled is set
     std::uint64_t seed = 0;                ///< Simulation::seed
-    std::vector<Trial> trials = {};
+    std::vector<Epoch> trials = {};
     bool overwrite = false;  ///< replace an existing file
 };
 
