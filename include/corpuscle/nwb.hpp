@@ -5,7 +5,7 @@
 
 namespace corpuscle {
 
-/// What an NWB file says besides the response.
+/// Contents of an NWB file besides the response.
 struct NwbOptions {
     std::vector<std::string> fields = {};  ///< "session_start_time=2026-03-01T12:00:00+01:00", "experimenter=Doe, Jane"
     std::string source = {};               ///< how the response was computed, such as a command; "": unknown

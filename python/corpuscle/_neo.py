@@ -28,7 +28,8 @@ def _train(neo, response, k, stop):
 def block_of(response, trials):
     """The Block of a response."""
     neo, quantities = _libraries()
-    from ._nwb import force_of, trials_of
+    from ._nwb import force_of
+    from ._trials import trials_of
     trials = trials_of(trials)
     force = force_of(response)
     segment = neo.Segment(name=force.name if force is not None else "response")

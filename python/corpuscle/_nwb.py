@@ -1,24 +1,8 @@
 """Responses as NWB files."""
 
-import math
-
 from . import _corpuscle
-from ._options import number, path_of, text
-
-
-def trials_of(trials):
-    """The trials as (start, stop, label), with checked types."""
-    out = []
-    for trial in trials:
-        try:
-            start, stop, label = trial
-        except (TypeError, ValueError):
-            raise _corpuscle.InputError(f"trials: {trial!r} is not (start, stop, label)") from None
-        start, stop = number(start, "trials"), number(stop, "trials")
-        if not (math.isfinite(start) and start < stop < math.inf):
-            raise _corpuscle.InputError(f"trials: {trial!r} does not end after it begins")
-        out.append((start, stop, str(label)))
-    return out
+from ._options import path_of, text
+from ._trials import trials_of
 
 
 def fields_of(fields):
@@ -56,4 +40,4 @@ def write(response, path, trials, measured, overwrite, fields):
         measured = response.force is not None and response.force.is_recording
     resolution = 1 / force.rate if simulation.sampled and force is not None else 1e-9
     _corpuscle.write_nwb(path_of(path), compiled, force, fields_of(fields), response._run.command(), bool(measured), resolution, simulation.seed,
-                         trials_of(trials), bool(overwrite))
+                         [tuple(t) for t in trials_of(trials)], bool(overwrite))

@@ -44,6 +44,11 @@ def trials(table, label=None):
     return sorted(out, key=tuple)
 
 
+def trials_of(table):
+    """Trials from a table, or none."""
+    return [] if isinstance(table, (list, tuple)) and not table else trials(table)
+
+
 def _rows_of_frame(table, label):
     def column(names, required=True):
         found = [n for n in names if n in table.columns]

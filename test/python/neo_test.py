@@ -85,8 +85,8 @@ class ToNwb(unittest.TestCase):
 
     def test_bad_arguments_are_refused(self):
         response = corpuscle.respond(press(), 1000, "sa1")
-        for message, options in {"there is no field 'experimnter'": {"experimnter": "x"}, "does not end after it begins": {"trials": [(1, 0, "x")]},
-                                 "is not .start, stop, label.": {"trials": [1]}, "2000: write date": {"session_start_time": "2000"}}.items():
+        for message, options in {"there is no field 'experimnter'": {"experimnter": "x"}, "stop must be after start": {"trials": [(1, 0, "x")]},
+                                 "is not .start, stop. or .start, stop, label.": {"trials": [1]}, "2000: write date": {"session_start_time": "2000"}}.items():
             with self.assertRaisesRegex(corpuscle.InputError, message):
                 response.to_nwb(self.path, **options)
             self.assertFalse(os.path.exists(self.path))

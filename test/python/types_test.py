@@ -15,8 +15,9 @@ CONFIGURATION = "[mypy]\nignore_missing_imports = True\n"
 # Objects that stubtest cannot compare: aliases of types, values that are computed when they are first read, and internal modules.
 NOT_COMPARED = r"""
 corpuscle\.(Settings|Progress|FittedValue)
-corpuscle\.\w+\.(times|indices|names|types|channels|positions|start|duration|notes|warnings|summary)
+corpuscle\.\w+\.(times|indices|names|types|channels|positions|start|duration|notes|warnings|summary|models)
 corpuscle\.\w+\.__init__
+corpuscle\.Epoch\._DT
 corpuscle\._.*
 """
 

@@ -1,6 +1,6 @@
 // The version, and the last failure of each thread.
 
-#include "api/c_error.hpp"
+#include "api/c/c_error.hpp"
 
 #include "core/version.hpp"
 

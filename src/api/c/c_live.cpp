@@ -2,7 +2,7 @@
 
 #include <cstring>
 
-#include "api/c_handle.hpp"
+#include "api/c/c_handle.hpp"
 #include "corpuscle/live.hpp"
 
 namespace corpuscle::api {

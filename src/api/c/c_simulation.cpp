@@ -1,9 +1,9 @@
-#include "api/c_simulation.hpp"
+#include "api/c/c_simulation.hpp"
 
 #include <algorithm>
 #include <cstring>
 
-#include "api/c_error.hpp"
+#include "api/c/c_error.hpp"
 
 namespace corpuscle::api {
 namespace {

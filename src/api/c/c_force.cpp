@@ -1,6 +1,6 @@
 // The force of corpuscle.h.
 
-#include "api/c_force.hpp"
+#include "api/c/c_force.hpp"
 
 namespace corpuscle::api {
 namespace {

@@ -1,7 +1,7 @@
 // Runs and responses of corpuscle.h.
 
-#include "api/c_force.hpp"
-#include "api/c_simulation.hpp"
+#include "api/c/c_force.hpp"
+#include "api/c/c_simulation.hpp"
 
 namespace corpuscle::api {
 namespace {

@@ -1,7 +1,7 @@
 #pragma once
 // The forces of C code.
 
-#include "api/c_handle.hpp"
+#include "api/c/c_handle.hpp"
 #include "corpuscle/force.hpp"
 
 namespace corpuscle::api {

@@ -8,7 +8,7 @@
 #include <memory>
 #include <mutex>
 
-#include "api/c_error.hpp"
+#include "api/c/c_error.hpp"
 
 namespace corpuscle::api {
 
