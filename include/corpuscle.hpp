@@ -1,7 +1,8 @@
 #pragma once
-// The public interface of Corpuscle: name an afferent, pass a force, get spikes.
+// The public interface of Corpuscle: name an afferent, pass a force, get spikes; or read a netlist, analyse it, get curves.
 
 #include "corpuscle/catalogue.hpp"
+#include "corpuscle/circuit.hpp"
 #include "corpuscle/fit.hpp"
 #include "corpuscle/force.hpp"
 #include "corpuscle/live.hpp"

@@ -12,4 +12,5 @@ PYBIND11_MODULE(_corpuscle, m) {
     bind_live(m);
     bind_fit(m);
     bind_trials(m);
+    bind_circuit(m);
 }

@@ -2,6 +2,7 @@
 // The extension module: the public interface with numpy arrays. Arrays go in and out without a copy. The package in corpuscle/ adds what
 // is easier to say in Python. There is one file for each topic; module.cpp calls them all.
 
+#include <pybind11/complex.h>
 #include <pybind11/functional.h>
 #include <pybind11/numpy.h>
 #include <pybind11/pybind11.h>
@@ -25,6 +26,7 @@ void bind_catalogue(py::module_&);
 void bind_live(py::module_&);
 void bind_fit(py::module_&);
 void bind_trials(py::module_&);
+void bind_circuit(py::module_&);
 
 /// The origin of a force, which Python only hands on.
 struct OriginHandle {
@@ -44,6 +46,14 @@ ForceView view_of_array(const py::array_t<double>&, double rate, double start, s
 
 /// Notices Ctrl-C, and calls a progress function of Python, or None. False: the function asks to stop. Needs Python's lock.
 bool call_progress(const py::object& function, double fraction);
+
+/// An array that owns these values.
+template <class T>
+py::array_t<T> owned_array(std::vector<T>&& values) {
+    auto* const held = new std::vector<T>(std::move(values));
+    const py::capsule owner(held, [](void* p) { delete static_cast<std::vector<T>*>(p); });
+    return py::array_t<T>(static_cast<py::ssize_t>(held->size()), held->data(), owner);
+}
 
 /// The progress function of Python, called at most 20 times a second, and Ctrl-C.
 std::function<bool(double)> progress_of(const py::object& function);

@@ -11,6 +11,7 @@ of the command line. Each stimulus of the catalogue is a function: corpuscle.pre
 
 from ._corpuscle import InputError, NotConvergedError
 from ._catalogue import Catalogue, Entry, Parameter, afferents, catalogue, catalogues
+from ._circuit import Circuit, CircuitAnalysis, CircuitPlot, CircuitResult, circuit
 from ._fit import Fit, fit
 from ._force import Force, Stimulus, read, stimulus
 from ._live import LiveSkin
@@ -21,9 +22,12 @@ from ._spikes import read_spikes
 from ._trials import Contacts, Epoch, ForceTrials, Histogram, TrialResponses, contacts, onsets, trials
 from . import _force
 
-__all__ = ["Catalogue", "Contacts", "Entry", "Epoch", "Fit", "Force", "ForceTrials", "Histogram", "InputError", "LiveSkin", "NotConvergedError", "Parameter", "Population", "Response", "Stimulus", "TrialResponses",
-           "afferents", "catalogue", "catalogues", "contacts", "fingertip", "fit", "grid", "hand", "measures", "onsets", "population", "read", "read_spikes", "respond", "stimulus",
-           "trials"]
+__all__ = [
+    "Catalogue", "Circuit", "CircuitAnalysis", "CircuitPlot", "CircuitResult", "Contacts", "Entry", "Epoch", "Fit", "Force", "ForceTrials",
+    "Histogram", "InputError", "LiveSkin", "NotConvergedError", "Parameter", "Population", "Response", "Stimulus", "TrialResponses",
+    "afferents", "catalogue", "catalogues", "circuit", "contacts", "fingertip", "fit", "grid", "hand", "measures", "onsets", "population",
+    "read", "read_spikes", "respond", "stimulus", "trials",
+]
 
 InputError.__module__ = NotConvergedError.__module__ = Warning.__module__ = __name__  # the public name, for tracebacks
 

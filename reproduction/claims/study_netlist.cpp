@@ -9,7 +9,7 @@
 #include "circuit/variant/netlist_overrides.hpp"
 #include "circuit/variant/netlist_variants.hpp"
 #include "core/text/embedded_files.hpp"
-#include "run/netlist_directives.hpp"
+#include "run/netlist/netlist_directives.hpp"
 
 namespace corpuscle {
 namespace {

@@ -9,10 +9,18 @@
 
 namespace corpuscle::api {
 
+/// The text of an error, and of the further ones that it holds, one a line.
+inline std::string complete_text(const Error& error) {
+    auto text = error.text();
+    if (error.further)
+        for (const auto& other : *error.further) text += "\n" + other.text();
+    return text;
+}
+
 [[noreturn]] inline void throw_error(const Error& error) {
     if (error.code == ErrorCode::interrupted) throw InterruptedError(error.text());
-    if (error.code == ErrorCode::not_converged) throw NotConvergedError(error.text());
-    throw InputError(error.text());
+    if (error.code == ErrorCode::not_converged) throw NotConvergedError(complete_text(error));
+    throw InputError(complete_text(error));
 }
 
 /// The value of a result; throws its error.

@@ -9,7 +9,7 @@
 
 #include "circuit/afferent/circuit_afferent.hpp"
 #include "circuit/netlist_runner.hpp"
-#include "corpuscle.hpp"
+#include "corpuscle/respond.hpp"
 #include "support/support.hpp"
 
 namespace corpuscle::circuit {

@@ -108,10 +108,11 @@ class Documentation(unittest.TestCase):
         args = stub.args
         defaults = [None] * (len(args.args) - len(args.defaults)) + list(args.defaults)
         stated = [(a.arg, d) for a, d in zip(args.args, defaults)] + list(zip((a.arg for a in args.kwonlyargs), args.kw_defaults))
-        named = [p for p in ours if p.kind is not p.VAR_KEYWORD]
+        named = [p for p in ours if p.kind not in (p.VAR_KEYWORD, p.VAR_POSITIONAL)]
         self.assertEqual([a for a, _ in stated], [p.name for p in named], name)
         self.assertEqual([d and ast.literal_eval(d) for _, d in stated],
                          [None if p.default is p.empty else p.default for p in named], name)
+        self.assertEqual(bool(args.vararg), any(p.kind is p.VAR_POSITIONAL for p in ours), name)
         self.assertEqual(bool(args.kwarg), any(p.kind is p.VAR_KEYWORD for p in ours), name)
         self.assertEqual([a.arg for a in args.kwonlyargs], [p.name for p in named if p.kind is p.KEYWORD_ONLY], name)
 

@@ -1,19 +1,17 @@
 // corpuscle run: runs the analyses of a netlist and prints or writes the results.
 
 #include <fmt/format.h>
-#include <algorithm>
 
 #include "circuit/analyses.hpp"
 #include "circuit/cost/cost.hpp"
 #include "circuit/devices.hpp"
-#include "circuit/output/saved_quantities.hpp"
-#include "circuit/variant/netlist_overrides.hpp"
 #include "cli/arguments/shared_arguments.hpp"
 #include "cli/output/terminal.hpp"
 #include "cli/run/curve_files.hpp"
 #include "cli/run/variant_printer.hpp"
 #include "cli/shell/suggestions.hpp"
 #include "cli/verbs.hpp"
+#include "run/netlist/variant_run.hpp"
 
 namespace corpuscle {
 namespace {
@@ -58,80 +56,39 @@ public:
     Result<void> end() override { return plots.push_back(std::move(recorder_.plot)), Result<void>(); }
 };
 
-/// The progress of a variant. If there are transients, other analyses are not counted, because transients take most of the time.
-class VariantProgress {
-    std::size_t analyses_ = 0, transients_ = 0;  // in the netlist
-    std::size_t done_ = 0;                       // number of counted analyses that have ended
-    double last_ = 0;                            // last fraction of the current analysis; a smaller one means that the next has begun
+/// Prints the variants, and writes their curves to the files.
+class VariantOutput final : public VariantHandler {
+    const RunArguments& args_;
+    const CommonArguments& common_;
+    VariantPrinter& printer_;
+    CurveFiles& files_;
+    std::optional<CostMeter> cost_meter_;  // with --budget
+    CollectedPlots collected_;
 
 public:
-    explicit VariantProgress(const Circuit& circuit) {
-        for (const auto& c : circuit.directives) analyses_ += find_analysis(c.name) != nullptr, transients_ += c.name == "tran";
-    }
-    /// The finished fraction of the variant when `fraction` of `analysis` ("tran"), the current one, is finished; both 0 to 1.
-    double of(std::string_view analysis, double fraction) {
-        if (transients_ > 0 && analysis != "tran") return static_cast<double>(done_) / static_cast<double>(transients_);
-        if (fraction < last_) ++done_;
-        last_ = fraction;
-        return (static_cast<double>(done_) + fraction) /
-               static_cast<double>(transients_ > 0 ? transients_ : std::max<std::size_t>(analyses_, 1));
-    }
-};
+    VariantOutput(const RunArguments& args, const CommonArguments& common, VariantPrinter& printer, CurveFiles& files)
+        : args_(args), common_(common), printer_(printer), files_(files) {}
 
-/// Creates the analysis context of a variant, or reuses `context` if the circuit is the same, as for the chips of .mc. `brief`: analyses
-/// make no tables and no warnings.
-Result<void> prepare(std::unique_ptr<AnalysisContext>& context, const Variant& variant, bool brief) {
-    if (!context || context->circuit != variant.circuit) context = TRY(AnalysisContext::make(variant.circuit));
-    context->is_brief = brief;
-    if (variant.sample) context->apply_variation(*variant.sample);
-    return {};
-}
-
-/// Runs one variant, and reports its progress, 0 to 1. `cost_meter` is used with --budget.
-Result<VariantResult> run_variant(AnalysisContext& context, Variant variant, const RunArguments& args, const CommonArguments& common,
-                                  CurveFiles& files, CostMeter& cost_meter, const std::function<void(double)>& report_progress) {
-    VariantProgress progress(*variant.circuit);
-    CollectedPlots collected;
-    RunOptions options{.keep_points = false, .print_tables = !common.json && !common.quiet};
-    if (common.json) options.curve_sink = &collected;
-    if (!args.out.empty()) options.curve_sink = &files;
-    options.should_stop = [&](std::string_view analysis, double fraction) {
-        return report_progress(progress.of(analysis, fraction)), interrupted();
-    };
-    if (args.budget) TRY(cost_meter.attach(options));
-    auto outcome = TRY(circuit::run_directives(context, options));
-    auto plots = args.out.empty() ? std::move(collected.plots) : outcome.plots();
-    return VariantResult{std::move(variant), std::move(outcome), std::move(plots)};
-}
-
-/// Runs all variants. A variant that does not converge is passed to the printer, unless it is the only one; any other error ends the run.
-Result<void> run_all(NetlistVariants& variants, const RunArguments& args, const CommonArguments& common, VariantPrinter& printer,
-                     CurveFiles& files) {
-    const auto count = variants.count();
-    Progress progress(common.quiet);
-    std::unique_ptr<AnalysisContext> context;
-    for (std::size_t k = 0; k < count; ++k) {
-        const auto report = [&](double fraction) { progress.update((static_cast<double>(k) + fraction) / static_cast<double>(count)); };
-        const auto variant = TRY(variants.at(k));
-        TRY(prepare(context, variant, /* brief = */ k > 0 || variants.has_chips()));
-        if (!args.out.empty()) TRY(files.begin_variant(variant));
-        CostMeter cost_meter(*context);
-        auto result = run_variant(*context, variant, args, common, files, cost_meter, report);
-        if (interrupted()) return Error{ErrorCode::interrupted, "interrupted"};
-        report(1);
-        if (result) {
-            if (args.budget) result->cost = TRY(cost_meter.cost());
-            printer.add(*result);
-        } else if (result.error().code == ErrorCode::not_converged && count > 1) {
-            printer.fail(variant.label, result.error());
-        } else {
-            auto error = result.error();
-            if (!variant.label.empty()) error.message = fmt::format("{}: {}", variant.label, error.message);
-            return error;
+    Result<RunOptions> begin(const Variant& variant, AnalysisContext& context) override {
+        RunOptions options{.keep_points = false, .print_tables = !common_.json && !common_.quiet};
+        collected_.plots.clear();
+        if (common_.json) options.curve_sink = &collected_;
+        if (!args_.out.empty()) {
+            TRY(files_.begin_variant(variant));
+            options.curve_sink = &files_;
         }
+        if (args_.budget) TRY(cost_meter_.emplace(context).attach(options));
+        return options;
     }
-    return {};
-}
+    Result<void> end(const Variant& variant, RunOutcome&& outcome) override {
+        auto plots = args_.out.empty() ? std::move(collected_.plots) : outcome.plots();
+        VariantResult result{variant, std::move(outcome), std::move(plots)};
+        if (cost_meter_) result.cost = TRY(cost_meter_->cost());
+        printer_.add(result);
+        return {};
+    }
+    void fail(const Variant& variant, const Error& error) override { printer_.fail(variant.label, error); }
+};
 
 /// Keeps the files of an incomplete run, with a warning that says where they end.
 void keep_partial_files(CurveFiles& files) {
@@ -144,21 +101,10 @@ void keep_partial_files(CurveFiles& files) {
 
 /// The netlist with its overrides and with the probes of --probe in addition to its own.
 Result<Netlist> netlist_of(const RunArguments& args) {
-    auto overrides = args.netlists.overrides;
-    for (const auto& text : args.settings) overrides.push_back(TRY(parse_netlist_override(args.netlist, text, "--set")));
-    const auto applied = TRY(apply_overrides(args.netlist, overrides));  // all overrides are for this netlist, so none is unused
-    const auto& netlist = applied.result;
-    if (args.netlists.probes.empty()) return netlist;
-    const auto circuit = TRY(netlist.elaborate());
-    auto changes = netlist.overrides();
-    for (const auto& probe : args.netlists.probes) {
-        const auto found = TRY(resolve_probe(circuit, probe));
-        if (!found)
-            return bad_input(
-                fmt::format("--probe {}: {} has no such node or device{}", probe, args.netlist, suggest_probe(circuit, probe)));
-        changes.saved.push_back(*found);
-    }
-    return netlist.with_overrides(std::move(changes));
+    NetlistChanges changes{args.netlists.overrides, args.netlists.probes};
+    for (const auto& text : args.settings) changes.overrides.push_back(TRY(parse_netlist_override(args.netlist, text, "--set")));
+    const auto open = [&](const std::string& corner) { return open_netlist(args.netlist, corner); };
+    return change_netlist(open, args.netlist, changes, "--probe ");
 }
 
 Result<void> run_netlist(const RunArguments& args, const CommonArguments& common) {
@@ -167,15 +113,15 @@ Result<void> run_netlist(const RunArguments& args, const CommonArguments& common
     const bool has_steps = variants.count() > 1;
     VariantPrinter printer(common, has_steps, variants.has_chips());
     CurveFiles files(args.out, args.ascii, has_steps, common.overwrite);
-    const auto done = run_all(variants, args, common, printer, files);
+    const auto done = [&] {
+        Progress progress(common.quiet);
+        VariantOutput output(args, common, printer, files);
+        return run_variants(variants, {}, output, [&](double fraction) { return progress.update(fraction), !interrupted(); });
+    }();
     printer.finish();
     if (!done) return keep_partial_files(files), done;
     TRY(files.finish());
-    if (!printer.failures.empty()) {
-        auto error = printer.failures[0];
-        error.message = fmt::format("{} of {} did not converge; the first: {}", printer.failures.size(), variants.count(), error.message);
-        return error;
-    }
+    if (!printer.failures.empty()) return error_of_failures(printer.failures, variants.count());
     if (printer.failed_expectation) return *printer.failed_expectation;
     return {};
 }

@@ -6,6 +6,7 @@
 #include <numbers>
 
 #include "cli/output/terminal.hpp"
+#include "run/netlist/variant_run.hpp"
 #include "run/summary/json_number.hpp"
 #include "sweep/stats/estimate.hpp"
 
@@ -109,11 +110,7 @@ void print_line(const VariantResult& result) {
 void VariantPrinter::add(const VariantResult& result) {
     const auto& [label, outcome] = std::tie(result.variant.label, result.outcome);
     for (const auto& r : outcome.warnings) print_warning(r.text());
-    for (const auto& e : outcome.expectations)
-        if (!e.is_met && !failed_expectation)
-            failed_expectation = bad_input(fmt::format("{}{}{} is {:g}, not {:g} within {:g}", label, label.empty() ? "" : ": ", e.name,
-                                                       e.actual, e.expected, e.tolerance),
-                                           e.location);
+    if (const auto met = check_expectations_met(outcome, label); !met && !failed_expectation) failed_expectation = met.error();
     for (const auto& [name, value] : outcome.numbers) {
         if (!is_monte_carlo_) break;
         auto at = std::find_if(measured_.begin(), measured_.end(), [&](const auto& m) { return m.first == name; });

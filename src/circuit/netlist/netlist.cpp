@@ -73,7 +73,12 @@ Result<Netlist> Netlist::parse(std::string text, std::string file, const FileOpe
 
 Result<Netlist> Netlist::read(const std::string& path, const std::string& corner) {
     auto text = TRY(read_file_text(path));
-    return parse(std::move(text), path, read_file_text, corner);
+    return parse_text(std::move(text), path, corner);
+}
+
+Result<Netlist> Netlist::parse_text(std::string text, std::string file, const std::string& corner) {
+    if (text.size() > max_text_bytes) return error_at({file}, "{} bytes; the maximum is {}", text.size(), max_text_bytes);
+    return parse(std::move(text), std::move(file), read_file_text, corner);
 }
 
 Netlist Netlist::with_overrides(ResolvedOverrides changes) const {

@@ -152,6 +152,8 @@ public:
     static Result<Netlist> parse(std::string text, std::string file, const FileOpener& open, const std::string& corner = "");
     /// Parses the netlist in a file.
     static Result<Netlist> read(const std::string& path, const std::string& corner = "");
+    /// Parses a text. Paths of included files are relative to the folder of `file`, which need not exist.
+    static Result<Netlist> parse_text(std::string text, std::string file, const std::string& corner = "");
 
     /// The same netlist with these overrides, which replace earlier ones. Their corner has no effect here, because parse() applies it.
     Netlist with_overrides(ResolvedOverrides) const;

@@ -8,7 +8,7 @@
 #include "core/text/ascii_text.hpp"
 #include "core/text/embedded_files.hpp"
 #include "core/text/input_files.hpp"
-#include "run/netlist_directives.hpp"
+#include "run/netlist/netlist_directives.hpp"
 
 namespace corpuscle::sweeps {
 namespace {

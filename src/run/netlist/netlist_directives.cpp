@@ -1,4 +1,4 @@
-#include "run/netlist_directives.hpp"
+#include "run/netlist/netlist_directives.hpp"
 
 #include <algorithm>
 

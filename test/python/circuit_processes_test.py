@@ -1,0 +1,116 @@
+"""Circuits in threads and processes: progress, Ctrl-C, fork, and the cost of a call."""
+
+import concurrent.futures
+import io
+import multiprocessing
+import signal
+import subprocess
+import sys
+import threading
+import time
+import unittest
+
+import corpuscle
+import numpy as np
+
+RC = "RC\nv1 in 0 dc 1 sin(0 1 1k)\nr1 in out 1k\nc1 out 0 1u\n"
+
+
+def voltage(r):
+    return corpuscle.circuit(RC.replace("1k\nc1", f"{r}\nc1")).tran("10u", "5m")["v(out)"].tolist()
+
+
+class Threads(unittest.TestCase):
+    def test_one_circuit_runs_on_several_threads(self):
+        circuit = corpuscle.circuit("sa1-circuit")
+        expected = circuit.tran("1m", "50m")["v(vf)"].tolist()
+        with concurrent.futures.ThreadPoolExecutor(4) as pool:
+            for result in pool.map(lambda _: circuit.tran("1m", "50m"), range(4)):
+                self.assertEqual(result["v(vf)"].tolist(), expected)
+
+    def test_other_threads_of_python_go_on_during_a_run(self):
+        ticks, done = [], threading.Event()
+
+        def tick():
+            while not done.is_set():
+                ticks.append(time.monotonic())
+                time.sleep(0.001)
+
+        other = threading.Thread(target=tick)
+        other.start()
+        start = time.monotonic()
+        corpuscle.circuit("sa1-circuit").tran()
+        stop = time.monotonic()
+        done.set()
+        other.join()
+        self.assertGreater(stop - start, 0.05, "the run is too short for this test")
+        self.assertGreater(sum(start < t < stop for t in ticks), 5)
+
+
+class Processes(unittest.TestCase):
+    def test_a_fork_after_a_run_simulates(self):
+        expected = [voltage(r) for r in (1000, 2000)]
+        with multiprocessing.get_context("fork").Pool(2) as pool:
+            self.assertEqual(pool.map(voltage, (1000, 2000)), expected)
+
+    def test_ctrl_c_stops_within_a_fifth_of_a_second(self):
+        program = ("import corpuscle\ncircuit = corpuscle.circuit('sa1-circuit')\nprint('ready', flush=True)\n"
+                   "try:\n    circuit.tran('1m', '1000')\nexcept KeyboardInterrupt:\n    print('stopped', flush=True)\n")
+        with subprocess.Popen([sys.executable, "-c", program], stdout=subprocess.PIPE, text=True) as child:
+            self.assertEqual(child.stdout.readline(), "ready\n")
+            time.sleep(0.5)
+            start = time.monotonic()
+            child.send_signal(signal.SIGINT)
+            self.assertEqual(child.stdout.readline(), "stopped\n")
+            self.assertLess(time.monotonic() - start, 0.2)
+
+
+class Progress(unittest.TestCase):
+    def test_a_function_gets_rising_fractions_and_may_stop(self):
+        fractions = []
+        corpuscle.circuit("sa1-circuit").tran(progress=fractions.append)
+        self.assertEqual(fractions, sorted(fractions))
+        self.assertEqual(fractions[-1], 1)
+        with self.assertRaises(KeyboardInterrupt):
+            corpuscle.circuit("sa1-circuit").tran("1m", "1000", progress=lambda fraction: False)
+        with self.assertRaises(ZeroDivisionError):
+            corpuscle.circuit("sa1-circuit").tran("1m", "1000", progress=lambda fraction: 1 / 0)
+
+    def test_a_line_has_the_fraction_and_the_time_left_and_is_removed(self):
+        from corpuscle import _progress
+        standard, sys.stderr = sys.stderr, io.StringIO()
+        try:
+            with _progress.ProgressLine() as line:
+                line(0.1)
+                self.assertEqual(sys.stderr.getvalue(), "", "not in the first second")
+                line._start -= 10
+                line._last -= 10
+                line(0.5)
+                self.assertIn(f"[{'=' * 16}{' ' * 16}]  50 %  10 s left", sys.stderr.getvalue())
+            self.assertTrue(sys.stderr.getvalue().endswith(" \r"))
+            self.assertIsNone(_progress.progress_of(None).__enter__(), "not a terminal")
+        finally:
+            sys.stderr = standard
+
+
+class Speed(unittest.TestCase):
+    def test_the_smallest_call_takes_less_than_60_microseconds(self):
+        op = corpuscle.circuit("divider\nv1 a 0 1\nr1 a b 1k\nr2 b 0 1k\n").op
+        best = min(self.seconds(op, 200) for _ in range(20))
+        self.assertLess(best, 60e-6)
+
+    def test_a_million_points_become_arrays_without_a_copy(self):
+        result = corpuscle.circuit("divider\nv1 a 0 1\nr1 a b 1k\nr2 b 0 1k\n").dc("v1", 0, 1, 1e-6)
+        self.assertEqual(result["v(b)"].shape, (1_000_001,))
+        np.testing.assert_allclose(result["v(b)"], result["v(a)"] / 2, rtol=1e-9, atol=1e-15)
+        self.assertLess(min(self.seconds(lambda: result["v(b)"], 200) for _ in range(20)), 20e-6)
+
+    def seconds(self, function, calls):
+        start = time.perf_counter()
+        for _ in range(calls):
+            function()
+        return (time.perf_counter() - start) / calls
+
+
+if __name__ == "__main__":
+    unittest.main()
