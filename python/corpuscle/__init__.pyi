@@ -103,8 +103,6 @@ class Contacts:
     def trials(self, stop: float | None = None) -> list[Epoch]: ...
 
 class Histogram(tuple[NDArray[np.float64], NDArray[np.float64]]):
-    def __new__(cls, edges: NDArray[np.float64], rate: NDArray[np.float64], standard_error: NDArray[np.float64],
-                trials: NDArray[np.int64]) -> Histogram: ...
     edges: NDArray[np.float64]
     rate: NDArray[np.float64]
     standard_error: NDArray[np.float64]

@@ -17,6 +17,7 @@ QUICK = "own_recording,trials_and_psth"  # the others take longer, or need more 
 MOST_SECONDS = 300  # of a cell
 EXPLAINED = {"own_recording": "the noise of the sensor"}  # a warning that the text of a notebook is about
 
+os.environ.pop("MPLBACKEND", None)  # a notebook draws its pictures inline
 import nbclient
 import nbformat
 from nbconvert import HTMLExporter
