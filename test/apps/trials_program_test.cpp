@@ -149,8 +149,10 @@ TEST(TrialsProgram, RefusesWhatCannotBeWithARemedy) {
     folder.write("epochs.csv", "start,stop,label\n0,1,a\n7,8,late\n");
     folder.write("long.csv", "trial,time_s,fz_N\n" + prefixed("1,", press(1, 0)) + prefixed("2,", press(2, 0)));
     folder.write("bad.csv", "trial,time_s,fz_N\n1,0,1\n1,0.1,2\n2,0,1\n2,0.1,oops\n2,0.2,1\n");
+    folder.write("empty.csv", "trial\tlabel\ttime_s\tfz\tb\t5.\x11\t800al\t\n");
     const std::tuple<std::string, int, const char*> cases[] = {
         {"press --trials epochs.csv", 1, "epochs.csv:3: trial 'late' from 7 s to 8 s is outside of the recording"},
+        {"empty.csv --by trial", 1, "empty.csv: there are no rows in this table"},
         {"long.csv --by tral", 1, "--by tral: there is no such column; did you mean 'trial'?"},
         {"long.csv --by trial --label texture", 1, "--label texture: there is no such column"},
         {"bad.csv --by trial", 1, "bad.csv:5:7: column 'fz': 'oops' where a number is expected"},

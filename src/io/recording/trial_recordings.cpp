@@ -129,6 +129,7 @@ Result<std::vector<TrialRows>> rows_of_trials(Table& table, const std::vector<st
                                          joined(by, ","), max_trials),
                              {path});
     }
+    if (out.empty()) return bad_input("there are no rows in this table", {path});
     return out;
 }
 
