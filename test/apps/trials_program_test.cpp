@@ -1,5 +1,6 @@
 // corpuscle respond with trials: a table of epochs, trials one below another, contacts, and many files.
 
+#include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
 #include "core/text/ascii_text.hpp"
