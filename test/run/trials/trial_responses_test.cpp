@@ -82,7 +82,8 @@ TEST(TrialResponses, LeaveTrialsWithoutAnOnsetOutOfMeans) {
     EXPECT_FALSE(all.trials[1].has_zero());
     EXPECT_TRUE(std::isnan(all.responses[1].values[measure_index<SpikeCount>]));
     EXPECT_EQ(all.label_rows()[0].statistics[measure_index<SpikeCount>].copies, 1);
-    for (const auto& bin : value_or_throw(all.histograms(0.1, {}))[0].bins) EXPECT_LE(bin.rate.copies, 1);
+    const auto histograms = value_or_throw(all.histograms(0.1, {}));
+    for (const auto& bin : histograms[0].bins) EXPECT_LE(bin.rate.copies, 1);
 }
 
 TEST(TrialResponses, HaveMeansDeviationsAndHistogramsInClosedForm) {
