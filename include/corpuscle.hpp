@@ -3,6 +3,7 @@
 
 #include "corpuscle/catalogue.hpp"
 #include "corpuscle/circuit.hpp"
+#include "corpuscle/compare.hpp"
 #include "corpuscle/fit.hpp"
 #include "corpuscle/force.hpp"
 #include "corpuscle/live.hpp"
@@ -10,4 +11,5 @@
 #include "corpuscle/nwb.hpp"
 #include "corpuscle/respond.hpp"
 #include "corpuscle/spikes.hpp"
+#include "corpuscle/sweep.hpp"
 #include "corpuscle/trials.hpp"

@@ -13,4 +13,6 @@ PYBIND11_MODULE(_corpuscle, m) {
     bind_fit(m);
     bind_trials(m);
     bind_circuit(m);
+    bind_compare(m);
+    bind_sweep(m);
 }

@@ -7,12 +7,10 @@
 #include "cli/output/terminal.hpp"
 #include "cli/verbs.hpp"
 #include "core/text/quantity.hpp"
-#include "run/compare/train_comparison.hpp"
+#include "run/compare/comparison.hpp"
 
 namespace corpuscle {
 namespace {
-
-using Json = nlohmann::ordered_json;
 
 constexpr const char* compare_examples =
     R"(A is the reference. A spike of A without a match in B is missing; a spike of B without a match in A
@@ -58,50 +56,6 @@ void warn_of_window(double window, const CommonArguments& common) {
     }
 }
 
-Json document_of(const TrainDifference& d) {
-    // Shifts exist only if spikes match.
-    const auto seconds = [&](double x) { return d.matched > 0 ? Json(x) : Json(nullptr); };
-    return {{"spikes_a", d.spikes_a},
-            {"spikes_b", d.spikes_b},
-            {"matched", d.matched},
-            {"missing", d.missing()},
-            {"extra", d.extra()},
-            {"max_shift_s", seconds(d.max_shift)},
-            {"rms_shift_s", seconds(d.rms())},
-            {"victor_purpura", d.victor_purpura},
-            {"victor_purpura_per_spike", d.victor_purpura_per_spike()},
-            {"van_rossum", d.van_rossum()}};
-}
-
-std::string document(const CompareOptions& options, const std::vector<TrainDifference>& all, const TrainDifference& total) {
-    Json out = {{"window_s", options.window}, {"cost_Hz", options.cost}, {"tau_s", options.tau}};
-    out["pairs"] = Json::array();
-    for (const auto& d : all) {
-        Json row = {{"a", d.a}, {"b", d.b}};
-        row.update(document_of(d));
-        out["pairs"].push_back(std::move(row));
-    }
-    out["total"] = document_of(total);
-    return json_text(out) + "\n";
-}
-
-std::vector<std::string> line_of(const TrainDifference& d, const std::string& a, const std::string& b) {
-    const auto milliseconds = [&](double x) { return d.matched > 0 ? fmt::format("{:.3f}", 1e3 * x) : "-"; };
-    return table_row(a, b, d.spikes_a, d.spikes_b, d.matched, d.missing(), d.extra(), milliseconds(d.max_shift), milliseconds(d.rms()),
-                     fmt::format("{:.2f}", d.victor_purpura), fmt::format("{:.3f}", d.victor_purpura_per_spike()),
-                     fmt::format("{:.2f}", d.van_rossum()));
-}
-
-std::string text(const CompareOptions& options, const std::vector<TrainDifference>& all, const TrainDifference& total) {
-    TableRows rows = {
-        {"A", "B", "in A", "in B", "matched", "missing", "extra", "max (ms)", "RMS (ms)", "Victor-Purpura", "per spike", "van Rossum"}};
-    const auto shown = [](const std::string& name) { return name.empty() ? "-" : name; };
-    for (const auto& d : all) rows.push_back(line_of(d, shown(d.a), shown(d.b)));
-    if (all.size() > 1) rows.push_back(line_of(total, "total", ""));
-    return format_table(rows) + fmt::format("Matching window {}; Victor-Purpura cost {:g} per second; van Rossum time constant {}.\n",
-                                            format_quantity(options.window, "s"), options.cost, format_quantity(options.tau, "s"));
-}
-
 Result<void> compare_files(const CompareArguments& args, const CommonArguments& common) {
     const auto& options = args.options;
     if (args.files.empty()) return bad_usage("compare: no files given; try 'corpuscle compare A/spikes.csv B/spikes.csv'");
@@ -109,28 +63,16 @@ Result<void> compare_files(const CompareArguments& args, const CommonArguments& 
         return bad_usage(fmt::format("compare {}: needs a second file, or two trains of this file: --pair sa1=fa1", args.files[0]));
     warn_of_window(options.window, common);
     const SpikeColumns columns{args.time_column, args.train_column};
-    auto a = read_spikes(args.files.front(), columns);
-    auto b = args.files.size() == 1 ? a : read_spikes(args.files.back(), columns);
-    // --time and --train need to apply to one of the files only. A file without these columns is read with the default columns.
-    if (!a && b && args.files.size() == 2 && (args.time_column || args.train_column))
-        if (auto with_defaults = read_spikes(args.files.front())) a = std::move(with_defaults);
-    if (a && !b && (args.time_column || args.train_column))
-        if (auto with_defaults = read_spikes(args.files.back())) b = std::move(with_defaults);
-    if (!a) return a.error();
-    if (!b) return b.error();
-    const auto pairs = TRY(pair_trains(*a, *b, options));
-    std::vector<TrainDifference> all;
-    TrainDifference total;
-    for (const auto& p : pairs) {
-        if (interrupted()) return Error{ErrorCode::interrupted, "interrupted"};
-        const auto difference = TRY(compare_trains(p, options));
-        all.push_back(difference);
-        total.add(difference);
-    }
+    std::vector<NamedTrain> a, b;
+    if (args.files.size() == 1)
+        a = b = TRY(read_spikes(args.files.front(), columns));
+    else
+        std::tie(a, b) = TRY(read_both(args.files.front(), args.files.back(), columns));
+    const auto differences = TRY(compare_all(a, b, options, [](double) { return !interrupted(); }));
     if (common.json)
-        fmt::print("{}", document(options, all, total));
+        fmt::print("{}\n", json_text(document_of(options, differences)));
     else if (!common.quiet)
-        print_text(text(options, all, total));
+        print_text(comparison_table(options, differences));
     return {};
 }
 

@@ -27,6 +27,8 @@ void bind_live(py::module_&);
 void bind_fit(py::module_&);
 void bind_trials(py::module_&);
 void bind_circuit(py::module_&);
+void bind_compare(py::module_&);
+void bind_sweep(py::module_&);
 
 /// The origin of a force, which Python only hands on.
 struct OriginHandle {

@@ -12,6 +12,7 @@ of the command line. Each stimulus of the catalogue is a function: corpuscle.pre
 from ._corpuscle import InputError, NotConvergedError
 from ._catalogue import Catalogue, Entry, Parameter, afferents, catalogue, catalogues
 from ._circuit import Circuit, CircuitAnalysis, CircuitPlot, CircuitResult, circuit
+from ._compare import Comparison, compare
 from ._fit import Fit, fit
 from ._force import Force, Stimulus, read, stimulus
 from ._live import LiveSkin
@@ -19,14 +20,16 @@ from ._respond import Population, fingertip, grid, hand, population, respond
 from ._options import Warning  # not in __all__, because it would hide the built-in name
 from ._response import Response, measures
 from ._spikes import read_spikes
+from ._sweep import SweepQuantity, SweepResult, read_sweep, sweep
 from ._trials import Contacts, Epoch, ForceTrials, Histogram, TrialResponses, contacts, onsets, trials
 from . import _force
 
 __all__ = [
-    "Catalogue", "Circuit", "CircuitAnalysis", "CircuitPlot", "CircuitResult", "Contacts", "Entry", "Epoch", "Fit", "Force", "ForceTrials",
-    "Histogram", "InputError", "LiveSkin", "NotConvergedError", "Parameter", "Population", "Response", "Stimulus", "TrialResponses",
-    "afferents", "catalogue", "catalogues", "circuit", "contacts", "fingertip", "fit", "grid", "hand", "measures", "onsets", "population",
-    "read", "read_spikes", "respond", "stimulus", "trials",
+    "Catalogue", "Circuit", "CircuitAnalysis", "CircuitPlot", "CircuitResult", "Comparison", "Contacts", "Entry", "Epoch", "Fit", "Force", "ForceTrials",
+    "Histogram", "InputError", "LiveSkin", "NotConvergedError", "Parameter", "Population", "Response", "Stimulus", "SweepQuantity",
+    "SweepResult", "TrialResponses",
+    "afferents", "catalogue", "catalogues", "circuit", "compare", "contacts", "fingertip", "fit", "grid", "hand", "measures", "onsets", "population",
+    "read", "read_spikes", "read_sweep", "respond", "stimulus", "sweep", "trials",
 ]
 
 InputError.__module__ = NotConvergedError.__module__ = Warning.__module__ = __name__  # the public name, for tracebacks

@@ -7,7 +7,7 @@ import numpy as np
 
 from . import _corpuscle
 from ._display import figure_html, plural, table_html
-from ._options import path_of, settings_of, text, text_of
+from ._options import path_of, settings_of, show_warnings, text, text_of
 from ._progress import progress_of
 
 _SHOWN = 12  # rows of a table in a notebook
@@ -243,6 +243,13 @@ class CircuitResult:
         return "".join(parts + [p._repr_html_() for p in self.plots])
 
 
+def _shown(raw):
+    """The result, whose warnings are shown."""
+    result = CircuitResult(raw)
+    show_warnings([w for one in (result, *result.steps) for w in one.warnings], 3)
+    return result
+
+
 class Circuit:
     """A netlist that was read. Each analysis is a method; run() runs all analyses of the netlist. See circuit()."""
 
@@ -295,7 +302,7 @@ class Circuit:
         Raises InputError; NotConvergedError, which says when, where and which device.
         """
         with progress_of(progress) as function:
-            return CircuitResult(self._raw.run(function))
+            return _shown(self._raw.run(function))
 
     def __repr__(self):
         return f"<Circuit {self.title}: {plural(len(self.elements), 'element')}, {plural(len(self.nodes), 'node')}>"
@@ -304,7 +311,7 @@ class Circuit:
 def _analysis_method(name, usage, description):
     def method(self, *words, progress=None):
         with progress_of(progress) as function:
-            return CircuitResult(self._raw.analyse(name, [text_of(w) for w in words], function))
+            return _shown(self._raw.analyse(name, [text_of(w) for w in words], function))
 
     method.__name__, method.__qualname__ = name, f"Circuit.{name}"
     words = usage.split(" ", 1)

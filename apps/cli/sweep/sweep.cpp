@@ -2,18 +2,16 @@
 
 #include <fmt/format.h>
 #include <chrono>
-#include <filesystem>
 
 #include "cli/output/terminal.hpp"
 #include "cli/sweep/sweep_output.hpp"
 #include "cli/verbs.hpp"
 #include "sweep/parallel/run_sweep.hpp"
+#include "sweep/parallel/shard_text.hpp"
 #include "sweep/store/writer_lock.hpp"
 
 namespace corpuscle {
 namespace {
-
-namespace fs = std::filesystem;
 
 constexpr const char* sweep_examples =
     R"(FILE is a sweep file (TOML) with the varied parameters, the number of samples, the measures and the
@@ -51,23 +49,6 @@ struct SweepArguments {
     bool status = false;        // only print the status of the sweep
 };
 
-/// Parses "K/N", where K counts from 1; Shard::index counts from 0. "" is the complete sweep.
-Result<Shard> shard_of(const std::string& text) {
-    if (text.empty()) return Shard{};
-    long long k = 0, n = 0;
-    char rest = 0;
-    if (std::sscanf(text.c_str(), "%lld/%lld%c", &k, &n, &rest) != 2 || n < 1 || k < 1 || k > n)
-        return bad_usage(fmt::format("--shard {}: write K/N, part K of N, such as 1/4", text));
-    return Shard{k - 1, n};
-}
-
-/// The results file of --out. The default is in the current directory: "mc.sqlite" for some/where/mc.toml, "mc-1of4.sqlite" for shard 1/4.
-std::string results_path(const SweepArguments& args, const Shard& shard) {
-    if (!args.out.empty()) return args.out;
-    const auto stem = fs::path(args.file).stem().string();
-    return shard.shard_count == 1 ? stem + ".sqlite" : fmt::format("{}-{}of{}.sqlite", stem, shard.index + 1, shard.shard_count);
-}
-
 SweepRunOptions run_options_of(const SweepArguments& args, const Shard& shard, const Ranks* ranks) {
     return {.threads = ranks ? std::max(1U, args.threads) : args.threads, .shard = shard, .should_stop = interrupted};
 }
@@ -82,7 +63,7 @@ Error with_advice(const Error& error, const SweepResults& results) {
 /// Opens the results file, runs the missing items and prints the status. `ranks`: null for a single process; the others for rank 0.
 Result<void> run_and_report(Ranks* ranks, const Sweep& sweep, const SweepArguments& args, const CommonArguments& common,
                             const Shard& shard) {
-    auto results = TRY(SweepResults::open(results_path(args, shard), sweep));
+    auto results = TRY(SweepResults::open(results_path(args.file, args.out, shard), sweep));
     const auto finished_before = results.finished_count();
     auto run_options = run_options_of(args, shard, ranks);
     auto done = [&] {
@@ -100,14 +81,12 @@ Result<void> run_and_report(Ranks* ranks, const Sweep& sweep, const SweepArgumen
     auto state = TRY(read_sweep_status(results, shard));
     state.finished_now = results.finished_count() - finished_before, state.sweep = args.file;
     print_sweep_status(common, state);
-    if (state.finished > 0 && state.diverged == state.finished)
-        return Error{ErrorCode::not_converged, fmt::format("none of {} items converged: {}", state.diverged, state.reasons.front().first)};
-    return {};
+    return check_any_converged(state);
 }
 
 Result<void> show_sweep_status(const SweepArguments& args, const CommonArguments& common) {
-    const auto shard = TRY(shard_of(args.shard));
-    const auto results = TRY(SweepResults::open_read_only(results_path(args, shard)));
+    const auto shard = TRY(parse_shard(args.shard));
+    const auto results = TRY(SweepResults::open_read_only(results_path(args.file, args.out, shard)));
     auto state = TRY(read_sweep_status(results, shard));
     state.sweep = args.file;
     if (const auto writer = WriterLock::holder(results.path())) {
@@ -123,7 +102,7 @@ int run_in_process(const SweepArguments& args, const CommonArguments& common) {
     const auto report_once = [](const Error& error) {
         return Ranks::reports_errors() ? report_error(error) : static_cast<int>(error.code);
     };
-    const auto shard = shard_of(args.shard);
+    const auto shard = parse_shard(args.shard);
     if (!shard) return report_once(shard.error());
     const auto joined = Ranks::join();
     if (!joined) return report_once(joined.error());

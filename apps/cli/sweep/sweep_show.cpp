@@ -2,19 +2,18 @@
 
 #include <fmt/format.h>
 #include <algorithm>
-#include <filesystem>
 #include <nlohmann/json.hpp>
 
 #include "cli/output/output_files.hpp"
 #include "cli/output/terminal.hpp"
 #include "cli/shell/suggestions.hpp"
-#include "cli/sweep/sweep_output.hpp"
 #include "cli/verbs.hpp"
 #include "core/text/input_files.hpp"
 #include "io/output/output_check.hpp"
 #include "report/page_file.hpp"
 #include "report/sweep/sweep_page.hpp"
 #include "run/earlier_outputs.hpp"
+#include "sweep/stats/sweep_tables.hpp"
 
 namespace corpuscle {
 namespace {
@@ -57,15 +56,9 @@ Result<void> show(const SweepShowArguments& args, const CommonArguments& common)
     OutputCheck outputs(common.overwrite);
     if (!args.report_file.empty()) TRY(outputs.check_file(args.report_file, is_own_page));
     const auto table = TRY(read_table(results, args.measures));
-    std::optional<MismatchSamples> samples;
-    if (const auto text = results.about(mismatch_metadata_name); !text.empty()) {
-        auto read = parse_mismatch_samples(text);
-        if (!read) return bad_input(read.error().message, {args.results});
-        samples = std::move(*read);
-    }
+    const auto samples = TRY(read_mismatch_samples(results));
     const auto summary = TRY(summary_of(table, samples, options));
-    const auto given_title = results.about("title");
-    const auto title = given_title.empty() ? std::filesystem::path(args.results).stem().string() : given_title;
+    const auto title = title_of(results);
     if (!args.report_file.empty()) {
         const auto page = TRY(sweep_page(results, table, summary, title, common.command));
         TRY(write_file(args.report_file, page));

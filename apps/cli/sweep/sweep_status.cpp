@@ -4,7 +4,6 @@
 #include <nlohmann/json.hpp>
 
 #include "cli/output/terminal.hpp"
-#include "sweep/store/sqlite.hpp"
 
 namespace corpuscle {
 namespace {
@@ -67,22 +66,6 @@ nlohmann::ordered_json document_of(const SweepStatus& s) {
 }
 
 }  // namespace
-
-Result<SweepStatus> read_sweep_status(const SweepResults& results, const Shard& shard) {
-    SweepStatus out;
-    out.results = results.path(), out.shard = shard, out.items = shard.count(0, results.item_count), out.saved = results.finished_count();
-    const auto of_shard = fmt::format("item % {} = {}", shard.shard_count, shard.index);
-    auto counts = TRY(results.file().prepare(fmt::format(
-        "SELECT count(*), total(ended = 'truncated'), total(ended = 'diverged'), total(iterations) FROM items WHERE {}", of_shard)));
-    TRY(counts.step());
-    out.finished = counts.integer(0), out.truncated = counts.integer(1), out.diverged = counts.integer(2),
-    out.iterations = counts.integer(3);
-    if (out.truncated + out.diverged == 0) return out;
-    auto reasons = TRY(results.file().prepare(
-        fmt::format("SELECT why, count(*) FROM items WHERE ended <> 'done' AND {} GROUP BY why ORDER BY 2 DESC, 1 LIMIT 3", of_shard)));
-    while (TRY(reasons.step())) out.reasons.emplace_back(reasons.text(0), reasons.integer(1));
-    return out;
-}
 
 void print_sweep_status(const CommonArguments& common, const SweepStatus& state) {
     if (common.json)

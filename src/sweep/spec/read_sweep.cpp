@@ -82,24 +82,31 @@ void replace_setting(SweepText& spec, std::string_view key, const std::optional<
     spec.canonical += fmt::format("--{} {}\n", key, text);
 }
 
-}  // namespace
-
-Result<std::unique_ptr<Sweep>> read_sweep(const std::string& path, const SweepOverrides& overrides) {
-    const fs::path file = path;
-    const auto folder = file.parent_path().string();
-    const bool is_netlist = file.extension() != ".toml";
-    auto spec = TRY(is_netlist ? Result<SweepText>(text_of_netlist(file)) : text_at(file));
+/// The sweep of this text with the overrides. Errors about files that it names have their full paths.
+Result<std::unique_ptr<Sweep>> sweep_of(SweepText spec, const fs::path& file, const SweepOverrides& overrides) {
     replace_setting(spec, "seed", overrides.seed);
     replace_setting(spec, "samples", overrides.samples);
-    auto sweep = sweeps::make_sweep(spec, folder);
+    auto sweep = sweeps::make_sweep(spec, file.parent_path().string());
     if (sweep) return sweep;
     auto error = sweep.error();  // in it, netlists and the files they include have paths relative to the folder of the sweep file
     std::error_code status;
     if (const auto full_path = file.parent_path() / error.location.file;
         !error.location.file.empty() && error.location.file != spec.file() && fs::exists(full_path, status))
         error.location.file = full_path.string();
-    if (error.location.file.empty()) error.location.file = path;
+    if (error.location.file.empty()) error.location.file = file.string();
     return error;
+}
+
+}  // namespace
+
+Result<std::unique_ptr<Sweep>> read_sweep(const std::string& path, const SweepOverrides& overrides) {
+    const fs::path file = path;
+    const bool is_netlist = file.extension() != ".toml";
+    return sweep_of(TRY(is_netlist ? Result<SweepText>(text_of_netlist(file)) : text_at(file)), file, overrides);
+}
+
+Result<std::unique_ptr<Sweep>> read_sweep_text(const std::string& text, const std::string& name, const SweepOverrides& overrides) {
+    return sweep_of(TRY(sweeps::read_sweep_text(text, name)), name, overrides);
 }
 
 }  // namespace corpuscle

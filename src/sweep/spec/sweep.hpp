@@ -87,5 +87,7 @@ struct SweepOverrides {
 
 /// Reads a sweep file (.toml), or a netlist with .mc and .step lines.
 Result<std::unique_ptr<Sweep>> read_sweep(const std::string& path, const SweepOverrides& overrides = {});
+/// Reads the text of a sweep file. `name`: for messages; the paths in the text are relative to its folder.
+Result<std::unique_ptr<Sweep>> read_sweep_text(const std::string& text, const std::string& name, const SweepOverrides& overrides = {});
 
 }  // namespace corpuscle

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <filesystem>
 #include <numeric>
 #include <tuple>
 #include <unordered_map>
@@ -262,6 +263,19 @@ Result<SweepSummary> summary_of(const SweepTable& table, const std::optional<Mis
     for (auto& point : out.points) remove_statistics(point);
     out.dependences = effects_on_all(table, passed);
     return out;
+}
+
+Result<std::optional<MismatchSamples>> read_mismatch_samples(const SweepResults& results) {
+    const auto text = results.about(mismatch_metadata_name);
+    if (text.empty()) return std::optional<MismatchSamples>();
+    auto samples = parse_mismatch_samples(text);
+    if (!samples) return bad_input(samples.error().message, {results.path()});
+    return std::optional(std::move(*samples));
+}
+
+std::string title_of(const SweepResults& results) {
+    const auto title = results.about("title");
+    return title.empty() ? std::filesystem::path(results.path()).stem().string() : title;
 }
 
 }  // namespace corpuscle

@@ -112,6 +112,11 @@ inline constexpr std::size_t max_analysed_chips = 4000;
 /// `options.axes` must be names of axes; otherwise an error. Without `mismatch`, the only random factors are the sampled axes.
 Result<SweepSummary> summary_of(const SweepTable&, const std::optional<MismatchSamples>&, const SweepSummaryOptions&);
 
+/// The samples of mismatch that results have; no value if mismatch was not sampled.
+Result<std::optional<MismatchSamples>> read_mismatch_samples(const SweepResults&);
+/// The title of a sweep, or the name of its results file.
+std::string title_of(const SweepResults&);
+
 /// The JSON document of `corpuscle sweep show --json`. `title`: of the sweep.
 nlohmann::ordered_json document_of(const SweepTable&, const SweepSummary&, const std::string& title);
 

@@ -1,7 +1,6 @@
-// Escapes text for a terminal, and measures it.
+#include "core/text/printable.hpp"
 
-#include "cli/output/terminal.hpp"
-
+#include <fmt/format.h>
 #include <algorithm>
 #include <cstdint>
 #include <nlohmann/json.hpp>

@@ -1,12 +1,12 @@
-#include "cli/sweep/sweep_output.hpp"
+#include "sweep/stats/sweep_tables.hpp"
 
 #include <fmt/format.h>
 #include <algorithm>
 #include <cmath>
 
-#include "cli/output/terminal.hpp"
 #include "core/text/ascii_text.hpp"
 #include "core/text/quantity.hpp"
+#include "core/text/aligned_table.hpp"
 
 namespace corpuscle {
 namespace {
