@@ -208,7 +208,7 @@ class Response:
         """Writes spikes, force and parameters as an NWB 2 file (doc/formats.md).
 
         - path: of the file. An existing file is replaced only if overwrite=True.
-        - trials: of the session, (start in s, stop in s, label) each.
+        - trials: of the session, as for trials().
         - measured: True if the force was measured. By default it is if it was read from a file.
         - fields: of NWB, by their names: session_start_time="2026-03-01T12:00:00+01:00", experimenter=["Doe, Jane"], subject={"subject_id": "m1"}.
 
@@ -218,7 +218,7 @@ class Response:
 
     def to_neo(self, trials=()):
         """A neo.Block with one segment: a SpikeTrain for each afferent, annotated with its names, model and parameters, the force as an
-        AnalogSignal in N, and an Epoch of the trials, (start in s, stop in s, label) each.
+        AnalogSignal in N, and an Epoch of the trials, which are given as for trials().
 
         Raises ImportError if neo is not installed (Debian: python3-neo).
         """

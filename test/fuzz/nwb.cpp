@@ -27,7 +27,8 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     static const bool once = [] { return std::atexit([] { std::remove(path.c_str()); }), true; }();
     (void)once;
     const std::string_view magic = "\x89HDF";
-    if (size < 5 || !std::equal(magic.begin(), magic.end(), data + 1, [](char a, std::uint8_t b) { return static_cast<std::uint8_t>(a) == b; }))
+    if (size < 5 ||
+        !std::equal(magic.begin(), magic.end(), data + 1, [](char a, std::uint8_t b) { return static_cast<std::uint8_t>(a) == b; }))
         return 0;  // other bytes are other formats, for which there are other fuzzers
     if (std::FILE* f = std::fopen(path.c_str(), "wb")) {
         std::fwrite(data + 1, 1, size - 1, f);

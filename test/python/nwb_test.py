@@ -101,6 +101,21 @@ class NwbFiles(unittest.TestCase):
             self.assertEqual(list(series["data"].attrs["channels"]), ["thumb", "index"])
             self.assertEqual(series["starting_time"][()], 5)
 
+    def test_trials_are_intervals(self):
+        table = os.path.join(self.folder, "trials.csv")
+        with open(table, "w") as file:
+            file.write("start,stop,label\n0,0.5,press\n0.5,1,release\n")
+        out = os.path.join(self.folder, "trials")
+        status, _, errors = command_line("respond", "press", "-q", "--trials", table, "--nwb", "--out", out)
+        self.assertEqual(status, 0, errors)
+        with h5py.File(os.path.join(out, "response.nwb")) as nwb:
+            trials = nwb["intervals/trials"]
+            self.assertEqual([list(trials[c][:]) for c in ("start_time", "stop_time")], [[0, 0.5], [0.5, 1]])
+            self.assertEqual(list(trials["label"].asstr()[:]), ["press", "release"])
+            self.assertEqual(list(trials.attrs["colnames"]), ["start_time", "stop_time", "label"])
+        if not nwb_schema.missing():
+            self.assertEqual(nwb_schema.errors(os.path.join(out, "response.nwb")), [])
+
     def test_positions_are_in_metres(self):
         with h5py.File(self.file("skin")) as nwb:
             self.assertEqual(sorted(set(np.round(nwb["units/x"][:], 6))), [0.0, 0.002])

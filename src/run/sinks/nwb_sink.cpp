@@ -7,6 +7,7 @@
 #include "core/version.hpp"
 #include "run/afferent_details.hpp"
 #include "run/sinks.hpp"
+#include "run/trials/trial_collector.hpp"
 
 namespace corpuscle {
 namespace {
@@ -33,9 +34,10 @@ class NwbSink final : public FileSink {
     NwbMetadata metadata_;
     std::string source_, notes_;
     bool sampled_;
-    std::vector<NwbFile> nwb_;  // one for each input so far
-    NwbUnits units_;            // of the current input
-    std::vector<double> rows_;  // force of the current block, sample by sample
+    const TrialCollector* trials_;  // null without trials
+    std::vector<NwbFile> nwb_;      // one for each input so far
+    NwbUnits units_;                // of the current input
+    std::vector<double> rows_;      // force of the current block, sample by sample
 
     Result<void> create_nwb(std::size_t index) {
         nwb_.push_back(TRY(NwbFile::create(directory_ + "/" + numbered_name("response#.nwb", index), metadata_)));
@@ -46,10 +48,20 @@ class NwbSink final : public FileSink {
         for (const auto& s : spikes) units_.trains[input.afferent_of(s)].push_back(input.clock.time(s.step, s.offset));
     }
 
+    /// The trials of an input. TrialCollector precedes the files among the sinks.
+    std::vector<NwbTrial> trials_of(const Input& input) const {
+        std::vector<NwbTrial> out;
+        if (!trials_) return out;
+        for (const auto& t : trials_->responses.trials)
+            if (t.input == input.index) out.push_back({t.start, t.stop, t.label});
+        return out;
+    }
+
 public:
     explicit NwbSink(const OutputRequest& request)
         : FileSink(request), metadata_(*read_nwb_metadata(request.nwb_fields, "--nwb-field")), source_(request.command),
-          notes_(fmt::format("Simulated by Corpuscle {}, with the seed {}.", version, request.seed)), sampled_(request.sampled) {}
+          notes_(fmt::format("Simulated by Corpuscle {}, with the seed {}.", version, request.seed)), sampled_(request.sampled),
+          trials_(request.trials) {}
 
     Result<void> open() { return create_nwb(0); }
 
@@ -89,7 +101,8 @@ public:
         for (const auto& train : units_.trains)
             if (!train.empty()) units_.from = std::min(units_.from, train.front()), units_.to = std::max(units_.to, train.back());
         units_.columns = nwb_columns(names_of(input.population), details_of(TRY(input.population.plan_table())));
-        return nwb_.back().add_units(units_);
+        TRY(nwb_.back().add_units(units_));
+        return nwb_.back().add_trials(trials_of(input));
     }
 
     std::vector<std::string> paths() const override {
