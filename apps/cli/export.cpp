@@ -1,58 +1,77 @@
-// corpuscle export: converts a netlist to the format of another simulator.
+// corpuscle export: converts a netlist or an afferent to the format of another simulator.
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
-#include "circuit/export/ngspice_deck.hpp"
-#include "circuit/variant/netlist_overrides.hpp"
 #include "cli/output/output_files.hpp"
 #include "cli/output/terminal.hpp"
 #include "cli/shell/suggestions.hpp"
 #include "cli/verbs.hpp"
 #include "io/output/output_check.hpp"
+#include "run/export/targets.hpp"
 
 namespace corpuscle {
 namespace {
 
-using namespace circuit;
 using Json = nlohmann::ordered_json;
 
 constexpr const char* export_examples =
-    R"(The deck is flat: subcircuits are expanded and every parameter is evaluated. Transistors become
-subcircuits of expressions with the same currents (relative error 1e-5) and small-signal parameters
-(0.1 %), but without noise. Directives that ngspice does not have (.step, .mc, .expect ...) become
-comments, with a warning.
+    R"(A netlist becomes a flat deck: subcircuits are expanded and every parameter is evaluated. Transistors
+become subcircuits of expressions with the same currents (relative error 1e-5) and small-signal
+parameters (0.1 %), but without noise. Directives that ngspice does not have (.step, .mc, .expect ...)
+become comments, with a warning.
+An afferent becomes a script or a module with its equations and all values; see doc/export.md.
 
 Examples:
   corpuscle export amplifier.cir --for ngspice -o amplifier-ng.cir
   ngspice -b amplifier-ng.cir -r amplifier.raw                          the same curves as 'corpuscle run amplifier.cir'
-  corpuscle export amplifier.cir --for ngspice > deck.cir && ngspice -b deck.cir       tables and measurements)";
+  corpuscle export amplifier.cir --for ngspice > deck.cir && ngspice -b deck.cir       tables and measurements
+  corpuscle export sa1 --for brian2 --set sa1.f_B=25Hz -o sa1.py && python3 sa1.py force.csv spikes.csv)";
 
 struct ExportArguments {
-    std::string netlist, target = "ngspice", out;
+    ExportRequest request;
+    std::string target = "ngspice", out;
 };
 
-Json document_of(const NgspiceDeck& deck, const std::vector<Error>& warnings) {
+Json document_of(const ExportTarget& target, const ExportedModel& model) {
     Json texts = Json::array();
-    for (const auto& warning : warnings) texts.push_back(warning.text());
-    return {{"simulator", "ngspice"}, {"deck", deck.text}, {"warnings", texts}};
+    for (const auto& warning : model.warnings) texts.push_back(warning.text());
+    Json document = {{"simulator", target.name}};
+    if (target.is_text) document[std::string(target.kind)] = model.text;
+    document["warnings"] = texts;
+    return document;
 }
 
-Result<void> export_netlist(const ExportArguments& args, const CommonArguments& common) {
-    const auto netlist = TRY(open_netlist(args.netlist));
+Result<void> export_model(const ExportArguments& args, const CommonArguments& common) {
+    const auto& target = *find_export_target(args.target);
+    if (!target.is_text && args.out.empty())
+        return bad_usage(fmt::format("--for {0}: the file is not text; name it: --out x.{0}", target.name));
     OutputCheck outputs(common.overwrite);
-    if (!args.out.empty()) TRY(outputs.check_file(args.out, is_own_deck));
-    auto circuit = TRY(netlist.elaborate());
-    auto warnings = circuit.warnings;
-    const auto deck = TRY(ngspice_deck(std::make_shared<const Circuit>(std::move(circuit))));
-    warnings.insert(warnings.end(), deck.warnings.begin(), deck.warnings.end());
-    if (!args.out.empty()) TRY(write_file(args.out, deck.text));
-    for (const auto& warning : warnings) print_warning(warning.text());
+    if (!args.out.empty()) TRY(outputs.check_file(args.out, target.is_own));
+    const auto model = TRY(target.write(args.request));
+    if (!args.out.empty()) TRY(write_file(args.out, model.text));
+    for (const auto& warning : model.warnings) print_warning(warning.text());
     if (common.json)
-        fmt::print("{}\n", json_text(document_of(deck, warnings)));
+        fmt::print("{}\n", json_text(document_of(target, model)));
     else if (args.out.empty())
-        fmt::print("{}", deck.text);
+        fmt::print("{}", model.text);
     return {};
+}
+
+/// The names of all targets, and the description of --for.
+std::vector<std::string> target_names() {
+    std::vector<std::string> names;
+    for (const auto* target : export_targets) names.emplace_back(target->name);
+    return names;
+}
+const std::string& target_description() {
+    static const std::string text = [] {
+        std::string all = "the target:";
+        for (const auto* target : export_targets)
+            all += fmt::format("{} {} ({})", target == export_targets[0] ? "" : ";", target->name, target->description);
+        return all;
+    }();
+    return text;
 }
 
 }  // namespace
@@ -60,16 +79,21 @@ Result<void> export_netlist(const ExportArguments& args, const CommonArguments& 
 Verb make_export_verb() {
     const auto args = std::make_shared<ExportArguments>();
     return {.name = "export",
-            .description = "convert a netlist to the format of another simulator",
+            .description = "convert a netlist or an afferent to the format of another simulator",
             .examples = export_examples,
             .options = {{"",
-                         {suggesting(netlist_names, required({"NETLIST", &args->netlist, "",
-                                                              "a SPICE netlist, or a built-in one: sa1-circuit, fa1-circuit"})),
-                          {"--for", &args->target, "SIMULATOR", "the target simulator: ngspice (version 39)", one_of("ngspice")}}},
+                         {suggesting(
+                              afferent_names,
+                              required(
+                                  {"SUBJECT", &args->request.subject, "",
+                                   "a SPICE netlist or a built-in one (sa1-circuit, fa1-circuit), or an afferent (sa1, sa1b+izhikevich)"})),
+                          {"--for", &args->target, "SIMULATOR", target_description(), target_names()},
+                          repeatable({"--set,-s", override_reader(args->request.settings, "--set"), "NAME.PARAMETER=VALUE",
+                                      "set a parameter of the subject, such as sa1.f_B=25Hz"})}},
                         {"Output", {{"--out,-o", &args->out, "FILE", "write to this file (default: standard output)"}}}},
             .reports = true,
             .writes_files = true,
-            .run = [args](const CommonArguments& common) { return exit_status(export_netlist(*args, common)); }};
+            .run = [args](const CommonArguments& common) { return exit_status(export_model(*args, common)); }};
 }
 
 }  // namespace corpuscle

@@ -103,11 +103,6 @@ bool is_own_state(std::string_view beginning) { return beginning.starts_with("co
 
 bool is_own_checkpoint(std::string_view beginning) { return beginning.starts_with("corpuscle checkpoint"); }
 
-bool is_own_deck(std::string_view beginning) {
-    take_line(beginning);
-    return beginning.starts_with("* Written by 'corpuscle export ");
-}
-
 bool is_own_markdown(std::string_view beginning) {
     return beginning.find("\nWritten by `corpuscle study ") != beginning.npos ||
            beginning.find("\nMade by `corpuscle study ") != beginning.npos;  // version 0.1.0 and earlier

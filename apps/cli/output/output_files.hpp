@@ -16,7 +16,6 @@ bool is_own_table(std::string_view beginning);       ///< CSV of 'run'
 bool is_own_events(std::string_view beginning);      ///< spikes of 'stream'
 bool is_own_state(std::string_view beginning);       ///< of 'stream --save-state'
 bool is_own_checkpoint(std::string_view beginning);  ///< of 'respond --checkpoint'
-bool is_own_deck(std::string_view beginning);        ///< ngspice deck of 'export'
 bool is_own_markdown(std::string_view beginning);    ///< Markdown of 'study'
 
 }  // namespace corpuscle
