@@ -46,9 +46,9 @@ Result<void> export_model(const ExportArguments& args, const CommonArguments& co
     const auto& target = *find_export_target(args.target);
     if (!target.is_text && args.out.empty())
         return bad_usage(fmt::format("--for {0}: the file is not text; name it: --out x.{0}", target.name));
-    OutputCheck outputs(common.overwrite);
-    if (!args.out.empty()) TRY(outputs.check_file(args.out, target.is_own));
     const auto model = TRY(target.write(args.request));
+    OutputCheck outputs(common.overwrite);  // after all inputs are read, so that it knows them
+    if (!args.out.empty()) TRY(outputs.check_file(args.out, target.is_own));
     if (!args.out.empty()) TRY(write_file(args.out, model.text));
     for (const auto& warning : model.warnings) print_warning(warning.text());
     if (common.json)
