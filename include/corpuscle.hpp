@@ -8,6 +8,7 @@
 #include "corpuscle/force.hpp"
 #include "corpuscle/live.hpp"
 #include "corpuscle/measures.hpp"
+#include "corpuscle/model_export.hpp"
 #include "corpuscle/nwb.hpp"
 #include "corpuscle/respond.hpp"
 #include "corpuscle/spikes.hpp"

@@ -15,4 +15,5 @@ PYBIND11_MODULE(_corpuscle, m) {
     bind_circuit(m);
     bind_compare(m);
     bind_sweep(m);
+    bind_model_export(m);
 }

@@ -47,7 +47,7 @@ Result<void> export_model(const ExportArguments& args, const CommonArguments& co
     if (!target.is_text && args.out.empty())
         return bad_usage(fmt::format("--for {0}: the file is not text; name it: --out x.{0}", target.name));
     const auto model = TRY(target.write(args.request));
-    OutputCheck outputs(common.overwrite);  // after all inputs are read, so that it knows them
+    OutputCheck outputs(common.overwrite);  // it refuses inputs, so they must have been read
     if (!args.out.empty()) TRY(outputs.check_file(args.out, target.is_own));
     if (!args.out.empty()) TRY(write_file(args.out, model.text));
     for (const auto& warning : model.warnings) print_warning(warning.text());

@@ -29,6 +29,7 @@ void bind_trials(py::module_&);
 void bind_circuit(py::module_&);
 void bind_compare(py::module_&);
 void bind_sweep(py::module_&);
+void bind_model_export(py::module_&);
 
 /// The origin of a force, which Python only hands on.
 struct OriginHandle {

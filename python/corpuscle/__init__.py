@@ -13,6 +13,7 @@ from ._corpuscle import InputError, NotConvergedError
 from ._catalogue import Catalogue, Entry, Parameter, afferents, catalogue, catalogues
 from ._circuit import Circuit, CircuitAnalysis, CircuitPlot, CircuitResult, circuit
 from ._compare import Comparison, compare
+from ._export import export
 from ._fit import Fit, fit
 from ._force import Force, Stimulus, read, stimulus
 from ._live import LiveSkin
@@ -25,11 +26,11 @@ from ._trials import Contacts, Epoch, ForceTrials, Histogram, TrialResponses, co
 from . import _force
 
 __all__ = [
-    "Catalogue", "Circuit", "CircuitAnalysis", "CircuitPlot", "CircuitResult", "Comparison", "Contacts", "Entry", "Epoch", "Fit", "Force", "ForceTrials",
-    "Histogram", "InputError", "LiveSkin", "NotConvergedError", "Parameter", "Population", "Response", "Stimulus", "SweepQuantity",
-    "SweepResult", "TrialResponses",
-    "afferents", "catalogue", "catalogues", "circuit", "compare", "contacts", "fingertip", "fit", "grid", "hand", "measures", "onsets", "population",
-    "read", "read_spikes", "read_sweep", "respond", "stimulus", "sweep", "trials",
+    "Catalogue", "Circuit", "CircuitAnalysis", "CircuitPlot", "CircuitResult", "Comparison", "Contacts", "Entry", "Epoch", "Fit", "Force",
+    "ForceTrials", "Histogram", "InputError", "LiveSkin", "NotConvergedError", "Parameter", "Population", "Response", "Stimulus",
+    "SweepQuantity", "SweepResult", "TrialResponses", "afferents", "catalogue", "catalogues", "circuit", "compare", "contacts", "export",
+    "fingertip", "fit", "grid", "hand", "measures", "onsets", "population", "read", "read_spikes", "read_sweep", "respond", "stimulus",
+    "sweep", "trials",
 ]
 
 InputError.__module__ = NotConvergedError.__module__ = Warning.__module__ = __name__  # the public name, for tracebacks

@@ -1,0 +1,22 @@
+#pragma once
+// Models for other simulators.
+
+#include <string>
+#include <vector>
+
+#include "corpuscle/error.hpp"
+
+namespace corpuscle {
+
+/// A netlist or an afferent in the format of another simulator.
+struct ModelText {
+    std::string text;                   ///< the complete file
+    std::vector<std::string> warnings;  ///< about parts of the model that the simulator does not have
+};
+
+/// The names of all targets: "ngspice", "brian2" ...
+CORPUSCLE_API std::vector<std::string> export_target_names();
+/// Writes a netlist or an afferent for a target, with settings such as "sa1.f_B=25Hz" (doc/export.md). Throws InputError.
+CORPUSCLE_API ModelText export_model(const std::string& subject, const std::string& target, const std::vector<std::string>& settings = {});
+
+}  // namespace corpuscle

@@ -1,0 +1,30 @@
+#include "corpuscle/model_export.hpp"
+
+#include <fmt/format.h>
+
+#include "api/result.hpp"
+#include "core/text/ascii_text.hpp"
+#include "run/export/targets.hpp"
+
+namespace corpuscle {
+
+std::vector<std::string> export_target_names() {
+    std::vector<std::string> names;
+    for (const auto* target : export_targets) names.emplace_back(target->name);
+    return names;
+}
+
+ModelText export_model(const std::string& subject, const std::string& target, const std::vector<std::string>& settings) {
+    const auto* found = find_export_target(target);
+    if (!found) {
+        const auto names = export_target_names();
+        throw InputError(fmt::format("unknown target '{}' (there are {})", target,
+                                     joined(std::vector<std::string_view>(names.begin(), names.end()))));
+    }
+    auto model = api::value_or_throw(found->write({subject, api::value_or_throw(parse_overrides(settings))}));
+    ModelText out{std::move(model.text), {}};
+    for (const auto& warning : model.warnings) out.warnings.push_back(warning.text());
+    return out;
+}
+
+}  // namespace corpuscle
