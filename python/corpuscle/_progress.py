@@ -19,12 +19,52 @@ def _time_text(seconds):
     return f"{s} s" if s < 60 else f"{s // 60}:{s % 60:02} min" if s < 3600 else f"{s // 3600}:{s // 60 % 60:02} h"
 
 
+def _is_notebook():
+    ipython = sys.modules.get("IPython")
+    shell = ipython.get_ipython() if ipython is not None else None
+    return shell is not None and hasattr(shell, "kernel")
+
+
+class _Terminal:
+    """A line on standard error."""
+
+    def __init__(self):
+        self._shown = 0
+
+    def show(self, line):
+        sys.stderr.write("\r" + line.ljust(self._shown))
+        sys.stderr.flush()
+        self._shown = len(line)
+
+    def remove(self):
+        sys.stderr.write("\r" + " " * self._shown + "\r")
+        sys.stderr.flush()
+
+
+class _Cell:
+    """A line in the output of a notebook's cell."""
+
+    def __init__(self):
+        from IPython.display import HTML, display
+        self._html, self._display, self._handle = HTML, display, None
+
+    def show(self, line):
+        content = self._html(f"<pre>{line}</pre>")
+        if self._handle is None:
+            self._handle = self._display(content, display_id=True)
+        else:
+            self._handle.update(content)
+
+    def remove(self):
+        self._handle.update(self._html(""))
+
+
 class ProgressLine:
-    """Called with the completed fraction, writes the line on standard error. Leaving it as a context removes the line."""
+    """Called with the completed fraction, shows the line. Leaving it as a context removes the line."""
 
     def __init__(self):
         self._start = self._last = time.monotonic()
-        self._shown = 0
+        self._output = None
 
     def __call__(self, fraction):
         now = time.monotonic()
@@ -35,17 +75,16 @@ class ProgressLine:
         elapsed = now - self._start
         left = f"{_time_text(elapsed / fraction - elapsed)} left" if fraction > 0 else "..."
         line = f"[{'=' * full}{' ' * (_WIDTH - full)}] {100 * fraction:3.0f} %  {left}"
-        sys.stderr.write("\r" + line.ljust(self._shown))
-        sys.stderr.flush()
-        self._shown = len(line)
+        if self._output is None:
+            self._output = _Cell() if _is_notebook() else _Terminal()
+        self._output.show(line)
 
     def __enter__(self):
         return self
 
     def __exit__(self, *_):
-        if self._shown:
-            sys.stderr.write("\r" + " " * self._shown + "\r")
-            sys.stderr.flush()
+        if self._output is not None:
+            self._output.remove()
 
 
 class _Given:

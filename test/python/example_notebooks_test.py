@@ -15,7 +15,7 @@ FOLDER = pathlib.Path(ROOT, "examples", "notebooks")
 FILES = sorted(FOLDER.glob("*.ipynb"))
 QUICK = "own_recording,trials_and_psth"  # the others take longer, or need more memory
 MOST_SECONDS = 300  # of a cell
-EXPLAINED = {"own_recording": "the noise of the sensor"}  # a warning that the text of a notebook is about
+EXPLAINED = {"own_recording": "the noise of the sensor", "model_and_chip": ".expect is ignored"}  # a warning that the text of a notebook is about
 
 os.environ.pop("MPLBACKEND", None)  # a notebook draws its pictures inline
 import nbclient
