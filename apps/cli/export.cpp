@@ -16,10 +16,11 @@ namespace {
 using Json = nlohmann::ordered_json;
 
 constexpr const char* export_examples =
-    R"(A netlist becomes a flat deck: subcircuits are expanded and every parameter is evaluated. Transistors
-become subcircuits of expressions with the same currents (relative error 1e-5) and small-signal
-parameters (0.1 %), but without noise. Directives that ngspice does not have (.step, .mc, .expect ...)
-become comments, with a warning.
+    R"(A netlist becomes a flat deck: subcircuits are expanded and every parameter is evaluated.
+Transistors become subcircuits of expressions with the same currents (relative error 1e-5) and
+small-signal parameters (0.1 %), but without noise. Directives that ngspice does not have (.step,
+.mc, .expect ...) become comments, with a warning.
+
 An afferent becomes a script or a module with its equations and all values; see doc/export.md.
 
 Examples:
