@@ -35,7 +35,7 @@ void check(const Sweep& s) {
 }  // namespace
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
-    const auto text = read_sweep_text({reinterpret_cast<const char*>(data), size}, "fuzz.toml");
+    const auto text = sweeps::read_sweep_text({reinterpret_cast<const char*>(data), size}, "fuzz.toml");
     if (!text) {
         must(text.error().location.file == "fuzz.toml");
         return check(text.error()), 0;
