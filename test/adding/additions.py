@@ -91,7 +91,7 @@ ADDITIONS = [
         kind="an output format of `respond`",
         file="src/run/sinks/names_file.cpp",
         list="src/run/sinks.hpp",
-        insertions=[("probes_format, vectors_format;", "probes_format, vectors_format, names_format;"), ("&probes_format, &vectors_format};", "&probes_format, &vectors_format, &names_format};")],
+        insertions=[("trials_format, nwb_format;", "trials_format, nwb_format, names_format;"), ("&nwb_format};", "&nwb_format, &names_format};")],
         list_names="output_formats",
     ),
 ]
