@@ -2,6 +2,7 @@
 
 import dataclasses
 import os
+import tempfile
 
 import numpy as np
 
@@ -21,24 +22,21 @@ class Epoch:
         return iter((self.start, self.stop, self.label))
 
 
-_START, _STOP, _DURATION = ("start", "start_time", "onset"), ("stop", "stop_time", "end"), ("duration",)
-_LABEL = ("label", "condition", "trial_type", "stimulus")
-
-
 def trials(table, label=None):
     """Trials from a table, as a list of Epoch in order of time.
 
-    - table: a path of a table start,stop,label (doc/trials.md), a pandas DataFrame with these columns (s), or a sequence of (start, stop) or
+    - table: a path of a table start,stop,label (doc/trials.md), a pandas DataFrame with these columns, or a sequence of (start, stop) or
       (start, stop, label).
     - label: the name of the column of the labels.
 
     Raises InputError, with file, line and value where they are known.
     """
+    name = "" if label is None else text(label, "label")
     if isinstance(table, (str, os.PathLike)):
-        read = _corpuscle.read_trial_table(path_of(table), "" if label is None else text(label, "label"))
-        return [Epoch(t.start, t.stop, t.label) for t in read]
-    rows = _rows_of_frame(table, label) if hasattr(table, "columns") else list(table)
-    out = [_epoch(k, row) for k, row in enumerate(rows)]
+        return [Epoch(t.start, t.stop, t.label) for t in _corpuscle.read_trial_table(path_of(table), name)]
+    if hasattr(table, "to_csv"):
+        return [Epoch(t.start, t.stop, t.label) for t in _read_frame(table, name)]
+    out = [_epoch(k, row) for k, row in enumerate(table)]
     if not out:
         raise _corpuscle.InputError("trials: there are none")
     return sorted(out, key=tuple)
@@ -49,18 +47,15 @@ def trials_of(table):
     return [] if isinstance(table, (list, tuple)) and not table else trials(table)
 
 
-def _rows_of_frame(table, label):
-    def column(names, required=True):
-        found = [n for n in names if n in table.columns]
-        if not found and required:
-            raise _corpuscle.InputError(f"trials: the table has no column {names[0]}; it has {', '.join(map(str, table.columns))}")
-        return table[found[0]] if found else None
-
-    start, stop = column(_START), column(_STOP, required=not any(n in table.columns for n in _DURATION))
-    if stop is None:
-        stop = start + column(_DURATION)
-    labels = column(_LABEL if label is None else (label,), required=label is not None)
-    return list(zip(start, stop, ["trial"] * len(table) if labels is None else labels))
+def _read_frame(table, label):
+    """The trials of a DataFrame. The reader of files reads it, so that both have the same columns, units and errors."""
+    with tempfile.TemporaryDirectory() as folder:
+        path = os.path.join(folder, "table.csv")
+        table.to_csv(path, index=False)
+        try:
+            return _corpuscle.read_trial_table(path_of(path), label)
+        except _corpuscle.InputError as error:
+            raise _corpuscle.InputError(str(error).replace(path, "the table")) from None
 
 
 def _epoch(k, row):

@@ -12,13 +12,9 @@
 #include <string>
 
 #include "io/recording/recording.hpp"
+#include "require.hpp"
 
 namespace corpuscle::fuzz {
-
-/// Ends the fuzzer with a failure unless the condition holds.
-inline void require(bool holds) {
-    if (!holds) std::abort();
-}
 
 /// An error must have a message and name a line up to `lines`, if any. A helper process may crash (by a signal or a sanitizer), but must
 /// not send an invalid response.

@@ -115,6 +115,18 @@ class Trials(unittest.TestCase):
             self.assertEqual(read.label, epoch.label)
         self.assertEqual(corpuscle.trials([(1.5, 6, "press"), (0.3, 1.5, "tap")]), expected)
 
+    def test_a_data_frame_has_the_columns_and_units_of_a_file(self):
+        import pandas
+        path = os.path.join(ROOT, "examples", "data", "touch_trials.csv")
+        self.assertEqual(corpuscle.trials(pandas.read_csv(path)), corpuscle.trials(path))   # start_s, stop_s
+        self.assertEqual(corpuscle.trials(pandas.DataFrame({"Begin_ms": [250.0], "end_time": [0.5], "class": ["x"]})), [corpuscle.Epoch(0.25, 0.5, "x")])
+        third = 1 / 3
+        self.assertEqual(corpuscle.trials(pandas.DataFrame({"start": [third], "stop": [1.0], "texture": ["rough"]}), label="texture"),
+                         [corpuscle.Epoch(third, 1.0, "rough")])
+        for match, columns in (("the table:1", {"begins": [0.0], "stop": [1.0]}), ("the table:2.*nan", {"start": ["nan"], "stop": [1.0]}), ("the table", {"start": [], "stop": []})):
+            with self.subTest(match), self.assertRaisesRegex(corpuscle.InputError, match):
+                corpuscle.trials(pandas.DataFrame(columns))
+
     def test_a_calibration_is_an_option_of_read(self):
         path = os.path.join(self.folder, "counts.csv")
         with open(path, "w") as file:

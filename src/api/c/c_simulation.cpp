@@ -10,7 +10,8 @@ namespace {
 
 constexpr std::size_t first_size = sizeof(corpuscle_simulation);  // of the first version; the structure only grows
 
-/// The structure, of which the caller may know fewer members than we do, or more. Throws BadCall if it uses members that we do not know.
+/// A copy of the structure. The caller may have been compiled with fewer members, or with more. Throws BadCall if it uses members that this
+/// library does not have.
 corpuscle_simulation known_members(const corpuscle_simulation* given) {
     corpuscle_simulation out = {};
     if (given->size < first_size || given->size > (std::size_t{1} << 16))
