@@ -9,6 +9,7 @@
 #include "corpuscle/live.hpp"
 #include "corpuscle/measures.hpp"
 #include "corpuscle/model_export.hpp"
+#include "corpuscle/nir.hpp"
 #include "corpuscle/nwb.hpp"
 #include "corpuscle/respond.hpp"
 #include "corpuscle/spikes.hpp"

@@ -16,4 +16,5 @@ PYBIND11_MODULE(_corpuscle, m) {
     bind_compare(m);
     bind_sweep(m);
     bind_model_export(m);
+    bind_nir(m);
 }

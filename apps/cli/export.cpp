@@ -21,13 +21,15 @@ Transistors become subcircuits of expressions with the same currents (relative e
 small-signal parameters (0.1 %), but without noise. Directives that ngspice does not have (.step,
 .mc, .expect ...) become comments, with a warning.
 
-An afferent becomes a script or a module with its equations and all values; see doc/export.md.
+An afferent becomes a script, a module or a NIR graph with its equations and all values; see
+doc/export.md.
 
 Examples:
   corpuscle export amplifier.cir --for ngspice -o amplifier-ng.cir
   ngspice -b amplifier-ng.cir -r amplifier.raw                          the same curves as 'corpuscle run amplifier.cir'
   corpuscle export amplifier.cir --for ngspice > deck.cir && ngspice -b deck.cir       tables and measurements
-  corpuscle export sa1 --for brian2 --set sa1.f_B=25Hz -o sa1.py && python3 sa1.py force.csv spikes.csv)";
+  corpuscle export sa1 --for brian2 --set sa1.f_B=25Hz -o sa1.py && python3 sa1.py force.csv spikes.csv
+  corpuscle export sa1 --for nir -o sa1.nir                             for neuromorphic simulators and chips)";
 
 struct ExportArguments {
     ExportRequest request;

@@ -4,6 +4,7 @@
 
 #include <functional>
 
+#include "io/hdf5/hdf5_tree.hpp"
 #include "io/nwb/hdf5_messages.hpp"
 #include "io/recording/samples.hpp"
 
@@ -19,6 +20,9 @@ SamplesResult open_sound_samples(int file, const std::string& path, const TableO
 
 /// Reads the units of the NWB file that is open as descriptor `file`.
 Result<std::vector<NwbUnit>> read_nwb_units(int file, const UnitsRequest&);
+
+/// Reads all datasets of the HDF5 file that is open as descriptor `file`; see read_hdf5_tree().
+Result<std::vector<Hdf5Array>> hdf5_tree(int file, const std::string& path);
 
 /// Whether a helper program may change the file that is open as its descriptor.
 enum class FileAccess { read, write };
@@ -40,6 +44,8 @@ struct HelperService {
 HelperService samples_service(const OpenSamples&);
 /// The service that sends the units of an NWB file.
 HelperService units_service();
+/// The service that sends all datasets of an HDF5 file.
+HelperService tree_service();
 /// The service that writes an HDF5 file.
 HelperService writer_service();
 

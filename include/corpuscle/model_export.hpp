@@ -12,6 +12,7 @@ namespace corpuscle {
 struct ModelText {
     std::string text;                   ///< the complete file
     std::vector<std::string> warnings;  ///< about parts of the model that the simulator does not have
+    bool is_text = true;                ///< false: `text` is the bytes of a binary file
 };
 
 /// The names of all targets: "ngspice", "brian2" ...

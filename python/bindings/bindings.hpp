@@ -30,6 +30,7 @@ void bind_circuit(py::module_&);
 void bind_compare(py::module_&);
 void bind_sweep(py::module_&);
 void bind_model_export(py::module_&);
+void bind_nir(py::module_&);
 
 /// The origin of a force, which Python only hands on.
 struct OriginHandle {

@@ -8,7 +8,7 @@ void bind_model_export(py::module_& m) {
         "export_model",
         [](const std::string& subject, const std::string& target, const std::vector<std::string>& settings) {
             auto model = export_model(subject, target, settings);
-            return py::make_tuple(py::bytes(model.text), model.warnings);
+            return py::make_tuple(py::bytes(model.text), model.warnings, model.is_text);
         },
         py::arg("subject"), py::arg("target"), py::arg("settings"));
 }

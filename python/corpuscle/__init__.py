@@ -18,6 +18,7 @@ from ._fit import Fit, fit
 from ._force import Force, Stimulus, read, stimulus
 from ._live import LiveSkin
 from ._respond import Population, fingertip, grid, hand, population, respond
+from ._nir import NirGraph, NirNode, nir
 from ._options import Warning  # not in __all__, because it would hide the built-in name
 from ._response import Response, measures
 from ._spikes import read_spikes
@@ -27,9 +28,9 @@ from . import _force
 
 __all__ = [
     "Catalogue", "Circuit", "CircuitAnalysis", "CircuitPlot", "CircuitResult", "Comparison", "Contacts", "Entry", "Epoch", "Fit", "Force",
-    "ForceTrials", "Histogram", "InputError", "LiveSkin", "NotConvergedError", "Parameter", "Population", "Response", "Stimulus",
+    "ForceTrials", "Histogram", "InputError", "LiveSkin", "NirGraph", "NirNode", "NotConvergedError", "Parameter", "Population", "Response", "Stimulus",
     "SweepQuantity", "SweepResult", "TrialResponses", "afferents", "catalogue", "catalogues", "circuit", "compare", "contacts", "export",
-    "fingertip", "fit", "grid", "hand", "measures", "onsets", "population", "read", "read_spikes", "read_sweep", "respond", "stimulus",
+    "fingertip", "fit", "grid", "hand", "measures", "nir", "onsets", "population", "read", "read_spikes", "read_sweep", "respond", "stimulus",
     "sweep", "trials",
 ]
 

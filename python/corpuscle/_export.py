@@ -8,17 +8,17 @@ from ._options import name_of, path_of, settings_of, show_warnings
 
 
 def export(subject, target, path=None, *, settings=None):
-    """Writes an afferent or a netlist for another simulator (doc/export.md), and returns the text.
+    """Writes an afferent or a netlist for another simulator (doc/export.md), and returns the text, or the bytes of a file that is not text.
 
     - subject: an afferent ("sa1", "sa1b+izhikevich"), or the path of a netlist.
-    - target: "brian2", "neuron"; "ngspice" for netlists.
+    - target: "brian2", "neuron", "verilog-a", "nir"; "ngspice" for netlists.
     - path: also write the text to this file, which must not exist.
     - settings: parameters, {"f_B": "25 Hz"} or {"sa1.f_B": 25}.
 
     Each part of a netlist that the simulator lacks is a corpuscle.Warning. Raises InputError, with the reason and a remedy, if the subject cannot be exported.
     """
     subject = name_of(subject, "subject")
-    data, warnings = _corpuscle.export_model(subject, name_of(target, "target"), settings_of(settings, subject))
+    data, warnings, is_text = _corpuscle.export_model(subject, name_of(target, "target"), settings_of(settings, subject))
     show_warnings(warnings, 2)
     if path is not None:
         try:
@@ -26,4 +26,4 @@ def export(subject, target, path=None, *, settings=None):
                 file.write(data)
         except FileExistsError:
             raise InputError(f"{os.fsdecode(path)}: this file exists; name another, or remove it") from None
-    return data.decode()
+    return data.decode() if is_text else data

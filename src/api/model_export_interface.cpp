@@ -22,7 +22,7 @@ ModelText export_model(const std::string& subject, const std::string& target, co
                                      joined(std::vector<std::string_view>(names.begin(), names.end()))));
     }
     auto model = api::value_or_throw(found->write({subject, api::value_or_throw(parse_overrides(settings))}));
-    ModelText out{std::move(model.text), {}};
+    ModelText out{std::move(model.text), {}, found->is_text};
     for (const auto& warning : model.warnings) out.warnings.push_back(warning.text());
     return out;
 }

@@ -25,6 +25,7 @@ Error unknown_afferent(std::string_view text, Error error) {
 }  // namespace
 
 Result<std::shared_ptr<const AfferentSpec>> read_afferent_spec(std::string_view text) {
+    if (nir::names_graph(text)) return std::shared_ptr<const AfferentSpec>(std::make_shared<nir::GraphSpec>(text));
     if (names_netlist(text)) return std::shared_ptr<const AfferentSpec>(std::make_shared<circuit::NetlistSpec>(text));
     auto spec = read_model_spec(text);
     return spec ? std::move(spec) : unknown_afferent(text, spec.error());

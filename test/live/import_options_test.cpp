@@ -158,7 +158,7 @@ TEST(ImportOptions, ANetlistInAStreamIsRefusedWithTheCommandForIt) {
         const auto ran = run_program(folder, "stream --in press --pace fast " + option);
         EXPECT_EQ(ran.status, 2);
         EXPECT_NE(
-            ran.err.find("a stream simulates models, not netlists; for a netlist type: corpuscle respond press --afferent sa1-circuit"),
+            ran.err.find("a stream simulates models, not netlists and NIR graphs; type: corpuscle respond press --afferent sa1-circuit"),
             ran.err.npos)
             << ran.err;
     }

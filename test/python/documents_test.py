@@ -1,4 +1,4 @@
-"""The code of doc/python.md, doc/trials.md and of the README runs, and prints what the page shows."""
+"""The code of doc/python.md, doc/trials.md, doc/nir.md and of the README runs, and prints what the page shows."""
 
 import contextlib
 import io
@@ -47,6 +47,10 @@ class Documents(unittest.TestCase):
     def test_the_code_of_the_page_of_trials_runs(self):
         self.assertEqual(len(blocks_of("doc/trials.md")), 3)
         self.run_page("doc/trials.md")
+
+    def test_the_code_of_the_page_of_nir_runs(self):
+        self.assertEqual(len(blocks_of("doc/nir.md")), 1)
+        self.run_page("doc/nir.md")
 
     def test_the_code_of_the_readme_runs(self):
         self.assertEqual(len(blocks_of("README.md")), 1)

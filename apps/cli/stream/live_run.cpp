@@ -31,11 +31,11 @@ Result<Applied<SkinPlan>> plan_of(const StreamArguments& args, std::span<const C
     return apply_overrides(std::move(plan), args.settings);
 }
 
-/// Returns an error if --population or --set names a netlist.
-Result<void> check_no_netlist(const StreamArguments& args) {
+/// Returns an error if --population or --set names a netlist or a NIR graph.
+Result<void> check_only_models(const StreamArguments& args) {
     const auto check = [&](std::string_view name, const std::string& option) -> Result<void> {
-        if (!circuit::find_embedded_netlist(name) && !name.ends_with(".cir")) return {};
-        return bad_usage(fmt::format("{}: a stream simulates models, not netlists; for a netlist type: corpuscle respond {} --afferent {}",
+        if (!circuit::find_embedded_netlist(name) && !name.ends_with(".cir") && !name.ends_with(".nir")) return {};
+        return bad_usage(fmt::format("{}: a stream simulates models, not netlists and NIR graphs; type: corpuscle respond {} --afferent {}",
                                      option, is_live_input(args.in) ? "FORCE" : args.in, name));
     };
     for (const auto name : split(args.population, ',')) TRY(check(name, "--population " + args.population));
@@ -341,7 +341,7 @@ public:
     LiveRun(const StreamArguments& args, const CommonArguments& common) : args_(args), common_(common), unused_(args.settings) {}
 
     Result<void> run() {
-        TRY(check_no_netlist(args_));
+        TRY(check_only_models(args_));
         if (auto ok = open(); !ok) return interrupted() ? stopped : ok;
         print_notes();
         StreamLoop::StreamOptions options{.stop = interrupted, .busy_poll = args_.busy_poll, .keeps_state = !args_.save_state.empty()};

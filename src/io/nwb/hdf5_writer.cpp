@@ -6,13 +6,15 @@ namespace corpuscle {
 
 void Hdf5Writer::send(const Hdf5Step& step) { helper_.send(encode(step)); }
 
-Result<Hdf5Writer> Hdf5Writer::start(OutputFile& file) {
+Result<Hdf5Writer> Hdf5Writer::start(OutputFile& file) { return start(::fileno(file.stream()), file.path()); }
+
+Result<Hdf5Writer> Hdf5Writer::start(int descriptor, const std::string& path) {
     const auto program = find_helper_program("corpuscle-hdf5");
-    if (!program) return bad_input(program.error().message, {file.path()});
-    auto helper = HelperProcess::start(*program, ::fileno(file.stream()), HelperProcess::writer_protocol);
-    if (!helper) return bad_input(helper.error().message, {file.path()});
+    if (!program) return bad_input(program.error().message, {path});
+    auto helper = HelperProcess::start(*program, descriptor, HelperProcess::writer_protocol);
+    if (!helper) return bad_input(helper.error().message, {path});
     Hdf5Writer out;
-    out.path_ = file.path(), out.helper_ = *std::move(helper);
+    out.path_ = path, out.helper_ = *std::move(helper);
     return out;
 }
 
@@ -27,6 +29,11 @@ void Hdf5Writer::add_attributes(const std::string& path, std::vector<Hdf5Attribu
 void Hdf5Writer::add_texts(const std::string& path, std::vector<std::string> texts, bool is_scalar, std::vector<Hdf5Attribute> attributes) {
     std::vector<std::uint64_t> shape;
     if (!is_scalar) shape = {texts.size()};
+    add_texts(path, std::move(texts), std::move(shape), std::move(attributes));
+}
+
+void Hdf5Writer::add_texts(const std::string& path, std::vector<std::string> texts, std::vector<std::uint64_t> shape,
+                           std::vector<Hdf5Attribute> attributes) {
     send({.kind = Hdf5Step::Kind::dataset,
           .path = path,
           .type = Hdf5Type::text,

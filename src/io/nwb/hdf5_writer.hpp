@@ -19,12 +19,17 @@ class Hdf5Writer {
 public:
     /// Starts the helper program, which writes into the open file. The file must be empty, and not a device or pipe.
     static Result<Hdf5Writer> start(OutputFile&);
+    /// The same for a descriptor; `path` is for messages.
+    static Result<Hdf5Writer> start(int descriptor, const std::string& path);
 
     // An error of these functions is returned by finish(), because the helper program does not answer each step.
     void add_group(const std::string& path, std::vector<Hdf5Attribute> attributes = {});
     void add_attributes(const std::string& path, std::vector<Hdf5Attribute> attributes);
     /// A dataset of texts: a list, or a scalar if `is_scalar`.
     void add_texts(const std::string& path, std::vector<std::string> texts, bool is_scalar, std::vector<Hdf5Attribute> attributes = {});
+    /// A dataset of texts in row-major order.
+    void add_texts(const std::string& path, std::vector<std::string> texts, std::vector<std::uint64_t> shape,
+                   std::vector<Hdf5Attribute> attributes = {});
     /// A dataset of numbers. The number type must be that of the elements; an empty shape is a scalar.
     template <class T>
     void add_numbers(const std::string& path, Hdf5Type type, std::span<const T> values, std::vector<std::uint64_t> shape,

@@ -31,9 +31,9 @@ struct ExportTarget {
     bool (*is_own)(std::string_view beginning);  ///< true for the first bytes of a file that an earlier export wrote
 };
 
-extern const ExportTarget ngspice_target, brian2_target, neuron_target, verilog_a_target;
+extern const ExportTarget ngspice_target, brian2_target, neuron_target, verilog_a_target, nir_target;
 
-inline constexpr const ExportTarget* export_targets[] = {&ngspice_target, &brian2_target, &neuron_target, &verilog_a_target};
+inline constexpr const ExportTarget* export_targets[] = {&ngspice_target, &brian2_target, &neuron_target, &verilog_a_target, &nir_target};
 
 /// The target of this name; null if there is none.
 const ExportTarget* find_export_target(std::string_view name);

@@ -1,0 +1,83 @@
+// Reads all datasets of an HDF5 file that is small enough.
+
+#include "io/hdf5/hdf5_tree.hpp"
+
+#include <fmt/format.h>
+
+#include "hdf5_file.hpp"
+#include "helper_main.hpp"
+#include "io/sandbox/helper_process.hpp"
+#include "io/sandbox/remote_samples.hpp"
+
+namespace corpuscle {
+namespace {
+
+using hdf5::Handle;
+
+constexpr std::uint64_t max_numbers = std::uint64_t{1} << 25;  // of all datasets: 256 MB
+
+/// Number of elements of a dataset, but at most `limit` + 1.
+std::uint64_t element_count(const ArrayInfo& info, std::uint64_t limit) {
+    std::uint64_t count = 1;
+    for (const auto n : info.shape) {
+        if (n == 0) return 0;
+        count = count > limit / n ? limit + 1 : count * n;
+    }
+    return count;
+}
+
+Result<Hdf5Array> read_array(const Handle& file, const ArrayInfo& info, std::uint64_t count, const std::string& path) {
+    Hdf5Array array{.path = info.name, .shape = {info.shape.begin(), info.shape.end()}};
+    const auto damaged = [&] { return bad_input(fmt::format("cannot read {}; the file may be damaged", info.name), {path}); };
+    const auto dataset = hdf5::open_dataset(file, info.name);
+    if (!dataset) return damaged();
+    if (count > 0) TRY(hdf5::check_storage(dataset, info, path));
+    const Handle type(H5Dget_type(dataset), H5Tclose);
+    array.is_text = !hdf5::is_number(type);
+    if (array.is_text) {
+        array.texts = hdf5::strings_in(dataset);
+        if (array.texts.size() != count) return damaged();
+        return array;
+    }
+    array.numbers.resize(count);
+    if (count > 0 && H5Dread(dataset, H5T_NATIVE_DOUBLE, H5S_ALL, H5S_ALL, H5P_DEFAULT, array.numbers.data()) < 0) return damaged();
+    return array;
+}
+
+/// True for datasets of numbers and of texts.
+bool is_readable(const Handle& file, const std::string& name) {
+    const auto dataset = hdf5::open_dataset(file, name);
+    const Handle type(H5Dget_type(dataset), H5Tclose);
+    return hdf5::is_number(type) || H5Tget_class(type) == H5T_STRING;
+}
+
+}  // namespace
+
+Result<std::vector<Hdf5Array>> hdf5_tree(int descriptor, const std::string& path) {
+    const auto file = TRY(hdf5::open_file(descriptor, path));
+    std::vector<Hdf5Array> out;
+    std::uint64_t left = max_numbers;
+    for (const auto& info : hdf5::datasets_in(file)) {
+        if (!is_readable(file, info.name)) continue;
+        const auto count = element_count(info, left);
+        if (count > left)
+            return bad_input(fmt::format("{}: the datasets of this file have more than {} elements", info.name, max_numbers), {path});
+        left -= count;
+        out.push_back(TRY(read_array(file, info, count, path)));
+    }
+    return out;
+}
+
+HelperService tree_service() {
+    return {HelperProcess::tree_protocol, FileAccess::read, [](int socket, int file) {
+                std::string m;
+                TreeRequest request;
+                if (!next_request(socket, m) || !decode(m, request)) return;
+                reply_safely(socket, request.path, [&] {
+                    const auto arrays = hdf5_tree(file, request.path);
+                    return arrays ? encode(*arrays) : encode(arrays.error());
+                });
+            }};
+}
+
+}  // namespace corpuscle
