@@ -58,7 +58,7 @@ def respond(force, rate=None, afferent=("sa1", "fa1"), *, settings=None, copies=
     """Simulates afferents on every channel of a force, and returns a Response.
 
     - force: real numbers in newtons, shape [sample] or [sample, channel], with `rate` in Hz. Or a Force, or the name of a stimulus ("press").
-    - afferent: a name or several, such as "sa1", "fa1-nerve", "sa1-circuit", "path/own.cir". afferents() lists them.
+    - afferent: a name or several, such as "sa1", "fa1-nerve", "sa1-circuit", "path/own.cir", "path/own.nir". afferents() lists them.
     - settings: {"sa1.f_B": "25 Hz"}. A number is in SI units. If there is one afferent, its name may be left out.
     - copies: number of copies of each afferent, which vary.
     - spread: the standard deviations of the copies, {"sa1.f_B": "10%"}.
