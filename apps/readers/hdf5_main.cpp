@@ -4,5 +4,6 @@
 
 int main(int argc, char** argv) {
     using namespace corpuscle;
-    return helper_main(argc, argv, "HDF5", {samples_service(open_hdf5_samples), units_service(), tree_service(), writer_service()});
+    return helper_main(argc, argv, "HDF5",
+                       {samples_service(open_hdf5_samples), units_service(), trials_service(), tree_service(), writer_service()});
 }

@@ -23,6 +23,8 @@ Result<std::vector<NwbUnit>> read_nwb_units(int file, const UnitsRequest&);
 
 /// Reads all datasets of the HDF5 file that is open as descriptor `file`; see read_hdf5_tree().
 Result<std::vector<Hdf5Array>> hdf5_tree(int file, const std::string& path);
+/// Reads the trials of the NWB file that is open as descriptor `file`.
+Result<NwbTrialTable> read_nwb_trials(int file, const TrialsRequest&);
 
 /// Whether a helper program may change the file that is open as its descriptor.
 enum class FileAccess { read, write };
@@ -46,6 +48,8 @@ HelperService samples_service(const OpenSamples&);
 HelperService units_service();
 /// The service that sends all datasets of an HDF5 file.
 HelperService tree_service();
+/// The service that sends the trials of an NWB file.
+HelperService trials_service();
 /// The service that writes an HDF5 file.
 HelperService writer_service();
 

@@ -14,8 +14,8 @@ struct Epoch {
     std::string label = "trial";
 };
 
-/// Reads a table start,stop,label (CSV, TSV, JSON lines; other names and units in doc/trials.md), in order of time. `label`: the column of
-/// the labels; "": the usual one. Throws InputError with file, line and value.
+/// Reads a table start,stop,label (CSV, TSV, JSON lines; other names and units in doc/trials.md), or the trials of an NWB file, in order of
+/// time. `label`: the column of the labels; "": the usual one. Throws InputError with file, line or row, and value.
 CORPUSCLE_API std::vector<Epoch> read_trial_table(const std::string& path, const std::string& label = "");
 
 /// The contacts of a force: the times at which it rises above a threshold, and returns to rest.

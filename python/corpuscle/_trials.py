@@ -25,8 +25,8 @@ class Epoch:
 def trials(table, label=None):
     """Trials from a table, as a list of Epoch in order of time.
 
-    - table: a path of a table start,stop,label (doc/trials.md), a pandas DataFrame with these columns, or a sequence of (start, stop) or
-      (start, stop, label).
+    - table: a path of a table start,stop,label or of an NWB file (doc/trials.md), a pandas DataFrame with these columns, or a sequence of
+      (start, stop) or (start, stop, label).
     - label: the name of the column of the labels.
 
     Raises InputError, with file, line and value where they are known.

@@ -1,8 +1,10 @@
-// Arbitrary bytes as the responses of a helper program: table info and rows, or an error. A malicious file may control the helper.
+// Arbitrary bytes as the responses of a helper program: table info and rows, units or trials of an NWB file, or an error. A malicious file
+// may control the helper.
 
 #include <cstdint>
 #include <cstdlib>
 
+#include "io/nwb/hdf5_messages.hpp"
 #include "io/sandbox/remote_samples.hpp"
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
@@ -13,8 +15,11 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     std::vector<std::vector<double>> out(2, std::vector<double>(3));
     const auto rows = decode_rows(bytes, 1, 2, out, "x.h5");
     if (!rows && rows.error().message.size() > size + 64) std::abort();
+    (void)decode_units(bytes, "x.nwb"), (void)decode_trials(bytes, "x.nwb");
     OpenRequest open;
     FetchRequest fetch;
-    (void)decode(bytes, open), (void)decode(bytes, fetch);
+    UnitsRequest units;
+    TrialsRequest trials;
+    (void)decode(bytes, open), (void)decode(bytes, fetch), (void)decode(bytes, units), (void)decode(bytes, trials);
     return 0;
 }

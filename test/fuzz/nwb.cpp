@@ -1,10 +1,12 @@
-// Arbitrary bytes as an NWB file: its spikes and its force. The HDF5 library may crash, but only in its own process.
+// Arbitrary bytes as an NWB file: its spikes, its trials and its force. The HDF5 library may crash, but only in its own process.
 
 #include <algorithm>
 #include <limits>
 
+#include "core/text/utf8.hpp"
 #include "io/spikes/spike_files.hpp"
 #include "recording.hpp"
+#include "run/trials/epoch_table.hpp"
 
 namespace {
 
@@ -18,6 +20,19 @@ void read_units(const std::string& path, const SpikeColumns& columns) {
         fuzz::require(std::is_sorted(train.times.begin(), train.times.end()));
         for (const double t : train.times) fuzz::require(std::isfinite(t));
     }
+}
+
+/// Trials must be in order of time and finite, or there must be an error with a message.
+void read_trials(const std::string& path, const std::optional<std::string>& label) {
+    const auto table = read_epochs(path, label);
+    if (!table) return fuzz::check(table.error(), 0);
+    fuzz::require(!table->trials.empty());
+    double last = -INFINITY;
+    for (const auto& t : table->trials) {
+        fuzz::require(std::isfinite(t.start) && std::isfinite(t.stop) && t.start < t.stop && t.start >= last && is_utf8(t.label));
+        last = t.start;
+    }
+    for (const auto& note : table->notes) fuzz::require(is_utf8(note));
 }
 
 }  // namespace
@@ -35,5 +50,6 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
         std::fclose(f);
     }
     read_units(path, data[0] & 1 ? SpikeColumns{{}, "id"} : SpikeColumns{});
+    read_trials(path, data[0] & 2 ? std::optional<std::string>("block") : std::nullopt);
     return fuzz::recording(data, size, ".nwb", std::numeric_limits<long>::max());
 }

@@ -116,6 +116,55 @@ class NwbFiles(unittest.TestCase):
         if not nwb_schema.missing():
             self.assertEqual(nwb_schema.errors(os.path.join(out, "response.nwb")), [])
 
+    def test_trials_are_read_as_they_were_written(self):
+        import corpuscle
+        force = corpuscle.press(rate=1000)
+        response = corpuscle.respond(force, afferent="sa1")
+        written = [corpuscle.Epoch(0.1, 0.1 + 0.2, "tap, \u00e9"), corpuscle.Epoch(1 / 3, 0.7, "press")]
+        path = os.path.join(self.folder, "own.nwb")
+        response.to_nwb(path, trials=written)
+        read = corpuscle.trials(path)
+        self.assertEqual([tuple(t) for t in read], [tuple(t) for t in written])
+        own, table = response.trials(path), response.trials(written)
+        self.assertEqual(own.labels, table.labels)
+        np.testing.assert_array_equal(own.rates, table.rates)
+
+    def test_trials_of_h5py_are_read(self):
+        import corpuscle
+        path = os.path.join(self.folder, "h5py.nwb")
+        with h5py.File(path, "w") as nwb:
+            nwb.attrs["neurodata_type"] = "NWBFile"
+            trials = nwb.create_group("intervals/trials")
+            trials["id"] = np.arange(3)
+            trials["start_time"], trials["stop_time"] = np.array([3, 0.5, 1]), np.array([4, 1, 2], dtype="f4")
+            trials.create_dataset("condition", data=["rough", "smooth", "gr\u00fcn"], dtype=h5py.string_dtype(), chunks=(2,), compression="gzip")
+            trials["correct"] = np.array([True, False, True])
+            trials["block"] = np.array([1, 1, 2], dtype="u1")
+            trials["tags"], trials["tags_index"] = np.array([b"a", b"b"]), np.array([0, 1, 2], dtype="u1")
+        times = [(0.5, 1), (1, 2), (3, 4)]
+        for label, labels in {None: ["smooth", "gr\u00fcn", "rough"], "correct": ["FALSE", "TRUE", "TRUE"], "block": ["1", "2", "1"]}.items():
+            read = corpuscle.trials(path, label=label)
+            self.assertEqual([tuple(t) for t in read], [(*t, name) for t, name in zip(times, labels)])
+        for label, reason in {"tags": "has not one value for each trial", "texture": "there are: block, condition, correct"}.items():
+            with self.assertRaisesRegex(corpuscle.InputError, reason):
+                corpuscle.trials(path, label=label)
+        force = os.path.join(self.folder, "five_seconds.csv")
+        np.savetxt(force, np.sin(np.arange(500)), header="force_N", comments="")
+        status, _, errors = command_line("respond", force, "--rate", "100Hz", "--abs", "--trials", path, "--label", "block")
+        self.assertEqual(status, 0, errors)
+        self.assertIn("'condition', 'correct', 'tags' are not used", errors)
+
+    def test_the_file_of_the_trials_is_not_replaced(self):
+        out = os.path.join(self.folder, "both")
+        table = os.path.join(self.folder, "both.csv")
+        with open(table, "w") as file:
+            file.write("start,stop,label\n0,0.5,press\n")
+        status, _, errors = command_line("respond", "press", "-q", "--trials", table, "--nwb", "--out", out)
+        self.assertEqual(status, 0, errors)
+        status, _, errors = command_line("respond", "press", "-q", "--trials", os.path.join(out, "response.nwb"), "--nwb", "--overwrite", "--out", out)
+        self.assertEqual(status, 2)
+        self.assertIn("would replace an input", errors)
+
     def test_positions_are_in_metres(self):
         with h5py.File(self.file("skin")) as nwb:
             self.assertEqual(sorted(set(np.round(nwb["units/x"][:], 6))), [0.0, 0.002])

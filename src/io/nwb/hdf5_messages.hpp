@@ -1,5 +1,5 @@
 #pragma once
-// The messages that tell a helper program to write an HDF5 file, and those in which it returns the units of an NWB file.
+// The messages that tell a helper program to write an HDF5 file, and those in which it returns the units or trials of an NWB file.
 
 #include <cstdint>
 #include <string>
@@ -50,16 +50,42 @@ struct NwbUnit {
 };
 inline auto byte_fields(NwbUnit& u) { return std::tie(u.name, u.channel, u.times); }
 
+/// The request to read the trials of an NWB file.
+struct TrialsRequest {
+    std::string path;                   ///< for error messages only: the file is open already
+    std::vector<std::string> labels{};  ///< the first of these names (in any case) that a column has is the column of the labels
+    bool needs_label = false;           ///< true: a file without such a column is an error
+};
+inline auto byte_fields(TrialsRequest& r) { return std::tie(r.path, r.labels, r.needs_label); }
+
+struct NwbTrial {
+    double start = 0, stop = 0;  ///< s
+    std::string label{};
+};
+inline auto byte_fields(NwbTrial& t) { return std::tie(t.start, t.stop, t.label); }
+
+/// The trials of an NWB file, in the order of the file. Their times are not checked.
+struct NwbTrialTable {
+    std::vector<NwbTrial> trials{};
+    std::string label{};                ///< the name of the column of the labels; "": there is none
+    std::vector<std::string> unused{};  ///< the names of all columns that were not read
+};
+inline auto byte_fields(NwbTrialTable& t) { return std::tie(t.trials, t.label, t.unused); }
+
 std::string encode(const Hdf5Step&);
 std::string encode(const UnitsRequest&);
+std::string encode(const TrialsRequest&);
 // Return false if the message is not such a request.
 bool decode(const std::string&, Hdf5Step&);
 bool decode(const std::string&, UnitsRequest&);
+bool decode(const std::string&, TrialsRequest&);
 
-// The response with the units, or with only success. An error is encoded as in io/sandbox/remote_samples.hpp.
+// The response with the units or trials, or with only success. An error is encoded as in io/sandbox/remote_samples.hpp.
 std::string encode(const std::vector<NwbUnit>&);
+std::string encode(const NwbTrialTable&);
 std::string encode_success();
-/// Decodes a response; `path` is the path of the file, for messages. Any bytes give units or an error.
+// Decode a response; `path` is the path of the file, for messages. Any bytes give units or trials, or an error.
 Result<std::vector<NwbUnit>> decode_units(const std::string&, const std::string& path);
+Result<NwbTrialTable> decode_trials(const std::string&, const std::string& path);
 
 }  // namespace corpuscle

@@ -35,11 +35,6 @@ struct NwbUnits {
     std::vector<NwbColumn> columns;           ///< "afferent" and "channel" among them, which name the units in messages
 };
 
-struct NwbTrial {
-    double start = 0, stop = 0;  ///< s
-    std::string label{};
-};
-
 class NwbFile {
     OutputFile file_;
     Hdf5Writer writer_;

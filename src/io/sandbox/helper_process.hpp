@@ -33,6 +33,7 @@ public:
     static constexpr const char* protocol = "reader-3";         ///< reads samples (remote_samples.hpp)
     static constexpr const char* units_protocol = "units-1";    ///< reads the units of an NWB file (io/nwb/hdf5_messages.hpp)
     static constexpr const char* tree_protocol = "tree-1";      ///< reads all datasets of an HDF5 file (io/hdf5/hdf5_tree.hpp)
+    static constexpr const char* trials_protocol = "trials-1";  ///< reads the trials of an NWB file (io/nwb/hdf5_messages.hpp)
     static constexpr const char* writer_protocol = "writer-1";  ///< writes an HDF5 file (io/nwb/hdf5_writer.hpp)
 
     HelperProcess() = default;

@@ -6,17 +6,19 @@
 #include <nlohmann/json.hpp>
 
 #include "core/text/ascii_text.hpp"
+#include "core/text/input_files.hpp"
 #include "core/text/quantity.hpp"
 #include "io/table/heading.hpp"
 #include "io/text/json_records.hpp"
 #include "io/text/named_columns.hpp"
+#include "run/trials/epoch_formats.hpp"
 
 namespace corpuscle {
 namespace {
 
 using Names = std::vector<std::string_view>;
 const Names start_names = {"start", "start_time", "onset", "begin", "from"}, stop_names = {"stop", "stop_time", "end", "end_time", "offset", "to"},
-            duration_names = {"duration", "length"}, label_names = {"label", "condition", "trial_type", "stimulus", "class"};
+            duration_names = {"duration", "length"};
 constexpr const char* form = "write start,stop,label in seconds, such as 1.5,2.25,rough";
 
 /// One row of a table of epochs: the text of each field. `error_at` makes an error at a field.
@@ -32,7 +34,7 @@ class EpochReader {
     std::optional<std::size_t> start_ = {}, stop_ = {}, duration_ = {}, label_ = {};
     std::vector<Trial> trials_ = {};
 
-    std::optional<std::size_t> find(const Names& names) const {
+    std::optional<std::size_t> find(std::span<const std::string_view> names) const {
         for (const auto name : names)
             for (std::size_t c = 0; c < headings_.size(); ++c)
                 if (lower(headings_[c].name) == name) return c;
@@ -54,6 +56,7 @@ public:
 
     /// Finds the columns. `error`: makes an error at the header.
     Result<void> find_columns(const std::optional<std::string>& label, const std::function<Error(std::string)>& error) {
+        const std::string wanted = lower(label.value_or(""));
         std::vector<std::string> names;
         for (const auto& h : headings_) names.push_back(h.name);
         start_ = find(start_names), stop_ = find(stop_names), duration_ = find(duration_names);
@@ -64,7 +67,7 @@ public:
             if (c && !headings_[*c].unit.empty() && !seconds_per_time_unit(headings_[*c].unit))
                 return error(fmt::format("'{}' is in '{}', which is not a unit of time; write {}_s or {}_ms", headings_[*c].name,
                                          headings_[*c].unit, headings_[*c].name, headings_[*c].name));
-        label_ = label ? find({lower(*label)}) : find(label_names);
+        label_ = label ? find(Names{wanted}) : find(epoch_label_names);
         if (label && !label_)
             return error(fmt::format("--label {}: there is no such column; there are: {}", *label,
                                      joined(std::span(names).first(std::min<std::size_t>(names.size(), 12)))));
@@ -82,24 +85,15 @@ public:
                                        : fmt::format("the trial lasts {:g} s; its duration must be above 0", stop - start);
             return row.error_at(message, stop_ ? *stop_ : *duration_);
         }
-        trials_.push_back({start, stop, label_ ? std::string(trimmed(row.fields[*label_])) : std::string("trial"), row.line});
+        trials_.push_back({start, stop, label_ ? std::string(trimmed(row.fields[*label_])) : std::string(default_trial_label), row.line});
         return {};
     }
 
-    /// The trials in order of time, and a note about unused columns.
     EpochTable finish() {
-        std::sort(trials_.begin(), trials_.end(), [](const Trial& a, const Trial& b) {
-            return std::tie(a.start, a.stop, a.label) < std::tie(b.start, b.stop, b.label);
-        });
-        EpochTable out{std::move(trials_), {}};
         std::vector<std::string> unused;
         for (std::size_t c = 0; c < headings_.size(); ++c)
-            if (c != start_ && c != stop_ && c != label_ && !(c == duration_ && !stop_)) unused.push_back("'" + headings_[c].name + "'");
-        if (unused.size() > 6) unused.resize(6), unused.push_back("...");
-        if (!unused.empty())
-            out.notes.push_back(fmt::format("{} {} not used{}", joined(unused), unused.size() == 1 ? "is" : "are",
-                                            label_ ? "" : "; --label NAME takes the labels from a column"));
-        return out;
+            if (c != start_ && c != stop_ && c != label_ && !(c == duration_ && !stop_)) unused.push_back(headings_[c].name);
+        return make_epoch_table(std::move(trials_), unused, label_.has_value());
     }
 };
 
@@ -143,7 +137,22 @@ Result<EpochTable> read_text(LineReader lines, const std::optional<std::string>&
 
 }  // namespace
 
+EpochTable make_epoch_table(std::vector<Trial> trials, const std::vector<std::string>& unused, bool has_labels) {
+    std::sort(trials.begin(), trials.end(), [](const Trial& a, const Trial& b) {
+        return std::tie(a.start, a.stop, a.label) < std::tie(b.start, b.stop, b.label);
+    });
+    EpochTable out{std::move(trials), {}};
+    std::vector<std::string> names;
+    for (const auto& name : unused) names.push_back("'" + name + "'");
+    if (names.size() > 6) names.resize(6), names.push_back("...");
+    if (!names.empty())
+        out.notes.push_back(fmt::format("{} {} not used{}", joined(names), names.size() == 1 ? "is" : "are",
+                                        has_labels ? "" : "; --label NAME takes the labels from a column"));
+    return out;
+}
+
 Result<EpochTable> read_epochs(const std::string& path, const std::optional<std::string>& label) {
+    if (peek_input(path, 4) == "\x89HDF") return read_nwb_epochs(path, label);
     auto lines = TRY(LineReader::open(path));
     const auto is_json = TRY(looks_like_json(lines));
     auto table = TRY(is_json ? read_json(lines, label) : read_text(std::move(lines), label));

@@ -12,7 +12,8 @@ struct EpochTable {
 
 /// Reads a table with a header, as text or as JSON (a record on each line, or a list). Columns: start, stop or duration, and label, or other
 /// names that such tables have (start_time, onset; trial_type, condition). A unit of time in a heading ("start_ms") is the unit of its
-/// numbers; without one they are seconds. `label`: the name of the column of labels; nullopt: as above. Errors name file, line and value.
+/// numbers; without one they are seconds. Of an NWB file, reads /intervals/trials. `label`: the name of the column of labels; nullopt: as
+/// above. Errors name file, line and value.
 Result<EpochTable> read_epochs(const std::string& path, const std::optional<std::string>& label = {});
 
 }  // namespace corpuscle

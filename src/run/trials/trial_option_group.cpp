@@ -30,7 +30,7 @@ OptionGroup trial_option_group(TrialOptions& options) {
     };
     return {"Trials",
             {{"--trials", read_table, "FILE|onset",
-              "compare parts of a recording: a table start,stop,label, or 'onset' for each contact (doc/trials.md). Without it, each FORCE "
+              "compare parts of a recording: a table start,stop,label, an NWB file, or 'onset' for each contact (doc/trials.md). Without it, each FORCE "
               "is a trial if --align, --window or --by is given"},
              split_at_commas({"--by", list_reader(options.by, [](const std::string& name) { return Result<std::string>(name); }), "COLUMN",
                               "the recording has several trials one below another: each value of this column (or of several: a,b) is a trial of "

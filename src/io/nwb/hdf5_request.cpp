@@ -1,0 +1,22 @@
+#include "io/nwb/hdf5_request.hpp"
+
+#include <fmt/format.h>
+#include <cerrno>
+#include <cstring>
+
+#include "core/text/input_files.hpp"
+
+namespace corpuscle {
+
+Result<std::string> request_from_hdf5(const std::string& path, const std::string& protocol, const std::string& request) {
+    const auto program = find_helper_program("corpuscle-hdf5");
+    if (!program) return bad_input(program.error().message, {path});
+    const auto file = open_input(path);
+    if (!file) return bad_input(fmt::format("cannot be opened: {}", std::strerror(errno)), {path});
+    auto helper = HelperProcess::start(*program, fileno(file.get()), protocol);
+    if (!helper) return bad_input(helper.error().message, {path});
+    helper->send(request);
+    return helper->receive(path, "the HDF5 library");
+}
+
+}  // namespace corpuscle
