@@ -6,6 +6,7 @@ values with the data in the page. Screenshots such as OUTDIR/press.png remain fo
 """
 import base64
 import contextlib
+import csv
 import json
 import math
 import pathlib
@@ -875,6 +876,9 @@ class OnASkin(Page):
         WebDriverWait(self.browser, 20).until(lambda _: self.browser.find_element(By.ID, "unit").text.startswith(first["afferent"] + ","))
         self.assertIn(f"{first['time_s']:.4f}", self.browser.find_element(By.ID, "unit").text)
 
+    def test_without_trials_it_has_no_figure_of_them(self):
+        self.assertFalse(self.browser.find_element(By.ID, "trials").is_displayed())
+
     def test_it_fits_a_narrow_window_and_its_tables_are_complete(self):
         rows = self.browser.find_elements(By.CSS_SELECTOR, "#rates tbody tr")
         self.assertEqual(len(rows), len(self.classes) * (1 + len(self.data["summary"]["input"]["phases"])))
@@ -888,6 +892,74 @@ class OnASkin(Page):
         finally:
             self.browser.execute_cdp_cmd("Emulation.clearDeviceMetricsOverride", {})
         self.browser.set_window_size(1200, 900)
+
+
+class TrialsOnASkin(Page):
+    """The trials of a touch on a hand, aligned to their onsets."""
+
+    @classmethod
+    def report(cls):
+        path = OUT / "skin-trials.html"
+        subprocess.run([CORPUSCLE, "respond", "examples/data/touch.csv", "--deadband", "20mN", "--population", "hand", "--trials", "examples/data/touch_trials.csv",
+                        "--align", "onset", "--window", "-0.1..0.3", "--out", str(OUT / "skin-trials"), "--bin", "20ms", "--overwrite", "--report", str(path), "--quiet"],
+                       check=True, cwd=ROOT)
+        return path
+
+    def setUp(self):
+        self.browser.get(self.path.as_uri())
+
+    def panels(self):
+        return self.js("return [...document.querySelectorAll('.trial-plots svg')].map((svg) => svg.getAttribute('aria-label'))")
+
+    def test_each_class_has_a_histogram_with_a_curve_for_each_label(self):
+        classes = self.data["classes"]
+        self.assertEqual(self.panels(), ["force (N)", *(f"{one['name']}: mean rate of {one['afferents']} afferents (Hz)" for one in classes)])
+        for k in range(len(classes)):
+            self.assertEqual(self.js("return document.querySelectorAll('.trial-plots svg')[arguments[0]].querySelectorAll('path').length", k + 1), 3)
+        self.assertEqual([text.split(" (")[0] for text in self.js("return [...document.querySelectorAll('.trial-labels span')].map((one) => one.textContent).filter(Boolean)")],
+                         ["tap", "press", "rub"])
+
+    def test_a_class_has_the_spikes_of_all_its_regions(self):
+        """psth.csv has a row for each region."""
+        spikes = {}
+        with open(OUT / "skin-trials" / "psth.csv") as table:
+            for row in csv.DictReader(table):
+                key = (row["label"], row["afferent"], round(float(row["from_s"]), 6))
+                spikes[key] = spikes.get(key, 0) + int(row["spikes"])
+        trials, counts = self.data["trials"], {"tap": 2, "press": 1, "rub": 1}
+        groups = trials["groups"][:trials["classes"]]
+        compared = 0
+        for histogram in trials["histograms"]:
+            if histogram["group"] >= len(groups):
+                continue
+            group = groups[histogram["group"]]
+            for edge, rate in zip(histogram["edges"], histogram["rate"]):
+                expected = spikes[histogram["label"], group["name"], round(edge, 6)] / counts[histogram["label"]] / group["afferents"] / 0.02
+                self.assertAlmostEqual(rate, expected, delta=1e-9 * (1 + expected))
+                compared += expected > 0
+        self.assertGreater(compared, 50)
+
+    def test_a_region_in_which_afferents_fired_can_be_selected(self):
+        select = Select(self.browser.find_element(By.CSS_SELECTOR, "#trials select"))
+        names = [one.text for one in select.options]
+        regions = {one["channel"] for one in self.data["trials"]["groups"][self.data["trials"]["classes"]:]}
+        self.assertEqual((names[0], set(names[1:])), ("all", regions))
+        with open(OUT / "skin-trials" / "psth.csv") as table:
+            self.assertEqual(regions, {row["channel"] for row in csv.DictReader(table) if row["spikes"] != "0"})
+        select.select_by_visible_text("index.tip")
+        expected = [f"{one['name']}: mean rate of {one['afferents']} afferents (Hz)" for one in self.data["trials"]["groups"] if one["channel"] == "index.tip"]
+        self.assertEqual(self.panels(), ["force (N)", *expected])
+
+    def test_it_fits_a_telephone_and_a_dark_theme(self):
+        self.js("document.getElementById('trials').scrollIntoView()")
+        self.screenshot("skin-trials.png")
+        for theme in ("light", "dark"):
+            self.browser.execute_cdp_cmd("Emulation.setEmulatedMedia", {"features": [{"name": "prefers-color-scheme", "value": theme}]})
+            with self.screen(390, 844, 2):
+                self.assertEqual(self.js("return document.documentElement.scrollWidth"), 390)
+                self.assertGreater(self.js("return document.querySelector('.trial-plots svg').clientWidth"), 0.85 * 390)
+                self.browser.save_screenshot(str(OUT / f"skin-trials-phone-{theme}.png"))
+        self.browser.execute_cdp_cmd("Emulation.setEmulatedMedia", {"features": []})
 
 
 del Page  # a base class, not a test

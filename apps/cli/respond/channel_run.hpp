@@ -3,6 +3,7 @@
 
 #include "cli/respond/planned_run.hpp"
 #include "report/respond/respond_report.hpp"
+#include "report/trials_document.hpp"
 #include "run/channels/channel_outcome.hpp"
 
 namespace corpuscle {

@@ -112,7 +112,8 @@ nlohmann::ordered_json SkinRun::summarize(const RunStats& stats) {
 }
 
 std::string SkinRun::page(const nlohmann::ordered_json&) const {
-    return skin_page(outcome_->summary, *report_, outcome_->options, outcome_->notes, common_.command);
+    return skin_page(outcome_->summary, *report_, outcome_->options, outcome_->notes, common_.command,
+                     trials_ ? skin_trials_document(*trials_, trial_bin()) : nlohmann::ordered_json());
 }
 
 Result<void> SkinRun::finish(const RunStats&) {

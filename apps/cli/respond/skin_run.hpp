@@ -3,6 +3,7 @@
 
 #include "cli/respond/planned_run.hpp"
 #include "report/skin/skin_report.hpp"
+#include "report/trials_document.hpp"
 #include "run/skin/skin_outcome.hpp"
 #include "run/skin/skin_simulator.hpp"
 

@@ -1,5 +1,6 @@
 "use strict";
 // Trials, aligned: the force of each, the spikes of one afferent, and their histogram (PSTH), by label. Drawn as SVG in the width of the page.
+// Derived classes define choices() of the selector and panels() for the selected one.
 
 const MAX_TRIAL_LABELS = 8;  // more labels share colours, as the afferents do
 
@@ -7,22 +8,26 @@ class TrialFigure {
     constructor(section, data) {
         Object.assign(this, {section, data, select: section.querySelector("select"), host: section.querySelector(".trial-plots")});
         this.order = data.trials.map((_, t) => t).sort((a, b) => this.label(a) - this.label(b) || a - b);
-        this.select.innerHTML = data.groups.map(({name, channel}, k) => `<option value="${k}">${escaped(name)} ${escaped(channel)}</option>`).join("");
-        this.select.value = this.mostActive();
+        const choices = this.choices();
+        this.select.innerHTML = choices.map((text, k) => `<option value="${k}">${escaped(text)}</option>`).join("");
+        this.select.value = this.firstChoice();
         this.select.onchange = () => this.draw();
-        section.querySelector("label").hidden = data.groups.length < 2;
+        section.querySelector("label").hidden = choices.length < 2;
         const ends = data.trials.filter(({zero}) => zero !== null);
         this.from = Math.min(...ends.map(({from}) => from));
         this.to = Math.max(...ends.map(({to}) => to));
         section.querySelector(".trial-labels").innerHTML = data.labels.map((label, k) =>
-            `<span class="legend-item"><span class="chip" style="background: var(--series-${k % MAX_TRIAL_LABELS})"></span>${escaped(label)} (${data.trials.filter((one) => one.label === label).length})</span>`).join("");
+            `<span class="legend-item"><span class="chip" style="background: ${this.color(k)}"></span>${escaped(label)} (${data.trials.filter((one) => one.label === label).length})</span>`).join("");
         if (ends.length) new ResizeObserver(() => this.draw()).observe(this.host);
     }
 
     label(trial) { return this.data.labels.indexOf(this.data.trials[trial].label); }
     color(label) { return `var(--series-${label % MAX_TRIAL_LABELS})`; }
 
-    mostActive() {
+    choices() { return this.data.groups.map(({name, channel}) => `${name} ${channel}`); }
+
+    /// The most active group.
+    firstChoice() {
         const counts = this.data.groups.map(() => 0);
         for (const {group, times} of this.data.spikes) counts[group] += times.length;
         return counts.indexOf(Math.max(...counts));
@@ -31,13 +36,17 @@ class TrialFigure {
     draw() {
         const width = this.host.clientWidth;
         if (width < 60) return;
-        const group = Number(this.select.value), left = isNarrow() ? 40 : 64;
+        const left = isNarrow() ? 40 : 64;
         this.x = (t) => left + (t - this.from) / (this.to - this.from) * (width - left - 14);
-        const rows = Math.max(60, Math.min(420, this.order.length * 11));
         this.host.replaceChildren(this.panel(width, left, 110, "force (N)", (svg, y) => this.drawForces(svg, y), this.forceRange()),
-                                  this.panel(width, left, rows, "trials", (svg) => this.drawRaster(svg, rows, group), null),
-                                  this.panel(width, left, 150, `rate (Hz), bins of ${quantity(this.data.bin, "s", true)}`, (svg, y) => this.drawHistograms(svg, y, group),
-                                             this.rateRange(group), true));
+                                  ...this.panels(width, left, Number(this.select.value)));
+    }
+
+    /// The raster and the histogram of a group.
+    panels(width, left, group) {
+        const rows = Math.max(60, Math.min(420, this.order.length * 11));
+        return [this.panel(width, left, rows, "trials", (svg) => this.drawRaster(svg, rows, group), null),
+                this.panel(width, left, 150, "rate (Hz)", (svg, y) => this.drawHistograms(svg, y, group), this.rateRange(group), true)];
     }
 
     /// A plot with a title and axes. `range`: [low, high] of the vertical axis, or null without one. `last`: labels the time axis.
@@ -130,11 +139,11 @@ function shape(parent, tag, attributes) {
     return node;
 }
 
-/// Shows the section of trials if the run has them.
-function showTrials(data) {
+/// Shows the section of trials if the run has them. `Figure`: the class of the figure.
+function showTrials(data, Figure = TrialFigure) {
     const section = document.getElementById("trials");
     section.hidden = !data;
     if (!data) return;
-    section.querySelector("small").textContent = `${data.trials.length} trials, aligned to ${data.onset ? "contact onset" : "their start"}; mean rate and its standard error over the trials of a label`;
-    new TrialFigure(section, data);
+    section.querySelector("small").textContent = `${data.trials.length} trials, aligned to ${data.onset ? "contact onset" : "their start"}; mean rate and its standard error over the trials of a label, in bins of ${quantity(data.bin, "s", true)}`;
+    new Figure(section, data);
 }

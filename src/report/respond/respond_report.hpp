@@ -63,9 +63,6 @@ private:
     Json inputs_ = Json::array(), traces_ = Json::array(), spikes_ = Json::array(), rates_ = Json::array();
 };
 
-/// The aligned force, spikes and histograms of trials. `bin`: the width of the bins, s.
-nlohmann::ordered_json trials_document(const TrialCollector&, double bin);
-
 /// The table of implementations: for each afferent type and channel a row of the reference, then a row for each other implementation.
 nlohmann::ordered_json implementations_document(const ImplementationComparisons&);
 

@@ -110,6 +110,7 @@ at("about-maps").textContent = skin.afferentsPerMark > 1 ? `Each mark is a group
                                                  : `Each mark is an afferent; frames of ${quantity(skin.marks.width, "s", true)}.`;
 at("about-skin").textContent = [skin.data.summary.skin.description, `${skin.data.summary.skin.afferents} afferents`, `seed ${skin.data.summary.skin.seed}`].filter(Boolean).join("; ");
 showSkinRates(skin, document.querySelector("#rates .scroll"), "all");
+showTrials(skin.data.trials, SkinTrialFigure);
 showSources(skin, document.querySelector("#classes .sources"));
 showVersions(skin.data.versions);
 modeOptions();

@@ -76,7 +76,7 @@ Json classes_document(const Innervation& skin) {
 }  // namespace
 
 std::string skin_page(const SkinSummary& summary, const SkinReport& report, const RespondOptions& options, const SkinRunNotes& run_info,
-                      const std::string& command) {
+                      const std::string& command, const Json& trials) {
     const auto title = fmt::format("{} on {}", summary.input.name, summary.skin->plan.name);
     Json notes = run_info.warnings;
     for (const auto& r : run_info.notes) notes.push_back(r);
@@ -88,6 +88,7 @@ std::string skin_page(const SkinSummary& summary, const SkinReport& report, cons
                         {"marks", marks_document(summary, report.marks())},
                         {"classes", classes_document(*summary.skin)},
                         {"over", report.document()},
+                        {"trials", trials},
                         {"versions", versions_document()}});
 }
 

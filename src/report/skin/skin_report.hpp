@@ -54,7 +54,9 @@ private:
 };
 
 /// The report page of a skin as self-contained HTML: animated maps, rasters, rates, first spikes. The summary and the report must be of the
-/// same run, whose Innervation must still exist. `command`: the command line.
-std::string skin_page(const SkinSummary&, const SkinReport&, const RespondOptions&, const SkinRunNotes&, const std::string& command);
+/// same run, whose Innervation must still exist. `command`: the command line. `trials`:
+/// skin_trials_document(), or null.
+std::string skin_page(const SkinSummary&, const SkinReport&, const RespondOptions&, const SkinRunNotes&, const std::string& command,
+                      const nlohmann::ordered_json& trials = nullptr);
 
 }  // namespace corpuscle

@@ -133,20 +133,43 @@ std::vector<LabelRow> TrialResponses::label_rows() const {
     return out;
 }
 
+TrialGrouping TrialResponses::groups_by_name() const {
+    TrialGrouping out;
+    for (const auto& a : afferents) {
+        const auto& name = groups[a.group].name;
+        const auto at = std::find_if(out.groups.begin(), out.groups.end(), [&](const TrialGroup& g) { return g.name == name; });
+        out.group_of.push_back(static_cast<std::size_t>(at - out.groups.begin()));
+        if (at == out.groups.end()) out.groups.push_back({name, ""});
+        ++out.groups[out.group_of.back()].afferents;
+    }
+    return out;
+}
+
 Result<std::vector<Histogram>> TrialResponses::histograms(double width, const std::optional<std::pair<double, double>>& window) const {
+    TrialGrouping own{groups, {}};
+    for (const auto& a : afferents) own.group_of.push_back(a.group);
+    return histograms(width, window, own);
+}
+
+Result<std::vector<Histogram>> TrialResponses::histograms(double width, const std::optional<std::pair<double, double>>& window,
+                                                          const TrialGrouping& grouping) const {
     const auto edges = TRY(edges_of(trials, width, window));
-    const std::size_t bins = edges.size() - 1;
+    const std::size_t bins = edges.size() - 1, group_count = grouping.groups.size();
     const auto names = labels();
     std::vector<Histogram> out;
     for (const auto& label : names)
-        for (std::size_t g = 0; g < groups.size(); ++g) {
+        for (std::size_t g = 0; g < group_count; ++g) {
             out.push_back({label, g, {}});
             for (std::size_t b = 0; b < bins; ++b) out.back().bins.push_back({edges[b], edges[b + 1]});
         }
-    std::vector<std::vector<const TrialResponse*>> of_group(groups.size());
-    for (const auto& r : responses) of_group[afferents[r.afferent].group].push_back(&r);
+    std::vector<std::vector<const TrialResponse*>> of_group(group_count);
+    for (const auto& r : responses) of_group[grouping.group_of[r.afferent]].push_back(&r);
+    // The first of our groups in each group. A trial of an input without it does not count.
+    std::vector<std::size_t> first_group(group_count, groups.size());
+    for (std::size_t a = 0; a < afferents.size(); ++a)
+        first_group[grouping.group_of[a]] = std::min(first_group[grouping.group_of[a]], afferents[a].group);
     std::vector<std::int64_t> counts(bins);
-    for (std::size_t g = 0; g < groups.size(); ++g) {
+    for (std::size_t g = 0; g < group_count; ++g) {
         auto next = of_group[g].begin();
         for (std::size_t t = 0; t < trials.size(); ++t) {
             std::fill(counts.begin(), counts.end(), 0);
@@ -156,8 +179,8 @@ Result<std::vector<Histogram>> TrialResponses::histograms(double width, const st
                     if (bin >= 0 && bin < static_cast<double>(bins)) ++counts[static_cast<std::size_t>(bin)];
                 }
             const auto label = static_cast<std::size_t>(std::find(names.begin(), names.end(), trials[t].label) - names.begin());
-            if (trials[t].has_zero() && g < group_values_[t].size())
-                add_trial_to(out[label * groups.size() + g].bins, trials[t], counts, static_cast<double>(groups[g].afferents));
+            if (trials[t].has_zero() && first_group[g] < group_values_[t].size())
+                add_trial_to(out[label * group_count + g].bins, trials[t], counts, static_cast<double>(grouping.groups[g].afferents));
         }
     }
     return out;

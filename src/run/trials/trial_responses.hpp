@@ -21,6 +21,12 @@ struct TrialGroup {
     std::size_t afferents = 0;  ///< their number
 };
 
+/// Groups of afferents, over each of which a histogram averages.
+struct TrialGrouping {
+    std::vector<TrialGroup> groups;
+    std::vector<std::size_t> group_of;  ///< for each afferent, the index of its group
+};
+
 /// The response of one afferent in one trial.
 struct TrialResponse {
     std::size_t trial = 0, afferent = 0;  ///< indexes
@@ -85,6 +91,11 @@ public:
     /// end. A trial counts in the bins that its measured part covers.
     /// More than max_histogram_bins bins are an error.
     Result<std::vector<Histogram>> histograms(double width, const std::optional<std::pair<double, double>>& window) const;
+    /// The same for other groups.
+    Result<std::vector<Histogram>> histograms(double width, const std::optional<std::pair<double, double>>& window,
+                                              const TrialGrouping&) const;
+    /// The groups of the same name on all channels as one group, without a channel. In a skin: its classes, over all regions.
+    TrialGrouping groups_by_name() const;
 };
 
 inline constexpr std::size_t max_histogram_bins = 1'000'000;

@@ -125,6 +125,26 @@ TEST(TrialResponses, AverageOverTheAfferentsOfAGroup) {
     EXPECT_EQ(value_or_throw(all.histograms(1, {}))[0].bins[0].rate.mean(), 1);
 }
 
+TEST(TrialResponses, AverageAClassOverItsAfferentsInAllRegions) {
+    TrialResponses all;  // a class with two afferents in one region and one in another, and a class with a silent afferent
+    const std::size_t indexes[] = {all.add_afferent("sa1#1", "tip", "sa1"), all.add_afferent("sa1#2", "tip", "sa1"),
+                                   all.add_afferent("fa1#1", "tip", "fa1"), all.add_afferent("sa1#3", "palm", "sa1")};
+    all.add(aligned({{0, 1, "a"}, {1, 2, "a"}}, 2), Trains{{0.1, 0.2, 1.1}, {0.3}, {}, {0.6, 0.7, 1.2, 1.3}}, indexes);
+    const auto classes = all.groups_by_name();
+    ASSERT_EQ(classes.groups.size(), 2U);
+    EXPECT_EQ(std::tie(classes.groups[0].name, classes.groups[0].afferents), std::tuple("sa1", 3U));
+    EXPECT_EQ(std::tie(classes.groups[1].name, classes.groups[1].afferents), std::tuple("fa1", 1U));
+    const auto histograms = value_or_throw(all.histograms(1, {}, classes));
+    ASSERT_EQ(histograms.size(), 2U);
+    ASSERT_EQ(histograms[0].bins.size(), 1U);
+    const auto& bin = histograms[0].bins[0];  // 5 / 3 Hz in the first trial, 1 Hz in the second
+    EXPECT_EQ(bin.spikes, 8);
+    EXPECT_NEAR(bin.rate.mean(), 4. / 3, 1e-15);
+    EXPECT_NEAR(bin.rate.standard_deviation(), (5. / 3 - 1) / std::sqrt(2), 1e-15);
+    EXPECT_EQ(histograms[1].bins[0].rate.mean(), 0);
+    EXPECT_EQ(histograms[1].bins[0].rate.copies, 2);
+}
+
 TEST(TrialResponses, RefuseTrialsOutsideTheRecordingAndTooManyBins) {
     const auto outside = align_trials(std::vector<Trial>{{5, 6, "late", 7}}, 0, 5, {}, {});
     ASSERT_FALSE(outside);
@@ -134,8 +154,13 @@ TEST(TrialResponses, RefuseTrialsOutsideTheRecordingAndTooManyBins) {
 }
 
 TEST(TrialLabels, AreNamesOfFilesWithoutTheNumberAtTheirEnd) {
-    for (const auto& [name, label] : {std::pair{"press_03", "press"}, {"press-12", "press"}, {"press 2", "press"}, {"press", "press"},
-                                      {"p2", "p2"}, {"12", "12"}, {"grip_a", "grip_a"}})
+    for (const auto& [name, label] : {std::pair{"press_03", "press"},
+                                      {"press-12", "press"},
+                                      {"press 2", "press"},
+                                      {"press", "press"},
+                                      {"p2", "p2"},
+                                      {"12", "12"},
+                                      {"grip_a", "grip_a"}})
         EXPECT_EQ(label_of_input(name), label);
 }
 
