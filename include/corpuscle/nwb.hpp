@@ -16,7 +16,7 @@ struct NwbOptions {
     bool overwrite = false;  ///< replace an existing file
 };
 
-/// Writes the response, and its force if it is not null. Throws InputError for a response that NWB cannot express, such as two spikes of an
+/// Writes the response, and its force if it is not null. That of a skin under a touch is Response::skin_force. Throws InputError for a response that NWB cannot express, such as two spikes of an
 /// afferent at the same time, and for a file that exists.
 CORPUSCLE_API void write_nwb(const std::string& path, const Response&, const ForceView* force = nullptr, const NwbOptions& = {});
 

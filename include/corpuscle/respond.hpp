@@ -56,6 +56,8 @@ struct Response {
     std::vector<std::uint32_t> indices = {};  ///< for each spike, the index of its afferent
     std::vector<RespondingAfferent> afferents = {};
     double start = 0, duration = 0;                      ///< s, of the force
+    /// The total normal force on a skin under a stimulus or touch by name, one channel. Otherwise null: the caller has the force.
+    std::shared_ptr<const Force> skin_force = {};
     std::vector<std::string> notes = {}, warnings = {};  ///< those of the command line
     /// Computes notes about afferents on channels that never fired, with the force that they need. It simulates them some ten times.
     std::function<std::vector<std::string>()> silence_notes = {};

@@ -68,6 +68,8 @@ void bind_respond(py::module_& m) {
                                })
         .def_readonly("start", &Response::start)
         .def_readonly("duration", &Response::duration)
+        .def_property_readonly("skin_force",
+                               [](const Response& r) { return r.skin_force ? py::cast(*r.skin_force) : py::object(py::none()); })
         .def_readonly("notes", &Response::notes)
         .def_readonly("warnings", &Response::warnings)
         .def("models",

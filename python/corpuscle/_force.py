@@ -110,7 +110,7 @@ class Stimulus(Force):
         self._origin = computed.origin
 
 
-def _of(force):
+def of_library(force):
     """A Force of the library as one of ours, without copying one channel."""
     columns = force.samples
     samples = columns[0] if len(columns) == 1 else np.column_stack(columns)
@@ -136,7 +136,7 @@ def read(path, by=None, label=None, **options):
         return read_trials(path_of(path), by, label, options_of(options))
     if label is not None:
         raise _corpuscle.InputError("read: label needs by, the column that identifies the trials")
-    force = _of(_corpuscle.read_recording(path_of(path), options_of(options)))
+    force = of_library(_corpuscle.read_recording(path_of(path), options_of(options)))
     show_warnings([f"{force.name}: {w}" for w in force.warnings], 2)
     return force
 

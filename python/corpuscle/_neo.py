@@ -32,14 +32,13 @@ def block_of(response, trials):
     from ._trials import trials_of
     trials = trials_of(trials)
     force = force_of(response)
-    segment = neo.Segment(name=force.name if force is not None else "response")
+    segment = neo.Segment(name=force.name)
     end = response.start + response.duration
     stop = max([end, *response.times.max(initial=end, keepdims=True)])  # a nerve fibre conducts spikes after the end of the force
     segment.spiketrains.extend([_train(neo, response, k, stop) for k in range(len(response.names))])  # not a generator, which Neo ignores
-    if force is not None:
-        samples = force.samples.reshape(len(force.samples), -1)
-        segment.analogsignals.append(neo.AnalogSignal(samples, units="N", sampling_rate=force.rate * quantities.Hz, t_start=force.start * quantities.s,
-                                                      name=force.name, array_annotations={"channel_names": np.array(force.channels)}))
+    samples = force.samples.reshape(len(force.samples), -1)
+    segment.analogsignals.append(neo.AnalogSignal(samples, units="N", sampling_rate=force.rate * quantities.Hz, t_start=force.start * quantities.s,
+                                                  name=force.name, array_annotations={"channel_names": np.array(force.channels)}))
     if trials:
         start, end, labels = zip(*trials)
         segment.epochs.append(neo.Epoch(times=np.array(start) * quantities.s, durations=(np.array(end) - np.array(start)) * quantities.s,

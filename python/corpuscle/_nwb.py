@@ -17,18 +17,17 @@ def fields_of(fields):
 
 
 def force_of(response):
-    """The force of a response, computed again if it is a stimulus by name; None for a touch of a skin."""
+    """The force of a response. That of a stimulus by name is computed again; that of a touch of a skin is the total force on the skin."""
     if response.force is not None:
         return response.force
-    from ._force import Stimulus
+    from ._force import Stimulus, of_library
+    on_skin = response._compiled().skin_force
+    if on_skin is not None:
+        return of_library(on_skin)
     run = response._run
     parts = run.force.split("+")
     settings = [s for s in run.simulation.settings if s.split(".")[0] in parts]
-    rate = run.rate or (1e3 if run.simulation.population else 10e3)
-    try:
-        return Stimulus(run.force, settings, rate, run.simulation.seed)
-    except _corpuscle.InputError:  # a touch, which is not a stimulus
-        return None
+    return Stimulus(run.force, settings, run.rate or 10e3, run.simulation.seed)
 
 
 def write(response, path, trials, measured, overwrite, fields):
@@ -38,6 +37,6 @@ def write(response, path, trials, measured, overwrite, fields):
     simulation = response._run.simulation
     if measured is None:
         measured = response.force is not None and response.force.is_recording
-    resolution = 1 / force.rate if simulation.sampled and force is not None else 1e-9
+    resolution = 1 / force.rate if simulation.sampled else 1e-9
     _corpuscle.write_nwb(path_of(path), compiled, force, fields_of(fields), response._run.command(), bool(measured), resolution, simulation.seed,
                          [tuple(t) for t in trials_of(trials)], bool(overwrite))

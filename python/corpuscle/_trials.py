@@ -329,9 +329,9 @@ def _label_of(name):
 
 def read_trials(path, by, label, options):
     """The trials of a table in long format, as ForceTrials."""
-    from ._force import _of
+    from ._force import of_library
     columns = [text(c, "by") for c in ([by] if isinstance(by, str) else by)]
     found = _corpuscle.read_recording_trials(path, columns, "" if label is None else text(label, "label"), options)
-    forces = [_of(force) for _, force in found]
+    forces = [of_library(force) for _, force in found]
     show_warnings(list(dict.fromkeys(f"{f.name}: {w}" for f in forces for w in f.warnings)), 3)
     return ForceTrials(forces, [name for name, _ in found])

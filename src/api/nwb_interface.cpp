@@ -52,11 +52,11 @@ NwbUnits units_of(const Response& response, double resolution) {
     return out;
 }
 
-void add_force(NwbFile& nwb, const ForceView& force, bool is_measured) {
+void add_force(NwbFile& nwb, const ForceView& force, bool is_measured, const std::string& description) {
     auto channels = force.channels;
     for (std::size_t c = channels.size(); c < force.samples.size(); ++c) channels.push_back("ch" + std::to_string(c + 1));
     nwb.add_force({.name = force.name,
-                   .description = "normal force on each channel",
+                   .description = description,
                    .is_measured = is_measured,
                    .channels = std::move(channels),
                    .start = force.start,
@@ -95,7 +95,9 @@ void write_nwb(const std::string& path, const Response& response, const ForceVie
                                 std::to_string(response.afferents.size()) + " afferents: " + types_of(response));
     nwb.add_provenance(options.source,
                        "Simulated by Corpuscle " + std::string(version) + ", with the seed " + std::to_string(options.seed) + ".");
-    if (force) add_force(nwb, *force, options.is_measured);
+    if (force)
+        add_force(nwb, *force, options.is_measured,
+                  response.skin_force ? "total normal force on the skin" : "normal force on each channel");
     api::value_or_throw(nwb.add_units(units_of(response, options.resolution)));
     std::vector<NwbTrial> trials;
     for (const auto& t : options.trials) trials.push_back({t.start, t.stop, t.label});

@@ -93,8 +93,8 @@ Response respond_to(const std::string& name, const Simulation& simulation, doubl
     if (rate == 0) rate = simulation.population.empty() ? default_channel_rate : default_skin_rate;
     auto source = api::value_or_throw(make_stimulus(is_touch ? std::string(touch->force) : name, settings.all, rate, simulation.seed));
     keep_unused(settings.unused, source.unused);
-    return respond_to_input({.source = std::move(source.result), .name = name, .touch = is_touch ? &*touch : nullptr}, simulation,
-                            settings);
+    return respond_to_input({.source = std::move(source.result), .name = name, .touch = is_touch ? &*touch : nullptr, .is_named = true},
+                            simulation, settings);
 }
 
 }  // namespace corpuscle

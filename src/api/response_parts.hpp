@@ -25,6 +25,7 @@ struct ForceInput {
     std::unique_ptr<ForceSource> source;
     std::string name;
     const NamedTouch* touch = nullptr;
+    bool is_named = false;    ///< a stimulus or touch, not a force of the caller
     bool has_unit = false;    ///< the unit of a recording was given
     std::size_t samples = 0;  ///< over all channels; 0 if unknown
 };

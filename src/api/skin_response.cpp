@@ -31,6 +31,24 @@ std::shared_ptr<SkinReport> make_report(ReportDetail detail) {
     return std::make_shared<SkinReport>(detail == ReportDetail::brief ? brief_skin_report : SkinReportLimits{});
 }
 
+/// Collects the total force on the skin.
+class TotalForceCollector final : public Sink {
+    Force& to_;
+
+public:
+    explicit TotalForceCollector(Force& to) : to_(to) {}
+    Result<void> begin(const Input& input) override {
+        to_.name = input.name, to_.rate = input.clock.rate(), to_.start = input.clock.t0;
+        to_.channels = input.population.force_names(), to_.samples.resize(1);
+        return {};
+    }
+    Result<void> block(const Input&, const RunBlock& block) override {
+        to_.samples[0].insert(to_.samples[0].end(), block.force[0].begin(), block.force[0].end());
+        return {};
+    }
+    Result<void> end(const Input&, std::int64_t, std::span<const Spike>) override { return {}; }
+};
+
 /// Sets the functions of a response, which keep the outcome.
 void set_functions(Response& response, const std::shared_ptr<const SkinOutcome>& outcome, const std::shared_ptr<const SkinReport>& report) {
     response.silence_notes = [] { return std::vector<std::string>(); };  // they are among the notes
@@ -59,7 +77,11 @@ Response respond_of_skin(ForceInput input, const Simulation& simulation, Setting
     auto sinks = outcome->sinks();
     sinks.push_back(&spikes);
     if (report) sinks.push_back(report.get());
+    const auto force = std::make_shared<Force>();
+    TotalForceCollector collector(*force);
+    if (input.is_named) sinks.push_back(&collector);
     const auto stats = value_or_throw(run(std::move(inputs), sinks, options));
+    if (input.is_named) out.skin_force = force;
     outcome->finish(source, scene, stats, {simulation.population, input.has_unit});
     out.notes = outcome->notes.notes, out.warnings = outcome->notes.warnings;
     set_functions(out, outcome, report);

@@ -1,5 +1,6 @@
 // Responses, notes, warnings and report pages of the public interface.
 
+#include <algorithm>
 #include <filesystem>
 #include <fstream>
 #include <nlohmann/json.hpp>
@@ -36,6 +37,20 @@ TEST(RespondInterface, HasTheWarningsAndNotesOfTheCommandLine) {
     const auto skin = respond_to("press", {.population = "grid 3x3", .settings = {"press.F_min=0", "press.F_max=1mN"}});
     ASSERT_EQ(skin.warnings.size(), 1U);
     EXPECT_TRUE(skin.warnings[0].starts_with("no afferent fired: "));
+}
+
+TEST(RespondInterface, ASkinUnderATouchByNameHasItsTotalForce) {
+    const auto scan = respond_to("scan", {.population = "fingertip"}, 500);
+    ASSERT_TRUE(scan.skin_force);
+    EXPECT_EQ(scan.skin_force->name, "scan");
+    EXPECT_EQ(scan.skin_force->channels, std::vector<std::string>{"scan"});
+    EXPECT_EQ(scan.skin_force->rate, 500);
+    ASSERT_EQ(scan.skin_force->samples.size(), 1U);
+    const auto& force = scan.skin_force->samples[0];
+    EXPECT_EQ(static_cast<double>(force.size()), scan.duration * 500);
+    EXPECT_NEAR(*std::max_element(force.begin(), force.end()), 2, 1e-9);  // of `corpuscle list contact`
+    EXPECT_FALSE(respond(stimulus("press", {}, 1000), {.population = "grid 2x2"}).skin_force) << "the caller has it";
+    EXPECT_FALSE(respond_to("press").skin_force) << "afferents on channels";
 }
 
 TEST(RespondInterface, CopiesAreInTheSummaryAndSpreadsNeedThem) {

@@ -119,6 +119,14 @@ class Neo(unittest.TestCase):
         self.assertEqual(list(segment.epochs[0].labels), ["on"])
         np.testing.assert_array_equal(segment.epochs[0].durations.rescale("s").magnitude, [0.5])
 
+    def test_a_touch_of_a_skin_has_its_total_force(self):
+        response = corpuscle.fingertip().respond("scan", 1000)
+        segment = response.to_neo().segments[0]
+        force = segment.analogsignals[0]
+        self.assertEqual((segment.name, force.name, float(force.sampling_rate.rescale("Hz"))), ("scan", "scan", 1000))
+        self.assertAlmostEqual(float(force.rescale("N").magnitude.max()), 2, places=6)
+        self.assertEqual(len(force), round(1000 * response.duration))
+
     def test_neo_computes_the_rates_of_measures(self):
         """A function of a library that others wrote, on a train of ours."""
         response = corpuscle.respond(press(), 1000, "sa1")

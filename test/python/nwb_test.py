@@ -2,6 +2,7 @@
 
 import csv
 import os
+import pickle
 import shutil
 import tempfile
 import unittest
@@ -115,6 +116,25 @@ class NwbFiles(unittest.TestCase):
             self.assertEqual(list(trials.attrs["colnames"]), ["start_time", "stop_time", "label"])
         if not nwb_schema.missing():
             self.assertEqual(nwb_schema.errors(os.path.join(out, "response.nwb")), [])
+
+    def test_the_force_of_a_touch_in_python_is_that_of_the_command_line(self):
+        import corpuscle
+        cases = [("texture", "hand", ["--seed", "3"], {}, 3), ("scan", "fingertip", ["--set", "ramp-hold.F_max=1N"], {"ramp-hold.F_max": "1 N"}, 0),
+                 ("press", "grid 3x2", [], {}, 0)]
+        for touch, skin, options, settings, seed in cases:
+            out = os.path.join(self.folder, "touch-" + touch)
+            status, _, errors = command_line("respond", touch, "--population", skin, "-q", "--nwb", "--out", out, *options)
+            self.assertEqual(status, 0, errors)
+            path = os.path.join(self.folder, touch + ".nwb")
+            response = corpuscle.population(skin).respond(touch, seed=seed, settings=settings)
+            pickle.loads(pickle.dumps(response)).to_nwb(path)
+            with h5py.File(os.path.join(out, "response.nwb")) as expected, h5py.File(path) as found:
+                series = [nwb["stimulus/presentation/" + touch] for nwb in (expected, found)]
+                self.assertGreater(series[0]["data"][:].max(), 0.1)
+                for one in (lambda s: s["data"][:], lambda s: s["data"].attrs["unit"], lambda s: list(s["data"].attrs["channels"]),
+                            lambda s: s["starting_time"].attrs["rate"], lambda s: s.attrs["description"]):
+                    np.testing.assert_array_equal(one(series[1]), one(series[0]))
+                np.testing.assert_array_equal(found["units/spike_times"][:], expected["units/spike_times"][:])
 
     def test_trials_are_read_as_they_were_written(self):
         import corpuscle
