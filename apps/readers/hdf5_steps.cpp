@@ -1,4 +1,4 @@
-// Writes an HDF5 file step by step (io/nwb/hdf5_messages.hpp). The bytes depend only on the steps and the version of HDF5: no times are
+// Writes an HDF5 file step by step (io/hdf5/hdf5_step.hpp). The bytes depend only on the steps and the version of HDF5: no times are
 // stored. The data are not compressed, because the bytes would depend on the version of zlib.
 
 #include <fmt/format.h>
@@ -7,9 +7,9 @@
 
 #include "hdf5_file.hpp"
 #include "helper_main.hpp"
-#include "io/nwb/hdf5_messages.hpp"
+#include "io/hdf5/hdf5_step.hpp"
 #include "io/sandbox/helper_process.hpp"
-#include "io/sandbox/remote_samples.hpp"
+#include "io/sandbox/helper_messages.hpp"
 
 namespace corpuscle {
 namespace {
@@ -198,9 +198,9 @@ void serve_writer(int socket, int file) {
         Hdf5Step step;
         for (std::string m; receive_message(socket, m);) {
             step = {};
-            if (!decode(m, step)) return encode(bad_input("could not be written: a step was damaged"));
+            if (!decode_request(m, step)) return encode(bad_input("could not be written: a step was damaged"));
             if (!writer.run(step)) return encode(failure(step.path));
-            if (step.kind == Hdf5Step::Kind::finish) return encode_success();
+            if (step.kind == Hdf5Step::Kind::finish) return encode_response();
         }
         return {};
     });

@@ -53,7 +53,8 @@ bool is_readable(const Handle& file, const std::string& name) {
 
 }  // namespace
 
-Result<std::vector<Hdf5Array>> hdf5_tree(int descriptor, const std::string& path) {
+Result<std::vector<Hdf5Array>> hdf5_tree(int descriptor, const TreeRequest& request) {
+    const auto& path = request.path;
     const auto file = TRY(hdf5::open_file(descriptor, path));
     std::vector<Hdf5Array> out;
     std::uint64_t left = max_numbers;
@@ -68,16 +69,6 @@ Result<std::vector<Hdf5Array>> hdf5_tree(int descriptor, const std::string& path
     return out;
 }
 
-HelperService tree_service() {
-    return {HelperProcess::tree_protocol, FileAccess::read, [](int socket, int file) {
-                std::string m;
-                TreeRequest request;
-                if (!next_request(socket, m) || !decode(m, request)) return;
-                reply_safely(socket, request.path, [&] {
-                    const auto arrays = hdf5_tree(file, request.path);
-                    return arrays ? encode(*arrays) : encode(arrays.error());
-                });
-            }};
-}
+HelperService tree_service() { return request_service<TreeRequest>(HelperProcess::tree_protocol, hdf5_tree); }
 
 }  // namespace corpuscle

@@ -5,8 +5,9 @@
 #include <functional>
 
 #include "io/hdf5/hdf5_tree.hpp"
-#include "io/nwb/hdf5_messages.hpp"
+#include "io/nwb/nwb_messages.hpp"
 #include "io/recording/samples.hpp"
+#include "io/sandbox/helper_messages.hpp"
 
 namespace corpuscle {
 
@@ -22,7 +23,7 @@ SamplesResult open_sound_samples(int file, const std::string& path, const TableO
 Result<std::vector<NwbUnit>> read_nwb_units(int file, const UnitsRequest&);
 
 /// Reads all datasets of the HDF5 file that is open as descriptor `file`; see read_hdf5_tree().
-Result<std::vector<Hdf5Array>> hdf5_tree(int file, const std::string& path);
+Result<std::vector<Hdf5Array>> hdf5_tree(int file, const TreeRequest&);
 /// Reads the trials of the NWB file that is open as descriptor `file`.
 Result<NwbTrialTable> read_nwb_trials(int file, const TrialsRequest&);
 
@@ -59,6 +60,20 @@ bool next_request(int socket, std::string& message);
 bool send_reply(int socket, const std::string& message);
 /// Sends what `reply` returns for the file at `path`, or the error if it throws an exception.
 void reply_safely(int socket, const std::string& path, const std::function<std::string()>& reply);
+
+/// The service that answers one request: `read` returns what it asks for, or an error.
+template <class Request, class Read>
+HelperService request_service(const char* protocol, Read read) {
+    return {protocol, FileAccess::read, [read](int socket, int file) {
+                std::string m;
+                Request request;
+                if (!next_request(socket, m) || !decode_request(m, request)) return;
+                reply_safely(socket, request.path, [&] {
+                    const auto contents = read(file, request);
+                    return contents ? encode_response(*contents) : encode(contents.error());
+                });
+            }};
+}
 
 /// The main function of a helper program: it confines itself and serves requests until the socket is closed. `kind` names the file format
 /// in the message to a user who starts the program by hand.

@@ -6,7 +6,7 @@
 #include "core/text/ascii_text.hpp"
 #include "core/text/utf8.hpp"
 #include "helper_main.hpp"
-#include "io/nwb/hdf5_messages.hpp"
+#include "io/nwb/nwb_messages.hpp"
 #include "io/sandbox/helper_process.hpp"
 #include "io/sandbox/remote_samples.hpp"
 #include "nwb_table.hpp"
@@ -60,16 +60,6 @@ Result<NwbTrialTable> read_trials(const NwbTable& table, const TrialsRequest& re
     return out;
 }
 
-void serve_trials(int socket, int file) {
-    std::string m;
-    TrialsRequest request;
-    if (!next_request(socket, m) || !decode(m, request)) return;
-    reply_safely(socket, request.path, [&] {
-        const auto trials = read_nwb_trials(file, request);
-        return trials ? encode(*trials) : encode(trials.error());
-    });
-}
-
 }  // namespace
 
 Result<NwbTrialTable> read_nwb_trials(int descriptor, const TrialsRequest& request) {
@@ -78,6 +68,6 @@ Result<NwbTrialTable> read_nwb_trials(int descriptor, const TrialsRequest& reque
     return read_trials(NwbTable(file, group, request.path), request);
 }
 
-HelperService trials_service() { return {HelperProcess::trials_protocol, FileAccess::read, serve_trials}; }
+HelperService trials_service() { return request_service<TrialsRequest>(HelperProcess::trials_protocol, read_nwb_trials); }
 
 }  // namespace corpuscle

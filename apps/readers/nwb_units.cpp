@@ -6,7 +6,7 @@
 #include <set>
 
 #include "helper_main.hpp"
-#include "io/nwb/hdf5_messages.hpp"
+#include "io/nwb/nwb_messages.hpp"
 #include "io/sandbox/helper_process.hpp"
 #include "io/sandbox/remote_samples.hpp"
 #include "nwb_table.hpp"
@@ -102,20 +102,6 @@ Result<std::vector<NwbUnit>> read_nwb_units(int descriptor, const UnitsRequest& 
     return UnitsReader(file, request.path).read(request.label);
 }
 
-namespace {
-
-void serve_units(int socket, int file) {
-    std::string m;
-    UnitsRequest request;
-    if (!next_request(socket, m) || !decode(m, request)) return;
-    reply_safely(socket, request.path, [&] {
-        const auto units = read_nwb_units(file, request);
-        return units ? encode(*units) : encode(units.error());
-    });
-}
-
-}  // namespace
-
-HelperService units_service() { return {HelperProcess::units_protocol, FileAccess::read, serve_units}; }
+HelperService units_service() { return request_service<UnitsRequest>(HelperProcess::units_protocol, read_nwb_units); }
 
 }  // namespace corpuscle

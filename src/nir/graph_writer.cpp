@@ -4,7 +4,7 @@
 #include <cstdio>
 #include <cstring>
 
-#include "io/nwb/hdf5_writer.hpp"
+#include "io/hdf5/hdf5_writer.hpp"
 #include "nir/graph_file.hpp"
 
 namespace corpuscle::nir {

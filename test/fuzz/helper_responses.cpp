@@ -4,8 +4,8 @@
 #include <cstdint>
 #include <cstdlib>
 
-#include "io/nwb/hdf5_messages.hpp"
-#include "io/sandbox/remote_samples.hpp"
+#include "io/nwb/nwb_messages.hpp"
+#include "io/sandbox/helper_messages.hpp"
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
     using namespace corpuscle;
@@ -15,11 +15,11 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     std::vector<std::vector<double>> out(2, std::vector<double>(3));
     const auto rows = decode_rows(bytes, 1, 2, out, "x.h5");
     if (!rows && rows.error().message.size() > size + 64) std::abort();
-    (void)decode_units(bytes, "x.nwb"), (void)decode_trials(bytes, "x.nwb");
+    (void)decode_response<std::vector<NwbUnit>>(bytes, "x.nwb"), (void)decode_response<NwbTrialTable>(bytes, "x.nwb");
     OpenRequest open;
     FetchRequest fetch;
     UnitsRequest units;
     TrialsRequest trials;
-    (void)decode(bytes, open), (void)decode(bytes, fetch), (void)decode(bytes, units), (void)decode(bytes, trials);
+    (void)decode(bytes, open), (void)decode(bytes, fetch), (void)decode_request(bytes, units), (void)decode_request(bytes, trials);
     return 0;
 }

@@ -1,5 +1,5 @@
 #pragma once
-// All datasets of an HDF5 file, read through a helper program; and the messages between this process and that program.
+// All datasets of an HDF5 file, read through a helper program; and the messages of that program.
 
 #include <cstdint>
 #include <string>
@@ -28,9 +28,6 @@ struct TreeRequest {
 };
 inline auto byte_fields(TreeRequest& r) { return std::tie(r.path); }
 
-std::string encode(const TreeRequest&);
-bool decode(const std::string&, TreeRequest&);  ///< false if the message is not such a request
-std::string encode(const std::vector<Hdf5Array>&);
 /// Decodes the response of the helper program; `path` is the path of the file, for messages. Any bytes give datasets or an error. The
 /// number of elements of each dataset is that of its shape.
 Result<std::vector<Hdf5Array>> decode_tree(const std::string&, const std::string& path);

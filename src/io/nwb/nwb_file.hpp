@@ -5,7 +5,8 @@
 #include <optional>
 
 #include "core/checksum.hpp"
-#include "io/nwb/hdf5_writer.hpp"
+#include "io/hdf5/hdf5_writer.hpp"
+#include "io/nwb/nwb_messages.hpp"
 #include "io/nwb/nwb_metadata.hpp"
 
 namespace corpuscle {

@@ -31,10 +31,10 @@ public:
     static constexpr int exit_unknown_protocol = 2;  ///< exit status of a child of another version, which does not know `protocol`
     // The service that the child offers, with the version of its messages; the only argument of the child.
     static constexpr const char* protocol = "reader-3";         ///< reads samples (remote_samples.hpp)
-    static constexpr const char* units_protocol = "units-1";    ///< reads the units of an NWB file (io/nwb/hdf5_messages.hpp)
+    static constexpr const char* units_protocol = "units-1";    ///< reads the units of an NWB file (io/nwb/nwb_messages.hpp)
     static constexpr const char* tree_protocol = "tree-1";      ///< reads all datasets of an HDF5 file (io/hdf5/hdf5_tree.hpp)
-    static constexpr const char* trials_protocol = "trials-1";  ///< reads the trials of an NWB file (io/nwb/hdf5_messages.hpp)
-    static constexpr const char* writer_protocol = "writer-1";  ///< writes an HDF5 file (io/nwb/hdf5_writer.hpp)
+    static constexpr const char* trials_protocol = "trials-1";  ///< reads the trials of an NWB file (io/nwb/nwb_messages.hpp)
+    static constexpr const char* writer_protocol = "writer-1";  ///< writes an HDF5 file (io/hdf5/hdf5_writer.hpp)
 
     HelperProcess() = default;
     HelperProcess(HelperProcess&& other) noexcept;

@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <cerrno>
 
-#include "core/bytes.hpp"
+#include "io/sandbox/helper_messages.hpp"
 #include "io/sandbox/helper_process.hpp"
 #include "io/table/archive.hpp"
 
@@ -15,8 +15,6 @@ namespace corpuscle {
 inline auto byte_fields(Column& c) { return std::tie(c.name, c.unit); }
 
 namespace {
-
-Error broken_response(const std::string& path) { return bad_input("invalid response of the helper process that reads this file", {path}); }
 
 /// Reads the first number of a response. If it states that the response is an error, returns this error.
 Result<void> read_status(ByteReader& in, const std::string& path) {
@@ -29,15 +27,6 @@ Result<void> read_status(ByteReader& in, const std::string& path) {
     if (!known || !in.get(error.message, error.location.file)) return broken_response(path);
     return error;
 }
-
-template <class... T>
-std::string message_of(const T&... values) {
-    ByteWriter out;
-    out.put(values...);
-    return out.take();
-}
-
-constexpr std::uint64_t success = 0;  // the status of a response that is not an error
 
 constexpr std::size_t max_numbers_in_response = std::size_t{1} << 17;  // exceeded only if a single row has more numbers
 
@@ -91,12 +80,12 @@ bool decode(const std::string& m, FetchRequest& request) { return ByteReader(m).
 std::string encode(const Error& error) { return message_of(static_cast<std::uint64_t>(error.code), error.message, error.location.file); }
 
 std::string encode(const SamplesInfo& info) {
-    return message_of(success, info.rows, info.rate, info.start, info.time_column, info.columns, info.notes);
+    return encode_response(info.rows, info.rate, info.start, info.time_column, info.columns, info.notes);
 }
 
 std::string encode(const std::vector<std::vector<double>>& columns) {
     ByteWriter out;
-    out.put(success);
+    out.put(std::uint64_t{0});  // not an error
     for (const auto& column : columns) out.put_raw(column.data(), column.size() * sizeof(double));
     return out.take();
 }

@@ -2,8 +2,8 @@
 
 #include <fmt/format.h>
 
-#include "io/nwb/hdf5_messages.hpp"
-#include "io/nwb/hdf5_request.hpp"
+#include "io/hdf5/hdf5_request.hpp"
+#include "io/nwb/nwb_messages.hpp"
 #include "io/spikes/train_collector.hpp"
 
 namespace corpuscle {
@@ -11,10 +11,9 @@ namespace corpuscle {
 Result<std::vector<NamedTrain>> read_nwb_spikes(const std::string& path, const SpikeColumns& columns) {
     if (columns.time)
         return bad_usage(fmt::format("--time {}: the spike times of an NWB file are in its column spike_times", *columns.time));
-    const auto response =
-        TRY(request_from_hdf5(path, HelperProcess::units_protocol, encode(UnitsRequest{path, columns.train.value_or("")})));
+    auto units = TRY(request_from_hdf5<std::vector<NwbUnit>>(HelperProcess::units_protocol, UnitsRequest{path, columns.train.value_or("")}));
     TrainCollector trains;
-    for (auto& unit : TRY(decode_units(response, path))) trains.train(unit.name, unit.channel) = std::move(unit.times);
+    for (auto& unit : units) trains.train(unit.name, unit.channel) = std::move(unit.times);
     return std::move(trains).sorted();
 }
 

@@ -3,8 +3,8 @@
 #include <fmt/format.h>
 #include <cmath>
 
-#include "io/nwb/hdf5_messages.hpp"
-#include "io/nwb/hdf5_request.hpp"
+#include "io/hdf5/hdf5_request.hpp"
+#include "io/nwb/nwb_messages.hpp"
 #include "run/trials/epoch_formats.hpp"
 
 namespace corpuscle {
@@ -29,7 +29,7 @@ Result<void> check_trial(const NwbTrial& trial, std::size_t row, const std::stri
 Result<EpochTable> read_nwb_epochs(const std::string& path, const std::optional<std::string>& label) {
     TrialsRequest request{path, {std::begin(epoch_label_names), std::end(epoch_label_names)}, label.has_value()};
     if (label) request.labels = {*label};
-    const auto table = TRY(decode_trials(TRY(request_from_hdf5(path, HelperProcess::trials_protocol, encode(request))), path));
+    const auto table = TRY(request_from_hdf5<NwbTrialTable>(HelperProcess::trials_protocol, request));
     std::vector<Trial> trials;
     for (const auto& t : table.trials) {
         TRY(check_trial(t, trials.size(), path));

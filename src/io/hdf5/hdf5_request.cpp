@@ -1,4 +1,4 @@
-#include "io/nwb/hdf5_request.hpp"
+#include "io/hdf5/hdf5_request.hpp"
 
 #include <fmt/format.h>
 #include <cerrno>
@@ -8,7 +8,7 @@
 
 namespace corpuscle {
 
-Result<std::string> request_from_hdf5(const std::string& path, const std::string& protocol, const std::string& request) {
+Result<std::string> hdf5_response(const std::string& path, const std::string& protocol, const std::string& request) {
     const auto program = find_helper_program("corpuscle-hdf5");
     if (!program) return bad_input(program.error().message, {path});
     const auto file = open_input(path);

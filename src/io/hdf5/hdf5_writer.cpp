@@ -1,10 +1,10 @@
-#include "io/nwb/hdf5_writer.hpp"
+#include "io/hdf5/hdf5_writer.hpp"
 
-#include "io/sandbox/remote_samples.hpp"
+#include "io/sandbox/helper_messages.hpp"
 
 namespace corpuscle {
 
-void Hdf5Writer::send(const Hdf5Step& step) { helper_.send(encode(step)); }
+void Hdf5Writer::send(const Hdf5Step& step) { helper_.send(encode_request(step)); }
 
 Result<Hdf5Writer> Hdf5Writer::start(OutputFile& file) { return start(::fileno(file.stream()), file.path()); }
 

@@ -4,7 +4,7 @@
 
 #include <span>
 
-#include "io/nwb/hdf5_messages.hpp"
+#include "io/hdf5/hdf5_step.hpp"
 #include "io/output/output_file.hpp"
 #include "io/sandbox/helper_process.hpp"
 
