@@ -21,7 +21,7 @@ public:
     std::vector<Spike> in_transit() const;
     /// True if a spike with this arrival time can be in transit after sample `now`.
     bool can_be_in_transit(const Spike& s, std::int64_t now) const {
-        return s.afferent_index < delays_.size() && s.step > now && s.step < now + static_cast<std::int64_t>(arriving_.size()) &&
+        return s.afferent_index < delays_.size() && s.step > now && s.step - static_cast<std::int64_t>(arriving_.size()) < now &&
                s.offset > 0 && s.offset <= 1;
     }
     void restore(std::span<const Spike>, std::int64_t now);  ///< the spikes are those of in_transit() after sample `now`

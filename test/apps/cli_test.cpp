@@ -248,8 +248,8 @@ TEST(Program, JsonOutputIsASingleDocument) {
     const auto document = Json::parse(ran.out);
     EXPECT_EQ(document["afferents"][0]["parameters"]["f_B"], (Json{{"value", 25.0}, {"unit", "Hz"}, {"component", "sa1b"}, {"set", true}}));
     const auto listed = Json::parse(run_program(folder, "list --json").out);
-    EXPECT_EQ(listed["afferents"].size(), named_afferents().size() + std::size(circuit::embedded_netlists) + 1)
-        << "one entry stands for all netlist files";
+    EXPECT_EQ(listed["afferents"].size(), named_afferents().size() + std::size(circuit::embedded_netlists) + 2)
+        << "one entry stands for all netlist files, and one for all NIR files";
     for (const auto& entry : receptor_entries())
         EXPECT_TRUE(std::any_of(listed["receptors"].begin(), listed["receptors"].end(), [&](const Json& e) {
             return e["name"] == entry.name;

@@ -3,11 +3,13 @@
 
 #include "skin/skin.hpp"
 
+#include <limits>
 #include <numeric>
 
 #include "core/bytes.hpp"
 #include "core/random.hpp"
 #include "model/catalog.hpp"
+#include "skin/conduction.hpp"
 #include "skin/wave/contact_wave.hpp"
 #include "support/property.hpp"
 
@@ -190,6 +192,18 @@ TEST(Skin, RefusesAStateOfAnotherSkinOrADamagedState) {
     }
     saved.push_back({});
     EXPECT_FALSE(make_skin(map)->resume(saved));
+}
+
+TEST(Skin, ASpikeInTransitArrivesSoonAfterTheState) {
+    const Conduction conduction(*small_skin(2, 2, false, 20), skin_T);
+    constexpr auto last = std::numeric_limits<std::int64_t>::max();
+    EXPECT_TRUE(conduction.can_be_in_transit({40, 0.5, 0}, 39));
+    EXPECT_TRUE(conduction.can_be_in_transit({0, 0.5, 0}, -1)) << "at the start";
+    EXPECT_FALSE(conduction.can_be_in_transit({39, 0.5, 0}, 39)) << "delivered";
+    EXPECT_FALSE(conduction.can_be_in_transit({4000, 0.5, 0}, 39)) << "too late";
+    EXPECT_FALSE(conduction.can_be_in_transit({last, 0.5, 0}, -1));
+    EXPECT_TRUE(conduction.can_be_in_transit({last, 0.5, 0}, last - 1)) << "without an overflow";
+    EXPECT_FALSE(conduction.can_be_in_transit({40, 0, 0}, 39)) << "a spike is after the start of its step";
 }
 
 TEST(Skin, AStateOfThePreviousVersionsIsReadAndALaterOneRefused) {
