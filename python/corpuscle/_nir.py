@@ -50,8 +50,8 @@ class NirGraph:
     def run(self, signals, rate=None, *, method="exact", progress=None):
         """Simulates the graph with a fixed step, and returns its output: float64, shape [step, output]. A spike is the value 1 in one step.
 
-        - signals: an array of shape [step, input], or [step] for one input; a Force, whose channels are the inputs; or a Response, whose afferents are
-          the inputs, with the number of spikes in each step as the signal.
+        - signals: an array of shape [step, input], or [step] for one input. The channels of a Force are the inputs, and so are the afferents of a
+          Response, with the number of spikes in each step as the signal.
         - rate: steps per second; a Force has its own.
         - method: "exact" (the exact solution for inputs that are constant within a step), "euler" (forward Euler, for which many networks were trained) or
           "backward-euler".

@@ -15,7 +15,7 @@ struct NodeParameter {
     std::optional<double> default_value = {};  ///< of a parameter that files may leave out
 };
 
-/// What a node computes. x: the sum of its inputs. The equations of nodes with a membrane v are
+/// A kind of node. The equations of those with a membrane v, where x is the sum of the inputs:
 ///   tau_syn dI/dt = -I + w_in x             if it has a synapse; otherwise I = x
 ///   tau dv/dt = v_leak - v + r I            if it is leaky; otherwise dv/dt = r I
 ///   v > v_threshold: output 1, v = v_reset  if it fires; otherwise the output is v.

@@ -21,7 +21,7 @@ class Catalogues(unittest.TestCase):
         for name in corpuscle.catalogues():
             ours = corpuscle.catalogue(name)
             # The command line also lists what is not one entry: grids, own files, the path of a contact.
-            listed = [e for e in self.listed[name] if e["name"] not in ("path/own.cir", "path/own.toml", "grid 8x8", "path")]
+            listed = [e for e in self.listed[name] if e["name"] not in ("path/own.cir", "path/own.nir", "path/own.toml", "grid 8x8", "path")]
             self.assertGreater(len(ours), 0)
             self.assertEqual(ours.names(), [e["name"] for e in listed])
             for entry, line in zip(ours, listed):
