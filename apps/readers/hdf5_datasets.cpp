@@ -14,7 +14,9 @@ namespace {
 
 using hdf5::Handle;
 
-constexpr std::uint64_t max_numbers = std::uint64_t{1} << 25;  // of all datasets: 256 MB
+constexpr std::uint64_t max_elements = std::uint64_t{1} << 25;  // of all datasets: 256 MB of numbers
+constexpr std::size_t max_datasets = 1'000'001;
+constexpr int max_depth = 64;  // of groups within groups, because a group may contain itself
 
 /// Number of elements of a dataset, but at most `limit` + 1.
 std::uint64_t element_count(const ArrayInfo& info, std::uint64_t limit) {
@@ -31,9 +33,11 @@ Result<Hdf5Array> read_array(const Handle& file, const ArrayInfo& info, std::uin
     const auto damaged = [&] { return bad_input(fmt::format("cannot read {}; the file may be damaged", info.name), {path}); };
     const auto dataset = hdf5::open_dataset(file, info.name);
     if (!dataset) return damaged();
-    if (count > 0) TRY(hdf5::check_storage(dataset, info, path));
     const Handle type(H5Dget_type(dataset), H5Tclose);
-    array.is_text = !hdf5::is_number(type);
+    array.is_text = H5Tget_class(type) == H5T_STRING;
+    array.is_other = !array.is_text && !hdf5::is_number(type);
+    if (array.is_other) return array;
+    if (count > 0) TRY(hdf5::check_storage(dataset, info, path));
     if (array.is_text) {
         array.texts = hdf5::strings_in(dataset);
         if (array.texts.size() != count) return damaged();
@@ -44,25 +48,19 @@ Result<Hdf5Array> read_array(const Handle& file, const ArrayInfo& info, std::uin
     return array;
 }
 
-/// True for datasets of numbers and of texts.
-bool is_readable(const Handle& file, const std::string& name) {
-    const auto dataset = hdf5::open_dataset(file, name);
-    const Handle type(H5Dget_type(dataset), H5Tclose);
-    return hdf5::is_number(type) || H5Tget_class(type) == H5T_STRING;
-}
-
 }  // namespace
 
 Result<std::vector<Hdf5Array>> hdf5_tree(int descriptor, const TreeRequest& request) {
     const auto& path = request.path;
     const auto file = TRY(hdf5::open_file(descriptor, path));
     std::vector<Hdf5Array> out;
-    std::uint64_t left = max_numbers;
-    for (const auto& info : hdf5::datasets_in(file)) {
-        if (!is_readable(file, info.name)) continue;
+    std::uint64_t left = max_elements;
+    const auto all = hdf5::datasets_below(file, "", max_depth, max_datasets, request.skipped);
+    if (all.size() == max_datasets) return bad_input(fmt::format("the file has more than {} datasets", max_datasets - 1), {path});
+    for (const auto& info : all) {
         const auto count = element_count(info, left);
         if (count > left)
-            return bad_input(fmt::format("{}: the datasets of this file have more than {} elements", info.name, max_numbers), {path});
+            return bad_input(fmt::format("{}: the datasets of this file have more than {} elements", info.name, max_elements), {path});
         left -= count;
         out.push_back(TRY(read_array(file, info, count, path)));
     }

@@ -17,10 +17,10 @@ Handle attribute_of(hid_t object, const std::string& name) {
     return H5Aexists(object, name.c_str()) > 0 ? Handle(H5Aopen(object, name.c_str(), H5P_DEFAULT), H5Aclose) : Handle();
 }
 
-/// The text before its first zero byte, without trailing spaces.
-std::string trimmed(std::string s) {
+/// The text before its first zero byte; if it is padded with spaces, without those at its end.
+std::string without_padding(std::string s, hid_t type) {
     s.resize(std::min(s.find('\0'), s.size()));
-    return s.substr(0, s.find_last_not_of(' ') + 1);
+    return H5Tget_strpad(type) == H5T_STR_SPACEPAD ? s.substr(0, s.find_last_not_of(' ') + 1) : s;
 }
 
 /// Reads all elements of an attribute or a dataset; false on failure.
@@ -33,7 +33,7 @@ std::vector<std::string> variable_length_strings(hid_t object, ReadAll read, hid
     std::vector<char*> texts(count);
     if (!read(object, type, texts.data())) return {};
     std::vector<std::string> out;
-    for (const char* text : texts) out.push_back(text ? trimmed(text) : "");
+    for (const char* text : texts) out.emplace_back(text ? text : "");
     H5Dvlen_reclaim(type, space, H5P_DEFAULT, texts.data());
     return out;
 }
@@ -44,7 +44,7 @@ std::vector<std::string> fixed_length_strings(hid_t object, ReadAll read, hid_t 
     std::string all(count * length, '\0');
     if (!read(object, type, all.data())) return {};
     std::vector<std::string> out;
-    for (std::size_t k = 0; k < count; ++k) out.push_back(trimmed(all.substr(k * length, length)));
+    for (std::size_t k = 0; k < count; ++k) out.push_back(without_padding(all.substr(k * length, length), type));
     return out;
 }
 
@@ -64,6 +64,12 @@ bool has_signature(int descriptor) {
     for (off_t at = 0; ::pread(descriptor, found.data(), found.size(), at) == static_cast<ssize_t>(found.size()); at = at ? 2 * at : 512)
         if (found == signature) return true;
     return false;
+}
+
+/// Appends the name of a link to the vector `to`.
+herr_t add_link_name(hid_t, const char* name, const H5L_info_t*, void* to) {
+    static_cast<std::vector<std::string>*>(to)->push_back(name);
+    return 0;
 }
 
 /// Callback of H5Ovisit: appends the name of a dataset to the vector `to`. Returns 1 to end the visit at max_datasets.
@@ -129,6 +135,25 @@ std::vector<ArrayInfo> datasets_in(hid_t file) {
     std::vector<ArrayInfo> out;
     for (const auto& name : names)
         if (const auto dataset = open_dataset(file, name)) out.push_back(array_info(dataset, name));
+    return out;
+}
+
+std::vector<ArrayInfo> datasets_below(hid_t file, const std::string& group, int depth, std::size_t limit, const std::string& skipped) {
+    std::vector<ArrayInfo> out;
+    std::vector<std::string> links;
+    const Handle at(H5Gopen2(file, group.empty() ? "/" : group.c_str(), H5P_DEFAULT), H5Gclose);
+    if (at) (void)H5Literate(at, H5_INDEX_NAME, H5_ITER_INC, nullptr, add_link_name, &links);
+    for (const auto& link : links) {
+        const auto name = group + "/" + link;
+        H5L_info_t about{};
+        if (out.size() >= limit || link == skipped || H5Lget_info(at, link.c_str(), &about, H5P_DEFAULT) < 0 ||
+            (about.type != H5L_TYPE_HARD && about.type != H5L_TYPE_SOFT))
+            continue;
+        const Handle object(H5Oopen(file, name.c_str(), H5P_DEFAULT), H5Oclose);
+        if (object && H5Iget_type(object) == H5I_DATASET) out.push_back(array_info(object, name));
+        if (!object || H5Iget_type(object) != H5I_GROUP || depth <= 1) continue;
+        for (auto& inner : datasets_below(file, name, depth - 1, limit - out.size(), skipped)) out.push_back(std::move(inner));
+    }
     return out;
 }
 

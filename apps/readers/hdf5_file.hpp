@@ -45,6 +45,10 @@ ArrayInfo array_info(hid_t dataset, std::string name);
 /// All datasets that are reachable by hard links, ordered by name.
 std::vector<ArrayInfo> datasets_in(hid_t file);
 
+/// The datasets of a group and of its groups down to `depth` levels, in the order of the names, also those behind soft links; at most
+/// `limit`. "": the root. Links of the name `skipped` are left out.
+std::vector<ArrayInfo> datasets_below(hid_t file, const std::string& group, int depth, std::size_t limit, const std::string& skipped = "");
+
 /// A numeric member of a compound type.
 struct CompoundMember {
     std::string name;

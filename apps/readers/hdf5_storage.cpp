@@ -58,7 +58,7 @@ std::set<std::string> virtual_sources(hid_t properties) {
     return files;
 }
 
-/// Fails if a required filter of the dataset is not available.
+/// Fails if a filter of the dataset is not available. Filters that are optional for a writer have been used nevertheless, as a rule.
 Result<void> check_filters(hid_t properties, const ArrayInfo& array, const std::string& path) {
     const int count = H5Pget_nfilters(properties);
     for (int k = 0; k < count; ++k) {
@@ -66,7 +66,7 @@ Result<void> check_filters(hid_t properties, const ArrayInfo& array, const std::
         size_t values = 0;
         char name[64] = {};
         const auto id = H5Pget_filter2(properties, static_cast<unsigned>(k), &flags, &values, nullptr, sizeof name - 1, name, &settings);
-        if (id < 0 || (flags & H5Z_FLAG_OPTIONAL) || H5Zfilter_avail(id) > 0) continue;
+        if (id < 0 || H5Zfilter_avail(id) > 0) continue;
         return bad_input(
             fmt::format("{}: compressed by filter {}{}, which is not available here. Repack the file where the filter is available: "
                         "h5repack -f GZIP=4 {} repacked.h5",

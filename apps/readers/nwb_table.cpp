@@ -30,9 +30,8 @@ std::vector<std::string> member_names_in(hid_t dataset, hid_t type, std::size_t 
 }  // namespace
 
 NwbTable::NwbTable(const Handle& file, const std::string& group, const std::string& path) : file_(file), group_(group + "/"), path_(path) {
-    for (auto& array : hdf5::datasets_in(file))
-        if (array.name.starts_with(group_) && array.name.find('/', group_.size()) == std::string::npos)
-            columns_.push_back(std::move(array));
+    constexpr std::size_t max_columns = 10'000;
+    columns_ = hdf5::datasets_below(file, group, 1, max_columns);
 }
 
 Error NwbTable::damaged(const std::string& column) const {

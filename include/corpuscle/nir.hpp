@@ -36,8 +36,10 @@ public:
     CORPUSCLE_API std::vector<NirNode> nodes() const;
     CORPUSCLE_API std::vector<std::pair<std::string, std::string>> edges() const;  ///< names of the nodes from which and to which
     CORPUSCLE_API std::string version() const;                                     ///< of NIR, as the file states it
-    CORPUSCLE_API std::size_t input_count() const;   ///< number of signals of all nodes of the type Input, in the order of their names
-    CORPUSCLE_API std::size_t output_count() const;  ///< the same for Output
+    CORPUSCLE_API std::vector<std::string> input_nodes() const;   ///< the nodes of the type Input, in the order of their signals
+    CORPUSCLE_API std::vector<std::string> output_nodes() const;  ///< the same for Output
+    CORPUSCLE_API std::size_t input_count() const;                ///< number of signals of all input nodes
+    CORPUSCLE_API std::size_t output_count() const;
 
     /// Simulates the graph. `input`: for each step the input_count() signals; a spike is the value 1 for one step. `rate`: steps per second.
     /// `method`: "exact", "euler" (forward) or "backward-euler". Returns for each step the output_count() signals. See doc/nir.md. Throws

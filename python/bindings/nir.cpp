@@ -28,6 +28,8 @@ void bind_nir(py::module_& m) {
         .def("nodes", &nodes_of)
         .def("edges", &NirGraph::edges)
         .def("version", &NirGraph::version)
+        .def("input_nodes", &NirGraph::input_nodes)
+        .def("output_nodes", &NirGraph::output_nodes)
         .def("input_count", &NirGraph::input_count)
         .def("output_count", &NirGraph::output_count)
         .def("run", &run);

@@ -6,7 +6,7 @@ from . import _corpuscle
 from ._corpuscle import InputError
 from ._display import plural, table_html
 from ._force import Force
-from ._options import name_of, number, real_array, text
+from ._options import bin_count, name_of, number, real_array, text
 from ._progress import progress_of
 from ._response import Response
 
@@ -34,6 +34,9 @@ class NirGraph:
     - path: of the file. version: of NIR, as the file states it.
     - nodes: NirNode by name. edges: pairs of names.
     - inputs, outputs: numbers of signals that enter and leave the graph.
+    - input_nodes, output_nodes: names of the nodes of the types Input and Output, in the order of their signals.
+
+    A copy and a pickle have the path only, and read the file again.
     """
 
     def __init__(self, path):
@@ -42,6 +45,7 @@ class NirGraph:
         self.nodes = {node[0]: NirNode(*node) for node in self._raw.nodes()}
         self.edges = self._raw.edges()
         self.version = self._raw.version()
+        self.input_nodes, self.output_nodes = self._raw.input_nodes(), self._raw.output_nodes()
         self.inputs, self.outputs = self._raw.input_count(), self._raw.output_count()
 
     def __reduce__(self):
@@ -57,7 +61,7 @@ class NirGraph:
           "backward-euler".
         - progress: a function that receives the completed fraction and stops the run by returning False; False: no progress line.
 
-        Raises InputError for signals of another width, numbers that are not finite, and a rate that is too low for "euler".
+        Raises InputError for signals of another width, numbers that are not finite, a rate that is too low for "euler", and a network that diverges.
         """
         if isinstance(signals, Force):
             if rate is not None:
@@ -68,6 +72,8 @@ class NirGraph:
         rate = number(rate, "rate")
         if isinstance(signals, Response):
             signals = self._spike_counts(signals, rate)
+        if isinstance(signals, np.ndarray) and signals.dtype == bool:
+            signals = signals.astype(float)
         signals = real_array(signals, "signals")
         if signals.ndim == 1:
             signals = signals[:, np.newaxis]
@@ -82,8 +88,8 @@ class NirGraph:
             raise InputError(f"signals: the response has {plural(len(response.names), 'afferent')}; {self.path} has {plural(self.inputs, 'input')}")
         if not 0 < rate < np.inf:
             raise InputError(f"rate = {rate:g} Hz must be a finite number above 0")
-        counts = np.zeros((max(1, round(response.duration * rate)), self.inputs))
-        steps = np.floor((response.times - response.start) * rate).astype(np.int64)
+        counts = np.zeros((max(1, round(bin_count(response.duration, 1 / rate))), self.inputs))
+        steps = np.floor((response.times - response.start) * rate + 1e-6).astype(np.int64)  # a spike on the border of two steps is in the later one
         inside = steps < len(counts)
         np.add.at(counts, (steps[inside], response.indices[inside]), 1)
         return counts

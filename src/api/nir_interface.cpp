@@ -47,6 +47,18 @@ std::vector<std::pair<std::string, std::string>> NirGraph::edges() const {
 }
 
 std::string NirGraph::version() const { return impl_->graph->version; }
+std::vector<std::string> NirGraph::input_nodes() const {
+    std::vector<std::string> out;
+    for (const auto n : impl_->graph->inputs) out.push_back(impl_->graph->nodes[n].name);
+    return out;
+}
+
+std::vector<std::string> NirGraph::output_nodes() const {
+    std::vector<std::string> out;
+    for (const auto n : impl_->graph->outputs) out.push_back(impl_->graph->nodes[n].name);
+    return out;
+}
+
 std::size_t NirGraph::input_count() const { return impl_->graph->input_count(); }
 std::size_t NirGraph::output_count() const { return impl_->graph->output_count(); }
 
@@ -61,12 +73,15 @@ std::vector<double> NirGraph::run(std::span<const double> input, double rate, co
     if (!network) throw InputError(fmt::format("{}: {}", impl_->path, network.error().message));
     auto state = network->start(), workspace = network->workspace();
     std::vector<double> output(steps * output_count());
-    constexpr std::size_t report_interval = 1024;
+    const std::size_t report_interval = 1 + (std::size_t{1} << 22) / (1 + network->operations());  // some milliseconds
     for (std::size_t k = 0; k < steps; ++k) {
         if (progress && k % report_interval == 0 && !progress(static_cast<double>(k) / static_cast<double>(steps)))
             throw InterruptedError("interrupted");
         network->step(input.subspan(k * width, width), std::span(output).subspan(k * output_count(), output_count()), state, workspace);
     }
+    if (const auto bad = first_non_finite(output); bad < output.size())
+        throw InputError(fmt::format("{}: output {} of step {} is {}: the network diverges", impl_->path, bad % output_count(),
+                                     bad / output_count(), output[bad]));
     return output;
 }
 

@@ -81,7 +81,6 @@ class NodeCheck {
         for (const auto& p : node_.kind->parameters)
             if (node_.values.contains(p.name) && !shape_of(p.name).empty() && shape_of(p.name) != shape)
                 return bad("{} has the shape {}, but another parameter {}", p.name, shape_text(shape_of(p.name)), shape_text(shape));
-        if (shape.empty()) shape = {1};
         node_.input_shape = node_.output_shape = shape;
         for (const auto& p : node_.kind->parameters) {
             auto& values = node_.values[std::string(p.name)];
@@ -106,11 +105,17 @@ public:
     }
 };
 
+/// A single number has the shape [], which means the same as [1].
+Shape as_list(const Shape& shape) { return shape.empty() ? Shape{1} : shape; }
+
 }  // namespace
 
 std::uint64_t elements_of(const Shape& shape) {
     std::uint64_t count = 1;
-    for (const auto n : shape) count = n > 0 && count > std::numeric_limits<std::uint64_t>::max() / n ? 0 : count * n;
+    for (const auto n : shape) {
+        if (n > 0 && count > std::numeric_limits<std::uint64_t>::max() / n) return std::numeric_limits<std::uint64_t>::max();
+        count *= n;
+    }
     return count;
 }
 
@@ -152,7 +157,7 @@ Result<void> check_graph(const Graph& graph, const std::string& path) {
     for (const auto n : graph.inputs) has_source[n] = true;
     for (const auto& e : graph.edges) {
         const auto &from = graph.nodes[e.from], &to = graph.nodes[e.to];
-        if (from.output_shape != to.input_shape)
+        if (as_list(from.output_shape) != as_list(to.input_shape))
             return bad_input(
                 fmt::format("the edge from '{}' to '{}' joins different shapes: the output of '{}' ({}) is {}, the input of '{}' ({}) is {}",
                             from.name, to.name, from.name, from.kind->type, shape_text(from.output_shape), to.name, to.kind->type,

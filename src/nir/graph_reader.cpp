@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 #include <algorithm>
+#include <set>
 
 #include "core/parameter.hpp"
 #include "core/text/ascii_text.hpp"
@@ -22,7 +23,8 @@ class GraphReader {
     struct Ends {
         std::size_t in, out;
     };
-    std::map<std::string, Ends, std::less<>> ends_;  // by the name of the node or graph
+    using NamedEnds = std::map<std::string, Ends, std::less<>>;
+    std::set<std::string> names_;  // of all nodes
 
     Error bad(std::string message) const { return bad_input(std::move(message), {path_}); }
 
@@ -45,12 +47,10 @@ class GraphReader {
             name.resize(std::min(name.find('/'), name.size()));
             if (out.empty() || out.back() != name) out.push_back(std::move(name));
         }
-        std::sort(out.begin(), out.end());  // in the order of paths "a/b" and "a" are not neighbours of "a.c"
-        out.erase(std::unique(out.begin(), out.end()), out.end());
         return out;
     }
 
-    Result<void> add_node(const std::string& group, const std::string& name, const std::string& type) {
+    Result<Ends> add_node(const std::string& group, const std::string& name, const std::string& type) {
         const auto* kind = find_node_kind(type);
         std::vector<std::string_view> known;
         for (const auto& k : node_kinds()) known.push_back(k.type);
@@ -63,14 +63,14 @@ class GraphReader {
         for (const auto& member : members(group)) {
             if (member == "type" || member == "metadata") continue;
             const auto* array = find(group + "/" + member);
-            if (!array || array->is_text)
+            if (!array || array->is_text || array->is_other)
                 return bad(fmt::format("node '{}' ({}): '{}' is not a dataset of numbers", name, type, member));
             node.values[member] = array->numbers, shapes[member] = array->shape;
         }
         TRY(complete_node(node, shapes, path_));
-        ends_[name] = {graph_.nodes.size(), graph_.nodes.size()};
+        if (!names_.insert(name).second) return bad(fmt::format("two nodes have the name '{}', which a graph within the graph gives to one", name));
         graph_.nodes.push_back(std::move(node));
-        return {};
+        return Ends{graph_.nodes.size() - 1, graph_.nodes.size() - 1};
     }
 
     /// The only one of the ports of a graph within the graph.
@@ -79,44 +79,46 @@ class GraphReader {
         return bad(fmt::format("the graph '{}' within the graph has {} nodes of the type {}, but one is required", graph, ports.size(), type));
     }
 
-    Result<void> add_edges(const std::string& group, const std::string& prefix) {
+    /// Adds the edges of one graph. `ends`: of its nodes and of the graphs within it, by name.
+    Result<void> add_edges(const std::string& group, const NamedEnds& ends) {
         const auto* edges = find(group + "/edges");
         if (!edges) return bad(fmt::format("has no dataset {}/edges", group));
         if (edges->shape.size() != 2 || edges->shape[1] != 2 || (!edges->is_text && edges->element_count() > 0))
             return bad(fmt::format("{}/edges has the shape {}, but pairs of names are required: [edges, 2]", group, shape_text(edges->shape)));
         std::vector<std::string_view> names;
-        for (const auto& e : ends_)
-            if (e.first.starts_with(prefix)) names.push_back(std::string_view(e.first).substr(prefix.size()));
+        for (const auto& e : ends) names.push_back(e.first);
         for (std::size_t k = 0; k + 1 < edges->texts.size(); k += 2) {
-            const auto from = ends_.find(prefix + edges->texts[k]), to = ends_.find(prefix + edges->texts[k + 1]);
+            const auto from = ends.find(edges->texts[k]), to = ends.find(edges->texts[k + 1]);
             for (const auto& [end, name] : {std::pair(from, edges->texts[k]), std::pair(to, edges->texts[k + 1])})
-                if (end == ends_.end())
+                if (end == ends.end())
                     return bad(fmt::format("{}/edges: edge {} names the node '{}', which does not exist{}", group, k / 2, name, did_you_mean(name, names)));
             graph_.edges.push_back({from->second.out, to->second.in});
         }
         return {};
     }
 
-    Result<void> add_graph(const std::string& group, const std::string& prefix, int depth) {
+    /// Adds the nodes of a graph. Of a graph within the graph, whose nodes have names that begin with `prefix`, returns the ends.
+    Result<Ends> add_graph(const std::string& group, const std::string& prefix, int depth) {
         if (depth > max_depth) return bad(fmt::format("graphs within graphs are nested more than {} deep", max_depth));
+        NamedEnds ends;
         std::vector<std::size_t> inputs, outputs;
         for (const auto& name : members(group + "/nodes")) {
             const auto node = group + "/nodes/" + name;
             const auto type = text(node + "/type");
             if (type.empty()) return bad(fmt::format("{} has no type", node));
-            TRY(type == "NIRGraph" ? add_graph(node, prefix + name + ".", depth + 1) : add_node(node, prefix + name, type));
-            if (type == "Input") inputs.push_back(graph_.nodes.size() - 1);
-            if (type == "Output") outputs.push_back(graph_.nodes.size() - 1);
+            const auto added = TRY(type == "NIRGraph" ? add_graph(node, prefix + name + ".", depth + 1) : add_node(node, prefix + name, type));
+            ends[name] = added;
+            if (type == "Input") inputs.push_back(added.in);
+            if (type == "Output") outputs.push_back(added.out);
         }
-        TRY(add_edges(group, prefix));
+        TRY(add_edges(group, ends));
         if (prefix.empty()) {
             graph_.inputs = std::move(inputs), graph_.outputs = std::move(outputs);
-            return {};
+            return Ends{};
         }
         const auto name = prefix.substr(0, prefix.size() - 1);
         const auto in = TRY(only_port(inputs, "Input", name)), out = TRY(only_port(outputs, "Output", name));
-        ends_[name] = {in, out};
-        return {};
+        return Ends{in, out};
     }
 
 public:
@@ -138,6 +140,6 @@ public:
 
 Result<Graph> graph_of(std::span<const Hdf5Array> arrays, const std::string& path) { return GraphReader(arrays, path).read(); }
 
-Result<Graph> read_graph(const std::string& path) { return graph_of(TRY(read_hdf5_tree(path)), path); }
+Result<Graph> read_graph(const std::string& path) { return graph_of(TRY(read_hdf5_tree(path, "metadata")), path); }
 
 }  // namespace corpuscle::nir

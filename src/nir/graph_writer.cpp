@@ -3,6 +3,7 @@
 #include <cerrno>
 #include <cstdio>
 #include <cstring>
+#include <memory>
 
 #include "io/hdf5/hdf5_writer.hpp"
 #include "nir/graph_file.hpp"

@@ -72,6 +72,16 @@ public:
     }
 };
 
+/// A node of a loop without delays. `waiting`: above 0 for the nodes in and behind such loops.
+std::size_t node_of_loop(const Graph& graph, const Order& order, const std::vector<std::size_t>& waiting) {
+    std::vector<std::size_t> source(graph.nodes.size(), none);  // a source of each waiting node that is waiting itself
+    for (std::size_t e = 0; e < graph.edges.size(); ++e)
+        if (!order.is_delayed[e] && waiting[graph.edges[e].from] > 0) source[graph.edges[e].to] = graph.edges[e].from;
+    auto node = static_cast<std::size_t>(std::find_if(waiting.begin(), waiting.end(), [](auto n) { return n > 0; }) - waiting.begin());
+    for (std::size_t k = 0; k < graph.nodes.size(); ++k) node = source[node];  // the way back from any such node ends in a loop
+    return node;
+}
+
 }  // namespace
 
 Result<Order> order_of(const Graph& graph) {
@@ -89,11 +99,9 @@ Result<Order> order_of(const Graph& graph) {
     for (std::size_t k = 0; k < order.nodes.size(); ++k)
         for (const auto e : leaving[order.nodes[k]])
             if (!order.is_delayed[e] && --waiting[graph.edges[e].to] == 0) order.nodes.push_back(graph.edges[e].to);
-    for (std::size_t n = 0; n < graph.nodes.size(); ++n)
-        if (waiting[n] > 0)
-            return bad_input(fmt::format("node '{}' ({}) lies in or behind a loop that has no node with a membrane, such as LIF or LI",
-                                         graph.nodes[n].name, graph.nodes[n].kind->type));
-    return order;
+    if (order.nodes.size() == graph.nodes.size()) return order;
+    const auto& node = graph.nodes[node_of_loop(graph, order, waiting)];
+    return bad_input(fmt::format("node '{}' ({}) lies in a loop that has no node with a membrane, such as LIF or LI", node.name, node.kind->type));
 }
 
 }  // namespace corpuscle::nir

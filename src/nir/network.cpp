@@ -21,11 +21,12 @@ Decay decay_of(double tau, double dt, Update update) {
     return update == Update::euler ? Decay{1 - a, a} : Decay{1 / (1 + a), a / (1 + a)};
 }
 
-/// The membrane after a time dt, from 0, of tau_mem dv/dt = exp(-t/tau_syn) - v.
-double decaying_current(double tau_syn, double tau_mem, double dt) {
-    const double slower = dt / tau_mem - dt / tau_syn;  // exponent of the quotient of both decays
-    const double relative = std::abs(slower) < 1e-8 ? 1 + slower / 2 : std::expm1(slower) / slower;
-    return dt / tau_mem * std::exp(-dt / tau_mem) * relative;
+/// v after a time dt, from 0, of tau_mem dv/dt = exp(-t/tau_syn) - v: (exp(-dt/tau_syn) - exp(-dt/tau_mem)) / (1 - tau_mem/tau_syn).
+double membrane_under_decay(double tau_syn, double tau_mem, double dt) {
+    const double synapse = dt / tau_syn, membrane = dt / tau_mem, difference = membrane - synapse;
+    if (std::abs(difference) > 1) return membrane * (std::exp(-synapse) - std::exp(-membrane)) / difference;
+    const double quotient = difference == 0 ? 1 : std::expm1(difference) / difference;  // without cancellation
+    return membrane * std::exp(-membrane) * quotient;
 }
 
 Result<void> check_step(const Node& node, std::string_view parameter, double dt) {
@@ -77,11 +78,12 @@ void Network::add_synapse(Stage& stage, std::size_t element, double dt, Update u
     const auto& node = *stage.node;
     const double tau_syn = node.value("tau_syn")[element], w = node.value("w_in")[element], r = node.value("r")[element];
     const auto current = decay_of(tau_syn, dt, update);
-    double& gain = stage.gain[element];
+    const double constant = stage.gain[element];  // the gain of a constant current
     // Euler's methods take the current at the end of the step; the exact current decays from I to w x within it.
-    const double decaying = update == Update::exact ? r * decaying_current(tau_syn, node.value("tau_mem")[element], dt) : gain * current.keep;
+    const bool is_exact = update == Update::exact;
+    const double decaying = is_exact ? r * membrane_under_decay(tau_syn, node.value("tau_mem")[element], dt) : constant * current.keep;
     stage.current_gain.push_back(decaying);
-    gain = w * (update == Update::exact ? gain - decaying : gain * current.gain);
+    stage.gain[element] = w * (is_exact ? constant - decaying : constant * current.gain);
     stage.current_keep.push_back(current.keep), stage.weight.push_back(current.gain * w);
 }
 
@@ -104,6 +106,7 @@ Result<Network> Network::create(std::shared_ptr<const Graph> graph, double dt, U
         TRY(out.add_coefficients(stage, dt, update));
         out.signals_ += nodes[n].outputs();
         out.widest_input_ = std::max(out.widest_input_, nodes[n].inputs());
+        out.operations_ += nodes[n].outputs() + stage.columns.size();
         stage_of[n] = out.stages_.size();
         out.stages_.push_back(std::move(stage));
     }

@@ -2,8 +2,9 @@
 // Simulates a NIR graph with a fixed time step.
 //
 // A signal has one value for each step, and a spike is the value 1 for one step. Step k uses the input of step k and changes the membranes;
-// a spike of step k is in the output of step k. NIR does not say how a loop is simulated: here an edge that leaves a node with a membrane
-// and lies in a loop delays by one step. At the start each membrane is at v_leak, or at 0 if it does not leak, and no neuron has fired.
+// a spike of step k is in the output of step k. NIR does not say how a loop is simulated: here each edge that leaves a node with a membrane
+// and leads to a node of the same loop delays by one step. At the start each membrane is at v_leak, or at 0 if it does not leak, and no
+// neuron has fired.
 
 #include <memory>
 #include <span>
@@ -28,6 +29,9 @@ public:
     const Graph& graph() const { return *graph_; }
     std::size_t input_count() const { return graph_->input_count(); }
     std::size_t output_count() const { return graph_->output_count(); }
+    std::size_t state_size() const { return state_size_; }
+    /// Multiplications of a step, about.
+    std::size_t operations() const { return operations_; }
     /// The state at the start: membranes, synaptic currents, delayed outputs.
     std::vector<double> start() const;
     /// Arrays that step() needs; their contents do not matter before a step.
@@ -68,7 +72,7 @@ private:
     std::shared_ptr<const Graph> graph_;
     std::vector<Stage> stages_;
     std::vector<std::size_t> output_signals_;  // of each output node: its first signal
-    std::size_t signals_ = 0, state_size_ = 0, widest_input_ = 0;
+    std::size_t signals_ = 0, state_size_ = 0, widest_input_ = 0, operations_ = 0;
 
     Result<void> add_coefficients(Stage&, double dt, Update) const;
     void add_synapse(Stage&, std::size_t element, double dt, Update) const;

@@ -1,10 +1,14 @@
 #include "nir/nir_afferent.hpp"
 
 #include <fmt/format.h>
-#include <cmath>
+#include <algorithm>
+#include <map>
+#include <mutex>
 
 #include "core/checksum.hpp"
+#include "core/text/ascii_text.hpp"
 #include "nir/graph_file.hpp"
+#include "nir/loops.hpp"
 #include "nir/network.hpp"
 
 namespace corpuscle::nir {
@@ -28,29 +32,29 @@ std::uint64_t fingerprint_of(const Graph& graph) {
 
 class GraphAfferent final : public Afferent {
     std::string name_, format_;
-    Network network_;
+    std::shared_ptr<const Network> network_;
     std::vector<Network::Membrane> membranes_;
     std::vector<std::string> probe_names_;  // probes_ refers to them
     std::vector<Probe> probes_;
 
 public:
-    GraphAfferent(std::string name, Network network, const SimulationOptions& run)
-        : name_(std::move(name)), format_(fmt::format("nir {:016x}/{}, T = {} s, {}", fingerprint_of(network.graph()), state_version, run.dt,
+    GraphAfferent(std::string name, std::shared_ptr<const Network> network, const SimulationOptions& run)
+        : name_(std::move(name)), format_(fmt::format("nir {:016x}/{}, T = {} s, {}", fingerprint_of(network->graph()), state_version, run.dt,
                                                       run.method == Method::exact ? "exact" : "backward Euler")),
-          network_(std::move(network)), membranes_(network_.membranes()) {
+          network_(std::move(network)), membranes_(network_->membranes()) {
         for (const auto& m : membranes_) probe_names_.push_back(fmt::format("{}.v", m.node));
         for (const auto& probe : probe_names_) probes_.push_back({probe, ""});
     }
 
     std::span<const Probe> probes() const override { return probes_; }
-    State start(ChannelSlot) const override { return {format_, 0, network_.start()}; }
+    State start(ChannelSlot) const override { return {format_, 0, network_->start()}; }
 
     Result<void> respond(std::span<const double> force, State& state, ResponseBlock& response) const override {
-        TRY(check_block(name_, format_, network_.start().size(), state, force));
-        auto workspace = network_.workspace();
+        TRY(check_block(name_, format_, network_->state_size(), state, force));
+        auto workspace = network_->workspace();
         for (std::size_t k = 0; k < force.size(); ++k) {
             double spikes = 0;
-            network_.step({&force[k], 1}, {&spikes, 1}, state.values, workspace);
+            network_->step({&force[k], 1}, {&spikes, 1}, state.values, workspace);
             const auto step = state.step + static_cast<std::int64_t>(k);
             for (; spikes > 0.5; --spikes) response.spikes.push_back({step, 1.0, response.afferent_index});
             for (std::size_t p = 0; p < response.probes.size(); ++p) response.probes[p][k] = state.values[membranes_[p].at];
@@ -60,16 +64,34 @@ public:
     }
 };
 
-class GraphFactory final : public AfferentFactory {
+/// The networks of one graph by step and method, which all its copies share. May be used by several threads.
+class Networks {
     std::shared_ptr<const Graph> graph_;
+    std::mutex mutex_;
+    std::map<std::pair<double, Method>, std::shared_ptr<const Network>> made_;
 
 public:
-    explicit GraphFactory(std::shared_ptr<const Graph> graph) : graph_(std::move(graph)) {}
+    explicit Networks(std::shared_ptr<const Graph> graph) : graph_(std::move(graph)) {}
+
+    std::shared_ptr<const Network> network(const SimulationOptions& run) {
+        const std::lock_guard lock(mutex_);
+        auto& found = made_[{run.dt, run.method}];
+        if (!found) {
+            const auto update = run.method == Method::exact ? Update::exact : Update::backward_euler;
+            found = std::make_shared<const Network>(*Network::create(graph_, run.dt, update));  // cannot fail: plan() has checked the loops
+        }
+        return found;
+    }
+};
+
+class GraphFactory final : public AfferentFactory {
+    std::shared_ptr<Networks> networks_;
+
+public:
+    explicit GraphFactory(std::shared_ptr<const Graph> graph) : networks_(std::make_shared<Networks>(std::move(graph))) {}
 
     std::unique_ptr<Afferent> make(const AfferentPlan& plan, const SimulationOptions& run) const override {
-        const auto update = run.method == Method::exact ? Update::exact : Update::backward_euler;
-        auto network = Network::create(graph_, run.dt, update);  // cannot fail: plan() has checked the loops
-        return std::make_unique<GraphAfferent>(plan.name, *std::move(network), run);
+        return std::make_unique<GraphAfferent>(plan.name, networks_->network(run), run);
     }
     AfferentTraits traits(const AfferentPlan&) const override {
         return {.can_use_lanes = false, .lane_obstacles = "NIR graphs", .reason_no_noise = "a NIR graph has no membrane current in A"};
@@ -78,6 +100,19 @@ public:
     std::vector<std::pair<std::string, std::string>> labels(const AfferentPlan&) const override { return {{"format", "NIR"}}; }
 };
 
+/// The nodes whose outputs reach the output, directly or through ports of graphs within the graph.
+std::vector<std::size_t> sources_of_output(const Graph& graph) {
+    std::vector<std::size_t> reached = {graph.outputs[0]}, sources;
+    for (std::size_t k = 0; k < reached.size(); ++k)
+        for (const auto& e : graph.edges) {
+            if (e.to != reached[k]) continue;
+            const bool is_inner_port = graph.nodes[e.from].kind->form == NodeKind::Form::port && e.from != graph.inputs[0];
+            auto& found = is_inner_port ? reached : sources;
+            if (std::find(found.begin(), found.end(), e.from) == found.end()) found.push_back(e.from);
+        }
+    return sources;
+}
+
 /// A graph is an afferent if it has one input and one output, which receives the spikes of neurons and nothing else.
 Result<void> check_afferent(const Graph& graph, const std::string& path) {
     if (graph.input_count() != 1 || graph.output_count() != 1)
@@ -85,18 +120,18 @@ Result<void> check_afferent(const Graph& graph, const std::string& path) {
                                      "corpuscle.nir('{}').run(...)",
                                      graph.input_count(), graph.output_count(), path),
                          {path});
-    for (const auto& e : graph.edges)
-        if (const auto& from = graph.nodes[e.from]; e.to == graph.outputs[0] && !from.kind->fires)
+    for (const auto n : sources_of_output(graph))
+        if (const auto& from = graph.nodes[n]; !from.kind->fires)
             return bad_input(fmt::format("the output of an afferent is spikes, but '{}' ({}), which leads to the output, does not fire; "
                                          "connect IF, LIF or CubaLIF with the output, or use Python's corpuscle.nir('{}').run(...)",
                                          from.name, from.kind->type, path),
                              {path});
-    TRY(Network::create(std::make_shared<const Graph>(graph), 1, Update::exact));
-    return {};
+    const auto order = order_of(graph);
+    return order ? Result<void>() : bad_input(order.error().message, {path});
 }
 
 /// The probes of a plan with the requested names.
-std::vector<RequestedProbe> requested(const Graph& graph, std::span<const std::string> probes) {
+std::vector<RequestedProbe> requested(const Graph& graph, const std::string& path, std::span<const std::string> probes) {
     std::vector<std::string> names;
     for (const auto& node : graph.nodes)
         if (node.kind->form == NodeKind::Form::membrane && node.outputs() == 1) names.push_back(node.name + ".v");
@@ -104,7 +139,9 @@ std::vector<RequestedProbe> requested(const Graph& graph, std::span<const std::s
     std::vector<RequestedProbe> out;
     for (const auto& probe : probes) {
         const bool exists = std::find(names.begin(), names.end(), probe) != names.end();
-        out.push_back({exists ? std::optional(probe) : std::nullopt, exists ? "" : did_you_mean(probe, known)});
+        auto hint = exists ? "" : did_you_mean(probe, known);
+        if (!exists && hint.empty() && !names.empty()) hint = fmt::format("; {} has {}", path, joined(names));
+        out.push_back({exists ? std::optional(probe) : std::nullopt, std::move(hint)});
     }
     return out;
 }
@@ -124,7 +161,7 @@ Result<PlannedAfferent> GraphSpec::plan(std::span<const ParameterOverride> overr
     plan.description = "NIR graph";
     plan.min_rate = 1 / graph.shortest_time_constant();
     plan.parameters = std::make_shared<const std::vector<AfferentParameter>>();
-    auto found = requested(graph, probes);
+    auto found = requested(graph, text(), probes);
     plan.factory = std::make_shared<const GraphFactory>(std::make_shared<const Graph>(std::move(graph)));
     return PlannedAfferent{{std::move(plan), {overrides.begin(), overrides.end()}}, std::move(found)};
 }

@@ -58,7 +58,7 @@ TEST(NetlistOverridesProgram, OptionsApplyToEveryNetlistAndAnOverrideForOneTakes
     const auto ran =
         run_program(folder, "respond step -a a.cir,b.cir,sa1 --supply 0.5V --set b.cir.SUPPLY=2 --probe 'div.a,mid,i(top)' -o out");
     ASSERT_EQ(ran.status, 1) << "vdd is the node, div.a only a port";
-    EXPECT_TRUE(has(ran.err, "--probe div.a: no netlist of this run has such a node or device")) << ran.err;
+    EXPECT_TRUE(has(ran.err, "--probe div.a: no netlist or NIR graph of this run has such a quantity")) << ran.err;
     const auto good =
         run_program(folder, "respond step -a a.cir,b.cir,sa1 --supply 0.5V --set b.cir.SUPPLY=2 --probe 'VDD,i(div.top)' -o out --report");
     ASSERT_EQ(good.status, 0) << good.err;
@@ -82,7 +82,7 @@ TEST(NetlistOverridesProgram, ImpossibleOverridesAreRejectedByName) {
         EXPECT_TRUE(has(ran.err, what)) << ran.err;
     };
     expect_error("--afferent sa1 --temp 85", 2, "--temp 85: there is no netlist in this run; try --afferent sa1-circuit");
-    expect_error("--afferent sa1 --probe vf -o out", 2, "--probe vf: there is no netlist in this run");
+    expect_error("--afferent sa1 --probe vf -o out", 2, "--probe vf: there is no netlist or NIR graph in this run");
     expect_error("--afferent a.cir --probe mid", 2, "--probe mid needs --out DIR or --report");
     expect_error("--afferent a.cir,b.cir --supply 0.7V", 1, "--supply 0.7V: b.cir has no .param supply");
     expect_error("--afferent a.cir --corner ss", 1, "--corner ss: there is no corner 'ss': the netlist has no line .lib 'file' section");
@@ -90,7 +90,7 @@ TEST(NetlistOverridesProgram, ImpossibleOverridesAreRejectedByName) {
                  "--corner slow: no corner 'slow': library '../../process/tsmc180.lib' has tt, ss, ff, sf, fs, mc");
     expect_error("--afferent sa1-circut", 1, "unknown afferent 'sa1-circut'; did you mean 'sa1-circuit'?");
     expect_error("--afferent a.cir --probe mod -o out", 1,
-                 "--probe mod: no netlist of this run has such a node or device; did you mean 'mid'?");
+                 "--probe mod: no netlist or NIR graph of this run has such a quantity; did you mean 'mid'?");
     expect_error("--afferent a.cir --set a.cir.div.rtp=2k", 1, "did you mean 'div.top'?");
     expect_error("--afferent a.cir --set c.cir.div.rtop=2k", 2, "nothing here is named 'c.cir.div'");
     expect_error("--afferent a.cir --mismatch half", 1, "--mismatch half: 'half' is not a seed");

@@ -85,7 +85,7 @@ TEST(EveryFormat, ReportsAMissingOrEmptyFile) {
         EXPECT_NE(test::load_error(folder.write(name, "")), "read") << format.name;
         std::filesystem::remove(folder / name);
         std::filesystem::create_directory(folder / name);
-        EXPECT_EQ(test::load_error(folder / name), name + ": this is a directory, not a recording");
+        EXPECT_EQ(test::load_error(folder / name), name + ": this is a directory, not a file");
     }
 }
 

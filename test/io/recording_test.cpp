@@ -132,7 +132,7 @@ TEST(Recording, ErrorsNameFileLineColumnAndTheExpectedValue) {
               "x.csv: no time column 'z'; did you mean 't'?; give a name, a number or 'none' (columns: t, F)");
     EXPECT_EQ(error_text(folder, "t,F\n0,1\n", {.unit = "N", .scale = 2}),
               "--unit and --scale exclude each other: both convert the values to newtons");
-    EXPECT_EQ(try_load_recording(folder.path()).error().text(), folder.path() + ": this is a directory, not a recording");
+    EXPECT_EQ(try_load_recording(folder.path()).error().text(), folder.path() + ": this is a directory, not a file");
     EXPECT_EQ(try_load_recording(folder / "none.csv").error().text(),
               (folder / "none.csv") + ": cannot be opened: No such file or directory");
 }

@@ -16,9 +16,9 @@ class NirFile {
 public:
     NirFile() { text("/version", "1.0"), text("/node/type", "NIRGraph"); }
 
-    void text(const std::string& path, const std::string& value) { arrays_.push_back({path, {}, true, {}, {value}}); }
+    void text(const std::string& path, const std::string& value) { arrays_.push_back({path, {}, true, false, {}, {value}}); }
     void numbers(const std::string& path, std::vector<std::uint64_t> shape, std::vector<double> values) {
-        arrays_.push_back({path, std::move(shape), false, std::move(values), {}});
+        arrays_.push_back({path, std::move(shape), false, false, std::move(values), {}});
     }
     void node(const std::string& name, const std::string& type) { text("/node/nodes/" + name + "/type", type); }
     /// A parameter of one dimension.
@@ -39,7 +39,7 @@ public:
 
     std::vector<Hdf5Array> arrays() const {
         auto all = arrays_;
-        all.push_back({"/node/edges", {edges_.size() / 2, 2}, true, {}, edges_});
+        all.push_back({"/node/edges", {edges_.size() / 2, 2}, true, false, {}, edges_});
         return all;
     }
     /// The datasets without the one at this path.

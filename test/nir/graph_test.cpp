@@ -58,11 +58,19 @@ TEST(NirGraph, AGraphWithinTheGraphBecomesPartOfIt) {
     file.numbers(inner + "gain.1/scale", {1}, {2});
     file.chain({"in", "inner", "out"});
     auto arrays = file.arrays();
-    arrays.push_back({"/node/nodes/inner/edges", {2, 2}, true, {}, {"a", "gain.1", "gain.1", "b"}});
+    arrays.push_back({"/node/nodes/inner/edges", {2, 2}, true, false, {}, {"a", "gain.1", "gain.1", "b"}});
     const auto graph = test::value_or_throw(nir::graph_of(arrays, "x.nir"));
     EXPECT_EQ(graph.nodes.size(), 5U);
     EXPECT_EQ(graph.edges.size(), 4U);
     EXPECT_EQ(graph.inputs.size(), 1U) << "the ports of the inner graph are not ports of the whole";
+    auto same = arrays;
+    same.push_back({"/node/nodes/inner.a/type", {}, true, false, {}, {"Input"}});
+    same.push_back({"/node/nodes/inner.a/shape", {1}, false, false, {1}, {}});
+    EXPECT_EQ(refused(same), "x.nir: two nodes have the name 'inner.a', which a graph within the graph gives to one");
+    auto more = arrays;
+    more.push_back({"/node/nodes/inner/nodes/a2/type", {}, true, false, {}, {"Input"}});
+    more.push_back({"/node/nodes/inner/nodes/a2/shape", {1}, false, false, {1}, {}});
+    EXPECT_EQ(refused(more), "x.nir: the graph 'inner' within the graph has 2 nodes of the type Input, but one is required");
     arrays.back().texts[3] = "c";
     EXPECT_EQ(refused(arrays), "x.nir: /node/nodes/inner/edges: edge 1 names the node 'c', which does not exist; did you mean 'a'?");
 }
@@ -84,7 +92,7 @@ TEST(NirGraph, EachPartThatIsMissingIsNamed) {
 TEST(NirGraph, ValuesShapesAndTypesAreChecked) {
     const auto with = [](const std::string& parameter, std::vector<std::uint64_t> shape, std::vector<double> values) {
         auto arrays = lif().without("/node/nodes/lif/" + parameter);
-        arrays.push_back({"/node/nodes/lif/" + parameter, std::move(shape), false, std::move(values), {}});
+        arrays.push_back({"/node/nodes/lif/" + parameter, std::move(shape), false, false, std::move(values), {}});
         return refused(arrays);
     };
     EXPECT_EQ(with("tau", {1}, {0}), "x.nir: node 'lif' (LIF): tau[0] = 0, but a number above 0 is required");

@@ -72,6 +72,14 @@ TEST(NirNetwork, AMembraneBehindASynapseFollowsItsClosedForm) {
     }
 }
 
+TEST(NirNetwork, AMembraneThatIsFarQuickerThanTheStepFollowsItsSynapse) {
+    const auto file = single("CubaLI", {{"tau_syn", 0.1}, {"tau_mem", 1e-3}, {"r", 1}, {"v_leak", 0}, {"w_in", 1}});
+    for (const double dt : {1.0, 0.5, 2e-3}) {
+        const double v = run(network_of(file, dt), {1}).back(), es = std::exp(-dt / 0.1), em = std::exp(-dt / 1e-3);
+        EXPECT_NEAR(v, 1 - em - 0.1 / (0.1 - 1e-3) * (es - em), 1e-12) << dt;
+    }
+}
+
 TEST(NirNetwork, EulerBehindASynapseUsesTheCurrentAtTheEndOfTheStep) {
     const auto file = single("CubaLI", {{"tau_syn", 0.005}, {"tau_mem", 0.01}, {"r", 2}, {"v_leak", 1}, {"w_in", 3}});
     const std::vector<double> inputs = {1, 0, 1, 1, 0, 0};
@@ -122,7 +130,8 @@ TEST(NirNetwork, ALoopWithoutAMembraneIsRefused) {
     file.matrix("a", 1, {1}), file.matrix("b", 1, {1}), file.chain({"in", "a", "b", "a"}), file.edge("b", "out");
     const auto network = Network::create(std::make_shared<const nir::Graph>(value_or_throw(nir::graph_of(file.arrays(), "x.nir"))), 1, Update::exact);
     ASSERT_FALSE(network);
-    EXPECT_NE(network.error().message.find("loop that has no node with a membrane"), std::string::npos);
+    EXPECT_EQ(network.error().message.find("node 'out'"), std::string::npos) << "it lies behind the loop";
+    EXPECT_NE(network.error().message.find("lies in a loop that has no node with a membrane"), std::string::npos);
 }
 
 TEST(NirNetwork, ForwardEulerRefusesAStepWithWhichItDiverges) {

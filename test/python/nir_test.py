@@ -166,6 +166,8 @@ class Graphs(NirTest):
         np.testing.assert_array_equal(graph.nodes["w"].parameters["weight"], np.arange(6).reshape(3, 2))
         self.assertEqual(graph.edges, [("in", "w"), ("w", "out")])
         np.testing.assert_array_equal(graph.run([[1, 2], [0, 0]], 1000), [[3, 9, 15], [1, 1, 1]])
+        np.testing.assert_array_equal(graph.run(np.array([[True, False]]), 1000), [[1, 3, 5]])
+        self.assertEqual((graph.input_nodes, graph.output_nodes), (["in"], ["out"]))
         np.testing.assert_array_equal(copy.copy(graph).run([[1, 2]], 1000), [[3, 9, 15]])
         self.assertIn("w: Affine, [2] to [3]", repr(graph))
         self.assertIn("Affine", graph._repr_html_())
@@ -180,6 +182,16 @@ class Graphs(NirTest):
         self.assertEqual(counts.shape, (200, 2))
         for k in (0, 1):
             np.testing.assert_array_equal(counts[:, k], np.histogram(response.train(k), np.arange(201) / 200)[0])
+        write(self.path, {"in": ("Input", {"shape": [1]}), "out": ("Output", {"shape": [1]})}, [("in", "out")])
+        once = corpuscle.nir(self.path)
+        every_step = self.path + ".spikes.nir"
+        self.write_lif(every_step, v_threshold=[-1.0], v_leak=[0.0])
+        for rate in (3e3, 10e3, 44.1e3):  # spikes on the grid of the samples stay in their steps
+            spikes = corpuscle.respond(np.zeros(5000), rate, every_step)
+            np.testing.assert_array_equal(once.run(spikes, rate=rate), np.ones((5000, 1)))
+        with self.assertRaisesRegex(corpuscle.InputError, "bins are too many"):
+            once.run(spikes, rate=1e12)
+        write(self.path, {"in": ("Input", {"shape": [2]}), "out": ("Output", {"shape": [2]})}, [("in", "out")])
         with self.assertRaisesRegex(corpuscle.InputError, "the response has 1 afferent; .* has 2 inputs"):
             corpuscle.nir(self.path).run(corpuscle.respond(press(), 1000, "sa1"), rate=200)
 
@@ -207,6 +219,53 @@ class Graphs(NirTest):
         self.write_lif()
         with self.assertRaises(KeyboardInterrupt):
             corpuscle.nir(self.path).run(np.zeros(50_000_000), 1000, progress=lambda fraction: False)
+
+    def test_files_of_other_writers_are_read(self):
+        """Scalars, links, blanks and dots in names, a graph within the graph before the output, metadata of any kind, other element types."""
+        lif = dict(tau=0.01, r=np.float32(1), v_leak=0.0, v_threshold=0.05)
+        write(self.path, {"in ": ("Input", {"shape": np.zeros(0, np.int64)}), "n.m": ("LIF", lif), "out": ("Output", {"shape": np.zeros(0, np.int64)})},
+              [("in ", "n.m"), ("n.m", "out")])
+        self.assertEqual(corpuscle.nir(self.path).run(np.full(100, 3.0), 1e3).sum(), 100)
+        with h5py.File(self.path, "a") as file:
+            group = file["node/nodes"]
+            group["n.m/metadata/empty"] = h5py.Empty("f")
+            group.create_group("g/nodes")
+            group["g/type"], group["g/edges"] = "NIRGraph", np.array([["a", "k"], ["k", "b"]], dtype=h5py.string_dtype())
+            for name, kind in (("a", "Input"), ("b", "Output")):
+                group[f"g/nodes/{name}/type"], group[f"g/nodes/{name}/shape"] = kind, [1]
+            group["g/nodes/k"] = h5py.SoftLink("/node/nodes/n.m")
+            del file["node/edges"]
+            file["node/edges"] = np.array([["in ", "n.m"], ["n.m", "g"], ["g", "out"]], dtype=h5py.string_dtype())
+            group["n.m/v_reset"] = group["n.m/v_leak"]  # a hard link
+        self.assertEqual(len(corpuscle.nir(self.path).nodes), 6)
+        self.assertEqual(len(corpuscle.respond(np.full(100, 200.0), 1e3, self.path)), 100)  # the inner neuron fires last
+        for name, values, message in (("tau", np.array([True]), "'tau' is not a dataset of numbers"), ("tau", np.array([1j]), "'tau' is not a dataset of numbers"),
+                                      ("noise", [1.0], "unknown parameter 'noise'")):
+            self.write_lif()
+            with h5py.File(self.path, "a") as file:
+                if name in file["node/nodes/lif"]:
+                    del file[f"node/nodes/lif/{name}"]
+                file[f"node/nodes/lif/{name}"] = values
+            with self.assertRaisesRegex(corpuscle.InputError, message):
+                corpuscle.nir(self.path)
+        with h5py.File(self.path, "a") as file:
+            del file["node/nodes/lif/noise"], file["node/nodes/lif/tau"]
+            file["node/nodes/lif"].create_dataset("tau", data=[0.01], chunks=(1,), compression="lzf")
+        with self.assertRaisesRegex(corpuscle.InputError, "compressed by filter 32000 .lzf., which is not available here"):
+            corpuscle.nir(self.path)
+
+    def test_what_is_no_file_of_this_kind_is_named(self):
+        open(self.path, "w").close()
+        for path, message in ((self.path, "this file is empty"), (os.path.dirname(self.path), "this is a directory"), ("/dev/null", "not a regular file"),
+                              (self.path + "x", "No such file")):
+            with self.assertRaisesRegex(corpuscle.InputError, message):
+                corpuscle.nir(path)
+
+    def test_a_diverging_network_is_an_error(self):
+        write(self.path, {"in": ("Input", {"shape": [1]}), "i": ("I", {"r": [1.0]}), "w": ("Linear", {"weight": [[1e6]]}), "out": ("Output", {"shape": [1]})},
+              [("in", "i"), ("i", "w"), ("w", "i"), ("i", "out")])
+        with self.assertRaisesRegex(corpuscle.InputError, "output 0 of step .* is inf: the network diverges"):
+            corpuscle.nir(self.path).run(np.ones(200), 1.0)
 
     def test_an_afferent_needs_one_input_and_spikes_and_has_no_parameters(self):
         self.write_lif()

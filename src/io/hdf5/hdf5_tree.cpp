@@ -20,12 +20,12 @@ bool has_elements_of_shape(const Hdf5Array& array) {
 Result<std::vector<Hdf5Array>> decode_tree(const std::string& m, const std::string& path) {
     auto arrays = TRY(decode_response<std::vector<Hdf5Array>>(m, path));
     for (const auto& array : arrays)
-        if (!has_elements_of_shape(array)) return broken_response(path);
+        if (!array.is_other && !has_elements_of_shape(array)) return broken_response(path);
     return arrays;
 }
 
-Result<std::vector<Hdf5Array>> read_hdf5_tree(const std::string& path) {
-    return decode_tree(TRY(hdf5_response(path, HelperProcess::tree_protocol, encode_request(TreeRequest{path}))), path);
+Result<std::vector<Hdf5Array>> read_hdf5_tree(const std::string& path, const std::string& skipped) {
+    return decode_tree(TRY(hdf5_response(path, HelperProcess::tree_protocol, encode_request(TreeRequest{path, skipped}))), path);
 }
 
 }  // namespace corpuscle

@@ -109,7 +109,7 @@ public:
 
 Result<std::unique_ptr<SeekableBytes>> open_bytes(const std::string& path) {
     std::error_code status;
-    if (std::filesystem::is_directory(path, status)) return bad_input("this is a directory, not a recording", {path});
+    if (std::filesystem::is_directory(path, status)) return bad_input("this is a directory, not a file", {path});
     auto file = open_input(path);
     if (!file) return bad_input(fmt::format("cannot be opened: {}", std::strerror(errno)), {path});
     const auto size = std::filesystem::file_size(path, status);

@@ -212,7 +212,7 @@ Result<void> TextInput::rewind() {
 
 Result<std::unique_ptr<TextInput>> open_text_input(const std::string& path) {
     std::error_code status;
-    if (std::filesystem::is_directory(path, status)) return bad_input("this is a directory, not a recording", {path});
+    if (std::filesystem::is_directory(path, status)) return bad_input("this is a directory, not a file", {path});
     auto plain = std::make_unique<PlainText>(path);
     if (!plain->is_open()) return bad_input(fmt::format("cannot be opened: {}", std::strerror(errno)), {path});
     std::unique_ptr<TextInput> input = std::move(plain);

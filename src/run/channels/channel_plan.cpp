@@ -13,10 +13,10 @@ namespace {
 Result<void> check_probes(std::span<const std::string> names, std::span<const std::vector<RequestedProbe>> found) {
     for (std::size_t k = 0; k < names.size(); ++k) {
         if (found.empty())
-            return bad_usage(fmt::format("--probe {}: there is no netlist in this run; try --afferent sa1-circuit", names[k]));
+            return bad_usage(fmt::format("--probe {}: there is no netlist or NIR graph in this run; try --afferent sa1-circuit", names[k]));
         if (std::none_of(found.begin(), found.end(), [&](const auto& of_netlist) { return of_netlist[k].name.has_value(); }))
             return bad_input(
-                fmt::format("--probe {}: no netlist of this run has such a node or device{}", names[k], found.front()[k].hint));
+                fmt::format("--probe {}: no netlist or NIR graph of this run has such a quantity{}", names[k], found.front()[k].hint));
     }
     return {};
 }

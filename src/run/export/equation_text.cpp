@@ -128,6 +128,8 @@ std::string ExportedAfferent::initial(const StateEquation& state) const {
 }
 
 Result<ExportedAfferent> exported_afferent(const ExportRequest& request, const ExportTarget& target) {
+    if (nir::names_graph(request.subject))
+        return bad_input(fmt::format("{}: a NIR graph is not exported; Python's nir library and the simulators of NIR read it", request.subject));
     auto planned = TRY(plan_any_afferent(request.subject, request.settings));
     const std::string name = planned.result.name;
     TRY(check_all_used(planned.unused, std::array<std::string_view, 1>{name}));

@@ -1,10 +1,11 @@
 #include "run/export/nir_graph.hpp"
 
 #include <fmt/format.h>
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 
-#include "run/export/linear_form.hpp"
+#include "run/export/affine_form.hpp"
 
 namespace corpuscle {
 namespace {
@@ -31,7 +32,7 @@ public:
     void connect(const std::string& from, const std::string& to) { graph_.edges.push_back({nodes_.at(from), nodes_.at(to)}); }
 
     /// Adds `form` to the input of each of the `width` elements of node `to`. A constant goes with the first signal, of which there is one.
-    void connect(const LinearForm& form, const std::string& to, std::size_t width) {
+    void connect(const AffineForm& form, const std::string& to, std::size_t width) {
         double constant = form.constant;
         for (const auto& [signal, factor] : form.factors) {
             if (factor == 1 && constant == 0 && width == 1) {
@@ -53,16 +54,16 @@ class NirExporter {
     const ExportedAfferent& afferent_;
     const ReceptorEquations& receptor_;
     const NeuronEquations& neuron_;
-    LinearForms forms_;
+    AffineForms forms_;
     GraphBuilder graph_;
-    std::map<std::string, LinearForm, std::less<>> slopes_;  // of the receptor's states
+    std::map<std::string, AffineForm, std::less<>> slopes_;  // of the receptor's states
     std::map<std::string, double, std::less<>> bounds_;      // largest magnitude of a signal
     std::vector<Error> warnings_;
 
     Error refused(const std::string& reason) const {
         return bad_input(fmt::format("{}: cannot be exported to NIR: {}", afferent_.plan.name, reason));
     }
-    Result<LinearForm> read(std::string_view quantity, std::string_view expression) {
+    Result<AffineForm> read(std::string_view quantity, std::string_view expression) {
         auto form = forms_.read(expression);
         if (!form) return refused(fmt::format("{} = {}: {}, for which NIR has no node", quantity, expression, form.error().message));
         return form;
@@ -73,14 +74,14 @@ class NirExporter {
         return form.constant;
     }
 
-    double bound_of(const LinearForm& form) const {
+    double bound_of(const AffineForm& form) const {
         double bound = std::abs(form.constant);
         for (const auto& [signal, factor] : form.factors) bound += std::abs(factor) * bounds_.at(signal);
         return bound;
     }
 
     /// Adds the nodes of all signals of a form that the graph does not have yet.
-    Result<void> add_signals(const LinearForm& form) {
+    Result<void> add_signals(const AffineForm& form) {
         for (const auto& [signal, factor] : form.factors) {
             if (graph_.has(signal)) continue;
             if (signal == "dF") return refused("it uses the slope of the force, for which NIR has no node");
@@ -106,7 +107,7 @@ class NirExporter {
     /// A positive part as a sum of steps: each threshold that its input exceeds adds the height of a step. The levels are a geometric
     /// series, so that the relative error is the same at all of them.
     Result<void> add_staircase(const std::string& signal) {
-        const auto& all = forms_.positive_parts();
+        const auto& all = forms_.rectifiers();
         const auto& part = *std::find_if(all.begin(), all.end(), [&](const auto& p) { return p.name == signal; });
         auto input = part.input;
         const auto text = part.text;
@@ -144,7 +145,7 @@ class NirExporter {
     }
 
     /// Adds the neuron that this current (A) drives.
-    Result<void> add_neuron(const std::string& name, LinearForm current) {
+    Result<void> add_neuron(const std::string& name, AffineForm current) {
         const auto& u = neuron_.states[0];
         const auto slope = TRY(read(fmt::format("d{}/dt", u.name), u.slope));
         const double threshold = TRY(number("threshold", neuron_.threshold)), reset = TRY(number(u.name, neuron_.at_spike[0].expression)),
@@ -160,7 +161,7 @@ class NirExporter {
         } else {
             current.constant += slope.constant / slope.factor("I");
             if (!u.minimum.empty()) {
-                current = forms_.positive_part(std::move(current), "the net current, max(I - leak, 0),");
+                current = forms_.rectify(std::move(current), "the net current, max(I - leak, 0),");
                 warnings_.push_back(bad_input(fmt::format(
                     "the membrane of an IF does not leak in a pause, as {} does down to {}: the first spike after a pause may come earlier",
                     u.name, u.minimum)));
@@ -186,7 +187,7 @@ public:
         forms_.define_signal(neuron_.states[0].name);
         for (const auto& s : receptor_.states) forms_.define_signal(s.name);
         for (const auto& s : receptor_.states) slopes_[std::string(s.name)] = TRY(read(fmt::format("d{}/dt", s.name), s.slope));
-        std::map<std::string, LinearForm, std::less<>> definitions;
+        std::map<std::string, AffineForm, std::less<>> definitions;
         for (const auto& d : receptor_.definitions) {
             definitions[std::string(d.name)] = TRY(read(d.name, d.expression));
             if (d.name != "I") forms_.define(d.name, definitions[std::string(d.name)]);  // in the neuron I is a signal

@@ -24,7 +24,8 @@ public:
         for (std::size_t u = 0; u < population.size(); ++u)
             for (const auto& p : population.probes(u))
                 header += "," + quote_csv_field(
-                                    fmt::format("{}.{}.{} [{}]", population.afferent_name(u), population.channel_name(u), p.name, p.unit));
+                                    fmt::format("{}.{}.{}{}", population.afferent_name(u), population.channel_name(u), p.name,
+                                                p.unit.empty() ? "" : fmt::format(" [{}]", p.unit)));
         return files_.back().write(header + "\n");
     }
 

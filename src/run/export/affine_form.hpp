@@ -12,7 +12,7 @@
 namespace corpuscle {
 
 /// A sum of signals with factors, and a constant.
-struct LinearForm {
+struct AffineForm {
     double constant = 0;
     std::map<std::string, double, std::less<>> factors{};  ///< of signals, by name; none is 0
 
@@ -21,32 +21,32 @@ struct LinearForm {
         const auto found = factors.find(signal);
         return found == factors.end() ? 0 : found->second;
     }
-    LinearForm& operator+=(const LinearForm&);
-    LinearForm& operator*=(double);
+    AffineForm& operator+=(const AffineForm&);
+    AffineForm& operator*=(double);
 };
 
 /// A signal that is max(input, 0).
-struct PositivePart {
-    std::string name, text;  ///< "plus_1", "max(K_B*(F - y_B), 0)"
-    LinearForm input;
+struct Rectifier {
+    std::string name, text;  ///< "rectifier_1", "max(K_B*(F - y_B), 0)"
+    AffineForm input;
 };
 
 /// Reads expressions.
-class LinearForms {
-    std::map<std::string, LinearForm, std::less<>> names_;
-    std::vector<PositivePart> parts_;
-    friend class LinearFormParser;
+class AffineForms {
+    std::map<std::string, AffineForm, std::less<>> names_;
+    std::vector<Rectifier> rectifiers_;
+    friend class AffineFormParser;
 
 public:
-    void define(std::string_view name, LinearForm form) { names_[std::string(name)] = std::move(form); }
+    void define(std::string_view name, AffineForm form) { names_[std::string(name)] = std::move(form); }
     void define_number(std::string_view name, double value) { define(name, {.constant = value}); }
     void define_signal(std::string_view name) { define(name, {.factors = {{std::string(name), 1}}}); }
     /// The form of an expression. max, min and abs of signals become positive parts. Returns an error that states why an expression has no
     /// form: a product of signals, or another function.
-    Result<LinearForm> read(std::string_view expression);
+    Result<AffineForm> read(std::string_view expression);
     /// The signal that is the positive part of a form. `text`: its name for people.
-    LinearForm positive_part(LinearForm, std::string text);
-    const std::vector<PositivePart>& positive_parts() const { return parts_; }
+    AffineForm rectify(AffineForm, std::string text);
+    const std::vector<Rectifier>& rectifiers() const { return rectifiers_; }
 };
 
 }  // namespace corpuscle

@@ -1,20 +1,21 @@
-#include "run/export/linear_form.hpp"
+#include "run/export/affine_form.hpp"
 
 #include <fmt/format.h>
+#include <algorithm>
 #include <cctype>
 #include <cmath>
 #include <cstdlib>
 
 namespace corpuscle {
 
-LinearForm& LinearForm::operator+=(const LinearForm& other) {
+AffineForm& AffineForm::operator+=(const AffineForm& other) {
     constant += other.constant;
     for (const auto& [signal, factor] : other.factors)
         if ((factors[signal] += factor) == 0) factors.erase(signal);
     return *this;
 }
 
-LinearForm& LinearForm::operator*=(double x) {
+AffineForm& AffineForm::operator*=(double x) {
     constant *= x;
     for (auto& [signal, factor] : factors) factor *= x;
     if (x == 0) factors.clear();
@@ -22,8 +23,8 @@ LinearForm& LinearForm::operator*=(double x) {
 }
 
 /// A parser by recursive descent of one expression.
-class LinearFormParser {
-    LinearForms& forms_;
+class AffineFormParser {
+    AffineForms& forms_;
     std::string_view text_;  // the rest of the expression
 
     void skip_spaces() {
@@ -35,10 +36,10 @@ class LinearFormParser {
         text_.remove_prefix(1);
         return true;
     }
-    static LinearForm times(LinearForm form, double x) { return form *= x; }
+    static AffineForm times(AffineForm form, double x) { return form *= x; }
 
-    Result<LinearForm> sum() {
-        LinearForm total = TRY(product());
+    Result<AffineForm> sum() {
+        AffineForm total = TRY(product());
         for (;;) {
             if (take('+'))
                 total += TRY(product());
@@ -49,8 +50,8 @@ class LinearFormParser {
         }
     }
 
-    Result<LinearForm> product() {
-        LinearForm value = TRY(factor());
+    Result<AffineForm> product() {
+        AffineForm value = TRY(factor());
         for (;;) {
             const bool divides = !take('*');
             if (divides && !take('/')) return value;
@@ -64,7 +65,7 @@ class LinearFormParser {
         }
     }
 
-    Result<LinearForm> factor() {
+    Result<AffineForm> factor() {
         if (take('-')) return times(TRY(factor()), -1);
         if (take('(')) {
             auto inner = TRY(sum());
@@ -76,15 +77,15 @@ class LinearFormParser {
         return name_or_call();
     }
 
-    Result<LinearForm> number() {
+    Result<AffineForm> number() {
         const std::string copy(text_);
         char* end = nullptr;
         const double value = std::strtod(copy.c_str(), &end);
         text_.remove_prefix(static_cast<std::size_t>(end - copy.c_str()));
-        return LinearForm{.constant = value};
+        return AffineForm{.constant = value};
     }
 
-    Result<LinearForm> name_or_call() {
+    Result<AffineForm> name_or_call() {
         std::size_t end = 0;
         while (end < text_.size() && (std::isalnum(static_cast<unsigned char>(text_[end])) != 0 || text_[end] == '_')) ++end;
         const auto name = text_.substr(0, end), before = text_;
@@ -95,32 +96,32 @@ class LinearFormParser {
         return found->second;
     }
 
-    Result<LinearForm> call(std::string_view function, std::string_view before) {
-        std::vector<LinearForm> arguments;
+    Result<AffineForm> call(std::string_view function, std::string_view before) {
+        std::vector<AffineForm> arguments;
         do arguments.push_back(TRY(sum()));
         while (take(','));
         if (!take(')')) return bad_input("a parenthesis is missing");
         const std::string typed(before.substr(0, before.size() - text_.size()));
         if (function == "abs" && arguments.size() == 1) {
-            auto value = forms_.positive_part(arguments[0], fmt::format("the positive part of {}", typed));
-            return value += forms_.positive_part(times(arguments[0], -1), fmt::format("the negative part of {}", typed));
+            auto value = forms_.rectify(arguments[0], fmt::format("the positive part of {}", typed));
+            return value += forms_.rectify(times(arguments[0], -1), fmt::format("the negative part of {}", typed));
         }
         if ((function == "max" || function == "min") && arguments.size() == 2) {  // max(a, b) = b + max(a - b, 0), min: of -a and -b
             const double sign = function == "max" ? 1 : -1;
             auto difference = times(arguments[0], sign);
             difference += times(arguments[1], -sign);
-            auto value = times(forms_.positive_part(std::move(difference), typed), sign);
+            auto value = times(forms_.rectify(std::move(difference), typed), sign);
             return value += arguments[1];
         }
         if (function == "sqrt" && arguments.size() == 1 && arguments[0].is_constant())
-            return LinearForm{.constant = std::sqrt(arguments[0].constant)};
+            return AffineForm{.constant = std::sqrt(arguments[0].constant)};
         return bad_input(fmt::format("it uses the function {}", function));
     }
 
 public:
-    LinearFormParser(LinearForms& forms, std::string_view text) : forms_(forms), text_(text) {}
+    AffineFormParser(AffineForms& forms, std::string_view text) : forms_(forms), text_(text) {}
 
-    Result<LinearForm> read() {
+    Result<AffineForm> read() {
         auto form = TRY(sum());
         skip_spaces();
         if (!text_.empty()) return bad_input(fmt::format("it has '{}'", text_));
@@ -128,12 +129,12 @@ public:
     }
 };
 
-Result<LinearForm> LinearForms::read(std::string_view expression) { return LinearFormParser(*this, expression).read(); }
+Result<AffineForm> AffineForms::read(std::string_view expression) { return AffineFormParser(*this, expression).read(); }
 
-LinearForm LinearForms::positive_part(LinearForm input, std::string text) {
+AffineForm AffineForms::rectify(AffineForm input, std::string text) {
     if (input.is_constant()) return {.constant = std::max(input.constant, 0.0)};
-    const auto name = fmt::format("plus_{}", parts_.size() + 1);
-    parts_.push_back({name, std::move(text), std::move(input)});
+    const auto name = fmt::format("rectifier_{}", rectifiers_.size() + 1);
+    rectifiers_.push_back({name, std::move(text), std::move(input)});
     return {.factors = {{name, 1}}};
 }
 
