@@ -1,32 +1,49 @@
-// The working range of the chips: supply from 0.5 to 0.9 V, -55 to 125 C, five process corners, each under the thesis's press stimulus. It
-// also finds the limiting mechanism, whether high-threshold switches would help, and which design ranges are exceeded.
+// The working range of the chips: 0.5 to 0.9 V by -55 to 125 C in five process corners, each under the thesis's press stimulus. It also
+// finds the limiting mechanism, and the range with leak mirror and switches of the standard threshold.
 
 #include <fmt/format.h>
 #include <algorithm>
+#include <array>
 #include <cmath>
-#include <deque>
-#include <mutex>
 
-#include "core/thread_pool.hpp"
 #include "reproduction/claims/studies.hpp"
+#include "reproduction/thesis/chip_conditions.hpp"
 #include "reproduction/thesis/press.hpp"
 
 namespace corpuscle::studies::range {
 
-constexpr const char *chips[] = {"sa1-circuit", "fa1-circuit"}, *corner_names[] = {"tt", "ss", "ff", "sf", "fs"};
-constexpr double nominal_supply = 0.7, nominal_temperature = 27;  // V, C
-// values of the axes, in order of their distance from the nominal point
-const std::vector<double> lower_supplies = {0.65, 0.6, 0.55, 0.5}, higher_supplies = {0.75, 0.8, 0.85, 0.9},
-                          lower_temperatures = {0, -25, -55}, higher_temperatures = {50, 75, 100, 125};
+constexpr const char *chips[] = {"sa1-circuit", "fa1-circuit"}, *corners[] = {"tt", "ss", "ff", "sf", "fs"};
+constexpr double supplies[] = {0.5, 0.55, 0.6, 0.65, 0.7, 0.75, 0.8, 0.85, 0.9},           // V
+    temperatures[] = {-55, -40, -20, 0, 27, 50, 75, 85, 100, 125};                         // C
+constexpr double nominal_supply = 0.7, nominal_temperature = 27;                           // V, C
+constexpr double min_supply = 0.6, max_supply = 0.8, min_celsius = -20, max_celsius = 85;  // the range that is counted, V and C
+constexpr std::array phases = {press::rest, press::protraction, press::plateau, press::retraction, press::after};
 
-/// One chip under the press stimulus at one operating condition.
-struct Condition {
-    double supply = nominal_supply, celsius = nominal_temperature;
-    bool high_threshold = false;  // with high-threshold switches (hv_switches=1)
-    TrialResult response{};
-    std::string failed{};  // error text if it did not converge, else ""
-    bool works = false;    // is_working
-};
+using Counts = std::array<double, phases.size()>;
+
+Counts counts_of(const std::vector<double>& train) {
+    Counts out;
+    std::transform(phases.begin(), phases.end(), out.begin(), [&](const TimeWindow& phase) { return press::spike_count(train, phase); });
+    return out;
+}
+
+/// The largest difference of a chip's number of spikes from the model's in a phase: a quarter, or one spike; none at rest.
+double allowed_difference(std::size_t phase, double model) { return phase == 0 ? 0 : std::max(1.0, std::floor(model / 4)); }
+
+bool is_within_limits(const Counts& chip, const Counts& model) {
+    for (std::size_t k = 0; k < phases.size(); ++k)
+        if (std::abs(chip[k] - model[k]) > allowed_difference(k, model[k])) return false;
+    return true;
+}
+
+/// "4 to 6 / 7 to 11 / 0 to 2 / 0 to 1": the limits of each phase after the rest.
+std::string limits_text(const Counts& model) {
+    std::string out;
+    for (std::size_t k = 1; k < phases.size(); ++k)
+        out += fmt::format("{}{:g} to {:g}", out.empty() ? "" : " / ", std::max(0.0, model[k] - allowed_difference(k, model[k])),
+                           model[k] + allowed_difference(k, model[k]));
+    return out;
+}
 
 /// True if the chip is silent at rest and fires as designed. SA-I: while the force rises and at the end of the plateau, not after
 /// retraction. FA-I: in both ramps, not at the end of the plateau.
@@ -36,158 +53,196 @@ bool is_working(std::string_view chip, const std::vector<double>& t) {
     return press::spike_count(t, press::plateau_end) == 0 && press::spike_count(t, press::retraction) > 0;
 }
 
-/// Spike counts: "protraction / plateau / retraction / after".
-std::string phase_counts(const std::vector<double>& t) {
-    return fmt::format("{:g} / {:g} / {:g} / {:g}", press::spike_count(t, press::protraction), press::spike_count(t, press::plateau),
-                       press::spike_count(t, press::retraction), press::spike_count(t, press::after));
-}
-
-/// How far along an axis the chip works.
-struct Limit {
-    double last = Claim::none;  ///< V or C: last value at which it works; NaN: it does not work at the nominal point
-    std::size_t count = 0;      ///< number of values of the axis at which it works
-    std::string beyond = "works in the whole range tried";  ///< spike counts and reason of the failure at the next value
+/// A chip at one condition, judged.
+struct Trial {
+    ConditionResponse response;
+    Counts counts;
+    bool works = false, within_limits = false;
 };
 
-/// Simulates a chip in a process corner under several conditions. Each condition is simulated once.
-class ChipExplorer {
-    const char *chip_, *corner_;
-    std::deque<Condition> conditions_;  // a deque, so that references returned by at() stay valid
+/// All trials of one chip.
+struct ChipRange {
+    std::string chip;
+    Counts model;  // spikes of its model
+    std::vector<Trial> trials;
 
-    std::string setting(const char* parameter, auto value) const { return fmt::format("{}.{}={}", chip_, parameter, value); }
-    Condition run(Condition condition) const {
-        auto response = run_trial({chip_,
-                                   "press",
-                                   {setting("supply", condition.supply), setting("temp", condition.celsius), setting("corner", corner_),
-                                    setting("hv_switches", condition.high_threshold ? 1 : 0)}});
-        if (!response) return condition.failed = response.error().text(), condition;
-        condition.response = std::move(*response), condition.works = is_working(chip_, condition.response.spikes);
-        return condition;
-    }
-    /// The reason why the chip does not work under a condition, from its warnings or from another trial with high-threshold switches.
-    std::string reason(const Condition& condition) {
-        if (!condition.failed.empty()) return condition.failed;
-        std::string out;
-        for (const auto& warning : condition.response.range_warnings) out += (out.empty() ? "" : "; ") + warning;
-        if (out.empty() && !condition.high_threshold && at(condition.supply, condition.celsius, true).works)
-            return "switches that are off leak as much as the membrane's own leak; it works with hv_switches=1";
-        return out.empty() ? "the chip's currents are too small or too large, but no voltage or current leaves its range" : out;
-    }
-
-public:
-    ChipExplorer(const char* chip, const char* corner) : chip_(chip), corner_(corner) {}
-    std::string name() const { return fmt::format("{}, {}", chip_, corner_); }
-    const std::deque<Condition>& conditions() const { return conditions_; }
-
-    const Condition& at(double supply, double celsius, bool high_threshold = false) {
-        for (const auto& s : conditions_)
-            if (s.supply == supply && s.celsius == celsius && s.high_threshold == high_threshold) return s;
-        conditions_.push_back(run({supply, celsius, high_threshold}));
-        return conditions_.back();
-    }
-    /// The limit of the working range along an axis, by bisection. `run_at` simulates the condition at a value of the axis. `end_first`:
-    /// tries the end of the axis first. `good`: the number of values, from the nominal point on, at which the chip is known to work.
-    using RunAt = std::function<const Condition&(double)>;
-    Limit find_limit(const std::vector<double>& axis_values, double nominal, const RunAt& run_at, bool end_first = false,
-                     std::size_t good = 0) {
-        std::size_t bad = axis_values.size() + 1;  // count of values up to the first one known to fail
-        if (end_first) (run_at(axis_values.back()).works ? good : bad) = axis_values.size();
-        while (bad - good > 1) {
-            const auto middle = (good + bad) / 2;
-            (run_at(axis_values[middle - 1]).works ? good : bad) = middle;
-        }
-        Limit out{good == 0 ? nominal : axis_values[good - 1], good};
-        if (bad > axis_values.size()) return out;
-        const auto& beyond_limit = run_at(axis_values[bad - 1]);
-        const auto spikes = phase_counts(beyond_limit.response.spikes);
-        return out.beyond = fmt::format("{}: {}", spikes, reason(beyond_limit)), out;
-    }
-
-    struct Ends {  // low, high: supply; the others: temperature
-        Limit low, high, cold, hot, hot_with_high_threshold;
-    } ends;
-    void search() {
-        const auto at_supply = [this](double v) -> const Condition& { return at(v, nominal_temperature); };
-        const auto at_temperature = [this](double T) -> const Condition& { return at(nominal_supply, T); };
-        const auto with_high_threshold = [this](double T) -> const Condition& { return at(nominal_supply, T, true); };
-        if (at(nominal_supply, nominal_temperature).works) {
-            ends.low = find_limit(lower_supplies, nominal_supply, at_supply),
-            ends.high = find_limit(higher_supplies, nominal_supply, at_supply, true);
-            ends.cold = find_limit(lower_temperatures, nominal_temperature, at_temperature, true),
-            ends.hot = find_limit(higher_temperatures, nominal_temperature, at_temperature);
-        } else {
-            ends.hot.beyond = fmt::format("{}: {}", phase_counts(at(nominal_supply, nominal_temperature).response.spikes),
-                                          reason(at(nominal_supply, nominal_temperature)));
-        }
-        if (!std::isnan(ends.hot.last) || with_high_threshold(nominal_temperature).works)
-            ends.hot_with_high_threshold = find_limit(higher_temperatures, nominal_temperature, with_high_threshold, false, ends.hot.count);
+    const Trial& at(const ChipCondition& condition) const {
+        return *std::find_if(trials.begin(), trials.end(), [&](const Trial& t) { return t.response.condition == condition; });
     }
 };
 
-void report(ChipExplorer& t, StudyResult& out) {
-    const auto& nominal = t.at(nominal_supply, nominal_temperature);
-    const auto spikes = phase_counts(nominal.response.spikes);
-    out.claim(t.name() + ": spikes under the press stimulus at 0.7 V, 27 C", static_cast<double>(nominal.response.spikes.size()))
-        .explain(nominal.works ? spikes : "does not work; " + t.ends.hot.beyond);
-    const auto add = [&](const char* label, const Limit& end, const char* unit) {
-        if (!std::isnan(end.last)) out.claim(t.name() + ": " + label, end.last, unit).explain(end.beyond);
-    };
-    add("works at 27 C down to", t.ends.low, "V"), add("works at 27 C up to", t.ends.high, "V");
-    add("works at 0.7 V down to", t.ends.cold, "C"), add("works at 0.7 V up to", t.ends.hot, "C");
-    add("works at 0.7 V with hv_switches=1 up to", t.ends.hot_with_high_threshold, "C");
+/// The complete grid, and the axes through the nominal point with devices of the standard threshold.
+std::vector<ChipCondition> conditions() {
+    std::vector<ChipCondition> out;
+    for (const char* corner : corners)
+        for (const bool high_threshold : {true, false})
+            for (const double celsius : temperatures)
+                for (const double supply : supplies)
+                    if (high_threshold || celsius == nominal_temperature || supply == nominal_supply)
+                        out.push_back({corner, supply, celsius, high_threshold});
+    return out;
 }
 
-/// Plots the spikes of all conditions on one axis: those at which the `other` quantity has its nominal value.
-void add_plot(const ChipExplorer& t, const char* axis_name, const char* unit, double Condition::* axis, double Condition::* other,
-              double nominal, StudyResult& out) {
-    StudyCurve standard, with_high_threshold;
-    for (const auto& condition : t.conditions())
-        for (const double at : condition.response.spikes) {
-            if (condition.*other != nominal) continue;
-            auto& line = condition.high_threshold ? with_high_threshold : standard;
-            line.x.push_back(at), line.y.push_back(condition.*axis);
+Result<ChipRange> explore(const std::string& chip, const std::function<bool(double)>& progress) {
+    ChipRange out{chip, counts_of(TRY(simulate_train({chip.substr(0, chip.find('-'))}))), {}};
+    const auto all = conditions();
+    auto responses = TRY(run_conditions(
+        chip, all, [&](std::size_t finished) { return progress(static_cast<double>(finished) / static_cast<double>(all.size())); }));
+    for (auto& r : responses) {
+        const auto counts = counts_of(r.spikes);
+        const bool converged = r.error.empty(), works = converged && is_working(chip, r.spikes);
+        out.trials.push_back({std::move(r), counts, works, converged && is_within_limits(counts, out.model)});
+    }
+    return out;
+}
+
+/// The cause of a failure: what did not converge, or the ranges that were left.
+std::string reason(const ChipRange& range, const Trial& t) {
+    if (!t.response.error.empty()) return t.response.error;
+    std::string out;
+    for (const auto& warning : t.response.range_warnings) out += (out.empty() ? "" : "; ") + warning;
+    auto other = t.response.condition;
+    other.high_threshold = true;
+    if (out.empty() && !t.response.condition.high_threshold && range.at(other).works)
+        return "switches that are off leak as much as the membrane's own leak; it works with the default, hv_membrane=1";
+    return out.empty() ? "the chip's currents are too small or too large, but no voltage or current leaves its range" : out;
+}
+
+/// "protraction / plateau / retraction / after".
+std::string counts_text(const Trial& t) {
+    return fmt::format("{:g} / {:g} / {:g} / {:g}", t.counts[1], t.counts[2], t.counts[3], t.counts[4]);
+}
+
+/// One direction of an axis through the nominal point.
+struct Direction {
+    const char* label;
+    std::span<const double> values;
+    bool is_supply, is_up;
+};
+constexpr Direction directions[] = {{"at 27 C down to", supplies, true, false},
+                                    {"at 27 C up to", supplies, true, true},
+                                    {"at 0.7 V down to", temperatures, false, false},
+                                    {"at 0.7 V up to", temperatures, false, true}};
+
+/// Adds a claim: the last value in this direction, from the nominal point on, at which the condition holds without a gap.
+void add_limit(const ChipRange& range, ChipCondition from, const Direction& d, const std::string& label, bool Trial::* holds,
+               StudyResult& out) {
+    auto& moving = d.is_supply ? from.supply : from.celsius;
+    auto values = std::vector(d.values.begin(), d.values.end());
+    if (!d.is_up) std::reverse(values.begin(), values.end());
+    const auto nominal = std::find(values.begin(), values.end(), moving);
+    double last = Claim::none;
+    std::string beyond = "in the whole range tried";
+    for (auto at = nominal; at != values.end(); ++at) {
+        moving = *at;
+        const auto& trial = range.at(from);
+        if (!(trial.*holds)) {
+            beyond = fmt::format("{} {}: {}; {}", *at, d.is_supply ? "V" : "C", counts_text(trial), reason(range, trial));
+            break;
         }
-    auto& plot = out.plot(fmt::format("{}: the press stimulus at several {}", t.name(), axis_name), "time (s)",
-                          fmt::format("{} ({})", axis_name, unit));
-    plot.points("standard", standard);
-    if (!with_high_threshold.empty()) plot.points("hv_switches=1", with_high_threshold);
+        last = *at;
+    }
+    if (!std::isnan(last)) out.claim(label + " " + d.label, last, d.is_supply ? "V" : "C").explain(beyond);
+}
+
+/// The number of conditions of the counted range in a corner for which `holds`, and their total number.
+std::pair<int, int> count(const ChipRange& range, const char* corner, bool Trial::* holds) {
+    std::pair<int, int> out{0, 0};
+    for (const auto& t : range.trials) {
+        const auto& c = t.response.condition;
+        const bool counted = c.high_threshold && std::string_view(c.corner) == corner && c.supply >= min_supply && c.supply <= max_supply &&
+                             c.celsius >= min_celsius && c.celsius <= max_celsius;
+        out.second += counted, out.first += counted && t.*holds;
+    }
+    return out;
+}
+
+void report(const ChipRange& range, const char* corner, StudyResult& out) {
+    const auto name = fmt::format("{}, {}", range.chip, corner);
+    const ChipCondition nominal{corner, nominal_supply, nominal_temperature, true};
+    const auto& at_nominal = range.at(nominal);
+    out.claim(name + ": spikes under the press stimulus at 0.7 V, 27 C", static_cast<double>(at_nominal.response.spikes.size()))
+        .explain(counts_text(at_nominal));
+    for (const auto& d : directions) add_limit(range, nominal, d, name + ": works", &Trial::works, out);
+    for (const auto& d : directions) add_limit(range, nominal, d, name + ": within the limits", &Trial::within_limits, out);
+    for (const auto& [label, holds] : {std::pair("works", &Trial::works), std::pair("is within the limits", &Trial::within_limits)}) {
+        const auto [good, all] = count(range, corner, holds);
+        out.claim(fmt::format("{}: {} at, of {} conditions from 0.6 to 0.8 V and -20 to 85 C", name, label, all), good);
+    }
+    auto standard = nominal;
+    standard.high_threshold = false;
+    const auto& at_standard = range.at(standard);
+    const auto label = name + " with hv_membrane=0: works";
+    if (at_standard.works) {
+        for (const auto& d : directions) add_limit(range, standard, d, label, &Trial::works, out);
+    } else {
+        out.claim(name + " with hv_membrane=0: spikes at 0.7 V, 27 C", static_cast<double>(at_standard.response.spikes.size()))
+            .explain(fmt::format("does not work; {}: {}", counts_text(at_standard), reason(range, at_standard)));
+    }
+}
+
+/// The picture of a corner: a point for each condition, in three classes.
+void add_map(const ChipRange& range, const char* corner, StudyResult& out) {
+    StudyCurve within, works, fails;
+    for (const auto& t : range.trials) {
+        const auto& c = t.response.condition;
+        if (!c.high_threshold || std::string_view(c.corner) != corner) continue;
+        auto& points = t.within_limits ? within : t.works ? works : fails;
+        points.x.push_back(c.celsius), points.y.push_back(c.supply);
+    }
+    auto& plot = out.plot(fmt::format("{}, {}: supply by temperature", range.chip, corner), "temperature (C)", "supply (V)");
+    plot.points("spikes of each phase within the limits", within);
+    plot.points("fires as designed, but with more or fewer spikes", works);
+    plot.points("does not fire as designed", fails);
+}
+
+/// Plots the spikes of the typical corner over one axis; the other quantity is nominal.
+void add_rasters(const ChipRange& range, const char* title, const char* label, double ChipCondition::* axis, double ChipCondition::* other,
+                 double nominal, StudyResult& out) {
+    StudyCurve high, standard;
+    for (const auto& t : range.trials) {
+        const auto& c = t.response.condition;
+        if (c.*other != nominal || std::string_view(c.corner) != "tt") continue;
+        auto& line = c.high_threshold ? high : standard;
+        for (const double at : t.response.spikes) line.x.push_back(at), line.y.push_back(c.*axis);
+    }
+    auto& plot = out.plot(fmt::format("{}, tt: the press stimulus at several {}", range.chip, title), "time (s)", label);
+    plot.points("default", high), plot.points("hv_membrane=0", standard);
+}
+
+void add_plots(const ChipRange& range, StudyResult& out) {
+    for (const char* corner : corners) add_map(range, corner, out);
+    add_rasters(range, "supplies", "supply (V)", &ChipCondition::supply, &ChipCondition::celsius, nominal_temperature, out);
+    add_rasters(range, "temperatures", "temperature (C)", &ChipCondition::celsius, &ChipCondition::supply, nominal_supply, out);
 }
 
 Result<StudyResult> compute(const StudyOptions& options) {
-    std::vector<ChipExplorer> all;
-    for (const char* chip : chips)
-        for (const char* corner : corner_names) all.emplace_back(chip, corner);
-    std::mutex guard;
-    std::size_t done = 0;
-    bool interrupted = false;
-    ThreadPool().for_each(all.size(), [&](std::size_t k, unsigned) {
-        if (const std::lock_guard lock(guard); interrupted) return;
-        all[k].search();
-        const std::lock_guard lock(guard);
-        interrupted = interrupted || !options.should_continue(static_cast<double>(++done) / static_cast<double>(all.size()));
-    });
-    if (interrupted) return Error{ErrorCode::interrupted, "interrupted"};
     StudyResult out;
-    std::size_t runs = 0, failed_runs = 0;
-    for (auto& t : all) {
-        report(t, out);
-        runs += t.conditions().size();
-        failed_runs += static_cast<std::size_t>(
-            std::count_if(t.conditions().begin(), t.conditions().end(), [](const Condition& s) { return !s.failed.empty(); }));
+    std::vector<ChipRange> all;
+    for (const char* chip : chips) {
+        const double done = static_cast<double>(all.size());
+        all.push_back(TRY(
+            explore(chip, [&](double part) { return options.should_continue((done + part) / static_cast<double>(std::size(chips))); })));
     }
-    for (const std::size_t k : {std::size_t{0}, std::size(corner_names)}) {  // the typical corner of each chip
-        add_plot(all[k], "supplies", "V", &Condition::supply, &Condition::celsius, nominal_temperature, out);
-        add_plot(all[k], "temperatures", "C", &Condition::celsius, &Condition::supply, nominal_supply, out);
+    std::size_t runs = 0, failed_runs = 0;
+    for (const auto& range : all) {
+        for (const char* corner : corners) report(range, corner, out);
+        add_plots(range, out);
+        runs += range.trials.size();
+        failed_runs += static_cast<std::size_t>(
+            std::count_if(range.trials.begin(), range.trials.end(), [](const Trial& t) { return !t.response.error.empty(); }));
     }
     out.notes = {
-        fmt::format(
-            "{} runs, of which {} did not converge. Conditions are 0.5 to 0.9 V in steps of 50 mV at 27 C, and -55, -25, 0, 27, 50, 75, "
-            "100 and 125 C at 0.7 V, searched by bisection. A range ends between two neighbouring conditions. A chip is assumed to work "
-            "between two conditions at which it works, and with high-threshold switches wherever it works without them.",
-            runs, failed_runs),
+        fmt::format("{} runs, of which {} did not converge: 0.5 to 0.9 V in steps of 50 mV, each at -55, -40, -20, 0, 27, 50, 75, 85, 100 "
+                    "and 125 C; with hv_membrane=0 only the two axes through 0.7 V, 27 C. A range ends before the first condition, from "
+                    "the nominal point outwards, that does not satisfy it.",
+                    runs, failed_runs),
         "Spike counts are given as protraction / plateau / retraction / after. A working chip is silent at rest. A working SA-I fires "
         "while the force rises and in the last 100 ms of the plateau, but not after retraction. A working FA-I fires in both ramps, but "
         "not in those 100 ms.",
+        fmt::format("A chip is within the limits if it is silent at rest, and if its number of spikes in each other phase differs from the "
+                    "model's by at most a quarter, or by one spike: {} (SA-I), {} (FA-I).",
+                    limits_text(all[0].model), limits_text(all[1].model)),
         "The thesis gives ranges for its bias generator only: 550 to 800 mV and -55 to 95 C, typical; 650 to 750 mV over corners (E.2). "
         "Bias currents are ideal here, so supply and temperature affect only the chips' transistors."};
     return out;

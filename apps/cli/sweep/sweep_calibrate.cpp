@@ -19,16 +19,18 @@ namespace {
 constexpr const char* calibrate_examples =
     "Each chip is simulated with the stimulus. It passes if the spike count of each phase differs from\n"
     "the model's by at most a quarter (or one spike), if no spike precedes the force, and if the first\n"
-    "spike is within 10 ms of the model's. A chip that fails is trimmed, coarse steps first, and\n"
+    "spike is within the time of --first-spike. A chip that fails is trimmed, coarse steps first, and\n"
     "simulated again.\n\n"
     "Examples:\n  corpuscle sweep calibrate sa1-circuit\n  corpuscle sweep calibrate fa1-circuit --samples 200 --bits 6 --separately\n"
+    "  corpuscle sweep calibrate sa1-circuit --set hv_membrane=0 --first-spike 20ms\n"
     "  corpuscle sweep calibrate own.cir --like sa1 --trim i_leak=50% --trim x1.m3.m+x1.m4.m=25%";
 
 struct SweepCalibrateArguments {
     std::string netlist, like, force = "press", corner = "mc";
-    std::vector<std::string> trims;
-    int bits = 4;               // maximum number of bits of each trim
-    std::int64_t samples = 64;  // number of chips
+    std::vector<std::string> trims, settings;
+    double max_first_spike_error = 10e-3;  // s, between the first spikes of chip and model
+    int bits = 4;                          // maximum number of bits of each trim
+    std::int64_t samples = 64;             // number of chips
     std::uint64_t seed = 1;
     std::uint32_t threads = 0;  // 0: one per core
     bool separately = false;    // also evaluate each trim alone
@@ -60,8 +62,6 @@ Result<Trim> parse_trim(const std::string& text, const ChipCalibration& calibrat
     return trim_of(calibration.netlist, calibration.overrides, std::move(names), percent / 100, is_integer);
 }
 
-constexpr double max_first_spike_error = 10e-3;  // s, between the first spikes of chip and model
-
 /// Sets the stimulus, and derives the pass limits from the response of the model in each phase and between the phases.
 Result<void> set_target(ChipCalibration& calibration, const std::string& model, const SweepCalibrateArguments& args) {
     const auto stimulus = TRY(make_stimulus(args.force, 10e3, 0));
@@ -78,7 +78,7 @@ Result<void> set_target(ChipCalibration& calibration, const std::string& model, 
     }
     const double end = static_cast<double>(calibration.force.size()) * calibration.T;
     if (end > from) phases.push_back({from, end});
-    calibration.limits = FiringLimits::around(spike_times(response.spikes, clock), phases, max_first_spike_error);
+    calibration.limits = FiringLimits::around(spike_times(response.spikes, clock), phases, args.max_first_spike_error);
     return {};
 }
 
@@ -111,6 +111,8 @@ Result<void> calibrate_netlist(const SweepCalibrateArguments& args, const Common
     ChipCalibration calibration;
     calibration.netlist = args.netlist, calibration.bits = args.bits, calibration.threads = args.threads;
     calibration.overrides = {{"", "corner", args.corner, "--corner " + args.corner}};
+    for (const auto& text : args.settings)
+        calibration.overrides.push_back(TRY(circuit::parse_netlist_override(args.netlist, text, "--set")));
     calibration.batch.max_iterations = 60'000;
     calibration.batch.should_stop = interrupted;
     TRY(set_target(calibration, args.like.empty() ? defaults->model : args.like, args));
@@ -151,6 +153,10 @@ Verb make_sweep_calibrate_verb() {
                               {"--trim", &args->trims, "NAME=RANGE",
                                "a trimmed .param or device parameter (several are joined by +) and its range: the increase at the highest "
                                "code. The multiplier .m is trimmed in integer steps (default: I_LEAK, I_BIASB and one gain)"}),
+                      counted(1, any_number_of_values,
+                              {"--set,-s", &args->settings, "NAME=VALUE", "set a .param or a device parameter of all chips, as for run"}),
+                      with_default("10ms", {"--first-spike", above_zero_reader(args->max_first_spike_error, "s"), "TIME",
+                                            "largest difference between the first spikes of chip and model"}),
                       {"--bits", &args->bits, "N", "maximum number of bits of each trim", std::pair(1, 12)},
                       {"--samples", &args->samples, "N", "number of chips", OptionSign::positive},
                       {"--seed", &args->seed, "N", "random seed of process and mismatch"},
