@@ -44,16 +44,20 @@ function showDeviations(host, studies) {
     label.firstChild.addEventListener("change", (event) => section.classList.toggle("off-only", event.target.checked));
 }
 
-/// The data for dygraphs: one row per distinct x, one column per series, null where a series has no value. `series` have styles line, raster
-/// (marks at a height of their own; the first of `height` series is the highest) or path (null here, since drawPath() draws it).
+/// The data for dygraphs: one column per series, null where a series has no value, and one row per distinct x. If a series has several points at
+/// one x, there is a row for each of them. `series` have styles line, points, raster (marks at a height of their own; the first of `height` series
+/// is the highest) or path (null here, since drawPath() draws it).
 function rowsOf(series, height) {
     const at = new Map();
     series.forEach(({x, y, style}, s) => x.forEach((t, k) => {
         if (t === null) return;
-        if (!at.has(t)) at.set(t, [t, ...series.map(() => null)]);
-        at.get(t)[s + 1] = style === "raster" ? height - s : style === "path" ? null : y[k];
+        if (!at.has(t)) at.set(t, []);
+        const rows = at.get(t);
+        let row = rows.find((one) => one[s + 1] === null);
+        if (!row) rows.push(row = [t, ...series.map(() => null)]);
+        row[s + 1] = style === "raster" ? height - s : style === "path" ? null : y[k];
     }));
-    return [...at.values()].sort((a, b) => a[0] - b[0]);
+    return [...at.values()].flat().sort((a, b) => a[0] - b[0]);
 }
 
 /// A number on an axis as text: up to six digits, with an exponent if it is very large or small.
