@@ -33,10 +33,10 @@ TEST(NetlistOverridesProgram, TheChipRespondsInAnyFolderAndOverridesChangeIt) {
     ASSERT_EQ(run_program(folder, press + "sa1-circuit -o plain").status, 0);
     const auto set =
         run_program(folder, press +
-                                "SA1-circuit --set sa1-circuit.C_u=9pF --set SA1-circuit.summer.N3B=12x4 --corner tt --temp 27 "
+                                "SA1-circuit --set sa1-circuit.C_u=10.8pF --set SA1-circuit.summer.N3B=12x4 --corner tt --temp 27 "
                                 "--probe 'VF,i(N3B),rectb.o' -o set");
     ASSERT_EQ(set.status, 0) << set.err;
-    EXPECT_EQ(spikes_in(folder, "plain"), 14U);
+    EXPECT_EQ(spikes_in(folder, "plain"), 16U);
     EXPECT_LT(spikes_in(folder, "set"), 10U) << "a membrane of twice the capacitance";
     const auto probes = read_file(folder / "set/probes.csv");
     EXPECT_EQ(probes.substr(0, probes.find('\n')),
@@ -44,7 +44,7 @@ TEST(NetlistOverridesProgram, TheChipRespondsInAnyFolderAndOverridesChangeIt) {
     const auto one = Json::parse(read_file(folder / "set/summary.json"))["afferents"][0];
     EXPECT_EQ(one["name"], "sa1-circuit");
     EXPECT_EQ(one["corner"], "tt");
-    EXPECT_EQ(one["parameters"]["c_u"]["value"], 9e-12);
+    EXPECT_EQ(one["parameters"]["c_u"]["value"], 10.8e-12);
     EXPECT_EQ(one["parameters"]["c_u"]["set"], true);
     EXPECT_EQ(one["parameters"]["c_hpb"]["set"], false);
     EXPECT_EQ(one["parameters"]["temp"]["value"], 27);
@@ -143,7 +143,7 @@ TEST(NetlistOverridesProgram, ListShowsTheParametersOfAChip) {
     const auto& all = listed["parameters"];
     const auto c_u = std::find_if(all.begin(), all.end(), [](const Json& p) { return p["name"] == "c_u"; });
     ASSERT_NE(c_u, all.end());
-    EXPECT_EQ((*c_u)["default"], 4.5e-12);
+    EXPECT_EQ((*c_u)["default"], 5.4e-12);
     EXPECT_TRUE(has((*c_u)["description"], "as_printed"));
     EXPECT_TRUE((*c_u)["low"].is_null());
     EXPECT_EQ(std::count_if(all.begin(), all.end(), [](const Json& p) { return p["name"] == "vtn_shift"; }), 0);

@@ -178,12 +178,12 @@ std::vector<std::string> as_intended(const char* chip) {
 TEST(Tables, Sa1AsIntendedDiffersInTheStaticAndTheSlowPath) {
     EXPECT_EQ(as_intended("sa1"),
               (std::vector<std::string>{"xrectc.mp1a m 2 -> 4", "xrectc.mn2a m 2 -> 4", "xrectc.mp1b m 2 -> 4", "xrectc.mn2b m 2 -> 4",
-                                        "xsummer.mn3b m 2 -> 12", "xcco.cu 1.8e-12 -> 4.5e-12", "ilk dc 5e-12 -> 7e-12"}));
+                                        "xsummer.mn3b m 2 -> 12", "xcco.cu 1.8e-12 -> 5.4e-12", "ilk dc 5e-12 -> 7e-12"}));
 }
 
 // S15: the gain for falling force is 6.
 TEST(Tables, Fa1AsIntendedDiffersInTheFallingForcePath) {
-    EXPECT_EQ(as_intended("fa1"), (std::vector<std::string>{"xrect.mp1b m 3 -> 6", "xrect.mn2b m 3 -> 6", "xcco.cu 5.4e-12 -> 1.44e-11",
+    EXPECT_EQ(as_intended("fa1"), (std::vector<std::string>{"xrect.mp1b m 3 -> 6", "xrect.mn2b m 3 -> 6", "xcco.cu 5.4e-12 -> 1.62e-11",
                                                             "ilk dc 5e-12 -> 1e-11"}));
 }
 
