@@ -70,6 +70,7 @@ CORPUSCLE_DATA ?= ../shared/data
 draw = /usr/bin/python3 doc/picture.py $(corpuscle)
 pictures: release
 	$(draw) doc/press.png $(touched)
+	$(draw) doc/pictures/range.png study range "supply by temperature"
 	$(draw) doc/pictures/touch.png examples/data/touch.csv
 	$(draw) doc/pictures/touch-chips.png examples/data/touch.csv --afferent sa1,sa1-circuit,fa1,fa1-circuit
 	$(draw) doc/pictures/hand.png texture --population hand

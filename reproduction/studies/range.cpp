@@ -191,9 +191,9 @@ void add_map(const ChipRange& range, const char* corner, StudyResult& out) {
         points.x.push_back(c.celsius), points.y.push_back(c.supply);
     }
     auto& plot = out.plot(fmt::format("{}, {}: supply by temperature", range.chip, corner), "temperature (C)", "supply (V)");
-    plot.points("does not fire as designed", fails);
-    plot.points("fires as designed, but with more or fewer spikes", works);
-    plot.points("spikes of each phase within the limits", within);
+    plot.points("does not work", fails);
+    plot.points("works", works);
+    plot.points("spikes within the limits", within);
 }
 
 /// Plots the spikes of the typical corner over one axis; the other quantity is nominal.
