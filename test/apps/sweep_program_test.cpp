@@ -40,6 +40,29 @@ TEST(SweepProgram, RenamedOptionsAreRefusedWithTheirNewNames) {
     EXPECT_NE(run_program(folder, "sweep calibrate sa1-circuit --apart").err.find("--apart is now --separately"), std::string::npos);
 }
 
+TEST(SweepProgram, CalibrateTakesSettingsAndTheTimeOfTheFirstSpike) {
+    const TemporaryFolder folder;
+    const auto calibrated = [&](const std::string& options) {
+        const auto ran = run_program(folder, "sweep calibrate fa1-circuit --samples 2 --bits 1 --json " + options);
+        EXPECT_EQ(ran.status, 0) << ran.err;
+        return Json::parse(ran.out);
+    };
+    const auto standard = calibrated("--set hv_membrane=0 --first-spike 20ms"), high = calibrated("--first-spike 20ms");
+    EXPECT_EQ(standard["settings"], (Json{"corner=mc", "hv_membrane=0"}));
+    EXPECT_NE(standard["limits"].get<std::string>().find("344.5 ms +- 20 ms"), std::string::npos) << standard["limits"];
+    EXPECT_NE(standard["sets"][0]["chips"][0]["spikes_before"], high["sets"][0]["chips"][0]["spikes_before"]);
+    EXPECT_EQ(high["sets"][0]["within_limits"][0], 2);
+    EXPECT_EQ(calibrated("--first-spike 1us")["sets"][0]["within_limits"][0], 0);
+    for (const auto& [options, message] : {std::pair("--set hv_membran=0", "did you mean 'hv_membrane'"),
+                                           {"--set hv_membrane", "--set hv_membrane: write NAME=VALUE"},
+                                           {"--first-spike 0ms", "--first-spike"},
+                                           {"--first-spike 3N", "--first-spike"}}) {
+        const auto ran = run_program(folder, std::string("sweep calibrate fa1-circuit --samples 1 ") + options);
+        EXPECT_NE(ran.status, 0) << options;
+        EXPECT_NE(ran.err.find(message), std::string::npos) << ran.err;
+    }
+}
+
 TEST(SweepProgram, ReportsItsProgressAndResumesWhereItStopped) {
     const TemporaryFolder folder;
     folder.write("a.toml", sweep_of(50));

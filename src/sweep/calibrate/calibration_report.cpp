@@ -63,6 +63,7 @@ std::string format_calibration(const ChipCalibration& options, const std::vector
 
 nlohmann::ordered_json document_of(const ChipCalibration& options, const std::vector<CalibrationResult>& all) {
     nlohmann::ordered_json out = {{"netlist", options.netlist}, {"limits", options.limits.text()}, {"bits", options.bits}};
+    for (const auto& setting : options.overrides) out["settings"].push_back(fmt::format("{}={}", setting.parameter, setting.value));
     for (const auto& set : all) {
         nlohmann::ordered_json one, trims, within_limits, chips;
         for (const auto& t : set.trims)
