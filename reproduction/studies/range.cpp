@@ -3,12 +3,10 @@
 
 #include <fmt/format.h>
 #include <algorithm>
-#include <array>
 #include <cmath>
 
 #include "reproduction/claims/studies.hpp"
-#include "reproduction/thesis/chip_conditions.hpp"
-#include "reproduction/thesis/press.hpp"
+#include "reproduction/thesis/chip_range.hpp"
 
 namespace corpuscle::studies::range {
 
@@ -17,62 +15,9 @@ constexpr double supplies[] = {0.5, 0.55, 0.6, 0.65, 0.7, 0.75, 0.8, 0.85, 0.9},
     temperatures[] = {-55, -40, -20, 0, 27, 50, 75, 85, 100, 125};                         // C
 constexpr double nominal_supply = 0.7, nominal_temperature = 27;                           // V, C
 constexpr double min_supply = 0.6, max_supply = 0.8, min_celsius = -20, max_celsius = 85;  // the range that is counted, V and C
-constexpr std::array phases = {press::rest, press::protraction, press::plateau, press::retraction, press::after};
-
-using Counts = std::array<double, phases.size()>;
-
-Counts counts_of(const std::vector<double>& train) {
-    Counts out;
-    std::transform(phases.begin(), phases.end(), out.begin(), [&](const TimeWindow& phase) { return press::spike_count(train, phase); });
-    return out;
-}
-
-/// The largest difference of a chip's number of spikes from the model's in a phase: a quarter, or one spike; none at rest.
-double allowed_difference(std::size_t phase, double model) { return phase == 0 ? 0 : std::max(1.0, std::floor(model / 4)); }
-
-bool is_within_limits(const Counts& chip, const Counts& model) {
-    for (std::size_t k = 0; k < phases.size(); ++k)
-        if (std::abs(chip[k] - model[k]) > allowed_difference(k, model[k])) return false;
-    return true;
-}
-
-/// "4 to 6 / 7 to 11 / 0 to 2 / 0 to 1": the limits of each phase after the rest.
-std::string limits_text(const Counts& model) {
-    std::string out;
-    for (std::size_t k = 1; k < phases.size(); ++k)
-        out += fmt::format("{}{:g} to {:g}", out.empty() ? "" : " / ", std::max(0.0, model[k] - allowed_difference(k, model[k])),
-                           model[k] + allowed_difference(k, model[k]));
-    return out;
-}
-
-/// True if the chip is silent at rest and fires as designed. SA-I: while the force rises and at the end of the plateau, not after
-/// retraction. FA-I: in both ramps, not at the end of the plateau.
-bool is_working(std::string_view chip, const std::vector<double>& t) {
-    if (press::spike_count(t, press::rest) > 0 || press::spike_count(t, press::protraction) == 0) return false;
-    if (chip.starts_with("sa1")) return press::spike_count(t, press::plateau_end) > 0 && press::spike_count(t, press::after) == 0;
-    return press::spike_count(t, press::plateau_end) == 0 && press::spike_count(t, press::retraction) > 0;
-}
-
-/// A chip at one condition, judged.
-struct Trial {
-    ConditionResponse response;
-    Counts counts;
-    bool works = false, within_limits = false;
-};
-
-/// All trials of one chip.
-struct ChipRange {
-    std::string chip;
-    Counts model;  // spikes of its model
-    std::vector<Trial> trials;
-
-    const Trial& at(const ChipCondition& condition) const {
-        return *std::find_if(trials.begin(), trials.end(), [&](const Trial& t) { return t.response.condition == condition; });
-    }
-};
 
 /// The complete grid, and the axes through the nominal point with devices of the standard threshold.
-std::vector<ChipCondition> conditions() {
+std::vector<ChipCondition> tried_conditions() {
     std::vector<ChipCondition> out;
     for (const char* corner : corners)
         for (const bool high_threshold : {true, false})
@@ -83,21 +28,8 @@ std::vector<ChipCondition> conditions() {
     return out;
 }
 
-Result<ChipRange> explore(const std::string& chip, const std::function<bool(double)>& progress) {
-    ChipRange out{chip, counts_of(TRY(simulate_train({chip.substr(0, chip.find('-'))}))), {}};
-    const auto all = conditions();
-    auto responses = TRY(run_conditions(
-        chip, all, [&](std::size_t finished) { return progress(static_cast<double>(finished) / static_cast<double>(all.size())); }));
-    for (auto& r : responses) {
-        const auto counts = counts_of(r.spikes);
-        const bool converged = r.error.empty(), works = converged && is_working(chip, r.spikes);
-        out.trials.push_back({std::move(r), counts, works, converged && is_within_limits(counts, out.model)});
-    }
-    return out;
-}
-
 /// The cause of a failure: what did not converge, or the ranges that were left.
-std::string reason(const ChipRange& range, const Trial& t) {
+std::string reason(const ChipRange& range, const ConditionTrial& t) {
     if (!t.response.error.empty()) return t.response.error;
     std::string out;
     for (const auto& warning : t.response.range_warnings) out += (out.empty() ? "" : "; ") + warning;
@@ -109,7 +41,7 @@ std::string reason(const ChipRange& range, const Trial& t) {
 }
 
 /// "protraction / plateau / retraction / after".
-std::string counts_text(const Trial& t) {
+std::string counts_text(const ConditionTrial& t) {
     return fmt::format("{:g} / {:g} / {:g} / {:g}", t.counts[1], t.counts[2], t.counts[3], t.counts[4]);
 }
 
@@ -125,7 +57,7 @@ constexpr Direction directions[] = {{"at 27 C down to", supplies, true, false},
                                     {"at 0.7 V up to", temperatures, false, true}};
 
 /// Adds a claim: the last value in this direction, from the nominal point on, at which the condition holds without a gap.
-void add_limit(const ChipRange& range, ChipCondition from, const Direction& d, const std::string& label, bool Trial::* holds,
+void add_limit(const ChipRange& range, ChipCondition from, const Direction& d, const std::string& label, bool ConditionTrial::* holds,
                StudyResult& out) {
     auto& moving = d.is_supply ? from.supply : from.celsius;
     auto values = std::vector(d.values.begin(), d.values.end());
@@ -146,11 +78,11 @@ void add_limit(const ChipRange& range, ChipCondition from, const Direction& d, c
 }
 
 /// The number of conditions of the counted range in a corner for which `holds`, and their total number.
-std::pair<int, int> count(const ChipRange& range, const char* corner, bool Trial::* holds) {
+std::pair<int, int> count(const ChipRange& range, const char* corner, bool ConditionTrial::* holds) {
     std::pair<int, int> out{0, 0};
     for (const auto& t : range.trials) {
         const auto& c = t.response.condition;
-        const bool counted = c.high_threshold && std::string_view(c.corner) == corner && c.supply >= min_supply && c.supply <= max_supply &&
+        const bool counted = c.high_threshold && c.corner == corner && c.supply >= min_supply && c.supply <= max_supply &&
                              c.celsius >= min_celsius && c.celsius <= max_celsius;
         out.second += counted, out.first += counted && t.*holds;
     }
@@ -163,18 +95,19 @@ void report(const ChipRange& range, const char* corner, StudyResult& out) {
     const auto& at_nominal = range.at(nominal);
     out.claim(name + ": spikes under the press stimulus at 0.7 V, 27 C", static_cast<double>(at_nominal.response.spikes.size()))
         .explain(counts_text(at_nominal));
-    for (const auto& d : directions) add_limit(range, nominal, d, name + ": works", &Trial::works, out);
-    for (const auto& d : directions) add_limit(range, nominal, d, name + ": within the limits", &Trial::within_limits, out);
-    for (const auto& [label, holds] : {std::pair("works", &Trial::works), std::pair("is within the limits", &Trial::within_limits)}) {
+    for (const auto& d : directions) add_limit(range, nominal, d, name + ": works", &ConditionTrial::works, out);
+    for (const auto& d : directions) add_limit(range, nominal, d, name + ": within the limits", &ConditionTrial::within_limits, out);
+    for (const auto& [label, holds] :
+         {std::pair("works", &ConditionTrial::works), std::pair("within the limits", &ConditionTrial::within_limits)}) {
         const auto [good, all] = count(range, corner, holds);
-        out.claim(fmt::format("{}: {} at, of {} conditions from 0.6 to 0.8 V and -20 to 85 C", name, label, all), good);
+        out.claim(fmt::format("{}: {} at this many of {} conditions from 0.6 to 0.8 V and -20 to 85 C", name, label, all), good);
     }
     auto standard = nominal;
     standard.high_threshold = false;
     const auto& at_standard = range.at(standard);
     const auto label = name + " with hv_membrane=0: works";
     if (at_standard.works) {
-        for (const auto& d : directions) add_limit(range, standard, d, label, &Trial::works, out);
+        for (const auto& d : directions) add_limit(range, standard, d, label, &ConditionTrial::works, out);
     } else {
         out.claim(name + " with hv_membrane=0: spikes at 0.7 V, 27 C", static_cast<double>(at_standard.response.spikes.size()))
             .explain(fmt::format("does not work; {}: {}", counts_text(at_standard), reason(range, at_standard)));
@@ -186,7 +119,7 @@ void add_map(const ChipRange& range, const char* corner, StudyResult& out) {
     StudyCurve within, works, fails;
     for (const auto& t : range.trials) {
         const auto& c = t.response.condition;
-        if (!c.high_threshold || std::string_view(c.corner) != corner) continue;
+        if (!c.high_threshold || c.corner != corner) continue;
         auto& points = t.within_limits ? within : t.works ? works : fails;
         points.x.push_back(c.celsius), points.y.push_back(c.supply);
     }
@@ -202,7 +135,7 @@ void add_rasters(const ChipRange& range, const char* title, const char* label, d
     StudyCurve high, standard;
     for (const auto& t : range.trials) {
         const auto& c = t.response.condition;
-        if (c.*other != nominal || std::string_view(c.corner) != "tt") continue;
+        if (c.*other != nominal || c.corner != "tt") continue;
         auto& line = c.high_threshold ? high : standard;
         for (const double at : t.response.spikes) line.x.push_back(at), line.y.push_back(c.*axis);
     }
@@ -219,10 +152,11 @@ void add_plots(const ChipRange& range, StudyResult& out) {
 Result<StudyResult> compute(const StudyOptions& options) {
     StudyResult out;
     std::vector<ChipRange> all;
+    const auto tried = tried_conditions();
     for (const char* chip : chips) {
         const double done = static_cast<double>(all.size());
-        all.push_back(TRY(
-            explore(chip, [&](double part) { return options.should_continue((done + part) / static_cast<double>(std::size(chips))); })));
+        all.push_back(TRY(explore_range(
+            chip, tried, [&](double part) { return options.should_continue((done + part) / static_cast<double>(std::size(chips))); })));
     }
     std::size_t runs = 0, failed_runs = 0;
     for (const auto& range : all) {
@@ -230,7 +164,7 @@ Result<StudyResult> compute(const StudyOptions& options) {
         add_plots(range, out);
         runs += range.trials.size();
         failed_runs += static_cast<std::size_t>(
-            std::count_if(range.trials.begin(), range.trials.end(), [](const Trial& t) { return !t.response.error.empty(); }));
+            std::count_if(range.trials.begin(), range.trials.end(), [](const ConditionTrial& t) { return !t.response.error.empty(); }));
     }
     out.notes = {
         fmt::format("{} runs, of which {} did not converge: 0.5 to 0.9 V in steps of 50 mV, each at -55, -40, -20, 0, 27, 50, 75, 85, 100 "
@@ -242,7 +176,7 @@ Result<StudyResult> compute(const StudyOptions& options) {
         "not in those 100 ms.",
         fmt::format("A chip is within the limits if it is silent at rest, and if its number of spikes in each other phase differs from the "
                     "model's by at most a quarter, or by one spike: {} (SA-I), {} (FA-I).",
-                    limits_text(all[0].model), limits_text(all[1].model)),
+                    all[0].limits_text(), all[1].limits_text()),
         "The thesis gives ranges for its bias generator only: 550 to 800 mV and -55 to 95 C, typical; 650 to 750 mV over corners (E.2). "
         "Bias currents are ideal here, so supply and temperature affect only the chips' transistors."};
     return out;

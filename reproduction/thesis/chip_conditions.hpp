@@ -1,16 +1,18 @@
 #pragma once
 // The thesis's chips under the press stimulus at many operating conditions, simulated side by side on SIMD lanes.
 
+#include <functional>
 #include <string>
+#include <string_view>
 #include <vector>
 
-#include "reproduction/claims/study.hpp"
+#include "core/error.hpp"
 
 namespace corpuscle {
 
 /// An operating condition of a chip.
 struct ChipCondition {
-    const char* corner = "tt";
+    std::string_view corner = "tt";
     double supply = 0.7, celsius = 27;  // V, C
     bool high_threshold = true;         ///< false: with leak mirror and switches of the standard threshold (hv_membrane=0)
     bool operator==(const ChipCondition&) const = default;

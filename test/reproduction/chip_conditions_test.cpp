@@ -1,4 +1,4 @@
-// The thesis's chips at many operating conditions on SIMD lanes: the same spikes as one chip at a time, and where they fire.
+// The thesis's chips at many operating conditions on SIMD lanes: the spikes of one chip at a time, and where they fire.
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>
@@ -33,7 +33,9 @@ TEST(ChipConditions, GiveTheSpikesOfOneChipAtATime) {
                            {fmt::format("{}.corner={}", chip, c.corner), fmt::format("{}.supply={}", chip, c.supply),
                             fmt::format("{}.temp={}", chip, c.celsius), fmt::format("{}.hv_membrane={:d}", chip, c.high_threshold)}}));
             EXPECT_TRUE(responses[k].condition == c);
-            EXPECT_EQ(responses[k].spikes, trial.spikes) << chip << ", " << text(c);
+            ASSERT_EQ(responses[k].spikes.size(), trial.spikes.size()) << chip << ", " << text(c);
+            for (std::size_t i = 0; i < trial.spikes.size(); ++i)  // lanes are within the tolerance of the steps, not to the last bit
+                EXPECT_NEAR(responses[k].spikes[i], trial.spikes[i], 0.1e-3) << chip << ", " << text(c);
             EXPECT_EQ(responses[k].range_warnings, trial.range_warnings) << chip << ", " << text(c);
             EXPECT_EQ(responses[k].error, "");
         }
