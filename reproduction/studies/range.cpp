@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 #include <algorithm>
 #include <cmath>
+#include <span>
 
 #include "reproduction/claims/studies.hpp"
 #include "reproduction/thesis/chip_range.hpp"

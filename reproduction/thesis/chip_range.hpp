@@ -2,6 +2,7 @@
 // Where a chip works: its responses to the thesis's press stimulus at many operating conditions, compared with its model's.
 
 #include <array>
+#include <utility>
 
 #include "reproduction/thesis/chip_conditions.hpp"
 #include "reproduction/thesis/press.hpp"
