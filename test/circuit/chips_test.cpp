@@ -138,6 +138,19 @@ TEST(Chips, WithThePrintedSizesFireDifferently) {
     EXPECT_GT(fa1.spikes.size(), 12U);
 }
 
+/// INVC's printed ratio raises the filters' corners by 18432 / 16000. The press is slower than these, so that a filter's current is nearly C
+/// dV/dt with any ratio: it is larger by less than that, and decays earlier in the plateau.
+TEST(Chips, AtTheLevelOfBlocksThePrintedRatioIsASetting) {
+    const auto press = stimulus("press");
+    const auto by_sizes = run_chip("sa1_macro.cir", press), fitted = run_chip("sa1_macro.cir", press, {{"fitted", 1}});
+    const auto largest = [](const ChipRun& run) { return *std::max_element(run.probes_by_name.at("i(vib)").begin(), run.probes_by_name.at("i(vib)").end()); };
+    EXPECT_GT(largest(fitted), largest(by_sizes));
+    EXPECT_LT(largest(fitted), 1.1 * largest(by_sizes));
+    const auto after_ramp = static_cast<std::size_t>(std::lround((hold_start + 0.1) * press.rate));
+    const double ratio = fitted.probes_by_name.at("i(vic)")[after_ramp] / by_sizes.probes_by_name.at("i(vic)")[after_ramp];
+    EXPECT_LT(ratio, 1);
+}
+
 /// Without length modulation and velocity saturation the mirrors divide by their ratios: 288 x 64 (eq. 38, 39; errata S7b).
 TEST(Chips, TransconductorsDivideByTheirRatiosInThePlainModel) {
     const auto netlist = Netlist::read(corpuscle::test::source_root() + "/circuits/invc.cir");
