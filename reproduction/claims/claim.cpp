@@ -40,7 +40,7 @@ std::string format_published(const Claim& c) {
 }
 
 std::string format_allowed_range(const Claim& c) {
-    if (!c.has_allowed_range()) return "-";
+    if (!c.has_allowed_range()) return std::isnan(c.tolerance) ? "-" : "within " + format_claim_value(c.tolerance, c);
     if (c.is_boolean) return format_claim_value(c.allowed_min, c);
     if (std::isnan(c.allowed_min)) return "at most " + format_claim_value(c.allowed_max, c);
     if (std::isnan(c.allowed_max)) return "at least " + format_claim_value(c.allowed_min, c);

@@ -48,15 +48,18 @@ struct StudyOptions {
 struct Study {
     std::string_view name, title;
     std::string_view question;  ///< the published statement or the question, and its source
+    ClaimKind kind;             ///< of the claims that state no other
     std::function<Result<StudyResult>(const StudyOptions&)> compute;
     /// The folder within StudyOptions::recordings_folder that the study reads; "" if it reads no recording.
     std::string_view recording_folder = {};
 
-    /// Runs the study. If should_continue stops it, returns an error of code `interrupted`.
+    /// Runs the study, and gives each claim its kind. If should_continue stops it, returns an error of code `interrupted`.
     Result<StudyResult> run(const StudyOptions& options) const {
         TRY(options.report_progress(0));
         auto outcome = compute(options);
         if (!outcome) return outcome;
+        for (auto& c : outcome->claims)
+            if (!c.kind) c.kind = kind;
         TRY(options.report_progress(1));
         return outcome;
     }

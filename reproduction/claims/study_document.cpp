@@ -4,6 +4,7 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
+#include "reproduction/claims/verdict_counts.hpp"
 #include "run/summary/json_number.hpp"
 
 namespace corpuscle {
@@ -26,6 +27,8 @@ Json document_of(const Claim& c) {
             {"deviation", json_number(c.deviation())},
             {"low", c.is_boolean ? Json(nullptr) : json_number(c.allowed_min)},
             {"high", json_number(c.allowed_max)},
+            {"tolerance", json_number(c.tolerance)},
+            {"kind", c.kind ? Json(info_of(*c.kind).name) : Json(nullptr)},
             {"verdict", c.verdict()},
             {"source", c.source},
             {"note", c.note}};
@@ -52,48 +55,56 @@ std::string markdown_cell(std::string_view text) {
     return out;
 }
 
-/// Number of claims that agree with the published value or the allowed range, and of claims that deviate from it.
-struct VerdictCount {
-    int agreeing = 0, deviating = 0;
-    void add(const Claim& c) { c.needs_explanation() ? ++deviating : ++agreeing; }
-};
+/// The name of the kind of a claim that has a verdict.
+std::string_view kind_cell(const Claim& c) { return c.kind && *c.verdict() != 0 ? info_of(*c.kind).name : ""; }
+
+/// Puts the counts of agreeing and deviating claims of each kind that occurs.
+void put_kinds_table(std::string& text, std::span<const StudyResult> outcomes) {
+    text +=
+        "| kind | printed numbers: agree | differ | derived numbers: agree | differ | statements: hold | do not | meaning |\n"
+        "|---|---|---|---|---|---|---|---|\n";
+    for (const auto& k : count_by_kind(outcomes))
+        text += fmt::format("| {} | {} | {} | {} | {} | {} | {} | {} |\n", info_of(k.kind).name, k.printed.agreeing, k.printed.deviating,
+                            k.derived.agreeing, k.derived.deviating, k.statements.agreeing, k.statements.deviating, info_of(k.kind).meaning);
+}
 
 /// Puts the table of all claims of one study.
 void put_study_table(std::string& text, const StudyResult& outcome) {
     if (outcome.claims.empty()) return;
-    text += "| | computed | published | deviation | allowed | | source, reason |\n|---|---|---|---|---|---|---|\n";
+    text += "| | computed | published | deviation | allowed | | kind | source, reason |\n|---|---|---|---|---|---|---|---|\n";
     for (const auto& c : outcome.claims)
-        text += fmt::format("| {} | {} | {} | {} | {} | {} | {} |\n", markdown_cell(c.label), format_claim_value(c.computed, c),
-                            format_published(c), format_deviation(c), format_allowed_range(c), c.verdict(),
+        text += fmt::format("| {} | {} | {} | {} | {} | {} | {} | {} |\n", markdown_cell(c.label), format_claim_value(c.computed, c),
+                            format_published(c), format_deviation(c), format_allowed_range(c), c.verdict(), kind_cell(c),
                             markdown_cell(c.source + (c.source.empty() || c.note.empty() ? "" : "; ") + c.note));
     text += '\n';
 }
 
 /// Puts the table of the headline claims of all studies.
 void put_headline_table(std::string& text, std::span<const Study* const> studies, std::span<const StudyResult> outcomes) {
-    text += "| study | quantity | computed | published | deviation | allowed | reason, if it deviates |\n|---|---|---|---|---|---|---|\n";
+    text +=
+        "| study | quantity | computed | published | deviation | allowed | kind | reason, if it deviates |\n|---|---|---|---|---|---|---|---|\n";
     for (std::size_t k = 0; k < studies.size(); ++k)
         for (const auto& c : outcomes[k].claims)
             if (is_headline(c))
-                text += fmt::format("| [{0}](#{0}) | {1} | {2} | {3} | {4} | {5} | {6} |\n", studies[k]->name, markdown_cell(c.label),
+                text += fmt::format("| [{0}](#{0}) | {1} | {2} | {3} | {4} | {5} | {6} | {7} |\n", studies[k]->name, markdown_cell(c.label),
                                     format_claim_value(c.computed, c), format_published(c), format_deviation(c), format_allowed_range(c),
-                                    c.needs_explanation() ? markdown_cell(c.note) : "");
+                                    kind_cell(c), c.needs_explanation() ? markdown_cell(c.note) : "");
 }
 
 }  // namespace
 
 bool is_headline(const Claim& c) { return c.needs_explanation() || (!std::isnan(c.published) && !c.is_derived); }
 
-std::string verdict_counts(std::span<const StudyResult> outcomes) {
-    VerdictCount published, derived, ranges;  // ranges: claims with an allowed range, or of a statement
-    for (const auto& outcome : outcomes)
-        for (const auto& c : outcome.claims)
-            if (*c.verdict() != 0) (c.has_allowed_range() ? ranges : c.is_derived ? derived : published).add(c);
-    return fmt::format(
-        "{} published numbers agree within 10 %, {} differ by more. {} numbers agree within 10 % with values that an equation, a sentence "
-        "or "
-        "the thesis's model gives (in brackets), {} differ by more. {} claims of a range or a statement hold, {} do not.",
-        published.agreeing, published.deviating, derived.agreeing, derived.deviating, ranges.agreeing, ranges.deviating);
+Json document_of_kinds(std::span<const StudyResult> outcomes) {
+    Json out = Json::array();
+    const auto count = [](const VerdictCount& v) { return Json{{"agreeing", v.agreeing}, {"deviating", v.deviating}}; };
+    for (const auto& k : count_by_kind(outcomes))
+        out.push_back({{"kind", info_of(k.kind).name},
+                       {"meaning", info_of(k.kind).meaning},
+                       {"printed", count(k.printed)},
+                       {"derived", count(k.derived)},
+                       {"statements", count(k.statements)}});
+    return out;
 }
 
 Json document_of(const Study& study, const StudyResult& outcome) {
@@ -108,10 +119,14 @@ std::string markdown_of(std::span<const Study* const> studies, std::span<const S
     const bool from_recording = !studies.empty() && !studies.front()->recording_folder.empty();
     std::string text = fmt::format(
         "# {}, reproduced\n\nWritten by `corpuscle study {}` (`make reproduction` writes this page{}). All numbers are "
-        "computed, except the published ones. {} Deviations have a reason if one is known.\n\n## Published numbers, and deviations\n\n",
+        "computed, except the published ones. {}\n\nA number agrees if it is within 10 % of the published one, or within the tolerance that its "
+        "row states. A derived number, in brackets, is not printed but follows from an equation, a sentence or the thesis's model. Every "
+        "deviation has its cause, or the words \"not known\".\n\n## Kinds of claims\n\n",
         from_recording ? "A published recording" : "Every figure and table", from_recording ? studies.front()->name : "all",
         from_recording ? " if the recording is in CORPUSCLE_DATA" : ", and `out/reproduction.html` with the pictures",
-        verdict_counts(outcomes));
+        prediction_sentence(outcomes));
+    put_kinds_table(text, outcomes);
+    text += "\n## Published numbers, and deviations\n\n";
     put_headline_table(text, studies, outcomes);
     for (std::size_t k = 0; k < studies.size(); ++k) {
         text += fmt::format("\n## {}\n\n**{}.** {}\n\n", studies[k]->name, studies[k]->title, studies[k]->question);

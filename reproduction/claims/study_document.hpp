@@ -11,8 +11,8 @@ namespace corpuscle {
 /// The complete result of a study, as `--json` prints it.
 nlohmann::ordered_json document_of(const Study&, const StudyResult&);
 
-/// Text that gives the number of claims with each verdict.
-std::string verdict_counts(std::span<const StudyResult>);
+/// The kinds of claims with their counts, as `--json` prints them.
+nlohmann::ordered_json document_of_kinds(std::span<const StudyResult>);
 /// True for a claim that is also listed in the table at the top: it has a published number that is not derived, or its deviation needs an
 /// explanation.
 bool is_headline(const Claim&);

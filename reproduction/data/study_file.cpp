@@ -41,7 +41,7 @@ const std::vector<ItemKind>& item_kinds() {
           ConfigKey("probes", KeyKind::list), ConfigKey("thesis_algorithm", KeyKind::flag)},
          {"name"}},
         {"claim",
-         {each_key, "label", "value", ConfigKey("true", KeyKind::flag_or_text), "unit", "published", "derived", "min", "max", "source",
+         {each_key, "label", "value", ConfigKey("true", KeyKind::flag_or_text), "unit", "published", "derived", "tolerance", "min", "max", "kind", "source",
           "explain", "explain_if_needed", "explain_if_undefined"},
          {"label"}},
         {"plot",
@@ -52,8 +52,8 @@ const std::vector<ItemKind>& item_kinds() {
         {"note", {each_key, "text"}, {"text"}},
         {"group", {each_key, values_key, texts_key, run_key, trial_key, claim_key, plot_key, note_key, group_key}},
         {"file",
-         {"title", "question", values_key, texts_key, run_key, trial_key, claim_key, plot_key, note_key, group_key},
-         {"title", "question"}},
+         {"title", "question", "kind", values_key, texts_key, run_key, trial_key, claim_key, plot_key, note_key, group_key},
+         {"title", "question", "kind"}},
     };
     return kinds;
 }
@@ -183,11 +183,18 @@ Result<void> read_block(const ConfigNode& block, const Variables& variables, std
 
 }  // namespace
 
+Result<ClaimKind> read_claim_kind(const LocatedText& name) {
+    const auto kind = find_claim_kind(name.text);
+    if (!kind) return name.error_here(kind.error().message);
+    return kind;
+}
+
 Result<StudyFile> read_study_file(std::string_view text, const std::string& file) {
     const auto top = TRY(parse_toml(text, file));
     TRY(check_item(top, "file"));
     StudyFile out;
     out.title = *top.get("title"), out.question = *top.get("question");
+    out.kind = TRY(read_claim_kind(*top.get("kind")));
     TRY(read_block(top, {}, StudyScope::no_scope, out));
     return out;
 }

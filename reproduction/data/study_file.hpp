@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "core/text/config_file.hpp"
+#include "reproduction/claims/claim_kind.hpp"
 
 namespace corpuscle {
 
@@ -41,9 +42,13 @@ struct StudyScope {
 
 struct StudyFile {
     LocatedText title, question;
+    ClaimKind kind{};              ///< of the claims that state no other
     std::vector<StudyItem> items;  ///< in the order of the file; a group's items once for each of its variables' values
     std::vector<StudyScope> scopes;
 };
+
+/// Reads the name of a kind of claims.
+Result<ClaimKind> read_claim_kind(const LocatedText&);
 
 /// Reads the text of a data file; `file` is its name for messages. An unknown key or a wrong type is an error.
 Result<StudyFile> read_study_file(std::string_view text, const std::string& file);

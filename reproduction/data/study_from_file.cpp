@@ -160,9 +160,13 @@ private:
         claim.is_boolean = is_statement;
         claim.is_derived = item.has("derived");
         claim.published = number(item, claim.is_derived ? "derived" : "published");
+        if (item.has("tolerance") && !item.has("published") && !item.has("derived"))
+            return fail(bad_input("tolerance is the allowed difference from 'published' or 'derived'; the claim has neither", item.location));
         claim.allowed_min = is_statement ? 1 : number(item, "min");
         claim.allowed_max = number(item, "max");
         claim.source = text(item, "source");
+        claim.tolerance = number(item, "tolerance");
+        claim.kind = item.has("kind") ? value_or_fail(read_claim_kind(item.texts.at("kind"))) : file_.kind;
         if (item.has("explain")) claim.explain(text(item, "explain"));
         if (item.has("explain_if_undefined") && std::isnan(claim.computed)) claim.explain(text(item, "explain_if_undefined"));
         if (item.has("explain_if_needed")) claim.explain_if_needed(text(item, "explain_if_needed"));
@@ -221,8 +225,8 @@ Study study_from_file(const std::string& name, ComputeStudyValues compute_values
         auto values = TRY(compute_values ? compute_values(options) : Result<StudyValues>(StudyValues{}));
         return run_study_file(*loaded->file, options, std::move(values));
     };
-    if (!loaded->file) return {loaded->name, "", "", compute};
-    return {loaded->name, loaded->file->title.text, loaded->file->question.text, compute};
+    if (!loaded->file) return {loaded->name, "", "", {}, compute};
+    return {loaded->name, loaded->file->title.text, loaded->file->question.text, loaded->file->kind, compute};
 }
 
 }  // namespace corpuscle

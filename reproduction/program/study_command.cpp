@@ -58,10 +58,11 @@ Result<std::vector<const Study*>> selected_studies(const std::vector<std::string
 }
 
 std::string text_of(const Study& study, const StudyResult& result) {
-    std::vector<std::vector<std::string>> rows = {{"", "computed", "published", "deviation", "allowed", ""}};
+    std::vector<std::vector<std::string>> rows = {{"", "computed", "published", "deviation", "allowed", "", "kind"}};
     for (const auto& c : result.claims)
         rows.push_back(
-            {c.label, format_claim_value(c.computed, c), format_published(c), format_deviation(c), format_allowed_range(c), c.verdict()});
+            {c.label, format_claim_value(c.computed, c), format_published(c), format_deviation(c), format_allowed_range(c), c.verdict(),
+             *c.verdict() != 0 ? std::string(info_of(*c.kind).name) : ""});
     std::string text = fmt::format("{}: {}\n{}\n\n{}", study.name, study.title, study.question, format_table(rows));
     for (const auto& c : result.claims)
         if (!c.note.empty()) text += fmt::format("\n{}: {}\n", c.label, c.note);
@@ -90,8 +91,8 @@ Result<void> run(const StudyArguments& arguments, const CommonArguments& common)
     if (!arguments.report_file.empty()) TRY(write_file(arguments.report_file, study_page(selected, *outcomes, common.command)));
     if (!arguments.markdown_file.empty()) TRY(write_file(arguments.markdown_file, markdown_of(selected, *outcomes)));
     if (common.json) {
-        auto document = nlohmann::ordered_json::array();
-        for (std::size_t k = 0; k < selected.size(); ++k) document.push_back(document_of(*selected[k], (*outcomes)[k]));
+        nlohmann::ordered_json document = {{"kinds", document_of_kinds(*outcomes)}, {"studies", nlohmann::ordered_json::array()}};
+        for (std::size_t k = 0; k < selected.size(); ++k) document["studies"].push_back(document_of(*selected[k], (*outcomes)[k]));
         fmt::print("{}\n", document.dump(1));
     } else if (!common.quiet) {
         for (std::size_t k = 0; k < selected.size(); ++k) print_text((k ? "\n" : "") + text_of(*selected[k], (*outcomes)[k]));

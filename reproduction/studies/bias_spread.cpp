@@ -127,6 +127,6 @@ Result<StudyResult> compute(const StudyOptions& options) {
 
 const Study study{"bias-spread", "Sources of the bias generator's spread",
                   "Which transistors cause the spread of V_Q and I_Q in tables 17 and 18, and what does fig. 52 leave open? Thesis E.2",
-                  compute};
+                  ClaimKind::predicted, compute};
 
 }  // namespace corpuscle::studies::bias_spread

@@ -176,6 +176,6 @@ const Study study{
     "bias-valid", "Coverage of the published ranges by the bias generator",
     "Thesis E.2 gives ranges of current, supply and temperature in which the generator works, typically and in corners. How much of them "
     "does our circuit cover by one criterion, and what limits it?",
-    compute};
+    ClaimKind::predicted, compute};
 
 }  // namespace corpuscle::studies::bias_valid

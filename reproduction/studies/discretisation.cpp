@@ -111,6 +111,6 @@ Result<StudyResult> compute(const StudyOptions& options) {
 const Study study{"discretisation", "Error of a step of 1 ms",
                   "The thesis solves its equations by Euler's backward method at T = 1 ms: how large is the error of its currents and "
                   "spikes? Thesis 3.2 to 3.4",
-                  compute};
+                  ClaimKind::predicted, compute};
 
 }  // namespace corpuscle::studies::discretisation

@@ -133,6 +133,6 @@ Result<StudyResult> compute(const StudyOptions&) {
 
 const Study study{"eq21-30", "The transistor's equations",
                   "Currents, inversion and slopes of the unified current control model. Thesis app. A, eq. 21 to 30; errata U2, U4, U5",
-                  compute};
+                  ClaimKind::identity, compute};
 
 }  // namespace corpuscle::studies::eq21_30

@@ -113,6 +113,6 @@ Result<StudyResult> compute(const StudyOptions&) {
 
 const Study study{"eq31-33", "Arrays as single transistors",
                   "An array acts as one transistor of its equivalent aspect ratio. Thesis B.1, B.2, C.1, eq. 31 to 33; errata U19",
-                  compute};
+                  ClaimKind::identity, compute};
 
 }  // namespace corpuscle::studies::eq31_33

@@ -155,6 +155,6 @@ Result<StudyResult> compute(const StudyOptions&) {
 const Study study{"eq34-41", "Current-dividing mirrors",
                   "Division by N^2 with parallel and series arrays, and by almost N^4 with current splitting. Thesis C.1, C.2, eq. 34 to "
                   "41; errata C1 to C6",
-                  compute};
+                  ClaimKind::predicted, compute};
 
 }  // namespace corpuscle::studies::eq34_41

@@ -86,6 +86,6 @@ Result<StudyResult> compute(const StudyOptions&) {
 const Study study{
     "eq42-44", "Weak inversion, junctions, body bias",
     "The exponential characteristics of a body-biased transistor and of its junction. Thesis app. D, eq. 42 to 44; errata I1, C7, C8",
-    compute};
+    ClaimKind::identity, compute};
 
 }  // namespace corpuscle::studies::eq42_44

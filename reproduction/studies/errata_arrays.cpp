@@ -107,6 +107,6 @@ Result<StudyResult> compute(const StudyOptions&) {
 }
 
 const Study study{"errata-arrays", "Misprints of appendices A to D",
-                  "Evidence from sums, units and simulated circuits. Errata U1 to U19, C1 to C9", compute};
+                  "Evidence from sums, units and simulated circuits. Errata U1 to U19, C1 to C9", ClaimKind::arithmetic, compute};
 
 }  // namespace corpuscle::studies::errata_arrays

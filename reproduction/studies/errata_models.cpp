@@ -184,6 +184,6 @@ Result<StudyResult> compute(const StudyOptions& options) {
 }
 
 const Study study{"errata-models", "Algorithms 1, 2, 5 and 6 as printed",
-                  "How do the thesis's algorithms respond as printed, and as corrected by the errata? Thesis 3.1, 3.3, 3.4", compute};
+                  "How do the thesis's algorithms respond as printed, and as corrected by the errata? Thesis 3.1, 3.3, 3.4", ClaimKind::misprint, compute};
 
 }  // namespace corpuscle::studies::errata_models

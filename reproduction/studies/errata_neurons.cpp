@@ -137,6 +137,6 @@ Result<StudyResult> compute(const StudyOptions& options) {
 }
 
 const Study study{"errata-neurons", "Algorithms 3 and 4 as printed",
-                  "How do the thesis's two neurons behave as printed, and what do (5) to (7) leave out? Thesis 3.2", compute};
+                  "How do the thesis's two neurons behave as printed, and what do (5) to (7) leave out? Thesis 3.2", ClaimKind::misprint, compute};
 
 }  // namespace corpuscle::studies::errata_neurons

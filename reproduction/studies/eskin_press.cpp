@@ -285,6 +285,6 @@ Result<StudyResult> compute(const StudyOptions& options) {
 const Study study{"eskin-press", "A press on an electronic skin, and its authors' network",
                   "Do the rates of a sheet of our afferents follow the pressed place, and when do they begin and end compared with the "
                   "published network's? Neuromorphic-Touch-Sensing-Haptic-Display, data of figure 2",
-                  compute, folder};
+                  ClaimKind::predicted, compute, folder};
 
 }  // namespace corpuscle::studies::eskin_press

@@ -90,6 +90,6 @@ const Study study{
     "fig4", "The fingertip experiment: force, directions and places",
     "Four phases between 0.2 and 4 N: 250 ms of rest, a sinusoidal ramp of 125 ms, a plateau of 250 ms, and a retraction "
     "described both as 250 ms and as symmetrical. The force acts in five directions and at several places. Thesis 1.2, fig. 4",
-    compute};
+    ClaimKind::input, compute};
 
 }  // namespace corpuscle::studies::fig4

@@ -10,6 +10,6 @@ Result<StudyResult> compute(const StudyOptions&) {
 }
 
 const Study study{"fig43", "Layout of the rectangular arrays",
-                  "Channels in rows and columns, and the rectangles that count as area. Thesis B.1, fig. 43", compute};
+                  "Channels in rows and columns, and the rectangles that count as area. Thesis B.1, fig. 43", ClaimKind::identity, compute};
 
 }  // namespace corpuscle::studies::fig43

@@ -12,6 +12,6 @@ Result<StudyResult> compute(const StudyOptions&) {
 }
 
 const Study study{"fig45", "Layout of the trapezoidal arrays",
-                  "Channels in rows and columns, and the rectangles that count as area. Thesis B.2, fig. 45", compute};
+                  "Channels in rows and columns, and the rectangles that count as area. Thesis B.2, fig. 45", ClaimKind::identity, compute};
 
 }  // namespace corpuscle::studies::fig45

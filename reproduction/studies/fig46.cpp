@@ -100,6 +100,6 @@ Result<StudyResult> compute(const StudyOptions&) {
 }
 
 const Study study{"fig46", "Current mirrors, conventional and of arrays",
-                  "Ratio, output conductance, and the effect of different lengths. Thesis C.1, fig. 46", compute};
+                  "Ratio, output conductance, and the effect of different lengths. Thesis C.1, fig. 46", ClaimKind::predicted, compute};
 
 }  // namespace corpuscle::studies::fig46

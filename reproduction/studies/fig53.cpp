@@ -45,6 +45,6 @@ Result<StudyResult> compute(const StudyOptions& options) {
 const Study study{
     "fig53", "The bias generator over its current",
     "It works from 100 nA to 2 uA typically with V_BN from 100 to 600 mV, and from 100 to 700 nA in all corners. Thesis E.2, fig. 53",
-    compute};
+    ClaimKind::predicted, compute};
 
 }  // namespace corpuscle::studies::fig53

@@ -38,6 +38,6 @@ Result<StudyResult> compute(const StudyOptions& options) {
 
 const Study study{"fig55", "The bias generator over temperature",
                   "It works from -55 to 95 C typically; in the FF corner it corrects I_Q less well. Thesis E.2, fig. 55 (errata I7, I8)",
-                  compute};
+                  ClaimKind::predicted, compute};
 
 }  // namespace corpuscle::studies::fig55

@@ -146,6 +146,6 @@ const Study study{
     "noise-force", "The circuits' noise as a force",
     "The thesis names noise as the price of analog processing (1.3) and calls INVC's noise adequate for its application (E.4). "
     "How large is the noise as a force?",
-    compute};
+    ClaimKind::predicted, compute};
 
 }  // namespace corpuscle::studies::noise_force

@@ -186,6 +186,6 @@ Result<StudyResult> compute(const StudyOptions& options) {
 const Study study{
     "range", "Working range of the chips: supply, temperature, process corners",
     "Between which supplies and temperatures do the two chips fire as designed under the press stimulus, and what limits them? Thesis E.2",
-    compute};
+    ClaimKind::predicted, compute};
 
 }  // namespace corpuscle::studies::range

@@ -88,6 +88,6 @@ Result<StudyResult> compute(const StudyOptions&) {
 const Study study{
     "table12", "Ratios and mismatch of the rectangular arrays",
     "g_mg/I_D, Early voltage, gain, n - 1, g_mg per area and mismatch (1000 samples in the thesis, 2000 here). Thesis B.1, table 12",
-    compute};
+    ClaimKind::fitted, compute};
 
 }  // namespace corpuscle::studies::table12

@@ -40,6 +40,6 @@ Result<StudyResult> compute(const StudyOptions&) {
 
 const Study study{"table13", "Sizes of the trapezoidal arrays",
                   "Equivalent aspect ratios, active and total areas of five arrays with equal total area. Thesis B.2, eq. 32, table 13",
-                  compute};
+                  ClaimKind::fitted, compute};
 
 }  // namespace corpuscle::studies::table13

@@ -46,6 +46,6 @@ Result<StudyResult> compute(const StudyOptions&) {
 const Study study{
     "table14", "Currents and small signals of the trapezoidal arrays",
     "Five arrays at V_G = V_D = 0.5 V; the sums of their slopes show that the column g_md is ten times too large. Thesis B.2, table 14",
-    compute};
+    ClaimKind::fitted, compute};
 
 }  // namespace corpuscle::studies::table14

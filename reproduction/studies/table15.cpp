@@ -119,6 +119,6 @@ Result<StudyResult> compute(const StudyOptions&) {
 const Study study{
     "table15", "Ratios and mismatch of the trapezoidal arrays",
     "g_mg/I_D, Early voltage, gain, n - 1, g_mg per area and mismatch (1000 samples in the thesis, 2000 here). Thesis B.2, table 15",
-    compute};
+    ClaimKind::fitted, compute};
 
 }  // namespace corpuscle::studies::table15

@@ -249,6 +249,6 @@ Result<StudyResult> compute(const StudyOptions& options) {
 const Study study{"touchsim", "Comparison in TouchSim's fitted range",
                   "How do our SA-I, FA-I and FA-II respond where TouchSim was fitted: a small probe, a flat one, vibration? Saal et al. "
                   "2017; its responses as measured, its tuning as published",
-                  compute};
+                  ClaimKind::predicted, compute};
 
 }  // namespace corpuscle::studies::touchsim
