@@ -17,15 +17,21 @@ struct StudyResult {
     std::vector<Claim> claims;
     std::vector<StudyPlot> plots;
     std::vector<std::string> notes;  ///< findings, and the limits of the study
+    /// The kind of the claims that are added next; empty: that of the study.
+    std::optional<ClaimKind> next_kind = {};
 
     /// Adds a computed number. The published value is added to the claim: claim("V_Q", v, "V").published_as(350.1e-3, "table 17").
     Claim& claim(std::string label, double computed, std::string unit = {}) {
-        return claims.emplace_back(Claim{.label = std::move(label), .computed = computed, .unit = std::move(unit)});
+        return claims.emplace_back(Claim{.label = std::move(label), .computed = computed, .unit = std::move(unit), .kind = next_kind});
     }
     /// Adds a statement, `label`, that is expected to be true.
     Claim& claim_true(std::string label, bool is_true, std::string source) {
-        return claims.emplace_back(Claim{
-            .label = std::move(label), .computed = is_true ? 1.0 : 0.0, .allowed_min = 1, .source = std::move(source), .is_boolean = true});
+        return claims.emplace_back(Claim{.label = std::move(label),
+                                         .computed = is_true ? 1.0 : 0.0,
+                                         .allowed_min = 1,
+                                         .source = std::move(source),
+                                         .is_boolean = true,
+                                         .kind = next_kind});
     }
     /// Adds a plot, which has no series yet.
     StudyPlot& plot(std::string title, std::string x_label, std::string y_label, bool log_x = false, bool log_y = false) {

@@ -129,8 +129,8 @@ constexpr StudyFunction study_functions[] = {
     {"log", "n", [](Inputs a) -> StudyValue { return std::log(a.number(0)); }},
     {"log10", "n", [](Inputs a) -> StudyValue { return std::log10(a.number(0)); }},
     // the thesis's force sensor: conductance, S, and its slope, S/gf, over the force, gf
-    {"conductance", "n", [](Inputs a) -> StudyValue { return ForceSensor().conductance(a.number(0)); }},
-    {"conductance_slope", "n", [](Inputs a) -> StudyValue { return ForceSensor().slope(a.number(0)); }},
+    {"conductance", "n", [](Inputs a) -> StudyValue { return sensor_conductance(a.number(0)); }},
+    {"conductance_slope", "n", [](Inputs a) -> StudyValue { return sensor_slope(a.number(0)); }},
 };
 
 /// The operator or function of expressions with this name and number of operands; null if there is none.

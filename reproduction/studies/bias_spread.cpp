@@ -74,7 +74,8 @@ Result<void> claim_bulk_connections(StudyResult& out, const Chips& as_built) {
     const auto add_claim = [&](const std::string& connection, const Chips& chips) {
         auto& c = out.claim(fmt::format("biasing, mismatch, {}: standard deviation of V_Q", connection),
                             sample_statistics(chips, "v(q)").cv_percent(), "%")
-                      .published_as(published_percent, "table 17");
+                      .published_as(published_percent, "table 17, by another reading of fig. 52")
+                      .of_kind(ClaimKind::misprint);
         if (c.needs_explanation())
             c.explain(
                 "closer to the published value than the circuit as built. Fig. 52 does not show the bulks of the divider, and the divider "
@@ -83,7 +84,8 @@ Result<void> claim_bulk_connections(StudyResult& out, const Chips& as_built) {
     const double mean = sample_statistics(as_built, "v(q)").mean;
     out.claim("biasing, mismatch, each bulk of the divider at its source, as built: standard deviation of V_Q relative to V_REF",
               100 * sample_statistics(as_built, "v(q,ref)").standard_deviation / mean, "%")
-        .published_as(published_percent, "table 17, if it is relative to V_REF");
+        .published_as(published_percent, "table 17, relative to V_REF; as in table17-18")
+        .of_kind(ClaimKind::identity);
     out.claim("biasing, mismatch, as built: standard deviation of V_REF", sample_statistics(as_built, "v(ref)").cv_percent(), "%");
     const auto at_rails = substitute_in_embedded_text(
         "circuits/bias.cir", {{"m2a top top ref ref", "m2a top top ref 0"}, {"m1b low low ref ref", "m1b low low ref vdd"}});

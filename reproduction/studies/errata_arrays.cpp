@@ -21,7 +21,8 @@ void add_tables(StudyResult& out) {
     out.claim("C2's V_A over A's, as printed", find_published(rectangles, "C2").V_A / a.V_A)
         .published_as(2, "thesis B.1, 2 times \"A1\"; by errata U15 A is meant");
     out.claim("C1: A_T as an area", 1e12 * circuit::rectangle_area(1.12e-6, 0.90e-6, 1, 1), "um^2")
-        .published_as(find_published(rectangles, "C1").A_T, "table 10; errata U16");
+        .published_as(find_published(rectangles, "C1").A_T, "table 10; errata U16")
+        .of_kind(ClaimKind::fitted);
     using Rule = circuit::RectangleRule;
     out.claim("C1: perimeter of that area's rectangle, um", 1e6 * 2 * (1.12e-6 + Rule::around_W + 0.90e-6 + Rule::around_L));
 }
@@ -56,7 +57,8 @@ Result<void> add_mismatch_by_inversion(StudyResult& out) {
     TRY(check_all(weak, strong));
     out.claim("A: standard deviation of I_D caused by threshold mismatch, at V_G = 0.25 V", *weak, "%");
     out.claim("A: standard deviation of I_D caused by threshold mismatch, at V_G = 0.9 V", *strong, "%")
-        .allow_max(*weak, "errata U14: it falls as the inversion level rises");
+        .allow_max(*weak, "errata U14: it falls as the inversion level rises")
+        .of_kind(ClaimKind::identity);
     return {};
 }
 
@@ -68,7 +70,8 @@ Result<void> add_threshold(StudyResult& out) {
          ".op\n.step param vd list 0 0.5"}));
     const double at_0 = found.front().operating_info("m1", "v_t"), at_half = found.back().operating_info("m1", "v_t");
     out.claim("short unit transistor: V_T at V_D = 0.5 V minus V_T at V_D = 0", at_half - at_0, "V")
-        .allow_range(-16e-3, 0, "errata U13: the largest drain-induced barrier lowering that g_md allows; the fit gives 0");
+        .allow_range(-16e-3, 0, "errata U13: the largest drain-induced barrier lowering that g_md allows; the fit gives 0")
+        .of_kind(ClaimKind::fitted);
     const auto V_T = [](const PublishedArrays& all, const char* name) { return 1e-3 * find_published(all, name).V_T; };
     out.claim_true(
         "published at V_D = 0: 441.4 mV at 5.22 um, 479.6 mV at 0.9 um, 531.7 mV at 0.18 um. V_T rises as L falls; drain-induced lowering "
@@ -87,7 +90,8 @@ Result<void> add_bulk(StudyResult& out) {
     // m1: bulk at the source; m2: bulk at the drain
     out.claim("current of a diode with V_B = V_D, as appendix D prints for fig. 48a, over that with V_B = V_S, at 0.3 V",
               found.operating_point("i(vd)") / found.operating_point("i(vs)"))
-        .allow_min(2, "errata C7: V_B = V_D would be fig. 48b already");
+        .allow_min(2, "errata C7: V_B = V_D would be fig. 48b already")
+        .of_kind(ClaimKind::misprint);
     return {};
 }
 

@@ -79,7 +79,9 @@ Result<StudyResult> compute(const StudyOptions&) {
         .add("as used here: retraction of 125 ms", force)
         .add("as printed: retraction of 250 ms", slow_retraction.curve())
         .describe_published("rest, sinusoidal ramp, plateau and a symmetrical retraction, 0.2 to 4 N");
+    out.next_kind = ClaimKind::fitted;  // the directions of the built-in skins are drawn after this paper
     TRY(directions::report(out));
+    out.next_kind = {};
     out.note(
         "The abstract of Birznieks et al. 2001 reports 196 afferents, not \"196 afferent nerve impulses\" (errata B18a). The protocol of "
         "250, 125, 250 and 125 ms between 0.2 and 4 N was found in the thesis only.");

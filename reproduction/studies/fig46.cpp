@@ -34,13 +34,16 @@ Result<void> add_lengths(StudyResult& out) {
     TRY(check_all(by_length, by_array));
     const double long_transistor = I_in / -by_length->operating_point("i(vo)"), array = I_in / -by_array->operating_point("i(vo)");
     out.claim(fmt::format("0.18 um to {:g} um: I_in/I_out over the ratio of aspect ratios", 1e6 * L), long_transistor / ratio)
-        .derived_as(1, "thesis eq. 33");
+        .derived_as(1, "thesis eq. 33")
+        .of_kind(ClaimKind::fitted);
     if (auto& c = out.claims.back(); c.needs_explanation()) c.explain("their thresholds differ (table 11, A and B1)");
     out.claim(fmt::format("0.18 um to {} unit transistors of 0.18 um in series: I_in/I_out over the ratio of aspect ratios", n),
               array / ratio)
-        .derived_as(1, "thesis C.1: a better mirror");
+        .derived_as(1, "thesis C.1: a better mirror")
+        .of_kind(ClaimKind::identity);
     out.claim_true("the ratio of the array is closer to the ratio of sizes than that of the long transistor",
                    std::abs(array / ratio - 1) < std::abs(long_transistor / ratio - 1), "thesis C.1");
+    out.claims.back().of_kind(ClaimKind::fitted);  // to the thresholds of table 11
     return {};
 }
 
@@ -77,11 +80,13 @@ Result<StudyResult> compute(const StudyOptions&) {
         const auto I = found.curve("dc", fmt::format("i(v{})", n)).scaled(1, -1), slope = I.slope();
         const auto name = n == 1 ? std::string("conventional (46a), 1 to 1") : fmt::format("parallel-series (46b), N = {}", n);
         out.claim(fmt::format("{}: I_in/I_out at 0.35 V", name), I_in / I.at(V_out))
-            .derived_as(N2, n == 1 ? "thesis eq. 33, 1 to 1" : "thesis eq. 34");
+            .derived_as(N2, n == 1 ? "thesis eq. 33, 1 to 1" : "thesis eq. 34")
+            .of_kind(ClaimKind::identity);
         auto& c = out.claim(
             fmt::format("{}: I_out/G_o over I_out/G_o of the 1 to 1 mirror", name),
             I.at(V_out) / slope.at(V_out) / (found.curve("dc", "i(v1)").at(V_out) / found.curve("dc", "i(v1)").slope().at(V_out)));
         c.derived_as(n, "thesis eq. 36: V_A = V_E L");
+        if (n == 1) c.of_kind(ClaimKind::identity);
         if (c.needs_explanation())
             c.explain(
                 "in a stack of N only the unit transistor at the drain has length modulation, so the effect is less than 1/N of a single "
@@ -91,7 +96,8 @@ Result<StudyResult> compute(const StudyOptions&) {
         const double units = 2 * n, array = circuit::array_area(1.5e-6, 0.5e-6, units), plain = circuit::array_area(1.5e-6, 0.5e-6, N2 + 1);
         out.claim(fmt::format("{}: area of its {:g} unit transistors over that of {:g}, N^2 in parallel and one", name, units, N2 + 1),
                   array / plain)
-            .allow_max(1, "thesis B.1, C.1: area-efficient");
+            .allow_max(1, "thesis B.1, C.1: area-efficient")
+            .of_kind(ClaimKind::arithmetic);
     }
     for (const auto add : {add_lengths, add_spread}) TRY(add(out));
     out.plots = {currents.describe_published("C.1: I_out is I_in over N^2"),

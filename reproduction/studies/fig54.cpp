@@ -20,6 +20,7 @@ Result<StudyResult> compute(const StudyOptions& options) {
     const auto V_REF = typical.sweep.curve("v(ref)");
     for (std::size_t k = 0; k < V_REF.x.size(); ++k) largest_error = std::max(largest_error, std::abs(V_REF.y[k] / V_REF.x[k] - 0.5));
     out.claim_true("V_REF is half the supply within a thousandth of the supply, from 0.4 to 0.9 V", largest_error < 1e-3, "thesis E.2");
+    out.claims.back().of_kind(ClaimKind::identity);
     const auto from = typical.working_range.from, to = typical.working_range.to;
     out.claim_true("V_BP rises with the supply", typical.sweep.curve("v(bp)").between(from, to).slope().min() > 0,
                    "E.2: as V_DD increases, so do V_REF, V_BP and V_BN");

@@ -67,9 +67,8 @@ Result<double> gain(double newtons) {
 
 /// Thermal noise of the sensor, taken as a resistor with 0.1 V across it, in the band, N rms.
 double sensor_noise(double newtons) {
-    const ForceSensor sensor;
     const double gf = newtons / gram_force;
-    return std::sqrt(4 * boltzmann * kelvin * sensor.conductance(gf) * (to - from)) / (0.1 * sensor.slope(gf) / gram_force);
+    return std::sqrt(4 * boltzmann * kelvin * sensor_conductance(gf) * (to - from)) / (0.1 * sensor_slope(gf) / gram_force);
 }
 
 struct NoiseParts {
@@ -146,6 +145,6 @@ const Study study{
     "noise-force", "The circuits' noise as a force",
     "The thesis names noise as the price of analog processing (1.3) and calls INVC's noise adequate for its application (E.4). "
     "How large is the noise as a force?",
-    ClaimKind::predicted, compute};
+    ClaimKind::ours, compute};
 
 }  // namespace corpuscle::studies::noise_force

@@ -11,10 +11,12 @@ namespace corpuscle::studies::table10 {
 /// C1's active area from other published numbers; table 10 prints a different one.
 void add_erratum(StudyResult& out, const SimulatedArrays& ours) {
     const auto& c1 = find_published(rectangles, "C1");
+    out.next_kind = ClaimKind::arithmetic;
     const std::string source = "errata U11, C1's A = 1.0800";
     out.claim("C1: A from A_T and A/A_T as printed", c1.A_T * c1.area_ratio, "um^2").derived_as(1.0080, source);
     out.claim("C1: A from g_mg (table 11) and g_mg/A (table 12) as printed", c1.g_mg / c1.g_by_A, "um^2").derived_as(1.0080, source);
     out.claim_true("C1: W L is 1.0080 um^2, not 1.0800", std::abs(ours("C1").A * 1e12 - 1.0080) < 5e-5, source);
+    out.next_kind = {};
 }
 
 Result<StudyResult> compute(const StudyOptions&) {

@@ -11,12 +11,14 @@ namespace corpuscle::studies::table12 {
 
 /// Errata of table 12: what its columns contain, computed from the printed numbers of table 11.
 void add_errata(StudyResult& out) {
+    out.next_kind = ClaimKind::arithmetic;
     add_ratio_rule(out, rectangles, 1e-9, "errata U6 and U7: V_A is I_D/g_md, and g_md in uS");
     for (const auto& a : published_rectangles)
         out.claim(fmt::format("{}: g_mb/g_mg by table 11 as printed", a.name), a.g_mb / a.g_mg)
             .published_as(a.bulk_ratio, "table 12, errata U5: not g_mg/g_mb");
     const auto& d1 = find_published(rectangles, "D1");
     out.claim("D1: g_mg/I_D by table 11 as printed", d1.g_mg / d1.I_D, "1/V").derived_as(18.07, "errata U12, instead of 18.02");
+    out.next_kind = {};
 }
 
 void add_text(StudyResult& out, const SimulatedArrays& ours) {

@@ -128,8 +128,13 @@ Result<void> report_touch(StudyResult& out, const Contact& contact) {
         .explain_if_needed("the models are made for the range of the thesis's stimulus, 0.2 to 4 N");
     for (const auto& [afferent, theirs] : {std::pair{"sa1", &contact.sa1}, {"fa1", &contact.ra}})
         for (const auto& row : rows)
+        {
+            // the force was searched for this rate, so its agreement is a fit
+            out.next_kind = theirs == &contact.sa1 && row.rate == contact.matched ? std::optional(ClaimKind::fitted) : std::nullopt;
             report_row(out, fmt::format("{} at the matching force, {}", contact.name, afferent == std::string("sa1") ? "SA-I" : "FA-I"),
                        row, rates_within_distance(*matched, afferent), *theirs, reason(afferent, row, contact.radius > 1e-3));
+        }
+    out.next_kind = {};
     return {};
 }
 
@@ -187,7 +192,8 @@ Result<void> report_tuning(StudyResult& out, const StudyOptions& options) {
         if (name == "FA-II") {
             const auto best = std::min_element(line.y.begin(), line.y.end()) - line.y.begin();
             out.claim("FA-II: most sensitive at", line.x[static_cast<std::size_t>(best)], "Hz")
-                .allow_range(200, 300, "PC best at 200 to 300 Hz: PMC2657072, table 1");
+                .allow_range(200, 300, "PC best at 200 to 300 Hz: PMC2657072, table 1")
+                .of_kind(ClaimKind::fitted);
         } else if (c.spikes_per_period == 0) {
             const auto add_ratio = [&](double f) -> Claim& {
                 return out.claim(fmt::format("{}: threshold at {} Hz over that at 40 Hz", name, f), at(f) / at(40))
@@ -214,6 +220,7 @@ Result<void> report_tuning(StudyResult& out, const StudyOptions& options) {
 Result<void> report_press(StudyResult& out) {
     const auto sa1 = simulate_train({"sa1"}), fa1 = simulate_train({"fa1"});
     TRY(check_all(sa1, fa1));
+    out.next_kind = ClaimKind::ours;
     constexpr auto bound = "our bound after Birznieks et al. 2001, as described in thesis 1.2";
     const auto peak = [](const std::vector<double>& t, const TimeWindow& window) { return measure<PeakRate>(t, window); };
     out.claim("4 N: SA-I, peak of protraction over the end of the hold",

@@ -55,11 +55,12 @@ std::string early_voltage_reason(const SimulatedArray&) {
     return "V_A = V_E L with a single V_E, fitted to the seven arrays of the shortest unit transistor, is simpler than the foundry's model";
 }
 
-std::string threshold_reason(const SimulatedArray& a) {
+/// V_T has no verdict: the printed one is another quantity than the equations' V_T0.
+std::string threshold_note(const SimulatedArray& a, const PublishedArrays& all) {
     return fmt::format(
-        "the published V_T has another definition: the simulator's at its operating point. Used as V_T0 in the equations of appendix A it "
-        "would give g_mg/I_D = {:.1f} 1/V, but {:.2f} 1/V is printed",
-        g_by_I_with_published_threshold(*a.published), a.published->g_by_I);
+        "{} prints {:.1f} mV, by another definition of the threshold. Used as V_T0 in the equations of appendix A it would give g_mg/I_D = "
+        "{:.1f} 1/V, but {:.2f} 1/V is printed",
+        all.small_signal_table, a.published->V_T, g_by_I_with_published_threshold(*a.published), a.published->g_by_I);
 }
 
 }  // namespace
@@ -142,9 +143,9 @@ void add_small_signals(StudyResult& out, const PublishedArrays& all, const Simul
         {"g_ms", "S", [](const SimulatedArray& a) { return a.g_ms; }, &P::g_ms, 1e-6},
         {"g_mb", "S", [](const SimulatedArray& a) { return a.g_mb; }, &P::g_mb, 1e-6},
         {"I_D", "A", [](const SimulatedArray& a) { return a.I_D; }, &P::I_D, 1e-6},
-        {"V_T", "V", [](const SimulatedArray& a) { return a.V_T; }, &P::V_T, 1e-3, threshold_reason},
     };
     for (const auto& column : columns) add_column(out, column, ours, all.small_signal_table);
+    for (const auto& a : ours) out.claim(fmt::format("{}: V_T", a.published->name), a.V_T, "V").explain(threshold_note(a, all));
 }
 
 void add_ratios(StudyResult& out, const PublishedArrays& all, const SimulatedArrays& ours) {
@@ -211,11 +212,12 @@ void add_rule(StudyResult& out, const PublishedArrays& all, double printed_unit,
         with_printed = std::max(with_printed, residual(a, printed_unit));
         all_closer = all_closer && residual(a, all.g_md_unit) < residual(a, printed_unit);
     }
-    out.claim_true(
+    auto& c = out.claim_true(
         fmt::format("Published numbers only: {} by up to {:.2g} % with the corrected unit of g_md, and by up to {:.2g} % with the unit "
                     "in the table's head. The difference is smaller with the corrected unit in every row",
                     statement, 100 * with_corrected, 100 * with_printed),
         all_closer, erratum);
+    c.of_kind(ClaimKind::arithmetic);
 }
 
 }  // namespace

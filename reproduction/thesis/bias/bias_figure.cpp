@@ -10,9 +10,12 @@ namespace {
 /// in explain_range_end.
 Result<void> claim_end(StudyResult& out, const std::string& claim_label, const BiasSweep& sweep, double end, bool reaches_sweep_end,
                        double published, const BiasFigure& figure) {
-    auto& claim = out.claim(claim_label, end, figure.unit).published_as(published, figure.source());
     auto why = TRY(explain_range_end(sweep, end, reaches_sweep_end));
-    claim.explain(std::move(why));
+    auto& claim = out.claim(claim_label, end, figure.unit).published_as(published, figure.source()).explain(std::move(why));
+    if (!reaches_sweep_end) return {};
+    // the generator works at the published end and beyond it, as far as the sweep goes
+    const bool is_start = end < published;
+    claim.allow_range(is_start ? Claim::none : published, is_start ? published : Claim::none, figure.source() + ": works there");
     return {};
 }
 

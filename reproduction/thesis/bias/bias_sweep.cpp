@@ -34,7 +34,7 @@ double saturation_voltage(const circuit::Circuit& c, std::string_view name, doub
 }  // namespace
 
 Result<BiasSweep> BiasSweep::run(BiasAxis axis, std::vector<std::string> settings) {
-    constexpr const char* ranges[] = {"10n 3u 2n", "0.4 0.9 2m", "-55 125 5"};
+    constexpr const char* ranges[] = {"10n 3u 2n", "0.4 0.9 2m", "-100 125 5"};
     return run(axis, ranges[static_cast<int>(axis)], std::move(settings));
 }
 
@@ -68,8 +68,10 @@ StudyCurve BiasSweep::worst_error() const {
     return out;
 }
 
-BiasSweep::Range BiasSweep::working_range() const {
-    const auto error = worst_error();
+namespace {
+
+/// The range around the smallest `error` where it is at most 1.
+BiasSweep::Range range_within_limits(const StudyCurve& error) {
     const auto best = static_cast<std::size_t>(std::min_element(error.y.begin(), error.y.end()) - error.y.begin());
     if (error.y.empty() || error.y[best] > 1) return {Claim::none, Claim::none, false, false};
     std::size_t low = best, high = best;
@@ -82,6 +84,23 @@ BiasSweep::Range BiasSweep::working_range() const {
     const bool reaches_start = low == 0, reaches_end = high + 1 == error.x.size();
     return {reaches_start ? error.x[low] : edge(low, low - 1), reaches_end ? error.x[high] : edge(high, high + 1), reaches_start,
             reaches_end};
+}
+
+}  // namespace
+
+BiasSweep::Range BiasSweep::working_range() const { return range_within_limits(worst_error()); }
+
+BiasSweep::Range BiasSweep::described_range() const {
+    auto error = curve("v(bn)");
+    const auto supply = curve("v(vdd)");
+    constexpr double middle = (described_V_BN[0] + described_V_BN[1]) / 2, half = (described_V_BN[1] - described_V_BN[0]) / 2;
+    for (std::size_t k = 0; k < error.x.size(); ++k) {
+        const double I_BIAS = error.x[k], V_BN = error.y[k];
+        const double M3B = saturation_voltage(*netlist_result.circuit, "m3b", I_BIAS) / (supply.y[k] - V_BN),
+                     M4A = saturation_voltage(*netlist_result.circuit, "m4a", I_BIAS) / V_BN;
+        error.y[k] = std::max({std::abs(V_BN - middle) / half, M3B, M4A});
+    }
+    return range_within_limits(error);
 }
 
 double BiasSweep::Range::covered_fraction(double min, double max) const {
