@@ -23,9 +23,9 @@ struct Claim {
     /// a tenth of the value is too much to mean anything, such as for an effect of 3 mV on 350 mV.
     double tolerance = none;
     double allowed_min = none, allowed_max = none;  ///< allowed range of `computed`; NaN for a missing limit
-    std::string source = {};  ///< where the published value or the allowed range is stated, or from what it is derived
-    std::string note = {};    ///< explains a deviation
-    bool is_boolean = false;  ///< `computed` is 1 (true) or 0 (false)
+    std::string source = {};             ///< where the published value or the allowed range is stated, or from what it is derived
+    std::string note = {};               ///< explains a deviation
+    bool is_boolean = false;             ///< `computed` is 1 (true) or 0 (false)
     std::optional<ClaimKind> kind = {};  ///< empty: the kind of its study, which Study::run fills in
 
     Claim& published_as(double value, std::string where) { return published = value, source = std::move(where), *this; }

@@ -64,8 +64,9 @@ void put_kinds_table(std::string& text, std::span<const StudyResult> outcomes) {
         "| kind | printed numbers: agree | differ | derived numbers: agree | differ | statements: hold | do not | meaning |\n"
         "|---|---|---|---|---|---|---|---|\n";
     for (const auto& k : count_by_kind(outcomes))
-        text += fmt::format("| {} | {} | {} | {} | {} | {} | {} | {} |\n", info_of(k.kind).name, k.printed.agreeing, k.printed.deviating,
-                            k.derived.agreeing, k.derived.deviating, k.statements.agreeing, k.statements.deviating, info_of(k.kind).meaning);
+        text +=
+            fmt::format("| {} | {} | {} | {} | {} | {} | {} | {} |\n", info_of(k.kind).name, k.printed.agreeing, k.printed.deviating,
+                        k.derived.agreeing, k.derived.deviating, k.statements.agreeing, k.statements.deviating, info_of(k.kind).meaning);
 }
 
 /// Puts the table of all claims of one study.
@@ -82,7 +83,8 @@ void put_study_table(std::string& text, const StudyResult& outcome) {
 /// Puts the table of the headline claims of all studies.
 void put_headline_table(std::string& text, std::span<const Study* const> studies, std::span<const StudyResult> outcomes) {
     text +=
-        "| study | quantity | computed | published | deviation | allowed | kind | reason, if it deviates |\n|---|---|---|---|---|---|---|---|\n";
+        "| study | quantity | computed | published | deviation | allowed | kind | reason, if it deviates "
+        "|\n|---|---|---|---|---|---|---|---|\n";
     for (std::size_t k = 0; k < studies.size(); ++k)
         for (const auto& c : outcomes[k].claims)
             if (is_headline(c))
@@ -119,7 +121,8 @@ std::string markdown_of(std::span<const Study* const> studies, std::span<const S
     const bool from_recording = !studies.empty() && !studies.front()->recording_folder.empty();
     std::string text = fmt::format(
         "# {}, reproduced\n\nWritten by `corpuscle study {}` (`make reproduction` writes this page{}). All numbers are "
-        "computed, except the published ones. {}\n\nA number agrees if it is within 10 % of the published one, or within the tolerance that its "
+        "computed, except the published ones. {}\n\nA number agrees if it is within 10 % of the published one, or within the tolerance "
+        "that its "
         "row states. A derived number, in brackets, is not printed but follows from an equation, a sentence or the thesis's model. Every "
         "deviation has its cause, or the words \"not known\".\n\n## Kinds of claims\n\n",
         from_recording ? "A published recording" : "Every figure and table", from_recording ? studies.front()->name : "all",

@@ -161,7 +161,8 @@ private:
         claim.is_derived = item.has("derived");
         claim.published = number(item, claim.is_derived ? "derived" : "published");
         if (item.has("tolerance") && !item.has("published") && !item.has("derived"))
-            return fail(bad_input("tolerance is the allowed difference from 'published' or 'derived'; the claim has neither", item.location));
+            return fail(
+                bad_input("tolerance is the allowed difference from 'published' or 'derived'; the claim has neither", item.location));
         claim.allowed_min = is_statement ? 1 : number(item, "min");
         claim.allowed_max = number(item, "max");
         claim.source = text(item, "source");

@@ -60,9 +60,8 @@ Result<std::vector<const Study*>> selected_studies(const std::vector<std::string
 std::string text_of(const Study& study, const StudyResult& result) {
     std::vector<std::vector<std::string>> rows = {{"", "computed", "published", "deviation", "allowed", "", "kind"}};
     for (const auto& c : result.claims)
-        rows.push_back(
-            {c.label, format_claim_value(c.computed, c), format_published(c), format_deviation(c), format_allowed_range(c), c.verdict(),
-             *c.verdict() != 0 ? std::string(info_of(*c.kind).name) : ""});
+        rows.push_back({c.label, format_claim_value(c.computed, c), format_published(c), format_deviation(c), format_allowed_range(c),
+                        c.verdict(), *c.verdict() != 0 ? std::string(info_of(*c.kind).name) : ""});
     std::string text = fmt::format("{}: {}\n{}\n\n{}", study.name, study.title, study.question, format_table(rows));
     for (const auto& c : result.claims)
         if (!c.note.empty()) text += fmt::format("\n{}: {}\n", c.label, c.note);

@@ -101,7 +101,9 @@ Result<void> claim_causes(StudyResult& out) {
                    "thesis E.2: the same statement, for currents above the range");
     out.claim("at the upper end of the range of I_BIAS: bulk junction current over I_BIAS", 100 * high->bulk_current / high->I_BIAS, "%");
     out.claim("at I_BIAS = 2 uA: bulk junction current over I_BIAS", 100 * state_at_2_uA->bulk_current / state_at_2_uA->I_BIAS, "%");
-    out.claim("V_BN at I_BIAS = 2 uA", state_at_2_uA->V_BN, "V").published_as(0.6, "thesis E.2: up to 600 mV; as in fig53").of_kind(ClaimKind::identity);
+    out.claim("V_BN at I_BIAS = 2 uA", state_at_2_uA->V_BN, "V")
+        .published_as(0.6, "thesis E.2: up to 600 mV; as in fig53")
+        .of_kind(ClaimKind::identity);
     out.claim("I_Q at I_BIAS = 2 uA", state_at_2_uA->I_Q, "A")
         .derived_as(2e-6, "thesis E.2: I_Q = I_BIAS up to 2 uA")
         .explain(state_at_2_uA->description());
@@ -170,7 +172,8 @@ Result<StudyResult> compute(const StudyOptions& options) {
     TRY(report_bias_widths(out));
     TRY(add_plots(out));
     out.note(
-        "Criterion: V_Q within 5 mV of half the supply and I_Q within a tenth of I_BIAS; fixed in advance. The thesis gives none for supply and temperature; for the current it says that V_BN is between 100 and 600 mV and "
+        "Criterion: V_Q within 5 mV of half the supply and I_Q within a tenth of I_BIAS; fixed in advance. The thesis gives none for "
+        "supply and temperature; for the current it says that V_BN is between 100 and 600 mV and "
         "that M3B and M4A are saturated (study fig53 has both). The "
         "corners are three standard deviations of the process spread in tables 17 and 18 without biasing: thresholds 40 mV and specific "
         "currents 9 % higher or lower.");

@@ -53,9 +53,11 @@ void add_claims(StudyResult& out, StudyPlot& plot, const std::string& quantity, 
         line.x.push_back(1e3 * steps[k]), line.y.push_back(unit == std::string_view("s") ? errors[k] * 1e3 : errors[k]);
     }
     out.claim(quantity + ": error at 1 ms over error at 0.1 ms", errors[0] / errors[1])
-        .allow_range(5, 20, std::string(tenfold) + "; the bounds 5 and 20 are our choice").of_kind(ClaimKind::identity);
+        .allow_range(5, 20, std::string(tenfold) + "; the bounds 5 and 20 are our choice")
+        .of_kind(ClaimKind::identity);
     out.claim(quantity + ": error at 0.1 ms over error at 0.01 ms", errors[1] / errors[2])
-        .allow_range(5, 20, std::string(tenfold) + "; the bounds 5 and 20 are our choice").of_kind(ClaimKind::identity);
+        .allow_range(5, 20, std::string(tenfold) + "; the bounds 5 and 20 are our choice")
+        .of_kind(ClaimKind::identity);
     plot.add(quantity, line);
 }
 

@@ -184,6 +184,7 @@ Result<StudyResult> compute(const StudyOptions& options) {
 }
 
 const Study study{"eq1-12", "Equations 1 to 12",
-                  "Do the models follow the thesis's equations as corrected by the errata? Thesis 3.1 to 3.3, eq. 1 to 12", ClaimKind::identity, compute};
+                  "Do the models follow the thesis's equations as corrected by the errata? Thesis 3.1 to 3.3, eq. 1 to 12",
+                  ClaimKind::identity, compute};
 
 }  // namespace corpuscle::studies::eq1_12

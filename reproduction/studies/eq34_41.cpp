@@ -63,7 +63,9 @@ Result<void> add_parallel_series(StudyResult& out) {
                    with_process_card = simulate_parallel_series(process_card, "nch", n);
         TRY(check_all(simple, with_process_card));
         const auto prefix = fmt::format("parallel-series, N = {}: I_in/I_out, ", n);
-        out.claim(prefix + "equations only", I_in / -simple->operating_point("i(vout)")).derived_as(n * n, "thesis eq. 34; errata C1").of_kind(ClaimKind::identity);
+        out.claim(prefix + "equations only", I_in / -simple->operating_point("i(vout)"))
+            .derived_as(n * n, "thesis eq. 34; errata C1")
+            .of_kind(ClaimKind::identity);
         auto& c = out.claim(prefix + "with the process card", I_in / -with_process_card->operating_point("i(vout)"))
                       .derived_as(n * n, "thesis eq. 34")
                       .of_kind(ClaimKind::identity);
@@ -89,13 +91,17 @@ Result<void> add_split(StudyResult& out) {
         const double N2 = n * n, by_38_39 = N2 * (N2 + 2);
         const auto prefix = fmt::format("current splitting, N = {}: ", n);
         out.claim(prefix + "I_DC + I_DD over I_DB, equations only", (simple->I_C + simple->I_out) / simple->I_B)
-            .derived_as(1, "thesis eq. 37").of_kind(ClaimKind::identity);
+            .derived_as(1, "thesis eq. 37")
+            .of_kind(ClaimKind::identity);
         out.claim(prefix + "I_in/I_DB, equations only", I_in / simple->I_B)
-            .derived_as(n * (1.0 / n + n + 1.0 / n) / ((n + 1.0 / n) / n), "thesis eq. 38").of_kind(ClaimKind::identity);
+            .derived_as(n * (1.0 / n + n + 1.0 / n) / ((n + 1.0 / n) / n), "thesis eq. 38")
+            .of_kind(ClaimKind::identity);
         out.claim(prefix + "I_DC/I_out, equations only", simple->I_C / simple->I_out)
-            .derived_as(N2, "thesis eq. 39; errata C5: exact in saturation").of_kind(ClaimKind::identity);
+            .derived_as(N2, "thesis eq. 39; errata C5: exact in saturation")
+            .of_kind(ClaimKind::identity);
         out.claim(prefix + "I_in/I_out, equations only", I_in / simple->I_out)
-            .derived_as(by_38_39, "eq. 38 and 39: N^2 (N^2 + 2); errata C6").of_kind(ClaimKind::identity);
+            .derived_as(by_38_39, "eq. 38 and 39: N^2 (N^2 + 2); errata C6")
+            .of_kind(ClaimKind::identity);
         auto& error_claim = out.claim(prefix + "excess of I_in/I_out over eq. 40",
                                       100 * (simple->I_out > 0 ? I_in / simple->I_out / (N2 * N2) - 1 : Claim::none), "%");
         error_claim.of_kind(ClaimKind::identity).derived_as(200 / N2, "errata C6: 2/N^2, because S_C >> S_B + S_D is only approximate");
@@ -135,14 +141,19 @@ Result<void> add_output(StudyResult& out) {
          ".op\n.dc vout 0.2 0.7 10m"}));
     const auto I = found.curve("dc", "i(vout)").scaled(1, -1);
     const double V_in = found.operating_point("v(in)"), G_o = I.slope_at(0.35), at = 0.65;
-    out.claim("1 to 1: I_out/I_in at V_out = V_in, with the process card", I.at(V_in) / I_in).derived_as(1, "errata C2").of_kind(ClaimKind::identity);
+    out.claim("1 to 1: I_out/I_in at V_out = V_in, with the process card", I.at(V_in) / I_in)
+        .derived_as(1, "errata C2")
+        .of_kind(ClaimKind::identity);
     out.claim("1 to 1: I_out at 0.65 V from A_I I_in + G_o (V_out - V_in), over that of the simulated mirror",
               (I_in + G_o * (at - V_in)) / I.at(at))
-        .derived_as(1, "eq. 35 as corrected by errata C2").of_kind(ClaimKind::identity);
+        .derived_as(1, "eq. 35 as corrected by errata C2")
+        .of_kind(ClaimKind::identity);
     out.claim("1 to 1: I_out at 0.65 V from A_I I_in + G_o V_out, over that of the simulated mirror", (I_in + G_o * at) / I.at(at))
-        .derived_as(1, "thesis eq. 35").of_kind(ClaimKind::identity);
+        .derived_as(1, "thesis eq. 35")
+        .of_kind(ClaimKind::identity);
     out.claim_true("eq. 35 as corrected is closer",
-                   std::abs((I_in + G_o * (at - V_in)) - I.at(at)) < std::abs((I_in + G_o * at) - I.at(at)), "errata C2").of_kind(ClaimKind::identity);
+                   std::abs((I_in + G_o * (at - V_in)) - I.at(at)) < std::abs((I_in + G_o * at) - I.at(at)), "errata C2")
+        .of_kind(ClaimKind::identity);
     return {};
 }
 

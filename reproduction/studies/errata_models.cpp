@@ -46,7 +46,8 @@ Result<void> algorithm_1(StudyResult& out) {
         .derived_as(1, "thesis 3.1: eq. 1 does not depend on T")
         .explain("the algorithm uses F[n] - F[n-1] for F'; it must be divided by the step, which the text calls h and eq. 1 lacks (B2)");
     out.claim("Alg. 1: dynamic component at T = 1 ms over that at 0.1 ms, with k_d / T", corrected[0] / corrected[1])
-        .derived_as(1, "thesis 3.1: eq. 1 does not depend on T").of_kind(ClaimKind::identity);
+        .derived_as(1, "thesis 3.1: eq. 1 does not depend on T")
+        .of_kind(ClaimKind::identity);
     return {};
 }
 
@@ -62,7 +63,8 @@ Result<void> algorithm_2(StudyResult& out, const StudyCurve& force) {
         .allow_min(0, "thesis 3.1, eq. 2: max(F', 0)")
         .explain("the test on F[n] + F[n-1] lets a falling force enter I+ with its negative sign (B3)");
     out.claim("Alg. 2: sum of I-, as corrected", sum(corrected), "N")
-        .derived_as(press::max_force - press::min_force, "thesis 3.1, eq. 3: the total fall of the force").of_kind(ClaimKind::identity);
+        .derived_as(press::max_force - press::min_force, "thesis 3.1, eq. 3: the total fall of the force")
+        .of_kind(ClaimKind::identity);
     return {};
 }
 
@@ -113,7 +115,8 @@ Result<void> algorithm_5(StudyResult& out, const StudyCurve& force, StudyPlot& r
     out.claim("Alg. 5: spikes with I_A only", static_cast<double>(static_spikes.size()), "spikes");
     out.claim("Alg. 5: spikes, as corrected", static_cast<double>(corrected.size()), "spikes")
         .allow_range(static_cast<double>(catalogue_spikes.size()), static_cast<double>(catalogue_spikes.size()),
-                     "sa1 of the catalogue with fig. 16's theta").of_kind(ClaimKind::identity);
+                     "sa1 of the catalogue with fig. 16's theta")
+        .of_kind(ClaimKind::identity);
     raster.raster_row("Alg. 5 as printed, I' = I[n-1]", value)
         .raster_row("Alg. 5 as corrected", corrected)
         .raster_row("sa1", catalogue_spikes);
@@ -148,7 +151,8 @@ Result<void> algorithm_6(StudyResult& out, const StudyCurve& force, StudyPlot& r
             "k_B I_0 is negative while the force falls; -k_B I_0 is meant, which makes a full-wave rectifier with two gains, as in 4.3.2 "
             "(B12)");
     out.claim("Alg. 6: spikes from the start of retraction, as corrected", press::spike_count(corrected, later), "spikes")
-        .allow_range(press::spike_count(catalogue_spikes, later), press::spike_count(catalogue_spikes, later), "fa1 of the catalogue").of_kind(ClaimKind::identity);
+        .allow_range(press::spike_count(catalogue_spikes, later), press::spike_count(catalogue_spikes, later), "fa1 of the catalogue")
+        .of_kind(ClaimKind::identity);
     raster.raster_row("Alg. 6 as printed", as_printed).raster_row("Alg. 6 as corrected", corrected).raster_row("fa1", catalogue_spikes);
     return {};
 }
@@ -157,7 +161,8 @@ Result<void> algorithm_6(StudyResult& out, const StudyCurve& force, StudyPlot& r
 void check_first_sample(StudyResult& out, const StudyCurve& force) {
     out.claim("I_B at the first sample if F[-1] is 0", 8e-6 * k2(20, T) * force.y[0], "A");
     out.claim("I_B at the first sample if F[-1] is F[0], as in our models", apply_filter(force, 8e-6, 20, FilterForm::corrected).y[0], "A")
-        .allow_range(0, 0, "B16 leaves this open; a start at rest is our choice").of_kind(ClaimKind::ours);
+        .allow_range(0, 0, "B16 leaves this open; a start at rest is our choice")
+        .of_kind(ClaimKind::ours);
 }
 
 Result<StudyResult> compute(const StudyOptions& options) {
@@ -184,6 +189,7 @@ Result<StudyResult> compute(const StudyOptions& options) {
 }
 
 const Study study{"errata-models", "Algorithms 1, 2, 5 and 6 as printed",
-                  "How do the thesis's algorithms respond as printed, and as corrected by the errata? Thesis 3.1, 3.3, 3.4", ClaimKind::misprint, compute};
+                  "How do the thesis's algorithms respond as printed, and as corrected by the errata? Thesis 3.1, 3.3, 3.4",
+                  ClaimKind::misprint, compute};
 
 }  // namespace corpuscle::studies::errata_models

@@ -36,13 +36,16 @@ void algorithm_3(StudyResult& out) {
     out.claim("Alg. 3: u after two samples of 2 uA, as printed", membrane_a(k_a, r * (1 + r), 0, 2e-6, 2), "V")
         .allow_max(2, "eq. 5: never above R I")
         .explain("u grows by the factor k_b in each sample (B4)");
-    out.claim("Alg. 3: u after ten thousand samples, as corrected", membrane_a(k_a, k_b, 0, 2e-6, 10000), "V").derived_as(2, "eq. 5: R I").of_kind(ClaimKind::identity);
+    out.claim("Alg. 3: u after ten thousand samples, as corrected", membrane_a(k_a, k_b, 0, 2e-6, 10000), "V")
+        .derived_as(2, "eq. 5: R I")
+        .of_kind(ClaimKind::identity);
     out.claim("Alg. 3: u at rest for u_rest = 0.1 V, with k_c = u_rest as printed", membrane_a(k_a, k_b, u_rest, 0, 20000), "V")
         .derived_as(u_rest, "eq. 5")
         .explain("k_c is u_rest / (1 + RC/T); the printed one is correct for RC far below T, and makes no difference for u_rest = 0 (B5)");
     out.claim("Alg. 3: u at rest for u_rest = 0.1 V, with k_c = u_rest / (1 + RC/T) as corrected",
               membrane_a(k_a, k_b, u_rest / (1 + r), 0, 20000), "V")
-        .derived_as(u_rest, "eq. 5").of_kind(ClaimKind::identity);
+        .derived_as(u_rest, "eq. 5")
+        .of_kind(ClaimKind::identity);
 }
 
 /// Algorithm 4 as printed: the current is added to u_rest, not to u[n-1] (B6).
@@ -58,7 +61,8 @@ Result<void> algorithm_4(StudyResult& out) {
         .explain("as printed u[n] does not depend on u[n-1], so it contains the charge of one step only (B6)");
     const auto corrected = algorithms::lif_b(I, {});
     out.claim("Alg. 4: spikes, as corrected", static_cast<double>(corrected.spikes.size()), "spikes")
-        .allow_range(static_cast<double>(response.spikes.size()), static_cast<double>(response.spikes.size()), "sa1 of the catalogue").of_kind(ClaimKind::identity);
+        .allow_range(static_cast<double>(response.spikes.size()), static_cast<double>(response.spikes.size()), "sa1 of the catalogue")
+        .of_kind(ClaimKind::identity);
     out.plot("Membrane of SA-I under the press stimulus", "time (s)", "u (V)")
         .add("Alg. 4 as printed", u)
         .add("as corrected", corrected.u)
@@ -95,7 +99,8 @@ Result<void> one_spike_per_sample(StudyResult& out) {
         .explain("if u rises by more than theta - u_rst in a sample, the excess over theta remains and grows (B6c)");
     out.claim("LIF-B of the catalogue: frequency at 400 uA, with several spikes per sample",
               static_cast<double>(catalogue_spikes.size()) / 0.1, "Hz")
-        .derived_as(expected, "thesis 3.2: (I - I_leak0) / [C (theta - u_rst)]").of_kind(ClaimKind::identity);
+        .derived_as(expected, "thesis 3.2: (I - I_leak0) / [C (theta - u_rst)]")
+        .of_kind(ClaimKind::identity);
     return {};
 }
 
@@ -110,9 +115,11 @@ void check_rounding(StudyResult& out) {
         return largest;
     };
     out.claim("fig. 16's LIF-B at 2 uA, T = 1 ms: largest shift of a spike for a 2 nV change of theta", spike_shift(2e-6), "s")
-        .allow_min(T / 2, "B7: u reaches theta exactly, so rounding moves a spike by a sample").of_kind(ClaimKind::ours);
+        .allow_min(T / 2, "B7: u reaches theta exactly, so rounding moves a spike by a sample")
+        .of_kind(ClaimKind::ours);
     out.claim("fig. 16's LIF-B at 2.03 uA, T = 1 ms: largest shift of a spike for a 2 nV change of theta", spike_shift(2.03e-6), "s")
-        .allow_range(0, 0, "B7: at this current u never equals theta exactly").of_kind(ClaimKind::ours);
+        .allow_range(0, 0, "B7: at this current u never equals theta exactly")
+        .of_kind(ClaimKind::ours);
 }
 
 Result<StudyResult> compute(const StudyOptions& options) {
@@ -125,9 +132,11 @@ Result<StudyResult> compute(const StudyOptions& options) {
     TRY(options.report_progress(0.5));
     const double current = 2e-6, below = -0.25;  // A; V, u_rst relative to u_rest
     out.claim("(6) and (7): frequency with u_rst 0.25 V below u_rest", 1 / interval(current, below, 1), "Hz")
-        .derived_as((current - leak) / C / (1 - below), "thesis 3.2: \"equal\" to [I - I_leak0] / [C (theta - u_rst)]").of_kind(ClaimKind::identity);
+        .derived_as((current - leak) / C / (1 - below), "thesis 3.2: \"equal\" to [I - I_leak0] / [C (theta - u_rst)]")
+        .of_kind(ClaimKind::identity);
     out.claim("(6) and (7): frequency with u_rst 0.25 V above u_rest", 1 / interval(current, -below, 1), "Hz")
-        .derived_as((current - leak) / C / (1 + below), "thesis 3.2: [I - I_leak0] / [C (theta - u_rst)]").of_kind(ClaimKind::identity);
+        .derived_as((current - leak) / C / (1 + below), "thesis 3.2: [I - I_leak0] / [C (theta - u_rst)]")
+        .of_kind(ClaimKind::identity);
     if (auto& c = out.claims[out.claims.size() - 2]; true)  // the claim with u_rst below u_rest
         c.explain("below u_rest there is no leak, so the interval has two parts; the formula is exact for u_rst at or above u_rest (B6b)");
     TRY(one_spike_per_sample(out));
@@ -137,6 +146,7 @@ Result<StudyResult> compute(const StudyOptions& options) {
 }
 
 const Study study{"errata-neurons", "Algorithms 3 and 4 as printed",
-                  "How do the thesis's two neurons behave as printed, and what do (5) to (7) leave out? Thesis 3.2", ClaimKind::misprint, compute};
+                  "How do the thesis's two neurons behave as printed, and what do (5) to (7) leave out? Thesis 3.2", ClaimKind::misprint,
+                  compute};
 
 }  // namespace corpuscle::studies::errata_neurons

@@ -145,18 +145,25 @@ struct Comparison {
 void report_numbers(StudyResult& out, const Comparison& a) {
     const auto counts = counts_of(a.published.network);
     const std::size_t columns = columns_of(counts), top = most_active(counts);
-    out.claim("network: neurons that fired", static_cast<double>(counts.size()), "neurons").published_as(123, "the recording's README");
-    out.claim("network: spikes", static_cast<double>(a.published.network.size()), "spikes").published_as(42156, "the recording's README");
+    out.claim("network: neurons that fired", static_cast<double>(counts.size()), "neurons")
+        .published_as(123, "the recording's README")
+        .of_kind(ClaimKind::input);
+    out.claim("network: spikes", static_cast<double>(a.published.network.size()), "spikes")
+        .published_as(42156, "the recording's README")
+        .of_kind(ClaimKind::input);
     out.claim("width of the sheet for which the neurons that fired are closest together", static_cast<double>(columns), "neurons")
-        .derived_as(30, "900 neurons are 30 x 30 if the sheet is square, which is not stated");
+        .derived_as(30, "900 neurons are 30 x 30 if the sheet is square, which is not stated")
+        .of_kind(ClaimKind::ours);
     out.claim("spread of the neurons that fired, for this width", extent(counts, columns), "neurons");
     out.claim("spread of the neurons that fired, for a sheet two columns narrower", extent(counts, columns - 2), "neurons")
-        .allow_min(1.5 * extent(counts, columns), "check: no other width gives a disc");
+        .allow_min(1.5 * extent(counts, columns), "check: no other width gives a disc")
+        .of_kind(ClaimKind::ours);
     out.claim("most active neuron: row, from 0", static_cast<double>(top / columns));
     out.claim("most active neuron: column, from 0", static_cast<double>(top % columns));
     out.claim("difference between the spike counts on either side of the most active neuron's row, over all spikes",
               asymmetry(counts, columns, top / columns))
-        .allow_max(0.05, "check: the press is in the middle of the skin's width");
+        .allow_max(0.05, "check: the press is in the middle of the skin's width")
+        .of_kind(ClaimKind::ours);
 }
 
 /// When the spikes begin and end, relative to the press.
@@ -217,7 +224,7 @@ void report_place(StudyResult& out, const Comparison& a) {
     }
     const auto add_correlation = [&](const char* label, const std::vector<double>& first, const std::vector<double>& second,
                                      double min_r) -> Claim& {
-        return out.claim(label, correlation(first, second)).allow_min(min_r, "check: rates follow the position");
+        return out.claim(label, correlation(first, second)).allow_min(min_r, "check: rates follow the position").of_kind(ClaimKind::ours);
     };
     add_correlation("our SA-I follow the sensors across the skin: r", ours.x, sensors.x, 0.8);
     add_correlation("our SA-I follow the sensors along the skin: r", ours.y, sensors.y, 0.8)
@@ -282,9 +289,12 @@ Result<StudyResult> compute(const StudyOptions& options) {
     return out;
 }
 
-const Study study{"eskin-press", "A press on an electronic skin, and its authors' network",
+const Study study{"eskin-press",
+                  "A press on an electronic skin, and its authors' network",
                   "Do the rates of a sheet of our afferents follow the pressed place, and when do they begin and end compared with the "
                   "published network's? Neuromorphic-Touch-Sensing-Haptic-Display, data of figure 2",
-                  ClaimKind::predicted, compute, folder};
+                  ClaimKind::predicted,
+                  compute,
+                  folder};
 
 }  // namespace corpuscle::studies::eskin_press

@@ -2,6 +2,8 @@
 // Symbols. V_BN and V_BP are the body voltages that the generator sets, V_REF is half the supply, V_Q and I_Q are voltage and current of
 // the replica, an inverter with its output tied to its input.
 
+#include <fmt/format.h>
+
 #include "reproduction/claims/check_all.hpp"
 #include "reproduction/claims/studies.hpp"
 #include "reproduction/thesis/bias/bias_figure.hpp"
@@ -54,6 +56,7 @@ Result<StudyResult> compute(const StudyOptions& options) {
                       .published_as(printed, figure.source());
         if (c.needs_explanation()) c.explain(why);
     }
+    for (const double V : described_V_BN) out.claim(fmt::format("typical: V_BN is {:g} mV at", 1e3 * V), V_BN.crossing(V), "A");
     out.claim_true("V_BN rises with I_BIAS", V_BN.slope().between(20e-9, 2e-6).min() > 0, figure.source());
     const auto inside = is_saturated(200e-9),  // inside, below and above the working range
         below = is_saturated(0.5 * typical.working_range.from), above = is_saturated(2 * typical.working_range.to);

@@ -35,6 +35,7 @@ Result<StudyResult> compute(const StudyOptions& options) {
 }
 
 const Study study{"fig54", "The bias generator over its supply",
-                  "It works from 550 to 800 mV typically, from 650 to 750 mV in all corners. Thesis E.2, fig. 54 (errata I7)", ClaimKind::predicted, compute};
+                  "It works from 550 to 800 mV typically, from 650 to 750 mV in all corners. Thesis E.2, fig. 54 (errata I7)",
+                  ClaimKind::predicted, compute};
 
 }  // namespace corpuscle::studies::fig54

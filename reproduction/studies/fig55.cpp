@@ -9,7 +9,7 @@
 
 namespace corpuscle::studies::fig55 {
 
-constexpr BiasFigure figure{BiasAxis::temperature, "55", "temperature (C)", "C", 1, {-55, 95}, {Claim::none, Claim::none}};
+constexpr BiasFigure figure{BiasAxis::temperature, "55", "temperature (C)", "C", 1, {-55, 95}, {Claim::none, Claim::none}, -55};
 
 /// Largest relative error of I_Q from -55 to 125 C, as in the figure, as a fraction of I_BIAS.
 double largest_error(const BiasCorner& c) { return c.sweep.current_error().between(-55, 125).max() * bias_current_margin; }

@@ -55,6 +55,7 @@ Result<StudyResult> compute(const StudyOptions&) {
 
 const Study study{
     "table10", "Sizes of the rectangular arrays",
-    "Equivalent aspect ratios, active and total areas of seven arrays, six of them with equal total area. Thesis B.1, table 10", ClaimKind::fitted, compute};
+    "Equivalent aspect ratios, active and total areas of seven arrays, six of them with equal total area. Thesis B.1, table 10",
+    ClaimKind::fitted, compute};
 
 }  // namespace corpuscle::studies::table10

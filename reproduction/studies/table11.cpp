@@ -59,6 +59,7 @@ Result<StudyResult> compute(const StudyOptions&) {
 }
 
 const Study study{"table11", "Currents and small signals of the rectangular arrays",
-                  "Seven arrays at V_G = V_D = 0.5 V; the sums of their slopes reveal two misprints. Thesis B.1, table 11", ClaimKind::fitted, compute};
+                  "Seven arrays at V_G = V_D = 0.5 V; the sums of their slopes reveal two misprints. Thesis B.1, table 11",
+                  ClaimKind::fitted, compute};
 
 }  // namespace corpuscle::studies::table11

@@ -22,7 +22,8 @@ Result<void> add_f(StudyResult& out) {
         auto& c =
             out.claim(fmt::format("{}: g_md", names[k]), a.g_md, "S").published_as(1e-10 * f.g_md, "table 14, divided by ten: errata U8");
         if (c.needs_explanation())
-            c.explain("one V_E for all lengths is too simple. The error is so large that the table does not tell which orientation is meant");
+            c.explain(
+                "one V_E for all lengths is too simple. The error is so large that the table does not tell which orientation is meant");
     }
     out.next_kind = {};
     return {};

@@ -43,8 +43,7 @@ void add_mismatch_text(StudyResult& out, const std::vector<double>& sigma, doubl
     const auto sigma_of = [&](const char* name) {
         return sigma[static_cast<std::size_t>(&find_published(trapezoids, name) - published_trapezoids)];
     };
-    out.claim("E's standard deviation over G1's", sigma_of("E") / sigma_of("G1"))
-        .derived_as(2.36 / 5.77, source + ": half; table 15");
+    out.claim("E's standard deviation over G1's", sigma_of("E") / sigma_of("G1")).derived_as(2.36 / 5.77, source + ": half; table 15");
     out.claim("E's standard deviation over G1's, by the areas of table 13", std::sqrt(0.6048 / 2.1924))
         .derived_as(2.36 / 5.77, "errata U18: 3.63 times the area")
         .of_kind(ClaimKind::arithmetic)

@@ -127,8 +127,7 @@ Result<void> report_touch(StudyResult& out, const Contact& contact) {
         .derived_as(equivalent_force, "the equivalent force")
         .explain_if_needed("the models are made for the range of the thesis's stimulus, 0.2 to 4 N");
     for (const auto& [afferent, theirs] : {std::pair{"sa1", &contact.sa1}, {"fa1", &contact.ra}})
-        for (const auto& row : rows)
-        {
+        for (const auto& row : rows) {
             // the force was searched for this rate, so its agreement is a fit
             out.next_kind = theirs == &contact.sa1 && row.rate == contact.matched ? std::optional(ClaimKind::fitted) : std::nullopt;
             report_row(out, fmt::format("{} at the matching force, {}", contact.name, afferent == std::string("sa1") ? "SA-I" : "FA-I"),
@@ -216,31 +215,10 @@ Result<void> report_tuning(StudyResult& out, const StudyOptions& options) {
     return {};
 }
 
-/// Claims under the press stimulus, 4 N, for which the thesis's models are made.
-Result<void> report_press(StudyResult& out) {
-    const auto sa1 = simulate_train({"sa1"}), fa1 = simulate_train({"fa1"});
-    TRY(check_all(sa1, fa1));
-    out.next_kind = ClaimKind::ours;
-    constexpr auto bound = "our bound after Birznieks et al. 2001, as described in thesis 1.2";
-    const auto peak = [](const std::vector<double>& t, const TimeWindow& window) { return measure<PeakRate>(t, window); };
-    out.claim("4 N: SA-I, peak of protraction over the end of the hold",
-              peak(*sa1, press::protraction) / measure<LastRate>(*sa1, press::plateau))
-        .allow_range(2, 3, bound);
-    out.claim("4 N: SA-I, spikes after 40 % of retraction",
-              press::spike_count(*sa1, {press::retraction.from + 0.4 * 0.125, press::after.to}), "spikes")
-        .allow_max(1, bound);
-    out.claim("4 N: FA-I, peak of protraction over the peak of retraction", peak(*fa1, press::protraction) / peak(*fa1, press::retraction))
-        .allow_range(1.2, 1.5, bound);
-    out.claim("4 N: FA-I, spikes in the last 100 ms of the hold", press::spike_count(*fa1, press::plateau_end), "spikes")
-        .allow_max(0, bound);
-    return {};
-}
-
 Result<StudyResult> compute(const StudyOptions& options) {
     StudyResult out;
     TRY(report_touches(out, options));
     TRY(report_tuning(out, options));
-    TRY(report_press(out));
     out.notes = {fmt::format("TouchSim takes millimetres, our skin newtons. A flat punch on a half-space gives F = 2 E* a d. TouchSim's "
                              "1.19 N for 5 mm and 2 mm gives an E* of {:.3g} kPa, and so a force of {:.3g} mN for its small probe.",
                              E_star * 1e-3, 2e3 * E_star * 0.5e-3 * 1e-3),

@@ -354,10 +354,14 @@ TEST(Program, StudiesAreListedWrittenAndSelectedByAnyOfTheirNumbers) {
     ASSERT_EQ(ran.status, 0) << ran.err;
     const auto document = Json::parse(ran.out);
     std::vector<std::string> names;
-    for (const auto& study : document) names.push_back(study["name"]);
+    for (const auto& study : document["studies"]) names.push_back(study["name"]);
     EXPECT_EQ(names, (std::vector<std::string>{"fig4", "table17-18", "eq21-30"}));
-    EXPECT_EQ(document[0]["claims"][0]["published"], 0.2);
-    EXPECT_FALSE(document[0]["plots"][0]["series"][0]["x"].empty());
+    const auto& fig4 = document["studies"][0];
+    EXPECT_EQ(fig4["claims"][0]["published"], 0.2);
+    EXPECT_EQ(fig4["claims"][0]["kind"], "input");
+    EXPECT_FALSE(fig4["plots"][0]["series"][0]["x"].empty());
+    EXPECT_EQ(document["kinds"][0]["kind"], "predicted");
+    EXPECT_GT(document["kinds"][0]["printed"]["agreeing"], 0) << "of table 17";
     EXPECT_EQ(folder.file_names(), (std::vector<std::string>{"numbers.md", "page.html"}));
     EXPECT_NE(test::read_file(folder / "numbers.md").find("## table17-18"), std::string::npos);
     const auto unknown = run_program(folder, "study fig7 --report other.html");

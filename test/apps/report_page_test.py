@@ -981,12 +981,14 @@ class Studies(unittest.TestCase):
             self.assertEqual(browser.get_log("browser"), [])
             claims = [claim for study in data["studies"] for claim in study["claims"]]
             on_top = browser.find_elements(By.CSS_SELECTOR, ".deviations tbody tr")
-            self.assertEqual(len(browser.find_elements(By.CSS_SELECTOR, "tbody tr")) - len(on_top), len(claims))
+            self.assertEqual(len(browser.find_elements(By.CSS_SELECTOR, ".claims tbody tr")) - len(on_top), len(claims))
             self.assertEqual(len(on_top), sum(claim["on_top"] for claim in claims))
             browser.find_element(By.CSS_SELECTOR, ".deviations input").click()
             shown = [row for row in on_top if row.is_displayed()]
             self.assertEqual(len(shown), sum(claim["verdict"] in ("differs", "does not hold") for claim in claims))
             self.assertLess(len(shown), len(on_top))
+            browser.find_element(By.CSS_SELECTOR, ".deviations input").click()
+            self.the_kinds(browser, data, [claim for claim in claims if claim["on_top"]], on_top)
             link = on_top[0].find_element(By.TAG_NAME, "a").get_attribute("href")
             self.assertEqual(len(browser.find_elements(By.ID, link.split("#")[1])), 1)
             points = browser.execute_script("return charts.map((chart) => chart.numRows())")
@@ -994,6 +996,20 @@ class Studies(unittest.TestCase):
             self.assertGreater(min(points), 2)
             self.assertEqual(missing_values(browser), [])
             self.on_a_telephone(browser)
+
+    def the_kinds(self, browser, data, claims, rows):
+        """The table of kinds has the counts, and the menu leaves the rows of one kind."""
+        counts = [[cell.text for cell in row.find_elements(By.CSS_SELECTOR, ".number")] for row in browser.find_elements(By.CSS_SELECTOR, ".kinds tbody tr")]
+        self.assertEqual(counts, [[str(kind[group][verdict]) for group in ("printed", "derived", "statements") for verdict in ("agreeing", "deviating")]
+                                  for kind in data["kinds"]])
+        menu = Select(browser.find_element(By.CSS_SELECTOR, ".deviations select"))
+        self.assertGreater(len(menu.options), 2)
+        for name in [option.text for option in menu.options[1:]]:
+            menu.select_by_visible_text(name)
+            shown = [row.is_displayed() for row in rows]
+            self.assertEqual(shown, [bool(claim["verdict"]) and claim["kind"] == name for claim in claims], name)
+        menu.select_by_visible_text("all")
+        self.assertTrue(all(row.is_displayed() for row in rows))
 
     def on_a_telephone(self, browser):
         """A claim fits the width of the screen and is a few lines high."""

@@ -10,7 +10,7 @@ namespace corpuscle {
 namespace {
 
 Result<StudyResult> run_text(const std::string& text, StudyValues values = {}) {
-    const auto file = read_study_file("title = 'A study'\nquestion = 'Why?'\n" + text, "x.toml");
+    const auto file = read_study_file("title = 'A study'\nquestion = 'Why?'\nkind = 'predicted'\n" + text, "x.toml");
     if (!file) return file.error();
     return run_study_file(*file, {}, std::move(values));
 }
@@ -189,14 +189,37 @@ series = [{ name = "sa1", raster = "sa1.spikes" }]
     EXPECT_FALSE(out.plots[0].series[0].x.empty());
 }
 
+TEST(StudyFile, GivesEachClaimTheKindOfTheFileOrItsOwn) {
+    const auto out = test::value_or_throw(run_text(R"toml(
+[[claim]]
+label = "a"
+value = 350.3
+published = 347
+tolerance = "0.1 * 3"
+source = "the effect is 3"
+
+[[claim]]
+each = { kind = ["fitted", "misprint"] }
+label = "b"
+value = 1
+published = 1
+kind = "{kind}"
+source = "there"
+)toml"));
+    EXPECT_EQ(out.claims[0].kind, ClaimKind::predicted);
+    EXPECT_STREQ(out.claims[0].verdict(), "differs");
+    EXPECT_EQ(out.claims[1].kind, ClaimKind::fitted);
+    EXPECT_EQ(out.claims[2].kind, ClaimKind::misprint);
+}
+
 TEST(StudyFile, NamesTheFaultAndItsPlace) {
     const std::string claim = "\n[[claim]]\nlabel = 'x'\nvalue = ";
     EXPECT_EQ(
         error_of("[[claim]]\nlable = 'x'"),
-        "x.toml:4:1: claim: there is no 'lable'; did you mean 'label'? (there are each, label, value, true, unit, published, derived, "
-        "min, max, source, explain, explain_if_needed, explain_if_undefined)");
-    EXPECT_EQ(error_of("[[claim]]\nvalue = 1"), "x.toml:3:1: claim: 'label' is missing");
-    EXPECT_EQ(error_of("[[claim]]\nlabel = 'x'"), "x.toml:3:1: a claim has either 'value', a number, or 'true', a statement");
+        "x.toml:5:1: claim: there is no 'lable'; did you mean 'label'? (there are each, label, value, true, unit, published, derived, "
+        "tolerance, min, max, kind, source, explain, explain_if_needed, explain_if_undefined)");
+    EXPECT_EQ(error_of("[[claim]]\nvalue = 1"), "x.toml:4:1: claim: 'label' is missing");
+    EXPECT_EQ(error_of("[[claim]]\nlabel = 'x'"), "x.toml:4:1: a claim has either 'value', a number, or 'true', a statement");
     EXPECT_NE(
         error_of(divider + claim + "'run.dc[v(c)]'").find("dc has no 'v(c)'; did you mean 'v(a)'? (there are v-sweep, v(a), v(b), i(v1))"),
         std::string::npos)
@@ -208,14 +231,21 @@ TEST(StudyFile, NamesTheFaultAndItsPlace) {
         << error_of("[values]\na = 'b'\nb = 'a'" + claim + "'a'");
     EXPECT_NE(error_of(std::string(divider) + divider).find("there are two runs or values 'run'; give each a name"), std::string::npos);
     EXPECT_EQ(error_of("[[run]]\ncircuit = 'nowhere'"),
-              "x.toml:3:1: run 'run': circuits/nowhere.cir: there is no embedded file 'circuits/nowhere.cir'");
-    EXPECT_EQ(error_of("[[run]]\nname = 'a'\nnetlist = '''T\nr1 a 0\n'''").substr(0, 39), "x.toml:3:1: run 'a': line 2 of the netl");
+              "x.toml:4:1: run 'run': circuits/nowhere.cir: there is no embedded file 'circuits/nowhere.cir'");
+    EXPECT_EQ(error_of("[[run]]\nname = 'a'\nnetlist = '''T\nr1 a 0\n'''").substr(0, 39), "x.toml:4:1: run 'a': line 2 of the netl");
     EXPECT_NE(error_of("[[claim]]\neach = { a = [1, 2], b = [1] }\nlabel = 'x'\nvalue = 1").find("b has 1 elements, another list 2"),
               std::string::npos);
-    EXPECT_EQ(error_of("[[run]]\ncircuit = 'divider'\nsettings = 'r1=2'"), "x.toml:5:12: settings must be a list: settings = [...]");
-    EXPECT_EQ(error_of("[[run]]\ncircuit = 'divider'\nideal_mirrors = 1"), "x.toml:5:17: ideal_mirrors must be true or false");
-    EXPECT_EQ(error_of("[[run]]\nsettings = []"), "x.toml:3:1: a run has either 'circuit' or 'netlist'");
-    EXPECT_EQ(error_of(claim + "1\npublished = 1\nderived = 2"), "x.toml:4:1: a claim has 'published' or 'derived', not both");
+    EXPECT_EQ(error_of("[[run]]\ncircuit = 'divider'\nsettings = 'r1=2'"), "x.toml:6:12: settings must be a list: settings = [...]");
+    EXPECT_EQ(error_of("[[run]]\ncircuit = 'divider'\nideal_mirrors = 1"), "x.toml:6:17: ideal_mirrors must be true or false");
+    EXPECT_EQ(error_of("[[run]]\nsettings = []"), "x.toml:4:1: a run has either 'circuit' or 'netlist'");
+    EXPECT_EQ(error_of(claim + "1\npublished = 1\nderived = 2"), "x.toml:5:1: a claim has 'published' or 'derived', not both");
+    EXPECT_EQ(error_of(claim + "1\ntolerance = 1"),
+              "x.toml:5:1: tolerance is the allowed difference from 'published' or 'derived'; the claim has neither");
+    EXPECT_EQ(error_of(claim + "1\nkind = 'input '"),
+              "x.toml:8:8: unknown kind of claim 'input '; did you mean 'input'? (known: predicted, fitted, input, identity, arithmetic, "
+              "misprint, ours)");
+    EXPECT_EQ(read_study_file("title = 'A study'\nquestion = 'Why?'\n", "y.toml").error().text(), "y.toml:1:1: 'kind' is missing");
+    EXPECT_EQ(read_study_file("title = 'A study'\nquestion = 'Why?'\nkind = 'fit'\n", "y.toml").error().location.line, 3);
     EXPECT_NE(error_of("[[note]]\ntext = 'a { b'").find("write {{ or }} for a brace"), std::string::npos);
 }
 

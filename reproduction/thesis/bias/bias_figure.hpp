@@ -13,6 +13,7 @@ struct BiasFigure {
     double plot_scale;                    ///< factor of the x axis: 1e9, A to nA
     double typical_range[2];              ///< published working range in the typical corner, from and to, in `unit`
     double corner_range[2];               ///< the same over all corners; NaN: not published
+    double axis_start = Claim::none;      ///< where the published figure's axis begins, if the typical range begins there, too
 
     std::string source() const { return std::string("thesis E.2, fig. ") + number; }
 };

@@ -34,7 +34,7 @@ double saturation_voltage(const circuit::Circuit& c, std::string_view name, doub
 }  // namespace
 
 Result<BiasSweep> BiasSweep::run(BiasAxis axis, std::vector<std::string> settings) {
-    constexpr const char* ranges[] = {"10n 3u 2n", "0.4 0.9 2m", "-100 125 5"};
+    constexpr const char* ranges[] = {"10n 3u 2n", "0.4 0.9 2m", "-100 150 5"};
     return run(axis, ranges[static_cast<int>(axis)], std::move(settings));
 }
 

@@ -21,7 +21,7 @@ struct BiasSweep {
     std::vector<std::string> settings;
     NetlistResult netlist_result;
 
-    /// Sweeps 10 nA to 3 uA, 0.4 to 0.9 V or -100 to 125 C.
+    /// Sweeps 10 nA to 3 uA, 0.4 to 0.9 V or -100 to 150 C.
     static Result<BiasSweep> run(BiasAxis, std::vector<std::string> settings = {});
     /// range: "10n 3u 2n", from 10 nA to 3 uA in steps of 2 nA.
     static Result<BiasSweep> run(BiasAxis, const std::string& range, std::vector<std::string> settings);

@@ -46,11 +46,12 @@ Result<void> report_bias_widths(StudyResult& out) {
         }
         one_has_all = one_has_all || has_all;
     }
-    out.claim_true("arrays as printed, 2, 3.4 and 4 times as wide: none has all published voltages and currents within a tenth", !one_has_all,
-                   "thesis E.2, figs. 53 to 55 against each other");
+    out.claim_true("arrays as printed, 2, 3.4 and 4 times as wide: none has all published voltages and currents within a tenth",
+                   !one_has_all, "thesis E.2, figs. 53 to 55 against each other");
     out.claims.back().of_kind(ClaimKind::ours);
     out.note(
-        "The published ranges contradict each other. Those of the current ask for arrays 3.4 times as wide, those of supply and temperature "
+        "The published ranges contradict each other. Those of the current ask for arrays 3.4 times as wide, those of supply and "
+        "temperature "
         "for about twice as wide, and tables 16 to 18 for the printed ones.");
     return {};
 }
