@@ -61,7 +61,7 @@ std::string_view kind_cell(const Claim& c) { return c.kind && *c.verdict() != 0 
 /// Puts the counts of agreeing and deviating claims of each kind that occurs.
 void put_kinds_table(std::string& text, std::span<const StudyResult> outcomes) {
     text +=
-        "| kind | printed numbers: agree | differ | derived numbers: agree | differ | statements: hold | do not | meaning |\n"
+        "| kind | printed numbers agree | differ | derived numbers agree | differ | statements hold | do not hold | meaning |\n"
         "|---|---|---|---|---|---|---|---|\n";
     for (const auto& k : count_by_kind(outcomes))
         text +=

@@ -21,9 +21,9 @@ std::string prediction_sentence(std::span<const StudyResult> outcomes) {
     const auto& c = counts[static_cast<std::size_t>(ClaimKind::predicted)];
     const auto total = [](const VerdictCount& v) { return v.agreeing + v.deviating; };
     return fmt::format(
-        "Of {} printed numbers that were predicted without a fit, {} agree and {} differ; of {} numbers that follow from a printed "
-        "equation "
-        "or sentence, {} agree; of {} statements, {} hold.",
+        "Of {} printed numbers that were predicted without a fit, {} agree and {} differ; of {} that an equation, a sentence or another "
+        "model "
+        "gives, {} agree; of {} statements, {} hold.",
         total(c.printed), c.printed.agreeing, c.printed.deviating, total(c.derived), c.derived.agreeing, total(c.statements),
         c.statements.agreeing);
 }
