@@ -44,7 +44,7 @@ TEST(NetlistOverridesProgram, TheChipRespondsInAnyFolderAndOverridesChangeIt) {
     const auto one = Json::parse(read_file(folder / "set/summary.json"))["afferents"][0];
     EXPECT_EQ(one["name"], "sa1-circuit");
     EXPECT_EQ(one["corner"], "tt");
-    EXPECT_EQ(one["parameters"]["c_u"]["value"], 10.8e-12);
+    EXPECT_DOUBLE_EQ(one["parameters"]["c_u"]["value"].get<double>(), 10.8e-12);
     EXPECT_EQ(one["parameters"]["c_u"]["set"], true);
     EXPECT_EQ(one["parameters"]["c_hpb"]["set"], false);
     EXPECT_EQ(one["parameters"]["temp"]["value"], 27);
