@@ -26,6 +26,8 @@ struct Node {
 
     std::size_t inputs() const { return elements_of(input_shape); }
     std::size_t outputs() const { return elements_of(output_shape); }
+    /// True if it has one membrane, which can be recorded.
+    bool has_single_membrane() const { return kind->form == NodeKind::Form::membrane && outputs() == 1; }
     const std::vector<double>& value(std::string_view parameter) const { return values.find(parameter)->second; }
 };
 

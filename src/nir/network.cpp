@@ -193,7 +193,7 @@ void Network::step(std::span<const double> input, std::span<double> output, std:
 std::vector<Network::Membrane> Network::membranes() const {
     std::vector<Membrane> out;
     for (const auto& stage : stages_)
-        if (stage.node->kind->form == NodeKind::Form::membrane && stage.node->outputs() == 1)
+        if (stage.node->has_single_membrane())
             out.push_back({stage.node->name, stage.membrane});
     return out;
 }

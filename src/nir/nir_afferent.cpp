@@ -134,7 +134,7 @@ Result<void> check_afferent(const Graph& graph, const std::string& path) {
 std::vector<RequestedProbe> requested(const Graph& graph, const std::string& path, std::span<const std::string> probes) {
     std::vector<std::string> names;
     for (const auto& node : graph.nodes)
-        if (node.kind->form == NodeKind::Form::membrane && node.outputs() == 1) names.push_back(node.name + ".v");
+        if (node.has_single_membrane()) names.push_back(node.name + ".v");
     const std::vector<std::string_view> known(names.begin(), names.end());
     std::vector<RequestedProbe> out;
     for (const auto& probe : probes) {
