@@ -76,6 +76,7 @@ struct RandomDevice {
         if (k % 3 == 0) card.sigma_L = 0;
         if (k % 5 == 0) card.zeta_L = 0;
         if (k % 7 == 0) card.zeta_L *= 20;
+        if (k % 6 < 2) card.gamma = k % 12 < 6 ? 0.45 : 0.2;
         c = constants_of_size(card, 1.5e-6, 0.5e-6, 1 + k % 4, 1 + k % 8, k % 2 == 1, -55 + 180 * (0.5 + 0.5 * std::tanh(z(4))));
         for (std::uint32_t n = 0; n < 4; ++n) v[n] = (k % 2 == 1 ? -1 : 1) * (0.3 + 0.45 * z(n));
         if (k % 16 < 4) v[G] *= 3;

@@ -42,6 +42,59 @@ TEST(Uicm, InWeakInversionTheCurrentIsAnExponentialOfGateBulkAndSource) {  // eq
         }
 }
 
+/// The plain model with a body effect. With the default phi, all of the slope factor is the depletion layer's.
+UicmCard body_card() {
+    UicmCard card = plain_card();
+    card.gamma = 2 * (card.n - 1) * std::sqrt(card.phi);
+    return card;
+}
+
+TEST(Uicm, WithABodyEffectTheGateVoltageIsTheIntegralOfTheSlopeFactorOverThePinchOffVoltage) {
+    for (const double part : {1.0, 0.6}) {
+        UicmCard card = body_card();
+        card.gamma *= part;
+        const auto c = constants_of_size(card, 1.5e-6, 0.5e-6);
+        const double a = card.n - card.gamma / (2 * std::sqrt(card.phi));
+        for (double V_P = -0.6; V_P < 1.5; V_P += 0.1) {
+            const double u = a * V_P + card.gamma * (std::sqrt(card.phi + V_P) - std::sqrt(card.phi)),
+                         n = a + card.gamma / (2 * std::sqrt(card.phi + V_P));
+            const double v[4] = {V_P + 1, u + 0.461, V_P, 0};  // V_S = V_P, where i_f = 3
+            const auto inside = Uicm<double>(c).internals(v);
+            EXPECT_NEAR(inside.q_S * (inside.q_S + 2), 3, 2e-13) << V_P;
+            const auto out = evaluate(c, v[D], v[G], v[S], 0);
+            // I_S is proportional to n: dI/dV_G = g_ms / n + I n' / n^2, where n' = dn/dV_P
+            const double n_by_P = -card.gamma / 4 * std::pow(card.phi + V_P, -1.5), I_S = c.I_S * n / card.n;
+            EXPECT_NEAR(out.i[D], I_S * 3, 1e-9 * I_S) << V_P;
+            EXPECT_NEAR(out.di[D][G], -out.di[D][S] / n + out.i[D] * n_by_P / (n * n), 1e-9 * I_S) << V_P;
+        }
+    }
+}
+
+TEST(Uicm, ABodyEffectReducesTheSlopeFactorAsTheGateVoltageRises) {
+    const auto c = constants_of_size(body_card(), 1.5e-6, 0.5e-6), constant = constants_of_size(plain_card(), 1.5e-6, 0.5e-6);
+    const auto slope_factor = [](const UicmConstants& of, double v_sb) {  // in weak inversion, from the current at two gate voltages
+        const double g = 0.35 + 1.27 * v_sb, dg = 1e-3;
+        return dg / (phi_t * std::log(current(of, v_sb + 0.5, g + dg, v_sb) / current(of, v_sb + 0.5, g, v_sb)));
+    };
+    EXPECT_NEAR(slope_factor(constant, -0.3), slope_factor(constant, 0.6), 1e-9);
+    EXPECT_GT(slope_factor(c, -0.3), slope_factor(c, 0) + 0.05);
+    EXPECT_LT(slope_factor(c, 0.6), slope_factor(c, 0) - 0.03);
+    EXPECT_NEAR(current(c, 0.5, 0.461, 0) / current(constant, 0.5, 0.461, 0), 1, 1e-12);  // V_P = 0
+}
+
+TEST(Uicm, WithABodyEffectCurrentAndChargesAreContinuousWhereTheSlopeFactorBecomesConstant) {
+    const UicmCard card = body_card();
+    const auto c = constants_of_size(card, 1.5e-6, 0.5e-6);
+    const double V_P = -0.75 * card.phi, u = V_P + card.gamma * (std::sqrt(card.phi + V_P) - std::sqrt(card.phi)), e = 1e-9;
+    const auto below = evaluate(c, 0.1, 0.461 + u - e, -0.4, 0), above = evaluate(c, 0.1, 0.461 + u + e, -0.4, 0);
+    for (int k = 0; k < 4; ++k) {
+        // of the oxide's capacitance: the inversion charge, which is almost 0 there, has a kink
+        EXPECT_NEAR(above.q[k] - below.q[k], 2 * e * above.dq[k][G], 1e-9 * 2 * e * card.C_ox * 0.75e-12) << k;
+        EXPECT_NEAR(above.dq[k][G], below.dq[k][G], 1e-9 * card.C_ox * 0.75e-12) << k;
+    }
+    EXPECT_NEAR(above.i[D] / below.i[D], 1, 1e-6);
+}
+
 TEST(Uicm, VelocitySaturationReducesTheCurrentInWeakInversionAndTheChargeInSaturation) {
     UicmCard card = plain_card();
     card.zeta_L = 0.05e-6;  // zeta 0.1

@@ -133,9 +133,19 @@ Result<UicmInstance> read_instance(const Element& e) {
     return instance;
 }
 
+/// The card of a .model line. With n >= 1 + gamma / (2 sqrt(phi)), no part of the slope factor is negative.
+Result<UicmCard> read_card(const Model& model) {
+    const auto card = TRY(read_model_card<UicmCard>(UicmCard::fields, model, uicm_other_names));
+    const double least_n = 1 + card.gamma / (2 * std::sqrt(card.phi));
+    if (card.gamma > 0 && card.n < least_n * (1 - 1e-12))
+        return error_at(model.location, "{}: gamma = {} V^0.5 with phi = {} V requires n of at least {:.4f}, but n = {}; reduce gamma to {:.4f} or increase n",
+                        model.name, card.gamma, card.phi, std::ceil(least_n * 1e4) / 1e4, card.n, std::floor(2e4 * (card.n - 1) * std::sqrt(card.phi)) / 1e4);
+    return card;
+}
+
 Result<std::unique_ptr<Device>> make_transistor(const Element& e, DeviceSetup& setup) {
     const auto& model = *setup.circuit().model_of(e);
-    const auto card = TRY(read_model_card<UicmCard>(UicmCard::fields, model, uicm_other_names));
+    const auto card = TRY(read_card(model));
     const auto instance = TRY(read_instance(e));
     std::vector<int> unknowns;
     for (const int node : e.nodes) unknowns.push_back(setup.node_unknown(node));
@@ -156,7 +166,7 @@ Result<std::unique_ptr<DeviceBatch>> make_transistor_batch() {
 
 /// An instance of the subcircuit uicm_n or uicm_p.
 Result<std::string> write_transistor(const ElementExport& e) {
-    const auto card = TRY(read_model_card<UicmCard>(UicmCard::fields, *e.model(), uicm_other_names));
+    const auto card = TRY(read_card(*e.model()));
     UicmInstance size;
     for (const auto& f : UicmInstance::fields) size.*f.member = e.value(f.name, size.*f.member);
     const bool pmos = e.model()->type == "pmos";

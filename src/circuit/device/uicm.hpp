@@ -1,6 +1,7 @@
 #pragma once
 
 #include "circuit/device/mos_channel.hpp"
+#include "circuit/device/pinch_off.hpp"
 #include "circuit/device/uicm_constants.hpp"
 
 namespace corpuscle::circuit {
@@ -69,15 +70,15 @@ struct UicmInternals {
 ///
 ///     I_D = I_S i(x_S, x_D) (1 + (sqrt(V_DS^2 + knee^2) - knee) / V_A),   knee = 4 phi_t, V_A = V_E L
 ///
-/// V_P is the pinch-off voltage, n the slope factor, sigma the coefficient of DIBL, I_S the specific current, i(x_S, x_D) the normalized
+/// V_P is the pinch-off voltage, n the slope factor (constant, or a function of V_GB as in pinch_off.hpp; I_S is proportional to it), sigma the coefficient of DIBL, I_S the specific current, i(x_S, x_D) the normalized
 /// current, V_A the Early voltage. Well above the knee, the voltage at which I_D saturates in weak inversion, the output conductance is
 /// I_D / V_A. The factor in brackets is 1 at V_DS = 0 and even in V_DS, so exchanging source and drain negates I_D to the last bit.
 ///
 /// Charges:
 ///
 /// - Q_S and Q_D, the parts of the channel charge Q_I = Q_S + Q_D that belong to source and drain
-/// - Q_B = -(n - 1)/n (C_ox W L V_GB + Q_I), the depletion charge that a constant n implies. ACM2 has the term with V_GB in the
-///   capacitances but not in the charges.
+/// - Q_B = -(n - 1)/n Q_I - C_ox W L (V_GB - V_T - V_P), V_P without DIBL, the depletion charge that n implies. With a constant n the second
+///   term is (n - 1)/n C_ox W L V_GB and a constant, which is left out. ACM2 has this term in the capacitances but not in the charges.
 /// - Q_G = -(Q_S + Q_D + Q_B)
 /// - overlaps, and junctions
 ///
@@ -96,6 +97,7 @@ class Uicm : public Terminals {
     T polarity, V_T, per_n, per_phi_t, sigma_n, zeta, I_S, lambda, knee, Q_0, C_dep, C_gs, C_gd, C_gb;
     T I_sat_s, I_sat_d, exp_limit_s, exp_limit_d, C_js, C_jd, thermal, flicker;
     JunctionConstants<T> junction_constants;
+    BodyEffect<T> body_effect;
 
 public:
     /// value(&UicmConstants::x) must return the constant x, which may differ between lanes.
@@ -114,7 +116,8 @@ public:
                              value(&UicmConstants::v_limit),
                              value(&UicmConstants::charge_exponent),
                              value(&UicmConstants::P_B_per_charge_exponent),
-                             value(&UicmConstants::per_P_B_M_J)} {}
+                             value(&UicmConstants::per_P_B_M_J)},
+          body_effect(value) {}
 
     /// One transistor, or the same in all lanes.
     explicit Uicm(const UicmConstants& c) : Uicm([&c](double UicmConstants::* member) { return T(c.*member); }) {}
@@ -123,30 +126,33 @@ public:
     /// derivatives that are not used.
     [[gnu::always_inline]] void eval(const T (&v)[4], UicmEvaluation<T>& out) const {
         const Voltages at(v, polarity);
-        const MosChannel<T> c = evaluate_at(at);
+        const PinchOff<T> p = pinch_off(at.gb);
+        const MosChannel<T> c = channel(at, p);
         const T early = num::sqrt(at.ds * at.ds + knee * knee), factor = I_S * (T(1.0) + lambda * (early - knee));
         const auto b_s = junction(-at.sb, I_sat_s, exp_limit_s, C_js, junction_constants),
                    b_d = junction(-at.db, I_sat_d, exp_limit_d, C_jd, junction_constants);
-        currents(c.i, factor, I_S * c.i.value * lambda * (at.ds / early), b_s, b_d, out);
-        charges(at, c, b_s, b_d, out);
+        currents(p, c.i, factor, I_S * p.n_ratio * c.i.value * lambda * (at.ds / early), b_s, b_d, out);
+        charges(at, p, c, b_s, b_d, out);
     }
 
     UicmNoise<T> noise(const T (&v)[4]) const {
         const Voltages at(v, polarity);
-        const MosChannel<T> c = evaluate_at(at);
+        const PinchOff<T> p = pinch_off(at.gb);
+        const MosChannel<T> c = channel(at, p);
         const auto b_s = junction(-at.sb, I_sat_s, exp_limit_s, C_js, junction_constants),
                    b_d = junction(-at.db, I_sat_d, exp_limit_d, C_jd, junction_constants);
         // The factor is 2q.
         const auto shot = [](const T& i, const T& I_sat) { return T(2 * 1.602176634e-19) * num::abs(i + T(2.0) * I_sat); };
         const T log_ratio = num::abs(num::log((T(1.0) + c.q_S) / (T(1.0) + c.q_D)));
-        return {thermal * c.Q(), flicker * I_S * num::abs(c.i.value) * log_ratio, shot(b_s.i, I_sat_s), shot(b_d.i, I_sat_d)};
+        return {thermal * p.n_ratio * c.Q(), flicker * I_S * num::abs(c.i.value) * log_ratio, shot(b_s.i, I_sat_s), shot(b_d.i, I_sat_d)};
     }
 
     UicmInternals<T> internals(const T (&v)[4]) const {
         const Voltages at(v, polarity);
-        const MosChannel<T> c = evaluate_at(at);
+        const PinchOff<T> p = pinch_off(at.gb);
+        const MosChannel<T> c = channel(at, p);
         const T early = num::sqrt(at.ds * at.ds + knee * knee);
-        return {c.q_S, c.q_D, I_S * (T(1.0) + lambda * (early - knee)) * c.i.value,
+        return {c.q_S, c.q_D, I_S * p.n_ratio * (T(1.0) + lambda * (early - knee)) * c.i.value,
                 junction(-at.sb, I_sat_s, exp_limit_s, C_js, junction_constants).i,
                 junction(-at.db, I_sat_d, exp_limit_d, C_jd, junction_constants).i};
     }
@@ -159,28 +165,34 @@ private:
             : gb(polarity * (v[G] - v[B])), sb(polarity * (v[S] - v[B])), db(polarity * (v[D] - v[B])), ds(polarity * (v[D] - v[S])) {}
     };
 
-    [[gnu::always_inline]] MosChannel<T> evaluate_at(const Voltages& at) const {
-        const T V_P = (at.gb - V_T) * per_n + sigma_n * (at.db + at.sb);
+    [[gnu::always_inline]] PinchOff<T> pinch_off(T gb) const {
+        PinchOff<T> p{(gb - V_T) * per_n, per_n, T(0.0), T(1.0), T(0.0), C_dep * gb, C_dep};
+        if (body_effect.is_present()) body_effect.apply(gb - V_T, Q_0 * per_phi_t * per_n, p);
+        return p;
+    }
+
+    [[gnu::always_inline]] MosChannel<T> channel(const Voltages& at, const PinchOff<T>& p) const {
+        const T V_P = p.V_P + sigma_n * (at.db + at.sb);
         return evaluate_channel((V_P - at.sb) * per_phi_t + T(1.0), (V_P - at.db) * per_phi_t + T(1.0), zeta);
     }
 
-    /// Derivatives of a quantity with respect to the four terminal voltages, from its derivatives with respect to x_S and x_D. They sum to
-    /// zero.
+    /// Derivatives of a quantity with respect to the four terminal voltages. They sum to zero.
     struct Slopes {
         T d, g, s, b;
     };
-    [[gnu::always_inline]] Slopes by_voltages(T by_S, T by_D) const {
+    /// From the derivatives with respect to x_S and x_D, and with respect to V_GB at constant x.
+    [[gnu::always_inline]] Slopes by_voltages(const PinchOff<T>& p, T by_S, T by_D, T by_G) const {
         const T all = (by_S + by_D) * per_phi_t;
-        const T d = all * sigma_n - by_D * per_phi_t, g = all * per_n, s = all * sigma_n - by_S * per_phi_t;
+        const T d = all * sigma_n - by_D * per_phi_t, g = all * p.per_n + by_G, s = all * sigma_n - by_S * per_phi_t;
         return {d, g, s, -(d + g + s)};
     }
 
-    /// `factor`: I_S times the factor of the Early effect. `early_d`: the part of dI_D/dV_DS that comes from the Early effect. `b_s`,
+    /// `factor`: I_S at the pinch-off voltage 0, times the factor of the Early effect. `early_d`: the part of dI_D/dV_DS that comes from the Early effect. `b_s`,
     /// `b_d`: the junctions from bulk to source and to drain.
-    [[gnu::always_inline]] void currents(const ValueWithSlopes<T>& i, T factor, T early_d, const JunctionEvaluation<T>& b_s,
-                                         const JunctionEvaluation<T>& b_d, UicmEvaluation<T>& out) const {
-        const T I = factor * i.value, zero(0.0);
-        const Slopes g = by_voltages(factor * i.by_S, factor * i.by_D);
+    [[gnu::always_inline]] void currents(const PinchOff<T>& p, const ValueWithSlopes<T>& i, T factor, T early_d,
+                                         const JunctionEvaluation<T>& b_s, const JunctionEvaluation<T>& b_d, UicmEvaluation<T>& out) const {
+        const T scale = factor * p.n_ratio, I = scale * i.value, zero(0.0);
+        const Slopes g = by_voltages(p, scale * i.by_S, scale * i.by_D, factor * i.value * p.n_ratio_by_G);
         const T g_d = g.d + early_d, g_s = g.s - early_d;
         out.i[D] = polarity * (I - b_d.i), out.i[G] = zero, out.i[S] = -polarity * (I + b_s.i);
         out.i[B] = polarity * (b_s.i + b_d.i);
@@ -190,20 +202,21 @@ private:
         put(out.di[B], -b_d.g, zero, -b_s.g, b_s.g + b_d.g);
     }
 
-    [[gnu::always_inline]] void charges(const Voltages& at, const MosChannel<T>& c, const JunctionEvaluation<T>& b_s,
+    [[gnu::always_inline]] void charges(const Voltages& at, const PinchOff<T>& p, const MosChannel<T>& c, const JunctionEvaluation<T>& b_s,
                                         const JunctionEvaluation<T>& b_d, UicmEvaluation<T>& out) const {
-        // o_d, o_s, o_b: overlap charges; o_b includes the depletion charge's term with V_GB.
-        const T gd = at.gb - at.db, gs = at.gb - at.sb, o_d = C_gd * gd, o_s = C_gs * gs, o_b = (C_gb + C_dep) * at.gb;
-        const T Q_S = -(Q_0 * c.Q_S.value), Q_D = -(Q_0 * c.Q_D.value), Q_B = -((T(1.0) - per_n) * (Q_S + Q_D));
-        const T d = Q_D - o_d - b_d.q, s = Q_S - o_s - b_s.q, b = Q_B - o_b + b_s.q + b_d.q;
+        // o_d, o_s, o_b: overlap charges; o_b includes the depletion charge without inversion.
+        const T gd = at.gb - at.db, gs = at.gb - at.sb, o_d = C_gd * gd, o_s = C_gs * gs, o_b = C_gb * at.gb + p.Q_dep;
+        const T scale = Q_0 * p.n_ratio, Q_S = -(scale * c.Q_S.value), Q_D = -(scale * c.Q_D.value), Q_I = Q_S + Q_D;
+        const T d = Q_D - o_d - b_d.q, s = Q_S - o_s - b_s.q, b = -((T(1.0) - p.per_n) * Q_I) - o_b + b_s.q + b_d.q;
         out.q[D] = polarity * d, out.q[S] = polarity * s, out.q[B] = polarity * b, out.q[G] = -polarity * (d + s + b);
 
-        const Slopes d_by = by_voltages(-(Q_0 * c.Q_D.by_S), -(Q_0 * c.Q_D.by_D)),
-                     s_by = by_voltages(-(Q_0 * c.Q_S.by_S), -(Q_0 * c.Q_S.by_D));
-        const T factor = per_n - T(1.0), C_b = C_gb + C_dep;
+        const T by_G = Q_0 * p.n_ratio_by_G;
+        const Slopes d_by = by_voltages(p, -(scale * c.Q_D.by_S), -(scale * c.Q_D.by_D), -(by_G * c.Q_D.value)),
+                     s_by = by_voltages(p, -(scale * c.Q_S.by_S), -(scale * c.Q_S.by_D), -(by_G * c.Q_S.value));
+        const T factor = p.per_n - T(1.0), C_b = C_gb + p.C_dep - p.per_n_by_G * Q_I;
         const Slopes both{d_by.d + s_by.d, d_by.g + s_by.g, d_by.s + s_by.s, d_by.b + s_by.b};
         put(out.dq[D], d_by.d + C_gd + b_d.c, d_by.g - C_gd, d_by.s, d_by.b - b_d.c);
-        put(out.dq[G], -(per_n * both.d) - C_gd, C_gd + C_gs + C_b - per_n * both.g, -(per_n * both.s) - C_gs, -(per_n * both.b) - C_b);
+        put(out.dq[G], -(p.per_n * both.d) - C_gd, C_gd + C_gs + C_b - p.per_n * both.g, -(p.per_n * both.s) - C_gs, -(p.per_n * both.b) - C_b);
         put(out.dq[S], s_by.d, s_by.g - C_gs, s_by.s + C_gs + b_s.c, s_by.b - b_s.c);
         put(out.dq[B], factor * both.d - b_d.c, factor * both.g - C_b, factor * both.s - b_s.c, factor * both.b + C_b + b_s.c + b_d.c);
     }

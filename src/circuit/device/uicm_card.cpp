@@ -56,6 +56,8 @@ UicmConstants uicm_constants(const UicmCard& card, const UicmInstance& instance,
     c.polarity = pmos ? -1 : 1;
     c.V_T = card.V_T0 + instance.delvto + card.alpha_VT * (temperature - card.T_nom);
     c.per_n = 1 / card.n, c.per_phi_t = 1 / phi_t;
+    const double root_phi = num::sqrt(card.phi), a = card.n - card.gamma / (2 * root_phi);
+    c.body_w = card.gamma / (2 * a), c.body_w_phi = c.body_w + root_phi, c.per_a = 1 / a, c.phi = card.phi;
     c.sigma_n = card.sigma_L / length / card.n, c.zeta = card.zeta_L * instance.mulu0 / length;
     c.I_S = I_S, c.lambda = 1 / (card.V_E * length), c.knee = 4 * phi_t;
     c.Q_0 = card.n * phi_t * C_gate, c.C_dep = (card.n - 1) / card.n * C_gate;

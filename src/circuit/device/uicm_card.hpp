@@ -14,7 +14,7 @@ namespace corpuscle::circuit {
 /// velocity saturation this follows from the definition zeta = mu phi_t / (L v_sat). With these proportions a stack of elements has the
 /// parameters of one device of their total length.
 struct UicmCard {
-    double I_SQ = 112e-9, V_T0 = 0.461, n = 1.27, sigma_L = 0, zeta_L = 0, V_E = 8e6, C_ox = 8.42e-3;
+    double I_SQ = 112e-9, V_T0 = 0.461, n = 1.27, gamma = 0, phi = 0.85, sigma_L = 0, zeta_L = 0, V_E = 8e6, C_ox = 8.42e-3;
     double C_GSO = 0, C_GDO = 0, C_GBO = 0;
     double C_J = 0, C_JSW = 0, P_B = 0.8, M_J = 0.4, F_C = 0.5, J_S = 0, J_SSW = 0, n_dio = 1, E_g = 1.11, XTI = 3, L_dif = 0.5e-6;
     double alpha_VT = -0.4e-3, I_S_exponent = 0.5, T_nom = 27, N_ot = 0;
@@ -26,7 +26,9 @@ struct UicmCard {
     static constexpr ParameterDef<UicmCard> fields[] = {
         {"isq", &UicmCard::I_SQ, "A", 1e-15, 1, "specific current per square, mu C_ox n phi_t^2 / 2"},
         {"vto", &UicmCard::V_T0, "V", -5, 5, "threshold: V_GB where V_P = 0; positive for enhancement devices of both polarities"},
-        {"n", &UicmCard::n, "", 1.000001, 5, "slope factor"},
+        {"n", &UicmCard::n, "", 1.000001, 5, "slope factor; if gamma > 0, that at V_P = 0"},
+        {"gamma", &UicmCard::gamma, "V^0.5", 0, 10, "body factor, which makes n fall as V_GB rises; 0: n is constant"},
+        {"phi", &UicmCard::phi, "V", 0.1, 2, "surface potential at threshold, for gamma"},
         {"sigmal", &UicmCard::sigma_L, "m", 0, 1e-3, "DIBL times length: V_T falls by sigmal / L times V_DB + V_SB"},
         {"zetal", &UicmCard::zeta_L, "m", 0, 1e-3, "velocity saturation times length, mu phi_t / v_sat"},
         {"ve", &UicmCard::V_E, "V/m", 1, 1e30, "Early voltage per metre of channel length: V_A = V_E L"},
