@@ -25,7 +25,7 @@ struct PinchOff {
 ///
 ///     r = sqrt((w + sqrt(phi))^2 + u / a),   V_P = (r - w)^2 - phi,   1/n = (r - w) / (a r)
 ///
-/// Below V_P = -3/4 phi, where the channel is empty (q < 1e-9), n keeps its value and V_P continues as a straight line. Only the derivative of
+/// Below V_P = -15/16 phi, where the channel is empty, n keeps its value and V_P continues as a straight line. Only the derivative of
 /// n jumps there.
 template <class T>
 class BodyEffect {
@@ -43,7 +43,7 @@ public:
 
     /// Replaces `p` in the lanes with a body effect. C_ox_WL: capacitance of the gate oxide, F.
     [[gnu::always_inline]] void apply(T u, T C_ox_WL, PinchOff<T>& p) const {
-        const T one(1.0), half(0.5), s_0 = w_phi - w, r_min = half * s_0 + w;
+        const T one(1.0), half(0.5), s_0 = w_phi - w, r_min = T(0.25) * s_0 + w;
         const T r2 = w_phi * w_phi + u * per_a, r2_min = r_min * r_min;
         const auto is_inside = r2 > r2_min;
         const T r = num::sqrt(num::max(r2, r2_min)), s = r - w, per = one / (r * s), per_r = per * s, per_s = per * r;

@@ -2,6 +2,7 @@
 #include "circuit/device/mos/mos_line.hpp"
 #include "circuit/device/named_values.hpp"
 #include "circuit/device/physical_constants.hpp"
+#include "circuit/export/uicm_subcircuit.hpp"
 #include "circuit/lanes/chip_kernels_impl.hpp"
 
 namespace corpuscle::circuit {
@@ -138,8 +139,10 @@ Result<UicmCard> read_card(const Model& model) {
     const auto card = TRY(read_model_card<UicmCard>(UicmCard::fields, model, uicm_other_names));
     const double least_n = 1 + card.gamma / (2 * std::sqrt(card.phi));
     if (card.gamma > 0 && card.n < least_n * (1 - 1e-12))
-        return error_at(model.location, "{}: gamma = {} V^0.5 with phi = {} V requires n of at least {:.4f}, but n = {}; reduce gamma to {:.4f} or increase n",
-                        model.name, card.gamma, card.phi, std::ceil(least_n * 1e4) / 1e4, card.n, std::floor(2e4 * (card.n - 1) * std::sqrt(card.phi)) / 1e4);
+        return error_at(model.location,
+                        "{}: gamma = {} V^0.5 with phi = {} V requires n of at least {:.4f}, but n = {}; reduce gamma to {:.4f} or increase n",
+                        model.name, card.gamma, card.phi, std::ceil(least_n * 1e4) / 1e4, card.n,
+                        std::floor(2e4 * (card.n - 1) * std::sqrt(card.phi)) / 1e4);
     return card;
 }
 
@@ -164,13 +167,14 @@ Result<std::unique_ptr<DeviceBatch>> make_transistor_batch() {
     return std::unique_ptr<DeviceBatch>(std::make_unique<TransistorBatch>(*kernels));
 }
 
-/// An instance of the subcircuit uicm_n or uicm_p.
+/// An instance of the subcircuit of the export.
 Result<std::string> write_transistor(const ElementExport& e) {
     const auto card = TRY(read_card(*e.model()));
     UicmInstance size;
     for (const auto& f : UicmInstance::fields) size.*f.member = e.value(f.name, size.*f.member);
     const bool pmos = e.model()->type == "pmos";
-    return fmt::format("{} {} {}", e.head, pmos ? "uicm_p" : "uicm_n", uicm_parameters(card, size, celsius_of(e.circuit, e.element), pmos));
+    return fmt::format("{} {} {}", e.head, uicm_subcircuit_name(pmos, card.gamma > 0),
+                       uicm_parameters(card, size, celsius_of(e.circuit, e.element), pmos));
 }
 
 std::optional<Area> transistor_area(const Element& e) {

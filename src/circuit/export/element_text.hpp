@@ -55,13 +55,4 @@ Result<std::string> element_text(const Circuit&, std::size_t element, const Expo
 /// numbers the elements' lines contain.
 std::string model_text(const Circuit&, std::size_t model, const ExportNames&);
 
-/// Functions that the subcircuits uicm_n and uicm_p use.
-std::string uicm_functions();
-
-/// The subcircuit ".subckt uicm_n d g s b ..." or uicm_p.
-std::string uicm_subcircuit(bool pmos);
-
-/// The parameters of one transistor at its temperature (degrees Celsius): "vt=0.4606 slope=1.27 ...".
-std::string uicm_parameters(const UicmCard&, const UicmInstance&, double temperature, bool pmos);
-
 }  // namespace corpuscle::circuit

@@ -3,6 +3,7 @@
 #include "circuit/analyses.hpp"
 #include "circuit/devices.hpp"
 #include "circuit/export/element_text.hpp"
+#include "circuit/export/uicm_subcircuit.hpp"
 #include "core/text/ascii_text.hpp"
 
 namespace corpuscle::circuit {
@@ -14,10 +15,12 @@ std::string one_line(std::string text) {
     return text;
 }
 
-/// True if the circuit has transistors of this polarity.
-bool has_transistors(const Circuit& c, std::string_view type) {
-    return std::any_of(c.elements.begin(), c.elements.end(),
-                       [&](const Element& e) { return has_role(e, Role::transistor) && c.model_of(e) && c.model_of(e)->type == type; });
+/// True if the circuit has transistors of this polarity, with a body effect or without.
+bool has_transistors(const Circuit& c, bool pmos, bool has_body_effect) {
+    return std::any_of(c.elements.begin(), c.elements.end(), [&](const Element& e) {
+        const Model* const model = has_role(e, Role::transistor) ? c.model_of(e) : nullptr;
+        return model != nullptr && (model->type == "pmos") == pmos && (value_or(model->values, "gamma", 0) > 0) == has_body_effect;
+    });
 }
 
 std::string header(const Circuit& c, bool transistors) {
@@ -190,13 +193,14 @@ Result<NgspiceDeck> ngspice_deck(std::shared_ptr<const Circuit> circuit) {
     const auto context = TRY(AnalysisContext::make(circuit));
     const Circuit& c = *circuit;
     const ExportNames names(c);
-    const bool n = has_transistors(c, "nmos"), p = has_transistors(c, "pmos");
-    NgspiceDeck deck{header(c, n || p) + options_text(context->tolerances, c), {}};
+    std::string subcircuits;
+    for (const bool pmos : {false, true})
+        for (const bool has_body_effect : {false, true})
+            if (has_transistors(c, pmos, has_body_effect)) subcircuits += uicm_subcircuit(pmos, has_body_effect);
+    NgspiceDeck deck{header(c, !subcircuits.empty()) + options_text(context->tolerances, c), {}};
     for (std::size_t k = 0; k < c.elements.size(); ++k) deck.text += TRY(element_text(c, k, names));
     for (std::size_t k = 0; k < c.models.size(); ++k) deck.text += model_text(c, k, names);
-    if (n || p) deck.text += uicm_functions();
-    if (n) deck.text += uicm_subcircuit(false);
-    if (p) deck.text += uicm_subcircuit(true);
+    if (!subcircuits.empty()) deck.text += uicm_functions() + subcircuits;
     deck.text += node_voltages(".nodeset", c.nodesets, names) + node_voltages(".ic", c.ic, names);
     deck.text += directives_text(c, names, deck.warnings) + ".end\n";
     return deck;
