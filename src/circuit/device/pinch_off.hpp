@@ -5,7 +5,7 @@
 
 namespace corpuscle::circuit {
 
-/// What depends on the gate-bulk voltage alone, at an excess u = V_GB - V_T over the threshold. _by_G marks derivatives with respect to V_GB.
+/// Quantities that depend on the gate-bulk voltage alone. _by_G marks derivatives with respect to V_GB.
 template <class T>
 struct PinchOff {
     T V_P;                    ///< V: pinch-off voltage without DIBL; dV_P/dV_GB = 1/n
@@ -18,10 +18,10 @@ struct PinchOff {
 ///
 ///     n = a + gamma / (2 sqrt(phi + V_P)),   a = n_0 - gamma / (2 sqrt(phi))
 ///
-/// gamma is the body factor (V^0.5), phi the surface potential at threshold (V), n_0 the slope factor at V_P = 0. a = 1 is the textbook's MOS
-/// transistor (Schneider and Galup-Montoro, CMOS Analog Design Using All-Region MOSFET Modeling, chapter 2: the pinch-off voltage before its
-/// approximation by a straight line); a - 1 > 0 is the ratio of the capacitance of interface states to that of the oxide. Integrating n over
-/// V_P gives u = a V_P + gamma (sqrt(phi + V_P) - sqrt(phi)), so with w = gamma / (2a)
+/// gamma is the body factor (V^0.5), phi the surface potential at threshold (V), n_0 the slope factor at V_P = 0. With a = 1, all of n - 1
+/// is the ratio of the depletion layer's capacitance to that of the oxide. Otherwise, a - 1 is this ratio for the interface states. The
+/// thesis's eq. 24 is the tangent of V_P at V_P = 0. Integrating n over V_P gives the excess over the threshold,
+/// u = V_GB - V_T = a V_P + gamma (sqrt(phi + V_P) - sqrt(phi)), so with w = gamma / (2a)
 ///
 ///     r = sqrt((w + sqrt(phi))^2 + u / a),   V_P = (r - w)^2 - phi,   1/n = (r - w) / (a r)
 ///

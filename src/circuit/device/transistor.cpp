@@ -139,10 +139,11 @@ Result<UicmCard> read_card(const Model& model) {
     const auto card = TRY(read_model_card<UicmCard>(UicmCard::fields, model, uicm_other_names));
     const double least_n = 1 + card.gamma / (2 * std::sqrt(card.phi));
     if (card.gamma > 0 && card.n < least_n * (1 - 1e-12))
-        return error_at(model.location,
-                        "{}: gamma = {} V^0.5 with phi = {} V requires n of at least {:.4f}, but n = {}; reduce gamma to {:.4f} or increase n",
-                        model.name, card.gamma, card.phi, std::ceil(least_n * 1e4) / 1e4, card.n,
-                        std::floor(2e4 * (card.n - 1) * std::sqrt(card.phi)) / 1e4);
+        return error_at(
+            model.location,
+            "{}: gamma = {} V^0.5 with phi = {} V requires n of at least {:.4f}, but n = {}; reduce gamma to {:.4f} or increase n",
+            model.name, card.gamma, card.phi, std::ceil(least_n * 1e4) / 1e4, card.n,
+            std::floor(2e4 * (card.n - 1) * std::sqrt(card.phi)) / 1e4);
     return card;
 }
 

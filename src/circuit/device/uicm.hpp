@@ -70,15 +70,16 @@ struct UicmInternals {
 ///
 ///     I_D = I_S i(x_S, x_D) (1 + (sqrt(V_DS^2 + knee^2) - knee) / V_A),   knee = 4 phi_t, V_A = V_E L
 ///
-/// V_P is the pinch-off voltage, n the slope factor (constant, or a function of V_GB as in pinch_off.hpp; I_S is proportional to it), sigma the coefficient of DIBL, I_S the specific current, i(x_S, x_D) the normalized
-/// current, V_A the Early voltage. Well above the knee, the voltage at which I_D saturates in weak inversion, the output conductance is
-/// I_D / V_A. The factor in brackets is 1 at V_DS = 0 and even in V_DS, so exchanging source and drain negates I_D to the last bit.
+/// V_P is the pinch-off voltage, n the slope factor, sigma the coefficient of DIBL. I_S is the specific current, i(x_S, x_D) the normalized
+/// current, V_A the Early voltage. n is constant, or a function of V_GB (pinch_off.hpp); I_S is proportional to it. Well above the knee,
+/// the voltage at which I_D saturates in weak inversion, the output conductance is I_D / V_A. The factor in brackets is 1 at V_DS = 0 and
+/// even in V_DS, so exchanging source and drain negates I_D to the last bit.
 ///
 /// Charges:
 ///
 /// - Q_S and Q_D, the parts of the channel charge Q_I = Q_S + Q_D that belong to source and drain
-/// - Q_B = -(n - 1)/n Q_I - C_ox W L (V_GB - V_T - V_P), V_P without DIBL, the depletion charge that n implies. With a constant n the second
-///   term is (n - 1)/n C_ox W L V_GB and a constant, which is left out. ACM2 has this term in the capacitances but not in the charges.
+/// - Q_B = -(n - 1)/n Q_I - C_ox W L (V_GB - V_T - V_P), with V_P without DIBL: the depletion charge that n implies. With a constant n, the
+///   second term is (n - 1)/n C_ox W L V_GB and a constant, which is left out. ACM2 has this term in the capacitances but not in the charges.
 /// - Q_G = -(Q_S + Q_D + Q_B)
 /// - overlaps, and junctions
 ///
@@ -110,17 +111,17 @@ public:
           C_gd(value(&UicmConstants::C_gd)), C_gb(value(&UicmConstants::C_gb)), I_sat_s(value(&UicmConstants::I_sat_s)),
           I_sat_d(value(&UicmConstants::I_sat_d)), exp_limit_s(value(&UicmConstants::exp_limit_s)),
           exp_limit_d(value(&UicmConstants::exp_limit_d)), C_js(value(&UicmConstants::C_js)), C_jd(value(&UicmConstants::C_jd)),
-          thermal(value(&UicmConstants::thermal)), flicker(value(&UicmConstants::flicker)),
-          junction_constants{value(&UicmConstants::per_n_phi_t),
-                             value(&UicmConstants::per_P_B),
-                             value(&UicmConstants::v_limit),
-                             value(&UicmConstants::charge_exponent),
-                             value(&UicmConstants::P_B_per_charge_exponent),
-                             value(&UicmConstants::per_P_B_M_J)},
+          thermal(value(&UicmConstants::thermal)),
+          flicker(value(&UicmConstants::flicker)), junction_constants{value(&UicmConstants::per_n_phi_t),
+                                                                      value(&UicmConstants::per_P_B),
+                                                                      value(&UicmConstants::v_limit),
+                                                                      value(&UicmConstants::charge_exponent),
+                                                                      value(&UicmConstants::P_B_per_charge_exponent),
+                                                                      value(&UicmConstants::per_P_B_M_J)},
           body_effect(value) {}
 
     /// One transistor, or the same in all lanes.
-    explicit Uicm(const UicmConstants& c) : Uicm([&c](double UicmConstants::* member) { return T(c.*member); }) {}
+    explicit Uicm(const UicmConstants& c) : Uicm([&c](double UicmConstants::*member) { return T(c.*member); }) {}
 
     /// Evaluates currents, charges and derivatives at the voltages of drain, gate, source and bulk. Inlined so that the compiler removes
     /// derivatives that are not used.
@@ -187,8 +188,8 @@ private:
         return {d, g, s, -(d + g + s)};
     }
 
-    /// `factor`: I_S at the pinch-off voltage 0, times the factor of the Early effect. `early_d`: the part of dI_D/dV_DS that comes from the Early effect. `b_s`,
-    /// `b_d`: the junctions from bulk to source and to drain.
+    /// `factor`: I_S at the pinch-off voltage 0, times the factor of the Early effect. `early_d`: the part of dI_D/dV_DS that comes from
+    /// the Early effect. `b_s`, `b_d`: the junctions from bulk to source and to drain.
     [[gnu::always_inline]] void currents(const PinchOff<T>& p, const ValueWithSlopes<T>& i, T factor, T early_d,
                                          const JunctionEvaluation<T>& b_s, const JunctionEvaluation<T>& b_d, UicmEvaluation<T>& out) const {
         const T scale = factor * p.n_ratio, I = scale * i.value, zero(0.0);
@@ -216,7 +217,8 @@ private:
         const T factor = p.per_n - T(1.0), C_b = C_gb + p.C_dep - p.per_n_by_G * Q_I;
         const Slopes both{d_by.d + s_by.d, d_by.g + s_by.g, d_by.s + s_by.s, d_by.b + s_by.b};
         put(out.dq[D], d_by.d + C_gd + b_d.c, d_by.g - C_gd, d_by.s, d_by.b - b_d.c);
-        put(out.dq[G], -(p.per_n * both.d) - C_gd, C_gd + C_gs + C_b - p.per_n * both.g, -(p.per_n * both.s) - C_gs, -(p.per_n * both.b) - C_b);
+        put(out.dq[G], -(p.per_n * both.d) - C_gd, C_gd + C_gs + C_b - p.per_n * both.g, -(p.per_n * both.s) - C_gs,
+            -(p.per_n * both.b) - C_b);
         put(out.dq[S], s_by.d, s_by.g - C_gs, s_by.s + C_gs + b_s.c, s_by.b - b_s.c);
         put(out.dq[B], factor * both.d - b_d.c, factor * both.g - C_b, factor * both.s - b_s.c, factor * both.b + C_b + b_s.c + b_d.c);
     }
