@@ -44,6 +44,16 @@ TEST(Refusals, NameMissingDevicesBeforeDirectivesBeforeAllElse) {
                   "2.5 r1: 1 node, but expected 2: plus, minus, then a value or a model\n");
 }
 
+TEST(Refusals, ABodyFactorAboveTheSlopeFactorNamesTheLargestOne) {
+    const auto with = [](const char* gamma) {
+        return errors_of(fmt::format("v1 a 0 1\nm1 a a 0 0 nb\n.model nb nmos(level=80 n=1.27 gamma={} phi=0.85)\n.op\n", gamma));
+    };
+    EXPECT_EQ(with("0.6"),
+              "4.1 nb: gamma = 0.6 V^0.5 with phi = 0.85 V requires n of at least 1.3254, but n = 1.27; reduce gamma to 0.4978 or "
+              "increase n\n");
+    EXPECT_EQ(with("0.4978"), "");
+}
+
 TEST(Refusals, OfElementsAreReportedTogether) {
     EXPECT_EQ(errors_of("r1 a\nr2 a 0 {x}\nr3 a 0 1k foo=1\nr4 a 0 1k\n"),
               "2.5 r1: 1 node, but expected 2: plus, minus, then a value or a model\n"
