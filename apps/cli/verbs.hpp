@@ -11,6 +11,7 @@
     VERB(run)                 \
     VERB(export)              \
     VERB(sweep)               \
+    VERB(optimize)            \
     VERB(fit)                 \
     VERB(stream)              \
     VERB(list)

@@ -14,7 +14,7 @@ using test::run_program, test::TemporaryFolder;
 
 TEST(Help, OfEachVerbIsPrintedByTheHelpVerbAndByTheHelpOption) {
     const TemporaryFolder folder;
-    for (const std::string verb : {"respond", "compare", "study", "run", "export", "sweep", "fit", "stream", "list"}) {
+    for (const std::string verb : {"respond", "compare", "study", "run", "export", "sweep", "optimize", "fit", "stream", "list"}) {
         const auto help = run_program(folder, "help " + verb), option = run_program(folder, verb + " --help");
         EXPECT_EQ(help.status, 0) << verb;
         EXPECT_EQ(help.out, option.out) << verb;

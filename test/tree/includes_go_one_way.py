@@ -20,11 +20,12 @@ MAY_INCLUDE = {
     "live": BASE | {"model", "io", "skin"},
     "run": BASE | {"model", "circuit", "measure", "io", "nir", "skin", "live"},
     "sweep": BASE | {"model", "circuit", "measure", "io", "skin", "live", "run"},
+    "optimize": BASE | {"model", "circuit", "measure", "io", "skin", "live", "run", "sweep"},
     "fit": BASE | {"model", "circuit", "measure", "io", "skin", "live", "run"},
     "api": BASE | {"model", "circuit", "measure", "io", "nir", "skin", "live", "run", "sweep", "fit", "report"},
     "report": BASE | {"model", "circuit", "measure", "io", "skin", "live", "run", "sweep", "fit"},
     "readers": BASE | {"io"},
-    "cli": BASE | {"model", "circuit", "measure", "io", "skin", "live", "run", "sweep", "fit", "report"},
+    "cli": BASE | {"model", "circuit", "measure", "io", "skin", "live", "run", "sweep", "optimize", "fit", "report"},
     "reproduction": BASE | {"model", "circuit", "measure", "io", "skin", "live", "run", "report", "cli"},
 }
 MAX_FILES = 25

@@ -139,6 +139,13 @@ Json document_of(const Cost& cost, const PowerBreakdown& p) {
 
 }  // namespace
 
+Area area_of(const Circuit& circuit) {
+    Area all;
+    for (const auto& e : circuit.elements)
+        if (const auto area = kind_of(e).area(e)) all += *area;
+    return all;
+}
+
 Area Cost::area() const {
     Area all;
     for (const auto& b : blocks) all += b.area;

@@ -49,6 +49,9 @@ struct Cost {
     double per_mm2() const { return 1e-6 / area().total(); }   ///< number of these circuits on 1 mm^2
 };
 
+/// The area of all elements. Elements of unknown area (see Cost) are left out.
+Area area_of(const Circuit&);
+
 /// The cost of a circuit with its present parameter values and variation. `over` holds the power over a transient; null: there was none.
 Result<Cost> cost_of(AnalysisContext&, const PowerOverTime* over = nullptr);
 

@@ -4,6 +4,7 @@
 #include "circuit/expression/spice_number.hpp"
 #include "circuit/netlist/parasitic/voltage_loops.hpp"
 #include "circuit/netlist/scope.hpp"
+#include "circuit/netlist/settings/set_lines.hpp"
 #include "core/text/ascii_text.hpp"
 
 namespace corpuscle::circuit {
@@ -14,6 +15,7 @@ constexpr int max_subcircuit_depth = 200;
 class CircuitElaborator {
     const ParsedNetlist& parsed_;
     CircuitBuilder builder_;
+    bool changes_values_;
     Scope top_;
 
     struct NodeVoltage {
@@ -29,8 +31,10 @@ class CircuitElaborator {
     std::map<std::pair<const SubcktDef*, std::string>, std::optional<bool>> used_names_;
 
 public:
-    CircuitElaborator(const ParsedNetlist& parsed, const ResolvedOverrides& overrides, std::optional<RandomDraws> draws)
-        : parsed_(parsed), builder_(parsed, overrides, draws) {
+    /// `overrides`: with the values of the .set lines. `changes_values`: true if values differ from those of the netlist as written.
+    CircuitElaborator(const ParsedNetlist& parsed, const ResolvedOverrides& overrides, bool changes_values,
+                      std::optional<RandomDraws> draws)
+        : parsed_(parsed), builder_(parsed, overrides, draws), changes_values_(changes_values) {
         top_.definition = &parsed.top, top_.random = &builder_.random;
     }
 
@@ -47,6 +51,7 @@ public:
         TRY(elaborate_contents(top_));
         if (!builder_.refusals.empty()) return builder_.refusals.combined();
         TRY(check_stepped());
+        TRY(check_set_lines(parsed_, c));
         TRY(check_references());
         TRY(resolve_node_voltages());
         add_resistance_in_loops(c);
@@ -440,7 +445,7 @@ private:
         const auto& overrides = builder_.overrides;
         const auto expectation =
             std::find_if(c.directives.begin(), c.directives.end(), [](const Directive& directive) { return directive.name == "expect"; });
-        if (overrides.changes_values() && expectation != c.directives.end()) {
+        if (changes_values_ && expectation != c.directives.end()) {
             c.warnings.push_back(error_at(expectation->location, "values of the netlist are overridden, so .expect is ignored"));
             std::erase_if(c.directives, [](const Directive& directive) { return directive.name == "expect"; });
         }
@@ -492,7 +497,7 @@ private:
 
 Refusals find_refused_elements(const ParsedNetlist& parsed) {
     const ResolvedOverrides none;
-    CircuitElaborator elaborator(parsed, none, {});
+    CircuitElaborator elaborator(parsed, none, false, {});
     static_cast<void>(elaborator.run({}));
     return elaborator.refusals();
 }
@@ -500,7 +505,8 @@ Refusals find_refused_elements(const ParsedNetlist& parsed) {
 Result<Circuit> Netlist::elaborate(const Values& parameters, std::optional<RandomDraws> draws) const {
     if (!impl_) return Circuit{};
     if (!draws && overrides().mismatch_seed) draws = RandomDraws{*overrides().mismatch_seed, overrides().chip};
-    return CircuitElaborator(*impl_, overrides(), draws).run(parameters);
+    const auto with_set_lines = TRY(add_set_lines(*impl_, overrides()));
+    return CircuitElaborator(*impl_, with_set_lines, overrides().changes_values(), draws).run(parameters);
 }
 
 }  // namespace corpuscle::circuit

@@ -1,13 +1,21 @@
 #include "circuit/netlist/netlist.hpp"
 
+#include <filesystem>
+
 #include "circuit/netlist/included_files.hpp"
 #include "core/text/ascii_text.hpp"
+#include "core/text/embedded_files.hpp"
 #include "core/text/input_files.hpp"
 
 namespace corpuscle::circuit {
 namespace {
 
-Result<std::string> read_file_text(const std::string& path) { return read_entire_input(path, max_text_bytes, "netlist"); }
+/// The text of a file; that of an embedded process card if there is no such file.
+Result<std::string> read_file_text(const std::string& path) {
+    std::error_code status;
+    if (const auto card = embedded_card_of(path); !card.empty() && !std::filesystem::exists(path, status)) return embedded_text(card);
+    return read_entire_input(path, max_text_bytes, "netlist");
+}
 
 int index_of_name(const std::unordered_map<std::string, int>& numbers, std::string_view name) {
     const auto at = numbers.find(std::string(name));

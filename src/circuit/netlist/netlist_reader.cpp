@@ -234,6 +234,10 @@ private:
         out_.options.push_back(&store(TRY(split_element(std::move(line), nullptr))));
         return {};
     }
+    Result<void> set_values(LogicalLineReader&, LogicalLine line) {
+        out_.set_lines.push_back(&store(TRY(split_element(std::move(line), nullptr))));
+        return {};
+    }
     Result<void> title(LogicalLineReader&, LogicalLine line) {
         out_.title = trimmed(std::string_view(line.text).substr(std::string_view(".title").size()));
         return {};
@@ -472,6 +476,7 @@ std::span<const NetlistReader::Row> NetlistReader::rows() {
         {".options", &R::options, top_not_in_if},
         {".option", &R::options, top_not_in_if},
         {".opt", &R::options, top_not_in_if},
+        {".set", &R::set_values, top_not_in_if},
         {".title", &R::title, top_not_in_if},
         {".if", &R::if_line, Place::anywhere, AfterError::ends},
         {".elseif", &R::elseif_line, Place::anywhere, AfterError::ends},

@@ -54,6 +54,7 @@ struct ParsedNetlist {
     std::deque<Statement> statements;  ///< a deque, since it does not move its elements when it grows
     SubcktDef top;
     std::vector<const Statement*> directives, options, temperatures;  ///< Circuit::directives; .options lines; .temp lines
+    std::vector<const Statement*> set_lines;                          ///< .set lines
     std::set<std::string, std::less<>> globals;                       ///< nodes of .global
     std::set<std::string, std::less<>> libraries;                     ///< files from which .lib read a section
     std::set<std::string, std::less<>> marks;                         ///< directives that show for which simulator the netlist is written

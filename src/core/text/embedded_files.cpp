@@ -18,6 +18,14 @@ std::string_view embedded_text_of(std::string_view name) {
     return {};
 }
 
+std::string embedded_card_of(std::string_view path) {
+    for (const auto& f : embedded_file_table)
+        if (f.path.starts_with("process/") && path.ends_with(f.path) &&
+            (path.size() == f.path.size() || path[path.size() - f.path.size() - 1] == '/'))
+            return std::string(f.path);
+    return "";
+}
+
 std::vector<std::string_view> embedded_files() {
     std::vector<std::string_view> out;
     for (const auto& f : embedded_file_table) out.push_back(f.path);

@@ -26,6 +26,12 @@ struct SweepAxis {
     double sample(std::uint64_t index) const;
 };
 
+/// An item that is not a combination of the listed values: its values on all axes, and the number of its chip (no value: the nominal one).
+struct SweepPoint {
+    std::vector<double> values;
+    std::optional<std::uint64_t> chip = {};
+};
+
 /// The axes of a sweep, and the values of each item.
 struct SweepPlan {
     static constexpr double max_items = 1e12;  ///< of one sweep
@@ -34,6 +40,8 @@ struct SweepPlan {
     circuit::ChipSpec chips{0, 0, false,
                             false};  ///< whether process and mismatch are sampled; its seed is for all axes, its count is not used
     std::int64_t samples = 1;        ///< number of samples per point
+    /// Gives the items instead of the combinations of the listed values; null: these combinations. Thread-safe.
+    std::function<SweepPoint(std::int64_t item)> point = {};
 
     std::int64_t item_count() const;
     bool samples_chips() const { return chips.has_process || chips.has_mismatch; }

@@ -40,7 +40,7 @@ Result<sweeps::SweepText> sweeps::read_sweep_text(std::string_view text, const s
     return out;
 }
 
-Result<std::unique_ptr<Sweep>> sweeps::make_sweep(const SweepText& spec, const std::string& folder) {
+Result<std::unique_ptr<sweeps::PlannedSweep>> sweeps::make_planned_sweep(const SweepText& spec, const std::string& folder) {
     const auto *afferent = spec.get("afferent"), *netlist = spec.get("netlist");
     if (afferent && netlist)
         return netlist->error_here("give either afferent = ..., which responds to a force, or netlist = ..., with its own analyses");
@@ -48,7 +48,11 @@ Result<std::unique_ptr<Sweep>> sweeps::make_sweep(const SweepText& spec, const s
         return bad_input("the sweep has no subject; give afferent = \"sa1\", or netlist = \"circuits/bias.cir\"", {spec.file()});
     auto sweep = netlist ? new_analysis_sweep() : names_netlist(afferent->text) ? new_chip_sweep() : new_model_sweep();
     TRY(sweep->prepare(spec, folder));
-    return std::unique_ptr<Sweep>(std::move(sweep));
+    return sweep;
+}
+
+Result<std::unique_ptr<Sweep>> sweeps::make_sweep(const SweepText& spec, const std::string& folder) {
+    return std::unique_ptr<Sweep>(TRY(make_planned_sweep(spec, folder)));
 }
 
 namespace {

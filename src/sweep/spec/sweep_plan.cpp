@@ -34,6 +34,12 @@ std::vector<SweepColumn> SweepPlan::columns() const {
 }
 
 std::vector<double> SweepPlan::values(std::int64_t item) const {
+    if (point) {
+        auto given = point(item);
+        const auto chip = given.chip && chips.has_process ? chips.sample(*given.chip) : circuit::ChipSample{};
+        if (chips.has_process) given.values.insert(given.values.end(), std::begin(chip.process), std::end(chip.process));
+        return given.values;
+    }
     std::vector<double> out(axes.size());
     auto point = item / samples;
     const auto sample = static_cast<std::uint64_t>(item % samples);
@@ -56,6 +62,10 @@ std::vector<double> SweepPlan::values(std::int64_t item) const {
 
 std::optional<circuit::ChipSample> SweepPlan::chip_sample(std::int64_t item) const {
     if (!samples_chips()) return {};
+    if (point) {
+        const auto chip = point(item).chip;
+        return chip ? std::optional(chips.sample(*chip)) : std::nullopt;
+    }
     return chips.sample(static_cast<std::uint64_t>(item % samples));
 }
 

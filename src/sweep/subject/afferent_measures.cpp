@@ -28,6 +28,10 @@ AfferentMeasures::AfferentMeasures(const SweepForce& nominal, bool is_circuit, s
             [](const Values& v, const Entry&) { return v.response->energy_use.supplies / v.response->energy_use.seconds; });
         add({"sensor_power", "W", "the part of the power due to the sensor's current"}, true,
             [](const Values& v, const Entry&) { return v.response->energy_use.sensor / v.response->energy_use.seconds; });
+        add({"own_power", "W", "the power without that part"}, false, [](const Values& v, const Entry&) {
+            return (v.response->energy_use.supplies - v.response->energy_use.sensor) / v.response->energy_use.seconds;
+        });
+        add({"area", "m2", "area of arrays and capacitors"}, false, [](const Values& v, const Entry&) { return v.area; });
         add({"outside", "s", "total time outside an operating range; with several ranges, the longest of their times"}, true,
             [](const Values& v, const Entry&) {
                 double longest = 0;
@@ -88,8 +92,8 @@ Result<std::size_t> AfferentMeasures::require_column(const LocatedText& name) {
                                        did_you_mean(name.text, names), listed, names.back()));
 }
 
-std::vector<double> AfferentMeasures::values(const SweepForce& force, std::span<const double> spikes,
-                                             const circuit::ChipResponse* response) const {
+std::vector<double> AfferentMeasures::values(const SweepForce& force, std::span<const double> spikes, const circuit::ChipResponse* response,
+                                             double area) const {
     std::vector<TimeWindow> windows;
     for (const auto& p : force.phases) windows.push_back({p.from, p.to, force.cycle_frequency});
     // The accumulators have one train, with index 0.
@@ -100,11 +104,15 @@ std::vector<double> AfferentMeasures::values(const SweepForce& force, std::span<
         if (by_phase) phases.spike(0, t);
     }
     total.set_end(force.end()), phases.set_end(force.end());
-    Values all{force, spikes, response, total.values(0, 0), {}};
+    Values all{force, spikes, response, area, total.values(0, 0), {}};
     for (std::size_t p = 0; by_phase && p < force.phases.size(); ++p) all.of_phases[force.phases[p].name] = phases.values(0, p);
     std::vector<double> out;
     for (const auto& entry : selected_) out.push_back(entry.value(all, entry));
     return out;
+}
+
+bool AfferentMeasures::has_area() const {
+    return std::any_of(columns_.begin(), columns_.end(), [](const SweepColumn& c) { return c.name == "area"; });
 }
 
 }  // namespace corpuscle::sweeps

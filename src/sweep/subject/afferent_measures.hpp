@@ -17,6 +17,7 @@ class AfferentMeasures {
         const SweepForce& force;
         std::span<const double> spikes;                        ///< times since the first sample of the force, s
         const circuit::ChipResponse* response;                 ///< of a circuit
+        double area;                                           ///< of a circuit, m^2
         std::vector<double> total;                             ///< of each of `measures`, over the complete force
         std::map<std::string, std::vector<double>> of_phases;  ///< the same for each phase, by its name; empty if they are not needed
 
@@ -49,8 +50,10 @@ public:
     const std::vector<SweepColumn>& columns() const { return columns_; }
 
     /// The values of the selected measures, in the order of columns(); NaN: no value. `spikes`: times since the first sample of the force,
-    /// s. `response`: of a circuit.
-    std::vector<double> values(const SweepForce&, std::span<const double> spikes, const circuit::ChipResponse* response = nullptr) const;
+    /// s. `response`, `area` (m^2): of a circuit.
+    std::vector<double> values(const SweepForce&, std::span<const double> spikes, const circuit::ChipResponse* response = nullptr,
+                               double area = 0) const;
+    bool has_area() const;  ///< true if the measure `area` is selected
 };
 
 }  // namespace corpuscle::sweeps

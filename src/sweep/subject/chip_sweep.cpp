@@ -6,6 +6,7 @@
 #include <map>
 
 #include "circuit/batch/chip_batch.hpp"
+#include "circuit/cost/cost.hpp"
 #include "circuit/output/saved_quantities.hpp"
 #include "core/parameter.hpp"
 #include "sweep/subject/subject.hpp"
@@ -81,6 +82,7 @@ class ChipSweep final : public AfferentSweep {
     }
 
     ItemOutcome outcome(std::int64_t item, const ActiveChip& chip, ChipResponse&& response) const {
+        const double area = afferent_measures_->has_area() ? circuit::area_of(*chip.design->circuit).total() : 0;
         auto out = failed_outcome(item, response.error ? response.error->text() : "");
         out.ran_alone = response.is_scalar, out.steps = response.stats.steps, out.iterations = response.stats.iterations;
         if (response.error) return out;
@@ -91,7 +93,7 @@ class ChipSweep final : public AfferentSweep {
             return out;
         }
         out.end = ItemEnd::done;
-        out.measures = afferent_measures_->values(*chip.force, response.spikes, &response);
+        out.measures = afferent_measures_->values(*chip.force, response.spikes, &response, area);
         return out;
     }
 

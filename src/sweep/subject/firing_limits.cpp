@@ -25,11 +25,12 @@ double spread_count(std::span<const double> spikes, const TimeWindow& phase) {
     return out + (spikes.empty() ? 0 : count_in(spikes.last(1), phase));
 }
 
-FiringLimits FiringLimits::around(std::span<const double> reference, std::span<const TimeWindow> phases, double time_tolerance) {
+FiringLimits FiringLimits::around(std::span<const double> reference, std::span<const TimeWindow> phases, double time_tolerance,
+                                  std::optional<double> allowed) {
     FiringLimits out;
     bool fired = false;  // in this phase or an earlier one
     for (const auto& phase : phases) {
-        const double count = count_in(reference, phase), count_tolerance = std::max(1.0, std::floor(count / 4));
+        const double count = count_in(reference, phase), count_tolerance = allowed.value_or(std::max(1.0, std::floor(count / 4)));
         fired |= count > 0;
         out.phases.push_back(
             {phase, std::max(0.0, count - count_tolerance), fired ? count + count_tolerance : 0, spread_count(reference, phase)});

@@ -2,6 +2,7 @@
 // Limits on a chip's response to a stimulus, around the response of a reference: number of spikes in each phase, and time of the first
 // spike.
 
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
@@ -24,7 +25,9 @@ struct FiringLimits {
     /// Limits around the spike times of a reference, such as a model, s. In each phase, the number of spikes may deviate from that of the
     /// reference by a quarter (rounded down), or by one spike if that is more. The phases before the first one in which the reference fires
     /// allow no spikes. The time of the first spike may deviate by `time_tolerance`, s.
-    static FiringLimits around(std::span<const double> reference, std::span<const TimeWindow> phases, double time_tolerance);
+    /// `count_tolerance`: allowed deviation of the number of spikes instead of a quarter.
+    static FiringLimits around(std::span<const double> reference, std::span<const TimeWindow> phases, double time_tolerance,
+                               std::optional<double> count_tolerance = {});
 
     bool are_met(std::span<const double> spikes) const;
     /// The distance from the reference: the sum of the squares of all deviations, each divided by half its allowed range. It uses

@@ -18,7 +18,7 @@ using circuit::Netlist;
 
 constexpr std::size_t max_bytes = std::size_t{64} << 20;  // of one netlist file
 
-bool is_embedded(std::string_view path) {
+bool is_embedded_file(std::string_view path) {
     const auto all = embedded_files();
     return std::find(all.begin(), all.end(), path) != all.end();
 }
@@ -75,7 +75,7 @@ Result<NetlistFactory> NetlistFactory::of(const LocatedText& name_or_path, const
         for (const auto file : embedded_files())
             if (file.ends_with(".cir")) known.push_back(file);
         for (const auto& c : circuit::embedded_netlists) known.push_back(c.name);
-        if (!is_embedded(out.file_))
+        if (!is_embedded_file(out.file_))
             return name_or_path.error_here(
                 fmt::format("there is no netlist '{}' in the folder of the sweep file and no embedded one of this name{}",
                             name_or_path.text, did_you_mean(name_or_path.text, known)));
@@ -89,7 +89,10 @@ Result<std::string> NetlistFactory::text_of(const std::string& path) const {
     const std::lock_guard lock(files_->mutex);
     for (const auto& [name, text] : files_->texts)
         if (name == path) return text;
-    auto text = is_embedded_ ? embedded_text(path) : read_netlist_file(fs::path(folder_) / path, path);
+    std::error_code status;
+    const auto full_path = fs::path(folder_) / path;
+    const auto card = is_embedded_ || fs::exists(full_path, status) ? "" : embedded_card_of(path);
+    auto text = is_embedded_ ? embedded_text(path) : !card.empty() ? embedded_text(card) : read_netlist_file(full_path, path);
     if (!text) return text;
     files_->texts.emplace_back(path, *text);
     return text;

@@ -28,8 +28,6 @@ class NetlistFactory {
     std::vector<std::string> saved_curves_;  // replace those of .save; empty: the netlist's own
     std::shared_ptr<Files> files_;
 
-    /// The text of a source file; `path` as for file_.
-    Result<std::string> text_of(const std::string& path) const;
     /// The netlist with this corner of the process file; "": the corner that the netlist selects.
     Result<circuit::Netlist> open(const std::string& corner) const;
     /// The netlist with these overrides and the saved curves.
@@ -57,6 +55,12 @@ public:
     /// The part of an item's values on which its netlist depends.
     std::vector<double> netlist_values(std::span<const double> values) const;
 
+    /// The path of the netlist's file, for text_of(), and the folder of the files; "" if they are embedded in the program.
+    const std::string& file() const { return file_; }
+    std::string folder() const { return is_embedded_ ? "" : folder_; }
+    bool is_embedded() const { return is_embedded_; }
+    /// The text of a source file; `path` is relative to the folder, or that of an embedded file.
+    Result<std::string> text_of(const std::string& path) const;
     /// One entry for each file that was read, with its text.
     std::vector<MetadataText> metadata() const;
 };

@@ -119,7 +119,7 @@ long PlannedSweep::find_iteration_limit(const std::function<bool()>& stop) const
     if (nominal_iteration_limit_) return *nominal_iteration_limit_;
     const auto iterations = nominal_iterations(stop);
     if (!iterations && iterations.error().code == ErrorCode::interrupted) return 0;
-    nominal_iteration_limit_ = iterations ? static_cast<long>(iteration_limit_factor * static_cast<double>(*iterations)) : 0;
+    nominal_iteration_limit_ = iterations ? static_cast<long>(iteration_limit_factor_ * static_cast<double>(*iterations)) : 0;
     return *nominal_iteration_limit_;
 }
 

@@ -18,8 +18,9 @@ inline constexpr double iteration_limit_factor = 20;
 
 /// The part of a Sweep that is the same for all subjects.
 class PlannedSweep : public Sweep {
-    class PlanReader;                                      // see plan_reader.cpp
-    long iteration_limit_ = 0;                             // in the sweep file; 0: the file has none
+    class PlanReader;           // see plan_reader.cpp
+    long iteration_limit_ = 0;  // in the sweep file; 0: the file has none
+    double iteration_limit_factor_ = iteration_limit_factor;
     mutable std::mutex mutex_;                             // protects nominal_iteration_limit_
     mutable std::optional<long> nominal_iteration_limit_;  // see find_iteration_limit(); no value: not yet computed
 
@@ -63,10 +64,28 @@ protected:
 public:
     Result<void> prepare(const SweepText&, const std::string& folder);
     std::vector<double> values(std::int64_t item) const override { return plan_.values(item); }
+
+    // For a search, which chooses the values of its items while it runs.
+    /// Replaces the items by `count` others, which `point` gives; see SweepPlan::point. An item ends early after `limit_factor` times the
+    /// iterations of the nominal circuit, unless the file has a limit.
+    void set_points(std::function<SweepPoint(std::int64_t)> point, std::int64_t count, double limit_factor) {
+        plan_.point = std::move(point), item_count = count, iteration_limit_factor_ = limit_factor;
+    }
+    const SweepPlan& plan() const { return plan_; }
+    const NetlistFactory& netlist() const { return netlist_; }  ///< of a circuit
+    /// The nominal circuit; null for a model.
+    const circuit::Circuit* nominal_circuit() const { return circuit(); }
+    /// The nominal force; null for a netlist with its own analyses.
+    virtual const SweepForce* nominal_force() const { return nullptr; }
+    /// The index of a measure's column, which is added if necessary. Call before the first item runs.
+    Result<std::size_t> add_measure(const LocatedText& measure) { return measure_column(measure); }
 };
 
 /// The common part of the sweeps over an afferent, which responds to a force.
 class AfferentSweep : public PlannedSweep {
+public:
+    const SweepForce* nominal_force() const final { return force_.nominal().get(); }
+
 protected:
     std::unique_ptr<AfferentMeasures> afferent_measures_;
     std::size_t every_ = 0;  // sampling step of the probes, in samples of the force; 0: no probes
@@ -92,6 +111,7 @@ std::unique_ptr<PlannedSweep> new_analysis_sweep();
 
 /// The sweep of a sweep file. `folder`: the folder of the file.
 Result<std::unique_ptr<Sweep>> make_sweep(const SweepText&, const std::string& folder);
+Result<std::unique_ptr<PlannedSweep>> make_planned_sweep(const SweepText&, const std::string& folder);
 
 /// The seed in the sweep file; 0 if it has none.
 Result<std::uint64_t> seed_of(const SweepText&);
