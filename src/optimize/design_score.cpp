@@ -26,10 +26,10 @@ double measure_excess(const SweepColumn& measure, double x, double limit, double
     return (direction * (x - limit) - (is_count ? 0.5 : 0)) / scale;
 }
 
-void add_measure_limits(const OptimizationProblem& problem, const ItemOutcome& outcome, CaseScore& score) {
+void add_measure_limits(const OptimizationProblem& problem, std::size_t number, const ItemOutcome& outcome, CaseScore& score) {
     for (std::size_t k = 0; k < problem.sweep->measures.size(); ++k) {
         const auto& m = problem.sweep->measures[k];
-        if (!m.min && !m.max) continue;
+        if ((!m.min && !m.max) || (problem.is_nominal_limit[k] && !problem.is_nominal(number))) continue;
         const double x = outcome.measures[k];
         if (std::isnan(x)) {
             take(score, 10, false, [&] { return m.name + " has no value"; });
@@ -110,7 +110,7 @@ CaseScore score_case(const OptimizationProblem& problem, std::size_t number, con
         const double done = spikes.empty() || !force ? 0 : spikes.back() / force->end();  // the earlier it stopped, the worse
         return {false, truncated_excess * (2 - done), "iteration limit", no_value};
     }
-    add_measure_limits(problem, outcome, out);
+    add_measure_limits(problem, number, outcome, out);
     if (problem.has_pattern(number)) add_pattern_limits(problem, spikes, out);
     if (problem.goal.kind == DesignGoal::Kind::measure) out.value = outcome.measures[problem.goal.column];
     if (problem.goal.kind == DesignGoal::Kind::distance) out.value = problem.pattern->distance(spikes);

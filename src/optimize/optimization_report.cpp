@@ -24,7 +24,9 @@ std::string goal_text(const DesignGoal& goal, double x) {
 }
 
 std::string change_text(double before, double after) {
-    return before == 0 || std::isnan(before) || std::isnan(after) ? "-" : fmt::format("{:+.1f} %", 100 * (after / before - 1));
+    if (before == 0 || std::isnan(before) || std::isnan(after)) return "-";
+    const double percent = 100 * (after / before - 1);
+    return fmt::format("{:+.1f} %", std::abs(percent) < 0.05 ? 0.0 : percent);
 }
 
 /// The relative change of the goal at a neighbouring design, negative if it improves.

@@ -61,11 +61,14 @@ struct OptimizationProblem {
     double required_yield = 1;            ///< fraction of the chips that must be within the limits
     std::optional<FiringLimits> pattern;  ///< of the spikes
     bool pattern_is_nominal = false;      ///< the pattern is a limit of the first condition and of the chips; false: of all cases
+    std::vector<bool> is_nominal_limit;  ///< of each measure of the sweep: its limits, too, are those of the first condition and of the chips
     DesignGoal goal;
     SearchSettings search;
     std::uint64_t seed = 0;
 
-    bool has_pattern(std::size_t number) const { return pattern && (!pattern_is_nominal || number == 0 || number >= condition_count); }
+    /// True for the first condition and the chips.
+    bool is_nominal(std::size_t number) const { return number == 0 || number >= condition_count; }
+    bool has_pattern(std::size_t number) const { return pattern && (!pattern_is_nominal || is_nominal(number)); }
     std::size_t chip_count() const { return cases.size() - condition_count; }
     std::vector<double> start() const;
     /// The values of all axes for a design in a case.

@@ -18,7 +18,7 @@ constexpr auto top_keys = std::to_array<ConfigKey>(
     {"title", "afferent", "netlist", "force", "channel", "rate", "unit", "scale", "seed", "iterations", "orders",
      ConfigKey("set", KeyKind::settings), ConfigKey("variable", KeyKind::tables, "each variable"),
      ConfigKey("at", KeyKind::tables, "each condition"), ConfigKey("chips", KeyKind::settings), ConfigKey("pattern", KeyKind::settings),
-     ConfigKey("limits", KeyKind::table), ConfigKey("goal", KeyKind::settings), ConfigKey("search", KeyKind::settings)});
+     ConfigKey("limits", KeyKind::table), ConfigKey("nominal_limits", KeyKind::table), ConfigKey("goal", KeyKind::settings), ConfigKey("search", KeyKind::settings)});
 constexpr auto variable_keys =
     std::to_array<ConfigKey>({ConfigKey("what", KeyKind::any), "from", "to", "start", ConfigKey("log", KeyKind::flag_or_text),
                               ConfigKey("integer", KeyKind::flag_or_text)});
@@ -189,6 +189,25 @@ class TextReader {
         return {};
     }
 
+    /// Adds the limits of the first condition and of the chips to those of all cases. A measure can have only one of both.
+    Result<void> add_nominal_limits() {
+        const auto* nominal = out_.top.get("nominal_limits");
+        if (!nominal) return {};
+        auto& entries = out_.sweep.top.entries;
+        if (!out_.sweep.top.has("limits")) {
+            ConfigNode limits = *nominal;
+            limits.entries.clear();
+            add_entry(out_.sweep.top, "limits", std::move(limits));
+        }
+        auto& limits = std::ranges::find_if(entries, [](const auto& entry) { return entry.first.text == "limits"; })->second;
+        for (const auto& [name, limit] : nominal->entries) {
+            if (limits.has(name.text))
+                return name.error_here(fmt::format("[nominal_limits]: {} has limits in [limits], too; keep one of them", name.text));
+            limits.entries.emplace_back(name, limit);
+        }
+        return {};
+    }
+
     /// Writes the sweep: the keys that it shares with the file, and its axes.
     Result<void> write_sweep(std::string canonical) {
         out_.sweep.top.location = out_.top.location, out_.sweep.canonical = std::move(canonical);
@@ -206,6 +225,7 @@ class TextReader {
         for (const auto& at : out_.conditions()) TRY(add_condition(at, axes));
         TRY(read_chips(axes));
         TRY(add_measures());
+        TRY(add_nominal_limits());
         add_entry(out_.sweep.top, "vary", list_node(std::move(axes), out_.top.location));
         return {};
     }

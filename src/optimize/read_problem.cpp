@@ -83,7 +83,7 @@ class ProblemReader {
         auto& goal = out_.goal;
         const auto* node = text_.top.get("goal");
         const auto* name = node ? node->has("minimize") ? node->get("minimize") : node->get("maximize") : nullptr;
-        const bool has_limits = text_.top.has("limits") || out_.pattern;
+        const bool has_limits = text_.top.has("limits") || text_.top.has("nominal_limits") || out_.pattern;
         switch (goal.kind) {
             case DesignGoal::Kind::none:
                 if (!has_limits)
@@ -102,6 +102,11 @@ class ProblemReader {
                 return name->error_here("the yield is the fraction of the [chips] within [pattern] and [limits]; add them");
         }
         return {};
+    }
+
+    void mark_nominal_limits() {
+        const auto* limits = text_.top.get("nominal_limits");
+        for (const auto& measure : out_.sweep->measures) out_.is_nominal_limit.push_back(limits && limits->has(measure.name));
     }
 
     Result<void> read_search() {
@@ -136,6 +141,7 @@ public:
         out_.goal = text_.goal;
         TRY(read_pattern());
         TRY(read_goal());
+        mark_nominal_limits();
         TRY(read_search());
         const auto* circuit = out_.sweep->nominal_circuit();
         out_.file = text_.file(), out_.subject = (top.has("afferent") ? top.get("afferent") : top.get("netlist"))->text;

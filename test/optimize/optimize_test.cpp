@@ -81,6 +81,15 @@ TEST(Optimize, TheWorstConditionDecidesThoughTheSearchBeginsWithoutIt) {
     EXPECT_LT(result.active_cases, 6U);
 }
 
+TEST(Optimize, NominalLimitsHoldOnlyAtTheFirstCondition) {
+    const Files files;
+    auto text = std::string(divider_problem);
+    text.replace(text.find("[limits]"), 8, "[nominal_limits]");
+    const auto result = files.found(text + "[set]\ntc = 0.01\n[[at]]\nwhat = \"temp\"\nlist = [27, 77]\n");
+    EXPECT_NEAR(result.found.values[0], 25e3, 50);
+    EXPECT_TRUE(result.found.cases[1].is_within);
+}
+
 TEST(Optimize, AWholeNumberOfDevicesStaysWhole) {
     const Files files;
     files.folder.write("loads.cir", "loads\nvin in 0 1\nr1 in out 10k\nrl out 0 100k m=2\n.op\n.end\n");
