@@ -53,8 +53,8 @@ reproduction: setup-run
 	@cmake --build --preset release --target corpuscle-cli corpuscle-study
 	@mkdir -p out
 	$(corpuscle) study all --quiet --report out/reproduction.html --markdown reproduction/reproduction.md
-	if [ -d $(CORPUSCLE_DATA)/fbg_eskin_press ]; then CORPUSCLE_DATA=$(CORPUSCLE_DATA) $(corpuscle) study eskin-press --quiet --markdown reproduction/recorded.md; \
-	else echo "reproduction/recorded.md was not updated: there are no recordings in $(CORPUSCLE_DATA)"; fi
+	if [ -d $(CORPUSCLE_DATA)/fbg_eskin_press ] && [ -d $(CORPUSCLE_DATA)/fabric_slide_cpm ]; then CORPUSCLE_DATA=$(CORPUSCLE_DATA) $(corpuscle) study eskin-press texture --quiet --markdown reproduction/recorded.md; \
+	else echo "reproduction/recorded.md was not updated: it needs the recordings fbg_eskin_press and fabric_slide_cpm in $(CORPUSCLE_DATA)"; fi
 
 install: build
 	@cmake --preset release -D CMAKE_INSTALL_PREFIX=$(PREFIX) > /dev/null  # programs that link the library look for the helper programs there

@@ -29,6 +29,9 @@ std::span<const Study* const> all_studies();
 namespace studies::eskin_press {
 extern const Study study;
 }
-inline constexpr const Study* recorded_studies[] = {&studies::eskin_press::study};
+namespace studies::texture {
+extern const Study study;
+}
+inline constexpr const Study* recorded_studies[] = {&studies::eskin_press::study, &studies::texture::study};
 
 }  // namespace corpuscle

@@ -1,6 +1,7 @@
 #include "reproduction/claims/study.hpp"
 
 #include <fmt/format.h>
+#include <filesystem>
 #include <mutex>
 #include <numeric>
 #include <optional>
@@ -38,6 +39,12 @@ public:
 };
 
 }  // namespace
+
+Result<std::string> StudyOptions::recordings_in(std::string_view folder) const {
+    const auto path = fmt::format("{}/{}", recordings_folder, folder);
+    if (std::filesystem::is_directory(path)) return path;
+    return bad_input(fmt::format("no recording in '{}'; CORPUSCLE_DATA must name the folder that contains '{}'", path, folder));
+}
 
 Result<std::vector<StudyResult>> run_studies(std::span<const Study* const> studies, const StudyOptions& options) {
     std::vector<StudyResult> outcomes(studies.size());

@@ -49,6 +49,8 @@ struct StudyOptions {
     Result<void> report_progress(double fraction) const {
         return should_continue(fraction) ? Result<void>() : Error{ErrorCode::interrupted, "interrupted"};
     }
+    /// The path of a folder of recordings; an error if it does not exist.
+    Result<std::string> recordings_in(std::string_view folder) const;
 };
 
 struct Study {

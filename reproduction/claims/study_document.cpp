@@ -118,15 +118,17 @@ Json document_of(const Study& study, const StudyResult& outcome) {
 }
 
 std::string markdown_of(std::span<const Study* const> studies, std::span<const StudyResult> outcomes) {
-    const bool from_recording = !studies.empty() && !studies.front()->recording_folder.empty();
+    const bool from_recordings = !studies.empty() && !studies.front()->recording_folder.empty();
+    std::string names;
+    for (const auto* study : studies) names += fmt::format("{}{}", names.empty() ? "" : " ", study->name);
     std::string text = fmt::format(
         "# {}, reproduced\n\nWritten by `corpuscle study {}` (`make reproduction` writes this page{}). All numbers are "
         "computed, except the published ones. {}\n\nA number agrees if it is within 10 % of the published one, or within the tolerance "
         "that its "
         "row states. A derived number, in brackets, is not printed but follows from an equation, a sentence or the thesis's model. Every "
         "deviation has its cause, or the words \"not known\".\n\n## Kinds of claims\n\n",
-        from_recording ? "A published recording" : "Every figure and table", from_recording ? studies.front()->name : "all",
-        from_recording ? " if the recording is in CORPUSCLE_DATA" : ", and `out/reproduction.html` with the pictures",
+        from_recordings ? "Published recordings" : "Every figure and table", from_recordings ? names : "all",
+        from_recordings ? " if the recordings are in CORPUSCLE_DATA" : ", and `out/reproduction.html` with the pictures",
         prediction_sentence(outcomes));
     put_kinds_table(text, outcomes);
     text += "\n## Published numbers, and deviations\n\n";

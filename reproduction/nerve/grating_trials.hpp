@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "reproduction/nerve/linear_readout.hpp"
+#include "reproduction/readout/linear_readout.hpp"
 #include "reproduction/skin/skin_touch.hpp"
 
 namespace corpuscle {

@@ -5,7 +5,6 @@
 #include <fmt/format.h>
 #include <algorithm>
 #include <cmath>
-#include <filesystem>
 #include <set>
 
 #include "io/recording/recording.hpp"
@@ -254,9 +253,7 @@ void report_place(StudyResult& out, const Comparison& a) {
 }
 
 Result<StudyResult> compute(const StudyOptions& options) {
-    const std::string path = options.recordings_folder + "/" + folder;
-    if (!std::filesystem::is_directory(path))
-        return bad_input(fmt::format("no recording in '{}'; CORPUSCLE_DATA must name the folder that contains '{}'", path, folder));
+    const auto path = TRY(options.recordings_in(folder));
     Comparison a;
     auto force = TRY(read_force(path + "/fbg_press_S6_T16.csv", path + "/sensor_positions.csv"));
     a.force = std::move(force);

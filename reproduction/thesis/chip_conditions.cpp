@@ -2,13 +2,10 @@
 
 #include <fmt/format.h>
 #include <array>
-#include <mutex>
-#include <optional>
 
-#include "circuit/batch/chip_batch.hpp"
 #include "circuit/variant/netlist_overrides.hpp"
-#include "core/thread_pool.hpp"
 #include "reproduction/claims/trial.hpp"
+#include "reproduction/thesis/chip_runs.hpp"
 
 namespace corpuscle {
 namespace {
@@ -36,41 +33,6 @@ ConditionResponse response_of(const ChipCondition& condition, const CircuitAffer
     return out;
 }
 
-/// Hands out the chips of all conditions, each to one thread, and collects their responses.
-class ConditionQueue {
-    const std::vector<ChipCondition>& conditions_;
-    const std::vector<Design>& designs_;
-    const TrialForce& force_;
-    const std::function<bool(std::size_t)>& progress_;
-    std::mutex mutex_;  // protects the members below
-    std::size_t next_ = 0, finished_ = 0;
-    bool stopped_ = false;
-    std::vector<ConditionResponse> responses_;
-
-public:
-    ConditionQueue(const std::vector<ChipCondition>& conditions, const std::vector<Design>& designs, const TrialForce& force,
-                   const std::function<bool(std::size_t)>& progress)
-        : conditions_(conditions), designs_(designs), force_(force), progress_(progress), responses_(conditions.size()) {}
-
-    std::optional<Chip> next() {
-        const std::lock_guard lock(mutex_);
-        if (stopped_ || next_ == conditions_.size()) return {};
-        const auto k = next_++;
-        return Chip{static_cast<std::int64_t>(k), designs_[k], {}, force_.force, force_.clock.T()};
-    }
-    void take(const Chip& chip, ChipResponse&& response) {
-        const auto k = static_cast<std::size_t>(chip.id);
-        const std::lock_guard lock(mutex_);
-        responses_[k] = response_of(conditions_[k], *designs_[k], std::move(response));
-        stopped_ = stopped_ || !progress_(++finished_);
-    }
-    /// The responses, in the order of the conditions.
-    Result<std::vector<ConditionResponse>> result() {
-        if (stopped_) return Error{ErrorCode::interrupted, "interrupted"};
-        return std::move(responses_);
-    }
-};
-
 }  // namespace
 
 Result<std::vector<ConditionResponse>> run_conditions(const std::string& chip, const std::vector<ChipCondition>& conditions,
@@ -79,19 +41,12 @@ Result<std::vector<ConditionResponse>> run_conditions(const std::string& chip, c
     const auto force = TRY(trial_force({chip}));
     std::vector<Design> designs;
     for (const auto& condition : conditions) designs.push_back(TRY(design_of(chip, condition)));
-    ConditionQueue queue(conditions, designs, force, progress);
-    std::mutex mutex;
-    std::optional<Error> failed;
-    ThreadPool pool;
-    pool.for_each(pool.threads(), [&](std::size_t, unsigned) {
-        // designs[0] stands for all designs, which have the same devices.
-        const auto done = circuit::run_chips(
-            designs[0], [&] { return queue.next(); }, [&](const Chip& at, ChipResponse&& response) { queue.take(at, std::move(response)); },
-            {});
-        const std::lock_guard lock(mutex);
-        if (!done) failed = done.error();
-    });
-    return failed ? *failed : queue.result();
+    std::vector<Chip> chips;
+    for (const auto& design : designs) chips.push_back({0, design, {}, force.force, force.clock.T()});
+    auto responses = TRY(run_all_chips(std::move(chips), progress));
+    std::vector<ConditionResponse> out;
+    for (std::size_t k = 0; k < conditions.size(); ++k) out.push_back(response_of(conditions[k], *designs[k], std::move(responses[k])));
+    return out;
 }
 
 }  // namespace corpuscle

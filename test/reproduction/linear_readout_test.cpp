@@ -1,6 +1,6 @@
 // The linear read-out on features whose classes are known.
 
-#include "reproduction/nerve/linear_readout.hpp"
+#include "reproduction/readout/linear_readout.hpp"
 
 #include <gtest/gtest.h>
 #include <cmath>
@@ -54,6 +54,18 @@ TEST(LinearReadout, ReadsATrialOnlyFromOthers) {
         trials.push_back(std::move(trial));
     }
     EXPECT_LE(readout_accuracy(trials, 10, 3), 0.4);
+}
+
+TEST(LinearReadout, SaysForEachTestedTrialWhetherItIsReadCorrectly) {
+    auto learned = random_trials(60, 3, 20), tested = random_trials(6, 3, 20);
+    tested[4].label = 2;  // its features are those of class 1
+    std::vector<const ReadoutTrial*> from, to;
+    for (const auto& t : learned) from.push_back(&t);
+    for (const auto& t : tested) to.push_back(&t);
+    EXPECT_EQ(read_correctly(from, to), (std::vector<bool>{true, true, true, true, false, true}));
+    for (auto* trials : {&learned, &tested})
+        for (auto& t : *trials) t.features.assign(3, 0);  // silent afferents
+    EXPECT_EQ(read_correctly(from, to), (std::vector<bool>{true, false, false, true, false, false})) << "the first class is read";
 }
 
 }  // namespace

@@ -88,7 +88,7 @@ TEST(Studies, GiveTheTextOfTheReproductionPage) {
 }
 
 TEST(Studies, OfARecordingGiveTheTextOfTheirPage) {
-    CORPUSCLE_NEEDS(test::shared_file_path("fbg_eskin_press"));
+    for (const auto* s : recorded_studies) CORPUSCLE_NEEDS(test::shared_file_path(std::string(s->recording_folder)));
     const auto outcomes = run_studies(recorded_studies, {.recordings_folder = test::shared_file_path("")});
     ASSERT_TRUE(static_cast<bool>(outcomes)) << outcomes.error().text();
     for (std::size_t k = 0; k < std::size(recorded_studies); ++k) check(*recorded_studies[k], (*outcomes)[k]);

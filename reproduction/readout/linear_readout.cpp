@@ -1,4 +1,4 @@
-#include "reproduction/nerve/linear_readout.hpp"
+#include "reproduction/readout/linear_readout.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -59,8 +59,7 @@ public:
     }
 };
 
-/// The ridge regression in its dual form: the weights of the features are a sum over the trials, x = sum of z a. There are fewer trials
-/// than features.
+/// The ridge regression in its dual form: the weights of the features are a sum over the trials, x = sum of z a.
 class LinearReadout {
     Scaling scaling_;
     Matrix learned_;   // the scaled features of each trial
@@ -95,14 +94,23 @@ public:
 
 }  // namespace
 
+std::vector<bool> read_correctly(const std::vector<const ReadoutTrial*>& learned, const std::vector<const ReadoutTrial*>& tested,
+                                 double ridge) {
+    std::size_t classes = 0;
+    for (const auto* trials : {&learned, &tested})
+        for (const auto* t : *trials) classes = std::max(classes, t->label + 1);
+    const LinearReadout readout(learned, classes, ridge);
+    std::vector<bool> out;
+    for (const auto* t : tested) out.push_back(readout.read(*t) == t->label);
+    return out;
+}
+
 double readout_accuracy(const std::vector<ReadoutTrial>& trials, std::size_t folds, std::size_t block, double ridge) {
-    std::size_t classes = 0, correct = 0;
-    for (const auto& t : trials) classes = std::max(classes, t.label + 1);
+    std::size_t correct = 0;
     for (std::size_t fold = 0; fold < folds; ++fold) {
         std::vector<const ReadoutTrial*> learned, left_out;
         for (std::size_t k = 0; k < trials.size(); ++k) (k / block % folds == fold ? left_out : learned).push_back(&trials[k]);
-        const LinearReadout readout(learned, classes, ridge);
-        for (const auto* t : left_out) correct += readout.read(*t) == t->label;
+        for (const bool is_correct : read_correctly(learned, left_out, ridge)) correct += is_correct;
     }
     return static_cast<double>(correct) / static_cast<double>(trials.size());
 }
