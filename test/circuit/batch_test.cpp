@@ -149,13 +149,27 @@ TEST(Batch, AChipStopsAtItsIterationLimit) {
     }
 }
 
+TEST(Batch, AChipWithoutForceHasAnErrorAndTheOthersRun) {
+    const auto spiker = design_of(test::source_root() + "/circuits/spiker.cir");
+    const auto force = force_step(600);
+    for (const std::size_t lanes : {1, 8}) {
+        const auto responses = responses_of({{0, spiker, {}, {}, batch_T}, {1, spiker, {}, force, batch_T}}, spiker, {.lanes = lanes});
+        ASSERT_TRUE(responses.at(0).error);
+        EXPECT_EQ(responses.at(0).error->message, "the force has no samples");
+        EXPECT_GT(responses.at(1).spikes.size(), 1u);
+    }
+}
+
 TEST(Batch, StopsOnRequest) {
     const auto spiker = design_of(test::source_root() + "/circuits/spiker.cir");
     const auto force = force_step(600);
     int count = 0;
     const auto done = run_chips(
-        spiker, [&]() -> std::optional<Chip> { return Chip{0, spiker, {}, force, batch_T}; }, [&](const Chip&, ChipResponse&&) { ++count; },
-        {.should_stop = [&] { return true; }});
+        spiker,
+        [&]() -> std::optional<Chip> {
+            return Chip{0, spiker, {}, force, batch_T};
+        },
+        [&](const Chip&, ChipResponse&&) { ++count; }, {.should_stop = [&] { return true; }});
     ASSERT_FALSE(done);
     EXPECT_EQ(done.error().code, ErrorCode::interrupted);
     EXPECT_EQ(count, 0);

@@ -159,7 +159,8 @@ void Batch::iterate(std::uint8_t working, lanes::SolveCall& solve, lanes::StepCa
 void Batch::decide_steps(std::uint8_t needs_error, std::uint8_t diverged, const LaneRow& a) {
     if ((needs_error | diverged) == 0) return;
     kernels_.evaluate_charges(memory_.block);
-    estimate_errors(needs_error, [](const ChipLane&) { return true; }, [](const ChipLane& s) { return s.order(); }, error_);
+    estimate_errors(
+        needs_error, [](const ChipLane&) { return true; }, [](const ChipLane& s) { return s.order(); }, error_);
     lanes::AcceptCall accept{{}, a};
     std::uint8_t accepted = 0, change_order = 0;
     for_each_lane(static_cast<std::uint8_t>(needs_error | diverged), [&](std::size_t l) {
@@ -218,8 +219,17 @@ Result<void> run_all_scalar(const std::function<std::optional<Chip>()>& next,
 
 }  // namespace
 
-Result<void> run_chips(const std::shared_ptr<const CircuitAfferentFactory>& nominal, const std::function<std::optional<Chip>()>& next,
+Result<void> run_chips(const std::shared_ptr<const CircuitAfferentFactory>& nominal, const std::function<std::optional<Chip>()>& next_chip,
                        const std::function<void(const Chip&, ChipResponse&&)>& on_done, const BatchOptions& options) {
+    const auto next = [&]() -> std::optional<Chip> {
+        for (;;) {
+            auto chip = next_chip();
+            if (!chip || !chip->force.empty()) return chip;
+            ChipResponse response;
+            response.error = bad_input("the force has no samples");
+            on_done(*chip, std::move(response));
+        }
+    };
     const auto kernels = TRY(chip_kernels());
     auto simulation = TRY(StreamingTransient::make(*nominal, 1e-4, {}));  // its sample time does not matter here
     const auto& system = simulation->context().system;

@@ -21,9 +21,9 @@ struct ChipResponse {
     EnergyUse energy_use;
     std::vector<RangeViolation> range_violations;  ///< [operating range of the design]
     std::vector<std::vector<float>> probes;        ///< [probe of the design][recorded sample]
-    std::optional<Error> error;                    ///< if the simulation did not converge (with time and unknown) or was interrupted
-    bool hit_iteration_limit = false;              ///< true if the simulation stopped at max_iterations
-    bool is_scalar = false;  ///< true if the chip was simulated by the scalar code, because a lane cannot or its lane failed
+    std::optional<Error> error;  ///< if the simulation did not converge (with time and unknown), was interrupted, or the force is empty
+    bool hit_iteration_limit = false;  ///< true if the simulation stopped at max_iterations
+    bool is_scalar = false;            ///< true if the chip was simulated by the scalar code, because a lane cannot or its lane failed
 };
 
 struct BatchOptions {
@@ -33,11 +33,12 @@ struct BatchOptions {
     std::function<bool()> should_stop = {};  ///< called repeatedly; must return true to stop
 };
 
-/// Simulates chips until `next` returns none. Calls on_done for each finished chip, in any order. `nominal` gives the elimination order and
-/// the tolerances for all lanes. The result of a chip does not depend on the other chips, the number of lanes or the instruction set. If
-/// the elimination or the convergence fails on a lane, the chip is simulated again from its beginning by the scalar code (run_chip_scalar).
-/// Errors: interruption by should_stop, an instruction set that this machine does not have, a nominal circuit that cannot be set up.
-Result<void> run_chips(const std::shared_ptr<const CircuitAfferentFactory>& nominal, const std::function<std::optional<Chip>()>& next,
+/// Simulates chips until `next_chip` returns none. Calls on_done for each finished chip, in any order. `nominal` gives the elimination
+/// order and the tolerances for all lanes. The result of a chip does not depend on the other chips, the number of lanes or the instruction
+/// set. If the elimination or the convergence fails on a lane, the chip is simulated again from its beginning by the scalar code
+/// (run_chip_scalar). Errors: interruption by should_stop, an instruction set that this machine does not have, a nominal circuit that
+/// cannot be set up.
+Result<void> run_chips(const std::shared_ptr<const CircuitAfferentFactory>& nominal, const std::function<std::optional<Chip>()>& next_chip,
                        const std::function<void(const Chip&, ChipResponse&&)>& on_done, const BatchOptions&);
 
 /// Simulates one chip by the scalar code.
