@@ -4,6 +4,7 @@
 #include <cmath>
 #include <numeric>
 
+#include "core/random.hpp"
 #include "optimize/local_search.hpp"
 #include "optimize/variable_limits.hpp"
 #include "sweep/spec/sampling.hpp"
@@ -15,7 +16,11 @@ constexpr std::size_t point_threads = 16;                  // designs of the fir
 constexpr double first_step = 0.15, shortest_step = 0.02;  // of a local search in its first round; fraction of a variable's range
 constexpr std::size_t kept_designs = 2;                    // designs from which the next round begins
 constexpr int line_parts = 8;                              // of the line between two designs
+constexpr std::uint32_t shifted_designs = 4;               // that must be within the limits, too, before a design counts as found
+constexpr double max_shift = 2e-3;                         // of their variables; fraction of a variable's range
 constexpr double settled_gain = 1e-3;                      // a round that improves the merit by less is the last one, if no case fails
+
+constexpr std::uint32_t shift_purpose = 0x6f707401;  // of the random shifts
 
 // The numbers of the searches that are not local, see DesignEvaluator.
 constexpr std::int64_t all_cases_search = 0, points_search = 1, first_local_search = 2;
@@ -49,8 +54,36 @@ class DesignSearch {
         return out;
     }
 
-    void take_if_better(const ScoredDesign& design) {
-        if (design.merit < best_.merit) best_ = design;
+    /// The design with each of its continuous variables at a random position up to max_shift away.
+    std::vector<double> shifted(const std::vector<double>& design, std::uint32_t number) const {
+        auto out = design;
+        for (std::uint32_t k = 0; k < out.size(); ++k) {
+            const auto& v = problem_.variables[k];
+            const double shift = max_shift * (philox({k, number, 0, shift_purpose}, problem_.seed)[0] * 0x1p-31 - 1);
+            if (!v.is_integer) out[k] = v.value(std::clamp(v.position(design[k]) + shift, 0.0, 1.0));
+        }
+        return out;
+    }
+
+    /// True if small changes of the design do not leave the limits. A design that barely fires in a case may not fire with other
+    /// tolerances.
+    Result<bool> is_robust(const ScoredDesign& design) {
+        std::vector<std::vector<double>> designs;
+        for (std::uint32_t k = 0; k < shifted_designs; ++k) designs.push_back(shifted(design.values, k));
+        const auto scored_designs = TRY(score_all(designs));
+        return std::ranges::all_of(scored_designs, [](const ScoredDesign& d) { return d.score.is_within; });
+    }
+
+    /// Takes the best of the designs that is better than the present best one, and robust if it is within the limits.
+    Result<void> take_best_of(std::vector<ScoredDesign> designs) {
+        std::ranges::stable_sort(designs, {}, &ScoredDesign::merit);
+        for (auto& d : designs) {
+            if (!(d.merit < best_.merit)) break;
+            if (d.score.is_within && !TRY(is_robust(d))) continue;
+            best_ = std::move(d);
+            break;
+        }
+        return {};
     }
 
     /// Adds to the active cases those in which a design is nearest to its limits, or furthest outside; returns their number.
@@ -112,13 +145,13 @@ class DesignSearch {
         return out;
     }
 
-    /// Designs on the straight line from the best design, which is within the limits, to others that are not: those near the best one are
-    /// often within the limits, too.
+    /// Designs on the straight line from the best design, which is within the limits, to others that are not, or not robust: those near the
+    /// best one are often within the limits, too.
     Result<void> search_between(std::span<const ScoredDesign> others) {
         if (!best_.score.is_within) return {};
         std::vector<std::vector<double>> designs;
         for (const auto& other : others) {
-            if (other.score.is_within) continue;
+            if (!(other.merit < best_.merit) && other.score.is_within) continue;
             for (int part = 1; part < line_parts; ++part) {
                 auto& design = designs.emplace_back();
                 for (std::size_t k = 0; k < problem_.variables.size(); ++k) {
@@ -128,9 +161,7 @@ class DesignSearch {
                 }
             }
         }
-        const auto scored_designs = TRY(score_all(designs));
-        for (const auto& d : scored_designs) take_if_better(d);
-        return {};
+        return take_best_of(TRY(score_all(designs)));
     }
 
     /// Rounds of local searches, until no case outside the active ones fails for the best designs.
@@ -146,7 +177,7 @@ class DesignSearch {
             const auto kept = std::span(designs).first(std::min(kept_designs, designs.size()));
             for (const auto& d : kept)
                 if (!d.score.is_within) failing += activate(d, std::max<std::size_t>(settings_.cases / 2, 1), true);
-            for (const auto& d : designs) take_if_better(d);
+            TRY(take_best_of(designs));
             TRY(search_between(kept));
             out_.is_settled = failing == 0 && !(merit_before - best_.merit > settled_gain * std::abs(best_.merit));
             starts = {best_.values};
@@ -199,7 +230,8 @@ double max_simulations(const OptimizationProblem& problem) {
     const auto starts = static_cast<double>(s.starts), rounds = static_cast<double>(s.rounds),
                evaluations = static_cast<double>(s.evaluations);
     const double later = (rounds - 1) * (kept_designs + 1) * evaluations * std::min(2 * active, all);
-    return all * (1 + starts + (rounds - 1) * (kept_designs + 1) + 2 * variables) +
+    return all * (1 + starts + rounds * (kept_designs * (line_parts - 1) + shifted_designs) + (rounds - 1) * (kept_designs + 1) +
+                  2 * variables) +
            active * (static_cast<double>(s.points) + starts * evaluations) + later;
 }
 
