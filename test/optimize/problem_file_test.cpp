@@ -87,7 +87,7 @@ TEST(OptimizationFile, ErrorsNameLineAndRemedy) {
         {head + variable + goal + "[[at]]\nlist = [1]\n", "o.toml:8:1: [[at]]: 'what' is missing"},
         {head + variable + goal + "[[at]]\nwhat = \"corner\"\nlist = [\"tt\", \"xx\"]\n", "o.toml:10:15:"},
         {head + variable + goal + "[limits]\nspikes = {at_least = 1}\n[nominal_limits]\nspikes = {at_most = 9}\n",
-         "o.toml:10:1: [nominal_limits]: spikes has limits in [limits], too; keep one of them"},
+         "o.toml:11:1: [nominal_limits]: spikes has limits in [limits], too; keep one of them"},
         {head + variable + goal + "[nominal_limits]\nspiks = {at_most = 9}\n", "o.toml:9:1:"},
         {head + variable + variable + goal, "o.toml:7:8: 'i_biasf' varies twice"},
         {"afferent = \"nothing.cir\"\n" + variable + goal, "o.toml:1:12: there is no netlist 'nothing.cir'"},
