@@ -3,10 +3,12 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
+#include "circuit/export/kit_map.hpp"
 #include "cli/output/output_files.hpp"
 #include "cli/output/terminal.hpp"
 #include "cli/shell/suggestions.hpp"
 #include "cli/verbs.hpp"
+#include "core/text/ascii_text.hpp"
 #include "io/output/output_check.hpp"
 #include "run/export/targets.hpp"
 
@@ -21,6 +23,9 @@ Transistors become subcircuits of expressions with the same currents (relative e
 small-signal parameters (0.1 %), but without noise. Directives that ngspice does not have (.step,
 .mc, .expect ...) become comments, with a warning.
 
+With --card the transistors are those of a foundry's kit, which is read from its own file: columns
+are multipliers, units in series a chain. See doc/kits.md.
+
 An afferent becomes a script, a module or a NIR graph with its equations and all values; see
 doc/export.md.
 
@@ -28,6 +33,8 @@ Examples:
   corpuscle export amplifier.cir --for ngspice -o amplifier-ng.cir
   ngspice -b amplifier-ng.cir -r amplifier.raw                          the same curves as 'corpuscle run amplifier.cir'
   corpuscle export amplifier.cir --for ngspice > deck.cir && ngspice -b deck.cir       tables and measurements
+  corpuscle export invc.cir --for ngspice --card bsim3.lib --map bsim --nch nmos1 --pch pmos1 -o invc-kit.cir
+  corpuscle export sa1-circuit --for ngspice --map sky130 --card sky130.lib.spice --set sa1-circuit.corner=ss -o sa1-ss.cir
   corpuscle export sa1 --for brian2 --set sa1.f_B=25Hz -o sa1.py && python3 sa1.py force.csv spikes.csv
   corpuscle export sa1 --for nir -o sa1.nir                             for neuromorphic simulators and chips)";
 
@@ -49,7 +56,9 @@ Result<void> export_model(const ExportArguments& args, const CommonArguments& co
     const auto& target = *find_export_target(args.target);
     if (!target.is_text && args.out.empty())
         return bad_usage(fmt::format("--for {0}: the file is not text; name it: --out x.{0}", target.name));
-    const auto model = TRY(target.write(args.request));
+    auto request = args.request;
+    request.out = args.out;
+    const auto model = TRY(write_model(target, request));
     OutputCheck outputs(common.overwrite);  // it refuses inputs, so they must have been read
     if (!args.out.empty()) TRY(outputs.check_file(args.out, target.is_own));
     if (!args.out.empty()) TRY(write_file(args.out, model.text));
@@ -77,6 +86,12 @@ const std::string& target_description() {
     return text;
 }
 
+const std::string& map_description() {
+    static const std::string text =
+        fmt::format("how the kit spells its transistors: {} (default plain), or a file (doc/kits.md)", joined(circuit::kit_map_names()));
+    return text;
+}
+
 }  // namespace
 
 Verb make_export_verb() {
@@ -93,6 +108,14 @@ Verb make_export_verb() {
                           {"--for", &args->target, "SIMULATOR", target_description(), target_names()},
                           repeatable({"--set,-s", override_reader(args->request.settings, "--set"), "NAME.PARAMETER=VALUE",
                                       "set a parameter of the subject, such as sa1.f_B=25Hz"})}},
+                        {"Kit (with --for ngspice)",
+                         {{"--card", &args->request.kit.card, "FILE", "the kit's file: transistors are its devices instead of UICM"},
+                          {"--map", &args->request.kit.map, "NAME|FILE", map_description()},
+                          {"--nch", &args->request.kit.nch, "NAME", "the kit's device for N"},
+                          {"--pch", &args->request.kit.pch, "NAME", "the kit's device for P"},
+                          {"--hv-nch", &args->request.kit.hv_nch, "NAME",
+                           "its N device of higher threshold; without it the threshold of the other is shifted"},
+                          {"--hv-pch", &args->request.kit.hv_pch, "NAME", "its P device of higher threshold"}}},
                         {"Output", {{"--out,-o", &args->out, "FILE", "write to this file (default: standard output)"}}}},
             .reports = true,
             .writes_files = true,

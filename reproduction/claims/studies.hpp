@@ -34,4 +34,10 @@ extern const Study study;
 }
 inline constexpr const Study* recorded_studies[] = {&studies::eskin_press::study, &studies::texture::study};
 
+/// Studies of the transistors of a foundry's kit, which the user must have. Like recorded_studies, they run only if they are named.
+namespace studies::foundry {
+extern const Study study;
+}
+inline constexpr const Study* kit_studies[] = {&studies::foundry::study};
+
 }  // namespace corpuscle

@@ -51,7 +51,8 @@ Result<std::vector<StudyResult>> run_studies(std::span<const Study* const> studi
     StudyProgress progress(options, studies.size());
     ThreadPool pool;
     pool.for_each(studies.size(), [&](std::size_t k, unsigned) {
-        auto outcome = studies[k]->run({[&, k](double fraction) { return progress.update(k, fraction); }, options.recordings_folder});
+        auto outcome =
+            studies[k]->run({[&, k](double fraction) { return progress.update(k, fraction); }, options.recordings_folder, options.kit});
         outcome ? void(outcomes[k] = std::move(*outcome)) : progress.fail(studies[k]->name, outcome.error());
     });
     if (progress.error()) return *progress.error();

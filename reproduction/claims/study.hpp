@@ -10,6 +10,7 @@
 #include "core/error.hpp"
 #include "reproduction/claims/claim.hpp"
 #include "reproduction/claims/study_plot.hpp"
+#include "run/export/kit_request.hpp"
 
 namespace corpuscle {
 
@@ -44,6 +45,8 @@ struct StudyOptions {
     /// Called with the completed fraction, 0 to 1. If it returns false, the study stops.
     std::function<bool(double)> should_continue = [](double) { return true; };
     std::string recordings_folder = {};  ///< the folder with the published recordings; only for recorded_studies
+
+    KitRequest kit = {};  ///< the kit of a foundry; only for kit_studies
 
     /// Calls should_continue. If that returns false, returns an error of code `interrupted`, which the study passes on.
     Result<void> report_progress(double fraction) const {

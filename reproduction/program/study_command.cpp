@@ -40,6 +40,7 @@ Result<std::vector<const Study*>> selected_studies(const std::vector<std::string
     std::vector<std::string_view> known = {"all"};
     for (const auto* s : all_studies()) known.push_back(s->name);
     for (const auto* s : recorded_studies) known.push_back(s->name);
+    for (const auto* s : kit_studies) known.push_back(s->name);
     std::vector<const Study*> out;
     for (const auto& name : names) {
         bool found = false;
@@ -48,8 +49,10 @@ Result<std::vector<const Study*>> selected_studies(const std::vector<std::string
             found = true;
             if (std::find(out.begin(), out.end(), s) == out.end()) out.push_back(s);
         }
-        for (const auto* s : recorded_studies)  // not part of "all"
+        const auto add_if_named = [&](const Study* s) {  // not part of "all"
             if (name == s->name && std::find(out.begin(), out.end(), s) == out.end()) found = true, out.push_back(s);
+        };
+        std::ranges::for_each(recorded_studies, add_if_named), std::ranges::for_each(kit_studies, add_if_named);
         if (!found)
             return bad_usage(
                 fmt::format("study: unknown study '{}'{} (known: {})", name, did_you_mean(name, known), fmt::join(known, ", ")));
@@ -75,6 +78,20 @@ std::string recordings_directory() {
     return data && *data ? data : "../shared/data";
 }
 
+/// The kit that the environment names, for kit_studies.
+KitRequest kit_of_environment() {
+    const auto value = [](const char* name) {
+        const char* text = std::getenv(name);
+        return std::string(text ? text : "");
+    };
+    return {.card = value("CORPUSCLE_FOUNDRY_CARD"),
+            .map = value("CORPUSCLE_FOUNDRY_MAP"),
+            .nch = value("CORPUSCLE_FOUNDRY_NCH"),
+            .pch = value("CORPUSCLE_FOUNDRY_PCH"),
+            .hv_nch = value("CORPUSCLE_FOUNDRY_HV_NCH"),
+            .hv_pch = value("CORPUSCLE_FOUNDRY_HV_PCH")};
+}
+
 Result<void> run(const StudyArguments& arguments, const CommonArguments& common) {
     const auto selected = TRY(selected_studies(arguments.names.empty() ? std::vector<std::string>{"all"} : arguments.names));
     OutputCheck outputs(common.overwrite);
@@ -84,7 +101,8 @@ Result<void> run(const StudyArguments& arguments, const CommonArguments& common)
         if (!path.empty()) TRY(outputs.check_file(path, is_own));
     const auto outcomes = [&] {
         Progress progress(common.quiet);
-        return run_studies(selected, {[&](double fraction) { return progress.update(fraction), !interrupted(); }, recordings_directory()});
+        return run_studies(selected, {[&](double fraction) { return progress.update(fraction), !interrupted(); }, recordings_directory(),
+                                      kit_of_environment()});
     }();
     if (!outcomes) return outcomes.error();
     if (!arguments.report_file.empty()) TRY(write_file(arguments.report_file, study_page(selected, *outcomes, common.command)));

@@ -17,7 +17,13 @@ std::string study_help() {
     for (const auto* s : all_studies()) known += fmt::format("\n  {:14} {}", s->name, s->title);
     std::string recorded;
     for (const auto* s : recorded_studies) recorded += fmt::format("\n  {:14} {}", s->name, s->title);
+    std::string of_kits;
+    for (const auto* s : kit_studies) of_kits += fmt::format("\n  {:14} {}", s->name, s->title);
     return "Studies:" + known + "\n\nStudies of recordings, not part of 'all' (CORPUSCLE_DATA: directory of the recordings):" + recorded +
+           "\n\nStudies of a foundry's kit in ngspice, not part of 'all' (CORPUSCLE_FOUNDRY_CARD: its file; also _MAP, _NCH, _PCH, "
+           "_HV_NCH,\n"
+           "_HV_PCH, as the options of 'corpuscle export'):" +
+           of_kits +
            "\n\nExamples:\n  corpuscle study all --report reproduction.html\n  corpuscle study fig24 table17 --report chips.html\n"
            "  corpuscle study fig3 --json";
 }
@@ -26,6 +32,7 @@ std::vector<std::string> study_names() {
     std::vector<std::string> out = {"all"};
     for (const auto* s : all_studies()) out.emplace_back(s->name);
     for (const auto* s : recorded_studies) out.emplace_back(s->name);
+    for (const auto* s : kit_studies) out.emplace_back(s->name);
     return out;
 }
 

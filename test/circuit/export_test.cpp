@@ -179,6 +179,31 @@ TEST(ExportedDirectives, AreMeasuredTheSameByNgspice) {
     for (const auto& [name, value] : result->numbers) EXPECT_NEAR(logged_number(log, name), value, 1e-4 * std::abs(value)) << log;
 }
 
+TEST(ExportedDirectives, DistancesBetweenCrossingsAndMeasuresOfAnAcAreMeasuredByNgspice) {
+    const TemporaryFolder folder;
+    const std::string filter = "a filter\nv1 a 0 dc 0 ac 1 sin(0 1 1k)\nr1 a b 1k\nc1 b 0 100n\n";
+    for (const auto& [lines, expected] :
+         std::vector<std::pair<std::string, std::string>>{{".tran 1u 4m\n.meas tran late trig v(a)=0.1 rise=2 targ v(b) val=0.1 rise=2\n",
+                                                           ".meas tran late trig v(a) val=0.1 rise=2 targ v(b) val=0.1 rise=2\n"},
+                                                          {".ac dec 100 10 100k\n.meas ac half when vm(b)=0.5\n", ".save all\n"}}) {
+        const std::shared_ptr<const Circuit> circuit = elaborate_netlist(folder.write("filter.cir", filter + lines));
+        const auto deck = exported(circuit);
+        EXPECT_NE(deck.find(expected), std::string::npos) << deck;
+        const auto log = run_ngspice(folder.write("deck.cir", deck), "");
+        const auto result = run_directives(circuit);
+        ASSERT_TRUE(result && result->numbers.size() == 1);
+        const auto& [name, value] = result->numbers[0];
+        EXPECT_NEAR(logged_number(log, name), value, 1e-3 * value) << log;
+    }
+    const auto left_out = ngspice_deck(elaborate_netlist(folder.write(
+        "filter.cir", filter + ".tran 1u 4m\n.meas tran x trig v(a)=v(b) rise=1 targ v(a)=0 fall=2\n.meas tran y param='2*x'\n")));
+    ASSERT_TRUE(left_out);
+    EXPECT_NE(left_out->text.find(
+                  "* left out: .meas tran x trig v(a)=v(b) rise=1 targ v(a)=0 fall=2 (ngspice has no trig where two curves cross)"),
+              std::string::npos);
+    EXPECT_NE(left_out->text.find("(it needs x, which is left out)"), std::string::npos);
+}
+
 TEST(ExportedDirectives, TheForceIsExportedInTheWaveformsOfItsSources) {
     const TemporaryFolder folder;
     const auto circuit =

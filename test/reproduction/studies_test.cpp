@@ -105,6 +105,34 @@ TEST(Studies, OfAMissingRecordingNameTheSearchedPath) {
     }
 }
 
+TEST(Studies, OfAKitSayThatTheyAreLeftOutWithoutOne) {
+    for (const auto* s : kit_studies) {
+        const auto outcome = s->run({});
+        ASSERT_FALSE(outcome);
+        EXPECT_NE(outcome.error().message.find("left out: no kit is named; set CORPUSCLE_FOUNDRY_CARD"), std::string::npos);
+    }
+}
+
+TEST(Studies, OfAKitMeasureItsTransistorsBesideTheCard) {
+    const auto card = test::source_root() + "/test/kits/made_up_bsim3.lib";
+    const auto outcomes = run_studies(kit_studies, {.kit = {.card = card, .map = "bsim", .nch = "made_n", .pch = "made_p"}});
+    ASSERT_TRUE(static_cast<bool>(outcomes)) << outcomes.error().text();
+    const auto& claims = (*outcomes)[0].claims;
+    EXPECT_EQ(claims.size(), 2 * (10U + 7U + 5U));
+    const auto computed = [&](const std::string& label) {
+        const auto at = std::find_if(claims.begin(), claims.end(), [&](const Claim& c) { return c.label == label; });
+        return at == claims.end() ? Claim::none : at->computed;
+    };
+    for (const auto& c : claims) EXPECT_TRUE(std::isfinite(c.computed)) << c.label;
+    // A direct run of ngspice on a deck written by hand: 351.7433 mV and 11.07337 nA.
+    EXPECT_NEAR(computed("INVA without bias: V_Q, kit"), 0.3517433, 1e-7);
+    EXPECT_NEAR(computed("INVA without bias: I_Q, kit"), 11.07337e-9, 1e-13);
+    EXPECT_NEAR(computed("INVA without bias: I_Q, UICM"), 17.5e-9, 0.1e-9);
+    const auto wrong = run_studies(kit_studies, {.kit = {.card = card, .map = "bsim", .nch = "made_m", .pch = "made_p"}});
+    ASSERT_FALSE(static_cast<bool>(wrong));
+    EXPECT_NE(wrong.error().message.find("it has no .model made_m"), std::string::npos) << wrong.error().text();
+}
+
 TEST(Studies, StopOnRequest) {
     for (const auto* s : all_studies()) {
         const auto outcome = s->run({[](double) { return false; }});

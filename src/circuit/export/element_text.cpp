@@ -76,13 +76,17 @@ Result<std::string> ElementExport::expression() const {
     return m != 1 && !element.expression_is_voltage ? fmt::format("{}*({})", m, *text) : *text;
 }
 
+std::string element_head(const Circuit& circuit, std::size_t k, const ExportNames& names) {
+    std::string head = names.element(k);
+    for (const int node : circuit.elements[k].nodes) head += ' ' + names.node(node);
+    return head;
+}
+
 Result<std::string> element_text(const Circuit& circuit, std::size_t k, const ExportNames& names) {
     const Element& e = circuit.elements[k];
     const auto& kind = kind_of(e);
     if (kind.write_spice == nullptr) return error_at(e.location, "{}: elements with the letter '{}' cannot be exported", e.name, e.letter);
-    std::string head = names.element(k);
-    for (const int node : e.nodes) head += ' ' + names.node(node);
-    return kind.write_spice({circuit, e, names, std::move(head)});
+    return kind.write_spice({circuit, e, names, element_head(circuit, k, names)});
 }
 
 std::string model_text(const Circuit& circuit, std::size_t k, const ExportNames& names) {

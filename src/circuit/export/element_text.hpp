@@ -48,6 +48,9 @@ struct ElementExport {
     Result<std::string> expression() const;
 };
 
+/// The name and the nodes of an element in the export.
+std::string element_head(const Circuit&, std::size_t element, const ExportNames&);
+
 /// The text of an element; ends with a newline and may have several lines.
 Result<std::string> element_text(const Circuit&, std::size_t element, const ExportNames&);
 

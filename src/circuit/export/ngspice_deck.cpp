@@ -1,9 +1,12 @@
 #include "circuit/export/ngspice_deck.hpp"
 
 #include "circuit/analyses.hpp"
+#include "circuit/device/named_values.hpp"
 #include "circuit/devices.hpp"
-#include "circuit/export/element_text.hpp"
+#include "circuit/export/measure_text.hpp"
+#include "circuit/export/start_text.hpp"
 #include "circuit/export/uicm_subcircuit.hpp"
+#include "circuit/measure/measure_line.hpp"
 #include "core/text/ascii_text.hpp"
 
 namespace corpuscle::circuit {
@@ -24,13 +27,17 @@ bool has_transistors(const Circuit& c, bool pmos, bool has_body_effect) {
     });
 }
 
-std::string header(const Circuit& c, bool transistors) {
+std::string header(const Circuit& c, bool transistors, const Kit* kit) {
     std::string out = c.title.empty() ? "exported by corpuscle\n" : one_line(c.title) + '\n';
-    out +=
-        fmt::format("* Written by 'corpuscle export {} --for ngspice' for ngspice 39: flat, all parameters evaluated.\n", one_line(c.file));
+    out += fmt::format("* Written by 'corpuscle export {} --for ngspice{}' for ngspice 39: flat, all parameters evaluated.\n",
+                       one_line(c.file), kit ? " --card" : "");
     out += "* Run it with: ngspice -b DECK -r DECK.raw (without -r it prints and measures)\n";
     out += "* Inside subcircuits x1.m3 is renamed xm_x1_m3, and x1.r1 r_x1_r1; nodes keep their names.\n";
-    if (transistors)
+    if (kit)
+        out +=
+            "* Transistors are those of a kit. Equal arrays share a subcircuit: units in series under one gate, with inner nodes such as\n"
+            "* xm1.n1; the columns are the multiplier.\n";
+    if (transistors && !kit)
         out +=
             "* Transistors are expressions, so their noise and the table of the operating point are missing. Nodes such as xm1.zs\n"
             "* belong to the transistors; they solve their equations. The parameters of a transistor are valid at one temperature only.\n";
@@ -39,10 +46,13 @@ std::string header(const Circuit& c, bool transistors) {
 
 /// .options and .temp. Tolerances are tighter than in Corpuscle, because ngspice stops iterating one step earlier and its defaults are far
 /// too loose for picoamperes. itl2 limits the iterations for each point of a sweep after the first. In transients, ngspice's trapezoidal
-/// rule fails at picoamperes ("timestep too small"); Gear's method does not.
-std::string options_text(const Tolerances& t, const Circuit& c) {
-    std::string out = fmt::format(".options reltol={} abstol={} vntol={} gmin={} itl1={} itl2={}", std::min(t.reltol, 1e-7), t.abstol,
-                                  std::min(t.vntol, 1e-10), t.gmin, std::max(t.itl1, 500), std::max(t.itl1, 500));
+/// rule fails at picoamperes ("timestep too small"); Gear's method does not. A transient of a kit's transistors has our own tolerances: it
+/// takes a quarter of the time, and its models are less exact than that.
+std::string options_text(const Tolerances& t, const Circuit& c, const Kit* kit) {
+    const bool is_loose = kit && c.has_directive("tran");
+    std::string out =
+        fmt::format(".options reltol={} abstol={} vntol={} gmin={} itl1={} itl2={}", is_loose ? t.reltol : std::min(t.reltol, 1e-7),
+                    t.abstol, is_loose ? t.vntol : std::min(t.vntol, 1e-10), t.gmin, std::max(t.itl1, 500), std::max(t.itl1, 500));
     for (const std::string_view name : {"chgtol", "trtol", "itl4", "maxord", "tnom"})
         if (const auto option = c.options.find(name); option != c.options.end()) out += fmt::format(" {}={}", name, option->second);
     if (const auto method = c.option_words.find("method"); method != c.option_words.end())
@@ -52,22 +62,20 @@ std::string options_text(const Tolerances& t, const Circuit& c) {
     return fmt::format("{}\n.temp {}\n", out, c.temperature);
 }
 
-/// Lines of .ic or .nodeset, one for each node.
-std::string node_voltages(std::string_view directive, const std::vector<std::pair<int, double>>& voltages, const ExportNames& names) {
-    std::string out;
-    for (const auto& [node, volts] : voltages) out += fmt::format("{} v({})={}\n", directive, names.node(node), volts);
-    return out;
-}
-
 /// Writes directives one by one. Appends a message to `warnings` for each one that is left out, or whose results differ.
 class DirectiveExporter {
     const Circuit& circuit_;
     const ExportNames& names_;
     std::vector<Error>& warnings_;
+    bool has_expressions_;  // true: transistors are expressions
+    bool has_kit_;          // true: they are those of a kit
 
 public:
-    DirectiveExporter(const Circuit& circuit, const ExportNames& names, std::vector<Error>& warnings)
-        : circuit_(circuit), names_(names), warnings_(warnings) {}
+    DirectiveExporter(const Circuit& circuit, const ExportNames& names, bool has_kit, std::vector<Error>& warnings)
+        : circuit_(circuit), names_(names), warnings_(warnings),
+          has_expressions_(!has_kit &&
+                           std::ranges::any_of(circuit.elements, [](const Element& e) { return has_role(e, Role::transistor); })),
+          has_kit_(has_kit) {}
 
     std::string text(const Directive& c) const {
         if (c.name == "dc") return dc(c);
@@ -75,6 +83,8 @@ public:
         if (c.name == "print") return print(c);
         if (c.name == "pz" && c.words.size() == 2) return comment_out(c, "ngspice needs the form .pz IN+ IN- OUT+ OUT- vol|cur pz");
         if (c.name == "force") return "";  // the sources contain it
+        if (c.name == "op" && has_kit_ && circuit_.has_directive("force") && circuit_.has_directive("tran"))
+            return comment_out(c, "the .nodeset lines are the start of the .tran, with its force; ngspice searches for minutes from there");
         for (const std::string_view name : {"expect", "step", "mc", "spike", "assert", "probe"})
             if (c.name == name)
                 return comment_out(c, name == "step" || name == "mc" ? "ngspice has no such directive; the nominal values are exported"
@@ -84,19 +94,16 @@ public:
         return line(c.name, renamed(c));
     }
 
-private:
-    bool has_transistors() const {
-        return std::any_of(circuit_.elements.begin(), circuit_.elements.end(),
-                           [](const Element& e) { return has_role(e, Role::transistor); });
-    }
-    static std::string line(std::string_view name, const std::vector<std::string>& words) {
-        return fmt::format(".{}{}{}\n", name, words.empty() ? "" : " ", joined(words, " "));
-    }
     std::string comment_out(const Directive& c, std::string_view why) const {
         auto text = line(c.name, c.words);
         text.pop_back();
         warnings_.push_back(error_at(c.location, "left out: {} ({})", text, why));
         return fmt::format("* left out: {} ({})\n", text, why);
+    }
+
+private:
+    static std::string line(std::string_view name, const std::vector<std::string>& words) {
+        return fmt::format(".{}{}{}\n", name, words.empty() ? "" : " ", joined(words, " "));
     }
     /// The words with the exported names of nodes and elements.
     std::vector<std::string> renamed(const Directive& c) const {
@@ -117,7 +124,7 @@ private:
         if (is_updown) words.pop_back();
         for (std::size_t k = 0; k < words.size(); k += 4) {
             if (words[k] == "temp") {
-                if (has_transistors()) return comment_out(c, "the parameters of the transistors below are valid at one temperature only");
+                if (has_expressions_) return comment_out(c, "the parameters of the transistors below are valid at one temperature only");
                 continue;
             }
             if (words[k].find_first_of("vir") != 0) return comment_out(c, "ngspice sweeps only sources, resistors and temp");
@@ -132,7 +139,7 @@ private:
         auto words = c.words;
         if (!words.empty()) words[0] = names_.word(words[0]);
         if (words.size() > 1) words[1] = element(words[1]);
-        if (!has_transistors()) return line("noise", words);
+        if (!has_expressions_) return line("noise", words);
         const std::string why = "ngspice's result lacks the noise of the transistors, because its expressions have none";
         warnings_.push_back(error_at(c.location, ".noise: {}", why));
         return fmt::format("* {}\n{}", why, line("noise", words));
@@ -166,8 +173,9 @@ bool is_analysis(const Directive& c) { return run_rank(c.name) > 0; }
 
 /// All directives as lines, with analyses first. Directives that ngspice does not have become comments. Appends to `warnings`: a message
 /// for each of them, and for each directive whose results differ in ngspice.
-std::string directives_text(const Circuit& circuit, const ExportNames& names, std::vector<Error>& warnings) {
-    const DirectiveExporter exporter(circuit, names, warnings);
+std::string directives_text(const Circuit& circuit, const ExportNames& names, bool has_kit, std::vector<Error>& warnings) {
+    const DirectiveExporter exporter(circuit, names, has_kit, warnings);
+    MeasureExporter measures(circuit, names);
     std::string analysis_lines, others;
     std::string_view last_analysis = ac_analysis.name;  // that ngspice runs
     for (const auto& c : circuit.directives)
@@ -177,33 +185,63 @@ std::string directives_text(const Circuit& circuit, const ExportNames& names, st
             analysis_lines.insert(0, exporter.text(c));  // in reverse order, so that ngspice runs them in that of the netlist
             continue;
         }
-        if (c.name.starts_with("meas") && !c.words.empty() && c.words[0] != last_analysis) {
+        if (!is_measure(c)) {
+            others += exporter.text(c);
+            continue;
+        }
+        if (!c.words.empty() && c.words[0] != last_analysis) {
             const auto why =
                 fmt::format(".meas {}: ngspice measures only the analysis that it runs last, here .{}", c.words[0], last_analysis);
             warnings.push_back(bad_input(why, c.location));
             others += fmt::format("* {}\n", why);
         }
-        others += exporter.text(c);
+        const auto text = measures.text(c);
+        others += text ? *text : exporter.comment_out(c, text.error().message);
     }
+    const auto is_of_ac = [](const Directive& c) { return is_measure(c) && !c.words.empty() && c.words[0] == "ac"; };
+    if (std::ranges::any_of(circuit.directives, is_of_ac) && !circuit.has_directive("save"))
+        others += ".save all\n";  // ngspice finds no curve to save in "find vm(out)", and would not run the .ac
     return analysis_lines + others;
+}
+
+/// The subcircuits of expressions that the transistors of the circuit need; "" if it has none.
+std::string uicm_subcircuits(const Circuit& c) {
+    std::string out;
+    for (const bool pmos : {false, true})
+        for (const bool has_body_effect : {false, true})
+            if (has_transistors(c, pmos, has_body_effect)) out += uicm_subcircuit(pmos, has_body_effect);
+    return out.empty() ? out : uicm_functions() + out;
+}
+
+/// The elements and models, with the subcircuits that transistors are instances of.
+Result<std::string> elements_text(const Circuit& c, const ExportNames& names, const Kit* kit) {
+    std::string out;
+    std::optional<KitArrays> arrays;
+    if (kit) arrays.emplace(c, *kit);
+    for (std::size_t k = 0; k < c.elements.size(); ++k)
+        out += TRY(arrays && has_role(c.elements[k], Role::transistor) ? arrays->instance(c.elements[k], element_head(c, k, names))
+                                                                       : element_text(c, k, names));
+    for (std::size_t k = 0; k < c.models.size(); ++k) out += model_text(c, k, names);
+    if (arrays) return out + arrays->subcircuits();
+    return out + uicm_subcircuits(c);
 }
 
 }  // namespace
 
-Result<NgspiceDeck> ngspice_deck(std::shared_ptr<const Circuit> circuit) {
+Result<NgspiceDeck> ngspice_deck(std::shared_ptr<const Circuit> circuit, const Kit* kit) {
     const auto context = TRY(AnalysisContext::make(circuit));
     const Circuit& c = *circuit;
     const ExportNames names(c);
-    std::string subcircuits;
-    for (const bool pmos : {false, true})
-        for (const bool has_body_effect : {false, true})
-            if (has_transistors(c, pmos, has_body_effect)) subcircuits += uicm_subcircuit(pmos, has_body_effect);
-    NgspiceDeck deck{header(c, !subcircuits.empty()) + options_text(context->tolerances, c), {}};
-    for (std::size_t k = 0; k < c.elements.size(); ++k) deck.text += TRY(element_text(c, k, names));
-    for (std::size_t k = 0; k < c.models.size(); ++k) deck.text += model_text(c, k, names);
-    if (!subcircuits.empty()) deck.text += uicm_functions() + subcircuits;
-    deck.text += node_voltages(".nodeset", c.nodesets, names) + node_voltages(".ic", c.ic, names);
-    deck.text += directives_text(c, names, deck.warnings) + ".end\n";
+    const bool has_arrays = !uicm_subcircuits(c).empty();
+    if (kit && !has_arrays)
+        return bad_input(fmt::format("--card: {} has no transistors of level {}, which the kit's would replace; leave --card out", c.file,
+                                     UicmCard::level));
+    const auto lines = kit ? TRY(kit_lines(c, *kit)) : KitLines{};
+    NgspiceDeck deck{header(c, has_arrays, kit) + options_text(context->tolerances, c, kit) + lines.before, {}};
+    deck.text += TRY(elements_text(c, names, kit)) + lines.after;
+    deck.text += kit ? start_text(*context, names) : node_voltages(".nodeset", c.nodesets, names);
+    deck.text += node_voltages(".ic", c.ic, names);
+    deck.text += directives_text(c, names, kit != nullptr, deck.warnings) + ".end\n";
     return deck;
 }
 

@@ -1,7 +1,7 @@
 #pragma once
 // Exports a netlist as an ngspice deck that gives the same results, to check or to continue work in ngspice.
 
-#include "circuit/netlist/netlist.hpp"
+#include "circuit/export/kit_arrays.hpp"
 
 namespace corpuscle::circuit {
 
@@ -13,7 +13,8 @@ struct NgspiceDeck {
     std::vector<Error> warnings;
 };
 
-/// The flat circuit with all parameters evaluated and transistors as subcircuits of expressions. Fails where run_directives() would fail.
-Result<NgspiceDeck> ngspice_deck(std::shared_ptr<const Circuit>);
+/// The flat circuit with all parameters evaluated. UICM transistors are subcircuits of expressions, or with a kit its transistors. Fails
+/// where run_directives() would fail.
+Result<NgspiceDeck> ngspice_deck(std::shared_ptr<const Circuit>, const Kit* kit = nullptr);
 
 }  // namespace corpuscle::circuit

@@ -5,6 +5,7 @@
 #include <functional>
 
 #include "core/parameter_override.hpp"
+#include "run/export/kit_request.hpp"
 
 namespace corpuscle {
 
@@ -19,6 +20,8 @@ struct ExportedModel {
 struct ExportRequest {
     std::string subject;  ///< "sa1", "amplifier.cir"
     std::vector<ParameterOverride> settings;
+    KitRequest kit = {};   ///< for targets with takes_kit
+    std::string out = {};  ///< the file that will contain the text; "": not known. Paths in the text are relative to its folder
 };
 
 /// A simulator.
@@ -26,6 +29,7 @@ struct ExportTarget {
     std::string_view name;         ///< "brian2"
     std::string_view description;  ///< one line for --help
     std::string_view kind;         ///< "deck", "script": the name of the text in JSON documents
+    bool takes_kit = false;        ///< true: transistors of a foundry's kit can replace those of a netlist
     bool is_text;                  ///< false: bytes, which are not printed
     Result<ExportedModel> (*write)(const ExportRequest&);
     bool (*is_own)(std::string_view beginning);  ///< true for the first bytes of a file that an earlier export wrote
@@ -37,5 +41,8 @@ inline constexpr const ExportTarget* export_targets[] = {&ngspice_target, &brian
 
 /// The target of this name; null if there is none.
 const ExportTarget* find_export_target(std::string_view name);
+
+/// Writes a subject for a target. Returns an error if a kit is given and the target takes none.
+Result<ExportedModel> write_model(const ExportTarget&, const ExportRequest&);
 
 }  // namespace corpuscle
