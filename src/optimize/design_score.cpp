@@ -78,7 +78,9 @@ std::optional<std::size_t> decisive_chip(const OptimizationProblem& problem, std
     const auto all = static_cast<double>(problem.chip_count());
     const auto may_fail = static_cast<std::size_t>(all - std::max(1.0, std::ceil(problem.required_yield * all - 1e-9)));
     if (may_fail >= chips.size()) return {};
-    std::ranges::stable_sort(chips, [&](std::size_t a, std::size_t b) { return scores[a].excess > scores[b].excess; });
+    std::ranges::sort(chips, [&](std::size_t a, std::size_t b) {
+        return scores[a].excess != scores[b].excess ? scores[a].excess > scores[b].excess : a < b;
+    });
     return chips[may_fail];
 }
 

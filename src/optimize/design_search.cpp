@@ -25,6 +25,9 @@ constexpr std::uint32_t shift_purpose = 0x6f707401;  // of the random shifts
 // The numbers of the searches that are not local, see DesignEvaluator.
 constexpr std::int64_t all_cases_search = 0, points_search = 1, first_local_search = 2;
 
+/// By merit; equal ones by their values, so that the order is unique.
+bool is_better(const ScoredDesign& a, const ScoredDesign& b) { return a.merit != b.merit ? a.merit < b.merit : a.values < b.values; }
+
 class DesignSearch {
     OptimizationProblem& problem_;
     DesignEvaluator& evaluator_;
@@ -76,7 +79,7 @@ class DesignSearch {
 
     /// Takes the best of the designs that is better than the present best one, and robust if it is within the limits.
     Result<void> take_best_of(std::vector<ScoredDesign> designs) {
-        std::ranges::stable_sort(designs, {}, &ScoredDesign::merit);
+        std::ranges::sort(designs, is_better);
         for (auto& d : designs) {
             if (!(d.merit < best_.merit)) break;
             if (d.score.is_within && !TRY(is_robust(d))) continue;
@@ -90,7 +93,8 @@ class DesignSearch {
     /// `only_failing`: only cases outside.
     std::size_t activate(const ScoredDesign& design, std::size_t count, bool only_failing) {
         auto order = all_;
-        std::ranges::stable_sort(order, [&](std::size_t a, std::size_t b) { return design.cases[a].excess > design.cases[b].excess; });
+        const auto excess = [&](std::size_t c) { return design.cases[c].excess; };
+        std::ranges::sort(order, [&](std::size_t a, std::size_t b) { return excess(a) != excess(b) ? excess(a) > excess(b) : a < b; });
         std::size_t added = 0;
         for (const auto c : order) {
             if (added == count || (only_failing && design.cases[c].is_within)) break;
@@ -123,7 +127,7 @@ class DesignSearch {
         out_.designs += designs.size();
         std::vector<std::size_t> order(designs.size());
         std::iota(order.begin(), order.end(), std::size_t{0});
-        std::ranges::stable_sort(order, [&](std::size_t a, std::size_t b) { return merits[a] < merits[b]; });
+        std::ranges::sort(order, [&](std::size_t a, std::size_t b) { return merits[a] != merits[b] ? merits[a] < merits[b] : a < b; });
         std::vector<std::vector<double>> out = {problem_.start()};
         for (std::size_t k = 0; k < order.size() && out.size() < settings_.starts; ++k) out.push_back(designs[order[k]]);
         return out;
@@ -171,7 +175,7 @@ class DesignSearch {
             const auto found = TRY(search_from(starts, step));
             auto designs = TRY(score_all(found));
             ++out_.rounds;
-            std::ranges::stable_sort(designs, {}, &ScoredDesign::merit);
+            std::ranges::sort(designs, is_better);
             std::size_t failing = 0;
             const double merit_before = best_.merit;
             const auto kept = std::span(designs).first(std::min(kept_designs, designs.size()));
