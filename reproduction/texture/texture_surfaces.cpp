@@ -22,8 +22,8 @@ Result<TextureSurfaces> read_fabrics(const std::string& folder) {
     TextureSurfaces out{"fabrics", 1.0 / 3};
     std::size_t surface = 0;
     for (const char* fabric : {"BeigeCotton", "Canvas", "Linen"}) {
-        for (const std::size_t grip : {0, 1})
-            for (const std::size_t speed : {0, 1})
+        for (const std::size_t grip : {0U, 1U})
+            for (const std::size_t speed : {0U, 1U})
                 out.slides.push_back({fmt::format("{}_F{}_V{}mmps_0", fabric, grip ? 210 : 120, speed ? 100 : 20), surface, grip, speed});
         ++surface;
     }
