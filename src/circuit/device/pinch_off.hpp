@@ -29,7 +29,7 @@ struct PinchOff {
 /// n jumps there.
 template <class T>
 class BodyEffect {
-    T w, w_phi{0.0}, per_a{0.0}, phi{0.0};  // w_phi = w + sqrt(phi)
+    T w, w_phi = T(0.0), per_a = T(0.0), phi = T(0.0);  // w_phi = w + sqrt(phi)
 
 public:
     template <class Values>
