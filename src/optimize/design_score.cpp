@@ -75,6 +75,7 @@ void add_pattern_limits(const OptimizationProblem& problem, std::span<const doub
 /// as within the limits. No value if fewer chips were simulated than may fail. `chips`: their indices in `scores`.
 std::optional<std::size_t> decisive_chip(const OptimizationProblem& problem, std::vector<std::size_t>& chips,
                                          std::span<const CaseScore> scores) {
+    if (chips.empty()) return {};
     const auto all = static_cast<double>(problem.chip_count());
     const auto may_fail = static_cast<std::size_t>(all - std::max(1.0, std::ceil(problem.required_yield * all - 1e-9)));
     if (may_fail >= chips.size()) return {};
