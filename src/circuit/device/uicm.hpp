@@ -1,7 +1,7 @@
 #pragma once
 
+#include "circuit/device/mos/pinch_off.hpp"
 #include "circuit/device/mos_channel.hpp"
-#include "circuit/device/pinch_off.hpp"
 #include "circuit/device/uicm_constants.hpp"
 
 namespace corpuscle::circuit {
@@ -79,7 +79,8 @@ struct UicmInternals {
 ///
 /// - Q_S and Q_D, the parts of the channel charge Q_I = Q_S + Q_D that belong to source and drain
 /// - Q_B = -(n - 1)/n Q_I - C_ox W L (V_GB - V_T - V_P), with V_P without DIBL: the depletion charge that n implies. With a constant n, the
-///   second term is (n - 1)/n C_ox W L V_GB and a constant, which is left out. ACM2 has this term in the capacitances but not in the charges.
+///   second term is (n - 1)/n C_ox W L V_GB and a constant, which is left out. ACM2 has this term in the capacitances but not in the
+///   charges.
 /// - Q_G = -(Q_S + Q_D + Q_B)
 /// - overlaps, and junctions
 ///
