@@ -61,7 +61,8 @@ struct OptimizationProblem {
     double required_yield = 1;            ///< fraction of the chips that must be within the limits
     std::optional<FiringLimits> pattern;  ///< of the spikes
     bool pattern_is_nominal = false;      ///< the pattern is a limit of the first condition and of the chips; false: of all cases
-    std::vector<bool> is_nominal_limit;  ///< of each measure of the sweep: its limits, too, are those of the first condition and of the chips
+    std::vector<bool>
+        is_nominal_limit;  ///< of each measure of the sweep: its limits, too, are those of the first condition and of the chips
     DesignGoal goal;
     SearchSettings search;
     std::uint64_t seed = 0;

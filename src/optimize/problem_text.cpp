@@ -14,11 +14,26 @@ using KeyKind = ConfigKey::Kind;
 
 constexpr auto sweep_keys = std::to_array<std::string_view>(
     {"title", "afferent", "netlist", "force", "channel", "rate", "unit", "scale", "iterations", "orders", "set", "limits"});
-constexpr auto top_keys = std::to_array<ConfigKey>(
-    {"title", "afferent", "netlist", "force", "channel", "rate", "unit", "scale", "seed", "iterations", "orders",
-     ConfigKey("set", KeyKind::settings), ConfigKey("variable", KeyKind::tables, "each variable"),
-     ConfigKey("at", KeyKind::tables, "each condition"), ConfigKey("chips", KeyKind::settings), ConfigKey("pattern", KeyKind::settings),
-     ConfigKey("limits", KeyKind::table), ConfigKey("nominal_limits", KeyKind::table), ConfigKey("goal", KeyKind::settings), ConfigKey("search", KeyKind::settings)});
+constexpr auto top_keys = std::to_array<ConfigKey>({"title",
+                                                    "afferent",
+                                                    "netlist",
+                                                    "force",
+                                                    "channel",
+                                                    "rate",
+                                                    "unit",
+                                                    "scale",
+                                                    "seed",
+                                                    "iterations",
+                                                    "orders",
+                                                    ConfigKey("set", KeyKind::settings),
+                                                    ConfigKey("variable", KeyKind::tables, "each variable"),
+                                                    ConfigKey("at", KeyKind::tables, "each condition"),
+                                                    ConfigKey("chips", KeyKind::settings),
+                                                    ConfigKey("pattern", KeyKind::settings),
+                                                    ConfigKey("limits", KeyKind::table),
+                                                    ConfigKey("nominal_limits", KeyKind::table),
+                                                    ConfigKey("goal", KeyKind::settings),
+                                                    ConfigKey("search", KeyKind::settings)});
 constexpr auto variable_keys =
     std::to_array<ConfigKey>({ConfigKey("what", KeyKind::any), "from", "to", "start", ConfigKey("log", KeyKind::flag_or_text),
                               ConfigKey("integer", KeyKind::flag_or_text)});

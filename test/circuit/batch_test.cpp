@@ -165,11 +165,8 @@ TEST(Batch, StopsOnRequest) {
     const auto force = force_step(600);
     int count = 0;
     const auto done = run_chips(
-        spiker,
-        [&]() -> std::optional<Chip> {
-            return Chip{0, spiker, {}, force, batch_T};
-        },
-        [&](const Chip&, ChipResponse&&) { ++count; }, {.should_stop = [&] { return true; }});
+        spiker, [&]() -> std::optional<Chip> { return Chip{0, spiker, {}, force, batch_T}; }, [&](const Chip&, ChipResponse&&) { ++count; },
+        {.should_stop = [&] { return true; }});
     ASSERT_FALSE(done);
     EXPECT_EQ(done.error().code, ErrorCode::interrupted);
     EXPECT_EQ(count, 0);

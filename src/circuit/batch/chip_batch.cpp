@@ -159,8 +159,7 @@ void Batch::iterate(std::uint8_t working, lanes::SolveCall& solve, lanes::StepCa
 void Batch::decide_steps(std::uint8_t needs_error, std::uint8_t diverged, const LaneRow& a) {
     if ((needs_error | diverged) == 0) return;
     kernels_.evaluate_charges(memory_.block);
-    estimate_errors(
-        needs_error, [](const ChipLane&) { return true; }, [](const ChipLane& s) { return s.order(); }, error_);
+    estimate_errors(needs_error, [](const ChipLane&) { return true; }, [](const ChipLane& s) { return s.order(); }, error_);
     lanes::AcceptCall accept{{}, a};
     std::uint8_t accepted = 0, change_order = 0;
     for_each_lane(static_cast<std::uint8_t>(needs_error | diverged), [&](std::size_t l) {

@@ -112,17 +112,17 @@ public:
           C_gd(value(&UicmConstants::C_gd)), C_gb(value(&UicmConstants::C_gb)), I_sat_s(value(&UicmConstants::I_sat_s)),
           I_sat_d(value(&UicmConstants::I_sat_d)), exp_limit_s(value(&UicmConstants::exp_limit_s)),
           exp_limit_d(value(&UicmConstants::exp_limit_d)), C_js(value(&UicmConstants::C_js)), C_jd(value(&UicmConstants::C_jd)),
-          thermal(value(&UicmConstants::thermal)),
-          flicker(value(&UicmConstants::flicker)), junction_constants{value(&UicmConstants::per_n_phi_t),
-                                                                      value(&UicmConstants::per_P_B),
-                                                                      value(&UicmConstants::v_limit),
-                                                                      value(&UicmConstants::charge_exponent),
-                                                                      value(&UicmConstants::P_B_per_charge_exponent),
-                                                                      value(&UicmConstants::per_P_B_M_J)},
+          thermal(value(&UicmConstants::thermal)), flicker(value(&UicmConstants::flicker)),
+          junction_constants{value(&UicmConstants::per_n_phi_t),
+                             value(&UicmConstants::per_P_B),
+                             value(&UicmConstants::v_limit),
+                             value(&UicmConstants::charge_exponent),
+                             value(&UicmConstants::P_B_per_charge_exponent),
+                             value(&UicmConstants::per_P_B_M_J)},
           body_effect(value) {}
 
     /// One transistor, or the same in all lanes.
-    explicit Uicm(const UicmConstants& c) : Uicm([&c](double UicmConstants::*member) { return T(c.*member); }) {}
+    explicit Uicm(const UicmConstants& c) : Uicm([&c](double UicmConstants::* member) { return T(c.*member); }) {}
 
     /// Evaluates currents, charges and derivatives at the voltages of drain, gate, source and bulk. Inlined so that the compiler removes
     /// derivatives that are not used.

@@ -21,8 +21,7 @@ constexpr const char* kind_of_card = "file of a kit (--card)";
 std::vector<std::string> first_card_words(std::string_view line) {
     std::vector<std::string> out;
     auto text = lower(line.substr(0, 400));
-    std::ranges::replace_if(
-        text, [](char c) { return c == '\t' || c == '(' || c == '\r'; }, ' ');
+    std::ranges::replace_if(text, [](char c) { return c == '\t' || c == '(' || c == '\r'; }, ' ');
     for (const auto word : split(text, ' '))
         if (!word.empty() && out.size() < 3) out.emplace_back(word);
     return out;
