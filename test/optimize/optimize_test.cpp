@@ -81,6 +81,17 @@ TEST(Optimize, TheWorstConditionDecidesThoughTheSearchBeginsWithoutIt) {
     EXPECT_LT(result.active_cases, 6U);
 }
 
+// One of the shifted designs has r larger by 0.57 of 0.2 % of its range (three decades), which the limit must allow.
+TEST(Optimize, ADesignThatSmallChangesTakeOutOfTheLimitsIsNotFound) {
+    const Files files;
+    auto text = std::string(divider_problem);
+    text.insert(text.find("[[variable]]"), "[[variable]]\nwhat = \"tc\"\nfrom = 0\nto = 0.001\n");
+    const auto result = files.found(text);
+    EXPECT_TRUE(result.found.score.is_within);
+    EXPECT_LT(result.found.values[1], 25e3 * std::pow(1000, -0.57 * 2e-3) * (1 + 1e-3));
+    EXPECT_GT(result.found.values[1], 24e3);
+}
+
 TEST(Optimize, NominalLimitsHoldOnlyAtTheFirstCondition) {
     const Files files;
     auto text = std::string(divider_problem);
