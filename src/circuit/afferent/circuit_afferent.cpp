@@ -62,8 +62,9 @@ class CircuitAfferent final : public Afferent {
     double T_;                        // sample time, s
     bool sampled_;                    // true if spikes occur only at sample times
     std::optional<ChipSample> chip_;  // empty: nominal
-    std::int64_t delay_;              // samples
-    std::string format_;              // marks saved states: a state fits only the same netlist, chip and T
+    std::uint32_t copy_;
+    std::int64_t delay_;  // samples
+    std::string format_;  // marks saved states: a state fits only the same netlist, chip and T
     std::vector<Probe> probes_;
     std::vector<ValidRange> ranges_;
     mutable std::mutex guard_;
@@ -79,7 +80,7 @@ class CircuitAfferent final : public Afferent {
                 return transient;
             }
         }
-        return StreamingTransient::make(*factory_, T_, chip_);
+        return StreamingTransient::make(*factory_, T_, chip_, copy_);
     }
     void give_back(std::unique_ptr<StreamingTransient> transient) const {
         const std::lock_guard lock(guard_);
@@ -90,13 +91,15 @@ class CircuitAfferent final : public Afferent {
     Result<void> simulate_samples(StreamingTransient&, std::int64_t from, std::int64_t to, ResponseBlock&) const;
 
 public:
-    CircuitAfferent(std::shared_ptr<const CircuitAfferentFactory> factory, double dt, bool sampled, std::optional<ChipSample> chip)
-        : factory_(std::move(factory)), T_(dt), sampled_(sampled), chip_(std::move(chip)),
+    CircuitAfferent(std::shared_ptr<const CircuitAfferentFactory> factory, double dt, bool sampled, std::optional<ChipSample> chip,
+                    std::uint32_t copy)
+        : factory_(std::move(factory)), T_(dt), sampled_(sampled), chip_(std::move(chip)), copy_(copy),
           // Transient::step() must know the force for 2.1 steps ahead.
           delay_(static_cast<std::int64_t>(std::ceil(2.1 * factory_->plan.max_step / dt)) + ForceWaveform::lookahead + 2),
           // The 2 is the version of the state's meaning. Chips are counted from 1 here.
-          format_(fmt::format("netlist {:016x}/2{}, T = {} s", factory_->fingerprint,
-                              chip_ ? fmt::format(", chip {} of {}", chip_->chip + 1, chip_->seed) : "", dt)) {
+          format_(fmt::format("netlist {:016x}/2{}{}, T = {} s", factory_->fingerprint,
+                              chip_ ? fmt::format(", chip {} of {}", chip_->chip + 1, chip_->seed) : "",
+                              factory_->plan.noise.is_on() ? fmt::format(", noise {}", noise_stream_of(chip_, copy)) : "", dt)) {
         for (const auto& s : factory_->probes) probes_.push_back({s.name, s.is_voltage() ? "V" : "A"});
         for (const auto& w : factory_->operating_ranges) ranges_.push_back(w.range());
     }
@@ -251,11 +254,11 @@ std::unique_ptr<Afferent> CircuitAfferentFactory::make(double dt, bool sampled, 
     // Copy 0 is nominal, unless the mismatch override selects a chip for it.
     const bool has_chip = chips && (copy > 0 || circuit->mismatch_seed);
     const auto chip = has_chip ? std::optional(chips->sample(copy > 0 ? copy - 1 : 0)) : std::nullopt;
-    return std::make_unique<CircuitAfferent>(shared_from_this(), dt, sampled, chip);
+    return std::make_unique<CircuitAfferent>(shared_from_this(), dt, sampled, chip, copy);
 }
 
 std::unique_ptr<Afferent> CircuitAfferentFactory::make(double dt, const std::optional<ChipSample>& chip) const {
-    return std::make_unique<CircuitAfferent>(shared_from_this(), dt, false, chip);
+    return std::make_unique<CircuitAfferent>(shared_from_this(), dt, false, chip, 0);
 }
 
 }  // namespace corpuscle::circuit

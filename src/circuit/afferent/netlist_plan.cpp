@@ -3,6 +3,7 @@
 #include <deque>
 
 #include "circuit/afferent/circuit_afferent.hpp"
+#include "circuit/device/named_values.hpp"
 #include "circuit/variant/netlist_overrides.hpp"
 
 namespace corpuscle::circuit {
@@ -53,6 +54,8 @@ Result<void> describe_parameters(AfferentPlan& plan, const CircuitAfferentFactor
         for (const auto& [name, value] : numbers)
             described->add(name.empty() ? element : element + "." + name, "parameter of one device", number_of(original, element, name),
                            value, true);
+    for (const auto& [name, value] : changes.options)
+        described->add(name, "number of .options", value_or(original.options, name, 0), value, true);
     if (changes.temperature) described->add("temp", "temperature, degrees Celsius", original.temperature, *changes.temperature, true);
     if (changes.mismatch_seed)
         described->add("mismatch", "seed of the chip's device mismatch", static_cast<double>(*changes.mismatch_seed),

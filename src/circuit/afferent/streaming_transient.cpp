@@ -12,7 +12,7 @@ constexpr double stop_time_unshifted = 1e5;    // s, end of a transient with sou
 }  // namespace
 
 Result<std::unique_ptr<StreamingTransient>> StreamingTransient::make(const CircuitAfferentFactory& factory, double T,
-                                                                     const std::optional<ChipSample>& chip) {
+                                                                     const std::optional<ChipSample>& chip, std::uint64_t copy) {
     auto context = TRY(AnalysisContext::make(factory.circuit));
     std::unique_ptr<StreamingTransient> out(new StreamingTransient(factory, T));
     out->context_ = std::move(context);
@@ -24,6 +24,7 @@ Result<std::unique_ptr<StreamingTransient>> StreamingTransient::make(const Circu
     system.set_force_input(&out->force_);
     out->solve_rest();
     auto plan = factory.plan;
+    plan.noise.stream = noise_stream_of(chip, copy);
     plan.stop = out->is_time_dependent_ ? stop_time_unshifted : stop_time;
     out->transient_.emplace(system, out->context_->newton, plan);
     (void)out->transient_->begin(out->rest_);  // called only to choose the elimination order
@@ -40,6 +41,7 @@ void StreamingTransient::solve_rest() {
 
 void StreamingTransient::set_chip(const ChipSample& chip) {
     context_->apply_variation(chip);
+    transient_->set_noise_stream(noise_stream_of(chip));
     force_ = ForceWaveform(force_.T());
     solve_rest();
 }

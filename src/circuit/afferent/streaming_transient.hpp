@@ -29,7 +29,9 @@ class StreamingTransient {
     std::vector<double> raise_force_from_rest(double force);
 
 public:
-    static Result<std::unique_ptr<StreamingTransient>> make(const CircuitAfferentFactory&, double T, const std::optional<ChipSample>& chip);
+    /// `copy`: number of a copy of the nominal circuit, which has noise of its own.
+    static Result<std::unique_ptr<StreamingTransient>> make(const CircuitAfferentFactory&, double T, const std::optional<ChipSample>& chip,
+                                                            std::uint64_t copy = 0);
     StreamingTransient(const StreamingTransient&) = delete;
     /// Switches to another chip of the same netlist. The elimination order of the matrix does not change.
     void set_chip(const ChipSample& chip);
@@ -53,6 +55,7 @@ public:
     AnalysisContext& context() { return *context_; }
     const ForceWaveform& force() const { return force_; }
     const Transient& transient() const { return *transient_; }
+    TransientNoise* noise() { return transient_->noise(); }
     const PowerMeter& meter() const { return *meter_; }
 
     void save(std::vector<double>& out);  ///< appends the state, as numbers

@@ -143,6 +143,7 @@ Result<AnalysisResult> analyse_tran(AnalysisContext& context, const Directive& c
                         "iin 0 fin force 60n");
     TranSetup setup{times, plan, spike_output, {}};
     setup.plan.all_reported = true;
+    setup.plan.noise.stream = noise_stream_of(context.chip_sample());
     setup.plan.stop = times.stop, setup.plan.max_step = max_step_of(times);
     PlotRecorder recorder;
     PointSink& points = context.points ? *context.points : recorder;

@@ -117,10 +117,32 @@ Result<OperatingRange> parse_range(const System& system, const Directive& c) {
     return OperatingRange{std::move(quantity), low, high, std::move(message), c.location};
 }
 
+/// The noise of a transient from .options noisefmax, noisefmin, noiseseed and noisescale.
+Result<NoisePlan> read_noise_plan(const Circuit& c) {
+    NoisePlan noise;
+    noise.fmax = value_or(c.options, "noisefmax", 0);
+    noise.fmin = value_or(c.options, "noisefmin", std::min(noise.fmin, noise.fmax / 10));
+    noise.scale = value_or(c.options, "noisescale", noise.scale);
+    const double seed = value_or(c.options, "noiseseed", 1);
+    if (seed != std::floor(seed)) return error_at({c.file}, ".options noiseseed={:g}: expected an integer from 0 to 2^53", seed);
+    noise.seed = static_cast<std::uint64_t>(seed);
+    if (noise.is_on() && !(noise.fmin < noise.fmax))
+        return error_at({c.file}, ".options noisefmin={:g}: must be below noisefmax, {:g} Hz", noise.fmin, noise.fmax);
+    if (!noise.is_on())
+        for (const auto* name : {"noisefmin", "noisescale", "noiseseed"})
+            if (c.options.contains(name))
+                return error_at(
+                    {c.file},
+                    ".options {}: has no effect without noisefmax, the highest frequency of the noise; add, for example, noisefmax=10k",
+                    name);
+    return noise;
+}
+
 }  // namespace
 
 Result<TransientPlan> read_transient_plan(const Circuit& c) {
     TransientPlan plan;
+    plan.noise = TRY(read_noise_plan(c));
     if (const auto given = c.option_words.find("accuracy"); given != c.option_words.end()) {
         const auto* found = std::ranges::find(accuracies, given->second, &Accuracy::word);
         if (found == std::end(accuracies)) return invalid_option(c, "accuracy", given->second, "rough, normal, fine, finest");

@@ -7,8 +7,8 @@
 
 namespace corpuscle::circuit {
 
-/// The plan from .options: accuracy=rough|normal|fine|finest, reltol, vntol, abstol, method=gear|trap, maxord. stop and max_step are not
-/// set. Errors: an invalid value.
+/// The plan from .options: accuracy=rough|normal|fine|finest, reltol, vntol, abstol, method=gear|trap, maxord,
+/// noisefmax, noisefmin, noiseseed, noisescale. stop and max_step are not set. Errors: an invalid value.
 Result<TransientPlan> read_transient_plan(const Circuit&);
 
 /// The words of .tran STEP STOP [START [LONGEST]] [uic].

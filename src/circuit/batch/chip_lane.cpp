@@ -26,6 +26,8 @@ Result<bool> ChipLane::start(const Chip& chip, const BatchOptions& options) {
     const auto& start = simulation_->transient();  // at the initial condition
     plan_ = start.plan();
     control_ = {}, newton_ = {}, restart_pending_ = false, next_task_ = NextTask::nothing, rounds_ = 0;
+    control_.min_order = start.control().min_order;
+    noise_ = simulation_->noise(), noise_charge_.resize(memory_.unknowns()), charges_shifted_ = false;
     control_.h = start.control().h, times_ = {}, points_ = smooth_count_ = 1, newest_slot_ = curve_points_ = 0, breakpoint_ = -1,
     jumped_ = false;
     end_time_ = static_cast<double>(chip_->force.size() - 1) * chip_->T;
@@ -88,12 +90,30 @@ void ChipLane::set_sources(double t) {
 void ChipLane::start_step() {
     const double now = times_[0];
     if (!(now < breakpoint_)) breakpoint_ = std::min(plan_.stop, simulation_->context().system.next_breakpoint(now));
-    step_ = StepControl::plan_step(now, std::min(control_.h, plan_.max_step), breakpoint_);
+    step_ = StepControl::plan_step(now, std::min(control_.h, plan_.max_step), breakpoint_,
+                                   noise_ != nullptr ? noise_->next_sample(now) : breakpoint_);
     may_jump_ = !simulation_->transient().interpolated_unknowns().empty() &&
                 step_.length() <= control_.jump_step_limit(plan_.reltol, plan_.max_step);
+    if (noise_ != nullptr) shift_charges();
     predictor_weights_ = weights_of_value(times(std::min(control_.order + 1, points_)), step_.end);
     newton_.begin();
     is_new_step_ = true;
+}
+
+/// As Transient::shift_charges().
+void ChipLane::shift_charges() {
+    noise_->charges(step_.from, step_.end, noise_charge_);
+    for (int k = 0; k < points_; ++k)
+        for (std::size_t n = 0; n < noise_charge_.size(); ++n)
+            memory_.block.past_q[history_slot(k) * memory_.unknowns() + n].value[lane_] -= noise_charge_[n];
+    charges_shifted_ = true;
+}
+
+void ChipLane::undo_charge_shift() {
+    if (!std::exchange(charges_shifted_, false)) return;
+    for (int k = 0; k < points_; ++k)
+        for (std::size_t n = 0; n < noise_charge_.size(); ++n)
+            memory_.block.past_q[history_slot(k) * memory_.unknowns() + n].value[lane_] += noise_charge_[n];
 }
 
 ChipLane::NextTask ChipLane::prepare(lanes::PredictCall& call, std::span<lanes::LaneRow> value_weights,
@@ -171,8 +191,8 @@ void ChipLane::set_error_weights(int order, lanes::ErrorCall& call, std::span<la
 /// The same estimate as Transient::interpolation_error().
 double ChipLane::interpolation_error() {
     const auto interpolated_unknowns = simulation_->transient().interpolated_unknowns();
-    curve_points_ = 0;
-    if (interpolated_unknowns.empty()) return 0;
+    curve_points_ = noise_ != nullptr ? 2 : 0;
+    if (noise_ != nullptr || interpolated_unknowns.empty()) return 0;
     auto& b = memory_.block;
     std::array<double, 9> times{step_.end};
     std::copy(times_.begin(), times_.end(), times.begin() + 1);
@@ -202,6 +222,7 @@ ChipLane::StepStatus ChipLane::decide_step(double error) {
     ++response_.stats.rejected;
     if (diverged) ++response_.stats.diverged;
     next_task_ = NextTask::nothing, restart_pending_ = false;
+    undo_charge_shift();
     if (control_.shorten(step_.length(), diverged ? 0 : worst, points_ > 1 ? times_[0] - times_[1] : 0)) next_task_ = NextTask::restart;
     return control_.h >= StepControl::min_step(plan_.stop) ? StepStatus::rejected : StepStatus::failed;
 }
@@ -229,6 +250,8 @@ void ChipLane::advance() {
         x_[n] = b.past_x[first + n].value[lane_] = b.x[n].value[lane_];
         b.past_q[first + n].value[lane_] = b.q[n].value[lane_];
     }
+    charges_shifted_ = false;
+    if (noise_ != nullptr) noise_->update(x_);
     restart_pending_ = step_.ends_at_breakpoint || jumped_;
     ++response_.stats.steps;
     next_task_ = restart_pending_ ? NextTask::restart : NextTask::nothing;

@@ -51,10 +51,13 @@ private:
     std::vector<std::size_t> sources_;  // indices of the time-dependent sources
     std::vector<double> v_;             // buffers of set_sources()
     StampBuffer stamp_;
-    std::vector<double> x_;         // unknowns at the newest point
-    EnergyCounter energy_;          // up to the newest point
-    std::int64_t next_sample_ = 0;  // next sample to record
-    long rounds_ = 0;               // since start()
+    std::vector<double> x_;             // unknowns at the newest point
+    TransientNoise* noise_ = nullptr;   // of simulation_
+    std::vector<double> noise_charge_;  // in the current step, by equation
+    bool charges_shifted_ = false;      // noise_charge_ is subtracted from the charges of the history
+    EnergyCounter energy_;              // up to the newest point
+    std::int64_t next_sample_ = 0;      // next sample to record
+    long rounds_ = 0;                   // since start()
 
     // Point k of the history, from 0 for the newest: its slot in the ring buffer, the value of unknown n there, the times of the newest
     // points.
@@ -64,6 +67,8 @@ private:
     bool is_compatible() const;
     void set_sources(double t);
     void start_step();
+    void shift_charges();
+    void undo_charge_shift();
     double interpolation_error();
     void advance();
     double interpolate(double t, int unknown) const;

@@ -126,7 +126,7 @@ public:
                      i_b = std::abs((i.base_emitter + i.base_collector).value);
         std::vector<NoiseSource> out = {{"shot ic", inner_collector_, inner_emitter_, 2 * electron_charge * i_c, 0},
                                         {"shot ib", inner_base_, inner_emitter_, 2 * electron_charge * i_b, 0}};
-        if (c_.kf > 0) out.push_back({"flicker", inner_base_, inner_emitter_, 0, m_ * c_.kf * std::pow(i_b / m_, c_.af)});
+        if (c_.kf > 0) out.push_back({"flicker", inner_base_, inner_emitter_, 0, m_ * c_.kf * std::pow(i_b / m_, c_.af), true});
         const double four_kt = 4 * electron_charge * v_t_;
         if (c_.rc > 0) out.push_back({"thermal rc", collector, inner_collector_, four_kt / c_.rc, 0});
         if (c_.rb > 0) out.push_back({"thermal rb", base, inner_base_, four_kt / base_resistance(c_, i).value, 0});

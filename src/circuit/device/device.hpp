@@ -74,6 +74,7 @@ struct NoiseSource {
     std::size_t from, to;        ///< indices into the device's unknowns
     double white = 0;            ///< A^2/Hz
     double flicker = 0;          ///< A^2/Hz at 1 Hz
+    bool has_flicker = false;    ///< true if `flicker` is above 0 for some values of the unknowns
 };
 
 /// One quantity of a device in the .op table.
@@ -99,6 +100,9 @@ struct ChipSample {
     bool has_mismatch = true;          ///< false: all devices have the process deviation only
     std::array<double, 4> process{};   ///< standard normal deviates common to all devices: V_T0 of NMOS, PMOS; I_SQ of NMOS, PMOS
 };
+
+/// The random numbers of the noise of a chip, among those of one seed of the noise. `copy`: that of a nominal circuit.
+inline std::uint64_t noise_stream_of(const std::optional<ChipSample>& chip, std::uint64_t copy = 0) { return chip ? chip->chip + 1 : copy; }
 
 /// An element of the circuit. Its unknowns are its terminals, then those that only its equations need, e.g. a branch current.
 class Device {

@@ -188,7 +188,7 @@ public:
     std::vector<NoiseSource> noise(std::span<const double> v) const override {
         const double i = std::abs(current(v[junction_anode()] - v[1]).value);
         std::vector<NoiseSource> out = {{"shot", junction_anode(), 1, 2 * electron_charge * i, 0}};
-        if (c_.kf > 0) out.push_back({"flicker", junction_anode(), 1, 0, c_.kf * std::pow(i, c_.af)});
+        if (c_.kf > 0) out.push_back({"flicker", junction_anode(), 1, 0, c_.kf * std::pow(i, c_.af), true});
         if (c_.rs > 0) out.push_back({"thermal", 0, 2, 4 * electron_charge * (n_vt_ / c_.n) * area_ / c_.rs, 0});  // 4 k T / R
         return out;
     }

@@ -147,7 +147,7 @@ public:
     std::vector<NoiseSource> noise(std::span<const double> v) const override {
         const auto e = ordered(voltages(v));
         std::vector<NoiseSource> out = {{"thermal", drain_, source_, 4 * boltzmann * c_.kelvin * e.beta.v * std::abs(e.q_i.v), 0}};
-        if (c_.kf > 0) out.push_back({"flicker", drain_, source_, 0, c_.kf * e.i.d[G] * e.i.d[G] / (c_.m * c_.w * c_.l * c_.cox)});
+        if (c_.kf > 0) out.push_back({"flicker", drain_, source_, 0, c_.kf * e.i.d[G] * e.i.d[G] / (c_.m * c_.w * c_.l * c_.cox), true});
         add_resistor_noise(out);
         return out;
     }

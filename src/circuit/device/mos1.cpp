@@ -107,7 +107,7 @@ public:
         const auto at = voltages(v);
         const auto i = Current{c_}(at.d, at.g, at.s);
         std::vector<NoiseSource> out = {{"thermal", drain_, source_, 8.0 / 3 * boltzmann * c_.kelvin * std::abs(i.d[G]), 0}};
-        if (c_.flicker > 0 && i.v != 0) out.push_back({"flicker", drain_, source_, 0, c_.flicker * std::pow(std::abs(i.v), c_.af)});
+        if (c_.flicker > 0) out.push_back({"flicker", drain_, source_, 0, c_.flicker * std::pow(std::abs(i.v), c_.af), true});
         add_resistor_noise(out);
         return out;
     }

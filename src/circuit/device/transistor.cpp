@@ -56,7 +56,7 @@ public:
 
     std::vector<NoiseSource> noise(std::span<const double> v) const override {
         const auto n = Uicm<double>(constants_).noise(Voltages(v).v);
-        return {{"channel", Terminals::D, Terminals::S, n.thermal, n.flicker},
+        return {{"channel", Terminals::D, Terminals::S, n.thermal, n.flicker, constants_.flicker > 0},
                 {"source junction", Terminals::B, Terminals::S, n.shot_s, 0},
                 {"drain junction", Terminals::B, Terminals::D, n.shot_d, 0}};
     }

@@ -325,6 +325,7 @@ private:
     Result<void> read_settings() {
         Circuit& c = builder_.circuit;
         for (const auto* s : parsed_.options) TRY(read_options(*s));
+        for (const auto& [name, value] : builder_.overrides.options) c.options.insert_or_assign(name, value);
         if (const auto at = c.options.find("temp"); at != c.options.end()) c.temperature = at->second;
         for (const auto* s : parsed_.temperatures) {
             if (s->words.size() < 2) return error_at(s->location(1), ".temp: expected temperatures, in Celsius");

@@ -117,17 +117,26 @@ struct Circuit {
 /// warning of each kind for all elements, located at the first of them, and one for each such node and .tran.
 std::vector<Error> netlist_warnings(const Circuit&);
 
+/// True for a number of .options that has an effect here.
+bool is_numeric_option(std::string_view name);
+/// Returns an error if the name of an option or its value is invalid. The value is `number` or `word`; an option without both is a flag.
+Result<void> check_option(std::string_view name, std::optional<double> number, std::optional<std::string_view> word,
+                          const SourceLocation& location);
+
 /// Overrides of the values in a netlist.
 struct ResolvedOverrides {
     std::string corner;                                  ///< section to read from libraries; "" means the sections that the netlist names
     Values parameters;                                   ///< new values for .param lines of the top level
     std::map<std::string, Values, std::less<>> numbers;  ///< values by full path of the element; the name "" is the value of R C L V I ...
+    Values options;                                      ///< new values for numbers of .options
     std::optional<double> temperature;                   ///< degrees Celsius
     std::optional<std::uint64_t> mismatch_seed;          ///< seed of the mismatch sample; if set, .mc is ignored
     std::uint64_t chip = 0;                              ///< number of the chip among those of this seed, from 0
     std::vector<std::string> saved;                      ///< names for an additional .save
     /// True if the circuit differs from the netlist as written, so that .expect does not hold.
-    bool changes_values() const { return !corner.empty() || !parameters.empty() || !numbers.empty() || temperature || mismatch_seed; }
+    bool changes_values() const {
+        return !corner.empty() || !parameters.empty() || !numbers.empty() || !options.empty() || temperature || mismatch_seed;
+    }
     bool replaces_saved = false;  ///< true: `saved` replaces every .save and .probe
 };
 

@@ -91,10 +91,6 @@ Refusals find_refused_elements(const ParsedNetlist&);
 /// Appends a warning for each number of an element line that users often take for another one: 1F is 1 femtofarad, 5M is 5 milli.
 void warn_about_units(const Statement& element, std::vector<Error>& warnings);
 
-/// Returns an error if the name of an option or its value is invalid. The value is `number` or `word`; an option without both is a flag.
-Result<void> check_option(std::string_view name, std::optional<double> number, std::optional<std::string_view> word,
-                          const SourceLocation& location);
-
 bool is_option(std::string_view name);                ///< true for an option that has an effect here
 bool is_small_element_option(std::string_view name);  ///< true for rshunt, cshunt ... which add small elements in other simulators
 /// True for a name that is not an option of ours or of ngspice, and does not resemble one, so that it is not a typing error.

@@ -46,6 +46,11 @@ public:
     /// Storage for the next point: fill it, then call accept().
     TimePoint& next_point() { return ring_[static_cast<std::size_t>((first_ + capacity - 1) % capacity)]; }
     void accept();
+    /// Adds factor * charge to the charges of all points.
+    void add_to_charges(std::span<const double> charge, double factor) {
+        for (int k = 0; k < smooth_count_; ++k)
+            for (std::size_t n = 0; n < charge.size(); ++n) (*this)[k].q[n] += factor * charge[n];
+    }
     /// Moves the origin of time to `t`, s.
     void shift_origin(double t) {
         for (auto& point : ring_) point.t -= t;

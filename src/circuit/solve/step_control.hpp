@@ -11,6 +11,7 @@ namespace corpuscle::circuit {
 /// Chooses the length and the order of the next BDF step.
 struct StepControl {
     int order = 1;
+    int min_order = 1;                 ///< the order is lower only after restart()
     int steps_since_order_change = 0;  ///< accepted steps
     int failures = 0;                  ///< successive rejected steps
     double rejected_length = 0;        ///< length of the last rejected step, s; 0 if its equations were not solved or no step was rejected
@@ -34,7 +35,7 @@ struct StepControl {
 
     /// True if choose() needs the errors of the next lower and higher order.
     bool is_order_change_due() const { return steps_since_order_change > order || starting; }
-    bool can_lower_order() const { return order > 1; }
+    bool can_lower_order() const { return order > min_order; }
     /// `highest`, `points`: see choose().
     bool can_raise_order(int highest, int points) const { return order < highest && points > order + 1; }
 
@@ -57,25 +58,27 @@ struct StepControl {
         }
         scale_step(length, factor, points);
     }
-    /// A step that begins at `from` (s) with length h, or ends at the next breakpoint of the sources. Just before a breakpoint the rest is
-    /// divided in two.
+    /// A step that begins at `from` (s) with length h, or ends at the next breakpoint of the sources or at the next sample of the noise.
+    /// Just before these the rest is divided in two.
     struct Step {
         double from, end;
-        bool ends_at_breakpoint;
+        bool ends_at_breakpoint;  ///< of the sources
+        bool is_shortened;        ///< true if it ends at a breakpoint or a sample
         double length() const { return end - from; }
     };
-    static Step plan_step(double from, double h, double breakpoint) {
-        const bool ends_at_breakpoint = from + 1.01 * h >= breakpoint;
-        if (!ends_at_breakpoint && from + 2 * h > breakpoint) h = (breakpoint - from) / 2;
-        return {from, ends_at_breakpoint ? breakpoint : from + h, ends_at_breakpoint};
+    static Step plan_step(double from, double h, double breakpoint, double sample) {
+        const double limit = std::min(breakpoint, sample);
+        const bool ends_at_limit = from + 1.01 * h >= limit;
+        if (!ends_at_limit && from + 2 * h > limit) h = (limit - from) / 2;
+        return {from, ends_at_limit ? limit : from + h, ends_at_limit && breakpoint <= sample, ends_at_limit};
     }
     /// Call after choose() for an accepted step that was planned with the length `planned`. Limits the next step so that its interpolation
     /// error is allowed, unless the step may contain a jump. `error` is the interpolation error of the step, relative to the allowed error;
-    /// `points` is the number of points of the interpolating polynomial. A step that only a breakpoint has shortened does not shorten the
-    /// next one.
+    /// `points` is the number of points of the interpolating polynomial. A step that only a breakpoint or a sample has shortened does not
+    /// shorten the next one.
     void limit_next_step(const Step& step, double planned, double max_step, bool may_jump, double error, int points) {
         if (!may_jump) h = std::min(h, step.length() * std::clamp(growth_factor(error, points - 1), 0.3, max_growth));
-        if (step.ends_at_breakpoint && step.length() < planned) h = std::max(h, std::min(planned, max_step));
+        if (step.is_shortened && step.length() < planned) h = std::max(h, std::min(planned, max_step));
     }
     /// Call after an accepted step of this length (s).
     void record_step(double length) {

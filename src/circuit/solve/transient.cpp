@@ -34,6 +34,8 @@ Result<void> Transient::begin(std::vector<double> x, bool settled, std::span<con
     auto& first = history_points_.next_point();
     first.t = 0, first.x = std::move(x), first.q.assign(count, 0);
     history_points_.accept();
+    shifted_charge_.clear(), noise_charge_.resize(count);
+    if (noise_) noise_->begin(history_points_[0].x, plan_.noise.stream);
     control_.h = plan_.max_step, control_.recent_max_step = 0, restart_pending_ = false;
     last_change_ = 0, changes_at_once_ = 0;
     curve_points_ = 0, start_phase_ = plan_.all_reported ? StartPhase::breakpoint : StartPhase::none;
@@ -108,12 +110,26 @@ Result<void> Transient::make_consistent() {
 /// again. Without, it keeps the value of the last step, which differs by the residual of that step. In a very short first step this small
 /// difference would be a large current.
 void Transient::restart(bool forget, bool exact) {
+    undo_charge_shift();
     TimePoint& point = history_points_[0];
     equations_.evaluate_static(point.t, point.x, rate_, error_);
     if (exact) point.q = error_;
     for (double& r : rate_) r = -r;
     history_points_.restart(forget);
     control_.restart();
+}
+
+/// Subtracts the noise charge from the newest point to t from the charges of all points, so that those of a step to t continue them.
+void Transient::shift_charges(double t) {
+    undo_charge_shift();
+    noise_->charges(time(), t, noise_charge_);
+    history_points_.add_to_charges(noise_charge_, -1);
+    shifted_charge_ = noise_charge_;
+}
+
+void Transient::undo_charge_shift() {
+    if (!shifted_charge_.empty()) history_points_.add_to_charges(shifted_charge_, 1);
+    shifted_charge_.clear();
 }
 
 /// Updates scale_, allowed_error_, tolerance_ and the scales of the rounding error from the newest point.
@@ -140,6 +156,7 @@ void Transient::update_tolerances() {
 /// before convergence if this error will be far too large. Returns false if the iterations diverged.
 bool Transient::attempt(double t, double& error) {
     const double h = t - history_points_[0].t;
+    if (noise_) shift_charges(t);
     auto& next = history_points_.next_point();
     const auto count = scale_.size();
     next.t = t, next.x.resize(count), next.q.resize(count);
@@ -186,7 +203,7 @@ double Transient::worst_error() {
         worst = worst_error_of_charges();
     }
     if (plan_.all_reported) worst *= sum_factor;
-    if (!plan_.all_reported || plan_.method != Integration::bdf) return worst;
+    if (!plan_.all_reported || noise_ || plan_.method != Integration::bdf) return worst;
     for (std::size_t n = 0; n < error_.size(); ++n)
         if (!has_charge_[n] && tolerance_[n] > 0)
             uncharged_error_ = std::max(uncharged_error_, std::abs(error_[n]) / (uncharged_factor * (tolerance_[n] + rounding_[n])));
@@ -242,8 +259,8 @@ bool Transient::is_rounding_visible() {
 double Transient::interpolation_error() {
     constexpr double convergence_ratio = 3;  // each higher degree must change the curve at least by this factor less than the one before
     constexpr double output_factor = 2.2;    // stricter than for afferents, since users draw straight lines between the points
-    curve_points_ = 0;
-    if (interpolated_unknowns_.empty()) return 0;
+    curve_points_ = noise_ ? 2 : 0;
+    if (noise_ || interpolated_unknowns_.empty()) return 0;
     const auto& next = history_points_.next_point();
     std::array<double, History::max_points + 1> times{next.t};
     const auto before = history_points_.times();
@@ -368,6 +385,8 @@ void Transient::accept_step() {
     for (std::size_t n = 0; n < rate_.size(); ++n) rate_[n] = leading_ * next.q[n] + history_[n];
     control_.record_step(next.t - history_points_[0].t);
     history_points_.accept();
+    shifted_charge_.clear();
+    if (noise_) noise_->update(x());
     update_tolerances();
     ++stats_.steps;
 }
@@ -427,7 +446,8 @@ Result<bool> Transient::step(double until) {
         if (take_breakpoint_step(t0, breakpoint)) return true;
         if (std::exchange(start_phase_, StartPhase::none) == StartPhase::first_step)
             h = std::max(first_part * std::min(h, breakpoint - t0), min_relative_gap * t0);
-        const auto next = StepControl::plan_step(t0, h, std::min(breakpoint, state_change_.trial().value_or(breakpoint)));
+        const double limit = std::min(breakpoint, state_change_.trial().value_or(breakpoint));
+        const auto next = StepControl::plan_step(t0, h, limit, noise_ ? noise_->next_sample(t0) : limit);
         double error = 0;
         may_jump_ = !interpolated_unknowns_.empty() && next.length() <= control_.jump_step_limit(plan_.reltol, plan_.max_step);
         const bool solved = attempt(next.end, error);
@@ -467,6 +487,11 @@ Result<bool> Transient::step(double until) {
     }
 }
 
+void Transient::shift_origin(double t) {
+    history_points_.shift_origin(t);
+    if (noise_) noise_->shift_origin(t);
+}
+
 void Transient::archive(StateArchive& a) {
     constexpr double max_count = 1e9;
     int points = history_points_.smooth_count(), count = history_points_.count();
@@ -491,6 +516,7 @@ void Transient::archive(StateArchive& a) {
     auto states = system_.states();
     for (char& state : states) a.integer(state, 0, 1);
     system_.set_states(states);
+    if (noise_) noise_->archive(a);
     a.is_valid &= control_.h > 0 && quadratic_factor > 0 && control_.recent_max_step >= 0;
     if (a.is_valid) update_tolerances();
 }

@@ -6,6 +6,7 @@
 #include "circuit/solve/state_archive.hpp"
 #include "circuit/solve/state_change_search.hpp"
 #include "circuit/solve/step_equations.hpp"
+#include "circuit/solve/transient_noise.hpp"
 
 namespace corpuscle::circuit {
 
@@ -23,6 +24,7 @@ struct TransientPlan {
     std::vector<int> reported = {};
     bool all_reported = false;  ///< true in .tran, false for afferents: all unknowns are reported, with a point right after each breakpoint
     bool steps_only = false;    ///< true: run() calls back only at the steps' ends
+    NoisePlan noise = {};       ///< of the devices
 };
 
 /// Counters of a transient.
@@ -41,6 +43,11 @@ struct TransientStats {
 /// until the jump is in a step so short that the values between its ends do not matter, and interpolation is linear. A node voltage that is
 /// defined by sources only is computed exactly from their waveforms. Integration restarts with order 1 at the beginning, at every
 /// breakpoint of a source, where a device changes its state, and when the step must shrink tenfold.
+///
+/// With noise the equations are f(x, t) + d(q(x) + w(t))/dt = 0, where w is the charge that the noise currents have carried. The formulas
+/// are applied to q + w (Winkler, J. Comput. Appl. Math. 157, 2003): its derivative -f(x) is smoother than the noise current, so its
+/// prediction gives the error of the formula alone, not the noise. No step is longer than the interval of the noise, and steps end at its
+/// samples. Interpolation is linear. The order is 2: order 1 damps noise near fmax, and higher orders need a smoother charge.
 class Transient {
 public:
     using PointCallback = std::function<bool(double t, std::span<const double> x)>;
@@ -54,11 +61,13 @@ private:
     StepControl control_;
     OrderLimit order_limit_;
     StateChangeSearch state_change_;
-    double last_change_ = 0;                // s: time of the last change of a state
-    int shortest_steps_ = 0;                // number of successive steps of the shortest length
-    int changes_at_once_ = 0;               // number of changes of states since the time last advanced
-    double leading_ = 0;                    // 1/s: dq/dt = leading_ q + history_ in the current step
-    bool pivot_order_fixed_ = false;        // true after the first begin(), which fixes the pivot order of the matrix
+    std::optional<TransientNoise> noise_;
+    std::vector<double> noise_charge_, shifted_charge_;  // C, by equation, in the step that is tried; subtracted from the earlier points
+    double last_change_ = 0;                             // s: time of the last change of a state
+    int shortest_steps_ = 0;                             // number of successive steps of the shortest length
+    int changes_at_once_ = 0;                            // number of changes of states since the time last advanced
+    double leading_ = 0;                                 // 1/s: dq/dt = leading_ q + history_ in the current step
+    bool pivot_order_fixed_ = false;                     // true after the first begin(), which fixes the pivot order of the matrix
     bool restart_pending_ = false;          // the last point is a breakpoint of a source or the end of a jump: integration restarts there
     bool may_jump_ = false;                 // the current step is so short that it may contain a jump
     bool accepts_breakpoint_step_ = false;  // the point just after a breakpoint is accepted with any error
@@ -105,6 +114,8 @@ private:
     bool must_accept_breakpoint_step();
     bool take_breakpoint_step(double t0, double next_breakpoint);
     void restart(bool forget, bool exact = false);
+    void shift_charges(double t);
+    void undo_charge_shift();
     std::optional<std::vector<double>> solve_with_charges_kept(double h);
     bool are_close(std::span<const double> a, std::span<const double> b) const;
     Result<void> make_consistent();
@@ -125,7 +136,12 @@ private:
 
 public:
     Transient(System& system, NewtonSolver& newton, const TransientPlan& plan)
-        : system_(system), newton_(newton), plan_(plan), equations_(system, newton), state_change_(system) {}
+        : system_(system), newton_(newton), plan_(plan), equations_(system, newton), state_change_(system) {
+        if (!plan.noise.is_on()) return;
+        noise_.emplace(system, plan.noise);
+        plan_.max_step = std::min(plan.max_step, plan.noise.interval());
+        plan_.max_order = control_.min_order = std::min(plan.max_order, TransientNoise::best_order);
+    }
 
     /// Calls begin() with these arguments and simulates until `each` returns false or the end time is reached. Calls each(t, x) at t = 0,
     /// at the end of every step, and at points within a step if linear interpolation across it would have an error of more than twice the
@@ -137,6 +153,9 @@ public:
     std::span<const int> interpolated_unknowns() const { return interpolated_unknowns_; }
     /// True if the unknown has a charge, so that its error is controlled.
     bool has_charge(std::size_t unknown) const { return has_charge_[unknown] != 0; }
+    /// The noise, after begin(); null: there is none.
+    TransientNoise* noise() { return noise_ ? &*noise_ : nullptr; }
+    void set_noise_stream(std::uint64_t stream) { plan_.noise.stream = stream; }  ///< from the next begin() on
     /// The elimination list, after begin(); null: there is none.
     const Elimination* elimination() const { return equations_.elimination(); }
 
@@ -163,7 +182,7 @@ public:
     /// Writes or reads the complete state. The next steps depend only on this, the circuit and the first x ever passed to begin(). Before
     /// reading, call begin() with the same x as the saved transient.
     void archive(StateArchive&);
-    void shift_origin(double t) { history_points_.shift_origin(t); }  ///< moves the origin of time to t, s
+    void shift_origin(double t);  ///< moves the origin of time to t, s
     const History& history() const { return history_points_; }
     const StepControl& control() const { return control_; }
     // By unknown: the largest magnitude so far, and dq/dt at the newest point.

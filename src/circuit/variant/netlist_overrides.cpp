@@ -91,7 +91,9 @@ private:
             if (dot != std::string::npos && has_parameter(e, std::string_view(typed).substr(dot + 1)))
                 known.push_back(short_name(e.name, pieces - 1, LastPiece::element) + typed.substr(dot));
         }
-        return error_of(setting, "{} has no parameter or device '{}'{} (it has {}corner, temp, mismatch, and {} devices, such as {})",
+        return error_of(setting,
+                        "{} has no parameter or device '{}'{} (it has {}corner, temp, mismatch, numbers of .options such as reltol, and {} "
+                        "devices, such as {})",
                         circuit_.file, setting.parameter, did_you_mean(typed, known),
                         parameters_.empty() ? "" : fmt::format("{}, ", joined(parameters_)), names_.size(),
                         names_.empty() ? "none" : short_name(names_.back(), piece_count(names_.back()), LastPiece::element));
@@ -198,6 +200,14 @@ Result<void> set_parameter(const ParameterOverride& setting, const std::string& 
     return {};
 }
 
+Result<void> set_option(const ParameterOverride& setting, const std::string& name, ResolvedOverrides& changes) {
+    const auto value = parse_number_with_unit(setting.value);
+    if (!value) return error_of(setting, "{}", value.error().message);
+    if (const auto ok = check_option(name, value->value, {}, setting.location); !ok) return error_of(setting, "{}", ok.error().message);
+    changes.options.insert_or_assign(name, value->value);
+    return {};
+}
+
 /// The overrides for this netlist, with the netlist as target (or none) and the rest of the name as parameter; and the other overrides.
 Applied<std::vector<ParameterOverride>> overrides_of_netlist(std::string_view netlist, std::span<const ParameterOverride> overrides) {
     Applied<std::vector<ParameterOverride>> out;
@@ -263,6 +273,8 @@ Result<Applied<Netlist>> apply_overrides(const NetlistOpener& open, const std::s
             changes.mismatch_seed = chip.first, changes.chip = chip.second;
         } else if (std::find(parameters.begin(), parameters.end(), lower_name) != parameters.end()) {
             TRY(set_parameter(setting, lower_name, changes));
+        } else if (is_numeric_option(lower_name)) {
+            TRY(set_option(setting, lower_name, changes));
         } else if (setting.target.empty()) {
             return error_of(setting, "{} has no .param {}{}", name, lower_name, did_you_mean(lower_name, parameters));
         } else {

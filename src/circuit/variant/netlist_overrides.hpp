@@ -38,6 +38,8 @@ Result<ParameterOverride> parse_netlist_override(const std::string& netlist, con
 ///
 ///  - a .param of the top level
 ///
+///  - a number of .options, such as reltol or noisefmax
+///
 ///  - a device: sets the value of R C L, the DC value of V I, the gain of E F G H, or the array of a transistor ("8x4" is 8 columns of 4
 ///    elements in series); not in an override without a target
 ///

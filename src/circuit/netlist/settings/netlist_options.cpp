@@ -32,6 +32,10 @@ constexpr OptionRow option_rows[] = {
     {"defnrs", false, 0, 1e6, "1"},
     {"maxord", false, -no_limit, no_limit, "4"},
     {"spikecheck", false, 0, 1, "0"},
+    {"noisefmax", false, 0, 1e15, "10k"},
+    {"noisefmin", false, 1e-9, 1e15, "1"},
+    {"noisescale", false, 0, 1e6, "1"},
+    {"noiseseed", false, 0, 0x1p53, "7"},
     {"accuracy", true, 0, 0, "fine"},
     {"method", true, 0, 0, "gear"},
 };
@@ -74,6 +78,11 @@ auto option_names() {
 }  // namespace
 
 bool is_option(std::string_view name) { return std::ranges::find(option_rows, name, &OptionRow::name) != std::end(option_rows); }
+
+bool is_numeric_option(std::string_view name) {
+    const auto* row = std::ranges::find(option_rows, name, &OptionRow::name);
+    return row != std::end(option_rows) && !row->takes_word;
+}
 
 bool is_small_element_option(std::string_view name) { return contains_name(small_elements, name); }
 
