@@ -51,26 +51,26 @@ Plot expected_noise_plot(const System&, const Directive&) {
 }
 
 /// The contributions, the largest first.
-std::string noise_table(std::vector<NoiseContribution> contributions, double total) {
+std::string noise_table(std::vector<NoiseContribution> contributions, double total, std::string_view unit) {
     std::sort(contributions.begin(), contributions.end(), [](const NoiseContribution& a, const NoiseContribution& b) {
         return a.total != b.total ? a.total > b.total : a.name() < b.name();
     });
     std::string out = fmt::format("{:32} {:>14} {:>8}\n", "noise at the output", "rms", "fraction");
     for (const auto& p : contributions)
-        out += fmt::format("{:32} {:>14} {:>7.2f}%\n", p.name(), format_quantity(std::sqrt(p.total), "V"),
+        out += fmt::format("{:32} {:>14} {:>7.2f}%\n", p.name(), format_quantity(std::sqrt(p.total), unit),
                            total > 0 ? 100 * p.total / total : 0);
     return out;
 }
 
 /// The integrated noise, after all frequencies.
-void add_totals(const std::vector<NoiseContribution>& contributions, AnalysisResult& out) {
+void add_totals(const std::vector<NoiseContribution>& contributions, std::string_view unit, AnalysisResult& out) {
     double total = 0, total_in = 0;
     for (const auto& c : contributions) total += c.total, total_in += c.total_in;
     out.numbers = {{"onoise_total", std::sqrt(total)}, {"inoise_total", std::sqrt(total_in)}};
     Plot totals{"Integrated Noise", false, false, {}};
     for (const auto& [name, value] : out.numbers) totals.curves.push_back({name, "notype", {value}});
     out.plots.push_back(std::move(totals));
-    out.table = noise_table(contributions, total);
+    out.table = noise_table(contributions, total, unit);
 }
 
 /// The transfer from a current into each unknown to the output, at one frequency.
@@ -116,7 +116,7 @@ Result<AnalysisResult> analyse_noise(AnalysisContext& context, const Directive& 
         const double row[] = {std::sqrt(density), std::sqrt(density / gain)};
         append(result.plots[0], f, row);
     }));
-    add_totals(contributions, result);
+    add_totals(contributions, system.is_voltage(out.plus >= 0 ? out.plus : out.minus) ? "V" : "A", result);
     return result;
 }
 

@@ -123,8 +123,8 @@ Result<NoisePlan> read_noise_plan(const Circuit& c) {
     noise.fmax = value_or(c.options, "noisefmax", 0);
     noise.fmin = value_or(c.options, "noisefmin", std::min(noise.fmin, noise.fmax / 10));
     noise.scale = value_or(c.options, "noisescale", noise.scale);
-    const double seed = value_or(c.options, "noiseseed", 1);
-    if (seed != std::floor(seed)) return error_at({c.file}, ".options noiseseed={:g}: expected an integer from 0 to 2^53", seed);
+    const double given = value_or(c.options, "noiseseed", 1), seed = std::round(given);
+    if (std::abs(given - seed) > 1e-6) return error_at({c.file}, ".options noiseseed={:g}: expected an integer from 0 to 2^53", given);
     noise.seed = static_cast<std::uint64_t>(seed);
     if (noise.is_on() && !(noise.fmin < noise.fmax))
         return error_at({c.file}, ".options noisefmin={:g}: must be below noisefmax, {:g} Hz", noise.fmin, noise.fmax);

@@ -30,6 +30,7 @@ class Batch {
     std::uint8_t prepare(lanes::SolveCall&, lanes::StepCall&);
     std::uint8_t inaccurate_lanes(std::uint8_t working, const lanes::SolveCall&);
     void iterate(std::uint8_t working, lanes::SolveCall&, lanes::StepCall&);
+    void measure_noise(std::uint8_t accepted);
     void decide_steps(std::uint8_t needs_error, std::uint8_t diverged, const LaneRow& a);
     template <class Needs, class OrderOf>
     void estimate_errors(std::uint8_t selected, const Needs& needs, const OrderOf& order_of,
@@ -154,6 +155,17 @@ void Batch::iterate(std::uint8_t working, lanes::SolveCall& solve, lanes::StepCa
     decide_steps(needs_error, diverged, solve.a);
 }
 
+/// Measures the effect of the noise in the lanes in which that is due.
+void Batch::measure_noise(std::uint8_t accepted) {
+    std::uint8_t due = 0;
+    for_each_lane(accepted, [&](std::size_t l) {
+        if (lanes_[l].is_noise_measured()) lanes_[l].write_noise(), due |= bit(l);
+    });
+    if (due == 0) return;
+    kernels_.solve_perturbation(memory_.block);
+    for_each_lane(due, [&](std::size_t l) { lanes_[l].measure_noise(); });
+}
+
 /// Decides about the time steps of the lanes that need the error or whose iterations diverged, and accepts those with an allowed error.
 /// `a`: see SolveCall.
 void Batch::decide_steps(std::uint8_t needs_error, std::uint8_t diverged, const LaneRow& a) {
@@ -174,6 +186,7 @@ void Batch::decide_steps(std::uint8_t needs_error, std::uint8_t diverged, const 
         change_order, [](const ChipLane& s) { return s.can_lower_order(); }, [](const ChipLane& s) { return s.order() - 1; }, lower_);
     estimate_errors(
         change_order, [](const ChipLane& s) { return s.can_raise_order(); }, [](const ChipLane& s) { return s.order() + 1; }, higher_);
+    measure_noise(accepted);
     kernels_.accept(memory_.block, accept);
     for_each_lane(accepted, [&](std::size_t l) {
         lanes_[l].choose_step(error_[l], lower_[l], higher_[l]);

@@ -27,7 +27,8 @@ Result<bool> ChipLane::start(const Chip& chip, const BatchOptions& options) {
     plan_ = start.plan();
     control_ = {}, newton_ = {}, restart_pending_ = false, next_task_ = NextTask::nothing, rounds_ = 0;
     control_.min_order = start.control().min_order;
-    noise_ = simulation_->noise(), noise_charge_.resize(memory_.unknowns()), charges_shifted_ = false;
+    noise_ = simulation_->noise(), charges_shifted_ = false;
+    noise_charge_.resize(memory_.unknowns()), noise_power_.assign(memory_.unknowns(), {}), floor_.resize(memory_.unknowns());
     control_.h = start.control().h, times_ = {}, points_ = smooth_count_ = 1, newest_slot_ = curve_points_ = 0, breakpoint_ = -1,
     jumped_ = false;
     end_time_ = static_cast<double>(chip_->force.size() - 1) * chip_->T;
@@ -42,7 +43,7 @@ Result<bool> ChipLane::start(const Chip& chip, const BatchOptions& options) {
         const bool charged = start.has_charge(n), voltage = b.is_voltage[n] != 0;
         const double relative = charged ? plan_.reltol : 0, floor = !charged ? 0 : voltage ? plan_.vntol : plan_.abstol;
         const double allowed = relative * start.scale()[n] + floor;
-        b.relative[n].value[lane_] = relative, b.floor[n].value[lane_] = floor;
+        b.relative[n].value[lane_] = relative, b.floor[n].value[lane_] = floor_[n] = floor;
         b.inverse_allowed[n].value[lane_] = allowed > 0 ? 1 / allowed : 0;
     }
     sources_.clear();
@@ -225,6 +226,19 @@ ChipLane::StepStatus ChipLane::decide_step(double error) {
     undo_charge_shift();
     if (control_.shorten(step_.length(), diverged ? 0 : worst, points_ > 1 ? times_[0] - times_[1] : 0)) next_task_ = NextTask::restart;
     return control_.h >= StepControl::min_step(plan_.stop) ? StepStatus::rejected : StepStatus::failed;
+}
+
+void ChipLane::write_noise() {
+    for (std::size_t n = 0; n < noise_charge_.size(); ++n) memory_.block.error[n].value[lane_] = a_ * noise_charge_[n];
+}
+
+/// As Transient::measure_noise().
+void ChipLane::measure_noise() {
+    auto& b = memory_.block;
+    for (std::size_t n = 0; n < noise_charge_.size(); ++n) {
+        noise_power_[n].add(b.error[n].value[lane_]);
+        if (floor_[n] > 0) b.floor[n].value[lane_] = floor_[n] + noise_power_[n].allowed_error();
+    }
 }
 
 void ChipLane::choose_step(double error, double lower, double higher) {

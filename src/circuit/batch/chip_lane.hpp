@@ -51,8 +51,10 @@ private:
     std::vector<std::size_t> sources_;  // indices of the time-dependent sources
     std::vector<double> v_;             // buffers of set_sources()
     StampBuffer stamp_;
-    std::vector<double> x_;             // unknowns at the newest point
-    TransientNoise* noise_ = nullptr;   // of simulation_
+    std::vector<double> x_;            // unknowns at the newest point
+    TransientNoise* noise_ = nullptr;  // of simulation_; null: none
+    std::vector<NoisePower> noise_power_;
+    std::vector<double> floor_;         // as ChipBlock::floor, without noise
     std::vector<double> noise_charge_;  // in the current step, by equation
     bool charges_shifted_ = false;      // noise_charge_ is subtracted from the charges of the history
     EnergyCounter energy_;              // up to the newest point
@@ -103,6 +105,11 @@ public:
     bool is_order_change_due() const { return control_.is_order_change_due(); }
     bool can_lower_order() const { return control_.can_lower_order(); }
     bool can_raise_order() const { return control_.can_raise_order(std::min(plan_.max_order, points_ - 1), points_); }
+    /// True if measure_noise() is due in this accepted step.
+    bool is_noise_measured() const { return noise_ != nullptr && response_.stats.steps % TransientNoise::steps_per_measure == 0; }
+    /// Writes the noise of the step to `error` of the block. Call measure_noise() after solve_perturbation().
+    void write_noise();
+    void measure_noise();
     /// Chooses the length and order of the next step after an accepted one, from its error and those for the next lower and higher order.
     void choose_step(double error, double lower, double higher);
     /// Advances to the end of an accepted step, and records spikes, samples and energy. Returns false if the chip is done.

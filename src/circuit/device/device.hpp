@@ -7,6 +7,7 @@
 
 #include "circuit/lanes/kernels.hpp"
 #include "circuit/netlist/netlist.hpp"
+#include "core/checksum.hpp"
 
 namespace corpuscle::circuit {
 
@@ -101,8 +102,13 @@ struct ChipSample {
     std::array<double, 4> process{};   ///< standard normal deviates common to all devices: V_T0 of NMOS, PMOS; I_SQ of NMOS, PMOS
 };
 
-/// The random numbers of the noise of a chip, among those of one seed of the noise. `copy`: that of a nominal circuit.
-inline std::uint64_t noise_stream_of(const std::optional<ChipSample>& chip, std::uint64_t copy = 0) { return chip ? chip->chip + 1 : copy; }
+/// The number of the noise of a chip among the independent ones of one seed of the noise. `copy`: number of a copy of the nominal circuit.
+inline std::uint64_t noise_stream_of(const std::optional<ChipSample>& chip, std::uint64_t copy = 0) {
+    if (!chip) return copy;
+    Fnv1a hash;
+    hash.add_word(chip->seed), hash.add_word(chip->chip);
+    return hash.value;
+}
 
 /// An element of the circuit. Its unknowns are its terminals, then those that only its equations need, e.g. a branch current.
 class Device {

@@ -217,6 +217,11 @@ void estimate_error(const ChipBlock& block, ErrorCall& call) {
 }
 
 template <class T>
+void solve_perturbation(const ChipBlock& block) {
+    solve_for<T>(block, block.error);
+}
+
+template <class T>
 void accept(const ChipBlock& block, const AcceptCall& call) {
     const ChipBlock b = block;  // a local copy cannot alias the stores below
     const Wide<T> is_accepted(call.is_accepted), a(call.a), zero(0.0);
@@ -283,8 +288,8 @@ void linearize(const LinearizeCall& call) {
 }
 
 template <class T>
-constexpr ChipKernels chip_kernels_for{width<T>(),    predict<T>,          find_moved<T>,     solve<T>,  residual<T>,
-                                       apply_step<T>, evaluate_charges<T>, estimate_error<T>, accept<T>, linearize<T>};
+constexpr ChipKernels chip_kernels_for{width<T>(),          predict<T>,        find_moved<T>,         solve<T>,  residual<T>, apply_step<T>,
+                                       evaluate_charges<T>, estimate_error<T>, solve_perturbation<T>, accept<T>, linearize<T>};
 
 }  // namespace
 }  // namespace corpuscle::circuit::lanes

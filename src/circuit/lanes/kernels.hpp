@@ -1,6 +1,6 @@
 #pragma once
-// Interface between circuit code, compiled for every machine, and the kernels of transistors and of batches of chips on SIMD lanes, compiled
-// once for each instruction set. Plain data and pointers only.
+// Interface between circuit code, compiled for every machine, and the kernels of transistors and of batches of chips on SIMD lanes,
+// compiled once for each instruction set. Plain data and pointers only.
 
 #include <cstddef>
 #include <cstdint>
@@ -145,6 +145,8 @@ struct ChipKernels {
     void (*evaluate_charges)(const ChipBlock&);
     /// Converts the error of the equations to that of the unknowns, with the last elimination.
     void (*estimate_error)(const ChipBlock&, ErrorCall&);
+    /// Converts `error` from an error of the equations to that of the unknowns, with the last elimination.
+    void (*solve_perturbation)(const ChipBlock&);
     /// Updates rate, scale and inverse_allowed after accepted time steps.
     void (*accept)(const ChipBlock&, const AcceptCall&);
     void (*linearize)(const LinearizeCall&);

@@ -34,7 +34,7 @@ Result<void> Transient::begin(std::vector<double> x, bool settled, std::span<con
     auto& first = history_points_.next_point();
     first.t = 0, first.x = std::move(x), first.q.assign(count, 0);
     history_points_.accept();
-    shifted_charge_.clear(), noise_charge_.resize(count);
+    shifted_charge_.clear(), noise_charge_.resize(count), noise_power_.assign(count, {});
     if (noise_) noise_->begin(history_points_[0].x, plan_.noise.stream);
     control_.h = plan_.max_step, control_.recent_max_step = 0, restart_pending_ = false;
     last_change_ = 0, changes_at_once_ = 0;
@@ -127,6 +127,13 @@ void Transient::shift_charges(double t) {
     shifted_charge_ = noise_charge_;
 }
 
+/// Measures the change of the unknowns that the noise of the last step has caused.
+void Transient::measure_noise() {
+    for (std::size_t n = 0; n < error_.size(); ++n) error_[n] = leading_ * noise_charge_[n];
+    equations_.solve_perturbation(error_);
+    for (std::size_t n = 0; n < error_.size(); ++n) noise_power_[n].add(error_[n]);
+}
+
 void Transient::undo_charge_shift() {
     if (!shifted_charge_.empty()) history_points_.add_to_charges(shifted_charge_, 1);
     shifted_charge_.clear();
@@ -140,6 +147,7 @@ void Transient::update_tolerances() {
         const bool voltage = system_.is_voltage(static_cast<int>(n));
         scale_[n] = std::max(scale_[n], std::abs(history_points_[0].x[n]));
         tolerance_[n] = plan_.reltol * scale_[n] + (voltage ? plan_.vntol : plan_.abstol);
+        if (noise_) tolerance_[n] += noise_power_[n].allowed_error();
         if (has_charge_[n] || (plan_.all_reported && voltage)) allowed_error_[n] = tolerance_[n];
         if (!voltage) largest = std::max(largest, scale_[n]);
         if (!voltage && !plan_.all_reported) tolerance_[n] *= Interpolant::current_tolerance_factor;
@@ -386,7 +394,10 @@ void Transient::accept_step() {
     control_.record_step(next.t - history_points_[0].t);
     history_points_.accept();
     shifted_charge_.clear();
-    if (noise_) noise_->update(x());
+    if (noise_) {
+        noise_->update(x());
+        if (stats_.steps % TransientNoise::steps_per_measure == 0) measure_noise();
+    }
     update_tolerances();
     ++stats_.steps;
 }
@@ -516,7 +527,10 @@ void Transient::archive(StateArchive& a) {
     auto states = system_.states();
     for (char& state : states) a.integer(state, 0, 1);
     system_.set_states(states);
-    if (noise_) noise_->archive(a);
+    if (noise_) {
+        noise_->archive(a);
+        for (auto& power : noise_power_) a.number(power.value);
+    }
     a.is_valid &= control_.h > 0 && quadratic_factor > 0 && control_.recent_max_step >= 0;
     if (a.is_valid) update_tolerances();
 }

@@ -62,6 +62,7 @@ private:
     OrderLimit order_limit_;
     StateChangeSearch state_change_;
     std::optional<TransientNoise> noise_;
+    std::vector<NoisePower> noise_power_;                // by unknown
     std::vector<double> noise_charge_, shifted_charge_;  // C, by equation, in the step that is tried; subtracted from the earlier points
     double last_change_ = 0;                             // s: time of the last change of a state
     int shortest_steps_ = 0;                             // number of successive steps of the shortest length
@@ -116,6 +117,7 @@ private:
     void restart(bool forget, bool exact = false);
     void shift_charges(double t);
     void undo_charge_shift();
+    void measure_noise();
     std::optional<std::vector<double>> solve_with_charges_kept(double h);
     bool are_close(std::span<const double> a, std::span<const double> b) const;
     Result<void> make_consistent();

@@ -7,6 +7,8 @@ namespace {
 
 constexpr double radius = 0.5e-3;  // V or A: the density of a device is computed again after an unknown has changed by this
 
+constexpr std::int64_t no_index = std::numeric_limits<std::int64_t>::min();  // of a level whose deviates are not drawn
+
 const auto white_purpose = static_cast<std::uint32_t>(stream_id("white noise of devices"));
 const auto flicker_purpose = static_cast<std::uint32_t>(stream_id("flicker noise of devices"));
 
@@ -35,7 +37,7 @@ TransientNoise::TransientNoise(const System& system, const NoisePlan& plan) : sy
     if (flicker_sources_.empty()) return;
     for (int shift = 0;; ++shift) {
         const double length = std::ldexp(plan.interval(), shift);  // s
-        levels_.push_back({shift, 0, -1, (shift == 0 ? std::sqrt(2.0) : 1) * level_deviation, {}, {}});
+        levels_.push_back({shift, 0, no_index, (shift == 0 ? std::sqrt(2.0) : 1) * level_deviation, {}, {}});
         for (auto* deviates : {&levels_.back().low, &levels_.back().high}) deviates->resize(flicker_sources_.size());
         if (length >= 2 / plan.fmin) return;
     }
@@ -47,7 +49,7 @@ void TransientNoise::begin(std::span<const double> x, std::uint64_t stream) {
     key_ = std::uint64_t{words[0]} << 32 | words[1];
     for (auto& level : levels_) {
         const auto random = philox({static_cast<std::uint32_t>(level.shift), 0, 0, flicker_purpose}, key_)[0];
-        level.offset = static_cast<std::int64_t>(random & ((std::uint64_t{1} << std::min(level.shift, 32)) - 1)), level.index = -1;
+        level.offset = static_cast<std::int64_t>(random & ((std::uint64_t{1} << std::min(level.shift, 32)) - 1)), level.index = no_index;
     }
     cell_ = -1, origin_ = 0;
     update(x, true);

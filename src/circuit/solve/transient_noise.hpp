@@ -65,7 +65,8 @@ class TransientNoise {
     void draw_level(const Level&, std::int64_t index, std::vector<double>& out) const;
 
 public:
-    static constexpr int best_order = 2;  ///< of the integration formula
+    static constexpr int best_order = 2;          ///< of the integration formula
+    static constexpr long steps_per_measure = 8;  ///< accepted steps between two calls of NoisePower::add() for all unknowns
 
     /// The devices keep their unknowns; their densities are those at x until the first update().
     TransientNoise(const System&, const NoisePlan&);
@@ -79,6 +80,17 @@ public:
     void charges(double t0, double t1, std::span<double> out);
     void shift_origin(double t) { origin_ += t; }  ///< moves the origin of time to t, s
     void archive(StateArchive&);                   ///< writes or reads the state
+};
+
+/// The mean square of the change of an unknown that the noise of one step causes. Its root is added to the allowed error: a node that is
+/// faster than the samples of the noise follows each of them, and no step is short enough to predict that.
+struct NoisePower {
+    double value = 0;  ///< V^2 or A^2
+    void add(double change) {
+        constexpr double memory = 0.8;
+        value = value > 0 ? memory * value + (1 - memory) * change * change : change * change;
+    }
+    double allowed_error() const { return std::sqrt(value); }
 };
 
 }  // namespace corpuscle::circuit

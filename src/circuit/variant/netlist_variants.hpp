@@ -18,6 +18,7 @@ struct ChipSpec {
     std::uint64_t seed = 0;
     bool has_process = true, has_mismatch = true;  ///< the chips have random process shifts; their devices have random mismatch
     std::uint64_t first_chip = 0;                  ///< number of the first chip among all chips of this seed
+    bool has_noise = false;                        ///< true if chips are sampled for the noise of their transients, which always differs
 
     ChipSample sample(std::uint64_t chip) const;  ///< the sample of chip number `first_chip` + `chip` of this seed
 };

@@ -38,18 +38,18 @@ struct SweepPlan {
 
     std::vector<SweepAxis> axes = {};
     circuit::ChipSpec chips{0, 0, false,
-                            false};  ///< whether process and mismatch are sampled; its seed is for all axes, its count is not used
+                            false};  ///< whether process, mismatch and noise are sampled; its seed is for all axes, its count is not used
     std::int64_t samples = 1;        ///< number of samples per point
     /// Gives the items instead of the combinations of the listed values; null: these combinations. Thread-safe.
     std::function<SweepPoint(std::int64_t item)> point = {};
 
     std::int64_t item_count() const;
-    bool samples_chips() const { return chips.has_process || chips.has_mismatch; }
+    bool samples_chips() const { return chips.has_process || chips.has_mismatch || chips.has_noise; }
     /// A column for each axis; then, if the process is sampled, one for each of its four deviates.
     std::vector<SweepColumn> columns() const;
     /// The values of an item, in the order of columns().
     std::vector<double> values(std::int64_t item) const;
-    /// Process and mismatch of an item; no value if neither is sampled.
+    /// Process, mismatch and noise of an item; no value if none is sampled.
     std::optional<circuit::ChipSample> chip_sample(std::int64_t item) const;
 };
 

@@ -18,6 +18,11 @@ struct SweepText {
 
 /// The quantity that a [[vary]] varies.
 inline const LocatedText& axis_name(const ConfigNode& axis) { return *axis.get("what"); }
+/// True if the axis samples chips: their process, their mismatch or the noise of their transients.
+inline bool is_chips_axis(const ConfigNode& axis) {
+    const std::string_view name = axis_name(axis).text;
+    return name == "process" || name == "mismatch" || name == "noise";
+}
 
 /// Keys of former versions and their present names. A file with an old key is refused, and the message names the new one.
 struct RenamedKey {

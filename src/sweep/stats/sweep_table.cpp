@@ -110,9 +110,8 @@ bool is_deterministic(const SweepResults& results) {
     const auto text = sweeps::read_sweep_text(file_text(stored), results.path());
     if (!text) return false;
     const auto axes = text->axes();
-    return std::none_of(axes.begin(), axes.end(), [](const ConfigNode& axis) {
-        return sweeps::axis_name(axis).text == "process" || sweeps::axis_name(axis).text == "mismatch" || sweeps::is_sampled(axis);
-    });
+    return std::none_of(axes.begin(), axes.end(),
+                        [](const ConfigNode& axis) { return sweeps::is_chips_axis(axis) || sweeps::is_sampled(axis); });
 }
 
 bool SweepTable::meets_limits(std::size_t row, std::size_t measure) const {

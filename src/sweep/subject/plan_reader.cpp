@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include "circuit/analysis/transient_setup.hpp"
 #include "circuit/variant/netlist_variants.hpp"
 #include "core/text/ascii_text.hpp"
 #include "sweep/subject/subject.hpp"
@@ -10,8 +11,6 @@ namespace corpuscle::sweeps {
 namespace {
 
 constexpr double max_seed = 0x1p53 - 1;
-
-bool is_chips_axis(const ConfigNode& axis) { return axis_name(axis).text == "process" || axis_name(axis).text == "mismatch"; }
 
 /// The first axis for which `is` returns true, or null.
 template <class F>
@@ -59,8 +58,13 @@ class PlannedSweep::PlanReader {
             if (!is_chips_axis(a)) continue;
             const auto& name = axis_name(a);
             if (a.entries.size() > 1)
-                return name.error_here(fmt::format("{}: its distribution comes from the process card; remove the other keys", name.text));
-            bool& one = name.text == "process" ? plan_.chips.has_process : plan_.chips.has_mismatch;
+                return name.error_here(fmt::format("{}: its distribution comes from the {}; remove the other keys", name.text,
+                                                   name.text == "noise" ? "devices" : "process card"));
+            bool& one = name.text == "process"    ? plan_.chips.has_process
+                        : name.text == "mismatch" ? plan_.chips.has_mismatch
+                                                  : plan_.chips.has_noise;
+            if (name.text == "noise" && !TRY(circuit::read_transient_plan(*sweep_.circuit())).noise.is_on())
+                return name.error_here("noise: the transients have none; add its highest frequency, such as set.noisefmax = \"1kHz\"");
             if (one) return name.error_here(fmt::format("'{}' varies twice", name.text));
             one = true;
         }
