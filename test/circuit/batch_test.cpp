@@ -67,21 +67,31 @@ void expect_near(const ChipResponse& one, const ChipResponse& other, double allo
     for (std::size_t k = 0; k < one.spikes.size(); ++k) EXPECT_NEAR(one.spikes[k], other.spikes[k], allowed);
 }
 
+/// Selects an instruction set by the environment variable, until it is destroyed.
+class InstructionSetVariable {
+    std::optional<std::string> before_;
+
+public:
+    explicit InstructionSetVariable(InstructionSet set) {
+        if (const char* before = std::getenv("CORPUSCLE_ISA")) before_ = before;
+        ::setenv("CORPUSCLE_ISA", std::string(name_of(set)).c_str(), 1);
+    }
+    InstructionSetVariable(const InstructionSetVariable&) = delete;
+    ~InstructionSetVariable() { before_ ? ::setenv("CORPUSCLE_ISA", before_->c_str(), 1) : ::unsetenv("CORPUSCLE_ISA"); }
+};
+
 TEST(Batch, ResponsesDoNotDependOnOtherChipsOrTheInstructionSet) {
     const auto spiker = design_of(test::source_root() + "/circuits/spiker.cir");
     const auto force = force_step(600);
     auto chips = sampled_chips(spiker, force, 11);
-    const auto before = std::getenv("CORPUSCLE_ISA");
-    const std::string previous = before ? before : "";
     const auto first = responses_of(chips, spiker, {.lanes = 8, .probe_every = 50});
     for (const auto& [number, response] : first) EXPECT_GT(response.spikes.size(), 1u) << number;
     std::reverse(chips.begin(), chips.end());
     for (const std::size_t lanes : {1, 4, 8})
         for (const auto set : instruction_sets()) {
-            ::setenv("CORPUSCLE_ISA", std::string(name_of(set)).c_str(), 1);
+            const InstructionSetVariable variable(set);
             expect_same_bytes(first, responses_of(chips, spiker, {.lanes = lanes, .probe_every = 50}));
         }
-    before ? ::setenv("CORPUSCLE_ISA", previous.c_str(), 1) : ::unsetenv("CORPUSCLE_ISA");
 }
 
 TEST(Batch, ABatchedChipRespondsLikeAScalarOne) {
@@ -103,6 +113,28 @@ TEST(Batch, ABatchedChipRespondsLikeAScalarOne) {
         EXPECT_NEAR(response.energy_use.supplies / response.energy_use.seconds, scalar.energy_use.supplies / scalar.energy_use.seconds,
                     0.02 * scalar.energy_use.supplies / scalar.energy_use.seconds);
     }
+}
+
+TEST(Batch, NoiseOfAChipDoesNotDependOnOtherChipsOrTheInstructionSet) {
+    const auto spiker = design_of(test::source_root() + "/circuits/spiker.cir", {"noisefmax=2k"});
+    const auto force = force_step(600);
+    const ChipSpec only_noise{.count = 0, .seed = 3, .has_process = false, .has_mismatch = false};
+    std::vector<Chip> chips;
+    for (int k = 0; k < 9; ++k) chips.push_back({k, spiker, only_noise.sample(static_cast<std::uint64_t>(k)), force, batch_T});
+    const auto first = responses_of(chips, spiker, {.lanes = 8, .probe_every = 50});
+    EXPECT_NE(first.at(0).spikes, first.at(1).spikes);
+    const auto without = run_chip_scalar({0, design_of(test::source_root() + "/circuits/spiker.cir"), {}, force, batch_T}, {});
+    for (const auto& [number, response] : first) {
+        EXPECT_FALSE(response.is_scalar);
+        expect_near(response, run_chip_scalar(chips[static_cast<std::size_t>(number)], {}), 5e-5);
+        expect_near(response, without, 3e-3);
+    }
+    std::reverse(chips.begin(), chips.end());
+    for (const std::size_t lanes : {1, 4})
+        for (const auto set : instruction_sets()) {
+            const InstructionSetVariable variable(set);
+            expect_same_bytes(first, responses_of(chips, spiker, {.lanes = lanes, .probe_every = 50}));
+        }
 }
 
 TEST(Batch, ChipsMayDifferInTheirParameters) {

@@ -19,6 +19,7 @@ Result<void> Transient::change_states() {
                                      format_quantity(time(), "s"), changed->name),
                          changed->location};
         restart_pending_ = true;
+        if (noise_) noise_->update(history_points_[0].x, true);
         if (plan_.all_reported) return start_phase_ = StartPhase::breakpoint, Result<void>();
         TRY(make_consistent());
     }
