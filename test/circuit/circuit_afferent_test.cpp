@@ -40,6 +40,11 @@ std::string afferent_error(const std::string& text) {
 }
 std::string spiker() { return read_file(corpuscle::test::source_root() + "/circuits/spiker.cir"); }
 
+std::string noisy_spiker() {
+    auto text = spiker();
+    return text.insert(text.find('\n') + 1, ".options noisefmax=2k\n");
+}
+
 /// Spikes for a force given in blocks of `block` samples, with delay() samples appended to get the complete response.
 std::vector<Spike> complete_response(const Afferent& afferent, std::vector<double> force, std::size_t block = 4096) {
     force.insert(force.end(), static_cast<std::size_t>(afferent.delay()), force.back());
@@ -83,7 +88,7 @@ TEST(CircuitAfferent, SpikesAreInOrderWithinTheForceAndOnSamplesIfRequested) {
 }
 
 TEST(CircuitAfferent, ForceInBlocksOfAnySizeGivesTheSameSpikes) {
-    for (const auto& text : {spiker(), std::string(relaxer) + ".spike v(s) 0.5\n.save v(a) v(a,s)\n"}) {
+    for (const auto& text : {spiker(), noisy_spiker(), std::string(relaxer) + ".spike v(s) 0.5\n.save v(a) v(a,s)\n"}) {
         const auto afferent = design(text)->make(1e-3, false);
         const auto force = wave(300, 1e-3);
         const auto undivided = complete_response(*afferent, force);
@@ -188,6 +193,16 @@ TEST(CircuitAfferent, ADamagedStateIsRejectedOrHarmless) {
         (void)afferent->respond(std::span(force).first(20), bad, any);
     }));
     EXPECT_EQ(complete_response(*afferent, force), complete_response(*design(spiker())->make(1e-3, false), force));
+}
+
+TEST(CircuitAfferent, CopiesHaveNoiseOfTheirOwn) {
+    const auto factory = design(noisy_spiker());
+    const auto force = wave(300, 1e-3);
+    const auto response = [&](std::uint32_t copy) { return complete_response(*factory->make(1e-3, false, copy), force); };
+    EXPECT_EQ(response(1), response(1));
+    EXPECT_NE(response(1), response(2));
+    EXPECT_NE(response(0), response(1));
+    EXPECT_EQ(response(1).size(), response(2).size());
 }
 
 TEST(CircuitAfferent, ALevelThatIsNeverReachedGivesNoSpike) {

@@ -96,6 +96,21 @@ TEST(TransientNoise, IsAFunctionOfSeedAndStream) {
     EXPECT_NE(first, noise_currents(*context, {.fmax = 1e4, .seed = 5, .stream = 1}, x, 100));
 }
 
+TEST(TransientNoise, ContinuesWhenTheOriginOfTimeMoves) {
+    const auto context = context_of("white\nr1 a 0 1k\nd1 a 0 d\n.model d d(is=1f kf=1p)\n.op\n");
+    const std::vector<double> x = {0.6};
+    const NoisePlan plan{.fmax = 1e4};
+    TransientNoise noise(context->system, plan), moved(context->system, plan);
+    noise.begin(x, 0), moved.begin(x, 0);
+    moved.shift_origin(1000 * plan.interval());
+    std::vector<double> charge(1), moved_charge(1);
+    for (int cell = 1000; cell < 1010; ++cell) {
+        const double t = cell * plan.interval(), h = 0.5 * plan.interval();
+        noise.charges(t, t + h, charge), moved.charges(t - 1000 * plan.interval(), t - 1000 * plan.interval() + h, moved_charge);
+        EXPECT_NEAR(charge[0] / moved_charge[0], 1, 1e-9);
+    }
+}
+
 // A sample is taken 20 time constants after the switch has closed. The noise of each capacitor is independent. A time constant of 20
 // intervals loses up to 2 % of the variance: between two samples of the noise, a current that is constant has not yet diffused.
 TEST(TransientNoise, OfASampledCapacitorIsKTByC) {
