@@ -68,6 +68,8 @@ deb: setup-deb
 # The pictures of README and doc/. Those of real recordings need the recordings in the directory CORPUSCLE_DATA.
 CORPUSCLE_DATA ?= ../shared/data
 draw = /usr/bin/python3 doc/picture.py $(corpuscle)
+# Those of doc/schematics.md; on Debian 12 they also need: apt-get install xvfb xauth
+schematics = sa1 $(addprefix parts/, transducer amplifier bias invb invc ccvs high_pass rectifier_sa rectifier_fa summer oscillator trigger currents)
 pictures: release
 	$(draw) doc/press.png $(touched)
 	$(draw) doc/pictures/range.png study range "supply by temperature"
@@ -78,6 +80,7 @@ pictures: release
 	$(draw) doc/pictures/insole.png $(CORPUSCLE_DATA)/gait_insole_vgrf/GaCo01_01.txt --layout examples/layouts/insole.csv --scale 0.008
 	$(draw) doc/pictures/eskin.png $(CORPUSCLE_DATA)/fbg_eskin_press/fbg_press_S6_T16.csv --rate 100Hz --scale 40 --layout $(CORPUSCLE_DATA)/fbg_eskin_press/sensor_positions.csv
 	$(draw) doc/pictures/fabric.png $(CORPUSCLE_DATA)/fabric_slide_cpm/Board10mm_F150_V-5mmps_0.csv --time-unit ms --channel 3-18 --scale 0.01
+	for cell in $(schematics); do /usr/bin/python3 doc/schematic_picture.py circuits/schematics/$$cell.sch doc/pictures/schematics/$$(basename $$cell).svg || exit 1; done
 
 # The notebooks with their pictures, in out/notebooks. `make test` runs two of them.
 notebooks: release

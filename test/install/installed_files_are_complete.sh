@@ -7,6 +7,7 @@ compiler=$2
 status=0
 "$prefix/bin/corpuscle" study fig4 --quiet || { echo "the installed corpuscle does not find corpuscle-study"; status=1; }
 for file in bin/corpuscle bin/corpuscle-study libexec/corpuscle/corpuscle-hdf5 libexec/corpuscle/corpuscle-sound include/corpuscle.hpp include/corpuscle.h share/corpuscle/circuits/sa1.cir \
+  share/corpuscle/circuits/schematics/sa1.sch share/corpuscle/circuits/schematics/parts/invb.sym share/corpuscle/circuits/schematics/symbols/nch.sym share/corpuscle/circuits/schematics/xschemrc \
   share/corpuscle/skins/hand.toml share/corpuscle/examples/respond.cpp share/corpuscle/examples/data/touch.csv \
   share/corpuscle/examples/sweeps/bias.toml share/doc/corpuscle/README.md share/doc/corpuscle/LICENSE share/doc/corpuscle/NOTICE \
   share/doc/corpuscle/doc/concepts.md share/doc/corpuscle/doc/press.png; do

@@ -33,8 +33,8 @@ SYMBOLS = {
 MODELS = [".lib 'process/tsmc180.lib' tt", ".model a_switch sw(vt=0.5)", ".model a_current_switch csw(it=1m)", ".model a_diode d", ".model an_npn npn",
           ".model a_pnp pnp", ".model level_1 nmos(level=1)", ".model p_level_1 pmos(level=1)", ".model ekv nmos(level=44)", ".op", ".tran 1u 10u",
           ".force press"]
-# Symbols that are no devices.
-NO_DEVICE = {"label", "wire_label", "ground", "supply", "directives", "measures", "spike"}
+# Symbols of nodes and directives.
+NOT_DEVICES = {"label", "wire_label", "ground", "supply", "directives", "measures", "spike"}
 
 
 def pins(symbol):
@@ -66,7 +66,7 @@ def main(corpuscle):
     files = {path.stem for path in (SCHEMATICS / "symbols").glob("*.sym")}
     failures = [f"{kind}: a kind of device without a symbol in {__file__}" for kind in kinds - SYMBOLS.keys()]
     failures += [f"{kind}: no such kind of device" for kind in SYMBOLS.keys() - kinds]
-    failures += [f"{symbol}.sym: neither in SYMBOLS nor in NO_DEVICE" for symbol in files - drawn - NO_DEVICE]
+    failures += [f"{symbol}.sym: neither in SYMBOLS nor in NOT_DEVICES" for symbol in files - drawn - NOT_DEVICES]
     if not failures and not shutil.which("xschem"):
         print("skipped: xschem is not installed (apt-get install xschem)")
         return SKIPPED

@@ -1,4 +1,4 @@
-"""What the tests of schematics have in common: xschem without a display, and the flat deck of a netlist."""
+"""For the tests of schematics: xschem without a display, and the flat deck of a netlist."""
 import os
 import pathlib
 import re
@@ -14,7 +14,6 @@ SKIPPED = 77
 def xschem_netlist(schematic, folder):
     """The netlist that xschem writes of a schematic."""
     environment = {name: value for name, value in os.environ.items() if name != "DISPLAY"} | {"HOME": str(folder)}
-    (pathlib.Path(folder) / ".xschem").mkdir(exist_ok=True)
     answer = subprocess.run([shutil.which("xschem"), "-x", "-q", "-r", "-n", "-s", "--rcfile", str(SETTINGS), str(schematic)], cwd=folder,
                             env=environment, stdin=subprocess.DEVNULL, capture_output=True, text=True, timeout=60, check=False)
     netlist = pathlib.Path(folder) / (pathlib.Path(schematic).stem + ".spice")

@@ -1,8 +1,13 @@
 """Each circuit has a schematic, whose netlist by xschem is the same circuit: devices, nodes, values and directives.
 
 schematics_equal_circuits.py CORPUSCLE. The decks of both are compared, in which `corpuscle export` has expanded all subcircuits.
+The commands of doc/schematics.md are run, too.
 """
+import os
+import pathlib
+import re
 import shutil
+import subprocess
 import sys
 import tempfile
 
@@ -18,6 +23,16 @@ def differences(corpuscle, circuit, schematic, folder):
     return only + [f"  only in the circuit: {line[:160]}" for line in sorted(written - drawn)] or ["  a line occurs more often in one of them"]
 
 
+def page_failures(corpuscle, folder):
+    """The commands of doc/schematics.md that fail."""
+    blocks = re.findall(r"^```sh\n(.*?)^```$", (ROOT / "doc" / "schematics.md").read_text(encoding="utf-8"), re.S | re.M)
+    os.symlink(ROOT / "circuits", pathlib.Path(folder, "circuits"))
+    environment = {**os.environ, "HOME": folder, "PATH": f"{pathlib.Path(corpuscle).resolve().parent}:{os.environ['PATH']}"}
+    environment.pop("DISPLAY", None)
+    ran = [subprocess.run(["sh", "-ec", block], cwd=folder, env=environment, stdin=subprocess.DEVNULL, capture_output=True, text=True, check=False) for block in blocks]
+    return [f"doc/schematics.md has {len(blocks)} blocks of commands instead of 2"] * (len(blocks) != 2) + [one.stderr for one in ran if one.returncode != 0]
+
+
 def main(corpuscle):
     if not shutil.which("xschem"):
         print("skipped: xschem is not installed (apt-get install xschem)")
@@ -31,6 +46,7 @@ def main(corpuscle):
             found = differences(corpuscle, circuits[name], schematics[name], folder)
             if found:
                 failures.append("\n".join([f"{name}: the schematic is another circuit", *found[:12]]))
+        failures += page_failures(corpuscle, folder)
     print("\n".join(failures) if failures else f"{len(circuits)} schematics are their circuits")
     return 1 if failures else 0
 
