@@ -39,10 +39,10 @@ def main(corpuscle):
         return SKIPPED
     circuits = {path.stem: path for path in sorted((ROOT / "circuits").glob("*.cir"))}
     schematics = {path.stem: path for path in sorted(SCHEMATICS.glob("*.sch"))}
-    failures = [f"{name}: a circuit without a schematic" for name in circuits.keys() - schematics.keys()]
-    failures += [f"{name}: a schematic without a circuit" for name in schematics.keys() - circuits.keys()]
+    failures = [f"{name}: a circuit without a schematic" for name in sorted(circuits.keys() - schematics.keys())]
+    failures += [f"{name}: a schematic without a circuit" for name in sorted(schematics.keys() - circuits.keys())]
     with tempfile.TemporaryDirectory() as folder:
-        for name in circuits.keys() & schematics.keys():
+        for name in sorted(circuits.keys() & schematics.keys()):
             found = differences(corpuscle, circuits[name], schematics[name], folder)
             if found:
                 failures.append("\n".join([f"{name}: the schematic is another circuit", *found[:12]]))
