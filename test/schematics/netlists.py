@@ -11,8 +11,14 @@ SETTINGS = SCHEMATICS / "xschemrc"
 SKIPPED = 77
 
 
+def copy_circuits(folder):
+    """A copy of circuits/ in the folder: xschem 2.8 saves a schematic when it writes the netlist. Returns the folder of schematics."""
+    shutil.copytree(ROOT / "circuits", pathlib.Path(folder) / "circuits")
+    return pathlib.Path(folder) / "circuits" / "schematics"
+
+
 def xschem_netlist(schematic, folder):
-    """The netlist that xschem writes of a schematic."""
+    """The netlist that xschem writes of a schematic, which is in the folder or below it."""
     environment = {name: value for name, value in os.environ.items() if name != "DISPLAY"} | {"HOME": str(folder)}
     answer = subprocess.run([shutil.which("xschem"), "-x", "-q", "-r", "-n", "-s", "--rcfile", str(SETTINGS), str(schematic)], cwd=folder,
                             env=environment, stdin=subprocess.DEVNULL, capture_output=True, text=True, timeout=60, check=False)

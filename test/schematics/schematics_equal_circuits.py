@@ -11,7 +11,7 @@ import subprocess
 import sys
 import tempfile
 
-from netlists import ROOT, SCHEMATICS, SKIPPED, flat_deck, xschem_netlist
+from netlists import ROOT, SCHEMATICS, SKIPPED, copy_circuits, flat_deck, xschem_netlist
 
 
 def differences(corpuscle, circuit, schematic, folder):
@@ -26,7 +26,6 @@ def differences(corpuscle, circuit, schematic, folder):
 def page_failures(corpuscle, folder):
     """The commands of doc/schematics.md that fail."""
     blocks = re.findall(r"^```sh\n(.*?)^```$", (ROOT / "doc" / "schematics.md").read_text(encoding="utf-8"), re.S | re.M)
-    os.symlink(ROOT / "circuits", pathlib.Path(folder, "circuits"))
     environment = {**os.environ, "HOME": folder, "PATH": f"{pathlib.Path(corpuscle).resolve().parent}:{os.environ['PATH']}"}
     environment.pop("DISPLAY", None)
     ran = [subprocess.run(["sh", "-ec", block], cwd=folder, env=environment, stdin=subprocess.DEVNULL, capture_output=True, text=True, check=False) for block in blocks]
@@ -42,8 +41,9 @@ def main(corpuscle):
     failures = [f"{name}: a circuit without a schematic" for name in sorted(circuits.keys() - schematics.keys())]
     failures += [f"{name}: a schematic without a circuit" for name in sorted(schematics.keys() - circuits.keys())]
     with tempfile.TemporaryDirectory() as folder:
+        copied = copy_circuits(folder)
         for name in sorted(circuits.keys() & schematics.keys()):
-            found = differences(corpuscle, circuits[name], schematics[name], folder)
+            found = differences(corpuscle, circuits[name], copied / schematics[name].name, folder)
             if found:
                 failures.append("\n".join([f"{name}: the schematic is another circuit", *found[:12]]))
         failures += page_failures(corpuscle, folder)
