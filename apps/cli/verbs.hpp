@@ -27,8 +27,9 @@ Verb make_sweep_merge_verb();
 Verb make_sweep_dump_verb();
 Verb make_sweep_show_verb();
 Verb make_sweep_calibrate_verb();
-// The verb that may follow "fit".
+// The verbs that may follow "fit".
 Verb make_fit_afferent_verb();
+Verb make_fit_transistor_verb();
 
 /// Makes all verbs of the program.
 inline std::vector<Verb> make_verbs() {

@@ -39,6 +39,8 @@ TEST(Tutorial, EveryCommandItShowsRuns) { run_commands_of("doc/tutorial.md"); }
 
 TEST(TrialsPage, EveryCommandItShowsRuns) { run_commands_of("doc/trials.md", 5); }
 
+TEST(FitTransistorPage, EveryCommandItShowsRuns) { run_commands_of("doc/fit-transistor.md", 3); }
+
 TEST(Readme, ItsProgramIsTheExampleThatRuns) {
     const auto example = test::read_file(project_root + "/examples/respond.cpp"), readme = test::read_file(project_root + "/README.md");
     EXPECT_NE(readme.find("```cpp\n" + example + "```\n"), std::string::npos);

@@ -995,7 +995,23 @@ class Studies(unittest.TestCase):
             self.assertEqual(len(points), sum(len(study["plots"]) for study in data["studies"]))
             self.assertGreater(min(points), 2)
             self.assertEqual(missing_values(browser), [])
+            self.the_fitted_transistor(browser)
+            browser.get(path.as_uri())
             self.on_a_telephone(browser)
+
+    def the_fitted_transistor(self, browser):
+        """The page of 'fit transistor' draws all curves, with one key for the points and the line of a curve."""
+        path = OUT / "transistor.html"
+        subprocess.run([CORPUSCLE, "fit", "transistor", str(ROOT / "examples/data/nmos.raw"), "-W", "1.5u", "-L", "0.5u", "--report", str(path), "--quiet"],
+                       check=True)
+        data = data_of(path)
+        browser.get(path.as_uri())
+        self.assertEqual(browser.get_log("browser"), [])
+        self.assertEqual(len(browser.find_elements(By.CSS_SELECTOR, "tbody tr")), len(data["fit"]["parameters"]))
+        self.assertEqual(browser.execute_script("return charts.length"), 6)
+        keys = browser.find_elements(By.CSS_SELECTOR, "figure:first-child .key .chip")
+        self.assertEqual(len(keys), len(data["plots"][0]["series"]) / 2)
+        self.assertEqual(missing_values(browser), [])
 
     def the_kinds(self, browser, data, claims, rows):
         """The table of kinds has the counts, and the menu leaves the rows of one kind."""

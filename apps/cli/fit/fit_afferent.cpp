@@ -166,13 +166,15 @@ Verb make_fit_afferent_verb() {
 
 Verb make_fit_verb() {
     return {.name = "fit",
-            .description = "find parameters from data: fit afferent",
-            .examples = "Examples:\n  corpuscle fit afferent touch.csv --spikes nerve.csv --free k_A,K_B,f_B",
+            .description = "find parameters from data: fit afferent, fit transistor",
+            .examples =
+                "Examples:\n  corpuscle fit afferent touch.csv --spikes nerve.csv --free k_A,K_B,f_B\n"
+                "  corpuscle fit transistor curves.csv --width 1.5um --length 0.5um --card nch.lib",
             .check = [](const CommonArguments&) -> Result<void> {
-                return bad_usage("corpuscle fit: name what to fit: corpuscle fit afferent");
+                return bad_usage("corpuscle fit: name what to fit: corpuscle fit afferent, corpuscle fit transistor");
             },
             .run = [](const CommonArguments&) { return 0; },
-            .sub_verbs = {make_fit_afferent_verb()}};
+            .sub_verbs = {make_fit_afferent_verb(), make_fit_transistor_verb()}};
 }
 
 }  // namespace corpuscle
