@@ -241,6 +241,29 @@ TEST(Save, OfManyCurvesTakesTimeInProportion) {
     EXPECT_LT(std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count(), 10) << "normally about 0.2 s";
 }
 
+TEST(RawFile, HasTheHeadOfNgspiceAndIsLoadedByIt) {
+    const TemporaryFolder folder;
+    folder.write("t.cir", "a divider\nv1 a 0 3\nr1 a b 1k\nr2 b 0 2k\n.op\n.dc v1 0 3 1\n");
+    const auto head = [](const std::string& date) {
+        return "Title: a divider\nDate: " + date +
+               "\nPlotname: Operating Point\nFlags: real\nNo. Variables: 3\nNo. Points: " + std::string("1") + std::string(19, ' ') +
+               "\nCommand: set rawwriter=\"Corpuscle, format of ngspice\"\nVariables:\n\t0\tv(a)\tvoltage\n";
+    };
+    ASSERT_EQ(run_program(folder, "run t.cir -o t.raw").status, 0);
+    EXPECT_TRUE(read_file(folder / "t.raw").starts_with(head("Thu Jan  1 00:00:00 1970"))) << read_file(folder / "t.raw").substr(0, 300);
+    EXPECT_EQ(run_program(folder, "run t.cir -o t.raw").status, 0) << "a file of an earlier run is replaced";
+    ::setenv("SOURCE_DATE_EPOCH", "951782400", 1);
+    const auto dated = run_program(folder, "run t.cir -o dated.raw");
+    ::unsetenv("SOURCE_DATE_EPOCH");
+    ASSERT_EQ(dated.status, 0);
+    EXPECT_TRUE(read_file(folder / "dated.raw").starts_with(head("Tue Feb 29 00:00:00 2000")));
+    folder.write("load.cir", "t\n.control\nload t.raw\nsetplot dc1\nprint v(b)[3]\necho writer $rawwriter\nquit\n.endc\n.end\n");
+    const auto log = run_ngspice("load.cir", "", folder.path());
+    EXPECT_NE(log.find("v(b)[3] = 2.000000e+00"), log.npos) << log;
+    EXPECT_NE(log.find("writer Corpuscle"), log.npos) << log;
+    EXPECT_EQ(log.find("no such command"), log.npos) << log;
+}
+
 // dv/dt = 1e39 (v^2 + 1): no step is short enough.
 TEST(Run, ThatFailsAtItsFirstPointLeavesAnEarlierFileUnchanged) {
     const TemporaryFolder folder;

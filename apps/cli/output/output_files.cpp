@@ -75,11 +75,14 @@ Result<void> write_file(const std::string& path, const std::string& text) {
 }
 
 bool is_own_raw(std::string_view beginning) {
-    const auto title = take_line(beginning), plot = take_line(beginning), flags = take_line(beginning), variables = take_line(beginning),
-               points = take_line(beginning);
+    const auto title = take_line(beginning);
+    const bool has_date = beginning.starts_with("Date: ");  // not in files of version 0.1.0 and earlier
+    if (has_date) take_line(beginning);
+    const auto plot = take_line(beginning), flags = take_line(beginning), variables = take_line(beginning), points = take_line(beginning);
     constexpr std::size_t width = std::string_view("No. Points: ").size() + 20;  // the count is padded, so that it can be rewritten
     return title.starts_with("Title: ") && plot.starts_with("Plotname: ") && (flags == "Flags: real" || flags == "Flags: complex") &&
-           variables.starts_with("No. Variables: ") && points.starts_with("No. Points: ") && points.size() == width;
+           variables.starts_with("No. Variables: ") && points.starts_with("No. Points: ") && points.size() == width &&
+           (!has_date || beginning.starts_with("Command: set rawwriter=\"Corpuscle"));
 }
 
 bool is_own_table(std::string_view beginning) {

@@ -7,7 +7,7 @@ namespace corpuscle::circuit {
 
 // ngspice's .raw file, as its `write` makes it: for each plot a header, its points (numbered from 0), a footer. `binary` selects the binary
 // format, with little-endian doubles, or ASCII. The header contains a point count of 0. At the end of the plot it must be overwritten by
-// raw_count(), which has the same width.
+// raw_count(), which has the same width. Its date is that of the environment variable SOURCE_DATE_EPOCH, or 1 January 1970.
 struct RawHeader {
     std::string text;
     std::size_t count_offset;  ///< offset of the point count in the text, bytes
