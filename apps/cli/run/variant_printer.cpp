@@ -4,6 +4,7 @@
 #include <cmath>
 #include <complex>
 #include <numbers>
+#include <unordered_set>
 
 #include "cli/output/terminal.hpp"
 #include "run/netlist/variant_run.hpp"
@@ -46,13 +47,24 @@ Json document_of(const std::vector<std::complex<double>>& roots) {
     return out;
 }
 
+/// Looking up a key of an ordered object takes time in proportion to its size, so it is done for repeated names only.
+Json curves_of(const Plot& plot) {
+    Json out = Json::object();
+    auto& curves = out.get_ref<Json::object_t&>();
+    std::unordered_set<std::string_view> names;
+    for (const auto& curve : plot.curves)
+        if (names.insert(curve.name).second)
+            curves.push_back({curve.name, column(plot, curve)});
+        else
+            curves[curve.name] = column(plot, curve);
+    return out;
+}
+
 Json document_of(const VariantResult& result) {
     const auto& outcome = result.outcome;
     Json plots = Json::array(), analyses = Json::array(), numbers = Json::object(), expectations = Json::array(), warnings = Json::array();
     for (const auto& plot : result.plots) {
-        Json curves = Json::object();
-        for (const auto& curve : plot.curves) curves[curve.name] = column(plot, curve);
-        plots.push_back({{"plot", plot.name}, {"complex", plot.is_complex}, {"curves", curves}});
+        plots.push_back({{"plot", plot.name}, {"complex", plot.is_complex}, {"curves", curves_of(plot)}});
     }
     for (const auto& a : outcome.analyses) {
         Json one = {{"analysis", a.directive->name}, {"points", a.point_count}};
