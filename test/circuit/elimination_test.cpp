@@ -6,8 +6,8 @@
 #include <numeric>
 #include <random>
 
-#include "circuit/solve/elimination.hpp"
-#include "circuit/solve/matrix.hpp"
+#include "circuit/solve/linear/elimination.hpp"
+#include "circuit/solve/linear/matrix.hpp"
 
 namespace corpuscle::circuit {
 namespace {

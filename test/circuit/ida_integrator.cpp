@@ -11,7 +11,7 @@
 #include <memory>
 #include <type_traits>
 
-#include "circuit/solve/matrix.hpp"
+#include "circuit/solve/linear/matrix.hpp"
 
 namespace corpuscle::circuit {
 namespace {

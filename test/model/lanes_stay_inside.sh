@@ -6,7 +6,7 @@
 set -eu
 test $# -ge 3 || { echo "expected objects for three instruction sets, not $#"; exit 1; }
 status=0
-table='corpuscle::(circuit::)?lanes::(baseline|avx2|avx512)::(kernels_in_double|kernels_in_float|field_kernels|frame_kernels|transistor_kernel_table|chip_kernel_table)$'
+table='corpuscle::(circuit::)?lanes::(baseline|avx2|avx512)::(kernels_in_double|kernels_in_float|field_kernels|frame_kernels|transistor_kernel_table|chip_kernel_table|front_kernel_table)$'
 for object in "$@"; do
   wide=$(nm -C "$object" | grep -E ' [WVuw] ' | grep -v 'xsimd' || true)
   strong=$(nm -C --defined-only "$object" | grep -E ' [TDBRG] ' | grep -vE "$table" || true)

@@ -9,7 +9,8 @@ import sys
 MAY_BE_MUTABLE = {
     "src/circuit/afferent/circuit_afferent.cpp": "transients that no call uses, for the next call, and their lock",
     "src/circuit/cost/power.hpp": "buffers of one function",
-    "src/circuit/solve/elimination.hpp": "buffer of one function",
+    "src/circuit/solve/linear/elimination.hpp": "buffer of one function",
+    "src/circuit/solve/linear/front_elimination.hpp": "buffers of one function",
     "src/sweep/parallel/worker_pool.hpp": "a lock",
     "src/sweep/subject/chip_sweep.cpp": "recent designs",
     "src/sweep/subject/subject.hpp": "a limit that is computed when it is first needed, and its lock",

@@ -47,7 +47,8 @@ public:
         c.parameters = top_.parameters;
         TRY(read_settings());
         find_paths_in_ic();
-        c.elements.reserve(parsed_.top.elements.size());
+        const auto count = parsed_.top.elements.size();
+        c.elements.reserve(count), c.element_numbers.reserve(count), c.node_numbers.reserve(count);
         TRY(elaborate_contents(top_));
         if (!builder_.refusals.empty()) return builder_.refusals.combined();
         TRY(check_stepped());

@@ -61,13 +61,30 @@ History::Weights History::slope_weights(double t, int order, double& leading) co
     return weights_of_slope(std::span(all).first(static_cast<std::size_t>(order)), t, leading);
 }
 
-void History::combine(const Weights& w, int points, std::vector<double> TimePoint::* member, std::span<double> out) const {
-    const auto count = out.size();
-    for (int j = 0; j < points; ++j) {
-        const double* const from = ((*this)[j].*member).data();
-        const double weight = w[static_cast<std::size_t>(j)];
-        for (std::size_t n = 0; n < count; ++n) out[n] = j == 0 ? weight * from[n] : out[n] + weight * from[n];
+namespace {
+
+/// Sums in the order of the points, in one pass.
+template <std::size_t points>
+void add_weighted(const double* const* from, const double* w, std::span<double> out) {
+    std::array<const double*, points> x;
+    std::array<double, points> weight;
+    std::copy_n(from, points, x.begin()), std::copy_n(w, points, weight.begin());
+    for (std::size_t n = 0; n < out.size(); ++n) {
+        double sum = weight[0] * x[0][n];
+        for (std::size_t j = 1; j < points; ++j) sum += weight[j] * x[j][n];
+        out[n] = sum;
     }
+}
+
+}  // namespace
+
+void History::combine(const Weights& w, int points, std::vector<double> TimePoint::* member, std::span<double> out) const {
+    using Sum = void (*)(const double* const*, const double*, std::span<double>);
+    constexpr Sum sums[max_points] = {&add_weighted<1>, &add_weighted<2>, &add_weighted<3>, &add_weighted<4>,
+                                      &add_weighted<5>, &add_weighted<6>, &add_weighted<7>};
+    std::array<const double*, max_points> from{};
+    for (int j = 0; j < points; ++j) from[static_cast<std::size_t>(j)] = ((*this)[j].*member).data();
+    if (points > 0) sums[points - 1](from.data(), w.data(), out);
 }
 
 }  // namespace corpuscle::circuit

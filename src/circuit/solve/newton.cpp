@@ -54,6 +54,8 @@ public:
 class Disturbance {
     const System& system_;
     std::span<const double> G_, C_;
+    std::optional<LinearSolver<double>> solver_;
+    bool keeps_solver_ = false;               // its order of pivots is fixed for all matrices
     std::vector<double> sum_, v_, next_;      // sum_ = G + a C; v_: present disturbance; next_: buffer for M v
     double ratio_ = 0;                        // factor of the largest element of v in the last multiplication, with its sign
     std::vector<double> last_, second_last_;  // the disturbances one and two multiplications before, on the scale of v_
@@ -98,8 +100,8 @@ public:
     double growth_per_step(double a) {
         constexpr int steps = 80;
         for (std::size_t k = 0; k < sum_.size(); ++k) sum_[k] = G_[k] + a * C_[k];
-        LinearSolver<double> solver(system_.pattern());
-        if (!solver.factor(sum_)) return 0;
+        if (!keeps_solver_) keeps_solver_ = solver_.emplace(system_.pattern()).prefer_fronts(sum_);
+        if (!solver_->factor(sum_)) return 0;
         v_.assign(next_.size(), 0), last_ = second_last_ = v_;
         // Start with different numbers for all unknowns.
         for (std::size_t n = 0; n < v_.size(); ++n) v_[n] = 1 - 2 * std::fmod(0.6180339887498949 * static_cast<double>(n + 1), 1.0);
@@ -107,7 +109,7 @@ public:
         for (int k = 0; k < steps; ++k) {
             // The first multiplications, by (G + a C)^-1 a C, remove the components without charge, for which M only changes the sign.
             k < 4 ? multiply(a, 0) : multiply(a, 1);
-            solver.solve(next_);
+            solver_->solve(next_);
             const double factor = normalize();
             if (factor == 0) return 0;
             if (k >= steps / 2) length *= factor;
@@ -184,7 +186,9 @@ bool NewtonSolver::solve(std::vector<double>& x, const NodeClamps& clamps, int m
             evaluation.scale[n] = std::max(evaluation.scale[n], clamps.conductance[n] * std::abs(x[n]));
         }
         if (is_close && !evaluation.is_limited && is_balanced()) return true;
-        if (!linear_solver.factor(std::span<const double>(evaluation.G).first(system.pattern().entries()))) {
+        const auto G = std::span<const double>(evaluation.G).first(system.pattern().entries());
+        if (k == 0 && !linear_solver.has_fixed_order()) linear_solver.prefer_fronts(G);
+        if (!linear_solver.factor(G)) {
             singular_unknown = linear_solver.singular_column();
             return false;
         }

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <limits>
 
-#include "circuit/solve/matrix.hpp"
+#include "circuit/solve/linear/matrix.hpp"
 
 // LAPACK. The lengths of the texts are the last arguments of a Fortran function.
 extern "C" void dggevx_(const char* balance, const char* left, const char* right, const char* sense, const int* n, double* a,

@@ -25,7 +25,12 @@ StepEquations::StepEquations(const System& system, NewtonSolver& newton)
     auto sums = sum_linear_devices(system, newton.context);
     constant_currents_ = std::move(sums.currents);
     system.pattern().for_each_entry([&](std::size_t e, std::size_t row, std::size_t column) {
-        if (sums.G[e] != 0 || sums.C[e] != 0) linear_.push_back({e, row, column, sums.G[e], sums.C[e]});
+        for (auto* list : {&linear_, &linear_charges_}) {
+            if (sums.C[e] == 0 && (sums.G[e] == 0 || list == &linear_charges_)) continue;
+            list->entry.push_back(static_cast<int>(e));
+            list->row.push_back(static_cast<int>(row)), list->column.push_back(static_cast<int>(column));
+            list->g.push_back(sums.G[e]), list->c.push_back(sums.C[e]);
+        }
     });
 }
 
@@ -42,7 +47,8 @@ void StepEquations::prepare(double t, double a, std::span<const double> history)
             if (d.unknowns[row] >= 0) base_[static_cast<std::size_t>(d.unknowns[row])] += f[row];
     }
     std::fill(J_0_.begin(), J_0_.end(), 0.0);
-    for (const auto& l : linear_) J_0_[l.entry] = l.g + a * l.c;
+    for (std::size_t k = 0; k < linear_.entry.size(); ++k)
+        J_0_[static_cast<std::size_t>(linear_.entry[k])] = linear_.g[k] + a * linear_.c[k];
 }
 
 /// Evaluates a nonlinear device at x_, limited if necessary, and adds it to J_ and r_.
@@ -71,7 +77,9 @@ void StepEquations::linearize_device(ScalarDevice& scalar) {
 void StepEquations::linearize(std::span<const double> x) {
     std::copy(x.begin(), x.end(), x_.begin());
     J_ = J_0_, r_ = base_;
-    for (const auto& l : linear_) r_[l.row] += J_0_[l.entry] * x_[l.column];
+    for (std::size_t k = 0; k < linear_.entry.size(); ++k)
+        r_[static_cast<std::size_t>(linear_.row[k])] +=
+            J_0_[static_cast<std::size_t>(linear_.entry[k])] * x_[static_cast<std::size_t>(linear_.column[k])];
     limited_ = false;
     for (auto& scalar : scalar_devices_) linearize_device(scalar);
     batched_devices_.evaluate(newton_.context, a_, x_, J_, r_);
@@ -153,11 +161,18 @@ bool StepEquations::expressions_match() {
     return true;
 }
 
+/// Adds C x of the linear devices to r_.
+void StepEquations::add_linear_charges(std::span<const double> x) {
+    const auto& list = linear_charges_;
+    for (std::size_t k = 0; k < list.c.size(); ++k)
+        r_[static_cast<std::size_t>(list.row[k])] += list.c[k] * x[static_cast<std::size_t>(list.column[k])];
+}
+
 void StepEquations::read_charges(std::span<double> q) {
     const auto count = q.size();
     for (std::size_t n = 0; n < count; ++n) x_[n] += step_[n];  // last evaluation plus the Newton step
     std::fill(r_.begin(), r_.end(), 0.0);
-    for (const auto& l : linear_) r_[l.row] += l.c * x_[l.column];
+    add_linear_charges(x_);
     for (const auto& scalar : scalar_devices_) {
         const auto n = scalar.terminals;
         for (std::size_t row = 0; row < n; ++row) {
@@ -173,7 +188,7 @@ void StepEquations::read_charges(std::span<double> q) {
 
 void StepEquations::charge_change(std::span<const double> dx, std::span<double> dq) {
     std::fill(r_.begin(), r_.end(), 0.0);
-    for (const auto& l : linear_) r_[l.row] += l.c * dx[l.column];
+    add_linear_charges(dx);
     const auto change_of = [&](int unknown) {
         return static_cast<std::size_t>(unknown) < dx.size() ? dx[static_cast<std::size_t>(unknown)] : 0;
     };

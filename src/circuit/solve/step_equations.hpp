@@ -66,11 +66,11 @@ struct ExpressionTolerance {
 class StepEquations {
     const System& system_;
     NewtonSolver& newton_;
-    struct LinearEntry {  // a matrix entry to which linear devices contribute
-        std::size_t entry, row, column;
-        double g, c;  // S and F: sums of their df and dq
+    struct LinearEntries {  // the matrix entries to which linear devices contribute
+        std::vector<int> entry, row, column;
+        std::vector<double> g, c;  // S and F: sums of their df and dq
     };
-    std::vector<LinearEntry> linear_;
+    LinearEntries linear_, linear_charges_;    // all, and those with c
     std::vector<double> constant_currents_;    // f of the time-independent linear devices at x = 0
     std::vector<std::size_t> time_dependent_;  // indices of the time-dependent sources
     struct ScalarDevice {                      // a nonlinear device that is not in a group
@@ -97,6 +97,7 @@ class StepEquations {
     bool expressions_match();
 
     void linearize(std::span<const double> x);
+    void add_linear_charges(std::span<const double> x);
     void linearize_device(ScalarDevice&);
     bool solve_for_step();
     double relative_residual();

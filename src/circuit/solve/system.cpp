@@ -71,7 +71,9 @@ Result<System> System::make(std::shared_ptr<const Circuit> circuit) {
         if (system.devices_[k]->can_have_breakpoints()) system.devices_with_breakpoints_.push_back(k);
     }
     system.reset_states();
+    for (const auto& name : system.names_) system.is_voltage_.push_back(name[0] == 'v');
     std::vector<std::pair<int, int>> entries;
+    system.numbers_.reserve(system.names_.size());
     for (int k = 0; k < system.size(); ++k)
         entries.emplace_back(k, k), system.numbers_.try_emplace(system.names_[static_cast<std::size_t>(k)], k);
     for (const auto& d : system.devices_)
@@ -80,10 +82,10 @@ Result<System> System::make(std::shared_ptr<const Circuit> circuit) {
                 if (row >= 0 && column >= 0) entries.emplace_back(row, column);
     system.pattern_ = std::make_unique<SparsityPattern>(system.size(), std::move(entries));
     for (const auto& d : system.devices_) {
-        auto& device_entries = system.entries_.emplace_back();
+        system.first_entry_.push_back(system.entries_.size());
         for (const int row : d->unknowns)
             for (const int column : d->unknowns)
-                device_entries.push_back(row >= 0 && column >= 0 ? system.pattern_->entry_index(row, column) : system.pattern_->entries());
+                system.entries_.push_back(row >= 0 && column >= 0 ? system.pattern_->entry_index(row, column) : system.pattern_->entries());
     }
     TRY(system.make_groups());
     system.is_linear_ = std::all_of(system.devices_.begin(), system.devices_.end(), [](const auto& d) { return d->is_linear(); });
@@ -91,10 +93,10 @@ Result<System> System::make(std::shared_ptr<const Circuit> circuit) {
 }
 
 Result<void> System::make_groups() {
+    std::map<const DeviceKind*, std::vector<std::size_t>> members_of;
+    for (std::size_t k = 0; k < devices_.size(); ++k) members_of[circuit_->elements[k].kind].push_back(k);
     for (const auto* kind : device_kinds) {
-        std::vector<std::size_t> members;
-        for (std::size_t k = 0; k < devices_.size(); ++k)
-            if (circuit_->elements[k].kind == kind) members.push_back(k);
+        const auto& members = members_of[kind];
         if (members.empty()) continue;
         if (kind->make_batch == nullptr) {
             scalar_devices_.insert(scalar_devices_.end(), members.begin(), members.end());
@@ -106,7 +108,8 @@ Result<void> System::make_groups() {
         for (const auto k : members) {
             group.members.push_back(devices_[k].get());
             group.unknowns.insert(group.unknowns.end(), devices_[k]->unknowns.begin(), devices_[k]->unknowns.end());
-            group.entries.insert(group.entries.end(), entries_[k].begin(), entries_[k].end());
+            const auto device_entries = entries(k);
+            group.entries.insert(group.entries.end(), device_entries.begin(), device_entries.end());
         }
         group.batch->bind(group.members);
         groups_.push_back(std::move(group));
@@ -210,7 +213,7 @@ void System::add_device(std::size_t k, std::span<const double> x, const EvalCont
     const bool limited = d.limits() && d.limit(limited_v, limiting_state_of(k, limiting_state));
     sums.is_limited |= limited;
     const Stamp stamp = sums.stamp_.eval(d, limited_v, context);
-    const auto& device_entries = entries_[k];
+    const auto device_entries = entries(k);
     for (std::size_t row = 0; row < n; ++row) {
         double f = stamp.f[row], q = stamp.q[row], roundoff = 0;
         for (std::size_t column = 0; column < n; ++column) {

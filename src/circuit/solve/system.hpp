@@ -4,7 +4,7 @@
 #include <numeric>
 
 #include "circuit/device/device.hpp"
-#include "circuit/solve/matrix.hpp"
+#include "circuit/solve/linear/matrix.hpp"
 
 namespace corpuscle::circuit {
 
@@ -47,13 +47,14 @@ class System {
     std::shared_ptr<const Circuit> circuit_;
     std::vector<std::string> names_;                     // of the unknowns
     std::unordered_map<std::string_view, int> numbers_;  // of the unknowns, by name
+    std::vector<char> is_voltage_;                       // by unknown
     std::vector<std::unique_ptr<Device>> devices_;       // one for each element of the circuit, in the same order
     std::vector<std::size_t> limiting_state_offset_;     // by device
     std::size_t limiting_state_size_ = 0;
     std::unique_ptr<SparsityPattern> pattern_;
-    std::vector<std::vector<std::size_t>> entries_;  // by device, matrix entry of each derivative; for ground the number of entries
+    std::vector<std::size_t> entries_, first_entry_;  // matrix entry of each derivative of all devices; the first one of each device
     std::vector<DeviceGroup> groups_;
-    std::vector<std::size_t> scalar_devices_;  // indices of the devices in no group
+    std::vector<std::size_t> scalar_devices_;                                  // indices of the devices in no group
     std::vector<std::size_t> devices_with_states_, devices_with_breakpoints_;  // their indices
     int nodes_ = 0;
     bool is_linear_ = true;
@@ -72,7 +73,7 @@ public:
     int size() const { return static_cast<int>(names_.size()); }  ///< number of unknowns
     int nodes() const { return nodes_; }                          ///< nodes of the circuit without ground; their voltages come first
     /// True for a node voltage, also of ground (-1) and of a node that a device has added; false for a branch current.
-    bool is_voltage(int unknown) const { return unknown < 0 || names_[static_cast<std::size_t>(unknown)][0] == 'v'; }
+    bool is_voltage(int unknown) const { return unknown < 0 || is_voltage_[static_cast<std::size_t>(unknown)] != 0; }
     const std::vector<std::string>& names() const { return names_; }  ///< "v(out)", "i(v1)"
     int unknown(std::string_view name) const;                         ///< -1: no unknown has this name
     const SparsityPattern& pattern() const { return *pattern_; }
@@ -81,7 +82,10 @@ public:
     std::span<const DeviceGroup> groups() const { return groups_; }
     std::span<const std::size_t> scalar_devices() const { return scalar_devices_; }  ///< indices of the devices in no group
     /// Matrix entry of each derivative of a device, row by row; for ground the number of entries of the pattern.
-    std::span<const std::size_t> entries(std::size_t device) const { return entries_[device]; }
+    std::span<const std::size_t> entries(std::size_t device) const {
+        const auto terminals = devices_[device]->unknowns.size();
+        return std::span(entries_).subspan(first_entry_[device], terminals * terminals);
+    }
     /// The part of a limiting state that belongs to a device.
     std::span<double> limiting_state_of(std::size_t device, std::vector<double>& state) const {
         return std::span(state).subspan(limiting_state_offset_[device], devices_[device]->limiting_state_size());

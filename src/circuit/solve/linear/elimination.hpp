@@ -12,6 +12,10 @@ namespace corpuscle::circuit {
 
 class SparsityPattern;
 
+constexpr double max_multiplier = 1e7;  ///< largest allowed magnitude in L; with the pivots that KLU chooses it stays below 1e3
+
+std::vector<int> inverse_permutation(std::span<const int>);
+
 /// P R A Q = L U with row scales R, row order P and column order Q chosen in advance. The array of slots holds the numbers of U row by row,
 /// each row starting with its pivot, then those of L column by column, without its diagonal of ones.
 class Elimination {

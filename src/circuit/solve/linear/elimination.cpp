@@ -1,22 +1,14 @@
-#include "circuit/solve/elimination.hpp"
+#include "circuit/solve/linear/elimination.hpp"
 
 #include <algorithm>
 #include <cmath>
 #include <functional>
 #include <utility>
 
-#include "circuit/solve/matrix.hpp"
+#include "circuit/solve/linear/matrix.hpp"
 
 namespace corpuscle::circuit {
 namespace {
-
-constexpr double max_multiplier = 1e7;  // largest allowed magnitude in L; with the pivots that KLU chooses it stays below 1e3
-
-std::vector<int> inverse_permutation(std::span<const int> permutation) {
-    std::vector<int> out(permutation.size());
-    for (std::size_t k = 0; k < permutation.size(); ++k) out[static_cast<std::size_t>(permutation[k])] = static_cast<int>(k);
-    return out;
-}
 
 /// The columns in each row of the factored matrix, ascending, including fill-in. Rows and columns are numbered by elimination step. Nothing
 /// if the elimination needs more than `max_multiplications`.
@@ -56,6 +48,12 @@ std::optional<std::vector<std::vector<int>>> pattern_with_fill(const SparsityPat
 }
 
 }  // namespace
+
+std::vector<int> inverse_permutation(std::span<const int> permutation) {
+    std::vector<int> out(permutation.size());
+    for (std::size_t k = 0; k < permutation.size(); ++k) out[static_cast<std::size_t>(permutation[k])] = static_cast<int>(k);
+    return out;
+}
 
 std::optional<Elimination> Elimination::make(const SparsityPattern& p, std::span<const int> rows, std::span<const int> columns,
                                              std::span<const double> values, std::size_t max_multiplications) {

@@ -3,7 +3,8 @@
 
 #include <complex>
 
-#include "circuit/solve/elimination.hpp"
+#include "circuit/solve/linear/elimination.hpp"
+#include "circuit/solve/linear/front_elimination.hpp"
 
 namespace corpuscle::circuit {
 
@@ -20,6 +21,7 @@ public:
     std::size_t entries() const { return rows_.size(); }
     /// Index of an entry, which must exist, in the array of values.
     std::size_t entry_index(int row, int column) const;
+    int find_entry(int row, int column) const;  ///< index of an entry; -1: there is none
     std::span<const int> column_begin() const { return begin_; }
     std::span<const int> rows() const { return rows_; }  ///< of each entry
     /// Calls use(entry, row, column) for each entry, column by column.
@@ -37,8 +39,12 @@ class LinearSolver {
     struct Impl;
     std::unique_ptr<Impl> impl_;  // of KLU
     std::optional<Elimination> list_;
-    bool by_list_ = false;  // the last factorization used the list
+    std::optional<FrontElimination> fronts_;  // if there is no list, because it would be too long
+    bool by_list_ = false;                    // the last factorization used the list or the fronts
+    bool is_large_ = false;                   // probably the list would be too long, and fronts have not failed
     long fallback_count_ = 0;
+
+    bool use_diagonal_fronts(std::span<const double> values);
 
 public:
     explicit LinearSolver(const SparsityPattern&);
@@ -50,13 +56,18 @@ public:
     bool factor(std::span<const T> values);
     int singular_column() const;  ///< why it failed: this column depends linearly on others; -1: not known
     /// Fixes the pivot order of this matrix and prepares its elimination as a list. Later matrices use the list; if its pivots are not
-    /// stable for a matrix, that matrix gets new pivots. No effect on complex matrices and on very large ones.
+    /// stable for a matrix, that matrix gets new pivots. Where the list would be too long, the elimination in dense fronts takes its place.
+    /// No effect on complex matrices.
     void fix_pivot_order(std::span<const T> values);
+    /// If the matrix is large and can be eliminated with pivots on the diagonal, fixes this order of pivots. Returns true if it has done
+    /// so.
+    bool prefer_fronts(std::span<const T> values);
+    bool has_fixed_order() const { return list_ || fronts_; }
     const Elimination* elimination() const { return list_ ? &*list_ : nullptr; }  ///< null: no list
     long fallback_count() const { return fallback_count_; }  ///< number of matrices since fix_pivot_order() for which the list was not used
-    /// The largest multiplier in the last factorization, see Elimination::growth(). If it is large, the solution should be checked. 0: the
-    /// list was not used.
-    double growth() const { return by_list_ ? list_->growth() : 0; }
+    /// The largest multiplier in the last factorization, see Elimination::growth(). If it is large, the solution should be checked. 0:
+    /// neither the list nor the fronts were used.
+    double growth() const { return !by_list_ ? 0 : list_ ? list_->growth() : fronts_->growth(); }
     bool factor_with_new_pivots(std::span<const T> values);  ///< chooses new pivots even if there is a list; increases fallback_count()
     void solve(std::span<T> right_side) const;               ///< A x = b, in place
     void solve_transposed(std::span<T> right_side) const;    ///< A^T x = b (no conjugate), in place; not after fix_pivot_order()
