@@ -33,6 +33,7 @@ std::optional<FrontElimination> FrontElimination::make(const SparsityPattern& p,
     });
     for (double& s : out.scale_) s = s > 0 ? 1 / s : 1;
     out.tree_ = make_front_tree(p.size(), std::move(below));
+    if (out.tree_.nodes.empty()) return {};
     for (const int k : out.tree_.order) out.rows_.push_back(rows[to_size(k)]), out.columns_.push_back(columns[to_size(k)]);
     // The order of the fronts keeps the pivots of a block together, and the blocks in their order.
     std::size_t node = 0;

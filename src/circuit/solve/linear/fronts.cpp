@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <numeric>
+#include <optional>
 
 namespace corpuscle::circuit {
 namespace {
@@ -80,34 +81,34 @@ public:
     }
 };
 
-}  // namespace
+/// The tree with its pivots in the order of postorder(), so that each pivot directly follows those below it.
+struct OrderedTree {
+    std::vector<int> order, parent;
 
-FrontTree make_front_tree(int size, Pairs below) {
-    FrontTree out;
-    std::vector<int> parent, number(at(size));
-    {
-        const Lists columns_of_row(size, below);
-        parent = elimination_tree(columns_of_row, size);
+    explicit OrderedTree(const std::vector<int>& parent_before) : order(postorder(parent_before)), parent(order.size()) {
+        const auto number = numbers();
+        for (std::size_t k = 0; k < order.size(); ++k) {
+            const int p = parent_before[at(order[k])];
+            parent[k] = p < 0 ? FrontTree::no_parent : number[at(p)];
+        }
     }
-    out.order = postorder(parent);
-    for (int k = 0; k < size; ++k) number[at(out.order[at(k)])] = k;
-    for (auto& [row, column] : below) {
-        row = number[at(row)], column = number[at(column)];
-        if (row < column) std::swap(row, column);
-        std::swap(row, column);  // now by column
+    /// By pivot in the order before.
+    std::vector<int> numbers() const {
+        std::vector<int> out(order.size());
+        for (std::size_t k = 0; k < order.size(); ++k) out[at(order[k])] = static_cast<int>(k);
+        return out;
     }
-    const Lists rows_of_column(size, below);
-    std::vector<int> new_parent(at(size), FrontTree::no_parent);
-    for (int k = 0; k < size; ++k)
-        if (const int p = parent[at(out.order[at(k)])]; p >= 0) new_parent[at(k)] = number[at(p)];
+};
 
-    // The rows of each column of L: those of the matrix and of the children.
-    std::vector<std::vector<int>> rows(at(size));
-    std::vector<int> last_column_with(at(size), -1);
-    std::vector<std::vector<int>> children(at(size));
-    std::vector<FrontTree::Node> nodes;
-    std::vector<int> node_of(at(size));
-    for (int k = 0; k < size; ++k) {
+/// The rows below the diagonal in each column of L: those of the matrix and of the columns below it in the tree. Empty if they are too
+/// many.
+std::vector<std::vector<int>> rows_with_fill(const Lists& rows_of_column, const std::vector<int>& parent) {
+    constexpr std::size_t max_fill = 200;  // rows for each one of the matrix; this limits the memory
+    const std::size_t max_rows = max_fill * (parent.size() + rows_of_column.values.size());
+    std::vector<std::vector<int>> rows(parent.size()), children(parent.size());
+    std::vector<int> last_column_with(parent.size(), -1);
+    std::size_t count = 0;
+    for (int k = 0; k < static_cast<int>(parent.size()); ++k) {
         auto& own = rows[at(k)];
         const auto add = [&](std::span<const int> from) {
             for (const int row : from)
@@ -116,26 +117,56 @@ FrontTree make_front_tree(int size, Pairs below) {
         add(rows_of_column[k]);
         for (const int child : children[at(k)]) add(rows[at(child)]);
         std::sort(own.begin(), own.end());
-        const double height = 1 + static_cast<double>(own.size());
-        out.multiplications += height * (height - 1);
-        if (new_parent[at(k)] >= 0) children[at(new_parent[at(k)])].push_back(k);
+        if ((count += own.size()) > max_rows) return {};
+        if (parent[at(k)] >= 0) children[at(parent[at(k)])].push_back(k);
     }
-    for (int k = 0; k < size; ++k) nodes.push_back({k, k + 1, 0, static_cast<int>(rows[at(k)].size()), 0});
+    return rows;
+}
+
+/// Groups of pivots, each at the place of its last pivot; the places of the others are empty.
+std::vector<std::optional<FrontTree::Node>> merged_nodes(const std::vector<std::vector<int>>& rows, const std::vector<int>& parent) {
+    std::vector<FrontTree::Node> nodes;
+    for (const auto& each : rows) {
+        const int k = static_cast<int>(nodes.size());
+        nodes.push_back({k, k + 1, 0, static_cast<int>(each.size()), 0});
+    }
     Merger merger(nodes);
-    std::vector<char> is_merged(at(size));
-    for (int k = 0; k < size; ++k) {
+    std::vector<std::optional<FrontTree::Node>> out(nodes.size());
+    for (int k = 0; k < static_cast<int>(nodes.size()); ++k) {
         // The last child directly precedes the first pivot of its parent, again and again.
-        for (int child = nodes[at(k)].begin - 1;
-             child >= 0 && new_parent[at(child)] >= nodes[at(k)].begin && new_parent[at(child)] <= k && merger.merge(child, k);
+        for (int child = k - 1; child >= 0 && parent[at(child)] >= nodes[at(k)].begin && parent[at(child)] <= k && merger.merge(child, k);
              child = nodes[at(k)].begin - 1)
-            is_merged[at(child)] = 1;
+            out[at(child)].reset();
+        out[at(k)] = nodes[at(k)];
     }
-    for (int k = 0; k < size; ++k) {
-        if (is_merged[at(k)]) continue;
-        auto node = nodes[at(k)];
+    return out;
+}
+
+}  // namespace
+
+/// Without nodes if there is too much fill-in.
+FrontTree make_front_tree(int size, Pairs below) {
+    const OrderedTree tree(elimination_tree(Lists(size, below), size));
+    const auto number = tree.numbers();
+    for (auto& [first, second] : below) {  // now (column, row), with the new numbers
+        first = number[at(first)], second = number[at(second)];
+        if (first > second) std::swap(first, second);
+    }
+    const auto rows = rows_with_fill(Lists(size, below), tree.parent);
+    FrontTree out;
+    out.order = tree.order;
+    for (const auto& each : rows) {
+        const auto count = static_cast<double>(each.size());
+        out.multiplications += count * (count + 1);
+    }
+    std::vector<int> node_of(at(size));
+    for (const auto& merged : merged_nodes(rows, tree.parent)) {
+        if (!merged) continue;
+        auto node = *merged;
+        const auto& others = rows[at(node.end - 1)];
         node.first_row = out.rows.size();
-        out.rows.insert(out.rows.end(), rows[at(k)].begin(), rows[at(k)].end());
-        for (int pivot = node.begin; pivot < node.end; ++pivot) node_of[at(pivot)] = static_cast<int>(out.nodes.size());
+        out.rows.insert(out.rows.end(), others.begin(), others.end());
+        std::fill(node_of.begin() + node.begin, node_of.begin() + node.end, static_cast<int>(out.nodes.size()));
         out.nodes.push_back(node);
     }
     for (auto& node : out.nodes) node.parent = node.others == 0 ? FrontTree::no_parent : node_of[at(out.rows[node.first_row])];
