@@ -152,6 +152,20 @@ TEST(TransientNoise, MakesTheIntervalsOfAnOscillatorVary) {
     EXPECT_LT(run.number("spike_error"), 0.05 * sigma * std::sqrt(static_cast<double>(spikes.size())));
 }
 
+TEST(TransientNoise, OfATrnoiseSourceHasItsDeviationAndInterval) {
+    const auto run = run_netlist("source\nv1 a 0 0.5 trnoise(1m 1u 0 0)\ni1 0 b trnoise(2m 1u 0 0)\nr1 b 0 1\n.tran 1u 3m\n");
+    const auto t = run.curve("time"), a = run.curve("v(a)"), b = run.curve("v(b)");
+    std::vector<double> voltage, current;
+    for (std::size_t k = 0; k < t.size(); ++k)
+        if (std::abs(t[k] * 1e6 - std::round(t[k] * 1e6)) < 1e-6) voltage.push_back(a[k] - 0.5), current.push_back(b[k]);
+    ASSERT_GE(voltage.size(), 3000u);
+    EXPECT_NEAR(variance_of(voltage) / 1e-6, 1, interval(voltage.size()));
+    EXPECT_NEAR(variance_of(current) / 4e-6, 1, interval(current.size()));
+    double product = 0;  // of sources with different names
+    for (std::size_t k = 0; k < voltage.size(); ++k) product += voltage[k] * current[k];
+    EXPECT_NEAR(product / 2e-6 / static_cast<double>(voltage.size()), 0, 4 / std::sqrt(static_cast<double>(voltage.size())));
+}
+
 TEST(TransientNoise, CostsOneStepForEachIntervalInACircuitSlowerThanIt) {
     const auto run = run_netlist("rc\nv1 in 0 1\nr1 in out 1meg\nc1 out 0 1p\n.options noisefmax=5meg\n.tran 1u 200u\n");
     double steps = 0;

@@ -128,7 +128,8 @@ Result<NoisePlan> read_noise_plan(const Circuit& c) {
     noise.seed = static_cast<std::uint64_t>(seed);
     if (noise.is_on() && !(noise.fmin < noise.fmax))
         return error_at({c.file}, ".options noisefmin={:g}: must be below noisefmax, {:g} Hz", noise.fmin, noise.fmax);
-    if (!noise.is_on())
+    const auto is_noise = [](const Element& e) { return e.waveform.shape == Waveform::Shape::noise; };
+    if (!noise.is_on() && std::ranges::none_of(c.elements, is_noise))
         for (const auto* name : {"noisefmin", "noisescale", "noiseseed"})
             if (c.options.contains(name))
                 return error_at(

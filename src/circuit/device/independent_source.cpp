@@ -6,6 +6,7 @@
 #include "circuit/device/source_waveform.hpp"
 #include "circuit/export/element_text.hpp"
 #include "circuit/netlist/element_reader.hpp"
+#include "core/random.hpp"
 
 namespace corpuscle::circuit {
 namespace {
@@ -14,7 +15,7 @@ namespace {
 double dc_value(const Waveform& w) {
     if (w.has_dc || w.numbers.empty()) return w.dc;
     if (w.shape == Waveform::Shape::piecewise_linear) return w.numbers.size() > 1 ? w.numbers[1] : 0;
-    if (w.shape == Waveform::Shape::amplitude_modulated) return 0;
+    if (w.shape == Waveform::Shape::amplitude_modulated || w.shape == Waveform::Shape::noise) return 0;
     return w.shape == Waveform::Shape::force ? w.dc : w.numbers[0];
 }
 
@@ -27,6 +28,7 @@ std::complex<double> phasor(const Waveform& w) {
 /// A V or I source. With the keyword FORCE its value is the DC value plus the force (N) times the argument of FORCE (V/N or A/N).
 class IndependentSource : public DeviceWithValue {
     Waveform wave_;
+    std::uint64_t seed_;                      // of TRNOISE
     std::optional<SourceWaveform> waveform_;  // only during a transient
     const ForceWaveform* force_ = nullptr;    // null: no FORCE, or 0 N
 
@@ -37,10 +39,12 @@ protected:
     double value(const EvalContext& context) const { return context.source_scale * value_at(context.time); }
 
 public:
-    explicit IndependentSource(const Waveform& wave) : DeviceWithValue(dc_value(wave)), wave_(wave), phasor_(phasor(wave)) {}
+    IndependentSource(const Waveform& wave, std::uint64_t seed)
+        : DeviceWithValue(dc_value(wave)), wave_(wave), seed_(seed), phasor_(phasor(wave)) {}
     void start_transient(double step, double stop) override {
         waveform_.reset();
-        if (stop > 0 && wave_.shape != Waveform::Shape::none && wave_.shape != Waveform::Shape::force) waveform_.emplace(wave_, step, stop);
+        if (stop > 0 && wave_.shape != Waveform::Shape::none && wave_.shape != Waveform::Shape::force)
+            waveform_.emplace(wave_, step, stop, seed_);
     }
     bool set_force_input(const ForceWaveform* force) override {
         const bool has_force = wave_.shape == Waveform::Shape::force;
@@ -71,19 +75,24 @@ class CurrentSource final : public IndependentSource {
     double m_;
 
 public:
-    CurrentSource(const Waveform& wave, double m) : IndependentSource(wave), m_(m) {}
+    CurrentSource(const Waveform& wave, std::uint64_t seed, double m) : IndependentSource(wave, seed), m_(m) {}
     void eval(std::span<const double>, const EvalContext& context, const Stamp& out) const override {
         Stamp::add_between(out.f, 0, 1, value(context) * m_);
     }
     void add_ac_stimulus(std::span<std::complex<double>> out) const override { out[0] -= m_ * phasor_, out[1] += m_ * phasor_; }
 };
 
+/// The seed of a source's TRNOISE: sources of different names have independent noise.
+std::uint64_t noise_seed(const Element& e, const DeviceSetup& setup) {
+    return stream_id(e.name) + static_cast<std::uint64_t>(value_or(setup.circuit().options, "noiseseed", 1));
+}
+
 Result<std::unique_ptr<Device>> make_voltage_source(const Element& e, DeviceSetup& setup) {
-    return make_device<VoltageSource>(setup.ends(e), e.waveform);
+    return make_device<VoltageSource>(setup.ends(e), e.waveform, noise_seed(e, setup));
 }
 
 Result<std::unique_ptr<Device>> make_current_source(const Element& e, DeviceSetup& setup) {
-    return make_device<CurrentSource>(setup.ends(e), e.waveform, value_or(e.values, "m", 1));
+    return make_device<CurrentSource>(setup.ends(e), e.waveform, noise_seed(e, setup), value_or(e.values, "m", 1));
 }
 
 Result<void> read_independent_source(ElementReader& line) {

@@ -7,6 +7,7 @@
 #include "circuit/expression/spice_number.hpp"
 #include "circuit/netlist/element_reader.hpp"
 #include "core/number/elementary.hpp"
+#include "core/random.hpp"
 
 namespace corpuscle::circuit {
 namespace {
@@ -99,9 +100,9 @@ private:
     }
 
     static std::string unknown(std::string_view w) {
-        constexpr std::string_view known[] = {"dc", "ac", "pulse", "sin", "exp", "pwl", "sffm", "am", "force"};
-        if (w == "trnoise" || w == "trrandom" || w == "external")
-            return fmt::format("{} sources are not supported; known are pulse, sin, exp, pwl, sffm, am and force", w);
+        constexpr std::string_view known[] = {"dc", "ac", "pulse", "sin", "exp", "pwl", "sffm", "am", "trnoise", "force"};
+        if (w == "trrandom" || w == "external")
+            return fmt::format("{} sources are not supported; known are pulse, sin, exp, pwl, sffm, am, trnoise and force", w);
         return fmt::format("unknown word '{}'{}", w, did_you_mean(w, known));
     }
 
@@ -122,6 +123,7 @@ private:
                                   n > row.max_numbers ? fmt::format(" with at most {}", row.max_numbers) : "");
         if (row.shape != Shape::piecewise_linear) warn_about_decimal_commas();
         if (row.shape == Shape::force && n == 0) out_.numbers = {1};
+        if (row.shape == Shape::noise) TRY(check_noise());
         return row.shape == Shape::piecewise_linear ? check_points() : Result<void>();
     }
 
@@ -135,6 +137,16 @@ private:
         if (commas == 0 || separating + 1 >= number_words_.size()) return;
         line_.warn(with_comma, fmt::format("'{},{}' is two numbers; the decimal point is a dot: {}", line_.text(with_comma - 1),
                                            line_.text(with_comma), line_.number_with_decimal_comma(with_comma)));
+    }
+
+    Result<void> check_noise() {
+        if (!(out_.numbers[1] > 0)) return line_.error_at(number_words_[1], "trnoise: the interval of the noise must be above 0 s");
+        for (std::size_t k = 2; k < out_.numbers.size(); ++k)
+            if (out_.numbers[k] != 0)
+                return line_.error_at(number_words_[k],
+                                      "trnoise: only white noise is supported, trnoise(na nt 0 0); 1/f noise comes from devices with kf, "
+                                      "by .options noisefmax");
+        return {};
     }
 
     /// Checks the points of a pwl.
@@ -183,7 +195,8 @@ private:
 
 }  // namespace
 
-SourceWaveform::SourceWaveform(Waveform wave, double step, double stop) : wave_(std::move(wave)), step_(step), stop_(stop) {
+SourceWaveform::SourceWaveform(Waveform wave, double step, double stop, std::uint64_t seed)
+    : wave_(std::move(wave)), step_(step), stop_(stop), seed_(seed) {
     if (wave_.shape == Shape::piecewise_linear)
         for (std::size_t k = 0; k + 1 < wave_.numbers.size(); k += 2) breakpoints_.push_back(wave_.numbers[k]);
     if (wave_.shape == Shape::exponential) {
@@ -201,6 +214,7 @@ double SourceWaveform::at(double t) const {
     if (wave_.shape == Shape::exponential) return exponential(t);
     if (wave_.shape == Shape::frequency_modulated) return frequency_modulated(t);
     if (wave_.shape == Shape::amplitude_modulated) return amplitude_modulated(t);
+    if (wave_.shape == Shape::noise) return noise(t);
     return wave_.shape == Shape::piecewise_linear ? piecewise_linear(t) : wave_.dc;
 }
 
@@ -258,6 +272,22 @@ double SourceWaveform::amplitude_modulated(double t) const {
     return number(0, 0) * (number(1, 0) + num::sin_turns(signal - std::floor(signal))) * num::sin_turns(carrier - std::floor(carrier));
 }
 
+/// The number of the interval of TRNOISE in which t is. A time is in the interval that begins there.
+std::int64_t SourceWaveform::noise_interval(double t) const {
+    constexpr double rounding = 1e-9;
+    return static_cast<std::int64_t>(std::floor(std::max(t, 0.0) / number(1, 0) + rounding));
+}
+
+/// The arguments of TRNOISE are na, the standard deviation, and nt, the interval of normal deviates, between which the value is linear.
+double SourceWaveform::noise(double t) const {
+    const auto k = noise_interval(t);
+    const auto deviate = [&](std::int64_t index) {
+        return normal(seed_, 0, static_cast<std::uint32_t>(stream_id("trnoise")), static_cast<std::uint64_t>(index));
+    };
+    const double part = std::clamp(t / number(1, 0) - static_cast<double>(k), 0.0, 1.0);
+    return wave_.dc + number(0, 0) * ((1 - part) * deviate(k) + part * deviate(k + 1));
+}
+
 double SourceWaveform::in_first_cycle(double t) const {
     if (!wave_.repeats_from || t <= breakpoints_.back()) return t;
     const double from = *wave_.repeats_from, period = breakpoints_.back() - from;
@@ -293,6 +323,7 @@ double SourceWaveform::next_repeated_breakpoint(double t) const {
 }
 
 double SourceWaveform::next_breakpoint(double t) const {
+    if (wave_.shape == Shape::noise) return static_cast<double>(noise_interval(t) + 1) * number(1, 0);
     if (wave_.shape != Shape::pulse) {
         const auto next = std::upper_bound(breakpoints_.begin(), breakpoints_.end(), t);
         if (next != breakpoints_.end()) return *next;

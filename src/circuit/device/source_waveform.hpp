@@ -19,6 +19,7 @@ inline constexpr WaveformSyntax waveform_syntaxes[] = {
     {"pwl", Waveform::Shape::piecewise_linear, 2, 2000000, "pwl(t1 v1 t2 v2 ...)"},
     {"sffm", Waveform::Shape::frequency_modulated, 2, 7, "sffm(vo va fc mdi fs phasec phases)"},
     {"am", Waveform::Shape::amplitude_modulated, 2, 6, "am(va vo mf fc td phase)"},
+    {"trnoise", Waveform::Shape::noise, 2, 7, "trnoise(na nt 0 0)"},
     {"force", Waveform::Shape::force, 0, 1, "force [scale]"},
 };
 
@@ -26,12 +27,13 @@ class ElementReader;
 /// Reads the DC value, AC value and waveform of a V or I source, which follow the nodes in its line.
 Result<void> read_waveform(ElementReader&);
 
-/// PULSE, SIN, EXP, PWL, SFFM and AM as in SPICE. Defaults depend on the step and the end time of .tran (s). Rise and fall times and the
-/// time constants of EXP are `step`. The pulse width is `stop`, and the period is `stop` or one complete pulse if that is longer. The
-/// frequency of a sine is 1 / `stop`.
+/// PULSE, SIN, EXP, PWL, SFFM and AM as in SPICE, and the white noise of ngspice's TRNOISE. Defaults depend on the step and the end time of
+/// .tran (s). Rise and fall times and the time constants of EXP are `step`. The pulse width is `stop`, and the period is `stop` or one
+/// complete pulse if that is longer. The frequency of a sine is 1 / `stop`.
 class SourceWaveform {
     Waveform wave_;
     double step_ = 0, stop_ = 0;
+    std::uint64_t seed_;               // of TRNOISE
     std::vector<double> breakpoints_;  // s, ascending; not used by PULSE
 
     /// Argument k of the waveform; `fallback` if it is missing.
@@ -49,13 +51,15 @@ class SourceWaveform {
     double exponential(double t) const;
     double frequency_modulated(double t) const;
     double amplitude_modulated(double t) const;
+    double noise(double t) const;
+    std::int64_t noise_interval(double t) const;
     /// The time of the first cycle of a repeated PWL that corresponds to t.
     double in_first_cycle(double t) const;
     double piecewise_linear(double t) const;
 
 public:
-    /// `step`, `stop`: those of .tran, s.
-    SourceWaveform(Waveform, double step, double stop);
+    /// `step`, `stop`: those of .tran, s. `seed`: of the random numbers of TRNOISE.
+    SourceWaveform(Waveform, double step, double stop, std::uint64_t seed = 0);
 
     double at(double t) const;  ///< V or A, at t in s
     /// The first time after t (s) with a kink or a jump; infinity if there is none.

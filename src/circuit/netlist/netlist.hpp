@@ -22,7 +22,8 @@ struct Waveform {
         piecewise_linear,
         force,
         frequency_modulated,
-        amplitude_modulated
+        amplitude_modulated,
+        noise
     } shape = Shape::none;
     double dc = 0;
     bool has_dc = false;                    ///< true if the netlist or an override gives the DC value

@@ -39,7 +39,7 @@ TransientNoise::TransientNoise(const System& system, const NoisePlan& plan) : sy
         const double length = std::ldexp(plan.interval(), shift);  // s
         levels_.push_back({shift, 0, no_index, (shift == 0 ? std::sqrt(2.0) : 1) * level_deviation, {}, {}});
         for (auto* deviates : {&levels_.back().low, &levels_.back().high}) deviates->resize(flicker_sources_.size());
-        if (length >= 2 / plan.fmin) return;
+        if (length >= 0.5 / plan.fmin) return;
     }
 }
 
