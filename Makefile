@@ -22,7 +22,7 @@ build: setup-run
 test: release asan
 	ctest --test-dir build/release --output-on-failure -j 3
 	ctest --test-dir build/asan --output-on-failure -j 3 -LE once
-	$(MAKE) fuzz FUZZ_SECONDS=5
+	$(MAKE) fuzz FUZZ_SECONDS=3
 
 release: setup-test setup-python
 	cmake --preset release -D CORPUSCLE_TESTS=ON -D CORPUSCLE_PYTHON=ON
@@ -38,6 +38,7 @@ fuzz: setup-test
 	test/fuzz/run build/asan $(FUZZ_SECONDS)
 
 bench: setup-bench release
+	cmake --build --preset release --target benchmarks
 	bench/run build/release
 
 format: setup-test

@@ -7,7 +7,7 @@ Method: examples/sweeps/sa1-noise.toml runs with this number of seeds (1000). Th
 taken over the seeds. The prediction is linear: bench/decks/sa1_membrane_held.cir gives the density S(f) of the noise of the current I into
 the membrane. The mean current over an interval T then has the variance of S(f) sinc^2(f T), summed over f, and the interval that standard
 deviation times T / I. S is taken as constant below noisefmin, 1 Hz. In newtons: by the slope of the chip's rate between 1.9 and 2.1 N, and
-from .noise referred to the force. The cost is that of the same seeds without noise.
+from .noise by its gain of slow changes of the force. The cost is that of the same seeds without noise.
 """
 import json
 import os
@@ -70,7 +70,8 @@ def predicted(folder, T):
         S = np.exp(2 * np.interp(np.log(np.maximum(grid, F_MIN)), np.log(f), np.log(density))) * np.sinc(grid * T) ** 2
         return np.sqrt(np.sum((S[1:] + S[:-1]) / 2 * np.diff(grid)))
 
-    return current, deviation(out_noise), deviation(force_noise)
+    gain = out_noise[0] / force_noise[0]  # A/N, of slow changes
+    return current, deviation(out_noise), deviation(out_noise) / gain
 
 
 with tempfile.TemporaryDirectory() as folder:

@@ -240,6 +240,8 @@ Result<NgspiceDeck> ngspice_deck(std::shared_ptr<const Circuit> circuit, const K
     deck.text += TRY(elements_text(c, names, kit)) + lines.after;
     deck.text += kit ? start_text(*context, names) : node_voltages(".nodeset", c.nodesets, names);
     deck.text += node_voltages(".ic", c.ic, names);
+    if (c.options.contains("noisefmax") && c.has_directive("tran"))
+        deck.warnings.push_back(error_at({c.file}, "left out: .options noisefmax (ngspice has no noise of devices in a transient)"));
     deck.text += directives_text(c, names, kit != nullptr, deck.warnings) + ".end\n";
     return deck;
 }
