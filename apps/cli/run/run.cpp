@@ -35,6 +35,7 @@ Examples:
   corpuscle run circuits/divider.cir
   corpuscle run circuits/spiker.cir -o spiker.raw
   corpuscle run sa1-circuit --corner ff --temp 85 --set summer.N3B=8x4 --probe 'vf,u,i(N3B)' -o sa1.csv
+  corpuscle run sa1-circuit --set noisefmax=1kHz           with the noise of its devices, up to 1 kHz
   corpuscle run amplifier.cir -o amplifier.raw
   corpuscle run amplifier.cir -o amplifier.csv --json)";
 
@@ -147,7 +148,8 @@ Verb make_run_verb() {
                          {suggesting(netlist_names, required({"NETLIST", &args->netlist, "",
                                                               "a SPICE netlist, or a built-in one: sa1-circuit, fa1-circuit"})),
                           {"--set,-s", &args->settings, "NAME=VALUE",
-                           "set a .param, an array (summer.N3B=8x4), a device value (cco.cu=4pF) or a device parameter (N3B.w=1.2um)"},
+                           "set a .param, an array (summer.N3B=8x4), a device value (cco.cu=4pF), a device parameter (N3B.w=1.2um) or a "
+                           "number of .options (noisefmax=1kHz)"},
                           {"--budget", &args->budget, "", "also print power, area and leakage of each block"}}},
                         netlist_options(args->netlists),
                         {"Output",
