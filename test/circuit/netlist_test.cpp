@@ -240,7 +240,7 @@ TEST(NetlistElements, AreRejectedWithLocationAndSuggestion) {
         {"V1 a 0 PWL(0 0 1m 1 1m 2)", "2:21: v1: pwl: time 0.001 must be later than 0.001"},
         {"V1 a 0 SIN(0 1) PULSE(0 1)", "2:17: v1: only one time waveform is allowed, not also 'pulse'"},
         {"V1 a 0 TRNOISE(1 1n 1 0.1)",
-         "2:19: v1: trnoise: only white noise is supported, trnoise(na nt 0 0); 1/f noise comes from devices with kf, by .options "
+         "2:21: v1: trnoise: only white noise is supported, trnoise(na nt 0 0); 1/f noise comes from devices with kf, by .options "
          "noisefmax"},
         {"V1 a 0 TRNOISE(1 0)", "2:18: v1: trnoise: the interval of the noise must be above 0 s"},
         {"V1 a 0 PWL(0 0 1m 1) r=2m", "2:24: v1: pwl: r = 0.002 s is not the time of a point before the last"},

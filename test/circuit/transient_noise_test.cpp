@@ -77,7 +77,7 @@ TEST(TransientNoise, OfADiodeWithFlickerFallsWithTheFrequency) {
     const auto context = context_of("flicker\nd1 a 0 d\n.model d d(is=1f kf=1p)\n.op\n");
     const std::vector<double> x = {0.6};
     const auto& diode = *context->system.device("d1");
-    const auto sources = diode.noise(x);
+    const auto sources = diode.noise(context->system.terminal_values(diode, x));
     ASSERT_EQ(sources.size(), 2u);
     const double shot = sources[0].white, K = sources[1].flicker;
     ASSERT_GT(K, 1e6 * shot);
@@ -108,6 +108,20 @@ TEST(TransientNoise, ContinuesWhenTheOriginOfTimeMoves) {
         const double t = cell * plan.interval(), h = 0.5 * plan.interval();
         noise.charges(t, t + h, charge), moved.charges(t - 1000 * plan.interval(), t - 1000 * plan.interval() + h, moved_charge);
         EXPECT_NEAR(charge[0] / moved_charge[0], 1, 1e-9);
+    }
+}
+
+// A formula of order 2 extrapolates the current: from two intervals, the variance would be 2.5 times as large.
+TEST(TransientNoise, OfANodeFasterThanTheBandIsTheCurrentOfEachInterval) {
+    for (const char* load : {"", "c1 a 0 1p\n", "c1 a 0 30p\n"}) {
+        const auto run =
+            run_netlist(std::string("fast\nr1 a 0 1k\ni1 0 a 1u\n") + load + ".options noisefmax=1meg noiseseed=3\n.tran 1u 4m\n");
+        const auto t = run.curve("time"), v = run.curve("v(a)");
+        std::vector<double> at_ends;
+        for (std::size_t k = 1; k < t.size(); ++k)
+            if (std::abs(t[k] * 2e6 - std::round(t[k] * 2e6)) < 1e-6) at_ends.push_back(v[k]);
+        ASSERT_GE(at_ends.size(), 8000u);
+        EXPECT_NEAR(variance_of(at_ends) / (4 * kT * 1e3 * 1e6), 1, interval(at_ends.size())) << load;
     }
 }
 

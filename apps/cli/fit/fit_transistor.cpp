@@ -127,6 +127,12 @@ Result<void> fit_transistor_card(const TransistorArguments& args, const CommonAr
     if (!fit.is_geometry_known)
         print_warning(
             "W and L are unknown: I_SQ is I_SQ W / L of this device, and the card is right for w=1u l=1u; give --width and --length");
+    constexpr double doubtful = 0.3;
+    if (fit.misfit.rms > doubtful)
+        print_warning(
+            fmt::format("the card differs from the curves by {} rms: check the units in the heads of the columns, the temperature "
+                        "(--temperature in Celsius; a head 'T (K)' for kelvin), --width and --length, and single wrong points",
+                        percent_text(fit.misfit.rms)));
     if (!fit.is_converged) print_warning("the search has not converged; leave out parameters with --fit, or points far from the model");
     if (!args.card.empty()) TRY(write_file(args.card, card_text(fit, model_name(args, fit), common.complete_command)));
     if (!args.report.empty()) TRY(write_page(args.report, transistor_page(fit, data, common.command)));

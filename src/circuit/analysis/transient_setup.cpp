@@ -129,7 +129,7 @@ Result<NoisePlan> read_noise_plan(const Circuit& c) {
     if (noise.is_on() && !(noise.fmin < noise.fmax))
         return error_at({c.file}, ".options noisefmin={:g}: must be below noisefmax, {:g} Hz", noise.fmin, noise.fmax);
     const auto is_noise = [](const Element& e) { return e.waveform.shape == Waveform::Shape::noise; };
-    if (!noise.is_on() && std::ranges::none_of(c.elements, is_noise))
+    if (!c.options.contains("noisefmax") && std::ranges::none_of(c.elements, is_noise))
         for (const auto* name : {"noisefmin", "noisescale", "noiseseed"})
             if (c.options.contains(name))
                 return error_at(
@@ -156,6 +156,9 @@ Result<TransientPlan> read_transient_plan(const Circuit& c) {
         const std::string_view word = given->second;
         if (word != "gear" && word != "bdf" && word != "euler" && !word.starts_with("trap"))
             return invalid_option(c, "method", word, "gear, trap, euler");
+        if (word.starts_with("trap") && plan.noise.is_on())
+            return error_at({c.file}, ".options method={}: the trapezoidal rule amplifies noise; leave it out, or leave noisefmax out",
+                            word);
         if (word.starts_with("trap")) plan.method = Integration::trapezoidal;
         if (word == "euler") plan.max_order = 1;
     }

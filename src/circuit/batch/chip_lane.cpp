@@ -28,7 +28,8 @@ Result<bool> ChipLane::start(const Chip& chip, const BatchOptions& options) {
     control_ = {}, newton_ = {}, restart_pending_ = false, next_task_ = NextTask::nothing, rounds_ = 0;
     control_.min_order = start.control().min_order;
     noise_ = simulation_->noise(), charges_shifted_ = false;
-    noise_charge_.resize(memory_.unknowns()), noise_power_.assign(memory_.unknowns(), {}), floor_.resize(memory_.unknowns());
+    noise_charge_.resize(memory_.unknowns()), node_noise_.assign(memory_.unknowns(), {}), last_noise_charge_.assign(memory_.unknowns(), 0),
+        floor_.resize(memory_.unknowns());
     control_.h = start.control().h, times_ = {}, points_ = smooth_count_ = 1, newest_slot_ = curve_points_ = 0, breakpoint_ = -1,
     jumped_ = false;
     end_time_ = static_cast<double>(chip_->force.size() - 1) * chip_->T;
@@ -103,7 +104,12 @@ void ChipLane::start_step() {
 
 /// As Transient::shift_charges().
 void ChipLane::shift_charges() {
+    double a = 0;
+    const auto weights = weights_of_slope(times(control_.order), step_.end, a);
     noise_->charges(step_.from, step_.end, noise_charge_);
+    for (std::size_t n = 0; n < noise_charge_.size(); ++n)
+        noise_charge_[n] =
+            node_noise_[n].charge(noise_charge_[n], last_noise_charge_[n], step_.length(), a, control_.order > 1 ? weights[1] : 0);
     for (int k = 0; k < points_; ++k)
         for (std::size_t n = 0; n < noise_charge_.size(); ++n)
             memory_.block.past_q[history_slot(k) * memory_.unknowns() + n].value[lane_] -= noise_charge_[n];
@@ -236,8 +242,10 @@ void ChipLane::write_noise() {
 void ChipLane::measure_noise() {
     auto& b = memory_.block;
     for (std::size_t n = 0; n < noise_charge_.size(); ++n) {
-        noise_power_[n].add(b.error[n].value[lane_]);
-        if (floor_[n] > 0) b.floor[n].value[lane_] = floor_[n] + noise_power_[n].allowed_error();
+        const auto entry = memory_.diagonal(n);
+        const double capacitive = a_ * b.C[entry].value[lane_];
+        node_noise_[n].measure(b.error[n].value[lane_], capacitive, b.G[entry].value[lane_] + capacitive);
+        if (floor_[n] > 0) b.floor[n].value[lane_] = floor_[n] + node_noise_[n].allowed_error();
     }
 }
 
@@ -265,7 +273,7 @@ void ChipLane::advance() {
         b.past_q[first + n].value[lane_] = b.q[n].value[lane_];
     }
     charges_shifted_ = false;
-    if (noise_ != nullptr) noise_->update(x_);
+    if (noise_ != nullptr) last_noise_charge_ = noise_charge_, noise_->update(x_);
     restart_pending_ = step_.ends_at_breakpoint || jumped_;
     ++response_.stats.steps;
     next_task_ = restart_pending_ ? NextTask::restart : NextTask::nothing;

@@ -51,15 +51,16 @@ private:
     std::vector<std::size_t> sources_;  // indices of the time-dependent sources
     std::vector<double> v_;             // buffers of set_sources()
     StampBuffer stamp_;
-    std::vector<double> x_;            // unknowns at the newest point
-    TransientNoise* noise_ = nullptr;  // of simulation_; null: none
-    std::vector<NoisePower> noise_power_;
-    std::vector<double> floor_;         // as ChipBlock::floor, without noise
-    std::vector<double> noise_charge_;  // in the current step, by equation
-    bool charges_shifted_ = false;      // noise_charge_ is subtracted from the charges of the history
-    EnergyCounter energy_;              // up to the newest point
-    std::int64_t next_sample_ = 0;      // next sample to record
-    long rounds_ = 0;                   // since start()
+    std::vector<double> x_;                  // unknowns at the newest point
+    TransientNoise* noise_ = nullptr;        // of simulation_; null: none
+    std::vector<NodeNoise> node_noise_;      // by unknown
+    std::vector<double> last_noise_charge_;  // by equation, of the last step
+    std::vector<double> floor_;              // as ChipBlock::floor, without noise
+    std::vector<double> noise_charge_;       // in the current step, by equation
+    bool charges_shifted_ = false;           // noise_charge_ is subtracted from the charges of the history
+    EnergyCounter energy_;                   // up to the newest point
+    std::int64_t next_sample_ = 0;           // next sample to record
+    long rounds_ = 0;                        // since start()
 
     // Point k of the history, from 0 for the newest: its slot in the ring buffer, the value of unknown n there, the times of the newest
     // points.

@@ -38,7 +38,7 @@ ChipMemory::ChipMemory(const System& system, const Elimination& elimination, std
         entry_[k] = row_.size();
         row_.push_back(p.rows()[k]), column_.push_back(columns[k]), slot_.push_back(list.entry_slot[k]);
     }
-    for (int u = 0; u < system.size(); ++u) is_voltage_.push_back(system.is_voltage(u));
+    for (int u = 0; u < system.size(); ++u) is_voltage_.push_back(system.is_voltage(u)), diagonal_.push_back(entry_[p.entry_index(u, u)]);
     for (const auto& group : system.groups())
         for (const auto k : group.entries) entries_.push_back(entry_[k]);
     auto& b = block;

@@ -25,6 +25,7 @@ class ChipMemory {
     std::size_t transistors_;                        // number of transistors of a chip
     std::vector<std::vector<int>> scalar_unknowns_;  // unknowns of each device that is not a transistor
     std::vector<char> is_voltage_;
+    std::vector<std::size_t> diagonal_;            // by unknown, entry of the block
     std::vector<std::size_t> entry_;               // entry of the block, by entry of the sparsity pattern; the last one is for ground
     std::vector<std::size_t> entries_;             // [transistor][16]: entry of the block of each derivative
     std::vector<Linearization> linearizations_;    // [chip][transistor]
@@ -54,6 +55,8 @@ public:
     ChipMemory(const ChipMemory&) = delete;
 
     std::size_t unknowns() const { return block.unknowns; }
+    /// The entry of the block on the diagonal in row n.
+    std::size_t diagonal(std::size_t n) const { return diagonal_[n]; }
     /// True if the devices of this system have the same unknowns as those of the system passed to the constructor.
     bool is_compatible(const System&) const;
     /// Loads the devices of a chip into its column. Its transistors are linearized at the next relinearize().

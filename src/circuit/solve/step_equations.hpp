@@ -124,6 +124,8 @@ public:
     void read_charges(std::span<double> q);
     /// Solves (G + a C) e = r in place, with the last matrix: the effect e of a perturbation r of the equations on the unknowns.
     void solve_perturbation(std::span<double> r) const { solver_.solve(r); }
+    /// The diagonal element of the last matrix G + a C in row n.
+    double diagonal(std::size_t n) const { return J_[system_.pattern().entry_index(static_cast<int>(n), static_cast<int>(n))]; }
     /// True if charge_change() knows all devices. Transistors that are evaluated together do not keep their capacitances.
     bool has_all_capacitances() const { return system_.groups().empty(); }
     /// Computes C dx with the capacitances of the last evaluation: the change of the charges with the unknowns.

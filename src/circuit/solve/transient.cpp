@@ -23,9 +23,11 @@ Result<void> Transient::begin(std::vector<double> x, bool settled, std::span<con
     newton_.context.with_charges = true, newton_.context.time = 0;
     system_.eval(x, newton_.context, newton_.limiting_state, newton_.evaluation);
     stats_ = {}, order_limit_ = {}, equations_.iterations = 0, equations_.newton_control().quadratic_factor = 1;
-    alternations_.assign(count, 0), damping_steps_ = 0, has_charge_.assign(count, 0);
-    for (std::size_t n = 0; n < count; ++n)
-        has_charge_[n] = newton_.evaluation.C[system_.pattern().entry_index(static_cast<int>(n), static_cast<int>(n))] != 0;
+    alternations_.assign(count, 0), damping_steps_ = 0, has_charge_.assign(count, 0), own_capacitance_.resize(count);
+    for (std::size_t n = 0; n < count; ++n) {
+        own_capacitance_[n] = newton_.evaluation.C[system_.pattern().entry_index(static_cast<int>(n), static_cast<int>(n))];
+        has_charge_[n] = own_capacitance_[n] != 0;
+    }
     capacitance_.assign(count, 0);  // sum of the magnitudes in each row of C
     system_.pattern().for_each_entry(
         [&](std::size_t e, std::size_t row, std::size_t) { capacitance_[row] += std::abs(newton_.evaluation.C[e]); });
@@ -34,7 +36,8 @@ Result<void> Transient::begin(std::vector<double> x, bool settled, std::span<con
     auto& first = history_points_.next_point();
     first.t = 0, first.x = std::move(x), first.q.assign(count, 0);
     history_points_.accept();
-    shifted_charge_.clear(), noise_charge_.resize(count), noise_power_.assign(count, {});
+    shifted_charge_.clear(), noise_charge_.resize(count), node_noise_.assign(count, {});
+    last_noise_charge_.assign(count, 0);
     if (noise_) noise_->begin(history_points_[0].x, plan_.noise.stream);
     control_.h = plan_.max_step, control_.recent_max_step = 0, restart_pending_ = false;
     last_change_ = 0, changes_at_once_ = 0;
@@ -122,7 +125,11 @@ void Transient::restart(bool forget, bool exact) {
 /// Subtracts the noise charge from the newest point to t from the charges of all points, so that those of a step to t continue them.
 void Transient::shift_charges(double t) {
     undo_charge_shift();
+    const auto weights = history_points_.slope_weights(t, control_.order, leading_);
     noise_->charges(time(), t, noise_charge_);
+    for (std::size_t n = 0; n < noise_charge_.size(); ++n)
+        noise_charge_[n] =
+            node_noise_[n].charge(noise_charge_[n], last_noise_charge_[n], t - time(), leading_, control_.order > 1 ? weights[1] : 0);
     history_points_.add_to_charges(noise_charge_, -1);
     shifted_charge_ = noise_charge_;
 }
@@ -131,7 +138,8 @@ void Transient::shift_charges(double t) {
 void Transient::measure_noise() {
     for (std::size_t n = 0; n < error_.size(); ++n) error_[n] = leading_ * noise_charge_[n];
     equations_.solve_perturbation(error_);
-    for (std::size_t n = 0; n < error_.size(); ++n) noise_power_[n].add(error_[n]);
+    for (std::size_t n = 0; n < error_.size(); ++n)
+        node_noise_[n].measure(error_[n], leading_ * own_capacitance_[n], equations_.diagonal(n));
 }
 
 void Transient::undo_charge_shift() {
@@ -147,7 +155,7 @@ void Transient::update_tolerances() {
         const bool voltage = system_.is_voltage(static_cast<int>(n));
         scale_[n] = std::max(scale_[n], std::abs(history_points_[0].x[n]));
         tolerance_[n] = plan_.reltol * scale_[n] + (voltage ? plan_.vntol : plan_.abstol);
-        if (noise_) tolerance_[n] += noise_power_[n].allowed_error();
+        if (noise_) tolerance_[n] += node_noise_[n].allowed_error();
         if (has_charge_[n] || (plan_.all_reported && voltage)) allowed_error_[n] = tolerance_[n];
         if (!voltage) largest = std::max(largest, scale_[n]);
         if (!voltage && !plan_.all_reported) tolerance_[n] *= Interpolant::current_tolerance_factor;
@@ -393,8 +401,8 @@ void Transient::accept_step() {
     for (std::size_t n = 0; n < rate_.size(); ++n) rate_[n] = leading_ * next.q[n] + history_[n];
     control_.record_step(next.t - history_points_[0].t);
     history_points_.accept();
-    shifted_charge_.clear();
     if (noise_) {
+        last_noise_charge_ = std::exchange(shifted_charge_, {});
         noise_->update(x());
         if (stats_.steps % TransientNoise::steps_per_measure == 0) measure_noise();
     }
@@ -529,7 +537,8 @@ void Transient::archive(StateArchive& a) {
     system_.set_states(states);
     if (noise_) {
         noise_->archive(a);
-        for (auto& power : noise_power_) a.number(power.value);
+        a.numbers(last_noise_charge_, size);
+        for (auto& node : node_noise_) node.archive(a);
     }
     a.is_valid &= control_.h > 0 && quadratic_factor > 0 && control_.recent_max_step >= 0;
     if (a.is_valid) update_tolerances();

@@ -62,7 +62,9 @@ private:
     OrderLimit order_limit_;
     StateChangeSearch state_change_;
     std::optional<TransientNoise> noise_;
-    std::vector<NoisePower> noise_power_;                // by unknown
+    std::vector<NodeNoise> node_noise_;                  // by unknown
+    std::vector<double> own_capacitance_;                // F, by unknown: the diagonal of C at the start
+    std::vector<double> last_noise_charge_;              // C, by equation, of the last step
     std::vector<double> noise_charge_, shifted_charge_;  // C, by equation, in the step that is tried; subtracted from the earlier points
     double last_change_ = 0;                             // s: time of the last change of a state
     int shortest_steps_ = 0;                             // number of successive steps of the shortest length

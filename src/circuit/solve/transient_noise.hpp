@@ -66,7 +66,7 @@ class TransientNoise {
 
 public:
     static constexpr int best_order = 2;          ///< of the integration formula
-    static constexpr long steps_per_measure = 8;  ///< accepted steps between two calls of NoisePower::add() for all unknowns
+    static constexpr long steps_per_measure = 8;  ///< accepted steps between two calls of NodeNoise::measure() for all unknowns
 
     /// The devices keep their unknowns; their densities are those at x until the first update().
     TransientNoise(const System&, const NoisePlan&);
@@ -82,15 +82,32 @@ public:
     void archive(StateArchive&);                   ///< writes or reads the state
 };
 
-/// The mean square of the change of an unknown that the noise of one step causes. Its root is added to the allowed error: a node that is
-/// faster than the samples of the noise follows each of them, and no step is short enough to predict that.
-struct NoisePower {
-    double value = 0;  ///< V^2 or A^2
-    void add(double change) {
+/// How the noise of one step changes an unknown, and the charge of the noise in its equation.
+///
+/// A node that is slower than the steps integrates the noise: the charge of a step is that of the noise currents. A faster node follows the
+/// current of each step. The formula of order 2 would multiply its variance by 2.5, since it extrapolates the current from two steps. There
+/// the charge is such that the formula gives the current of the step. `slow` weighs the two.
+struct NodeNoise {
+    double slow = 1;   ///< a C / (G + a C) of the node in a step with dq/dt = a q + history
+    double power = 0;  ///< V^2 or A^2: mean square of the change of the unknown by the noise of a step
+
+    /// Call for some of the steps, with the change of the unknown by the noise of the step.
+    void measure(double change, double capacitive, double diagonal) {
         constexpr double memory = 0.8;
-        value = value > 0 ? memory * value + (1 - memory) * change * change : change * change;
+        power = power > 0 ? memory * power + (1 - memory) * change * change : change * change;
+        slow = diagonal > capacitive ? std::max(capacitive, 0.0) / diagonal : 1;
     }
-    double allowed_error() const { return std::sqrt(value); }
+    /// Added to the allowed error: a fast node follows each sample of the noise, and no step is short enough to predict that.
+    double allowed_error() const { return (1 - slow) * std::sqrt(power); }
+    /// The charge of a step of length h (s) whose noise currents carry `charge`, C. `previous`: the result for the step before; the formula
+    /// is dq/dt = a q + ... + weight * (the charge before that step).
+    double charge(double charge, double previous, double h, double a, double weight) const {
+        return slow * charge + (1 - slow) * (charge / h + weight * previous) / a;
+    }
+    void archive(StateArchive& archive) {
+        archive.number(slow), archive.number(power);
+        archive.is_valid &= power >= 0 && slow >= 0 && slow <= 1;
+    }
 };
 
 }  // namespace corpuscle::circuit

@@ -15,6 +15,22 @@ const IvPoint& point_of_largest_current(const IvData& data) {
                              [](const IvPoint& a, const IvPoint& b) { return std::abs(a.I_D) < std::abs(b.I_D); });
 }
 
+/// An error if a transistor of the other polarity conducts in some points: a large current with the gate beyond drain and source.
+Result<void> check_one_polarity(const IvData& data, double largest, const std::string& path) {
+    constexpr double of_largest = 0.01;
+    const double sign = data.is_pmos ? -1 : 1;
+    const auto is_other = [&](const IvPoint& p) {
+        return std::abs(p.I_D) > of_largest * largest && sign * p.v[1] < std::min(sign * p.v[0], sign * p.v[2]);
+    };
+    const auto other = std::find_if(data.points.begin(), data.points.end(), is_other);
+    if (other == data.points.end()) return {};
+    return bad_input(fmt::format("{} points conduct as {} and others as {}, for example {:g} A at V_GS = {:g} V; fit each transistor by "
+                                 "itself, from a file of its own",
+                                 std::count_if(data.points.begin(), data.points.end(), is_other), data.is_pmos ? "an NMOS" : "a PMOS",
+                                 data.is_pmos ? "a PMOS" : "an NMOS", other->I_D, other->v[1] - other->v[2]),
+                     {path});
+}
+
 }  // namespace
 
 Result<void> set_polarity(IvData& data, std::optional<bool> is_pmos, const std::string& path) {
@@ -28,7 +44,7 @@ Result<void> set_polarity(IvData& data, std::optional<bool> is_pmos, const std::
                                      p.I_D, V_DS),
                          {path});
     data.is_pmos = is_pmos.value_or(p.I_D < 0);
-    if (data.is_pmos == (p.I_D < 0)) return {};
+    if (data.is_pmos == (p.I_D < 0)) return check_one_polarity(data, std::abs(p.I_D), path);
     if (!data.is_pmos || V_GS < 0)
         return bad_input(fmt::format("--type {}: but the largest current is {:g} A at V_GS = {:g} V; use --type {}",
                                      data.is_pmos ? "pmos" : "nmos", p.I_D, V_GS, data.is_pmos ? "nmos" : "pmos"),

@@ -37,9 +37,13 @@ CurrentNoise estimate_noise(const Vector& differences, const Vector& currents, C
         } else {
             a = ra / aa, b = 0;
         }
-        // Steps are limited, since a wrong weight makes the next step worse.
-        a = std::clamp(a, std::max(old_a / 30, least_relative * least_relative), old_a * 30);
-        b = std::clamp(b, std::max(old_b / 30, least_floor * least_floor), old_b * 30);
+        // Steps are limited, since a wrong weight makes the next step worse. A value below the least one becomes that.
+        const auto limited = [](double value, double old, double least) {
+            const double low = std::max(old / 30, least * least);
+            return std::clamp(value, low, std::max(low, old * 30));
+        };
+        a = limited(a, old_a, least_relative);
+        b = limited(b, old_b, least_floor);
         if (given_relative) a = old_a;
         if (given_floor) b = old_b;
         if (std::abs(a - old_a) <= 1e-4 * a && std::abs(b - old_b) <= 1e-4 * b) break;
