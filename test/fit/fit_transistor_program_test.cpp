@@ -61,6 +61,35 @@ TEST(FitTransistorProgram, ReadsTheColumnsThatPeopleWrite) {
     EXPECT_NE(known.err.find("the bulk is taken as connected to the source"), std::string::npos) << known.err;
 }
 
+/// Rows of V_GS, V_DS, I_D of a transistor whose currents and voltages are multiplied by `sign`, the currents also by `factor`.
+std::string rows_of(double sign, double factor) {
+    std::string out;
+    for (const double V_DS : {0.05, 0.4})
+        for (int k = 0; k <= 24; ++k) {
+            const double V = 0.05 * k, q = std::log1p(std::exp((V - 0.45) / 0.065)), r = std::log1p(std::exp((V - 0.45 - V_DS) / 0.065));
+            out += fmt::format("{},{},{}\n", sign * V, sign * V_DS, sign * factor * 1e-7 * (q * q - r * r));
+        }
+    return out;
+}
+
+TEST(FitTransistorProgram, TwoPolaritiesInOneFitAreAnError) {
+    const TemporaryFolder folder;
+    folder.write("both.csv", "VGS,VDS,ID\n" + rows_of(1, 1) + rows_of(-1, 0.5));
+    const auto ran = run_program(folder, "fit transistor both.csv -W 1u -L 1u");
+    EXPECT_EQ(ran.status, 1);
+    EXPECT_NE(ran.err.find("points conduct as a PMOS and others as an NMOS"), std::string::npos) << ran.err;
+}
+
+TEST(FitTransistorProgram, CurrentsInAWrongUnitEndWithAnErrorOrAWarning) {
+    for (const double factor : {1e-9, 1e-12, 1e-280, 1e12}) {
+        const TemporaryFolder folder;
+        folder.write("a.csv", "VGS,VDS,ID\n" + rows_of(1, factor));
+        const auto ran = run_program(folder, "fit transistor a.csv -W 1u -L 1u");
+        EXPECT_TRUE(ran.status == 0 || ran.status == 1) << factor << " " << ran.status << ran.err;
+        EXPECT_FALSE(ran.err.empty());
+    }
+}
+
 TEST(FitTransistorProgram, ErrorsNameTheFileTheRowAndTheRemedy) {
     const TemporaryFolder folder;
     std::string good = "VGS,VDS,ID\n";
