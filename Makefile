@@ -22,7 +22,7 @@ build: setup-run
 test: release asan
 	ctest --test-dir build/release --output-on-failure -j 3
 	ctest --test-dir build/asan --output-on-failure -j 3 -LE once
-	$(MAKE) fuzz FUZZ_SECONDS=3
+	$(MAKE) fuzz FUZZ_SECONDS=2
 
 release: setup-test setup-python
 	cmake --preset release -D CORPUSCLE_TESTS=ON -D CORPUSCLE_PYTHON=ON
