@@ -80,6 +80,14 @@ TEST(FitTransistorProgram, TwoPolaritiesInOneFitAreAnError) {
     EXPECT_NE(ran.err.find("points conduct as a PMOS and others as an NMOS"), std::string::npos) << ran.err;
 }
 
+TEST(FitTransistorProgram, AParameterIsFittedOrGivenButNotBoth) {
+    const TemporaryFolder folder;
+    folder.write("a.csv", "VGS,VDS,ID\n" + rows_of(1, 1));
+    const auto ran = run_program(folder, "fit transistor a.csv -W 1u -L 1u --set vto=0.3 --fit V_T0");
+    EXPECT_EQ(ran.status, 2);
+    EXPECT_NE(ran.err.find("--fit V_T0: but --set gives its value"), std::string::npos) << ran.err;
+}
+
 TEST(FitTransistorProgram, CurrentsInAWrongUnitEndWithAnErrorOrAWarning) {
     for (const double factor : {1e-9, 1e-12, 1e-280, 1e12}) {
         const TemporaryFolder folder;

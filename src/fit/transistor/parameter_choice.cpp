@@ -26,6 +26,8 @@ Error refusal(std::string_view card_name, const std::string& reason) {
 
 Result<void> ParameterChoice::check_names() const {
     for (const auto& name : request_.fit) {
+        if (const auto* p = find_card_parameter(name); p && is_given(p->card_name))
+            return bad_usage(fmt::format("--fit {}: but --set gives its value; leave out one of the two", name));
         if (equal_ignoring_case(name, "all") || find_card_parameter(name) || is_mismatch_name(name)) continue;
         std::vector<std::string_view> known = {"all"};
         for (const auto& p : card_parameters()) known.push_back(p.card_name);
