@@ -1,6 +1,6 @@
 # Embeds text files in a library as bytes, found by their paths.
-#   embed_files(TARGET SOURCE pattern...): the files that match, relative to the project's root; an absolute path is embedded under its
-#   file name. SOURCE, a file of the target in the current folder, includes embedded_file_table.hpp, which lists the files of this target only.
+#   embed_files(TARGET SOURCE pattern...): the files that match, relative to the project's root; an absolute path outside the tree, or of a file
+#   that the build makes, is embedded under its file name. SOURCE, a file of the target in the current folder, includes embedded_file_table.hpp, which lists the files of this target only.
 function(embed_files target source)
   set(assembly ".section .rodata\n")
   set(declarations "")
@@ -9,10 +9,15 @@ function(embed_files target source)
   set(embedded "")
   foreach(pattern ${ARGN})
     cmake_path(ABSOLUTE_PATH pattern BASE_DIRECTORY ${PROJECT_SOURCE_DIR} OUTPUT_VARIABLE in_full)
-    file(GLOB_RECURSE found CONFIGURE_DEPENDS ${in_full})
+    cmake_path(IS_PREFIX PROJECT_BINARY_DIR ${in_full} is_generated)
+    if(is_generated)
+      set(found ${in_full})  # it need not exist yet
+    else()
+      file(GLOB_RECURSE found CONFIGURE_DEPENDS ${in_full})
+    endif()
     foreach(file ${found})
       cmake_path(IS_PREFIX PROJECT_SOURCE_DIR ${file} in_tree)
-      if(in_tree)
+      if(in_tree AND NOT is_generated)
         cmake_path(RELATIVE_PATH file BASE_DIRECTORY ${PROJECT_SOURCE_DIR} OUTPUT_VARIABLE path)
       else()
         cmake_path(GET file FILENAME path)

@@ -55,10 +55,23 @@ std::string base64(std::span<const std::byte> bytes) {
     return out;
 }
 
+nlohmann::ordered_json array_document(std::span<const float> values) { return {{"f32", base64(std::as_bytes(values))}}; }
+nlohmann::ordered_json array_document(std::span<const double> values) { return {{"f64", base64(std::as_bytes(values))}}; }
+nlohmann::ordered_json array_document(std::span<const std::uint32_t> values) { return {{"u32", base64(std::as_bytes(values))}}; }
+nlohmann::ordered_json array_document(std::span<const std::uint16_t> values) { return {{"u16", base64(std::as_bytes(values))}}; }
+nlohmann::ordered_json array_document(std::span<const std::byte> values) { return {{"u8", base64(values)}}; }
+
+std::size_t encoded_size(const nlohmann::ordered_json& array) { return array.begin()->get_ref<const std::string&>().size(); }
+
 nlohmann::ordered_json curve_document(std::uint32_t channel, const nlohmann::ordered_json& afferent, std::string_view quantity,
                                       std::string_view unit, const Envelope& values) {
-    return {{"channel", channel},        {"afferent", afferent},    {"quantity", quantity},           {"unit", unit},
-            {"bucket", values.bucket()}, {"count", values.count()}, {"data", base64(values.values())}};
+    return {{"channel", channel},
+            {"afferent", afferent},
+            {"quantity", quantity},
+            {"unit", unit},
+            {"bucket", values.bucket()},
+            {"count", values.count()},
+            {"data", array_document(values.values())}};
 }
 
 }  // namespace corpuscle

@@ -31,13 +31,16 @@ public:
 
 /// Encodes bytes as base64.
 std::string base64(std::span<const std::byte> bytes);
-/// The bytes of the values of an array in base64.
-template <class Values>
-std::string base64(const Values& values) {
-    return base64(std::as_bytes(std::span(values)));
-}
+/// An array of numbers in a page's data: {"f32": base64}. web/base/arrays.ts reads it.
+nlohmann::ordered_json array_document(std::span<const float>);
+nlohmann::ordered_json array_document(std::span<const double>);
+nlohmann::ordered_json array_document(std::span<const std::uint32_t>);
+nlohmann::ordered_json array_document(std::span<const std::uint16_t>);
+nlohmann::ordered_json array_document(std::span<const std::byte>);
+/// The size of such an array in a page, bytes.
+std::size_t encoded_size(const nlohmann::ordered_json& array);
 
-/// A trace in the format of class Trace in page-data.js. `channel`: its index, counted over all
+/// A trace in the format of class Trace in web/panels/signals.ts. `channel`: its index, counted over all
 /// inputs of the run. `afferent`: the name of the afferent, or null if the trace is the force.
 nlohmann::ordered_json curve_document(std::uint32_t channel, const nlohmann::ordered_json& afferent, std::string_view quantity,
                                       std::string_view unit, const Envelope& values);

@@ -36,7 +36,11 @@ std::string fill_template(std::string_view page_template, std::string_view title
         out += page_template.substr(0, open);
         if (open == std::string_view::npos || close == std::string_view::npos) return out;
         const auto name = page_template.substr(open + 2, close - open - 2);
-        const auto value = name == "title" ? title : name == "data" ? data : embedded_text_of(name);
+        const auto value = name == "title"  ? title
+                           : name == "data" ? data
+                                            : embedded_text_of(name == "style"    ? "page.bundle.css"
+                                                               : name == "script" ? "page.js"
+                                                                                  : name);
         out += value.empty() ? fmt::format("{{{{{}}}}}", name) : value;  // an unknown name stays visible as {{name}}
         page_template.remove_prefix(close + 2);
     }
@@ -71,10 +75,10 @@ Json parameters_document(const AfferentPlan& plan, std::span<const ParameterDist
     return out;
 }
 
-std::string report_page(std::string_view page_template, const std::string& title, const std::string& command, const Json& document) {
-    Json data = {{"title", title}, {"program", fmt::format("corpuscle {}", version)}, {"command", command}};
+std::string report_page(std::string_view page, const std::string& title, const std::string& command, const Json& document) {
+    Json data = {{"page", page}, {"title", title}, {"program", fmt::format("corpuscle {}", version)}, {"command", command}};
     data.update(document);
-    return fill_template(embedded_text_of(page_template), escape_html(title), script_json(data));
+    return fill_template(embedded_text_of(page.ends_with(".html") ? page : "shell.html"), escape_html(title), script_json(data));
 }
 
 }  // namespace corpuscle

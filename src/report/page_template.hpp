@@ -1,6 +1,6 @@
 #pragma once
-// Makes report pages from HTML templates, and documents that several pages contain. In a template, {{title}} and {{data}} are replaced by
-// values, any other {{name}} by the embedded file of that name.
+// Makes report pages, and documents that several pages contain. All pages have one template, web/shell.html, in which {{title}}, {{data}},
+// {{style}} and {{script}} are replaced.
 
 #include <nlohmann/json_fwd.hpp>
 
@@ -15,8 +15,9 @@ nlohmann::ordered_json versions_document();
 /// ("spread"). Distributions of other afferents' parameters are ignored.
 nlohmann::ordered_json parameters_document(const AfferentPlan&, std::span<const ParameterDistribution> spreads);
 
-/// The page of a template ("page.html") as HTML. Its data are title, program and command line, then those of the document.
-std::string report_page(std::string_view page_template, const std::string& title, const std::string& command,
+/// A page as HTML. `page` names the function that shows it (web/main.ts): "respond". Its data are page, title, program and command line,
+/// then those of the document.
+std::string report_page(std::string_view page, const std::string& title, const std::string& command,
                         const nlohmann::ordered_json& document);
 
 }  // namespace corpuscle

@@ -40,7 +40,7 @@ Json common_document(const TrialCollector& collected, double bin) {
                           {"zero", json_number(trial.zero)},
                           {"from", json_number(trial.from)},
                           {"to", json_number(trial.to)},
-                          {"force", {{"from", force.from}, {"step", force.step}, {"values", base64(values)}}}});
+                          {"force", {{"from", force.from}, {"step", force.step}, {"values", array_document(values)}}}});
     }
     return {{"onset", collected.options().uses_onsets()},
             {"bin", bin},
@@ -83,7 +83,8 @@ Json trials_document(const TrialCollector& collected, double bin) {
     out["spikes"] = Json::array();
     for (const auto& r : responses.responses)
         if (!r.spikes.empty())
-            out["spikes"].push_back({{"trial", r.trial}, {"group", responses.afferents[r.afferent].group}, {"times", base64(r.spikes)}});
+            out["spikes"].push_back(
+                {{"trial", r.trial}, {"group", responses.afferents[r.afferent].group}, {"times", array_document(r.spikes)}});
     return out;
 }
 

@@ -1,7 +1,8 @@
 "use strict";
 // Access to the data of the report. The values of a trace and the times of a spike train stay base64 text until they are needed.
 
-function bytesOf(base64) {
+function bytesOf(array) {
+    const base64 = typeof array === "string" ? array : Object.values(array)[0];
     if (Uint8Array.fromBase64) return Uint8Array.fromBase64(base64);
     const text = atob(base64), bytes = new Uint8Array(text.length);
     for (let i = 0; i < bytes.length; ++i) bytes[i] = text.charCodeAt(i);

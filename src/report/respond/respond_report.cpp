@@ -141,7 +141,7 @@ void RespondReport::add_spikes(const Input& input, std::size_t channel, std::siz
         spikes_.push_back({{"afferent", input.on_channels().plans()[groups_[group] + k].name},
                            {"channel", first_channel_ + channel},
                            {"count", train.size()},
-                           {"times", base64(train)}});
+                           {"times", array_document(train)}});
     }
 }
 
@@ -192,7 +192,8 @@ Result<void> RespondReport::end(const Input& input, std::int64_t samples, std::s
 }
 
 std::string RespondReport::page(const RunSummary& summary, std::span<const AfferentPlan> plans, const std::string& command,
-                                const std::vector<std::string>& warnings, const Json& costs, std::size_t max_bytes, const Json& trials) const {
+                                const std::vector<std::string>& warnings, const Json& costs, std::size_t max_bytes,
+                                const Json& trials) const {
     std::vector<std::string> names, texts(warnings);
     for (const auto& i : summary.inputs) names.push_back(i.name);
     const auto title = short_list(names);
@@ -232,14 +233,14 @@ std::string RespondReport::page(const RunSummary& summary, std::span<const Affer
         keep_first_channels(document, shown);
         document["notes"].push_back(fmt::format("This page shows {} of {} channels.", shown, first_channel_));
     }
-    return report_page("page.html", title, command, document);
+    return report_page("respond", title, command, document);
 }
 
 std::uint32_t RespondReport::channels_within(std::size_t max_bytes) const {
     constexpr std::size_t per_entry = 200;  // bytes of names and punctuation
     std::vector<std::size_t> bytes(first_channel_);
-    for (const auto& t : traces_) bytes[t["channel"]] += t["data"].get_ref<const std::string&>().size() + per_entry;
-    for (const auto& s : spikes_) bytes[s["channel"]] += s["times"].get_ref<const std::string&>().size() + 2 * per_entry;  // a row of the table
+    for (const auto& t : traces_) bytes[t["channel"]] += encoded_size(t["data"]) + per_entry;
+    for (const auto& s : spikes_) bytes[s["channel"]] += encoded_size(s["times"]) + 2 * per_entry;  // a row of the table
     std::size_t total = 0;
     std::uint32_t count = 0;
     while (count < bytes.size() && (total += bytes[count]) <= max_bytes) ++count;

@@ -14,22 +14,22 @@ using Json = nlohmann::ordered_json;
 
 constexpr std::size_t max_named = 500;  // if there are more sites, the page does not contain their names
 
-/// Positions as base64 of floats x, y, x, y ... in mm, rounded to micrometres. `position_of` returns metres.
+/// Positions as an array x, y, x, y ... in mm, rounded to micrometres. `position_of` returns metres.
 template <class PositionOf>
-std::string places64(std::size_t count, PositionOf position_of) {
+Json places_document(std::size_t count, PositionOf position_of) {
     std::vector<float> xy;
     for (std::size_t k = 0; k < count; ++k) {
         const Position p = position_of(k);
         for (const double v : {p.x, p.y}) xy.push_back(static_cast<float>(std::round(1e6 * v) * 1e-3));
     }
-    return base64(xy);
+    return array_document(xy);
 }
 
 Json sites_document(const Sites& sites) {
     const std::vector<std::uint16_t> region(sites.region.begin(), sites.region.end());
-    return {{"places", places64(sites.size(), [&](std::size_t s) { return sites.positions[s]; })},
+    return {{"places", places_document(sites.size(), [&](std::size_t s) { return sites.positions[s]; })},
             {"side", 1e3 * std::sqrt(sites.area)},
-            {"region", base64(region)},
+            {"region", array_document(region)},
             {"names", sites.size() <= max_named ? Json(sites.names) : Json(nullptr)}};
 }
 
@@ -51,11 +51,11 @@ Json marks_document(const SkinSummary& summary, std::span<const std::uint32_t> b
         positions.push_back(mean), first_spikes.push_back(static_cast<float>(earliest));
         region.push_back(static_cast<std::uint16_t>(afferents[begin[m]].region)), copy.push_back(afferents[begin[m]].number);
     }
-    return {{"begin", base64(begin)},
-            {"places", places64(positions.size(), [&](std::size_t m) { return positions[m]; })},
-            {"region", base64(region)},
-            {"copy", base64(copy)},
-            {"first", base64(first_spikes)}};
+    return {{"begin", array_document(begin)},
+            {"places", places_document(positions.size(), [&](std::size_t m) { return positions[m]; })},
+            {"region", array_document(region)},
+            {"copy", array_document(copy)},
+            {"first", array_document(first_spikes)}};
 }
 
 Json classes_document(const Innervation& skin) {

@@ -6,7 +6,7 @@ const RASTER = {left: 66, right: 8, top: 4, bottom: 34};  // margins, pixels
 /// The items sorted by the selected measure, the largest first, each with its spike times (s). `rows`: rows of the sweep; `counts`: their numbers of
 /// spikes; `times`: all spike times as base64.
 function rasterLanes({rows, counts, times}) {
-    const bytes = Uint8Array.from(atob(times), (c) => c.charCodeAt(0)), all = new Float32Array(bytes.buffer), values = measured(state.measure, rows), groups = groupsOf(rows);
+    const bytes = Uint8Array.from(atob(Object.values(times)[0]), (c) => c.charCodeAt(0)), all = new Float32Array(bytes.buffer), values = measured(state.measure, rows), groups = groupsOf(rows);
     let from = 0;
     const lanes = rows.map((row, k) => ({row, value: values[k], group: groups[k], spikes: all.subarray(from, (from += counts[k]))}));
     return lanes.sort((a, b) => (b.value ?? -Infinity) - (a.value ?? -Infinity) || b.row - a.row);

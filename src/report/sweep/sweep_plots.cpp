@@ -187,7 +187,7 @@ Result<PlotJson> rasters(const SweepResults& results, std::size_t train, const S
         shown.push_back(r), counts.push_back(spikes.size());
         for (const double t : spikes) times.push_back(static_cast<float>(t));
     }
-    return PlotJson{{"name", results.train_names[train]}, {"rows", shown}, {"counts", counts}, {"times", base64(times)}};
+    return PlotJson{{"name", results.train_names[train]}, {"rows", shown}, {"counts", counts}, {"times", array_document(times)}};
 }
 
 }  // namespace corpuscle

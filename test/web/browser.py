@@ -1,0 +1,238 @@
+#!/usr/bin/python3
+"""For tests of the pages in a real browser. Each test is a program:   respond_page_test.py CORPUSCLE OUTDIR
+
+It writes pages with the program CORPUSCLE, opens them in headless Chromium, uses them as a reader would, and compares the displayed values with
+the data in the page. Screenshots such as OUTDIR/press.png remain for inspection.
+"""
+import base64
+import contextlib
+import csv
+import json
+import math
+import pathlib
+import re
+import shutil
+import sqlite3
+import subprocess
+import sys
+import tempfile
+import unittest
+from array import array
+
+from selenium import webdriver
+from selenium.webdriver.chrome.service import Service
+from selenium.webdriver.common.action_chains import ActionChains
+from selenium.webdriver.common.by import By
+from selenium.webdriver.common.keys import Keys
+from selenium.webdriver.support.ui import Select, WebDriverWait
+
+FLAGS = ("--headless=new --no-sandbox --disable-gpu --disable-quic --no-first-run --disable-background-networking "
+         "--disable-component-update --disable-sync --window-size=1200,900").split()
+DATA = re.compile(r'(<script type="application/json" id="data">)(.*?)(</script>)', re.S)
+PREFIX = {"f": 1e-15, "p": 1e-12, "n": 1e-9, "µ": 1e-6, "m": 1e-3, "": 1, "k": 1e3, "M": 1e6}
+
+CORPUSCLE, OUT = pathlib.Path(sys.argv[1]).resolve(), pathlib.Path(sys.argv[2]).resolve()
+ROOT = pathlib.Path(__file__).resolve().parents[2]
+
+
+def respond(name, *arguments):
+    """Writes a report of the press with the program, and returns its path."""
+    path = OUT / name
+    subprocess.run([CORPUSCLE, "respond", "press", *arguments, "--report", str(path), "--quiet"], check=True, cwd=ROOT)
+    return path
+
+
+def data_of(path):
+    return json.loads(DATA.search(path.read_text())[2])
+
+
+def with_changed_data(path, name, change):
+    """A copy of a page with changed data, e.g. with several channels, which `respond press` does not have."""
+    data = data_of(path)
+    change(data)
+    text = json.dumps(data).replace("<", "\\u003c")
+    changed = OUT / name
+    changed.write_text(DATA.sub(lambda m: m[1] + text + m[3], path.read_text()))
+    return changed
+
+
+def numbers(kind, text):
+    values = array(kind)
+    values.frombytes(base64.b64decode(text))
+    return values
+
+
+def base64_of(kind, values):
+    return base64.b64encode(array(kind, values).tobytes()).decode()
+
+
+def trace(data, quantity, afferent=None, channel=None):
+    """Minima and maxima of the buckets of a curve, and the samples in a bucket. With 1 sample the two are equal."""
+    channel = data["inputs"][0]["channels"][0]["id"] if channel is None else channel
+    record = next(r for r in data["traces"] if (r["quantity"], r["afferent"], r["channel"]) == (quantity, afferent, channel))
+    values = numbers("f", record["data"])
+    return (values, values, 1) if record["bucket"] == 1 else (values[0::2], values[1::2], record["bucket"])
+
+
+def spike_times(data, afferent):
+    return numbers("d", next(r for r in data["spikes"] if r["afferent"] == afferent)["times"])
+
+
+def plateau(data):
+    """The middle (s) of the longest interval of maximum force, and that force (N)."""
+    low, _, bucket = trace(data, "force")
+    top, best, run = max(low), (0, 0), 0
+    for k, value in enumerate(low):
+        run = run + 1 if value == top else 0
+        best = max(best, (run, k))
+    clock = data["inputs"][0]
+    return clock["t0"] + (best[1] - best[0] / 2) * bucket * clock["T"], top
+
+
+def si(text):
+    """A readout as a number: "1.250 µA" is 1.25e-6."""
+    number, prefix = re.fullmatch(r"(−?[\d.]+)\s?([fpnµmkM]?)(?:N|A|V|Hz|s)", text.strip()).groups()
+    return float(number.replace("−", "-")) * PREFIX[prefix]
+
+
+def frames(record):
+    """The nonzero values of a map: for each frame, {position: value}."""
+    source, all_frames = iter(base64.b64decode(record["data"])), []
+
+    def number():
+        n, shift = 0, 0
+        for byte in source:
+            n, shift = n | (byte & 127) << shift, shift + 7
+            if byte < 128:
+                return n
+
+    for _ in range(record["count"]):
+        position, frame = 0, {}
+        while position < record["places"]:
+            byte = next(source)
+            if byte == 0:
+                position += number()
+                continue
+            frame[position] = byte if byte < 255 else number()
+            position += 1
+        all_frames.append(frame)
+    return all_frames
+
+
+def missing_values(browser):
+    """Words of the page that a script writes if a key or a number is missing."""
+    text = browser.execute_script("""return [...document.body.querySelectorAll("*")].filter((one) => !["SCRIPT", "STYLE"].includes(one.tagName))
+        .flatMap((one) => [...one.childNodes].filter((child) => child.nodeType === Node.TEXT_NODE).map((child) => child.data)).join(" ")""")
+    return re.findall(r".{0,40}(?:undefined|NaN|\[object ).{0,40}", text)
+
+
+class Page(unittest.TestCase):
+    """A browser with one report open. No test may cause a message in the console or show a missing value."""
+
+    @classmethod
+    def setUpClass(cls):
+        cls.profile = tempfile.TemporaryDirectory(ignore_cleanup_errors=True)
+        cls.addClassCleanup(cls.profile.cleanup)
+        options = webdriver.ChromeOptions()
+        options.binary_location = shutil.which("chromium")
+        for flag in [*FLAGS, "--user-data-dir=" + cls.profile.name]:
+            options.add_argument(flag)
+        options.set_capability("goog:loggingPrefs", {"browser": "ALL", "performance": "ALL"})
+        cls.browser = webdriver.Chrome(service=Service(shutil.which("chromedriver")), options=options)
+        cls.addClassCleanup(cls.browser.quit)
+        cls.path = cls.report()
+        cls.data = data_of(cls.path)
+
+    def setUp(self):
+        self.browser.get(self.path.as_uri())
+        # On a busy machine get() sometimes returned while the previous, empty page was still shown.
+        is_loaded = "return location.href === arguments[0] && document.readyState === 'complete'"
+        WebDriverWait(self.browser, 30).until(lambda browser: browser.execute_script(is_loaded, self.path.as_uri()))
+        self.input = self.data["inputs"][0]
+        self.end = self.input["t0"] + self.input["samples"] * self.input["T"]
+
+    def tearDown(self):
+        console_messages = [e["message"] for e in self.browser.get_log("browser") if e["level"] != "INFO"]
+        # This advice of Chromium concerns only this test, which reads pixels.
+        self.assertEqual([text for text in console_messages if "willReadFrequently" not in text], [])
+        self.assertEqual(missing_values(self.browser), [])
+
+    def js(self, script, *arguments):
+        return self.browser.execute_script(script, *arguments)
+
+    def windows(self):
+        """The time window of each panel."""
+        return self.js("return Object.values(corpuscle.panels).map(({view}) => [view.a, view.b])")
+
+    def settle(self, moved):
+        """Waits until all panels are drawn with a window (a, b) for which `moved(a, b)` is true."""
+        WebDriverWait(self.browser, 20).until(lambda _: all(moved(*window) for window in self.windows()))
+
+    def plot(self, panel):
+        found = self.browser.find_element(By.CSS_SELECTOR, f'[data-panel="{panel}"] .plot')
+        self.js("arguments[0].scrollIntoView({block: 'center'})", found)
+        return found
+
+    def at_time(self, panel, t):
+        """The position of time t in a panel, in pixels from the middle of its plot."""
+        plot = self.plot(panel)
+        x = self.js("return corpuscle.panels[arguments[0]].x(arguments[1])", panel, t)
+        return plot, round(x - plot.size["width"] / 2)
+
+    def drag(self, panel, begin, end, key=None):
+        plot, x = self.at_time(panel, begin)
+        _, to = self.at_time(panel, end)
+        mouse = ActionChains(self.browser, duration=50)
+        mouse = mouse.key_down(key) if key else mouse
+        mouse.move_to_element_with_offset(plot, x, 0).click_and_hold().move_by_offset((to - x) // 2, 3).move_by_offset((to - x) - (to - x) // 2, 3).release()
+        (mouse.key_up(key) if key else mouse).perform()
+
+    def hover(self, panel, t):
+        plot, x = self.at_time(panel, t)
+        self.js("document.getElementById('now').textContent = ''")
+        ActionChains(self.browser, duration=50).move_to_element_with_offset(plot, x, 0).perform()
+        WebDriverWait(self.browser, 20).until(lambda _: self.browser.find_element(By.ID, "now").text)
+
+    def readout(self, panel, series):
+        return self.browser.find_element(By.CSS_SELECTOR, f'[data-panel="{panel}"] [data-series="{series}"] .legend-value').text
+
+    def panels(self):
+        return self.js("return Object.keys(corpuscle.panels)")
+
+    def dark_pixels(self):
+        """For each panel, the number of pixels of the plot that are darker than bands and grid."""
+        return self.js("""
+            return Object.fromEntries(Object.entries(corpuscle.panels).map(([name, {area}]) => {
+                const canvas = document.querySelector(`[data-panel="${name}"] canvas`), ratio = canvas.width / canvas.clientWidth;
+                const {x, y, w, h} = area;
+                const pixels = canvas.getContext("2d").getImageData((x + 3) * ratio, (y + 2) * ratio, (w - 4) * ratio, (h - 4) * ratio).data;
+                let count = 0;
+                for (let i = 0; i < pixels.length; i += 4)
+                    if (pixels[i + 3] > 100 && Math.min(pixels[i], pixels[i + 1], pixels[i + 2]) < 170) ++count;
+                return [name, count];
+            }))""")
+
+    @contextlib.contextmanager
+    def screen(self, width, height, pixel_ratio):
+        """Loads the page again on a screen of this size."""
+        self.browser.execute_cdp_cmd("Emulation.setDeviceMetricsOverride",
+                                     {"width": width, "height": height, "deviceScaleFactor": pixel_ratio, "mobile": width < 600})
+        try:
+            self.browser.get(self.path.as_uri())
+            self.js("return new Promise((done) => requestAnimationFrame(() => requestAnimationFrame(done)))")
+            yield
+        finally:
+            self.browser.execute_cdp_cmd("Emulation.clearDeviceMetricsOverride", {})
+
+    def screenshot(self, name):
+        self.browser.set_window_size(1200, 900)
+        height = self.js("scrollTo(0, 0); return document.documentElement.scrollHeight")
+        self.browser.set_window_size(1200, height + 160)  # the height of the browser's own controls, with some margin
+        self.js("return new Promise((done) => requestAnimationFrame(() => requestAnimationFrame(done)))")
+        self.browser.save_screenshot(str(OUT / name))
+        self.browser.set_window_size(1200, 900)
+
+
+def run_tests():
+    OUT.mkdir(parents=True, exist_ok=True)
+    unittest.main(module="__main__", argv=[sys.argv[0], *sys.argv[3:]], verbosity=2)

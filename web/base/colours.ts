@@ -1,0 +1,43 @@
+// Colours are CSS texts such as "var(--ink)", so that one name serves both themes. A canvas needs the colour itself.
+
+const known = new Map<string, string>();
+let probe: HTMLElement | null = null;
+
+/// The colour of a series, from eight that all common kinds of colour vision can tell apart.
+export const seriesColour = (index: number) => `var(--series-${index % 8})`;
+/// A mixture: fraction 0 is the first colour, 1 the second.
+export const mixed = (first: string, second: string, fraction: number) => `color-mix(in srgb, ${second} ${+(100 * fraction).toFixed(3)}%, ${first})`;
+
+/// The red, green and blue of a CSS colour, 0 to 255.
+export function components(css: string): [number, number, number] {
+    const numbers = (/\(.*\)/.exec(computed(css)) || ["0 0 0"])[0].match(/[\d.]+(e-?\d+)?/g)!.map(Number);
+    const factor = computed(css).startsWith("color(") ? 255 : 1;
+    return [0, 1, 2].map((k) => Math.round((numbers[k] || 0) * factor)) as [number, number, number];
+}
+
+/// A CSS colour as a text that canvas and SVG understand.
+export function resolved(css: string): string {
+    const [r, g, b] = components(css);
+    return `rgb(${r}, ${g}, ${b})`;
+}
+
+function computed(css: string): string {
+    let text = known.get(css);
+    if (text === undefined) {
+        if (!probe) document.body.append((probe = document.createElement("span")));
+        probe.style.display = "none";
+        probe.style.color = css;
+        known.set(css, (text = getComputedStyle(probe).color));
+    }
+    return text;
+}
+
+/// Calls `redraw` when the theme changes, or when the page is printed in the light theme.
+export function onThemeChange(redraw: () => void) {
+    const renew = () => {
+        known.clear();
+        redraw();
+    };
+    matchMedia("(prefers-color-scheme: dark)").addEventListener("change", renew);
+    new MutationObserver(renew).observe(document.documentElement, {attributeFilter: ["class", "data-theme"]});
+}

@@ -1,0 +1,32 @@
+// The state of a page in its link: "#channel=3&from=0.5&to=1.25". A link with an unknown key, or a value that is too long, is refused.
+
+const MAX_LINK = 4000;
+
+/// The values in the link of the page; null if the link is damaged.
+export function linkValues(text = location.hash): Map<string, string> | null {
+    if (text.length > MAX_LINK) return null;
+    const values = new Map<string, string>();
+    for (const part of text.replace(/^#/, "").split("&").filter(Boolean)) {
+        const [, name, value] = /^([a-z][\w-]*)=(.*)$/i.exec(part) || [];
+        if (!name) return null;
+        try {
+            values.set(name, decodeURIComponent(value));
+        } catch {
+            return null;  // a malformed escape
+        }
+    }
+    return values;
+}
+
+/// Puts values into the link of the page, without an entry in the history. Values that are null are left out.
+export function setLink(values: Record<string, string | number | null | undefined>) {
+    const text = Object.entries(values).filter(([, value]) => value !== null && value !== undefined && value !== "").map(([name, value]) => `${name}=${encodeURIComponent(value!)}`).join("&");
+    try {
+        history.replaceState(null, "", text ? `#${text}` : location.pathname + location.search);
+    } catch {
+        // a page in a sandboxed frame has no link
+    }
+}
+
+/// A number of a link; null if it is not one.
+export const linkNumber = (text: string | undefined) => (text !== undefined && text.trim() !== "" && Number.isFinite(Number(text)) ? Number(text) : null);

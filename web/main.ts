@@ -1,0 +1,9 @@
+// Shows the page whose data the document has.
+
+import type {PageData} from "./data/document";
+import {showRespondPage} from "./pages/respond";
+
+const pages: Record<string, (data: never) => void> = {respond: showRespondPage};
+
+const data = JSON.parse(document.getElementById("data")!.textContent!) as PageData;
+pages[data.page](data as never);

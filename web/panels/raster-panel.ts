@@ -1,0 +1,176 @@
+// Spikes of many afferents: one row each. The effort depends on the number of pixels, not of spikes.
+
+import {components, resolved} from "../base/colours";
+import {h} from "../base/dom";
+import {fixedText, quantity, Ticks} from "../base/text";
+import {Area, csvText} from "../plot/panel";
+import type {Pen} from "../plot/pen";
+import type {Spikes} from "./signals";
+import {TimePanel, TimePanelOptions} from "./time-panel";
+
+export const MAX_ROW_LABELS = 46;  // with more rows, there is no space for a label per row
+const STRIP = 16;                  // above the rows, for the names of the phases, pixels
+
+/// `series`: name of the series to which the row belongs.
+export interface Row { series: string; label: string; colour: string; spikes: Spikes; group?: string; isChosen?: boolean; about?: string }
+
+export interface RasterOptions extends TimePanelOptions {
+    rows: Row[];                       ///< the first is at the top
+    pick?: ((row: Row) => void) | null;  ///< called when a row is clicked
+    isGrouped?: boolean;               ///< draw a line where the group of the rows changes
+}
+
+/// The height in pixels that suits a number of rows.
+export const rasterHeight = (rows: number) => STRIP + Math.max(40, Math.min(24, 560 / Math.max(rows, 1)) * rows);
+
+/// Spikes are ticks if they can be distinguished, else the number of spikes per pixel is shown as shades.
+export class RasterPanel extends TimePanel {
+    rows: Row[];
+    private pick: ((row: Row) => void) | null;
+    private isGrouped: boolean;
+    private strip: number;
+
+    constructor(options: RasterOptions) {
+        super(options);
+        [this.rows, this.pick, this.isGrouped] = [options.rows, options.pick || null, options.isGrouped || false];
+        this.strip = this.isNamed ? STRIP : 0;
+        if (this.pick) this.plot.style.cursor = "pointer";
+    }
+
+    private get shownRows() { return this.rows.filter(({series}) => !this.hidden.has(series)); }
+
+    /// A row has height 1; the strip above the rows is for the names of the phases.
+    protected range(): [number, number] {
+        const n = Math.max(this.shownRows.length, 1);
+        return [0, n * this.height / (this.height - this.strip)];
+    }
+
+    /// A label for each row if there is space, else one for each series in the middle of its rows.
+    protected verticalTicks(): Ticks {
+        const rows = this.shownRows, n = rows.length, labels = new Map<number, string>();
+        if (n <= MAX_ROW_LABELS) rows.forEach(({label}, k) => labels.set(n - k - 0.5, label));
+        else for (const {name} of this.series) {
+            const own = rows.map(({series}, k) => (series === name ? k : -1)).filter((k) => k >= 0);
+            if (own.length) labels.set(n - (own[0] + own[own.length - 1] + 1) / 2, name);
+        }
+        return {values: [...labels.keys()], text: (v) => labels.get(v) || ""};
+    }
+
+    protected paint(pen: Pen, area: Area) {
+        super.paint(pen, area);
+        const rows = this.shownRows, inner = this.inner(area), {a, b} = this.view;
+        const visible = rows.map(({spikes}) => [spikes.before(a), spikes.before(b)] as [number, number]);
+        const most = visible.reduce((max, [i, j]) => Math.max(max, j - i), 0), total = visible.reduce((sum, [i, j]) => sum + j - i, 0);
+        this.markRows(pen, inner, rows);
+        if (most * 4 < area.w && total < 20000) this.paintTicks(pen, inner, rows, visible);
+        else if (rows.length) this.paintDensity(pen, inner, rows, visible);
+        this.countSpikes(rows, visible);
+    }
+
+    /// The area of the rows, below the strip.
+    private inner({x, y, w, h: height}: Area): Area { return {x, y: y + this.strip, w, h: height - this.strip}; }
+
+    /// Tints the chosen rows and draws a line between groups.
+    private markRows(pen: Pen, area: Area, rows: Row[]) {
+        if (!this.isGrouped) return;
+        const height = area.h / rows.length;
+        rows.forEach((row, k) => {
+            const y = area.y + k * height;
+            pen.fillStyle = resolved("var(--chosen)");
+            if (this.pick && row.isChosen) pen.fillRect(area.x, y, area.w, Math.max(height, 2));
+            pen.fillStyle = resolved("var(--rule)");
+            if (k && row.group !== rows[k - 1].group) pen.fillRect(area.x, Math.round(y), area.w, 1);
+        });
+    }
+
+    private paintTicks(pen: Pen, area: Area, rows: Row[], visible: [number, number][]) {
+        const height = area.h / rows.length, gap = height > 4 ? height * 0.12 : 0;
+        rows.forEach(({spikes, colour}, k) => {
+            pen.fillStyle = resolved(colour);
+            for (let i = visible[k][0]; i < visible[k][1]; ++i) pen.fillRect(this.x(spikes.times[i]) - 0.75, area.y + k * height + gap, 1.5, Math.max(1, height - 2 * gap));
+        });
+    }
+
+    /// Paints an image with one pixel per line and column, then scales it to the plot. A line is one row, or several if rows are thinner than a
+    /// pixel of the screen.
+    private paintDensity(pen: Pen, area: Area, rows: Row[], visible: [number, number][]) {
+        const ratio = devicePixelRatio || 1, columns = Math.max(1, Math.round(area.w * ratio)), lines = Math.min(rows.length, Math.max(1, Math.floor(area.h * ratio)));
+        const counts = Array.from({length: lines}, () => new Uint32Array(columns)), colours: string[] = [];
+        rows.forEach(({spikes, colour}, k) => {
+            const line = Math.floor(k * lines / rows.length);
+            countPerColumn(counts[line], spikes, ...visible[k], this.view.a, this.view.b);
+            colours[line] = colour;
+        });
+        const image = painted(counts, colours), gap = area.h / rows.length > 6 ? 1 : 0;
+        pen.imageSmoothingEnabled = false;
+        for (let k = 0; k < lines; ++k) pen.drawImage(image, 0, k, columns, 1, area.x, area.y + k * area.h / lines + gap, area.w, area.h / lines - 2 * gap);
+    }
+
+    /// Shows in the legend how many spikes of the chosen rows of each series are visible.
+    private countSpikes(rows: Row[], visible: [number, number][]) {
+        for (const {name} of this.series) {
+            let shown = 0, total = 0;
+            rows.forEach(({series, isChosen = true, spikes}, k) => {
+                if (series === name && isChosen) [shown, total] = [shown + visible[k][1] - visible[k][0], total + spikes.count];
+            });
+            this.setValue(name, shown === total ? `${total}` : `${shown} of ${total}`);
+        }
+    }
+
+    protected clearValues() {}
+
+    private rowAt(y: number): Row | undefined {
+        const area = this.inner(this.area), rows = this.shownRows;
+        return rows[Math.floor((y - area.y) / area.h * rows.length)];
+    }
+
+    click(_x: number, y: number) {
+        const row = this.rowAt(y);
+        if (row && this.pick && !row.isChosen) this.pick(row);
+    }
+
+    /// The spike nearest to the pointer, within 6 pixels: its time and the interval to the spike before.
+    protected tipAt(x: number, y: number) {
+        const row = this.rowAt(y);
+        if (!row) return null;
+        const k = row.spikes.nearest(this.valueAt(x)), t = row.spikes.times[k];
+        if (k < 0 || Math.abs(this.x(t) - x) > 6) return {x, y, text: row.about || row.label};
+        const interval = k > 0 ? `, ${quantity(t - row.spikes.times[k - 1], "s")} after the one before` : "";
+        return {x: this.x(t), y, text: `${row.about || row.label}: spike ${k + 1} of ${row.spikes.count} at ${fixedText(t, 1e-6)}${interval}`};
+    }
+
+    csv() {
+        const rows = this.shownRows.flatMap(({series, about, label, spikes}) => Array.from(spikes.times.slice(spikes.before(this.view.a), spikes.before(this.view.b)), (t) => [series, about || label, t]));
+        return csvText(["afferent", "row", "time_s"], rows);
+    }
+}
+
+/// Adds spikes i ... j-1 of a train to the counts of the pixel columns that divide the time range [a, b) equally. Few spikes are counted one by
+/// one; if there are many, the first spike of each column is found by binary search.
+export function countPerColumn(counts: Uint32Array, spikes: {times: ArrayLike<number>; before(t: number): number}, i: number, j: number, a: number, b: number) {
+    const t = spikes.times, columns = counts.length;
+    if (j - i < 8 * columns) {
+        for (let k = i; k < j; ++k) ++counts[Math.min(columns - 1, Math.floor((t[k] - a) / (b - a) * columns))];
+        return;
+    }
+    for (let c = 0, from = i; c < columns; ++c) {
+        const to = c + 1 < columns ? spikes.before(a + (b - a) * (c + 1) / columns) : j;
+        counts[c] += to - from;
+        from = to;
+    }
+}
+
+/// A canvas with one pixel per count, in the colour of its line: more spikes are more opaque, and one spike has at least the opacity `minAlpha` of
+/// 255.
+export function painted(counts: Uint32Array[], colours: string[], minAlpha = 55): HTMLCanvasElement {
+    const most = counts.reduce((high, line) => line.reduce((m, n) => Math.max(m, n), high), 1);
+    const canvas = h("canvas", {width: counts[0].length, height: counts.length});
+    const image = new ImageData(canvas.width, canvas.height), pixels = new Uint32Array(image.data.buffer);
+    counts.forEach((line, y) => {
+        const [red, green, blue] = components(colours[y]), opaque = (blue << 16) | (green << 8) | red;
+        for (let x = 0; x < line.length; ++x)
+            if (line[x]) pixels[y * canvas.width + x] = ((minAlpha + (255 - minAlpha) * Math.sqrt(line[x] / most)) << 24) | opaque;
+    });
+    canvas.getContext("2d")!.putImageData(image, 0, 0);
+    return canvas;
+}
