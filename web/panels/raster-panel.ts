@@ -5,14 +5,14 @@ import {h} from "../base/dom";
 import {fixedText, quantity, Ticks} from "../base/text";
 import {Area, csvText} from "../plot/panel";
 import type {Pen} from "../plot/pen";
-import type {Spikes} from "./signals";
+import type {Train} from "./signals";
 import {TimePanel, TimePanelOptions} from "./time-panel";
 
 export const MAX_ROW_LABELS = 46;  // with more rows, there is no space for a label per row
 const STRIP = 16;                  // above the rows, for the names of the phases, pixels
 
 /// `series`: name of the series to which the row belongs.
-export interface Row { series: string; label: string; colour: string; spikes: Spikes; group?: string; isChosen?: boolean; about?: string }
+export interface Row { series: string; label: string; colour: string; spikes: Train; group?: string; isChosen?: boolean; about?: string }
 
 export interface RasterOptions extends TimePanelOptions {
     rows: Row[];                       ///< the first is at the top
@@ -140,14 +140,14 @@ export class RasterPanel extends TimePanel {
     }
 
     csv() {
-        const rows = this.shownRows.flatMap(({series, about, label, spikes}) => Array.from(spikes.times.slice(spikes.before(this.view.a), spikes.before(this.view.b)), (t) => [series, about || label, t]));
+        const rows = this.shownRows.flatMap(({series, about, label, spikes}) => Array.from(spikes.times).slice(spikes.before(this.view.a), spikes.before(this.view.b)).map((t) => [series, about || label, t]));
         return csvText(["afferent", "row", "time_s"], rows);
     }
 }
 
 /// Adds spikes i ... j-1 of a train to the counts of the pixel columns that divide the time range [a, b) equally. Few spikes are counted one by
 /// one; if there are many, the first spike of each column is found by binary search.
-export function countPerColumn(counts: Uint32Array, spikes: {times: ArrayLike<number>; before(t: number): number}, i: number, j: number, a: number, b: number) {
+export function countPerColumn(counts: Uint32Array, spikes: Pick<Train, "times" | "before">, i: number, j: number, a: number, b: number) {
     const t = spikes.times, columns = counts.length;
     if (j - i < 8 * columns) {
         for (let k = i; k < j; ++k) ++counts[Math.min(columns - 1, Math.floor((t[k] - a) / (b - a) * columns))];

@@ -6,16 +6,16 @@ import type {Range} from "../base/pyramid";
 import {PREFIXES, prefixPower, quantity, roundTicks, unitText} from "../base/text";
 import {Area, Series, csvText} from "../plot/panel";
 import type {Pen} from "../plot/pen";
-import type {Trace} from "./signals";
+import type {Curve} from "./signals";
 import {TimePanel, TimePanelOptions, extentOf, withMargins} from "./time-panel";
 
 export interface TracePanelOptions extends TimePanelOptions {
-    traces: Trace[];  ///< of one unit; trace k has the style of series k
+    traces: Curve[];  ///< of one unit; trace k has the style of series k
     level?: {value: number; label: Child[]} | null;  ///< drawn dashed, such as a threshold
 }
 
 export class TracePanel extends TimePanel {
-    protected readonly traces: Trace[];
+    protected readonly traces: Curve[];
     private level: {value: number; label: Child[]} | null;
     protected extent: [number, number];
     private power: number;  // of ten, of the prefix of the axis
@@ -64,7 +64,7 @@ export class TracePanel extends TimePanel {
         pen.setLineDash([]);
     }
 
-    private paintTrace(pen: Pen, area: Area, trace: Trace, {colour, width = 1.5, dash}: Series) {
+    private paintTrace(pen: Pen, area: Area, trace: Curve, {colour, width = 1.5, dash}: Series) {
         pen.strokeStyle = resolved(colour);
         pen.lineWidth = width;
         pen.setLineDash(dash || []);
@@ -89,7 +89,7 @@ export class TracePanel extends TimePanel {
         const rows: (number | null)[][] = [];
         for (let k = first; k < last; ++k)
             rows.push([t0 + k * bucket * T, ...this.traces.flatMap((trace) => (bucket === 1 ? [trace.range(k, k + 1)[0]] : trace.range(k * bucket, (k + 1) * bucket)))]);
-        const column = ({quantity: name, unit}: Trace) => `${name} (${unit})`;
+        const column = ({quantity: name, unit}: Curve) => `${name} (${unit})`;
         return csvText(["time (s)", ...this.traces.flatMap((trace) => (bucket === 1 ? [column(trace)] : [`min ${column(trace)}`, `max ${column(trace)}`]))], rows);
     }
 }
@@ -98,7 +98,7 @@ export class TracePanel extends TimePanel {
 /// column of about one pixel has two points, the minimum and maximum of its samples; the one nearer to the previous point comes first, so that
 /// lines with a slope stay thin. A column's first sample is a multiple of its number of samples, so that the plot does not flicker while it is
 /// panned.
-export function pointsOf(trace: Trace, a: number, b: number, width: number): number[] {
+export function pointsOf(trace: Curve, a: number, b: number, width: number): number[] {
     const {t0, T, samples} = trace.clock, {bucket} = trace, count = (b - a) / T, pixels = width * (devicePixelRatio || 1);
     const isEach = bucket === 1 && count <= 2 * pixels;
     const column = isEach ? 1 : bucket * Math.max(1, Math.ceil(count / (bucket * pixels)));  // samples per column
