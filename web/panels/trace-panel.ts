@@ -1,7 +1,7 @@
 // Force, currents, membranes and node voltages over time, reduced to the resolution of the screen.
 
 import {resolved} from "../base/colours";
-import {Child} from "../base/dom";
+import {Child, h} from "../base/dom";
 import type {Range} from "../base/pyramid";
 import {PREFIXES, prefixPower, quantity, roundTicks, unitText} from "../base/text";
 import {Area, Series, csvText} from "../plot/panel";
@@ -17,22 +17,29 @@ export interface TracePanelOptions extends TimePanelOptions {
 export class TracePanel extends TimePanel {
     protected readonly traces: Curve[];
     private level: {value: number; label: Child[]} | null;
-    protected extent: [number, number];
-    private power: number;  // of ten, of the prefix of the axis
+    protected extent: [number, number] = [0, 0];
+    private power = 0;  // of ten, of the prefix of the axis
+    private unitNode = h("span", {class: "unit"});
 
     constructor(options: TracePanelOptions) {
         super(options);
         this.traces = options.traces;
         this.level = options.level || null;
-        this.extent = extentOf(this.traces.map((trace) => trace.fullRange()), this.level ? [this.level.value] : []);
-        const {unit} = this.traces[0];
-        this.power = prefixPower(Math.max(...this.extent.map(Math.abs)), unit);
-        const text = PREFIXES[this.power] + unitText(unit);
-        this.addTitle(text && ` (${text})`);
+        this.addTitle(" ", this.unitNode);
+        this.setExtent(extentOf(this.traces.map((trace) => trace.fullRange()), this.level ? [this.level.value] : []));
         if (this.level) {
             this.addLegendItem({name: "level", label: this.level.label, colour: "var(--level)", width: 1, dash: [5, 3]}, false);
-            this.setValue("level", quantity(this.level.value, unit, true));
+            this.setValue("level", quantity(this.level.value, this.traces[0].unit, true));
         }
+    }
+
+    /// Sets the vertical range of all values, and with it the unit of the axis.
+    protected setExtent(extent: [number, number]) {
+        const {unit} = this.traces[0];
+        this.extent = extent;
+        this.power = prefixPower(Math.max(...extent.map(Math.abs)), unit);
+        const text = PREFIXES[this.power] + unitText(unit);
+        this.unitNode.textContent = text && `(${text})`;
     }
 
     protected range(isAutoscale: boolean): [number, number] {
