@@ -1,4 +1,5 @@
 // The worker of the page's engine. Its first message is the WebAssembly module, each further one a request; it answers in order.
+export {};
 
 interface Module {
     HEAPU8: Uint8Array;
