@@ -30,7 +30,7 @@ export function catalogueOf({head}: Answer): Catalogue {
     const described = new Map(entries("afferents").map((one) => [one.name, one]));
     return {
         version: head.version, populations: head.populations, indenters: head.indenters, stimuli: entries("stimuli"),
-        contact: entries("contact").flatMap((one) => one.parameters || [one]),
+        contact: entries("contact").flatMap(({parameters = []}) => parameters).filter((one, k, all) => all.findIndex(({name}) => name === one.name) === k),
         afferents: head.afferents.map((one: any) => ({...described.get(one.name), ...one})),
     };
 }

@@ -1,6 +1,6 @@
 // The figures of the live page: force, spikes of the rows, spikes of the skin, and on demand the probes of a row.
 
-import {mixed, seriesColour} from "../base/colours";
+import {classColour, mixed} from "../base/colours";
 import {symbol} from "../base/text";
 import {RasterPanel, Row as RasterRow} from "../panels/raster-panel";
 import {TracePanel} from "../panels/trace-panel";
@@ -33,7 +33,7 @@ export class Charts {
         const {session, host, view} = this, common = {clock: session.force.clock, phases: []};
         view.clear();
         view.add(new LivePanel({host, name: "force", title: ["force"], about: "force", height: 90, traces: [session.force], series: [{name: "force", label: [], colour: "var(--ink)", width: 1.8}], ...common}));
-        const rows: RasterRow[] = session.rows.map(({info, train}, k) => ({series: info.name, label: info.name, colour: seriesColour(k), spikes: train, about: `row ${k + 1}, ${info.name}`}));
+        const rows: RasterRow[] = session.rows.map(({info, train, colour}, k) => ({series: info.name, label: info.name, colour, spikes: train, about: `row ${k + 1}, ${info.name}`}));
         if (rows.length)
             view.add(new RasterPanel({host, name: "rows", title: ["spikes of single afferents under the whole force"], about: "spikes of the rows", height: Math.max(50, 24 * rows.length), rows,
                                       series: [], isBottom: !session.skin, ...common}));
@@ -44,12 +44,12 @@ export class Charts {
 
     private skinRaster(): RasterPanel {
         const {classes, trains, population} = this.session.skin!;
-        const rows = classes.flatMap(({name, first, count}, c) => {
+        const rows = classes.flatMap(({name, first, count}) => {
             const offset = first - this.session.rows.length;
-            return Array.from({length: count}, (_, k) => ({series: name, label: `${name}#${k + 1}`, colour: seriesColour(c), spikes: trains[offset + k], group: name}));
+            return Array.from({length: count}, (_, k) => ({series: name, label: `${name}#${k + 1}`, colour: classColour(name), spikes: trains[offset + k], group: name}));
         });
         return new RasterPanel({host: this.host, name: "skin", title: [`spikes of the ${population}`], about: "spikes of the skin", height: 210, rows, isGrouped: true, isBottom: true,
-                                series: classes.map(({name}, c) => ({name, colour: seriesColour(c), width: 3})), clock: this.session.force.clock, phases: []});
+                                series: classes.map(({name}) => ({name, colour: classColour(name), width: 3})), clock: this.session.force.clock, phases: []});
     }
 
     /// Shows the last seconds, unless the user has chosen another range.
@@ -69,13 +69,13 @@ export class Charts {
     }
 
     /// Panels of the probes of a row, one for each unit, in a host of their own. Returns a function that removes them.
-    showProbes(row: Row, colour: string, host: HTMLElement): () => void {
+    showProbes(row: Row, host: HTMLElement): () => void {
         const units = new Map<string, LiveCurve[]>();
         for (const curve of row.curves) units.set(curve.unit, [...(units.get(curve.unit) || []), curve]);
         const panels = Array.from(units, ([unit, curves]) => new LivePanel({
             host, name: `${row.info.name} ${unit}`, title: [{A: "currents", V: "voltages"}[unit] || curves.map(({quantity}) => quantity).join(", ")], about: `${row.info.name}, probes in ${unit}`, height: 110,
             isBottom: true, clock: this.session.force.clock, phases: [], traces: curves,
-            series: curves.map(({quantity}, k) => ({name: quantity, label: symbol(quantity), colour: mixed(colour, "var(--ink)", k / Math.max(curves.length, 1)), dash: k % 2 ? [6, 3] : undefined})),
+            series: curves.map(({quantity}, k) => ({name: quantity, label: symbol(quantity), colour: mixed(row.colour, "var(--ink)", k / Math.max(curves.length, 1)), dash: k % 2 ? [6, 3] : undefined})),
         }));
         this.view.add(...panels);
         return () => {

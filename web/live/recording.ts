@@ -1,6 +1,5 @@
 // A recording, or a named stimulus, under the rows of the page: read by the engine, simulated, and shown like a report.
 
-import {seriesColour} from "../base/colours";
 import {append, chooser, fill, h} from "../base/dom";
 import {quantity} from "../base/text";
 import {RasterPanel} from "../panels/raster-panel";
@@ -78,7 +77,7 @@ export class Recording {
         view.setLimits({begin: 0, end: samples / rate, smallest: 4 / rate});
         view.add(new TracePanel({host, name: "recorded force", title: ["force"], about: `force of ${name}`, height: 100, clock, phases, isNamed: true, traces: [curve], series: [{name: "force", label: [], colour: "var(--ink)"}]}),
             new RasterPanel({host, name: "recorded spikes", title: ["spikes"], about: `spikes under ${name}`, height: Math.max(50, 24 * trains.length), clock, phases, isBottom: true, series: [],
-                             rows: head.rows.map((row: {name: string}, k: number) => ({series: row.name, label: row.name, colour: seriesColour(k), spikes: trains[k]}))}));
+                             rows: head.rows.map((row: {name: string}, k: number) => ({series: row.name, label: row.name, colour: this.session.rows[k].colour, spikes: trains[k]}))}));
         this.say.textContent = `${name}: ${quantity(samples / rate, "s", true)}; ` + head.rows.map((row: {name: string}, k: number) => `${row.name} ${trains[k].count}`).join(", ") + " spikes";
     }
 }

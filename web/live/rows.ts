@@ -1,6 +1,5 @@
 // The list of afferents that feel the whole force: which they are, how they fire now, and the controls of their parameters.
 
-import {seriesColour} from "../base/colours";
 import {append, fill, h} from "../base/dom";
 import {quantity} from "../base/text";
 import type {Charts} from "./charts";
@@ -60,7 +59,7 @@ export class Rows {
 
     private card(k: number): HTMLElement {
         const {info} = this.session.rows[k], content = h("div"), details: HTMLDetailsElement = h("details", {open: this.open.has(k)},
-            h("summary", {}, h("span", {class: "chip", style: `background: ${seriesColour(k)}`}), h("b", {}, info.name), " ", this.readouts[k]), content);
+            h("summary", {}, h("span", {class: "chip", style: `background: ${this.session.rows[k].colour}`}), h("b", {}, info.name), " ", this.readouts[k]), content);
         details.addEventListener("toggle", () => {
             if (details.open) this.open.add(k);
             else this.open.delete(k);
@@ -75,7 +74,7 @@ export class Rows {
         append(host, h("p", {class: "note"}, described ? `${described.description} (${described.composition})` : row.info.composition));
         const probes = h("div", {class: "probes"});
         host.append(probes);
-        this.closers.push(this.charts.showProbes(row, seriesColour(k), probes));
+        this.closers.push(this.charts.showProbes(row, probes));
         if (row.info.is_circuit) {
             this.chips[k] = new Chip(this.session, k, host);
             void this.chips[k]!.update();

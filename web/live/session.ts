@@ -1,6 +1,7 @@
 // The simulation behind the page: what was started, and the history of its force, spikes and probes.
 
 import type {NumberArray} from "../base/arrays";
+import {variantColour} from "../base/colours";
 import type {Catalogue, Parameter} from "./catalogue";
 import type {Engine} from "./engine";
 import {HISTORY, LiveCurve, LiveTrain, appendSpikes} from "./history";
@@ -12,7 +13,7 @@ export interface RowInfo {
     ranges: {quantity: string; unit: string; low: number; high: number; meaning: string}[];
 }
 
-export interface Row { info: RowInfo; train: LiveTrain; curves: LiveCurve[]; power: number; error: string }
+export interface Row { info: RowInfo; colour: string; train: LiveTrain; curves: LiveCurve[]; power: number; error: string }
 export interface SkinClass { name: string; afferent: string; first: number; count: number }
 
 export interface Skin {
@@ -51,7 +52,7 @@ export class Session {
             const {head, arrays} = await this.engine.request(request);
             ++this.generation;
             const T = this.every / rate;
-            this.rows = head.rows.map((info: RowInfo) => this.emptyRow(info));
+            this.rows = head.rows.map((info: RowInfo, k: number) => this.emptyRow(info, variantColour(info.class, head.rows.slice(0, k).filter((one: RowInfo) => one.class === info.class).length)));
             this.skin = head.skin ? {...head.skin, ...arrays, trains: head.skin.classes.flatMap((one: SkinClass) => Array.from({length: one.count}, () => new LiveTrain()))} : null;
             this.force = new LiveCurve("force", "N", T);
             [this.time, this.due, this.warnings, this.contactRadius] = [0, 0, head.warnings || [], 0];
@@ -62,9 +63,9 @@ export class Session {
         }
     }
 
-    private emptyRow(info: RowInfo): Row {
+    private emptyRow(info: RowInfo, colour: string): Row {
         const T = this.every / this.settings.rate;
-        return {info, train: new LiveTrain(), power: 0, error: "", curves: info.probes.map(({name, unit}) => new LiveCurve(name, unit, T, info.name))};
+        return {info, colour, train: new LiveTrain(), power: 0, error: "", curves: info.probes.map(({name, unit}) => new LiveCurve(name, unit, T, info.name))};
     }
 
     private get every() { return Math.max(1, Math.round(this.settings.rate / PROBE_RATE)); }

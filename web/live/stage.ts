@@ -1,6 +1,6 @@
 // The skin under the pointer: its sites, its afferents, the spikes of the last moments, and the indenter.
 
-import {resolved, seriesColour} from "../base/colours";
+import {classColour, resolved} from "../base/colours";
 import {h} from "../base/dom";
 import {quantity} from "../base/text";
 import type {Press} from "./press";
@@ -20,7 +20,8 @@ export class Stage {
 
     constructor(private session: Session, private press: Press) {
         const help = "Skin. Press with the pointer, or hold the space bar; Enter presses until Enter. Arrow keys move, with Shift faster; + and − change the force.";
-        this.root = h("div", {class: "stage", tabindex: 0, role: "application", "aria-label": help, id: "stage"}, this.canvas, this.readout);
+        this.root = h("div", {class: "stage", tabindex: 0, role: "application", "aria-label": help, id: "stage"}, this.canvas, this.readout,
+            h("p", {class: "hint"}, h("span", {class: "for-mouse"}, "Press and move. Wheel: force. Keys: hold space or Enter, arrows, + −."), h("span", {class: "for-touch"}, "Press with a finger, and move it.")));
         this.connectPointer();
         this.connectKeys();
     }
@@ -108,7 +109,7 @@ export class Stage {
         for (let s = 0; s < skin.site_x.length; ++s) dot(pen, this.place(skin.site_x[s], skin.site_y[s], width, height), radius);
         pen.globalAlpha = 0.45;
         for (let u = 0; u < skin.x.length; ++u) {
-            pen.fillStyle = resolved(seriesColour(skin.class[u]));
+            pen.fillStyle = resolved(classColour(skin.classes[skin.class[u]].name));
             dot(pen, this.place(skin.x[u], skin.y[u], width, height), 1.3);
         }
     }
@@ -133,7 +134,7 @@ export class Stage {
             const {times} = skin.trains[u], age = times.length ? now - times[times.length - 1] : GLOW;
             if (age >= GLOW) continue;
             pen.globalAlpha = 1 - Math.max(0, age) / GLOW;
-            pen.fillStyle = resolved(seriesColour(skin.class[u]));
+            pen.fillStyle = resolved(classColour(skin.classes[skin.class[u]].name));
             dot(pen, this.place(skin.x[u], skin.y[u], width, height), 3.6);
         }
         pen.globalAlpha = 1;
