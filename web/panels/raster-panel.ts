@@ -103,7 +103,8 @@ export class RasterPanel extends TimePanel {
         });
         const image = painted(counts, colours), gap = area.h / rows.length > 6 ? 1 : 0;
         pen.imageSmoothingEnabled = false;
-        for (let k = 0; k < lines; ++k) pen.drawImage(image, 0, k, columns, 1, area.x, area.y + k * area.h / lines + gap, area.w, area.h / lines - 2 * gap);
+        if (gap === 0) pen.drawImage(image, 0, 0, columns, lines, area.x, area.y, area.w, area.h);
+        else for (let k = 0; k < lines; ++k) pen.drawImage(image, 0, k, columns, 1, area.x, area.y + k * area.h / lines + gap, area.w, area.h / lines - 2 * gap);
     }
 
     /// Shows in the legend how many spikes of the chosen rows of each series are visible.
