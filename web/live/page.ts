@@ -51,7 +51,7 @@ class LivePage {
     }
 
     private build(engine: Engine) {
-        const main = h("main", {class: "live"}, h("section", {class: "press"}, this.stage.root, this.forceControl(), this.programmes(), this.skinControls),
+        const main = h("main", {class: "live"}, h("section", {class: "press"}, this.stage.root, this.forceControl(), h("div", {class: "controls"}, this.programmes(), this.skinControls)),
             h("section", {class: "responses"}, this.chartHost, this.rows.root));
         append(document.body, h("header", {}, h("h1", {}, "Press a skin"), h("span", {class: "program"}, `corpuscle ${this.catalogue.version}, computed in ${engine.place}`)), this.toolbar(), this.message, main);
         folded(document.body, "recordings", "Replay a recording", "", "", (host) => host.append(new Recording(this.session).root));
@@ -149,7 +149,7 @@ class LivePage {
             ++this.frames;
             if (now - this.lastUpdate < 1000 / UPDATES) return;
             const seconds = (now - this.lastUpdate) / 1000;
-            this.status.textContent = `${session.time.toFixed(1)} s; ${Math.round(this.frames / seconds)} frames per second; the engine can compute ${session.speed < 10 ? session.speed.toFixed(1) : Math.round(session.speed)} s in a second`;
+            this.status.textContent = `${session.time.toFixed(1)} s, ${Math.round(this.frames / seconds)} frames/s, engine ${session.speed < 10 ? session.speed.toFixed(1) : Math.round(session.speed)} times real time`;
             [this.frames, this.lastUpdate] = [0, now];
             this.rows.update();
         });
