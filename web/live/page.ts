@@ -3,11 +3,13 @@
 import {onThemeChange} from "../base/colours";
 import {append, chooser, download, fill, h} from "../base/dom";
 import {quantity} from "../base/text";
+import {csvText} from "../plot/panel";
 import {connectKeys} from "../plot/pointer";
 import {copy, folded} from "../shell";
 import {Catalogue, catalogueOf} from "./catalogue";
 import {Charts} from "./charts";
 import type {Engine} from "./engine";
+import {HISTORY} from "./history";
 import {Press, stroke, tap, vibration} from "./press";
 import {Recording} from "./recording";
 import {Rows} from "./rows";
@@ -70,7 +72,8 @@ class LivePage {
             button("Follow", "follow", "Show the present again", () => this.charts.followAgain()),
             button("Sound off", "sound", "Hear the spikes of the rows", (node) => void this.sound.toggle().then((on) => { node.textContent = on ? "Sound on" : "Sound off"; })),
             button("Copy link", "copy-link", "Copy a link to this page with its settings", (node) => copy(location.href, node)),
-            button("Save CSV", "save", "Save the spikes since the start", () => void this.save()),
+            button("Save spikes", "save", "Save the spikes since the start as CSV", () => void this.save()),
+            button("Save force", "save-force", "Save the force of the last minute as a recording, which corpuscle respond reads", () => download("force.csv", forceText(session))),
             this.status);
     }
 
@@ -157,6 +160,13 @@ class LivePage {
 
     /// For tests.
     get handles() { return {session: this.session, press: this.press, charts: this.charts, stage: this.stage}; }
+}
+
+/// The force of the session as a recording.
+function forceText({force}: Session): string {
+    const {T, samples} = force.clock, first = Math.max(0, samples - Math.round(HISTORY / T)), rows: [number, number | null][] = [];
+    for (let k = first; k < samples; ++k) rows.push([Number((k * T).toPrecision(12)), force.range(k, k + 1)[0]]);
+    return csvText(["time_s", "force_N"], rows);
 }
 
 /// Starts the page with an engine.

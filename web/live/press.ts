@@ -33,7 +33,7 @@ export class Press {
         for (let k = 0; k < n; ++k) {
             if (this.programme && this.played < this.programme.duration) this.follow(this.programme, 1 / rate);
             else this.approach((k + 1) / n, before, 1 / rate);
-            [force[k], x[k], y[k]] = [this.force, this.lastX, this.lastY];
+            [force[k], x[k], y[k]] = [Math.fround(this.force), this.lastX, this.lastY];  // as it is kept and saved
         }
         return this.hasShear ? {force, x, y, ...shearOf(force, [this.lastX - before[0], this.lastY - before[1]])} : {force, x, y};
     }

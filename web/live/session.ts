@@ -29,7 +29,7 @@ const LONGEST_BLOCK = 0.05;  // s; if the engine needs longer, the simulation is
 export class Session {
     rows: Row[] = [];
     skin: Skin | null = null;
-    force = new LiveCurve("force", "N", 1 / PROBE_RATE);
+    force = new LiveCurve("force", "N", 1 / PROBE_RATE);  // of each sample
     time = 0;       // simulated since the start, s
     speed = 1;      // simulated seconds per second, over about the last second
     contactRadius = 0;  // m
@@ -51,10 +51,9 @@ export class Session {
         try {
             const {head, arrays} = await this.engine.request(request);
             ++this.generation;
-            const T = this.every / rate;
             this.rows = head.rows.map((info: RowInfo, k: number) => this.emptyRow(info, variantColour(info.class, head.rows.slice(0, k).filter((one: RowInfo) => one.class === info.class).length)));
             this.skin = head.skin ? {...head.skin, ...arrays, trains: head.skin.classes.flatMap((one: SkinClass) => Array.from({length: one.count}, () => new LiveTrain()))} : null;
-            this.force = new LiveCurve("force", "N", T);
+            this.force = new LiveCurve("force", "N", 1 / rate);
             [this.time, this.due, this.warnings, this.contactRadius] = [0, 0, head.warnings || [], 0];
             return true;
         } catch (error) {
@@ -122,7 +121,7 @@ export class Session {
 
     private append(head: any, arrays: Record<string, NumberArray>, force: Float64Array) {
         this.time = head.to / this.settings.rate;
-        this.force.append(force.filter((_, k) => (head.from + k) % this.every === 0), Math.ceil(head.from / this.every) * this.every / this.settings.rate);
+        this.force.append(force, head.from / this.settings.rate);
         appendSpikes([...this.rows.map(({train}) => train), ...(this.skin ? this.skin.trains : [])], arrays.unit, arrays.time);
         head.rows.forEach((one: any, r: number) => {
             const row = this.rows[r];
