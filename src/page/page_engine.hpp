@@ -20,7 +20,9 @@ public:
     /// Answers a request: JSON text, or a message (message.hpp) whose head is the request. The answer is a message. After an error it is a
     /// message with the key "error" (a sentence), and the session is as before the request. It throws nothing but std::bad_alloc.
     std::vector<std::byte> request(std::span<const std::byte>);
-    std::vector<std::byte> request(std::string_view json) { return request(std::as_bytes(std::span(json))); }
+    std::vector<std::byte> request(std::string_view json) {
+        return request(std::as_bytes(std::span<const char>(json.data(), json.size())));
+    }
 
     struct Impl;
 
