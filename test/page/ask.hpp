@@ -9,7 +9,7 @@
 namespace corpuscle::page {
 
 /// An answer, with its bytes.
-struct Answer {
+struct PageAnswer {
     std::vector<std::byte> bytes;
     Message message;  // refers to `bytes`
 
@@ -25,19 +25,19 @@ struct Answer {
     }
 };
 
-inline Answer answer_of(std::vector<std::byte> bytes) {
-    Answer out{std::move(bytes), {}};
+inline PageAnswer answer_of(std::vector<std::byte> bytes) {
+    PageAnswer out{std::move(bytes), {}};
     auto message = read_message(out.bytes);
     if (!message) throw std::runtime_error(message.error().message);
     out.message = std::move(*message);
     return out;
 }
 
-inline Answer ask(PageEngine& engine, std::string_view json) { return answer_of(engine.request(json)); }
+inline PageAnswer ask(PageEngine& engine, std::string_view json) { return answer_of(engine.request(json)); }
 
 /// A request with one array.
 template <class V>
-Answer ask(PageEngine& engine, std::string_view json, std::string_view array, const std::vector<V>& values) {
+PageAnswer ask(PageEngine& engine, std::string_view json, std::string_view array, const std::vector<V>& values) {
     MessageWriter request;
     request.head = Json::parse(json);
     request.add(array, std::span<const V>(values));
@@ -45,7 +45,7 @@ Answer ask(PageEngine& engine, std::string_view json, std::string_view array, co
 }
 
 /// An answer that must not be an error.
-inline Answer ask_well(PageEngine& engine, std::string_view json) {
+inline PageAnswer ask_well(PageEngine& engine, std::string_view json) {
     auto out = ask(engine, json);
     EXPECT_EQ(out.error(), "") << json;
     return out;

@@ -1,5 +1,5 @@
-// What the page cannot read: compressed files, whose libraries emscripten does not have, and the formats of helper programs, because a page
-// starts no programs.
+// The refusal of files that the page cannot read: compressed files, whose libraries emscripten does not have, and the formats of helper
+// programs, because a page starts no programs.
 
 #include <fmt/format.h>
 

@@ -183,7 +183,7 @@ auto operator|(Range& range, Drop drop) {
 }
 /// A view that is a temporary is kept by the result.
 template <class Range>
-struct Taken {
+struct FirstElements {
     Range range;
     ptrdiff_t count;
     auto begin() const { return range.begin(); }
@@ -195,7 +195,7 @@ struct Taken {
 };
 template <class Range>
 auto operator|(Range range, Take take) {
-    return Taken<Range>{std::move(range), take.count};
+    return FirstElements<Range>{std::move(range), take.count};
 }
 
 }  // namespace std::views
