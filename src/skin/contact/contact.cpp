@@ -49,11 +49,14 @@ class IndenterContact final : public Contact {
     const Indenter& indenter_;
     ContactParams p_;
     Clock clock_;
-    const std::size_t sites_;  // number of sites
+    const Sites& sites_;
     SkinCells cells_;
     double move_duration_;  // s
     std::unique_ptr<PressureDistribution> pressure_;
     SlidingTexture texture_;
+    std::optional<SlidingTexture> free_texture_;  // instead of texture_, once a block has positions
+    Position passing_;                            // m/s, velocity of a surface that passes under the contact
+    std::uint64_t seed_;
 
     ContactShear shear_;
     bool has_shear_ = false;    // true: of shear_, or with the force of the block
@@ -153,16 +156,21 @@ class IndenterContact final : public Contact {
         if (!is_touching_) {
             negative_samples_ += force < 0;
             shear_.release();
+            if (free_texture_) free_texture_->lift();
             return {};
         }
         const double t = clock_.time(block.first + static_cast<std::int64_t>(k)), size = pressure_->size(force);
         TRY(check(size, force));
         distribute(block.x.empty() ? position_at(t) : Position{block.x[k], block.y[k], 0}, size, pattern_shift(t), pressed_by_);
-        texture_.move_to(t);
+        auto& texture = block.x.empty() ? texture_ : *free_texture_;
+        if (block.x.empty())
+            texture.move_to(t);
+        else
+            texture.move_to({pressed_by_.at.x + passing_.x * t, pressed_by_.at.y + passing_.y * t, 0}, clock_.T());
         pressed_ += force, off_skin_ += force * (1 - pressed_by_.on_skin), max_size_ = std::max(max_size_, size);
         for (const auto& s : pressed_by_.fractions) {
             touch(s.site, block.force.size());
-            force_[s.site * stride_ + k] = force * s.fraction * std::max(0.0, 1 + texture_.at(s.site));
+            force_[s.site * stride_ + k] = force * s.fraction * std::max(0.0, 1 + texture.at(s.site));
         }
         if (shear_.any()) shear_once(t, force, k);
         return {};
@@ -170,9 +178,10 @@ class IndenterContact final : public Contact {
 
 public:
     IndenterContact(const Indenter& indenter, const ContactParams& p, const Sites& sites, const Clock& clock, std::uint64_t seed)
-        : indenter_(indenter), p_(p), clock_(clock), sites_(sites.size()), cells_(sites), move_duration_(move_duration(p)),
+        : indenter_(indenter), p_(p), clock_(clock), sites_(sites), cells_(sites), move_duration_(move_duration(p)),
           pressure_(make_pressure_distribution(indenter, p, cells_.side())),
-          texture_(indenter, p, sites, surface_motion(indenter, p), clock.rate(), seed), shear_(p, surface_motion(indenter, p)),
+          texture_(indenter, p, sites, surface_motion(indenter, p), clock.rate(), seed),
+          passing_(is_moving(p) ? Position{} : surface_motion(indenter, p).velocity), seed_(seed), shear_(p, surface_motion(indenter, p)),
           in_block_(sites.size(), 0) {}
 
     std::string description() const override {
@@ -234,12 +243,13 @@ public:
         const auto& force = block.force;
         if (!block.shear_x.empty() && shear_.any())
             return bad_input("contact: the force has its own shear; remove contact.tilt and contact.friction");
+        if (!block.x.empty() && !free_texture_) free_texture_.emplace(indenter_, p_, sites_, seed_);
         has_shear_ = has_shear_ || shear_.any() || !block.shear_x.empty();  // the last block of a force is empty
         for (const auto site : touched_) in_block_[site] = 0;
         touched_.clear();
         if (force.size() > stride_) {
             stride_ = force.size();
-            force_.assign(sites_ * stride_, 0.0);
+            force_.assign(sites_.size() * stride_, 0.0);
         }
         if (has_shear_ && shear_x_force_.size() < force_.size()) shear_x_force_ = shear_y_force_ = force_;
         for (std::size_t k = 0; k < force.size(); ++k) {
