@@ -1,5 +1,5 @@
 // node ask_engine.js ENGINE.js: reads requests, one JSON object per line, and prints the answers in the same way. The arrays of a message are
-// its key "data": lists of numbers by name. Two more requests measure: {"request": "seconds"} answers with the time since the process started to load the engine.
+// its key "data": lists of numbers by name. An answer also has "ready", the time in s in which the engine started, and "seconds", that of the request.
 "use strict";
 const readline = require("readline");
 const started = process.hrtime.bigint();
@@ -30,12 +30,19 @@ function decode(bytes) {
 }
 
 async function main() {
-  const session = (await require(require("path").resolve(process.argv[2]))()).openEngine();
+  const script = require("path").resolve(process.argv[2]);
+  const module = await require(script)({ wasmBinary: require("fs").readFileSync(script.replace(/\.js$/, ".wasm")) });
+  const engine = module._corpuscle_page_create();
   const ready = seconds();
   for await (const line of readline.createInterface({ input: process.stdin })) {
-    const before = seconds();
-    const answer = decode(session.request(encode(JSON.parse(line))));
-    console.log(JSON.stringify({ ...answer, ready, seconds: seconds() - before }));
+    const before = seconds(), request = encode(JSON.parse(line));
+    const at = module._malloc(request.length);
+    module.HEAPU8.set(request, at);
+    const begin = module._corpuscle_page_request(engine, at, request.length);
+    module._free(at);
+    const answer = module.HEAPU8.slice(begin, begin + module._corpuscle_page_answer_length(engine));
+    const taken = seconds() - before;
+    console.log(JSON.stringify({ ...decode(answer), ready, seconds: taken }));
   }
 }
 main();

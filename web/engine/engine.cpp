@@ -1,4 +1,4 @@
-// The engine as functions of C, for JavaScript. engine_interface.js wraps them.
+// The engine as functions of C, which the worker of the live page calls.
 
 #include <emscripten.h>
 
@@ -15,14 +15,14 @@ struct Engine {
 
 extern "C" {
 
-EMSCRIPTEN_KEEPALIVE Engine* corpuscle_create() { return new Engine; }
-EMSCRIPTEN_KEEPALIVE void corpuscle_free(Engine* engine) { delete engine; }
+EMSCRIPTEN_KEEPALIVE Engine* corpuscle_page_create() { return new Engine; }
+EMSCRIPTEN_KEEPALIVE void corpuscle_page_free(Engine* engine) { delete engine; }
 
-/// Answers the request of `size` bytes. The answer is valid until the next request.
-EMSCRIPTEN_KEEPALIVE const std::byte* corpuscle_request(Engine* engine, const std::byte* request, std::size_t size) {
-    engine->answer = engine->engine.request(std::span(request, size));
+/// Answers the request of `length` bytes (doc/page-protocol.md). The answer is valid until the next request.
+EMSCRIPTEN_KEEPALIVE const std::byte* corpuscle_page_request(Engine* engine, const std::byte* request, std::size_t length) {
+    engine->answer = engine->engine.request(std::span(request, length));
     return engine->answer.data();
 }
-EMSCRIPTEN_KEEPALIVE std::size_t corpuscle_answer_size(const Engine* engine) { return engine->answer.size(); }
+EMSCRIPTEN_KEEPALIVE std::size_t corpuscle_page_answer_length(const Engine* engine) { return engine->answer.size(); }
 
 }  // extern "C"
