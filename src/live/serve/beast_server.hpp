@@ -62,7 +62,7 @@ struct SharedCounts {
 
 class PageConnection;
 
-/// What all connections share.
+/// State that all connections share.
 struct ServerState {
     PageServerOptions options;
     AccessPolicy policy;
@@ -87,9 +87,9 @@ class PageConnection : public std::enable_shared_from_this<PageConnection> {
     websocket::stream<beast::tcp_stream, false> socket_;  // false: no compression, which could expand without limit
     ServerState& server_;
     beast::flat_buffer in_;
-    std::deque<Outgoing> queue_;                                              // the first is being written
-    std::int64_t lost_messages_ = 0, lost_spikes_ = 0;                        // since the last notice
-    std::int64_t last_heard_ = now_ns(), write_begin_ = 0, close_begin_ = 0;  // ns; 0: no write, not closing
+    std::deque<Outgoing> queue_;                                                 // the first is being written
+    std::int64_t lost_messages_ = 0, lost_spikes_ = 0;                           // since the last notice
+    std::int64_t last_received_ = now_ns(), write_begin_ = 0, close_begin_ = 0;  // ns; 0: no write, not closing
     bool is_ping_sent_ = false, is_computing_ = false, is_viewer_ = false;
     RateLimit requests_, control_frames_{20, 40};
     websocket::close_reason close_reason_;

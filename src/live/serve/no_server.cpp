@@ -1,4 +1,4 @@
-// In place of the page server, in a program that was built without Boost.
+// Refuses --serve in a program that was built without Boost.
 
 #include "live/serve/page_server.hpp"
 

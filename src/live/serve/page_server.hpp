@@ -1,6 +1,6 @@
 #pragma once
 // A web server inside a stream: it sends one page, and opens a WebSocket to it. The page then sees the frames of the stream, or has a
-// session of the native engine. The server has a thread of its own. All its memory is bounded, whatever the clients do.
+// session of the native engine. The server has a thread of its own. Its memory is bounded for any behaviour of its clients.
 
 #include <atomic>
 #include <chrono>

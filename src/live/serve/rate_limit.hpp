@@ -1,5 +1,5 @@
 #pragma once
-// Limits how often something happens: so many times a second on average, and more for a short time.
+// Limits the rate of events: an average rate, and a number of events that may come at once.
 
 #include <algorithm>
 #include <cstdint>

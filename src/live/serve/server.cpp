@@ -43,7 +43,7 @@ class HttpConnection : public std::enable_shared_from_this<HttpConnection> {
         if (error && error != http::error::end_of_stream && error != http::error::partial_message &&
             error.category() == http_error.category())
             return refuse({400, "This is not an HTTP request."});
-        if (error) return;  // the client has gone, or was too slow
+        if (error) return;  // the client has disconnected, or was too slow
         auto decision = server_.policy.decide(read_request());
         if (decision.status == 101 && server_.pages.size() >= server_.options.max_viewers + max_unfinished)
             decision = {503, "Too many pages are connected."};
@@ -193,7 +193,7 @@ class BeastServer final : public PageServer {
     /// Sends the frames that have arrived to all pages.
     void send_frames() {
         if (!state_.options.frames) return;
-        constexpr int max_batches = 4;  // then the pages' messages have their turn
+        constexpr int max_batches = 4;  // so that a full ring does not delay new connections
         for (int k = 0; k < max_batches && state_.options.frames->take(batch_); ++k) {
             state_.counts.lost_frames += batch_.lost_frames, state_.counts.lost_spikes += batch_.lost_spikes;
             const auto message = std::make_shared<const std::vector<std::byte>>(state_.options.encode_frames(batch_));

@@ -37,8 +37,8 @@ void PageConnection::accept(HttpRequest request) {
     socket_.binary(true);
     socket_.auto_fragment(false);
     socket_.control_callback([this](websocket::frame_type, beast::string_view) {
-        last_heard_ = now_ns(), is_ping_sent_ = false;
-        if (control_frames_.take(last_heard_) > 0) disconnect(websocket::close_code::policy_error, "too many control frames");
+        last_received_ = now_ns(), is_ping_sent_ = false;
+        if (control_frames_.take(last_received_) > 0) disconnect(websocket::close_code::policy_error, "too many control frames");
     });
     const auto kept = std::make_shared<HttpRequest>(std::move(request));
     socket_.async_accept(*kept, [self = shared_from_this(), kept, is_full](error_code error) {
@@ -49,7 +49,7 @@ void PageConnection::accept(HttpRequest request) {
 
 /// Sends the first message, or says that the server has as many pages as it may have.
 void PageConnection::begin(bool is_full) {
-    last_heard_ = now_ns();
+    last_received_ = now_ns();
     const auto& options = server_.options;
     read();
     if (is_full) {
@@ -72,13 +72,13 @@ void PageConnection::read() {
 }
 
 void PageConnection::handle_message() {
-    last_heard_ = now_ns(), is_ping_sent_ = false;
+    last_received_ = now_ns(), is_ping_sent_ = false;
     if (close_begin_ != 0) return in_.clear(), read();  // until the close frame of the page
     if (!socket_.got_binary()) {
         disconnect(websocket::close_code::unknown_data, "text messages are not read; send binary ones");
         return in_.clear(), read();
     }
-    const auto wait = requests_.take(last_heard_);
+    const auto wait = requests_.take(last_received_);
     if (session_ && wait > 0) {
         is_computing_ = true;  // the page is not silent: it is not read
         delay_.expires_after(std::chrono::nanoseconds(wait));
@@ -105,7 +105,7 @@ void PageConnection::compute() {
 }
 
 void PageConnection::answer(Result<std::vector<std::byte>> answer) {
-    is_computing_ = false, last_heard_ = now_ns();
+    is_computing_ = false, last_received_ = now_ns();
     in_.clear();
     if (answer)
         queue(std::make_shared<const std::vector<std::byte>>(*std::move(answer)), 0);
@@ -168,10 +168,10 @@ void PageConnection::drop() {
 void PageConnection::check(std::int64_t now) {
     const bool is_closed_late = close_begin_ != 0 && now - close_begin_ > in_ns(closing_timeout);
     const bool is_stuck = write_begin_ != 0 && now - write_begin_ > in_ns(write_timeout);
-    const bool is_silent = !is_computing_ && now - last_heard_ > 2 * in_ns(ping_after);
+    const bool is_silent = !is_computing_ && now - last_received_ > 2 * in_ns(ping_after);
     if (is_closed_late) return drop();
     if (is_stuck || is_silent) return ++server_.counts.disconnected, drop();
-    if (is_computing_ || is_ping_sent_ || close_begin_ != 0 || now - last_heard_ < in_ns(ping_after) || !socket_.is_open()) return;
+    if (is_computing_ || is_ping_sent_ || close_begin_ != 0 || now - last_received_ < in_ns(ping_after) || !socket_.is_open()) return;
     is_ping_sent_ = true;
     socket_.async_ping({}, [self = shared_from_this()](error_code) {});
 }
