@@ -1,7 +1,11 @@
 // The page server: listens, answers HTTP requests, and sends frames to the pages.
 
+#include <fmt/format.h>
 #include <pthread.h>
 #include <sys/resource.h>
+#include <algorithm>
+#include <array>
+#include <cctype>
 #include <csignal>
 #include <thread>
 
@@ -20,11 +24,18 @@ PageServerCounts SharedCounts::read() const {
 
 namespace {
 
-/// Only the page itself may run, and connect to this server. Its script and style are in its text.
-constexpr std::string_view content_policy =
-    "default-src 'none'; script-src 'unsafe-inline' 'wasm-unsafe-eval' blob:; worker-src blob:; style-src 'unsafe-inline'; img-src data: "
-    "blob:; "
-    "font-src data:; connect-src 'self'; base-uri 'none'; form-action 'none'; frame-ancestors 'none'";
+/// Allows the page to run its own script and style, which are in its text, and to connect to this server only. Some browsers do not count a
+/// WebSocket as 'self', so that `host` is named, too; it is the text of a client.
+std::string content_policy(std::string_view host) {
+    std::string out =
+        "default-src 'none'; script-src 'unsafe-inline' 'wasm-unsafe-eval' blob:; worker-src blob:; style-src 'unsafe-inline'; "
+        "img-src data: blob:; font-src data:; base-uri 'none'; form-action 'none'; frame-ancestors 'none'; connect-src 'self'";
+    const bool is_plain = std::all_of(host.begin(), host.end(), [](unsigned char c) {
+        return std::isalnum(c) != 0 || std::string_view(".:-[]").find(static_cast<char>(c)) != std::string_view::npos;
+    });
+    if (is_plain && !host.empty()) out += fmt::format(" ws://{}", host);
+    return out;
+}
 
 /// A connection until its request has been answered, or has become a WebSocket.
 class HttpConnection : public std::enable_shared_from_this<HttpConnection> {
@@ -73,7 +84,8 @@ class HttpConnection : public std::enable_shared_from_this<HttpConnection> {
         response.set(http::field::cache_control, "no-store");
         response.set("X-Content-Type-Options", "nosniff");
         response.set("X-Frame-Options", "DENY");
-        response.set("Content-Security-Policy", beast::string_view(content_policy.data(), content_policy.size()));
+        const auto host = parser_.get()[http::field::host];
+        response.set("Content-Security-Policy", content_policy(plain(host)));
         response.set("Cross-Origin-Opener-Policy", "same-origin");
         response.set("Cross-Origin-Resource-Policy", "same-origin");
         response.set("Referrer-Policy", "no-referrer");
@@ -128,10 +140,7 @@ public:
         stream_.expires_after(request_timeout);
         http::async_read_header(stream_, in_, parser_, [self = shared_from_this()](error_code error, std::size_t) { self->handle(error); });
     }
-    void close() {
-        error_code ignored;
-        stream_.socket().close(ignored);
-    }
+    void close() { stream_.close(); }
 };
 
 /// Runs in a thread of its own, which the signals of the program do not reach. Its priority is below that of the stream.

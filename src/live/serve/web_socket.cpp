@@ -159,8 +159,7 @@ void PageConnection::send_close() {
 
 /// Closes the connection without waiting.
 void PageConnection::drop() {
-    error_code ignored;
-    beast::get_lowest_layer(socket_).socket().close(ignored);
+    beast::get_lowest_layer(socket_).close();
     delay_.cancel();
     server_.remove(shared_from_this());
 }
