@@ -330,7 +330,7 @@ class LiveRun {
         TRY(check_all_used(unused_, override_targets(skin_->innervation().plan, others)));
         TRY(check_outputs());
         TRY(open_sink());
-        if (args_.serve) page_ = TRY(StreamPage::start(args_, common_, *skin_));
+        if (args_.serve) page_ = TRY(StreamPage::start(args_, *skin_));
         return {};
     }
 

@@ -280,7 +280,8 @@ public:
 Result<std::unique_ptr<PageServer>> PageServer::start(PageServerOptions options) {
     const bool is_local = options.address.empty() || is_loopback_address(options.address);
     if (equal_ignoring_case(options.address, "localhost")) options.address = "";
-    const auto token = is_local ? std::string() : TRY(make_access_token());
+    std::string token;
+    if (!is_local) token = TRY(make_access_token());
     auto listeners = TRY(open_listeners(options.address, options.port));
     AccessPolicy policy(options.address, listeners.port, token, listeners.urls[0]);
     return std::unique_ptr<PageServer>(

@@ -1,6 +1,7 @@
 #include "cli/stream/page/stream_page.hpp"
 
 #include <fmt/format.h>
+#include <algorithm>
 #include <nlohmann/json.hpp>
 #include <thread>
 
@@ -62,7 +63,7 @@ Result<void> check_page_options(const StreamArguments& args, const CommonArgumen
     return {};
 }
 
-Result<std::unique_ptr<StreamPage>> StreamPage::start(const StreamArguments& args, const CommonArguments&, const SkinStream& skin) {
+Result<std::unique_ptr<StreamPage>> StreamPage::start(const StreamArguments& args, const SkinStream& skin) {
     auto out = std::make_unique<StreamPage>();
     out->page_ = TRY(load_live_page());
     out->ring_ = std::make_unique<FrameRing>(skin.sites(), skin.clock().rate());
@@ -118,7 +119,9 @@ Result<void> run_page_sessions(const StreamArguments& args, const CommonArgument
     while (!interrupted()) std::this_thread::sleep_for(check_interval);
     server->finish({}, patience);
     const auto counts = server->counts();
-    if (common.json) fmt::print("{}\n", json_text({{"pages", page_document(counts)}}));
+    nlohmann::ordered_json doc;
+    doc["pages"] = page_document(counts);
+    if (common.json) fmt::print("{}\n", json_text(doc));
     if (!common.quiet && !common.json) print_message(page_summary(counts));
     return Error{ErrorCode::interrupted, "interrupted"};
 }

@@ -18,7 +18,7 @@ class StreamPage {
 
 public:
     /// Starts the server of --serve, and prints the addresses of its page.
-    static Result<std::unique_ptr<StreamPage>> start(const StreamArguments&, const CommonArguments&, const SkinStream&);
+    static Result<std::unique_ptr<StreamPage>> start(const StreamArguments&, const SkinStream&);
     FrameObserver* observer() { return ring_.get(); }
     /// Waits until a page is connected, or until Ctrl-C.
     void wait_for_viewer(bool quiet) const;
