@@ -1,6 +1,6 @@
 #include "circuit/schematic/draw_level.hpp"
 
-#include "circuit/schematic/level_nets.hpp"
+#include "circuit/schematic/level/level_nets.hpp"
 
 namespace corpuscle::circuit::schematic {
 namespace {
@@ -17,7 +17,7 @@ void add_port_parts(Level& level) {
     }
 }
 
-/// Nets that are labels in every drawing: those that only bulks use, those with a single pin, and those with very many.
+/// Nets that are labels in every drawing: those that mainly bulks use, those with a single pin, and those with very many.
 NetStyles first_styles(const Level& level) {
     struct Count {
         std::size_t ports = 0, bulks = 0, drivers = 0, others = 0;
@@ -26,13 +26,17 @@ NetStyles first_styles(const Level& level) {
     for (const auto& part : level.parts)
         for (const auto& pin : part.pins) {
             auto& count = counts[static_cast<std::size_t>(pin.net)];
-            ++(part.symbol == Symbol::port ? count.ports : pin.role == PinRole::bulk ? count.bulks : pin.role == PinRole::drive ? count.drivers : count.others);
+            ++(part.symbol == Symbol::port  ? count.ports
+               : pin.role == PinRole::bulk  ? count.bulks
+               : pin.role == PinRole::drive ? count.drivers
+                                            : count.others);
         }
     NetStyles out{std::vector<bool>(level.nets.size())};
     for (std::size_t k = 0; k < counts.size(); ++k) {
         const auto& c = counts[k];
         const auto joined = c.drivers + c.others;
-        out.is_label[k] = joined + c.ports + c.bulks > most_wired_pins || joined + c.ports < 2 || (c.bulks > 0 && c.others == 0 && joined < 2);
+        out.is_label[k] = joined + c.ports + c.bulks > most_wired_pins || joined + c.ports < 2 ||
+                          (c.bulks > 0 && c.others == 0 && joined < 2) || c.bulks >= 3;
     }
     return out;
 }

@@ -1,7 +1,7 @@
 #pragma once
 // A drawing of a level: placed parts, wires and names of nets.
 
-#include "circuit/schematic/shape.hpp"
+#include "circuit/schematic/shape/shape.hpp"
 
 namespace corpuscle::circuit::schematic {
 

@@ -26,7 +26,7 @@ Result<void> check_size(const schematic::LevelReader& levels, std::string_view p
                                  path.empty() ? "the top level" : path, size, max_schematic_parts));
 }
 
-Schematic draw(schematic::LevelReader& levels, std::string_view path) {
+Schematic draw_block(schematic::LevelReader& levels, std::string_view path) {
     auto level = levels.read(path);
     Schematic out{level.path, level.subcircuit, {}};
     out.svg = schematic::svg_of(schematic::draw_level(std::move(level)));
@@ -40,16 +40,16 @@ Result<Schematic> draw_schematic(const Netlist& netlist, std::string_view block)
     schematic::LevelReader levels(circuit);
     const auto path = TRY(path_of_block(levels, block));
     TRY(check_size(levels, path));
-    return draw(levels, path);
+    return draw_block(levels, path);
 }
 
 Result<std::vector<Schematic>> draw_schematics(const Netlist& netlist) {
     const auto circuit = TRY(netlist.elaborate_hierarchy());
     schematic::LevelReader levels(circuit);
     TRY(check_size(levels, ""));
-    std::vector<Schematic> out = {draw(levels, "")};
+    std::vector<Schematic> out = {draw_block(levels, "")};
     for (const auto path : levels.block_paths())
-        if (levels.size_of(path) <= max_schematic_parts) out.push_back(draw(levels, path));
+        if (levels.size_of(path) <= max_schematic_parts) out.push_back(draw_block(levels, path));
     return out;
 }
 

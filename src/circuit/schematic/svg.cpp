@@ -1,6 +1,6 @@
 #include "circuit/schematic/svg.hpp"
 
-#include "circuit/schematic/symbol_paths.hpp"
+#include "circuit/schematic/shape/symbol_paths.hpp"
 #include "core/text/utf8.hpp"
 
 namespace corpuscle::circuit::schematic {
@@ -39,12 +39,18 @@ class SvgWriter {
     }
 
     void add_text(const Text& text, std::string_view css_class) {
-        const char* anchor = text.anchor == Text::Anchor::middle ? " text-anchor=\"middle\"" : text.anchor == Text::Anchor::end ? " text-anchor=\"end\"" : "";
+        const char* anchor = text.anchor == Text::Anchor::middle ? " text-anchor=\"middle\""
+                             : text.anchor == Text::Anchor::end  ? " text-anchor=\"end\""
+                                                                 : "";
         if (!text.text.empty())
             add("<text class=\"{}\" x=\"{}\" y=\"{}\"{}>{}</text>", css_class, text.at.x, text.at.y, anchor, escaped(text.text));
     }
     static std::string_view class_of(Text::Kind kind) {
-        return kind == Text::Kind::name ? "name" : kind == Text::Kind::type ? "type" : kind == Text::Kind::pin ? "pin" : kind == Text::Kind::net ? "label" : "value";
+        return kind == Text::Kind::name   ? "name"
+               : kind == Text::Kind::type ? "type"
+               : kind == Text::Kind::pin  ? "pin"
+               : kind == Text::Kind::net  ? "label"
+                                          : "value";
     }
 
     std::string description_of(const Part& part) const {
@@ -59,12 +65,12 @@ class SvgWriter {
         const auto& part = drawing_.level.parts[placed.part];
         if (part.symbol == Symbol::port) return;  // drawn with its net
         const bool is_block = part.symbol == Symbol::block;
-        add("<g class=\"{0}\" data-{0}=\"{1}\" transform=\"translate({2} {3})\"><title>{4}</title>", is_block ? "block" : "device", escaped(part.path),
-            placed.at.x, placed.at.y, escaped(description_of(part)));
+        add("<g class=\"{0}\" data-{0}=\"{1}\" transform=\"translate({2} {3})\"><title>{4}</title>", is_block ? "block" : "device",
+            escaped(part.path), placed.at.x, placed.at.y, escaped(description_of(part)));
         const auto& box = placed.shape.outline;
         if (!box.is_empty())
-            add("<rect class=\"{}\" x=\"{}\" y=\"{}\" width=\"{}\" height=\"{}\"{}/>", is_block ? "outline" : "hit", box.left, box.top, box.right - box.left,
-                box.bottom - box.top, is_block ? " rx=\"3\"" : "");
+            add("<rect class=\"{}\" x=\"{}\" y=\"{}\" width=\"{}\" height=\"{}\"{}/>", is_block ? "outline" : "hit", box.left, box.top,
+                box.right - box.left, box.bottom - box.top, is_block ? " rx=\"3\"" : "");
         is_block ? add_leads(placed) : add_symbol(part, placed.orientation);
         for (const auto& text : placed.shape.texts)
             if (text.kind != Text::Kind::net) add_text(text, class_of(text.kind));
@@ -81,7 +87,8 @@ class SvgWriter {
     void add_symbol(const Part& part, Orientation o) {
         const auto symbol = symbol_path(part);
         if (symbol.lines.empty()) return;
-        const char* turn = o.is_horizontal && o.is_flipped ? " transform=\"rotate(90)\"" : o.is_horizontal ? " transform=\"rotate(-90)\""
+        const char* turn = o.is_horizontal && o.is_flipped ? " transform=\"rotate(90)\""
+                           : o.is_horizontal               ? " transform=\"rotate(-90)\""
                            : o.is_mirrored && o.is_flipped ? " transform=\"scale(-1 -1)\""
                            : o.is_mirrored                 ? " transform=\"scale(-1 1)\""
                            : o.is_flipped                  ? " transform=\"scale(1 -1)\""
@@ -96,7 +103,8 @@ class SvgWriter {
         const auto bar = [&](int far, int half) {
             return fmt::format("M{} {}l{} {}", p.x + far * u.x - half * u.y, p.y + far * u.y - half * u.x, 2 * half * u.y, 2 * half * u.x);
         };
-        if (pin.connection == Connection::ground) return fmt::format("M{} {}l{} {}", p.x, p.y, 6 * u.x, 6 * u.y) + bar(6, 8) + bar(9, 5) + bar(12, 2);
+        if (pin.connection == Connection::ground)
+            return fmt::format("M{} {}l{} {}", p.x, p.y, 6 * u.x, 6 * u.y) + bar(6, 8) + bar(9, 5) + bar(12, 2);
         if (pin.connection == Connection::supply) return fmt::format("M{} {}l{} {}", p.x, p.y, 8 * u.x, 8 * u.y) + bar(8, 8);
         return "";
     }
@@ -133,7 +141,8 @@ class SvgWriter {
             count += connection == Connection::label || connection == Connection::supply ? 1 : 0;
         }
         const auto own = placed.shape.pins[pin].connection;
-        const bool has_label = own == Connection::label || own == Connection::supply || drawing_.level.parts[placed.part].symbol == Symbol::port;
+        const bool has_label =
+            own == Connection::label || own == Connection::supply || drawing_.level.parts[placed.part].symbol == Symbol::port;
         if (!has_label) return;
         for (auto text : placed.shape.texts)
             if (text.kind == Text::Kind::net && count-- == 0) {
@@ -148,8 +157,8 @@ public:
         const auto& e = drawing_.extent;
         const auto& level = drawing_.level;
         const auto title = level.path.empty() ? level.title : fmt::format("{}: {}", level.path, level.subcircuit);
-        add("<svg xmlns=\"http://www.w3.org/2000/svg\" class=\"schematic\" role=\"img\" viewBox=\"{} {} {} {}\">\n", e.left - picture_margin,
-            e.top - picture_margin, e.right - e.left + 2 * picture_margin, e.bottom - e.top + 2 * picture_margin);
+        add("<svg xmlns=\"http://www.w3.org/2000/svg\" class=\"schematic\" role=\"img\" viewBox=\"{} {} {} {}\">\n",
+            e.left - picture_margin, e.top - picture_margin, e.right - e.left + 2 * picture_margin, e.bottom - e.top + 2 * picture_margin);
         std::size_t devices = 0, blocks = 0;
         for (const auto& part : level.parts) ++(part.symbol == Symbol::block ? blocks : devices);
         add("<title>{}</title>\n<desc>Schematic with {} devices, {} blocks and {} nets</desc>\n<style>{}</style>\n", escaped(title),

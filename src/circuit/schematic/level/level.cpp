@@ -1,6 +1,6 @@
-#include "circuit/schematic/level.hpp"
+#include "circuit/schematic/level/level.hpp"
 
-#include "circuit/schematic/part_of_element.hpp"
+#include "circuit/schematic/level/part_of_element.hpp"
 
 namespace corpuscle::circuit::schematic {
 namespace {

@@ -1,7 +1,7 @@
 #pragma once
 // The shape of a block. Used inside circuit/schematic only.
 
-#include "circuit/schematic/shape.hpp"
+#include "circuit/schematic/shape/shape.hpp"
 
 namespace corpuscle::circuit::schematic {
 

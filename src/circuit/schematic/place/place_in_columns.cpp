@@ -1,5 +1,5 @@
-#include "circuit/schematic/orient_parts.hpp"
-#include "circuit/schematic/stacks.hpp"
+#include "circuit/schematic/place/orient_parts.hpp"
+#include "circuit/schematic/place/stacks.hpp"
 
 namespace corpuscle::circuit::schematic {
 namespace {
@@ -9,8 +9,8 @@ constexpr int row_pitch = 110, port_distance = 30;
 class ColumnPlacer {
     Drawing& drawing_;
     Stacks stacks_;
-    std::vector<std::size_t> order_;                 // of the columns, ports excluded
-    std::vector<int> position_;                      // of each part: of its column; -1: an input port; the number of columns: an output
+    std::vector<std::size_t> order_;  // of the columns, ports excluded
+    std::vector<int> position_;       // of the column of each part; -1 for an input port, the number of columns for an output
     std::vector<std::vector<std::size_t>> parts_of_net_;  // those whose pins are joined by wires
 
     const Part& part(std::size_t k) const { return drawing_.level.parts[k]; }
@@ -22,7 +22,8 @@ class ColumnPlacer {
             for (const auto p : stacks_.columns[order_[k]].parts) position_[p] = static_cast<int>(k);
         parts_of_net_ = parts_of_nets(drawing_);
         for (std::size_t p = 0; p < drawing_.level.parts.size(); ++p)
-            if (part(p).symbol == Symbol::port) position_[p] = part(p).pins[0].role == PinRole::drive ? -1 : static_cast<int>(order_.size());
+            if (part(p).symbol == Symbol::port)
+                position_[p] = part(p).pins[0].role == PinRole::drive ? -1 : static_cast<int>(order_.size());
     }
 
     /// The number of wires that may run vertically between a column and the next one.
@@ -33,7 +34,8 @@ class ColumnPlacer {
                 for (std::size_t i = 0; i < part(p).pins.size(); ++i) {
                     const auto& pin = drawing_.parts[p].shape.pins[i];
                     if (pin.connection != Connection::wire) continue;
-                    const bool faces = pin.out == (mirrored ? Direction::right : Direction::left) || pin.out == Direction::up || pin.out == Direction::down;
+                    const bool faces = pin.out == (mirrored ? Direction::right : Direction::left) || pin.out == Direction::up ||
+                                       pin.out == Direction::down;
                     if (faces && std::find(nets.begin(), nets.end(), pin.net) == nets.end()) nets.push_back(pin.net);
                 }
         };

@@ -1,6 +1,6 @@
-#include "circuit/schematic/shape.hpp"
+#include "circuit/schematic/shape/shape.hpp"
 
-#include "circuit/schematic/block_shape.hpp"
+#include "circuit/schematic/shape/block_shape.hpp"
 
 namespace corpuscle::circuit::schematic {
 namespace {
@@ -34,7 +34,8 @@ void add_device_texts(const Part& part, Orientation o, Shape& shape) {
     std::vector<Text> lines = {{.kind = Text::Kind::name, .at = {}, .text = shortened(part.name)}};
     for (const auto& text : part.texts) lines.push_back({.kind = Text::Kind::value, .at = {}, .text = shortened(text)});
     const bool has_bulk = is_transistor(part.symbol) && part.pins.size() > 3;
-    if (is_transistor(part.symbol) && !part.type.empty()) lines.push_back({.kind = Text::Kind::type, .at = {}, .text = shortened(part.type)});
+    if (is_transistor(part.symbol) && !part.type.empty())
+        lines.push_back({.kind = Text::Kind::type, .at = {}, .text = shortened(part.type)});
     const int count = static_cast<int>(lines.size());
     const int beside = is_transistor(part.symbol) ? 5 : part.symbol == Symbol::note ? 0 : 18;
     for (int k = 0; k < count; ++k) {
@@ -42,7 +43,7 @@ void add_device_texts(const Part& part, Orientation o, Shape& shape) {
         if (o.is_horizontal)
             line.at = {0, -20 - line_height * (count - 1 - k)}, line.anchor = Text::Anchor::middle;
         else if (has_bulk)  // the bulk's label is in the middle
-            line.at = {beside, -16 + line_height * (k < 2 ? k : k + 1) - (k < 2 ? 2 : 0)};
+            line.at = {beside, k < 2 ? -20 + 11 * k : 14 + 10 * (k - 2)};
         else
             line.at = {beside, text_ascent / 2 - line_height * (count - 1) / 2 + line_height * k};
         if (o.is_mirrored && !o.is_horizontal) line.at.x = -beside, line.anchor = Text::Anchor::end;
@@ -69,7 +70,8 @@ Shape port_shape(const Part& part, Orientation o) {
     Shape shape;
     const int side = o.is_mirrored ? -1 : 1;
     shape.pins.push_back({{side * grid_step, 0}, side > 0 ? Direction::right : Direction::left, part.pins[0].net, Connection::wire});
-    shape.texts.push_back({side > 0 ? Text::Anchor::end : Text::Anchor::start, Text::Kind::net, {-side * 10, 4}, shortened(part.name), part.pins[0].net});
+    shape.texts.push_back(
+        {side > 0 ? Text::Anchor::end : Text::Anchor::start, Text::Kind::net, {-side * 10, 4}, shortened(part.name), part.pins[0].net});
     shape.outline = {-8, -6, 8, 6};
     return shape;
 }
@@ -77,10 +79,14 @@ Shape port_shape(const Part& part, Orientation o) {
 Text label_text(const ShapePin& pin, const std::string& name, int distance) {
     const auto p = pin.at;
     switch (pin.out) {
-        case Direction::left: return {Text::Anchor::end, Text::Kind::net, {p.x - distance, p.y + 3}, name, pin.net};
-        case Direction::right: return {Text::Anchor::start, Text::Kind::net, {p.x + distance, p.y + 3}, name, pin.net};
-        case Direction::up: return {Text::Anchor::middle, Text::Kind::net, {p.x, p.y - distance}, name, pin.net};
-        default: return {Text::Anchor::middle, Text::Kind::net, {p.x, p.y + distance + text_ascent}, name, pin.net};
+        case Direction::left:
+            return {Text::Anchor::end, Text::Kind::net, {p.x - distance, p.y + 3}, name, pin.net};
+        case Direction::right:
+            return {Text::Anchor::start, Text::Kind::net, {p.x + distance, p.y + 3}, name, pin.net};
+        case Direction::up:
+            return {Text::Anchor::middle, Text::Kind::net, {p.x, p.y - distance}, name, pin.net};
+        default:
+            return {Text::Anchor::middle, Text::Kind::net, {p.x, p.y + distance + text_ascent}, name, pin.net};
     }
 }
 
@@ -98,7 +104,9 @@ void add_mark(const Level& level, Shape& shape, const ShapePin& pin) {
     auto text = label_text(pin, shortened(level.nets[static_cast<std::size_t>(pin.net)].name), is_bar ? 10 : 4);
     auto box = text.box();
     box.include(pin.at);
-    if (is_bar) box.include(Point{pin.at.x + 8 * u.y + 8 * u.x, pin.at.y + 8 * u.x + 8 * u.y}), box.include(Point{pin.at.x - 8 * u.y + 8 * u.x, pin.at.y - 8 * u.x + 8 * u.y});
+    if (is_bar)
+        box.include(Point{pin.at.x + 8 * u.y + 8 * u.x, pin.at.y + 8 * u.x + 8 * u.y}),
+            box.include(Point{pin.at.x - 8 * u.y + 8 * u.x, pin.at.y - 8 * u.x + 8 * u.y});
     shape.texts.push_back(std::move(text));
     shape.obstacles.push_back(box);
 }
@@ -128,12 +136,12 @@ int text_width(std::string_view text) {
 }
 
 std::string shortened(const std::string& text, std::size_t most) {
-    std::size_t count = 0;
-    for (std::size_t k = 0; k < text.size(); ++k) {
-        if ((static_cast<unsigned char>(text[k]) & 0xC0) == 0x80) continue;  // not the first byte of a character
-        if (++count > most) return text.substr(0, k) + "..";
-    }
-    return text;
+    std::vector<std::size_t> characters;  // their first bytes
+    for (std::size_t k = 0; k < text.size(); ++k)
+        if ((static_cast<unsigned char>(text[k]) & 0xC0) != 0x80) characters.push_back(k);
+    if (characters.size() <= most) return text;
+    const auto kept = most / 2 - 1;
+    return text.substr(0, characters[kept]) + ".." + text.substr(characters[characters.size() - kept]);
 }
 
 Box Text::box() const {

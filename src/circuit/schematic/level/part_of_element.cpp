@@ -1,4 +1,4 @@
-#include "circuit/schematic/part_of_element.hpp"
+#include "circuit/schematic/level/part_of_element.hpp"
 
 #include "circuit/device/named_values.hpp"
 #include "circuit/devices.hpp"
@@ -13,22 +13,35 @@ Symbol symbol_of(const Circuit& circuit, const Element& e) {
     const auto* model = circuit.model_of(e);
     const bool is_p = model != nullptr && (model->type == "pmos" || model->type == "pnp");
     switch (e.kind->letter) {
-        case 'm': return is_p ? Symbol::pmos : Symbol::nmos;
-        case 'q': return is_p ? Symbol::pnp : Symbol::npn;
-        case 'r': return Symbol::resistor;
-        case 'c': return Symbol::capacitor;
-        case 'l': return Symbol::inductor;
-        case 'd': return Symbol::diode;
-        case 'v': return Symbol::voltage_source;
-        case 'i': return Symbol::current_source;
+        case 'm':
+            return is_p ? Symbol::pmos : Symbol::nmos;
+        case 'q':
+            return is_p ? Symbol::pnp : Symbol::npn;
+        case 'r':
+            return Symbol::resistor;
+        case 'c':
+            return Symbol::capacitor;
+        case 'l':
+            return Symbol::inductor;
+        case 'd':
+            return Symbol::diode;
+        case 'v':
+            return Symbol::voltage_source;
+        case 'i':
+            return Symbol::current_source;
         case 'e':
-        case 'h': return Symbol::controlled_voltage;
+        case 'h':
+            return Symbol::controlled_voltage;
         case 'f':
-        case 'g': return Symbol::controlled_current;
-        case 'b': return e.expression_is_voltage ? Symbol::controlled_voltage : Symbol::controlled_current;
+        case 'g':
+            return Symbol::controlled_current;
+        case 'b':
+            return e.expression_is_voltage ? Symbol::controlled_voltage : Symbol::controlled_current;
         case 's':
-        case 'w': return Symbol::switch_contact;
-        default: return Symbol::note;
+        case 'w':
+            return Symbol::switch_contact;
+        default:
+            return Symbol::note;
     }
 }
 
@@ -57,14 +70,23 @@ std::string source_text(const Element& e) {
     const auto& waveform = e.waveform;
     const char* unit = e.kind->letter == 'v' ? "V" : "A";
     switch (waveform.shape) {
-        case Shape::none: return format_quantity(waveform.dc, unit);
-        case Shape::force: return fmt::format("force, {}", format_quantity(waveform.numbers.empty() ? 1 : waveform.numbers[0], e.kind->letter == 'v' ? "V/N" : "A/N"));
-        case Shape::pulse: return "pulse";
-        case Shape::sine: return "sine";
-        case Shape::exponential: return "exp";
-        case Shape::piecewise_linear: return "pwl";
-        case Shape::noise: return "noise";
-        default: return "modulated";
+        case Shape::none:
+            return format_quantity(waveform.dc, unit);
+        case Shape::force:
+            return fmt::format("force, {}",
+                               format_quantity(waveform.numbers.empty() ? 1 : waveform.numbers[0], e.kind->letter == 'v' ? "V/N" : "A/N"));
+        case Shape::pulse:
+            return "pulse";
+        case Shape::sine:
+            return "sine";
+        case Shape::exponential:
+            return "exp";
+        case Shape::piecewise_linear:
+            return "pwl";
+        case Shape::noise:
+            return "noise";
+        default:
+            return "modulated";
     }
 }
 

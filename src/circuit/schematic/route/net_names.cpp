@@ -21,7 +21,7 @@ public:
         for (const auto& net : drawing.nets)
             for (const auto& wire : net.wires) boxes_.push_back(widened(wire.box()));
     }
-    static Box widened(Box box) { return {box.left - 2, box.top - 1, box.right + 2, box.bottom + 1}; }
+    static Box widened(Box box) { return {box.left - 4, box.top - 1, box.right + 4, box.bottom + 1}; }
     bool is_free(const Box& box) const {
         return std::none_of(boxes_.begin(), boxes_.end(), [&](const Box& b) { return b.overlaps(box); });
     }

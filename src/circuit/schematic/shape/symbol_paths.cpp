@@ -1,4 +1,4 @@
-#include "circuit/schematic/symbol_paths.hpp"
+#include "circuit/schematic/shape/symbol_paths.hpp"
 
 namespace corpuscle::circuit::schematic {
 namespace {
@@ -39,19 +39,34 @@ SymbolPath symbol_path(const Part& part) {
     SymbolPath out;
     switch (part.symbol) {
         case Symbol::nmos:
-        case Symbol::pmos: return mos_path(part);
+        case Symbol::pmos:
+            return mos_path(part);
         case Symbol::npn:
-        case Symbol::pnp: return bipolar_path(part);
-        case Symbol::resistor: out.lines = "M0-30V-18L6-15L-6-9L6-3L-6 3L6 9L-6 15L0 18V30"; break;
-        case Symbol::capacitor: out.lines = "M0-30V-3M-11-3H11M-11 3H11M0 3V30"; break;
-        case Symbol::inductor: out.lines = "M0-30V-18a6 6 0 0 1 0 12a6 6 0 0 1 0 12a6 6 0 0 1 0 12V30"; break;
-        case Symbol::diode: out.lines = "M0-30V-8M0 8V30M-9 8H9", out.solid = "M-9-8h18l-9 16z"; break;
-        case Symbol::switch_contact: out.lines = "M0-30V-10L10 8M0 10V30"; break;
+        case Symbol::pnp:
+            return bipolar_path(part);
+        case Symbol::resistor:
+            out.lines = "M0-30V-18L6-15L-6-9L6-3L-6 3L6 9L-6 15L0 18V30";
+            break;
+        case Symbol::capacitor:
+            out.lines = "M0-30V-3M-11-3H11M-11 3H11M0 3V30";
+            break;
+        case Symbol::inductor:
+            out.lines = "M0-30V-18a6 6 0 0 1 0 12a6 6 0 0 1 0 12a6 6 0 0 1 0 12V30";
+            break;
+        case Symbol::diode:
+            out.lines = "M0-30V-8M0 8V30M-9 8H9", out.solid = "M-9-8h18l-9 16z";
+            break;
+        case Symbol::switch_contact:
+            out.lines = "M0-30V-10L10 8M0 10V30";
+            break;
         case Symbol::voltage_source:
         case Symbol::current_source:
         case Symbol::controlled_voltage:
-        case Symbol::controlled_current: out = source_path(part); break;
-        default: break;
+        case Symbol::controlled_current:
+            out = source_path(part);
+            break;
+        default:
+            break;
     }
     for (std::size_t k = 2; k < part.pins.size(); ++k) {  // controlling nodes
         const int others = static_cast<int>(part.pins.size()) - 2, place = static_cast<int>(k) - 2;

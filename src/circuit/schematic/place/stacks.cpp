@@ -1,12 +1,14 @@
-#include "circuit/schematic/stacks.hpp"
+#include "circuit/schematic/place/stacks.hpp"
 
 namespace corpuscle::circuit::schematic {
 namespace {
 
-bool has_two_ends(const Part& part) { return part.symbol != Symbol::note && part.symbol != Symbol::block && part.symbol != Symbol::port && !is_transistor(part.symbol); }
+bool has_two_ends(const Part& part) {
+    return part.symbol != Symbol::note && part.symbol != Symbol::block && part.symbol != Symbol::port && !is_transistor(part.symbol);
+}
 
-/// True if the part stands, between an upper and a lower net.
-bool stands(const Level& level, const Part& part) {
+/// True if the part is upright, between an upper and a lower net.
+bool is_upright(const Level& level, const Part& part) {
     if (is_transistor(part.symbol)) return true;
     if (!has_two_ends(part) || part.pins.size() < 2) return false;
     if (is_rail(level, part.pins[0]) || is_rail(level, part.pins[1])) return true;
@@ -16,7 +18,7 @@ bool stands(const Level& level, const Part& part) {
     return true;
 }
 
-Orientation standing(const Level& level, const Part& part) {
+Orientation upright_orientation(const Level& level, const Part& part) {
     const Orientation natural;
     const auto& above = net_of(level, part.pins[upper_pin(part, natural)]);
     const auto& below = net_of(level, part.pins[lower_pin(part, natural)]);
@@ -27,23 +29,24 @@ Orientation standing(const Level& level, const Part& part) {
 class StackBuilder {
     const Level& level_;
     Stacks out_;
-    std::vector<bool> stands_, from_supply_, to_ground_;  // of parts
-    std::vector<int> below_, above_;                      // the part that is joined at the end; -1: none
+    std::vector<bool> is_upright_, from_supply_, to_ground_;  // of parts
+    std::vector<int> below_, above_;                          // the part that is joined at the end; -1: none
 
     const Part& part(std::size_t k) const { return level_.parts[k]; }
     int upper_net(std::size_t k) const { return part(k).pins[upper_pin(part(k), out_.orientations[k])].net; }
     int lower_net(std::size_t k) const { return part(k).pins[lower_pin(part(k), out_.orientations[k])].net; }
     NetKind kind(int net) const { return level_.nets[static_cast<std::size_t>(net)].kind; }
 
-    /// Marks the parts that are reached from a kind of rail, going down (or up) through standing parts.
+    /// Marks the parts that are reached from a kind of rail, going down (or up) through upright parts.
     std::vector<bool> reached(NetKind rail, bool down) const {
         std::vector<bool> net_reached(level_.nets.size()), out(level_.parts.size());
         for (std::size_t k = 0; k < level_.nets.size(); ++k) net_reached[k] = level_.nets[k].kind == rail;
         for (bool changes = true; changes;) {
             changes = false;
             for (std::size_t k = 0; k < out.size(); ++k) {
-                if (!stands_[k] || out[k]) continue;
-                const auto from = static_cast<std::size_t>(down ? upper_net(k) : lower_net(k)), to = static_cast<std::size_t>(down ? lower_net(k) : upper_net(k));
+                if (!is_upright_[k] || out[k]) continue;
+                const auto from = static_cast<std::size_t>(down ? upper_net(k) : lower_net(k)),
+                           to = static_cast<std::size_t>(down ? lower_net(k) : upper_net(k));
                 if (!net_reached[from]) continue;
                 out[k] = changes = true;
                 if (level_.nets[to].kind == NetKind::signal) net_reached[to] = true;
@@ -52,7 +55,7 @@ class StackBuilder {
         return out;
     }
 
-    /// How well part b stands under part a.
+    /// How well part b fits under part a.
     int merit(std::size_t a, std::size_t b) const {
         const auto &upper = part(a), &lower = part(b);
         if (!is_transistor(upper.symbol) || !is_transistor(lower.symbol)) return 20;
@@ -72,7 +75,9 @@ class StackBuilder {
         };
         std::vector<std::vector<std::size_t>> ends_at(level_.nets.size()), begins_at(level_.nets.size());
         for (std::size_t k = 0; k < level_.parts.size(); ++k)
-            if (stands_[k]) ends_at[static_cast<std::size_t>(lower_net(k))].push_back(k), begins_at[static_cast<std::size_t>(upper_net(k))].push_back(k);
+            if (is_upright_[k])
+                ends_at[static_cast<std::size_t>(lower_net(k))].push_back(k),
+                    begins_at[static_cast<std::size_t>(upper_net(k))].push_back(k);
         constexpr std::size_t most = 40;  // at one net; with more, stacks are not meaningful
         std::vector<Pair> pairs;
         for (std::size_t net = 0; net < level_.nets.size(); ++net)
@@ -80,7 +85,9 @@ class StackBuilder {
                 for (const auto a : ends_at[net])
                     for (const auto b : begins_at[net])
                         if (a != b) pairs.push_back({merit(a, b), a, b});
-        std::sort(pairs.begin(), pairs.end(), [](const Pair& x, const Pair& y) { return x.merit != y.merit ? x.merit > y.merit : x.a != y.a ? x.a < y.a : x.b < y.b; });
+        std::sort(pairs.begin(), pairs.end(), [](const Pair& x, const Pair& y) {
+            return x.merit != y.merit ? x.merit > y.merit : x.a != y.a ? x.a < y.a : x.b < y.b;
+        });
         for (const auto& pair : pairs)
             if (below_[pair.a] < 0 && above_[pair.b] < 0 && !is_above(pair.b, pair.a))
                 below_[pair.a] = static_cast<int>(pair.b), above_[pair.b] = static_cast<int>(pair.a);
@@ -104,12 +111,12 @@ class StackBuilder {
         const auto deepest = [&](int net) {
             int row = -1;
             for (std::size_t k = 0; k < rows.size(); ++k)
-                if (stands_[k] && is_upper(k) == upper && (upper ? lower_net(k) : upper_net(k)) == net) row = std::max(row, rows[k]);
+                if (is_upright_[k] && is_upper(k) == upper && (upper ? lower_net(k) : upper_net(k)) == net) row = std::max(row, rows[k]);
             return row;
         };
         for (int pass = 0; pass < 6; ++pass)  // deeper stacks than this are columns of their own
             for (std::size_t k = 0; k < rows.size(); ++k) {
-                if (!stands_[k] || is_upper(k) != upper) continue;
+                if (!is_upright_[k] || is_upper(k) != upper) continue;
                 const int joined = upper ? above_[k] : below_[k], net = upper ? upper_net(k) : lower_net(k);
                 if (joined >= 0 && is_upper(static_cast<std::size_t>(joined)) == upper)
                     rows[k] = rows[static_cast<std::size_t>(joined)] + 1;
@@ -128,11 +135,12 @@ class StackBuilder {
             int top, bottom;  // rows counted from the top and from the bottom
         };
         for (std::size_t first = 0; first < level_.parts.size(); ++first) {
-            if (stands_[first] ? above_[first] >= 0 : false) continue;
+            if (is_upright_[first] ? above_[first] >= 0 : false) continue;
             Column column;
-            for (int k = static_cast<int>(first); k >= 0; k = stands_[static_cast<std::size_t>(k)] ? below_[static_cast<std::size_t>(k)] : -1)
+            for (int k = static_cast<int>(first); k >= 0;
+                 k = is_upright_[static_cast<std::size_t>(k)] ? below_[static_cast<std::size_t>(k)] : -1)
                 column.parts.push_back(static_cast<std::size_t>(k));
-            if (stands_[first]) rows = std::max(rows, set_rows(column, upper_rows, lower_rows));
+            if (is_upright_[first]) rows = std::max(rows, set_rows(column, upper_rows, lower_rows));
             columns.push_back(std::move(column));
         }
         for (auto& column : columns)
@@ -145,17 +153,19 @@ class StackBuilder {
     /// rows that it needs.
     int set_rows(Column& column, const std::vector<int>& upper_rows, const std::vector<int>& lower_rows) const {
         bool is_ordered = true;  // all upper parts are above all lower ones
-        for (std::size_t k = 1; k < column.parts.size(); ++k) is_ordered = is_ordered && (is_upper(column.parts[k - 1]) || !is_upper(column.parts[k]));
+        for (std::size_t k = 1; k < column.parts.size(); ++k)
+            is_ordered = is_ordered && (is_upper(column.parts[k - 1]) || !is_upper(column.parts[k]));
         const int count = static_cast<int>(column.parts.size());
         if (!is_ordered) {
             for (int k = 0; k < count; ++k) column.rows.push_back(k);
             return count;
         }
-        int top = 0, bottom = 0;
-        for (const auto k : column.parts) {
-            column.rows.push_back(is_upper(k) ? upper_rows[k] : -1 - lower_rows[k]);
-            (is_upper(k) ? top : bottom) = std::max(is_upper(k) ? top : bottom, is_upper(k) ? upper_rows[k] + 1 : lower_rows[k] + 1);
-        }
+        column.rows.resize(column.parts.size());
+        int top = 0, bottom = 0;  // the rows that are taken
+        for (std::size_t k = 0; k < column.parts.size(); ++k)
+            if (is_upper(column.parts[k])) column.rows[k] = std::max(upper_rows[column.parts[k]], top), top = column.rows[k] + 1;
+        for (std::size_t k = column.parts.size(); k-- > 0;)
+            if (!is_upper(column.parts[k])) column.rows[k] = -1 - std::max(lower_rows[column.parts[k]], bottom), bottom = -column.rows[k];
         return top + bottom;
     }
 
@@ -164,11 +174,11 @@ public:
 
     Stacks run() {
         const auto count = level_.parts.size();
-        stands_.resize(count), below_.assign(count, -1), above_.assign(count, -1), out_.orientations.resize(count);
+        is_upright_.resize(count), below_.assign(count, -1), above_.assign(count, -1), out_.orientations.resize(count);
         for (std::size_t k = 0; k < count; ++k) {
-            stands_[k] = stands(level_, part(k));
-            if (stands_[k])
-                out_.orientations[k] = standing(level_, part(k));
+            is_upright_[k] = is_upright(level_, part(k));
+            if (is_upright_[k])
+                out_.orientations[k] = upright_orientation(level_, part(k));
             else
                 out_.orientations[k].is_horizontal = has_two_ends(part(k));
         }

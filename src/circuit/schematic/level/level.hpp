@@ -4,7 +4,7 @@
 #include <map>
 
 #include "circuit/netlist/netlist.hpp"
-#include "circuit/schematic/geometry.hpp"
+#include "circuit/schematic/shape/geometry.hpp"
 
 namespace corpuscle::circuit::schematic {
 
@@ -27,7 +27,7 @@ enum class Symbol {
     port,
 };
 
-/// What a pin does with its net.
+/// The effect of a pin on its net.
 enum class PinRole {
     sense,    ///< draws no current: a gate, a controlling node
     drive,    ///< a drain, the output of a source or of a block
@@ -42,22 +42,22 @@ enum class PinRole {
 struct Pin {
     int net = 0;
     PinRole role = PinRole::passive;
-    std::string name = {};                   ///< of the port, for blocks
+    std::string name = {};             ///< of the port, for blocks
     Direction side = Direction::left;  ///< of the block
 };
 
 /// A device, a block or a port of the level.
 struct Part {
     Symbol symbol = Symbol::note;
-    std::string name;                    ///< in the level: "mn3b"
-    std::string path;                    ///< in the circuit: "xsummer.mn3b"
-    std::string type;                    ///< subcircuit of a block, model of a device; "" if it has none
-    std::vector<std::string> texts;      ///< size and value
-    std::vector<Pin> pins;               ///< transistors: drain (collector), gate, source and, if it is drawn, bulk
-    bool is_high_threshold = false;      ///< a transistor drawn with two gate lines
-    bool is_signal_source = false;       ///< a source that varies with time or receives the force
-    bool is_ammeter = false;             ///< a source of 0 V
-    int index_of_hidden_bulk_net = -1;   ///< the net of a bulk that is not drawn because it is at its rail; -1: none
+    std::string name;                   ///< in the level: "mn3b"
+    std::string path;                   ///< in the circuit: "xsummer.mn3b"
+    std::string type;                   ///< subcircuit of a block, model of a device; "" if it has none
+    std::vector<std::string> texts;     ///< size and value
+    std::vector<Pin> pins;              ///< transistors: drain (collector), gate, source and, if it is drawn, bulk
+    bool is_high_threshold = false;     ///< a transistor drawn with two gate lines
+    bool is_signal_source = false;      ///< a source that varies with time or receives the force
+    bool is_ammeter = false;            ///< a source of 0 V
+    int index_of_hidden_bulk_net = -1;  ///< the net of a bulk that is not drawn because it is at its rail; -1: none
 };
 
 enum class NetKind { signal, ground, supply };
@@ -76,8 +76,8 @@ struct Level {
     std::string title;       ///< of the netlist
     std::vector<Part> parts;
     std::vector<Net> nets;
-    std::vector<int> ports;             ///< nets in the order of the .subckt line
-    std::vector<PinRole> port_roles;    ///< of the ports, as a block that shows this level has them
+    std::vector<int> ports;           ///< nets in the order of the .subckt line
+    std::vector<PinRole> port_roles;  ///< of the ports, as a block that shows this level has them
 };
 
 /// Prepares the levels of a circuit.
@@ -88,8 +88,8 @@ class LevelReader {
         const SubcircuitInstance* self = nullptr;
     };
     const HierarchicalCircuit& circuit_;
-    std::map<std::string, Contents, std::less<>> contents_;  // by path
-    std::vector<int> outside_;                               // of each node: the node outside that its port is connected to; else itself
+    std::map<std::string, Contents, std::less<>> contents_;   // by path
+    std::vector<int> outside_;                                // of each node: the node outside that its port is connected to; else itself
     std::map<std::string, std::vector<PinRole>> port_roles_;  // by subcircuit, see ports_key()
 
     const Contents& contents_of(std::string_view path) const;

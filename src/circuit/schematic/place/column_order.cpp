@@ -1,4 +1,4 @@
-#include "circuit/schematic/stacks.hpp"
+#include "circuit/schematic/place/stacks.hpp"
 
 namespace corpuscle::circuit::schematic {
 namespace {
@@ -7,7 +7,7 @@ namespace {
 class ColumnOrder {
     struct NetColumns {
         std::vector<std::size_t> all, drivers, inputs, sensing;  // columns
-        bool enters = false, leaves = false;             // as an input or output port
+        bool enters = false, leaves = false;                     // as an input or output port
     };
     std::vector<NetColumns> nets_;
     std::vector<std::vector<std::size_t>> nets_of_column_;
@@ -24,7 +24,7 @@ class ColumnOrder {
         double cost = high - low;
         for (const auto d : net.drivers)
             for (const auto s : net.sensing)
-                if (position_[s] < position_[d]) cost += 0.6 * (position_[d] - position_[s]) / static_cast<double>(net.drivers.size());
+                if (position_[s] < position_[d]) cost += (position_[d] - position_[s]) / static_cast<double>(net.drivers.size());
         if (net.enters) cost += 0.5 * low + 0.1 * high;
         if (net.leaves) cost += 0.5 * (static_cast<double>(order_.size()) - 1 - high);
         return cost;
@@ -75,30 +75,59 @@ public:
 
     std::vector<std::size_t> run() {
         if (order_.empty()) return order_;
+        update_positions(0, order_.size() - 1);
+        improve();
+        auto first = order_;
+        const double first_cost = cost();
         begin();
+        improve();
+        return first_cost < cost() ? first : order_;
+    }
+
+private:
+    void improve() {
         const auto count = order_.size();
         const std::size_t reach = count <= 40 ? count : count <= 150 ? 12 : 4;
         const int passes = count <= 150 ? 12 : 2;
         double best = cost();
         for (int pass = 0; pass < passes; ++pass) {
             const double before = best;
-            for (std::size_t column = 0; column < position_.size(); ++column) {
-                if (std::find(order_.begin(), order_.end(), column) == order_.end()) continue;
-                const auto at = static_cast<std::size_t>(position_[column]);
-                auto best_at = at;
-                for (auto to = at > reach ? at - reach : 0; to <= std::min(at + reach, count - 1); ++to) {
-                    if (to == at) continue;
-                    move(static_cast<std::size_t>(position_[column]), to);
-                    if (const double now = cost(); now < best - 1e-9) best = now, best_at = to;
-                }
-                move(static_cast<std::size_t>(position_[column]), best_at);
-            }
+            move_columns(best, reach);
+            reverse_runs(best, reach);
             if (best >= before - 1e-9) break;
         }
-        return order_;
+    }
+    /// Moves each column to the best place within its reach.
+    void move_columns(double& best, std::size_t reach) {
+        const auto count = order_.size();
+        const auto columns = order_;
+        for (const auto column : columns) {
+            const auto at = static_cast<std::size_t>(position_[column]);
+            auto best_at = at;
+            for (auto to = at > reach ? at - reach : 0; to <= std::min(at + reach, count - 1); ++to) {
+                if (to == at) continue;
+                move(static_cast<std::size_t>(position_[column]), to);
+                if (const double now = cost(); now < best - 1e-9) best = now, best_at = to;
+            }
+            move(static_cast<std::size_t>(position_[column]), best_at);
+        }
+    }
+    void reverse(std::size_t from, std::size_t to) {
+        std::reverse(order_.begin() + static_cast<std::ptrdiff_t>(from), order_.begin() + static_cast<std::ptrdiff_t>(to) + 1);
+        update_positions(from, to);
+    }
+    /// Reverses runs of columns where that is better.
+    void reverse_runs(double& best, std::size_t reach) {
+        for (std::size_t from = 0; from + 1 < order_.size(); ++from)
+            for (auto to = from + 1; to < std::min(order_.size(), from + reach + 1); ++to) {
+                reverse(from, to);
+                if (const double now = cost(); now < best - 1e-9)
+                    best = now;
+                else
+                    reverse(from, to);
+            }
     }
 
-private:
     /// A first order: from the columns that inputs reach, along the nets.
     void begin() {
         update_positions(0, order_.size() - 1);

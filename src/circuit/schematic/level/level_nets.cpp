@@ -1,4 +1,4 @@
-#include "circuit/schematic/level_nets.hpp"
+#include "circuit/schematic/level/level_nets.hpp"
 
 namespace corpuscle::circuit::schematic {
 namespace {
@@ -91,12 +91,23 @@ void find_port_roles(Level& level) {
         for (const auto& pin : part.pins) {
             auto& s = seen[static_cast<std::size_t>(pin.net)];
             switch (pin.role) {
-                case PinRole::sense: s.sense = true; break;
-                case PinRole::drive: s.drive = true; break;
-                case PinRole::input: s.input = true; break;
-                case PinRole::source: s.source = true; break;
-                case PinRole::bulk: s.bulk = true; break;
-                default: s.passive = true;
+                case PinRole::sense:
+                    s.sense = true;
+                    break;
+                case PinRole::drive:
+                    s.drive = true;
+                    break;
+                case PinRole::input:
+                    s.input = true;
+                    break;
+                case PinRole::source:
+                    s.source = true;
+                    break;
+                case PinRole::bulk:
+                    s.bulk = true;
+                    break;
+                default:
+                    s.passive = true;
             }
         }
     level.port_roles.clear();

@@ -1,4 +1,4 @@
-#include "circuit/schematic/layers.hpp"
+#include "circuit/schematic/place/layers.hpp"
 
 namespace corpuscle::circuit::schematic {
 namespace {

@@ -1,4 +1,4 @@
-#include "circuit/schematic/block_shape.hpp"
+#include "circuit/schematic/shape/block_shape.hpp"
 
 namespace corpuscle::circuit::schematic {
 namespace {
@@ -77,7 +77,12 @@ void set_usual_sides(const Level& level, Part& block) {
 }
 
 Shape block_shape(const Level& level, const Part& part) {
-    Sides sides{pins_at(part, Direction::left), pins_at(part, Direction::right), pins_at(part, Direction::up), pins_at(part, Direction::down), 0, 0};
+    Sides sides{pins_at(part, Direction::left),
+                pins_at(part, Direction::right),
+                pins_at(part, Direction::up),
+                pins_at(part, Direction::down),
+                0,
+                0};
     sides.distance_up = distance_of(level, part, sides.up), sides.distance_down = distance_of(level, part, sides.down);
     Shape shape;
     shape.outline = rectangle_of(part, sides);

@@ -1,4 +1,4 @@
-#include "circuit/schematic/routing_grid.hpp"
+#include "circuit/schematic/route/routing_grid.hpp"
 
 #include <queue>
 
@@ -13,10 +13,8 @@ int opposite(int direction) { return direction ^ 2; }
 }  // namespace
 
 RoutingGrid::RoutingGrid(const Box& extent, long step_limit)
-    : corner_{grid_floor(extent.left), grid_floor(extent.top)},
-      width_((grid_ceil(extent.right) - corner_.x) / grid_step + 1),
-      height_((grid_ceil(extent.bottom) - corner_.y) / grid_step + 1),
-      steps_left_(step_limit) {
+    : corner_{grid_floor(extent.left), grid_floor(extent.top)}, width_((grid_ceil(extent.right) - corner_.x) / grid_step + 1),
+      height_((grid_ceil(extent.bottom) - corner_.y) / grid_step + 1), steps_left_(step_limit) {
     const auto count = static_cast<std::size_t>(width_) * static_cast<std::size_t>(height_);
     blocked_.resize(count), pin_net_.resize(count, none), edge_right_.resize(count, none), edge_down_.resize(count, none);
     tree_.resize(count, none), cost_.resize(4 * count), origin_.resize(4 * count), stamp_.resize(4 * count);
@@ -24,7 +22,7 @@ RoutingGrid::RoutingGrid(const Box& extent, long step_limit)
 
 void RoutingGrid::block(const Box& box) {
     if (box.is_empty()) return;
-    constexpr int clearance = 3;
+    constexpr int clearance = 2;
     const int x0 = std::max(grid_ceil(box.left - clearance), corner_.x), y0 = std::max(grid_ceil(box.top - clearance), corner_.y);
     for (int y = y0; y <= std::min(box.bottom + clearance, corner_.y + (height_ - 1) * grid_step); y += grid_step)
         for (int x = x0; x <= std::min(box.right + clearance, corner_.x + (width_ - 1) * grid_step); x += grid_step)
@@ -89,7 +87,8 @@ std::optional<int> RoutingGrid::connect(Point pin, int net, int most) {
     for (const auto v : trees_[static_cast<std::size_t>(net)]) goal.include(point(v));
     const auto distance = [&](std::size_t v) {
         const auto p = point(v);
-        return (std::max({goal.left - p.x, p.x - goal.right, 0}) + std::max({goal.top - p.y, p.y - goal.bottom, 0})) / grid_step * step_cost;
+        return (std::max({goal.left - p.x, p.x - goal.right, 0}) + std::max({goal.top - p.y, p.y - goal.bottom, 0})) / grid_step *
+               step_cost;
     };
     using Entry = std::pair<int, std::size_t>;  // estimate of the complete cost, state
     std::priority_queue<Entry, std::vector<Entry>, std::greater<>> open;
@@ -104,7 +103,8 @@ std::optional<int> RoutingGrid::connect(Point pin, int net, int most) {
         if (!has_neighbour(v, direction)) return;
         const auto next = neighbour(v, direction);
         if (edge(v, direction) != none) return;
-        if (const auto extra = arrival_cost(next, direction, net, must_go_straight)) visit(next, direction, cost + step_cost + *extra, origin);
+        if (const auto extra = arrival_cost(next, direction, net, must_go_straight))
+            visit(next, direction, cost + step_cost + *extra, origin);
     };
     for (int d = 0; d < 4; ++d) expand(start, d, 0, -1);
     while (!open.empty() && steps_left_ > 0) {

@@ -1,7 +1,7 @@
 #pragma once
 // The part that draws an element. Used inside circuit/schematic only.
 
-#include "circuit/schematic/level_nets.hpp"
+#include "circuit/schematic/level/level_nets.hpp"
 
 namespace corpuscle::circuit::schematic {
 

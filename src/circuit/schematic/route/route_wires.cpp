@@ -1,10 +1,10 @@
-#include "circuit/schematic/routing_grid.hpp"
+#include "circuit/schematic/route/routing_grid.hpp"
 
 namespace corpuscle::circuit::schematic {
 namespace {
 
-constexpr int margin = 60;             // around the parts, for wires that go around all of them
-constexpr int cost_limit = 700;        // of one connection; a longer one is a pair of labels
+constexpr int margin = 60;              // around the parts, for wires that go around all of them
+constexpr int cost_limit = 700;         // of one connection; a longer one is a pair of labels
 constexpr long step_limit = 4'000'000;  // of all searches of a drawing
 
 class Router {
@@ -55,7 +55,8 @@ class Router {
         // A pin that no wire joins must not be touched either.
         for (const auto& placed : drawing_.parts)
             for (std::size_t k = 0; k < placed.shape.pins.size(); ++k)
-                if (placed.shape.pins[k].connection != Connection::wire) grid_.block({placed.pin(k).x, placed.pin(k).y, placed.pin(k).x, placed.pin(k).y});
+                if (placed.shape.pins[k].connection != Connection::wire)
+                    grid_.block({placed.pin(k).x, placed.pin(k).y, placed.pin(k).x, placed.pin(k).y});
     }
 
 public:
@@ -67,7 +68,8 @@ public:
         for (std::size_t k = 0; k < order.size(); ++k) order[k] = k;
         std::vector<int> lengths(order.size());
         for (const auto k : order) lengths[k] = half_perimeter(k);
-        std::sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) { return lengths[a] != lengths[b] ? lengths[a] < lengths[b] : a < b; });
+        std::sort(order.begin(), order.end(),
+                  [&](std::size_t a, std::size_t b) { return lengths[a] != lengths[b] ? lengths[a] < lengths[b] : a < b; });
         std::vector<int> failed;
         for (const auto net : order)
             if (!route(net)) failed.push_back(static_cast<int>(net));

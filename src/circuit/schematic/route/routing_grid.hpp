@@ -11,12 +11,12 @@ namespace corpuscle::circuit::schematic {
 class RoutingGrid {
     static constexpr int none = -1;
     Point corner_;
-    int width_, height_;                             // in grid steps
-    std::vector<std::uint8_t> blocked_;              // by a part, for each vertex
+    int width_, height_;                                 // in grid steps
+    std::vector<std::uint8_t> blocked_;                  // by a part, for each vertex
     std::vector<int> pin_net_, edge_right_, edge_down_;  // nets; none if there is none
-    std::vector<int> tree_;                          // the net whose wire or first pin is at the vertex
-    std::vector<std::vector<std::size_t>> trees_;    // the vertices of each net in tree_
-    std::vector<int> cost_, origin_;                 // of the search, for each vertex and direction
+    std::vector<int> tree_;                              // the net whose wire or first pin is at the vertex
+    std::vector<std::vector<std::size_t>> trees_;        // the vertices of each net in tree_
+    std::vector<int> cost_, origin_;                     // of the search, for each vertex and direction
     std::vector<std::uint32_t> stamp_;
     std::uint32_t search_ = 0;
     long steps_left_;

@@ -1,8 +1,8 @@
 #pragma once
 // The shape of a part: its outline, pins, texts and marks, in coordinates relative to its centre.
 
-#include "circuit/schematic/geometry.hpp"
-#include "circuit/schematic/level_nets.hpp"
+#include "circuit/schematic/level/level_nets.hpp"
+#include "circuit/schematic/shape/geometry.hpp"
 
 namespace corpuscle::circuit::schematic {
 
@@ -56,7 +56,7 @@ Shape shape_of(const Level&, const Part&, const NetStyles&, Orientation);
 inline constexpr int text_size = 10, text_ascent = 8, text_descent = 3, line_height = 12;
 /// The width of a text: 0.6 of its size for each letter of a monospaced font, twice that for a character outside ASCII.
 int text_width(std::string_view);
-/// The text, shortened if it is longer than a name beside a symbol can be.
+/// The text without its middle if it is longer than a name beside a symbol can be.
 std::string shortened(const std::string& text, std::size_t most = 24);
 
 inline constexpr int block_pin_distance = 20;

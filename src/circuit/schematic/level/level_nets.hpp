@@ -1,7 +1,7 @@
 #pragma once
 // Rails, roles and potentials of the nets of a level. Used inside circuit/schematic only.
 
-#include "circuit/schematic/level.hpp"
+#include "circuit/schematic/level/level.hpp"
 
 namespace corpuscle::circuit::schematic {
 

@@ -1,6 +1,6 @@
-#include "circuit/schematic/orient_parts.hpp"
+#include "circuit/schematic/place/orient_parts.hpp"
 
-#include "circuit/schematic/block_shape.hpp"
+#include "circuit/schematic/shape/block_shape.hpp"
 
 namespace corpuscle::circuit::schematic {
 namespace {
@@ -56,7 +56,8 @@ std::vector<std::vector<std::size_t>> parts_of_nets(const Drawing& drawing) {
     for (std::size_t p = 0; p < drawing.level.parts.size(); ++p)
         for (const auto& pin : drawing.level.parts[p].pins) {
             auto& parts = out[static_cast<std::size_t>(pin.net)];
-            if (connection_of(drawing.level, drawing.styles, pin) == Connection::wire && (parts.empty() || parts.back() != p)) parts.push_back(p);
+            if (connection_of(drawing.level, drawing.styles, pin) == Connection::wire && (parts.empty() || parts.back() != p))
+                parts.push_back(p);
         }
     return out;
 }

@@ -21,7 +21,7 @@ struct Stacks {
 /// Finds the columns of a level, in the order of its parts.
 Stacks find_stacks(const Level&);
 
-/// The pin at the upper, or lower, end of a part that stands.
+/// The pin at the upper, or lower, end of an upright part.
 std::size_t upper_pin(const Part&, Orientation);
 std::size_t lower_pin(const Part&, Orientation);
 

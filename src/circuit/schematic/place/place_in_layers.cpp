@@ -1,6 +1,6 @@
-#include "circuit/schematic/layers.hpp"
-#include "circuit/schematic/orient_parts.hpp"
-#include "circuit/schematic/stacks.hpp"
+#include "circuit/schematic/place/layers.hpp"
+#include "circuit/schematic/place/orient_parts.hpp"
+#include "circuit/schematic/place/stacks.hpp"
 
 namespace corpuscle::circuit::schematic {
 namespace {
@@ -29,7 +29,8 @@ class LayerPlacer {
             std::sort(members.begin(), members.end());
             groups_.push_back(std::move(members));
         }
-        std::sort(groups_.begin(), groups_.end(), [](const auto& a, const auto& b) { return a.size() != b.size() ? a.size() > b.size() : a.front() < b.front(); });
+        std::sort(groups_.begin(), groups_.end(),
+                  [](const auto& a, const auto& b) { return a.size() != b.size() ? a.size() > b.size() : a.front() < b.front(); });
     }
 
     void orient() {
