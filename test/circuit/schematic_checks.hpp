@@ -58,8 +58,8 @@ public:
 
 inline bool is_on(Point p, const Segment& s) { return p.x >= s.from.x && p.x <= s.to.x && p.y >= s.from.y && p.y <= s.to.y; }
 
-/// Reads the connections of a drawing from its geometry, as a reader does: wires are joined where one ends on another, and at junctions;
-/// pins are joined with the wires that end at them; equal labels are joined, also with the name beside a wire.
+/// Reads the connections of a drawing from its geometry, as a reader does. Wires are joined where one ends on another, and at junctions. A
+/// pin is joined with the wires that end at it. Equal labels are joined, also with the name beside a wire.
 class ConnectionReader {
     const Drawing& drawing_;
     JoinedSets sets_;
@@ -108,7 +108,8 @@ public:
                 for (const auto& [wire, set] : wires_) {
                     auto box = text.box();
                     box.left -= 5, box.right += 5, box.top -= 5, box.bottom += 5;
-                    if (crosses(wire, box) && std::any_of(net.wires.begin(), net.wires.end(), [&](const Segment& s) { return s.from == wire.from && s.to == wire.to; }))
+                    if (crosses(wire, box) && std::any_of(net.wires.begin(), net.wires.end(),
+                                                          [&](const Segment& s) { return s.from == wire.from && s.to == wire.to; }))
                         join_label(text.text, set);
                 }
     }

@@ -58,7 +58,7 @@ Drawing draw_level(Level level) {
     add_port_parts(level);
     drawing.styles = first_styles(level);
     drawing.level = std::move(level);
-    constexpr int tries = 6;
+    const int tries = drawing.level.parts.size() <= 120 ? 6 : 3;
     for (int k = 0; k <= tries; ++k) {
         if (k == tries) drawing.styles.is_label.assign(drawing.level.nets.size(), true);  // without wires, nothing can fail
         has_transistors(drawing.level) ? place_in_columns(drawing) : place_in_layers(drawing);

@@ -1,7 +1,7 @@
 #include "circuit/schematic/schematic.hpp"
 
 #include "circuit/schematic/draw_level.hpp"
-#include "circuit/schematic/svg.hpp"
+#include "circuit/schematic/svg_text.hpp"
 #include "circuit/variant/hierarchical_names.hpp"
 
 namespace corpuscle::circuit {

@@ -12,7 +12,7 @@
 
 namespace corpuscle::circuit {
 
-inline constexpr std::size_t max_schematic_parts = 1000;  ///< devices, blocks and ports of a level
+inline constexpr std::size_t max_schematic_parts = 500;  ///< devices, blocks and ports of a level
 
 struct Schematic {
     std::string block;       ///< path of the instance: "xsummer", "xhpb.xres"; "" for the top level

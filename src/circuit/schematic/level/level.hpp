@@ -54,6 +54,7 @@ struct Part {
     std::string type;                   ///< subcircuit of a block, model of a device; "" if it has none
     std::vector<std::string> texts;     ///< size and value
     std::vector<Pin> pins;              ///< transistors: drain (collector), gate, source and, if it is drawn, bulk
+    bool is_device_box = false;         ///< a device without a symbol of its own, drawn as a block whose pins are numbered
     bool is_high_threshold = false;     ///< a transistor drawn with two gate lines
     bool is_signal_source = false;      ///< a source that varies with time or receives the force
     bool is_ammeter = false;            ///< a source of 0 V

@@ -41,7 +41,7 @@ Symbol symbol_of(const Circuit& circuit, const Element& e) {
         case 'w':
             return Symbol::switch_contact;
         default:
-            return Symbol::note;
+            return e.nodes.empty() ? Symbol::note : Symbol::block;
     }
 }
 
@@ -141,6 +141,14 @@ void add_two_ends(const Circuit& circuit, const Element& e, const std::function<
         for (const int node : sensed) part.pins.push_back({net(node), PinRole::sense});
 }
 
+/// A device that has no symbol: a box with numbered pins.
+Part boxed(const Element& e, const std::function<int(int)>& net, Part part) {
+    part.is_device_box = true, part.type = std::string(e.kind->description.substr(0, 20));
+    for (std::size_t k = 0; k < e.nodes.size(); ++k)
+        part.pins.push_back({net(e.nodes[k]), PinRole::passive, fmt::format("{}", k + 1), k % 2 == 0 ? Direction::left : Direction::right});
+    return part;
+}
+
 }  // namespace
 
 Part part_of_element(const Circuit& circuit, const Element& e, std::string name, const std::function<int(int)>& net) {
@@ -154,6 +162,7 @@ Part part_of_element(const Circuit& circuit, const Element& e, std::string name,
         add_transistor_texts(e, part);
         return part;
     }
+    if (part.symbol == Symbol::block) return boxed(e, net, std::move(part));
     add_two_ends(circuit, e, net, part);
     if (const auto text = value_text(e); !text.empty()) part.texts.push_back(text);
     if (!e.control_source.empty()) part.texts.push_back("i(" + e.control_source.substr(e.control_source.rfind('.') + 1) + ")");

@@ -3,13 +3,22 @@
 namespace corpuscle::circuit::schematic {
 namespace {
 
-constexpr int margin = 60;              // around the parts, for wires that go around all of them
-constexpr int cost_limit = 700;         // of one connection; a longer one is a pair of labels
-constexpr long step_limit = 4'000'000;  // of all searches of a drawing
+constexpr int margin = 60;  // around the parts, for wires that go around all of them
+/// The cost of a connection beyond which it is drawn as labels, and the steps of all searches of a drawing. In a large drawing, which is
+/// not seen at a glance, labels serve as well as long wires.
+struct Effort {
+    int cost_limit = 700;
+    long step_limit = 2'000'000;
+};
+Effort effort_for(const Drawing& drawing) {
+    constexpr std::size_t large = 120;  // parts
+    return drawing.parts.size() <= large ? Effort() : Effort{150, 400'000};
+}
 
 class Router {
     Drawing& drawing_;
     std::vector<std::vector<WiredPin>> pins_;
+    Effort effort_;
     RoutingGrid grid_;
 
     static Box area_of(const Drawing& drawing) {
@@ -40,7 +49,7 @@ class Router {
             for (std::size_t k = 0; k < left.size(); ++k)
                 for (const auto& d : done)
                     if (const int far = distance(at(left[k]), at(d)); least < 0 || far < least) least = far, best = k;
-            if (!grid_.connect(at(left[best]), number, cost_limit)) return false;
+            if (!grid_.connect(at(left[best]), number, effort_.cost_limit)) return false;
             done.push_back(left[best]);
             left.erase(left.begin() + static_cast<std::ptrdiff_t>(best));
         }
@@ -60,7 +69,8 @@ class Router {
     }
 
 public:
-    explicit Router(Drawing& drawing) : drawing_(drawing), pins_(wired_pins(drawing)), grid_(area_of(drawing), step_limit) {}
+    explicit Router(Drawing& drawing)
+        : drawing_(drawing), pins_(wired_pins(drawing)), effort_(effort_for(drawing)), grid_(area_of(drawing), effort_.step_limit) {}
 
     std::vector<int> run() {
         block_parts();

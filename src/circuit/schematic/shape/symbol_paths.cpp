@@ -9,7 +9,7 @@ SymbolPath mos_path(const Part& part) {
     out.lines = "M0-30V-12H-10M-10-17V17M-10 12H0V30M-15-12V12";
     const int gate = part.is_high_threshold ? -18 : -15;
     if (part.is_high_threshold) out.lines += "M-18-12V12";
-    out.lines += is_p ? fmt::format("M{} 0a3 3 0 1 1 0 .01M{} 0H-30", gate, gate - 6) : fmt::format("M{} 0H-30", gate);
+    out.lines += is_p ? fmt::format("M{} 0a3 3 0 1 0-6 0a3 3 0 1 0 6 0M{} 0H-30", gate, gate - 6) : fmt::format("M{} 0H-30", gate);
     if (part.pins.size() > 3) out.lines += "M-10 0H10";
     out.solid = is_p ? "M-9-12l7-3v6z" : "M-1 12l-7-3v6z";
     return out;

@@ -1,7 +1,6 @@
-#include "circuit/schematic/svg.hpp"
+#include "circuit/schematic/svg_text.hpp"
 
 #include "circuit/schematic/shape/symbol_paths.hpp"
-#include "core/text/utf8.hpp"
 
 namespace corpuscle::circuit::schematic {
 namespace {
@@ -64,8 +63,8 @@ class SvgWriter {
     void add_part(const PlacedPart& placed) {
         const auto& part = drawing_.level.parts[placed.part];
         if (part.symbol == Symbol::port) return;  // drawn with its net
-        const bool is_block = part.symbol == Symbol::block;
-        add("<g class=\"{0}\" data-{0}=\"{1}\" transform=\"translate({2} {3})\"><title>{4}</title>", is_block ? "block" : "device",
+        const bool is_block = part.symbol == Symbol::block, is_instance = is_block && !part.is_device_box;
+        add("<g class=\"{0}\" data-{0}=\"{1}\" transform=\"translate({2} {3})\"><title>{4}</title>", is_instance ? "block" : "device",
             escaped(part.path), placed.at.x, placed.at.y, escaped(description_of(part)));
         const auto& box = placed.shape.outline;
         if (!box.is_empty())
@@ -131,9 +130,7 @@ class SvgWriter {
     }
     void add_labels(const PlacedPart& placed, std::size_t pin) {
         if (drawing_.level.parts[placed.part].symbol == Symbol::port) {
-            const bool is_wired = placed.shape.pins[0].connection == Connection::wire;
             add("<g class=\"port\"><path d=\"{}\"/></g>", flag_of(placed));
-            static_cast<void>(is_wired);
         }
         int count = 0;  // labels are in the order of their pins
         for (std::size_t k = 0; k < pin; ++k) {
@@ -160,7 +157,7 @@ public:
         add("<svg xmlns=\"http://www.w3.org/2000/svg\" class=\"schematic\" role=\"img\" viewBox=\"{} {} {} {}\">\n",
             e.left - picture_margin, e.top - picture_margin, e.right - e.left + 2 * picture_margin, e.bottom - e.top + 2 * picture_margin);
         std::size_t devices = 0, blocks = 0;
-        for (const auto& part : level.parts) ++(part.symbol == Symbol::block ? blocks : devices);
+        for (const auto& part : level.parts) ++(part.symbol == Symbol::block && !part.is_device_box ? blocks : devices);
         add("<title>{}</title>\n<desc>Schematic with {} devices, {} blocks and {} nets</desc>\n<style>{}</style>\n", escaped(title),
             devices - level.ports.size(), blocks, level.nets.size(), style);
         std::vector<std::vector<std::pair<std::size_t, std::size_t>>> pins(level.nets.size());
