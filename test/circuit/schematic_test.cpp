@@ -195,9 +195,11 @@ TEST(Schematic, OfTooManyDevicesIsRefusedWithTheLimit) {
 TEST(Schematic, OfABlockThatDoesNotExistNamesThoseThatDo) {
     const auto netlist = open_netlist("sa1-circuit");
     ASSERT_TRUE(netlist);
-    const auto none = draw_schematic(*netlist, "sumer"), several = draw_schematic(*netlist, "trigger");
-    ASSERT_FALSE(none || several);
-    EXPECT_NE(none.error().message.find("there is no block 'sumer'; blocks are xbias, "), std::string::npos) << none.error().message;
+    const auto mistyped = draw_schematic(*netlist, "sumer"), none = draw_schematic(*netlist, "comparator");
+    const auto several = draw_schematic(*netlist, "trigger");
+    ASSERT_FALSE(mistyped || none || several);
+    EXPECT_NE(mistyped.error().message.find("did you mean 'summer'?"), std::string::npos) << mistyped.error().message;
+    EXPECT_NE(none.error().message.find("there is no block 'comparator'; blocks are x"), std::string::npos) << none.error().message;
     EXPECT_EQ(several.error().message,
               "'trigger' is one of several blocks: xrectb.xtrigger, xrectc.xtrigger, xcco.xtrigger; name one of them");
     ASSERT_TRUE(draw_schematic(*netlist, "hpb.RES"));

@@ -13,6 +13,10 @@ Result<std::string> path_of_block(const schematic::LevelReader& levels, std::str
     std::vector<std::string_view> matching;
     for (const auto k : find_matching_names(paths, block, LastPiece::element)) matching.push_back(paths[k]);
     if (matching.size() == 1) return std::string(matching.front());
+    std::vector<std::string> short_names;
+    for (const auto known : paths) short_names.push_back(short_name(known, piece_count(known), LastPiece::element));
+    if (const auto suggestion = did_you_mean(block, short_names); matching.empty() && !suggestion.empty())
+        return bad_input(fmt::format("there is no block '{}'{}", block, suggestion));
     if (matching.empty())
         return bad_input(paths.empty() ? fmt::format("there is no block '{}': the netlist has no subcircuits", block)
                                        : fmt::format("there is no block '{}'; blocks are {}", block, abbreviated_list(paths)));
