@@ -87,6 +87,8 @@ pictures: release
 	$(draw) doc/pictures/eskin.png $(CORPUSCLE_DATA)/fbg_eskin_press/fbg_press_S6_T16.csv --rate 100Hz --scale 40 --layout $(CORPUSCLE_DATA)/fbg_eskin_press/sensor_positions.csv
 	$(draw) doc/pictures/fabric.png $(CORPUSCLE_DATA)/fabric_slide_cpm/Board10mm_F150_V-5mmps_0.csv --time-unit ms --channel 3-18 --scale 0.01
 	for cell in $(schematics); do /usr/bin/python3 doc/schematic_picture.py circuits/schematics/$$cell.sch doc/pictures/schematics/$$(basename $$cell).svg || exit 1; done
+	$(corpuscle) export sa1-circuit --for svg -o doc/pictures/schematics/drawn-sa1.svg
+	$(corpuscle) export sa1-circuit --for svg --block summer -o doc/pictures/schematics/drawn-summer.svg
 
 # The notebooks with their pictures, in out/notebooks. `make test` runs two of them.
 notebooks: release
