@@ -16,10 +16,10 @@ export function showRespondPage(data: RespondData) {
     const traces = data.traces.filter((one) => one.channel === channel.id && one.afferent === null).map((one) => new Trace(one, clock));
     const host = section(main, "stimulus", "Stimulus", input.description);
     view.setLimits({begin: input.t0, end: endOf(input), smallest: 4 * input.T});
-    view.add(new TracePanel({host, name: "force", title: ["force"], about: "force", height: 120, clock, phases, isNamed: true, traces,
+    view.add(new TracePanel({host, name: "force", title: ["force"], about: "force", height: 120, phases, isNamed: true, traces,
                              series: traces.map(({quantity}) => ({name: quantity, label: [], colour: "var(--ink)", width: 1.6}))}));
     const rows = data.spikes.filter((one) => one.channel === channel.id).map((one, k) => ({series: one.afferent, label: one.afferent, colour: seriesColour(k), spikes: new Spikes(one)}));
-    view.add(new RasterPanel({host: section(main, "spikes", "Spikes"), name: "raster", title: ["spikes"], about: "spikes", height: rasterHeight(rows.length), clock, phases, rows,
+    view.add(new RasterPanel({host: section(main, "spikes", "Spikes"), name: "raster", title: ["spikes"], about: "spikes", height: rasterHeight(rows.length), phases, rows,
                               series: rows.map(({series, colour}) => ({name: series, colour, width: 3})), isBottom: true}));
     showVersions(main, data.versions);
 }

@@ -35,7 +35,8 @@ export abstract class Panel {
     rightMargin = 14;
     height: number;
     isBottom: boolean;
-    protected view!: View;
+    drawn = 0;  // points of the last drawing, for tests
+    view!: View;
     protected values = new Map<string, HTMLElement>();
     protected low = 0;
     protected high = 1;
@@ -53,6 +54,11 @@ export abstract class Panel {
         this.legend = h("span", {class: "legend"});
         this.heading = h("figcaption", {}, h("span", {class: "panel-title"}, ...title), this.legend, this.menu());
         this.plot = h("div", {class: "plot", tabindex: 0, role: "img", "aria-label": about}, this.canvas, this.hairline, this.selection, this.tip);
+        this.plot.addEventListener("keydown", (event) => {
+            if (event.ctrlKey || event.altKey || event.metaKey || !this.key(event.key)) return;
+            event.preventDefault();
+            event.stopPropagation();
+        });
         this.root = h("figure", {class: "panel", "data-panel": name}, this.heading, this.plot);
         host.append(this.root);
         for (const one of series) this.addLegendItem(one);
@@ -75,6 +81,10 @@ export abstract class Panel {
     protected tipAt(_x: number, _y: number): {x: number; y: number; text: string} | null { return null; }
     /// Called for a click at a point of the plot, in pixels.
     click(_x: number, _y: number): void {}
+    /// Called for a key while the plot has the focus. Returns true if the panel has used it.
+    protected key(_key: string): boolean { return false; }
+    /// Draws beside the axes, such as a second vertical axis.
+    protected paintMargins(_pen: Pen, _area: Area): void {}
 
     connect(view: View) {
         this.view = view;
@@ -153,6 +163,7 @@ export abstract class Panel {
         pen.clip();
         this.paint(pen, area);
         pen.restore();
+        this.paintMargins(pen, area);
         pen.strokeStyle = resolved("var(--axis)");
         pen.lineWidth = 1;
         pen.beginPath();
