@@ -14,7 +14,7 @@ import {rangeText, tracesCsv} from "./trace-panel";
 export interface HeatRow extends PanelRow { trace: Trace }
 
 /// The height in pixels that suits a number of rows.
-export const heatHeight = (rows: number) => Math.max(60, Math.min(14, 240 / rows) * rows);
+export const heatHeight = (rows: number) => Math.max(60, Math.min(14, 150 / rows) * rows);
 
 /// The background is 0, or the smallest value if all are positive; each pixel shows the value farthest from it.
 export class HeatPanel<R extends HeatRow = HeatRow> extends RowsPanel<R> {

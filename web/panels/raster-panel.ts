@@ -8,8 +8,9 @@ import type {Pen} from "../plot/pen";
 import type {Spikes} from "./signals";
 import {PanelRow, RowsOptions, RowsPanel} from "./rows-panel";
 
-export const MAX_ROW_LABELS = 46;  // with more rows, there is no space for a label per row
-const STRIP = 16;                  // above the rows, for the names of the phases, pixels
+const STRIP = 16;            // above the rows, for the names of the phases, pixels
+const LABEL = 11;            // height of a label, pixels
+const MAX_STEP = 4;          // if fewer rows than one in so many have space for a label, each series has one label
 
 /// `series`: name of the series to which the row belongs.
 export interface Row extends PanelRow { series: string; colour: string; spikes: Spikes; group?: string }
@@ -17,8 +18,8 @@ export interface Row extends PanelRow { series: string; colour: string; spikes: 
 /// `isGrouped`: tint the chosen rows, and draw a line where the group of the rows changes.
 export interface RasterOptions<R extends Row = Row> extends RowsOptions<R> { isGrouped?: boolean }
 
-/// The height in pixels that suits a number of rows.
-export const rasterHeight = (rows: number) => STRIP + Math.max(40, Math.min(24, 560 / Math.max(rows, 1)) * rows);
+/// The height in pixels that suits a number of rows, at most `limit`.
+export const rasterHeight = (rows: number, limit = 560) => Math.max(40, Math.min(24, limit / Math.max(rows, 1)) * rows);
 
 /// Spikes are ticks if they can be distinguished, else the number of spikes per pixel is shown as shades.
 export class RasterPanel<R extends Row = Row> extends RowsPanel<R> {
@@ -27,15 +28,16 @@ export class RasterPanel<R extends Row = Row> extends RowsPanel<R> {
     constructor(options: RasterOptions<R>) {
         super(options);
         this.isGrouped = options.isGrouped || false;
-        this.strip = this.isNamed ? STRIP : 0;
+        if (this.isNamed) [this.strip, this.height] = [STRIP, this.height + STRIP];
     }
 
     protected get shownRows() { return this.rows.filter(({series}) => !this.hidden.has(series)); }
 
-    /// A label for each row if there is space, else one for each series in the middle of its rows.
+    /// A label for each row if there is space, else for one row in a few, else one for each series in the middle of its rows.
     protected verticalTicks(): Ticks {
         const rows = this.shownRows, n = rows.length, labels = new Map<number, string>();
-        if (n <= MAX_ROW_LABELS) rows.forEach(({label}, k) => labels.set(n - k - 0.5, label));
+        const step = Math.ceil(LABEL * n / (this.height - this.strip));
+        if (step <= MAX_STEP) rows.forEach(({label}, k) => k % step === 0 && labels.set(n - k - 0.5, label));
         else for (const {name} of this.series) {
             const own = rows.map(({series}, k) => (series === name ? k : -1)).filter((k) => k >= 0);
             if (own.length) labels.set(n - (own[0] + own[own.length - 1] + 1) / 2, name);
