@@ -12,7 +12,7 @@ export function startPage({title, program, command, notes = []}: PageData): HTML
     const main = h("main");
     append(document.body,
         h("header", {}, h("h1", {id: "title"}, title), h("span", {class: "program", id: "program"}, program), command ? commandLine(command) : null,
-          h("ul", {class: "notes", id: "notes", "aria-label": "notes", hidden: true})),
+          h("ul", {class: "notes", id: "notes", "aria-label": "notes", hidden: true}), h("button", {type: "button", id: "all-notes", hidden: true, onclick: showAllNotes}, "More notes")),
         main);
     notes.forEach(addNote);
     addEventListener("beforeprint", () => {
@@ -38,6 +38,12 @@ export function addNote(text: string) {
     const list = document.getElementById("notes")!;
     list.hidden = false;
     list.append(h("li", {}, text));
+    document.getElementById("all-notes")!.hidden = list.childElementCount <= 2;
+}
+
+function showAllNotes() {
+    document.getElementById("notes")!.classList.add("all");
+    document.getElementById("all-notes")!.remove();
 }
 
 function commandLine(command: string): HTMLElement {

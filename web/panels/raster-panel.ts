@@ -10,7 +10,7 @@ import {PanelRow, RowsOptions, RowsPanel} from "./rows-panel";
 
 const STRIP = 16;            // above the rows, for the names of the phases, pixels
 const LABEL = 11;            // height of a label, pixels
-const MAX_STEP = 4;          // if fewer rows than one in so many have space for a label, each series has one label
+const MAX_STEP = 3;          // if fewer rows than one in so many have space for a label, each series has one label
 
 /// `series`: name of the series to which the row belongs.
 export interface Row extends PanelRow { series: string; colour: string; spikes: Spikes; group?: string }
@@ -37,7 +37,7 @@ export class RasterPanel<R extends Row = Row> extends RowsPanel<R> {
     protected verticalTicks(): Ticks {
         const rows = this.shownRows, n = rows.length, labels = new Map<number, string>();
         const step = Math.ceil(LABEL * n / (this.height - this.strip));
-        if (step <= MAX_STEP) rows.forEach(({label}, k) => k % step === 0 && labels.set(n - k - 0.5, label));
+        if (step <= MAX_STEP) rows.forEach(({label}, k) => k % step === step >> 1 && labels.set(n - k - 0.5, label));
         else for (const {name} of this.series) {
             const own = rows.map(({series}, k) => (series === name ? k : -1)).filter((k) => k >= 0);
             if (own.length) labels.set(n - (own[0] + own[own.length - 1] + 1) / 2, name);

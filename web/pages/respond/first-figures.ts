@@ -1,7 +1,7 @@
 // The figures of the first screen: force, spikes and rates of one channel, and an overview of all channels.
 
 import {mixed, seriesColour} from "../../base/colours";
-import {symbol} from "../../base/text";
+import {quantity, symbol} from "../../base/text";
 import type {ChannelData, InputData, RespondData} from "../../data/document";
 import {isNarrow} from "../../base/dom";
 import {FrequencyPanel} from "../../panels/frequency-panel";
@@ -67,7 +67,7 @@ export class FirstFigures {
         const series = this.data.afferents.map(({name}, index) => ({name, colour: seriesColour(index), width: 3})), rows = this.rows(input, channel);
         const title = copies ? copies.shown === copies.count ? `spikes of all ${copies.count} copies` : `spikes of the first ${copies.shown} of ${copies.count} copies; counts of these`
             : areAll ? `spikes on all channels; counts on ${channelName(input, channel)}` : "spikes";
-        const raster = new RasterPanel<ChannelRow>({host, phases, name: "raster", title: [title], about: title, height: rasterHeight(rows.length, 288), isNamed, rows, series, isBottom: true,
+        const raster = new RasterPanel<ChannelRow>({host, phases, name: "raster", title: [title], about: title, height: rasterHeight(rows.length, rows.length > 12 ? (areAll ? 200 : 240) : 288), isNamed, rows, series, isBottom: true,
             isGrouped: areAll || Boolean(copies) || areSeveral, pick: areAll ? (row) => pick(row.channel) : null});
         return [raster, ...(copies ? [this.copiesPanel(host, input, channel)] : []), ...this.frequencyPanels(host, input, channel)];
     }
@@ -79,8 +79,8 @@ export class FirstFigures {
             const {bin, values} = rates.find((one) => one.afferent === name && one.channel === channel.id)!;
             return {name, colour: seriesColour(index), width: 1.6, dash: dashOf(index), edges: equalBins(input.t0, bin, values.length, end), values};
         });
-        const title = `mean rate of all ${count} copies`;
-        return new RatePanel({host, phases: input.phases, name: "population", title: [title], about: title, height: 110, curves, isBottom: true});
+        const title = `mean rate of all ${count} copies`, bins = `, in bins of ${quantity(rates[0].bin, "s", true)}`;
+        return new RatePanel({host, phases: input.phases, name: "population", title: [title + bins], about: title, height: 100, curves, isBottom: true});
     }
 
     /// One panel; with several implementations of a type, one for each type.
@@ -99,7 +99,7 @@ export class FirstFigures {
         const isOne = Boolean(this.data.copies), channels = isOne ? [chosen] : input.channels, areAll = channels.length > 1;
         const rowsOf = (member: Member, on: ChannelData[], group: string) => on.flatMap((channel) => this.copiesOf(member).map((name): ChannelRow => {
             const about = areAll ? `${name} ${channelName(input, channel)}` : name;
-            return {series: member.afferent.name, group, channel, isChosen: channel === chosen, colour: seriesColour(member.index), spikes: this.spikes(name, channel), label: short(about), about};
+            return {series: member.afferent.name, group, channel, isChosen: channel === chosen, colour: seriesColour(member.index), spikes: this.spikes(name, channel), label: areAll && isNarrow() ? channelName(input, channel) : short(about), about};
         }));
         return this.types.flatMap(({name, members}) => (members.length > 1 && areAll && this.data.afferents.length * channels.length <= 46
             ? channels.flatMap((channel) => members.flatMap((one) => rowsOf(one, [channel], `${name} ${channel.id}`)))
