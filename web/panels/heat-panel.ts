@@ -5,13 +5,13 @@ import {h} from "../base/dom";
 import {fixedText, quantity, Ticks} from "../base/text";
 import type {Area} from "../plot/panel";
 import type {Pen} from "../plot/pen";
-import type {Trace} from "./signals";
+import type {Curve} from "./signals";
 import {PanelRow, RowsOptions, RowsPanel} from "./rows-panel";
 import {extentOf} from "./time-panel";
 import {rangeText, tracesCsv} from "./trace-panel";
 
 /// All rows have one unit and one clock.
-export interface HeatRow extends PanelRow { trace: Trace }
+export interface HeatRow extends PanelRow { trace: Curve }
 
 /// The height in pixels that suits a number of rows.
 export const heatHeight = (rows: number) => Math.max(60, Math.min(14, 112 / rows) * rows);

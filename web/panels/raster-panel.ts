@@ -5,7 +5,7 @@ import {h} from "../base/dom";
 import {fixedText, quantity, Ticks} from "../base/text";
 import {Area, csvText} from "../plot/panel";
 import type {Pen} from "../plot/pen";
-import type {Spikes} from "./signals";
+import type {Train} from "./signals";
 import {PanelRow, RowsOptions, RowsPanel} from "./rows-panel";
 
 const STRIP = 16;            // above the rows, for the names of the phases, pixels
@@ -13,7 +13,7 @@ const LABEL = 11;            // height of a label, pixels
 const MAX_STEP = 3;          // if fewer rows than one in so many have space for a label, each series has one label
 
 /// `series`: name of the series to which the row belongs.
-export interface Row extends PanelRow { series: string; colour: string; spikes: Spikes; group?: string }
+export interface Row extends PanelRow { series: string; colour: string; spikes: Train; group?: string }
 
 /// `isGrouped`: tint the chosen rows, and draw a line where the group of the rows changes.
 export interface RasterOptions<R extends Row = Row> extends RowsOptions<R> { isGrouped?: boolean }
@@ -91,7 +91,8 @@ export class RasterPanel<R extends Row = Row> extends RowsPanel<R> {
         });
         const image = painted(counts, colours), gap = area.h / rows.length > 6 ? 1 : 0;
         pen.imageSmoothingEnabled = false;
-        for (let k = 0; k < lines; ++k) pen.drawImage(image, 0, k, columns, 1, area.x, area.y + k * area.h / lines + gap, area.w, area.h / lines - 2 * gap);
+        if (gap === 0) pen.drawImage(image, 0, 0, columns, lines, area.x, area.y, area.w, area.h);
+        else for (let k = 0; k < lines; ++k) pen.drawImage(image, 0, k, columns, 1, area.x, area.y + k * area.h / lines + gap, area.w, area.h / lines - 2 * gap);
     }
 
     /// Shows in the legend how many spikes of the chosen rows of each series are visible.
@@ -116,14 +117,14 @@ export class RasterPanel<R extends Row = Row> extends RowsPanel<R> {
     }
 
     csv() {
-        const rows = this.shownRows.flatMap(({series, about, label, spikes}) => Array.from(spikes.times.slice(spikes.before(this.view.a), spikes.before(this.view.b)), (t) => [series, about || label, t]));
+        const rows = this.shownRows.flatMap(({series, about, label, spikes}) => Array.from(spikes.times).slice(spikes.before(this.view.a), spikes.before(this.view.b)).map((t) => [series, about || label, t]));
         return csvText(["afferent", "row", "time_s"], rows);
     }
 }
 
 /// Adds spikes i ... j-1 of a train to the counts of the pixel columns that divide the time range [a, b) equally. Few spikes are counted one by
 /// one; if there are many, the first spike of each column is found by binary search.
-export function countPerColumn(counts: Uint32Array, spikes: {times: ArrayLike<number>; before(t: number): number}, i: number, j: number, a: number, b: number) {
+export function countPerColumn(counts: Uint32Array, spikes: Pick<Train, "times" | "before">, i: number, j: number, a: number, b: number) {
     const t = spikes.times, columns = counts.length;
     if (j - i < 8 * columns) {
         for (let k = i; k < j; ++k) ++counts[Math.min(columns - 1, Math.floor((t[k] - a) / (b - a) * columns))];
