@@ -222,7 +222,7 @@ class Page(unittest.TestCase):
         """For each panel, the number of pixels of the plot that are darker than bands and grid."""
         return self.js("""
             return Object.fromEntries(Object.entries(corpuscle.panels).map(([name, {area}]) => {
-                const canvas = document.querySelector(`[data-panel="${name}"] canvas`), ratio = canvas.width / canvas.clientWidth;
+                const canvas = document.querySelector(`[data-panel="${name}"] .plot canvas`), ratio = canvas.width / canvas.clientWidth;
                 const {x, y, w, h} = area;
                 const pixels = canvas.getContext("2d").getImageData((x + 3) * ratio, (y + 2) * ratio, (w - 4) * ratio, (h - 4) * ratio).data;
                 let count = 0;

@@ -354,7 +354,7 @@ class ManyChannels(Page):
 
     def test_the_heat_map_shows_the_pressed_channel_and_its_values(self):
         def pixel(channel, t):
-            return self.js("""const {area} = corpuscle.panels["all forces"], canvas = document.querySelector('[data-panel="all forces"] canvas'), ratio = canvas.width / canvas.clientWidth;
+            return self.js("""const {area} = corpuscle.panels["all forces"], canvas = document.querySelector('[data-panel="all forces"] .plot canvas'), ratio = canvas.width / canvas.clientWidth;
                 return [...canvas.getContext("2d").getImageData(ratio * corpuscle.panels["all forces"].x(arguments[1]), ratio * (area.y + (arguments[0] + 0.5) / 40 * area.h), 1, 1).data]""", channel, t)
         self.next_frame()
         self.assertGreater(contrast(pixel(17, 0.4)[:3], pixel(17, 0.9)[:3]), 3)
