@@ -24,8 +24,8 @@ std::string script_json(const Json& document) {
     return out;
 }
 
-/// Replaces absolute paths by the names of their files, so that a published page does not reveal directories. Different files keep different
-/// names.
+/// Replaces absolute paths by the names of their files, so that a published page does not reveal directories. Different files keep
+/// different names.
 class DirectoryRemover {
     std::map<std::string, std::string> names_;  // by path
     std::map<std::string, int> uses_;           // of each file name

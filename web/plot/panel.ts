@@ -1,7 +1,7 @@
 // A panel is one plot with a heading, which is also the legend and shows the values at the cursor.
 
 import {resolved} from "../base/colours";
-import {Child, append, download, h, isNarrow} from "../base/dom";
+import {Child, append, download, h, isNarrow, isWide} from "../base/dom";
 import {Ticks, fixedText, roundTicks} from "../base/text";
 import {Pen, SvgPen} from "./pen";
 import {connectPointer} from "./pointer";
@@ -20,7 +20,7 @@ export interface PanelOptions {
     isBottom?: boolean;  ///< label the x axis
 }
 
-const FONT = "11px system-ui, sans-serif";
+const font = () => `${isWide() ? 14 : 11}px system-ui, sans-serif`;
 const X_AXIS = 22, X_AXIS_WITHOUT_LABELS = 8;
 
 /// Derived classes define what they draw, their vertical range, their values at the cursor and their numbers as CSV.
@@ -50,7 +50,7 @@ export abstract class Panel {
     private ticks: Ticks = {values: [], text: String};
 
     constructor({host, name, title, about, height, series, isBottom = false}: PanelOptions) {
-        [this.name, this.about, this.height, this.series, this.isBottom] = [name, about, height, series, isBottom];
+        [this.name, this.about, this.height, this.series, this.isBottom] = [name, about, height * (isWide() ? 1.4 : 1), series, isBottom];
         this.legend = h("span", {class: "legend"});
         this.heading = h("figcaption", {}, h("span", {class: "panel-title"}, ...title), this.legend, this.menu());
         this.plot = h("div", {class: "plot", tabindex: 0, role: "img", "aria-label": about}, this.canvas, this.hairline, this.selection, this.tip);
@@ -131,7 +131,7 @@ export abstract class Panel {
         [this.low, this.high] = this.range(this.view.isAutoscale);
         this.ticks = this.verticalTicks(this.low, this.high, this.height);
         const pen = this.canvas.getContext("2d")!;
-        pen.font = FONT;
+        pen.font = font();
         this.leftMargin = Math.ceil(Math.max(isNarrow() ? 24 : 44, ...this.ticks.values.map((v) => pen.measureText(this.ticks.text(v)).width + 9)));
     }
 
@@ -155,7 +155,7 @@ export abstract class Panel {
 
     private drawAll(pen: Pen) {
         const {area} = this, {x, y, w} = area;
-        pen.font = FONT;
+        pen.font = font();
         pen.lineJoin = "bevel";  // mitred peaks would exceed the values
         this.drawGrid(pen);
         pen.save();
