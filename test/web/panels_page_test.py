@@ -377,7 +377,7 @@ class ManyChannels(Page):
         self.assertEqual(self.js("return corpuscle.window()"), [0.25, 0.5])
 
 
-class Framed(Page):
+class InAFrame(Page):
     """The page in a sandboxed frame without an origin, as in a notebook."""
 
     @classmethod

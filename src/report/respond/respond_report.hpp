@@ -68,6 +68,12 @@ private:
     Json inputs_ = Json::array(), traces_ = Json::array(), spikes_ = Json::array(), rates_ = Json::array();
 };
 
+/// The table of all measures, with a row for each afferent, channel and phase.
+nlohmann::ordered_json rates_document(const RunSummary&);
+
+/// Recording quality: findings as text, and a row of quality metrics for each channel of a recording. Stimuli have no rows.
+nlohmann::ordered_json quality_document(const RunSummary&);
+
 /// The table of implementations: for each afferent type and channel a row of the reference, then a row for each other implementation.
 nlohmann::ordered_json implementations_document(const ImplementationComparisons&);
 
