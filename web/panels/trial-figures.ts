@@ -61,10 +61,11 @@ export class TrialFigures {
     /// Shows the spikes and rates of a group.
     show(group: number) {
         this.group = group;
-        const {a, b} = this.view;
+        const {a, b} = this.view, hidden = new Map(this.view.panels.map((panel) => [panel.name, [...panel.hidden]]));
         this.view.clear();
         const force = this.forcePanel(), raster = this.data.spikes ? [this.rasterPanel(group)] : [];
         this.view.add(force, ...raster, this.ratePanel(group));
+        for (const panel of this.view.panels) for (const name of hidden.get(panel.name) || []) panel.toggle(name);
         this.view.set(a, b);
     }
 
