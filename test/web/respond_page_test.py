@@ -387,6 +387,14 @@ class ManyFiles(Page):
             if record["group"] == group:
                 self.assertEqual(list(numbers("d", record["times"])), list(numbers("d", of_input(record["trial"])["times"])), "each file begins at 0")
 
+    def test_more_labels_than_colours_become_one(self):
+        names = "one two three four five six seven eight nine".split()
+        for name in names:
+            (OUT / f"{name}.csv").write_bytes((OUT / "press_01.csv").read_bytes())
+        page = OUT / "nine.html"
+        subprocess.run([CORPUSCLE, "respond", *(str(OUT / f"{name}.csv") for name in names), "--report", str(page), "--quiet"], check=True, stderr=subprocess.DEVNULL)
+        self.assertEqual(data_of(page)["trials"]["labels"], ["all inputs"])
+
     def test_the_title_is_short_and_the_command_has_no_directories(self):
         self.assertEqual(self.browser.find_element(By.ID, "title").text, "press_01, press_02, press_03 and 9 more")
         command = self.browser.find_element(By.ID, "command").text
