@@ -24,6 +24,8 @@ export interface Curve {
     rangeBetween(a: number, b: number): Range;
     /// [min, max] near the time t (s).
     at(t: number): Range;
+    /// The curve in its own unit, if this one is scaled.
+    readonly source?: Curve;
 }
 
 /// The spike times of one afferent, s, in ascending order.
@@ -49,12 +51,12 @@ export class Trace implements Curve {
     readonly bucket: number;
     private built: Pyramid | null = null;
 
-    constructor(private record: TraceRecord, readonly clock: Clock) {
+    constructor(protected readonly record: TraceRecord, readonly clock: Clock) {
         [this.afferent, this.quantity, this.unit, this.bucket] = [record.afferent, record.quantity, record.unit, record.bucket];
     }
 
     /// The values for range queries; entry j is bucket j. Decoded at the first use.
-    private get pyramid(): Pyramid { return (this.built = this.built || this.build()); }
+    get pyramid(): Pyramid { return (this.built = this.built || this.build()); }
 
     private build(): Pyramid {
         const numbers = decoded<Float32Array>(this.record.data);
@@ -85,12 +87,16 @@ export interface SpikesRecord { afferent: string; channel: number; count: number
 /// The ascending spike times t[k] (s) of one afferent on one channel. The instantaneous frequency at t[k] is f_k = 1 / (t[k+1] - t[k]).
 export class Spikes implements Train {
     readonly count: number;
-    private known: Float64Array | null = null;
+    private known: Float64Array | null;
     private built: Pyramid | null = null;
 
-    constructor(private record: SpikesRecord | null) { this.count = record ? record.count : 0; }
+    /// `source`: from the data of a page, or the times themselves; null for a train without spikes.
+    constructor(private source: {count: number; times: EncodedArray} | Float64Array | null) {
+        this.known = source instanceof Float64Array ? source : source && source.count ? null : new Float64Array(0);
+        this.count = source instanceof Float64Array ? source.length : source ? source.count : 0;
+    }
 
-    get times(): Float64Array { return (this.known = this.known || (this.record && this.count ? decoded<Float64Array>(this.record.times) : new Float64Array(0))); }
+    get times(): Float64Array { return (this.known = this.known || decoded<Float64Array>((this.source as SpikesRecord).times)); }
 
     /// The instantaneous frequencies for range queries; entry k is f_k.
     get frequency(): Pyramid { return (this.built = this.built || new Pyramid(this.frequencies())); }

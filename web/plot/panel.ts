@@ -1,7 +1,7 @@
 // A panel is one plot with a heading, which is also the legend and shows the values at the cursor.
 
 import {resolved} from "../base/colours";
-import {Child, append, download, h, isNarrow} from "../base/dom";
+import {Child, append, download, h, isNarrow, isWide} from "../base/dom";
 import {Ticks, fixedText, roundTicks} from "../base/text";
 import {Pen, SvgPen} from "./pen";
 import {connectPointer} from "./pointer";
@@ -20,7 +20,7 @@ export interface PanelOptions {
     isBottom?: boolean;  ///< label the x axis
 }
 
-const FONT = "11px system-ui, sans-serif";
+const font = () => `${isWide() ? 14 : 11}px system-ui, sans-serif`;
 const X_AXIS = 22, X_AXIS_WITHOUT_LABELS = 8;
 
 /// Derived classes define what they draw, their vertical range, their values at the cursor and their numbers as CSV.
@@ -35,7 +35,8 @@ export abstract class Panel {
     rightMargin = 14;
     height: number;
     isBottom: boolean;
-    protected view!: View;
+    drawn = 0;  // points of the last drawing, for tests
+    view!: View;
     protected values = new Map<string, HTMLElement>();
     protected low = 0;
     protected high = 1;
@@ -49,10 +50,15 @@ export abstract class Panel {
     private ticks: Ticks = {values: [], text: String};
 
     constructor({host, name, title, about, height, series, isBottom = false}: PanelOptions) {
-        [this.name, this.about, this.height, this.series, this.isBottom] = [name, about, height, series, isBottom];
+        [this.name, this.about, this.height, this.series, this.isBottom] = [name, about, height * (isWide() ? 1.4 : 1), series, isBottom];
         this.legend = h("span", {class: "legend"});
         this.heading = h("figcaption", {}, h("span", {class: "panel-title"}, ...title), this.legend, this.menu());
         this.plot = h("div", {class: "plot", tabindex: 0, role: "img", "aria-label": about}, this.canvas, this.hairline, this.selection, this.tip);
+        this.plot.addEventListener("keydown", (event) => {
+            if (event.ctrlKey || event.altKey || event.metaKey || !this.key(event.key)) return;
+            event.preventDefault();
+            event.stopPropagation();
+        });
         this.root = h("figure", {class: "panel", "data-panel": name}, this.heading, this.plot);
         host.append(this.root);
         for (const one of series) this.addLegendItem(one);
@@ -75,6 +81,10 @@ export abstract class Panel {
     protected tipAt(_x: number, _y: number): {x: number; y: number; text: string} | null { return null; }
     /// Called for a click at a point of the plot, in pixels.
     click(_x: number, _y: number): void {}
+    /// Called for a key while the plot has the focus. Returns true if the panel has used it.
+    protected key(_key: string): boolean { return false; }
+    /// Draws beside the axes, such as a second vertical axis.
+    protected paintMargins(_pen: Pen, _area: Area): void {}
 
     connect(view: View) {
         this.view = view;
@@ -97,6 +107,7 @@ export abstract class Panel {
         const swatch = mark ? h("span", {class: "mark", style: `color: ${colour}`}, mark)
             : h("span", {class: "swatch", style: `border-top: ${width}px ${dash ? (dash[0] > 3 ? "dashed" : "dotted") : "solid"} ${colour}`});
         const value = h("span", {class: "legend-value"});
+        if (!label.length) swatch.hidden = true;  // a single curve, which the title names
         const item = canHide && this.series.length > 1
             ? h("button", {class: "legend-item", type: "button", "aria-pressed": "true", title: "Show or hide", "data-series": name, onclick: () => this.toggle(name)}, swatch, h("span", {class: "legend-name"}, ...label), value)
             : h("span", {class: "legend-item", "data-series": name}, swatch, h("span", {class: "legend-name"}, ...label), value);
@@ -120,7 +131,7 @@ export abstract class Panel {
         [this.low, this.high] = this.range(this.view.isAutoscale);
         this.ticks = this.verticalTicks(this.low, this.high, this.height);
         const pen = this.canvas.getContext("2d")!;
-        pen.font = FONT;
+        pen.font = font();
         this.leftMargin = Math.ceil(Math.max(isNarrow() ? 24 : 44, ...this.ticks.values.map((v) => pen.measureText(this.ticks.text(v)).width + 9)));
     }
 
@@ -144,7 +155,7 @@ export abstract class Panel {
 
     private drawAll(pen: Pen) {
         const {area} = this, {x, y, w} = area;
-        pen.font = FONT;
+        pen.font = font();
         pen.lineJoin = "bevel";  // mitred peaks would exceed the values
         this.drawGrid(pen);
         pen.save();
@@ -153,6 +164,7 @@ export abstract class Panel {
         pen.clip();
         this.paint(pen, area);
         pen.restore();
+        this.paintMargins(pen, area);
         pen.strokeStyle = resolved("var(--axis)");
         pen.lineWidth = 1;
         pen.beginPath();

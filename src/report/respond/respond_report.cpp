@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "report/page_template.hpp"
+#include "report/trials_document.hpp"
 #include "run/channels/channel_population.hpp"
 #include "run/summary/grouped_notes.hpp"
 #include "run/summary/json_number.hpp"
@@ -11,6 +12,8 @@ namespace corpuscle {
 namespace {
 
 using Json = nlohmann::ordered_json;
+
+constexpr std::size_t max_input_labels = 8;  // of compared inputs: more could not be told apart by colour, so all are averaged together
 
 Json parameter_or_null(const AfferentPlan& plan, std::string_view name) {
     const auto value = plan.value(name);
@@ -25,12 +28,6 @@ double round_part(double length, int parts) {
     while (decade > max) decade /= 10;
     while (10 * decade <= max) decade *= 10;
     return decade * (max >= 5 * decade ? 5 : max >= 2 * decade ? 2 : 1);
-}
-
-/// The cell of measure m: its value, or the array [mean, standard deviation] over the copies if at least two of them have a value.
-Json cell_document(const MeasureRow& row, std::size_t m) {
-    if (row.copy_statistics.empty() || row.copy_statistics[m].copies < 2) return json_number(row.values[m]);
-    return {json_number(row.copy_statistics[m].mean()), json_number(row.copy_statistics[m].standard_deviation())};
 }
 
 /// The entries of a list whose channel is one of the first `count`.
@@ -62,40 +59,6 @@ void keep_first_channels(Json& document, std::uint32_t count) {
         document[table]["rows"] = rows_of(document[table]["rows"], column, names);
 }
 
-/// The table of all measures, with a row for each afferent, channel and phase.
-Json table_document(const RunSummary& summary) {
-    Json columns = {"afferent", "channel", "phase"}, decimals = {nullptr, nullptr, nullptr}, rows = Json::array();
-    const auto shown = summary.columns();
-    const bool means = !summary.rows.empty() && !summary.rows[0].copy_statistics.empty();  // of copies; the mean of a count needs a decimal
-    for (const auto m : shown)
-        columns.push_back(column_heading(measures[m])), decimals.push_back(std::max(measures[m].decimals, means ? 1 : 0));
-    for (const auto& r : summary.rows) {
-        Json row = {r.afferent, r.channel, r.phase};
-        for (const auto m : shown) row.push_back(cell_document(r, m));
-        rows.push_back(std::move(row));
-    }
-    return {{"columns", columns}, {"decimals", decimals}, {"rows", rows}};
-}
-
-/// Recording quality: findings as text, and a row of quality metrics for each channel of a recording. Stimuli have no rows.
-Json quality_document(const RunSummary& summary) {
-    Json messages = Json::array(), columns = {"channel"}, rows = Json::array();
-    const bool several = summary.inputs.size() > 1;
-    for (const auto& i : summary.inputs) {
-        const auto add = [&](const std::vector<std::string>& texts, bool is_warning) {
-            for (const auto& s : texts) messages.push_back({{"text", several ? i.name + ": " + s : s}, {"grave", is_warning}});
-        };
-        add(i.quality.warnings, true);
-        add(i.quality.descriptions, false);
-        for (const auto& f : i.quality.metrics) {
-            if (rows.empty() || rows.back()[0] != i.channels[f.channel]) rows.push_back(Json::array({i.channels[f.channel]}));
-            if (rows.size() == 1) columns.push_back(f.unit.empty() ? std::string(f.name) : fmt::format("{} ({})", f.name, f.unit));
-            rows.back().push_back(json_number(f.value));
-        }
-    }
-    return {{"notes", messages}, {"columns", columns}, {"rows", rows}};
-}
-
 }  // namespace
 
 Result<void> RespondReport::begin(const Input& input) {
@@ -119,7 +82,9 @@ Result<void> RespondReport::begin(const Input& input) {
             recordables_.push_back(std::move(probe_list));
             first_copies_.push_back(afferents.plans()[groups_[g]]);
         }  // once: the plans and probes are the same for every input
-    return {};
+    if (!compared_inputs_ && compares_inputs_ && input.input_count > 1 && copies_.count == 0)
+        compared_inputs_.emplace(TrialOptions{}, std::vector<Trial>{});
+    return compared_inputs_ ? compared_inputs_->begin(input) : Result<void>();
 }
 
 Result<void> RespondReport::block(const Input& input, const RunBlock& response) {
@@ -130,7 +95,7 @@ Result<void> RespondReport::block(const Input& input, const RunBlock& response) 
             for (std::size_t k = 0; k < response.steps; ++k)
                 probes_[u][p].add(response.probes[afferent_index(u / groups(), u % groups())][p][k]);
     for (const auto& s : response.spikes) trains_[input.afferent_of(s)].push_back(input.clock.time(s.step, s.offset));
-    return {};
+    return compared_inputs_ ? compared_inputs_->block(input, response) : Result<void>();
 }
 
 /// Adds to the page the spike trains of an afferent (or of its first max_copies copies) on a channel of this input.
@@ -163,7 +128,7 @@ void RespondReport::add_rate(const Input& input, std::size_t channel, std::size_
                       {"values", rates}});
 }
 
-Result<void> RespondReport::end(const Input& input, std::int64_t samples, std::span<const Spike>) {
+Result<void> RespondReport::end(const Input& input, std::int64_t samples, std::span<const Spike> last) {
     const auto& afferents = input.on_channels();
     Json channels = Json::array(), phases = Json::array();
     for (std::size_t c = 0; c < forces_.size(); ++c) {
@@ -188,7 +153,15 @@ Result<void> RespondReport::end(const Input& input, std::int64_t samples, std::s
                        {"phases", phases},
                        {"channels", channels}});
     first_channel_ += static_cast<std::uint32_t>(forces_.size());
-    return {};
+    return compared_inputs_ ? compared_inputs_->end(input, samples, last) : Result<void>();
+}
+
+Json RespondReport::compared_inputs_document() const {
+    if (!compared_inputs_) return nullptr;
+    auto inputs = *compared_inputs_;
+    if (inputs.responses.labels().size() > max_input_labels)
+        for (auto& trial : inputs.responses.trials) trial.label = "all inputs";
+    return trials_document(inputs, inputs.responses.default_bin({}));
 }
 
 std::string RespondReport::page(const RunSummary& summary, std::span<const AfferentPlan> plans, const std::string& command,
@@ -217,13 +190,14 @@ std::string RespondReport::page(const RunSummary& summary, std::span<const Affer
                      {"afferents", afferents},
                      {"traces", traces_},
                      {"spikes", spikes_},
-                     {"table", table_document(summary)},
+                     {"table", rates_document(summary)},
                      {"comparisons", implementations_document(summary.comparisons)},
                      {"quality", quality_document(summary)},
                      {"notes", notes},
                      {"versions", versions_document()},
                      {"costs", costs}};
-    if (!trials.is_null()) document["trials"] = trials;
+    if (auto shown_trials = trials.is_null() ? compared_inputs_document() : trials; !shown_trials.is_null())
+        document["trials"] = std::move(shown_trials);
     if (copies_.count > 0)
         document["copies"] = {
             {"count", copies_.count}, {"shown", std::min(copies_.count, max_copies)}, {"has_probes", wants_probes()}, {"rates", rates_}};
