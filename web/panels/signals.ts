@@ -64,9 +64,14 @@ export class Spikes {
     private known: Float64Array | null = null;
     private built: Pyramid | null = null;
 
-    constructor(private record: SpikesRecord | null) { this.count = record ? record.count : 0; }
+    constructor(private record: SpikesRecord | Float64Array | null) { this.count = record instanceof Float64Array ? record.length : record ? record.count : 0; }
 
-    get times(): Float64Array { return (this.known = this.known || (this.record && this.count ? decoded<Float64Array>(this.record.times) : new Float64Array(0))); }
+    get times(): Float64Array { return (this.known = this.known || this.decodedTimes()); }
+
+    private decodedTimes() {
+        if (this.record instanceof Float64Array) return this.record;
+        return this.record && this.count ? decoded<Float64Array>(this.record.times) : new Float64Array(0);
+    }
 
     /// The instantaneous frequencies for range queries; entry k is f_k.
     get frequency(): Pyramid { return (this.built = this.built || new Pyramid(this.frequencies())); }

@@ -6,7 +6,7 @@ import {h} from "../base/dom";
 export const LEVELS = 16;
 
 /// The colours of increasing levels: from a tint of the class's colour to the colour itself, then towards the colour of the text.
-export const rateRamp = (colour: string) => Array.from({length: LEVELS}, (_, k) => (k < LEVELS / 2 ? mixed("var(--paper)", colour, 0.55 + 0.9 * k / LEVELS) : mixed(colour, "var(--ink)", (k - LEVELS / 2) / LEVELS * 1.2)));
+export const rateRamp = (colour: string) => Array.from({length: LEVELS}, (_, k) => (k < LEVELS / 2 ? mixed("var(--paper)", colour, 0.5 + k / LEVELS) : mixed(colour, "var(--ink)", (k - LEVELS / 2) / LEVELS * 0.7)));
 
 /// The colours of increasing times, from early to late.
 export const timeRamp = () => Array.from({length: 32}, (_, k) => {
