@@ -14,6 +14,9 @@ export class Pyramid {
         for (let top = this.levels[0]; top.lo.length > 4; this.levels.push(top)) top = levelAbove(top);
     }
 
+    /// Minima and maxima of the entries.
+    get base(): Level { return this.levels[0]; }
+
     /// [min, max] of entries i ... j-1 of level 0, or [null, null] if all are NaN or there are none.
     range(i: number, j: number): Range {
         let min = Infinity, max = -Infinity;

@@ -2,36 +2,61 @@
 
 import {chooser, h} from "../base/dom";
 import {quantity} from "../base/text";
-import {RasterPanel} from "../panels/raster-panel";
+import {RatePanel, equalBins} from "../panels/rate-panel";
 import {Trace} from "../panels/signals";
 import {TracePanel} from "../panels/trace-panel";
 import type {View} from "../plot/view";
-import {section} from "../shell";
+import type {Panel} from "../plot/panel";
+import {hint, section, timeToolbar} from "../shell";
 import {CountRasterPanel, SkinRasterPanel} from "../skin/raster-panels";
-import {SkinRatePanel} from "../skin/rate-panel";
 import type {RecordedClass, SkinRecording} from "../skin/recording";
 
 export class SkinPlots {
     private rasters = h("div");
-    private shown: RasterPanel[] | CountRasterPanel[] = [];
+    private shown: Panel[] = [];
     private region: number | null = null;  // of the rasters; null: all regions
     private select: HTMLSelectElement | null = null;
 
     constructor(host: Element, private skin: SkinRecording, private view: View, private pick: (mark: number | null) => void, private changed: () => void) {
         const {over, regions} = skin.data, {clock, phases} = skin, node = section(host, "plots", "Force, rates and spikes");
         const trace = new Trace(over.force, {...clock, samples: over.samples});
+        const bar = timeToolbar(node, view);
+        document.querySelector(".player")!.append(bar.querySelector("#now")!);
+        node.append(hint());
         view.add(new TracePanel({host: node, name: "force", title: ["total force"], about: "total force", height: 100, clock, phases, isNamed: true, traces: [trace], series: [{name: "force", label: [], colour: "var(--ink)", width: 1.6}]}),
-                 new SkinRatePanel({host: node, name: "population", about: "mean rate of the afferents that fire", height: 140, skin, isBottom: true}));
-        const bar = h("div", {class: "bar"});
+                 this.ratePanel(node));
+        const choice = h("div", {class: "bar"});
         if (regions.length > 1) {
             const label = chooser("Rasters of", ["all regions", ...regions], 0, (k) => this.setRegion(regions[k - 1] || ""));
             this.select = label.querySelector("select")!;
             this.select.id = "raster-region";
-            bar.append(label);
+            choice.append(label);
         }
-        if (!skin.trains) bar.append(h("span", {class: "note"}, `More than ${over.max_spikes} spikes: the rasters show counts per frame of the maps (${quantity(skin.marks.width, "s", true)}).`));
-        node.append(bar, this.rasters);
+        if (!skin.trains) choice.append(h("span", {class: "note"}, `More than ${over.max_spikes} spikes: the rasters show counts per frame of the maps (${quantity(skin.marks.width, "s", true)}).`));
+        node.append(choice, this.rasters);
         this.addRasters();
+    }
+
+    /// Mean rates of the classes in about 120 bins over the visible range. Afferents that never fire, such as those far from the touch, are left out.
+    private ratePanel(host: Element) {
+        const {perClass, classes, clock, phases, duration} = this.skin, text = document.createTextNode("");
+        let bin = 0;
+        const curves = () => {
+            const count = Math.ceil(perClass.count * perClass.width / bin - 1e-9), edges = equalBins(clock.t0, bin, count, clock.t0 + duration), join = Math.round(bin / perClass.width);
+            const rates = classes.map(({name, colour}) => ({name, colour, width: 2, edges, values: new Float64Array(count)}));
+            for (let f = 0; f < perClass.count; ++f) perClass.each(f, (c, n) => { rates[c].values[Math.floor(f / join)] += n / Math.max(1, classes[c].active) / (edges[Math.floor(f / join) + 1] - edges[Math.floor(f / join)]); });
+            text.data = `mean rate of the afferents that fire, in bins of ${quantity(bin, "s", true)}`;
+            return rates;
+        };
+        const binOf = (span: number) => perClass.width * 2 ** Math.max(0, Math.round(Math.log2(span / 120 / perClass.width)));
+        bin = binOf(duration);
+        const panel = new RatePanel({host, name: "population", title: [text], about: "mean rate of the afferents that fire", height: 140, phases, curves: curves(), isBottom: true});
+        this.view.onDraw(() => {
+            if (bin === binOf(this.view.b - this.view.a)) return;
+            bin = binOf(this.view.b - this.view.a);
+            panel.setCurves(curves());
+        });
+        return panel;
     }
 
     get regionName() { return this.region === null ? null : this.skin.data.regions[this.region]; }
@@ -47,10 +72,10 @@ export class SkinPlots {
     }
 
     private addRasters() {
-        this.view.panels = this.view.panels.filter((one) => !(this.shown as unknown[]).includes(one));
+        this.view.panels = this.view.panels.filter((one) => !this.shown.includes(one));
         this.shown.forEach((one) => one.remove());
         const {classes, trains} = this.skin;
-        this.shown = classes.map((one, k) => (trains ? this.raster(one, k === classes.length - 1) : this.counts(one, k === classes.length - 1))) as RasterPanel[];
+        this.shown = classes.map((one, k) => (trains ? this.raster(one, k === classes.length - 1) : this.counts(one, k === classes.length - 1)));
         this.view.add(...this.shown);
     }
 
@@ -58,7 +83,7 @@ export class SkinPlots {
 
     private options({name, colour}: RecordedClass, isBottom: boolean, rows: number, text: string) {
         return {host: this.rasters, name: `raster ${name}`, about: `spikes of ${name}`, title: [h("span", {class: "chip", style: `background: ${colour}`}), `${name} spikes`, h("span", {class: "unit"}, ` ${text}; neighbours are adjacent`)],
-                height: Math.max(36, Math.min(120, 6 * rows), Math.min(180, 40 + 0.6 * rows)), clock: this.skin.clock, phases: this.skin.phases, isBottom, series: [{name, label: [], colour, width: 3}]};
+                height: Math.max(36, Math.min(120, 6 * rows), Math.min(180, 40 + 0.6 * rows)), phases: this.skin.phases, isBottom, series: [{name, label: [], colour, width: 3}]};
     }
 
     /// The afferents of the chosen region that fired.
@@ -73,7 +98,7 @@ export class SkinPlots {
         const {skin} = this, {first, end, afferents, name, colour} = one, perMark = skin.data.over.afferents_per_mark;
         const fired = Array.from({length: end - first}, (_, k) => first + k).filter((mark) => skin.totals[mark]), marks = fired.filter((mark) => this.isWanted(mark));
         const text = this.countText(marks.length, fired.length, perMark > 1 ? `${end - first} groups of ${perMark} afferents` : `${afferents} afferents`);
-        return new CountRasterPanel({...this.options(one, isBottom, marks.length, text), frames: skin.marks, marks, colour, label: name, nameOf: (mark) => skin.markName(mark)});
+        return new CountRasterPanel({...this.options(one, isBottom, marks.length, text), frames: skin.marks, t0: skin.clock.t0, marks, colour, label: name, nameOf: (mark) => skin.markName(mark)});
     }
 
     private countText(rows: number, fired: number, all: string) { return this.region === null ? `${fired} of ${all} fired` : `${rows} of ${fired} that fired, in ${this.regionName}`; }

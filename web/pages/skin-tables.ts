@@ -53,7 +53,7 @@ export function showClasses(host: Element, skin: SkinRecording) {
     });
     node.append(table({name: "classes", columns: [classColumn(skin, "class"), number("afferents", 0), ...["model", "receptive field", "conduction velocity", "description and source"].map((name) => ({name}))], rows}));
     showDensities(node, skin);
-    node.append(...sources(skin));
+    showSources(node, skin);
 }
 
 function fieldText({sigma_m, depth_m, surround, hot_spots, hot_spot_spread_m}: ClassSummary["receptive_field"]): string {
@@ -73,12 +73,12 @@ function showDensities(host: Element, skin: SkinRecording) {
 }
 
 /// The literature from which the population's numbers are; a source of several numbers is listed once.
-function sources(skin: SkinRecording): HTMLElement[] {
+function showSources(host: Element, skin: SkinRecording) {
     const {classes, skin: about} = skin.data.summary, entries = new Map<string, string[]>();
     const add = (source: string, text: string) => entries.set(source, [...(entries.get(source) || []), text]);
     about.sources.forEach(({quantity: what, source}) => add(source, what));
     classes.forEach(({name, sources: own}) => own.forEach(({quantity: what, source}) => add(source, `${what} of ${name}`)));
-    return entries.size ? [h("ul", {class: "sources", "aria-label": "sources"}, ...Array.from(entries, ([source, texts]) => h("li", {}, `${texts.join(", ")}: ${source}`)))] : [];
+    if (entries.size) folded(host, "sources", "Sources", `${entries.size}`, "", (box) => box.append(h("ul", {class: "sources", "aria-label": "sources"}, ...Array.from(entries, ([source, texts]) => h("li", {}, `${texts.join(", ")}: ${source}`)))));
 }
 
 export function showParameters(host: Element, skin: SkinRecording) {

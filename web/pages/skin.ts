@@ -4,11 +4,12 @@ import {h} from "../base/dom";
 import {linkNumber, linkValues, setLink} from "../base/link";
 import type {SkinPageData} from "../data/skin";
 import {View} from "../plot/view";
-import {hint, showVersions, startPage, timeToolbar} from "../shell";
+import {showVersions, startPage} from "../shell";
 import {Player} from "../skin/player";
 import {SkinRecording} from "../skin/recording";
 import {SkinMaps} from "./skin-maps";
 import {SkinPlots} from "./skin-plots";
+import {showTrials} from "./skin-trials";
 import {showClasses, showFirstTable, showParameters, showRates} from "./skin-tables";
 
 export function showSkinPage(data: SkinPageData) {
@@ -17,13 +18,14 @@ export function showSkinPage(data: SkinPageData) {
     view.setLimits({begin: skin.clock.t0, end: skin.end, smallest: 4 * skin.clock.T});
     view.point(skin.clock.t0);
     const player = new Player(view, skin.marks.width), link = () => setLink(linkOf());
-    timeToolbar(main, view, player.root);
+    main.append(player.root);
     const maps = new SkinMaps(main, skin, view, link);
     main.append(h("p", {class: "hint"}, h("span", {class: "for-mouse"}, "Maps: drag to pan, Ctrl and the wheel to zoom, double click to reset. Space plays, comma and full stop step."),
-        h("span", {class: "for-touch"}, "Swipe to the next map. Pinch to zoom a map, tap an afferent to name it.")), hint());
+        h("span", {class: "for-touch"}, "Swipe to the next map. Pinch to zoom a map, tap an afferent to name it.")));
     const plots = new SkinPlots(main, skin, view, (mark) => maps.choose(mark), link);
     showFirstTable(maps.addFirstSpikes(main), skin);
     showRates(main, skin);
+    const trials = showTrials(main, skin);
     showClasses(main, skin);
     showParameters(main, skin);
     showVersions(main, data.versions);
@@ -39,7 +41,7 @@ export function showSkinPage(data: SkinPageData) {
     view.onDraw(later);
     view.onCursor(later);
     // for tests and the browser's console
-    Object.assign(window, {corpuscle: {skin, view, player, maps, scene: maps.scene, get panels() { return Object.fromEntries(view.panels.map((one) => [one.name, one])); },
+    Object.assign(window, {corpuscle: {skin, view, player, maps, scene: maps.scene, get panels() { return Object.fromEntries([...view.panels, ...(trials ? trials.view.panels : [])].map((one) => [one.name, one])); },
                                        get frame() { return skin.frameAt(maps.time); }, get active() { return maps.active; }}});
 }
 

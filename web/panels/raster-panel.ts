@@ -5,50 +5,39 @@ import {h} from "../base/dom";
 import {fixedText, quantity, Ticks} from "../base/text";
 import {Area, csvText} from "../plot/panel";
 import type {Pen} from "../plot/pen";
-import type {Spikes} from "./signals";
-import {TimePanel, TimePanelOptions} from "./time-panel";
+import type {Train} from "./signals";
+import {PanelRow, RowsOptions, RowsPanel} from "./rows-panel";
 
-export const MAX_ROW_LABELS = 46;  // with more rows, there is no space for a label per row
-const STRIP = 16;                  // above the rows, for the names of the phases, pixels
+const STRIP = 16;            // above the rows, for the names of the phases, pixels
+const LABEL = 11;            // height of a label, pixels
+const MAX_STEP = 3;          // if fewer rows than one in so many have space for a label, each series has one label
 
 /// `series`: name of the series to which the row belongs.
-export interface Row { series: string; label: string; colour: string; spikes: Spikes; group?: string; isChosen?: boolean; about?: string }
+export interface Row extends PanelRow { series: string; colour: string; spikes: Train; group?: string }
 
-export interface RasterOptions extends TimePanelOptions {
-    rows: Row[];                       ///< the first is at the top
-    pick?: ((row: Row) => void) | null;  ///< called when a row is clicked
-    isGrouped?: boolean;               ///< draw a line where the group of the rows changes
-}
+/// `isGrouped`: tint the chosen rows, and draw a line where the group of the rows changes.
+export interface RasterOptions<R extends Row = Row> extends RowsOptions<R> { isGrouped?: boolean }
 
-/// The height in pixels that suits a number of rows.
-export const rasterHeight = (rows: number) => STRIP + Math.max(40, Math.min(24, 560 / Math.max(rows, 1)) * rows);
+/// The height in pixels that suits a number of rows, at most `limit`.
+export const rasterHeight = (rows: number, limit = 560) => Math.max(40, Math.min(24, limit / Math.max(rows, 1)) * rows);
 
 /// Spikes are ticks if they can be distinguished, else the number of spikes per pixel is shown as shades.
-export class RasterPanel extends TimePanel {
-    rows: Row[];
-    private pick: ((row: Row) => void) | null;
+export class RasterPanel<R extends Row = Row> extends RowsPanel<R> {
     private isGrouped: boolean;
-    private strip: number;
 
-    constructor(options: RasterOptions) {
+    constructor(options: RasterOptions<R>) {
         super(options);
-        [this.rows, this.pick, this.isGrouped] = [options.rows, options.pick || null, options.isGrouped || false];
-        this.strip = this.isNamed ? STRIP : 0;
-        if (this.pick) this.plot.style.cursor = "pointer";
+        this.isGrouped = options.isGrouped || false;
+        if (this.isNamed) [this.strip, this.height] = [STRIP, this.height + STRIP];
     }
 
-    private get shownRows() { return this.rows.filter(({series}) => !this.hidden.has(series)); }
+    protected get shownRows() { return this.rows.filter(({series}) => !this.hidden.has(series)); }
 
-    /// A row has height 1; the strip above the rows is for the names of the phases.
-    protected range(): [number, number] {
-        const n = Math.max(this.shownRows.length, 1);
-        return [0, n * this.height / (this.height - this.strip)];
-    }
-
-    /// A label for each row if there is space, else one for each series in the middle of its rows.
+    /// A label for each row if there is space, else for one row in a few, else one for each series in the middle of its rows.
     protected verticalTicks(): Ticks {
         const rows = this.shownRows, n = rows.length, labels = new Map<number, string>();
-        if (n <= MAX_ROW_LABELS) rows.forEach(({label}, k) => labels.set(n - k - 0.5, label));
+        const step = Math.ceil(LABEL * n / (this.height - this.strip));
+        if (step <= MAX_STEP) rows.forEach(({label}, k) => k % step === step >> 1 && labels.set(n - k - 0.5, label));
         else for (const {name} of this.series) {
             const own = rows.map(({series}, k) => (series === name ? k : -1)).filter((k) => k >= 0);
             if (own.length) labels.set(n - (own[0] + own[own.length - 1] + 1) / 2, name);
@@ -64,11 +53,10 @@ export class RasterPanel extends TimePanel {
         this.markRows(pen, inner, rows);
         if (most * 4 < area.w && total < 20000) this.paintTicks(pen, inner, rows, visible);
         else if (rows.length) this.paintDensity(pen, inner, rows, visible);
+        this.drawn = Math.min(total, 20000);
+        this.paintCurrent(pen, inner);
         this.countSpikes(rows, visible);
     }
-
-    /// The area of the rows, below the strip.
-    private inner({x, y, w, h: height}: Area): Area { return {x, y: y + this.strip, w, h: height - this.strip}; }
 
     /// Tints the chosen rows and draws a line between groups.
     private markRows(pen: Pen, area: Area, rows: Row[]) {
@@ -103,7 +91,8 @@ export class RasterPanel extends TimePanel {
         });
         const image = painted(counts, colours), gap = area.h / rows.length > 6 ? 1 : 0;
         pen.imageSmoothingEnabled = false;
-        for (let k = 0; k < lines; ++k) pen.drawImage(image, 0, k, columns, 1, area.x, area.y + k * area.h / lines + gap, area.w, area.h / lines - 2 * gap);
+        if (gap === 0) pen.drawImage(image, 0, 0, columns, lines, area.x, area.y, area.w, area.h);
+        else for (let k = 0; k < lines; ++k) pen.drawImage(image, 0, k, columns, 1, area.x, area.y + k * area.h / lines + gap, area.w, area.h / lines - 2 * gap);
     }
 
     /// Shows in the legend how many spikes of the chosen rows of each series are visible.
@@ -119,35 +108,23 @@ export class RasterPanel extends TimePanel {
 
     protected clearValues() {}
 
-    private rowAt(y: number): Row | undefined {
-        const area = this.inner(this.area), rows = this.shownRows;
-        return rows[Math.floor((y - area.y) / area.h * rows.length)];
-    }
-
-    click(_x: number, y: number) {
-        const row = this.rowAt(y);
-        if (row && this.pick && !row.isChosen) this.pick(row);
-    }
-
     /// The spike nearest to the pointer, within 6 pixels: its time and the interval to the spike before.
-    protected tipAt(x: number, y: number) {
-        const row = this.rowAt(y);
-        if (!row) return null;
-        const k = row.spikes.nearest(this.valueAt(x)), t = row.spikes.times[k];
-        if (k < 0 || Math.abs(this.x(t) - x) > 6) return {x, y, text: row.about || row.label};
-        const interval = k > 0 ? `, ${quantity(t - row.spikes.times[k - 1], "s")} after the one before` : "";
-        return {x: this.x(t), y, text: `${row.about || row.label}: spike ${k + 1} of ${row.spikes.count} at ${fixedText(t, 1e-6)}${interval}`};
+    protected tipOf({spikes, about, label}: R, x: number, y: number) {
+        const k = spikes.nearest(this.valueAt(x)), t = spikes.times[k], name = about || label;
+        if (k < 0 || Math.abs(this.x(t) - x) > 6) return {x, y, text: name};
+        const interval = k > 0 ? `, ${quantity(t - spikes.times[k - 1], "s")} after the one before` : "";
+        return {x: this.x(t), y, text: `${name}: spike ${k + 1} of ${spikes.count} at ${fixedText(t, 1e-6)}${interval}`};
     }
 
     csv() {
-        const rows = this.shownRows.flatMap(({series, about, label, spikes}) => Array.from(spikes.times.slice(spikes.before(this.view.a), spikes.before(this.view.b)), (t) => [series, about || label, t]));
+        const rows = this.shownRows.flatMap(({series, about, label, spikes}) => Array.from(spikes.times).slice(spikes.before(this.view.a), spikes.before(this.view.b)).map((t) => [series, about || label, t]));
         return csvText(["afferent", "row", "time_s"], rows);
     }
 }
 
 /// Adds spikes i ... j-1 of a train to the counts of the pixel columns that divide the time range [a, b) equally. Few spikes are counted one by
 /// one; if there are many, the first spike of each column is found by binary search.
-export function countPerColumn(counts: Uint32Array, spikes: {times: ArrayLike<number>; before(t: number): number}, i: number, j: number, a: number, b: number) {
+export function countPerColumn(counts: Uint32Array, spikes: Pick<Train, "times" | "before">, i: number, j: number, a: number, b: number) {
     const t = spikes.times, columns = counts.length;
     if (j - i < 8 * columns) {
         for (let k = i; k < j; ++k) ++counts[Math.min(columns - 1, Math.floor((t[k] - a) / (b - a) * columns))];

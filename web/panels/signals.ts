@@ -10,6 +10,32 @@ export interface Phase { name: string; from: number; to: number }
 /// The time (s) at which an input ends.
 export const endOf = (clock: Clock) => clock.t0 + clock.samples * clock.T;
 
+/// A quantity over time that a panel can draw.
+export interface Curve {
+    readonly afferent: string | null;
+    readonly quantity: string;
+    readonly unit: string;
+    readonly bucket: number;
+    readonly clock: Clock;
+    /// [min, max] of samples k ... l-1.
+    range(k: number, l: number): Range;
+    fullRange(): Range;
+    /// [min, max] in the times from a to b (s).
+    rangeBetween(a: number, b: number): Range;
+    /// [min, max] near the time t (s).
+    at(t: number): Range;
+    /// The curve in its own unit, if this one is scaled.
+    readonly source?: Curve;
+}
+
+/// The spike times of one afferent, s, in ascending order.
+export interface Train {
+    readonly count: number;
+    readonly times: ArrayLike<number>;
+    before(t: number): number;
+    nearest(t: number): number;
+}
+
 export interface TraceRecord {
     channel: number; afferent: string | null; quantity: string; unit: string;
     bucket: number;  ///< if it is more than 1, only the minimum and maximum of each `bucket` consecutive samples are known
@@ -18,19 +44,19 @@ export interface TraceRecord {
 }
 
 /// One recorded quantity on one channel.
-export class Trace {
+export class Trace implements Curve {
     readonly afferent: string | null;
     readonly quantity: string;
     readonly unit: string;
     readonly bucket: number;
     private built: Pyramid | null = null;
 
-    constructor(private record: TraceRecord, readonly clock: Clock) {
+    constructor(protected readonly record: TraceRecord, readonly clock: Clock) {
         [this.afferent, this.quantity, this.unit, this.bucket] = [record.afferent, record.quantity, record.unit, record.bucket];
     }
 
     /// The values for range queries; entry j is bucket j. Decoded at the first use.
-    private get pyramid(): Pyramid { return (this.built = this.built || this.build()); }
+    get pyramid(): Pyramid { return (this.built = this.built || this.build()); }
 
     private build(): Pyramid {
         const numbers = decoded<Float32Array>(this.record.data);
@@ -59,19 +85,18 @@ export class Trace {
 export interface SpikesRecord { afferent: string; channel: number; count: number; times: EncodedArray }
 
 /// The ascending spike times t[k] (s) of one afferent on one channel. The instantaneous frequency at t[k] is f_k = 1 / (t[k+1] - t[k]).
-export class Spikes {
+export class Spikes implements Train {
     readonly count: number;
-    private known: Float64Array | null = null;
+    private known: Float64Array | null;
     private built: Pyramid | null = null;
 
-    constructor(private record: SpikesRecord | Float64Array | null) { this.count = record instanceof Float64Array ? record.length : record ? record.count : 0; }
-
-    get times(): Float64Array { return (this.known = this.known || this.decodedTimes()); }
-
-    private decodedTimes() {
-        if (this.record instanceof Float64Array) return this.record;
-        return this.record && this.count ? decoded<Float64Array>(this.record.times) : new Float64Array(0);
+    /// `source`: from the data of a page, or the times themselves; null for a train without spikes.
+    constructor(private source: {count: number; times: EncodedArray} | Float64Array | null) {
+        this.known = source instanceof Float64Array ? source : source && source.count ? null : new Float64Array(0);
+        this.count = source instanceof Float64Array ? source.length : source ? source.count : 0;
     }
+
+    get times(): Float64Array { return (this.known = this.known || decoded<Float64Array>((this.source as SpikesRecord).times)); }
 
     /// The instantaneous frequencies for range queries; entry k is f_k.
     get frequency(): Pyramid { return (this.built = this.built || new Pyramid(this.frequencies())); }

@@ -7,19 +7,20 @@ import type {Range} from "../base/pyramid";
 import type {Clock, Phase} from "./signals";
 
 export interface TimePanelOptions extends PanelOptions {
-    clock: Clock;
-    phases: Phase[];
+    phases?: Phase[];
+    clock?: Clock;      ///< of the data; panels take that of each curve
     isNamed?: boolean;  ///< show the names of the phases
+    zero?: number | null;  ///< draw a dashed line at this time, such as the contact onset of trials
 }
 
 export abstract class TimePanel extends Panel {
-    protected readonly clock: Clock;
     protected readonly isNamed: boolean;
     private phases: Phase[];
+    private zero: number | null;
 
     constructor(options: TimePanelOptions) {
         super(options);
-        [this.clock, this.phases, this.isNamed] = [options.clock, options.phases, options.isNamed || false];
+        [this.phases, this.isNamed, this.zero] = [options.phases || [], options.isNamed || false, options.zero ?? null];
     }
 
     protected paint(pen: Pen, area: Area) {
@@ -30,6 +31,7 @@ export abstract class TimePanel extends Panel {
             if (k % 2) pen.fillRect(left, area.y, right - left, area.h);
             if (this.isNamed) writeInside(pen, name, left, right, area.y + 12);
         });
+        if (this.zero !== null) dashedLine(pen, this.x(this.zero), area.y, this.x(this.zero), area.y + area.h);
     }
 }
 
@@ -39,6 +41,21 @@ function writeInside(pen: Pen, text: string, left: number, right: number, y: num
     pen.fillStyle = resolved("var(--faint)");
     if (pen.measureText(text).width + 6 < right - left) pen.fillText(text, (left + right) / 2, y);
 }
+
+/// A dashed line for a level or an instant.
+export function dashedLine(pen: Pen, x1: number, y1: number, x2: number, y2: number) {
+    pen.strokeStyle = resolved("var(--level)");
+    pen.lineWidth = 1;
+    pen.setLineDash([5, 3]);
+    pen.beginPath();
+    pen.moveTo(x1, y1);
+    pen.lineTo(x2, y2);
+    pen.stroke();
+    pen.setLineDash([]);
+}
+
+/// The vertical range of rates from 0 to `high`.
+export const fromZero = (high: number): [number, number] => [(high || 1) * -0.04, (high || 1) * 1.08];
 
 /// [min, max] over ranges and further values; null is ignored. [0, 0] if there are none.
 export function extentOf(ranges: Range[], more: number[] = []): [number, number] {

@@ -36,7 +36,8 @@ export abstract class Panel {
     rightMargin = 14;
     height: number;
     isBottom: boolean;
-    protected view!: View;
+    drawn = 0;  // points of the last drawing, for tests
+    view!: View;
     protected values = new Map<string, HTMLElement>();
     protected low = 0;
     protected high = 1;
@@ -54,6 +55,11 @@ export abstract class Panel {
         this.legend = h("span", {class: "legend"});
         this.heading = h("figcaption", {}, h("span", {class: "panel-title"}, ...title), this.legend, saveMenu(name, this.canvas, () => this.svg(), () => this.csv()));
         this.plot = h("div", {class: "plot", tabindex: 0, role: "img", "aria-label": about}, this.canvas, this.hairline, this.selection, this.tip);
+        this.plot.addEventListener("keydown", (event) => {
+            if (event.ctrlKey || event.altKey || event.metaKey || !this.key(event.key)) return;
+            event.preventDefault();
+            event.stopPropagation();
+        });
         this.root = h("figure", {class: "panel", "data-panel": name}, this.heading, this.plot);
         host.append(this.root);
         for (const one of series) this.addLegendItem(one);
@@ -76,6 +82,10 @@ export abstract class Panel {
     protected tipAt(_x: number, _y: number): {x: number; y: number; text: string} | null { return null; }
     /// Called for a click at a point of the plot, in pixels.
     click(_x: number, _y: number): void {}
+    /// Called for a key while the plot has the focus. Returns true if the panel has used it.
+    protected key(_key: string): boolean { return false; }
+    /// Draws beside the axes, such as a second vertical axis.
+    protected paintMargins(_pen: Pen, _area: Area): void {}
 
     connect(view: View) {
         this.view = view;
@@ -98,6 +108,7 @@ export abstract class Panel {
         const swatch = mark ? h("span", {class: "mark", style: `color: ${colour}`}, mark)
             : h("span", {class: "swatch", style: `border-top: ${width}px ${dash ? (dash[0] > 3 ? "dashed" : "dotted") : "solid"} ${colour}`});
         const value = h("span", {class: "legend-value"});
+        if (!label.length) swatch.hidden = true;  // a single curve, which the title names
         const item = canHide && this.series.length > 1
             ? h("button", {class: "legend-item", type: "button", "aria-pressed": "true", title: "Show or hide", "data-series": name, onclick: () => this.toggle(name)}, swatch, h("span", {class: "legend-name"}, ...label), value)
             : h("span", {class: "legend-item", "data-series": name}, swatch, h("span", {class: "legend-name"}, ...label), value);
@@ -154,6 +165,7 @@ export abstract class Panel {
         pen.clip();
         this.paint(pen, area);
         pen.restore();
+        this.paintMargins(pen, area);
         pen.strokeStyle = resolved("var(--axis)");
         pen.lineWidth = 1;
         pen.beginPath();

@@ -24,7 +24,7 @@ export class Player {
         const button = (id: string, text: string, name: string, title: string, act: () => void) => h("button", {type: "button", id, title, "aria-label": name, onclick: act}, text);
         const speed = chooser("Speed", speeds.all.map((one) => `× ${one}`), speeds.all.indexOf(speeds.first), (k) => { this.speed = speeds.all[k]; });
         speed.id = "speed";
-        this.root = h("div", {class: "player", role: "group", "aria-label": "player"},
+        this.root = h("div", {class: "toolbar player", role: "toolbar", "aria-label": "player"},
             h("span", {class: "buttons"}, this.button, button("step-back", "❙◀", "One step back", "One step back (,)", () => this.nudge(-1)), button("step-forward", "▶❙", "One step forward", "One step forward (.)", () => this.nudge(1))),
             this.slider, speed, h("label", {title: "Restart at the end"}, this.loop, " Loop"));
         this.showState();

@@ -9,22 +9,22 @@ import type {Frames} from "./frames";
 export interface SkinRow extends Row { mark: number }
 
 /// The afferent under the pointer is also chosen on the maps: `point` is called with its mark.
-export class SkinRasterPanel extends RasterPanel {
+export class SkinRasterPanel extends RasterPanel<SkinRow> {
     private point: (mark: number | null) => void;
 
-    constructor(options: RasterOptions & {rows: SkinRow[]; point: (mark: number | null) => void}) {
+    constructor(options: RasterOptions<SkinRow> & {point: (mark: number | null) => void}) {
         super(options);
         this.point = options.point;
     }
 
     hover(x: number, y: number) {
         super.hover(x, y);
-        const row = x < 0 ? undefined : this.rows[Math.floor((y - this.area.y) / this.area.h * this.rows.length)] as SkinRow | undefined;
+        const row = x < 0 ? undefined : this.rows[Math.floor((y - this.area.y) / this.area.h * this.rows.length)];
         this.point(row ? row.mark : null);
     }
 }
 
-interface CountRasterOptions extends TimePanelOptions { frames: Frames; marks: number[]; colour: string; label: string; nameOf: (mark: number) => string }
+interface CountRasterOptions extends TimePanelOptions { frames: Frames; t0: number; marks: number[]; colour: string; label: string; nameOf: (mark: number) => string }
 
 /// A row is a mark, and shows its spikes in each frame.
 export class CountRasterPanel extends TimePanel {
@@ -35,7 +35,7 @@ export class CountRasterPanel extends TimePanel {
 
     protected paint(pen: Pen, area: Area) {
         super.paint(pen, area);
-        const {frames, marks, colour} = this.options, {t0} = this.clock, {a, b} = this.view, ratio = devicePixelRatio || 1;
+        const {frames, t0, marks, colour} = this.options, {a, b} = this.view, ratio = devicePixelRatio || 1;
         if (!marks.length) return;
         const columns = Math.round(area.w * ratio), lines = Math.min(marks.length, Math.floor(area.h * ratio)), rowOf = new Map(marks.map((mark, row) => [mark, row]));
         const counts = Array.from({length: lines}, () => new Uint32Array(columns)), column = (t: number) => Math.max(0, Math.min(columns, Math.round((t - a) / (b - a) * columns)));
@@ -52,8 +52,8 @@ export class CountRasterPanel extends TimePanel {
     }
 
     csv() {
-        const {frames, marks, nameOf} = this.options, shown = new Set(marks), rows: (string | number)[][] = [];
-        for (let f = 0; f < frames.count; ++f) frames.each(f, (mark, n) => { if (shown.has(mark)) rows.push([nameOf(mark), this.clock.t0 + f * frames.width, n]); });
+        const {frames, t0, marks, nameOf} = this.options, shown = new Set(marks), rows: (string | number)[][] = [];
+        for (let f = 0; f < frames.count; ++f) frames.each(f, (mark, n) => { if (shown.has(mark)) rows.push([nameOf(mark), t0 + f * frames.width, n]); });
         return csvText(["afferent", "time_s", "spikes"], rows);
     }
 }
