@@ -18,7 +18,8 @@ export class SkinPlots {
     private select: HTMLSelectElement | null = null;
 
     constructor(host: Element, private skin: SkinRecording, private view: View, private pick: (mark: number | null) => void, private changed: () => void) {
-        const {over, regions} = skin.data, {clock, phases} = skin, node = section(host, "plots", "Force, rates and spikes");
+        const {over, regions} = skin.data, {clock, phases} = skin, {description, contact} = skin.data.summary.input;
+        const node = section(host, "plots", "Force, rates and spikes", [description, contact].filter((text, k, all) => text && all.indexOf(text) === k).join("; "));
         const trace = new Trace(over.force, {...clock, samples: over.samples});
         const bar = timeToolbar(node, view);
         document.querySelector(".player")!.append(bar.querySelector("#now")!);

@@ -13,8 +13,7 @@ import {showTrials} from "./skin-trials";
 import {showClasses, showFirstTable, showParameters, showRates} from "./skin-tables";
 
 export function showSkinPage(data: SkinPageData) {
-    const main = startPage(data), skin = new SkinRecording(data), view = new View(), {input} = data.summary;
-    main.append(h("p", {id: "description"}, [input.description, input.contact].filter((text, k, all) => text && all.indexOf(text) === k).join("; ")));
+    const main = startPage(data), skin = new SkinRecording(data), view = new View();
     view.setLimits({begin: skin.clock.t0, end: skin.end, smallest: 4 * skin.clock.T});
     view.point(skin.clock.t0);
     const player = new Player(view, skin.marks.width), link = () => setLink(linkOf());

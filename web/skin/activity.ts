@@ -16,27 +16,42 @@ export interface Mode {
 
 /// What the maps can show, the first choice first.
 export function modesOf(skin: SkinRecording): Mode[] {
-    const times = skin.trains ? [0.01, 0.05, 0.2].filter((window) => window < skin.duration) : [];
+    const classes = skin.classes.map(({name}) => name), windows = skin.trains ? [0.01, 0.05, 0.2].filter((window) => window < skin.duration) : [];
     const frames = [...new Set([0, 0.05, 0.1, 0.2, 0.5].map((seconds) => skin.framesOver(seconds)))].filter((n) => n < skin.marks.count || n === 1);
-    const modes = times.map((window) => recentSpikes(skin, window)), first = skin.duration < 3 ? 1 : 2;
-    return [...modes.splice(Math.min(first, modes.length - 1), 1), ...modes, ...frames.map((n) => recentRates(skin, n)), meanRates(skin)];
+    const recent = skin.trains ? [recentSpikes(skin, "recent", "Recent spikes", typicalIntervals(skin))] : [];
+    const fixed = windows.map((window) => recentSpikes(skin, `spikes-${window}`, `Spikes, ${quantity(window, "s", true)}`, classes.map(() => window)));
+    return [...recent, ...fixed, ...frames.map((n) => recentRates(skin, n)), meanRates(skin)];
 }
 
-/// Level 1 is a spike at this time, level 0 one `window` (s) ago.
-function recentSpikes(skin: SkinRecording, window: number): Mode {
-    const levels = new Float32Array(skin.marks.places), text = quantity(window, "s", true);
+/// For each class, a duration (s) near the median interval between its spikes, so that neighbours with different phases differ: 5 ms to 0.5 s.
+function typicalIntervals(skin: SkinRecording): number[] {
+    const choices = [0.005, 0.01, 0.02, 0.05, 0.1, 0.2, 0.5];
+    return skin.classes.map(({firstAfferent, afferents}) => {
+        const intervals: number[] = [];
+        for (const {afferent, spikes: {times}} of skin.trains!)
+            if (afferent >= firstAfferent && afferent < firstAfferent + afferents) for (let k = 1; k < times.length && k < 50; ++k) intervals.push(times[k] - times[k - 1]);
+        const median = intervals.sort((a, b) => a - b)[intervals.length >> 1] || 0.05;
+        return choices.find((one) => one >= median) || 0.5;
+    });
+}
+
+/// Level 1 is a spike at this time, level 0 one `windows[class]` (s) ago.
+function recentSpikes(skin: SkinRecording, key: string, label: string, windows: number[]): Mode {
+    const levels = new Float32Array(skin.marks.places), longest = Math.max(...windows), windowOf = skin.classes.flatMap(({first, end}, k) => new Array<number>(end - first).fill(windows[k]));
     const activity = (time: number): Levels => (draw) => {
         const marks: number[] = [];
-        skin.spikesBetween(time - window, time, (mark, t) => {
+        skin.spikesBetween(time - longest, time, (mark, t) => {
+            const level = 1 - (time - t) / windowOf[mark];
+            if (level <= 0) return;
             if (!levels[mark]) marks.push(mark);
-            levels[mark] = Math.max(levels[mark], 1 - (time - t) / window, 1e-6);
+            levels[mark] = Math.max(levels[mark], level);
         });
         for (const mark of marks) {
             draw(mark, levels[mark]);
             levels[mark] = 0;
         }
     };
-    return {key: `spikes-${window}`, label: `Spikes of the last ${text}`, isOverAll: false, hasRings: true, activity, scale: () => [`${text} ago`, "now"]};
+    return {key, label, isOverAll: false, hasRings: true, activity, scale: (k) => [`${quantity(windows[k], "s", true)} ago`, "now"]};
 }
 
 function recentRates(skin: SkinRecording, frames: number): Mode {
@@ -45,7 +60,7 @@ function recentRates(skin: SkinRecording, frames: number): Mode {
         const frame = skin.frameAt(time), {counts, active} = skin.recent(frame, frames), seconds = skin.lengthOver(frame, frames);
         for (const mark of active) draw(mark, counts[mark] / skin.afferentsIn(mark) / seconds / most[skin.classIndex(mark)]);
     };
-    return {key: `rate-${+window.toPrecision(6)}`, label: `Rate over the last ${quantity(window, "s", true)}`, isOverAll: false, hasRings: false, activity, scale: (k) => rateScale(most[k])};
+    return {key: `rate-${+window.toPrecision(6)}`, label: `Rate, ${quantity(window, "s", true)}`, isOverAll: false, hasRings: false, activity, scale: (k) => rateScale(most[k])};
 }
 
 function meanRates(skin: SkinRecording): Mode {
@@ -53,7 +68,7 @@ function meanRates(skin: SkinRecording): Mode {
     const activity = (): Levels => (draw) => skin.classes.forEach(({first, end}, k) => {
         for (let mark = first; mark < end; ++mark) if (skin.totals[mark]) draw(mark, skin.totals[mark] / skin.afferentsIn(mark) / skin.duration / most[k]);
     });
-    return {key: "mean", label: "Mean rate of the recording", isOverAll: true, hasRings: false, activity, scale: (k) => rateScale(most[k])};
+    return {key: "mean", label: "Mean rate", isOverAll: true, hasRings: false, activity, scale: (k) => rateScale(most[k])};
 }
 
 const rateScale = (most: number) => ["0", quantity(most / 2, "Hz", true), quantity(most, "Hz", true)];

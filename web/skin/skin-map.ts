@@ -98,9 +98,9 @@ export class SkinMap {
     }
 
     private paintIdle(pen: Pen) {
-        const r = Math.max(0.5, Math.min(0.42 * this.scene.dotRadius, 0.22 * this.distance * this.scene.scale));
+        const room = this.distance * this.scene.scale, r = Math.max(0.5, Math.min(0.5 * this.scene.dotRadius, 0.22 * room));
         for (const {colour, first, end} of this.classes) {
-            pen.fillStyle = resolved(mixed("var(--flesh)", colour, 0.55));
+            pen.fillStyle = resolved(mixed("var(--flesh)", colour, room > 14 ? 0.75 : 0.55));
             for (let mark = first; mark < end; ++mark) disc(pen, ...this.place(mark), r);
         }
     }
