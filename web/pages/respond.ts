@@ -55,12 +55,13 @@ class RespondPage {
         if (state && state.from !== null) this.view.set(state.from, state.to!);
     }
 
+    /// Keeps in the link what differs from the view that the page opens with.
     private keepInLink() {
-        const {inputs} = this.data, {view} = this, at = [inputs.indexOf(this.input) + 1, this.input.channels.indexOf(this.channel) + 1];
-        const digits = (t: number) => Number(t.toPrecision(9));
+        const {inputs} = this.data, {view, input, channel} = this, digits = (t: number) => Number(t.toPrecision(9));
         this.collectHidden();
-        setLink(viewLinkValues({input: inputs.length > 1 ? at[0] : null, channel: this.input.channels.length > 1 ? at[1] : null, from: view.isComplete ? null : digits(view.a),
-                                to: view.isComplete ? null : digits(view.b), isAutoscale: view.isAutoscale, areAllRows: this.areAllRows, hidden: [...this.hidden], open: [...this.open]}));
+        setLink(viewLinkValues({input: input === inputs[0] ? null : inputs.indexOf(input) + 1, channel: channel === this.first.mostActiveChannel(input) ? null : input.channels.indexOf(channel) + 1,
+                                from: view.isComplete ? null : digits(view.a), to: view.isComplete ? null : digits(view.b), isAutoscale: view.isAutoscale, areAllRows: this.areAllRows,
+                                hidden: [...this.hidden], open: [...this.open]}));
     }
 
     private collectHidden() {
