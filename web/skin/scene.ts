@@ -13,6 +13,7 @@ export class SkinScene {
     width = 300;                   // of a map, CSS pixels
     height = 300;
     scale = 1;                     // pixels per m
+    distance = Infinity;           // between neighbouring marks on the densest map, m
     readonly all: Box;             // of the complete skin
     private box: Box;
     private cx = 0;
@@ -29,7 +30,7 @@ export class SkinScene {
     }
 
     /// The radius of an active mark, pixels: equal on all maps.
-    get dotRadius() { return Math.max(2.2, Math.min(7, 1.1e-3 * this.scale)); }
+    get dotRadius() { return Math.max(2.2, Math.min(8, 0.36 * this.distance * this.scale)); }
     get aspect() { return (this.all[2] - this.all[0]) / (this.all[3] - this.all[1]); }
     get isComplete() { return this.box === this.all; }
 

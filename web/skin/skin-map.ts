@@ -57,6 +57,7 @@ export class SkinMap {
             h("div", {class: "skin-canvas"}, this.canvas, this.tip));
         options.host.append(this.root);
         scene.maps.push(this);
+        scene.distance = Math.min(scene.distance, this.distance);
         connectMapPointer(this);
     }
 
