@@ -442,7 +442,7 @@ class SensorsOfTwo(SkinPage):
 
     def test_separate_sensors_have_no_outline(self):
         self.assertEqual(self.data["sites"]["outline"], {"skin": [], "regions": []})
-        self.assertIn("force on a sensor", self.browser.find_element(By.ID, "maps").text)
+        self.assertIn("force on 9 mm²", self.browser.find_element(By.ID, "maps").text)
 
 
 class TrialsOnASkin(SkinPage):
