@@ -2,8 +2,9 @@
 
 import type {PageData} from "./data/document";
 import {showRespondPage} from "./pages/respond";
+import {showSkinPage} from "./pages/skin";
 
-const pages: Record<string, (data: never) => void> = {respond: showRespondPage};
+const pages: Record<string, (data: never) => void> = {respond: showRespondPage, skin: showSkinPage};
 
 const data = JSON.parse(document.getElementById("data")!.textContent!) as PageData;
 pages[data.page](data as never);
