@@ -2,8 +2,10 @@
 
 import type {PageData} from "./data/document";
 import {showRespondPage} from "./pages/respond";
+import {showStudyPage} from "./pages/study";
+import {showTransistorPage} from "./pages/transistor";
 
-const pages: Record<string, (data: never) => void> = {respond: showRespondPage};
+const pages: Record<string, (data: never) => void> = {respond: showRespondPage, study: showStudyPage, transistor: showTransistorPage};
 
 const data = JSON.parse(document.getElementById("data")!.textContent!) as PageData;
 pages[data.page](data as never);

@@ -77,14 +77,14 @@ export function connectPointer(panel: Panel, view: View) {
     }, {passive: false});
 }
 
-/// Keys: + and - zoom, 0 resets, arrows pan, with Shift they move the cursor, Escape removes it.
-export function connectKeys(view: View) {
+/// Keys: + and - zoom, 0 resets, arrows pan, with Shift they move the cursor, Escape removes it. `target`: the part of the page in which they act.
+export function connectKeys(view: View, target: HTMLElement = document.documentElement) {
     const step = (direction: number) => view.point((view.cursor ?? (view.a + view.b) / 2) + direction * (view.b - view.a) / 200);
     const keys: Record<string, (event: KeyboardEvent) => void> = {
         "+": () => view.zoom(0.5), "=": () => view.zoom(0.5), "-": () => view.zoom(2), "0": () => view.reset(), "Escape": () => view.point(null),
         "ArrowLeft": (event) => (event.shiftKey ? step(-1) : view.pan(-0.25)), "ArrowRight": (event) => (event.shiftKey ? step(1) : view.pan(0.25)),
     };
-    document.addEventListener("keydown", (event) => {
+    target.addEventListener("keydown", (event) => {
         const isTyping = (event.target as Element).closest("select, input, textarea, summary, [role=region], [role=slider]");
         if (isTyping || event.ctrlKey || event.altKey || event.metaKey || !keys[event.key]) return;
         event.preventDefault();
