@@ -28,7 +28,7 @@ export function textOn({unit, words}: Pick<Axis, "unit" | "words">, value: numbe
     if (words) return words[value] ?? "–";
     if (BASE_UNITS.has(unit)) return quantity(value, unit, true);
     const text = unitText(unit);
-    return shortest(Number(value.toPrecision(5))) + (text && `\u00a0${text}`);
+    return shortest(Number.isInteger(value) ? value : Number(value.toPrecision(4))) + (text && `\u00a0${text}`);
 }
 
 /// The power of ten of the prefix that the numbers of a linear axis from lo to hi share.

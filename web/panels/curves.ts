@@ -14,6 +14,7 @@ export interface Curve extends Series {
     x: ArrayLike<number>;             ///< NaN interrupts a line
     y: ArrayLike<number>;
     bands?: {low: ArrayLike<number>; high: ArrayLike<number>}[];  ///< areas around a line, such as quantiles
+    hasPoints?: boolean;              ///< mark the points of a line
     isReference?: boolean;            ///< does not count for the range of the axes
 }
 
@@ -57,7 +58,7 @@ export function paintCurve(pen: Pen, curve: Curve, plane: Plane, rowHeight = 18)
     pen.globalAlpha = 1;
 }
 
-function paintLine(pen: Pen, {x, y, bands = []}: Curve, plane: Plane) {
+function paintLine(pen: Pen, {x, y, bands = [], hasPoints}: Curve, plane: Plane) {
     bands.forEach(({low, high}, k) => {
         pen.globalAlpha = k ? 0.26 : 0.14;
         pen.beginPath();
@@ -74,6 +75,7 @@ function paintLine(pen: Pen, {x, y, bands = []}: Curve, plane: Plane) {
         isDown = isKnown;
     }
     pen.stroke();
+    if (hasPoints) paintPoints(pen, {x, y, width: 2.2} as Curve, plane);
 }
 
 function paintPoints(pen: Pen, {x, y, mark, width = 1.6}: Curve, plane: Plane) {

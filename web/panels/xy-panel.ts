@@ -52,7 +52,7 @@ export class XyPanel extends Panel {
 
     private startView() {
         const [[low, high]] = extentsOf(this.placed.filter(({isReference}) => !isReference));
-        const hasMargin = this.curves.some(({style}) => style !== "line" && style !== "steps"), margin = (hasMargin ? 0.03 : 0) * (high - low) || (high > low ? 0 : Math.abs(low) / 10 || 1);
+        const hasMargin = this.curves.some(({style, hasPoints}) => hasPoints || (style !== "line" && style !== "steps")), margin = (hasMargin ? 0.03 : 0) * (high - low) || (high > low ? 0 : Math.abs(low) / 10 || 1);
         const view = new View(""), length = high - low + 2 * margin;
         view.setLimits({begin: low - margin, end: high + margin, smallest: length / 1e5});
         view.add(this);

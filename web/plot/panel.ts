@@ -110,7 +110,7 @@ export abstract class Panel {
         const value = h("span", {class: "legend-value"});
         const item = canHide && this.series.length > 1
             ? h("button", {class: "legend-item", type: "button", "aria-pressed": "true", title: "Show or hide", "data-series": name, onclick: () => this.toggle(name)}, swatch, h("span", {class: "legend-name"}, ...label), value)
-            : h("span", {class: "legend-item", "data-series": name}, swatch, h("span", {class: "legend-name"}, ...label), value);
+            : h("span", {class: "legend-item", "data-series": name}, label.length ? swatch : null, h("span", {class: "legend-name"}, ...label), value);
         this.values.set(name, value);
         this.legend.append(item);
     }
