@@ -12,11 +12,38 @@ export function startPage({title, program, command, notes = []}: PageData): HTML
     const main = h("main");
     append(document.body,
         h("header", {}, h("h1", {id: "title"}, title), h("span", {class: "program", id: "program"}, program), command ? commandLine(command) : null,
-          notes.length ? h("ul", {class: "notes", id: "notes", "aria-label": "notes"}, ...notes.map((text) => h("li", {}, text))) : null),
+          h("ul", {class: "notes", id: "notes", "aria-label": "notes", hidden: true}), h("button", {type: "button", id: "all-notes", hidden: true, onclick: showAllNotes}, "More notes")),
         main);
-    addEventListener("beforeprint", () => document.documentElement.classList.add("printing"));
-    addEventListener("afterprint", () => document.documentElement.classList.remove("printing"));
+    notes.forEach(addNote);
+    addEventListener("beforeprint", () => {
+        document.documentElement.classList.add("printing");
+        document.querySelectorAll<HTMLDetailsElement>("details.fold:not([open])").forEach((node) => {
+            node.open = true;
+            node.dataset.closed = "";
+            drawFold.get(node)!();
+        });
+    });
+    addEventListener("afterprint", () => {
+        document.documentElement.classList.remove("printing");
+        document.querySelectorAll<HTMLDetailsElement>("details.fold[data-closed]").forEach((node) => {
+            node.open = false;
+            delete node.dataset.closed;
+        });
+    });
     return main;
+}
+
+/// Adds a note below the heading.
+export function addNote(text: string) {
+    const list = document.getElementById("notes")!;
+    list.hidden = false;
+    list.append(h("li", {}, text));
+    document.getElementById("all-notes")!.hidden = list.childElementCount <= 2;
+}
+
+function showAllNotes() {
+    document.getElementById("notes")!.classList.add("all");
+    document.getElementById("all-notes")!.remove();
 }
 
 function commandLine(command: string): HTMLElement {
@@ -48,6 +75,9 @@ export function section(host: Element, id: string, title: Child, about = "", col
     return node;
 }
 
+/// Draws the content of a folded section.
+const drawFold = new WeakMap<Element, () => void>();
+
 /// A section that is folded until the user opens it. `draw` is called at the first opening, with the element for the content.
 export function folded(host: Element, id: string, title: Child, about: string, colour: string, draw: (host: HTMLElement) => void, isOpen = false): HTMLDetailsElement {
     const content = h("div"), node = h("details", {class: "fold", id, open: isOpen},
@@ -59,7 +89,7 @@ export function folded(host: Element, id: string, title: Child, about: string, c
         draw(content);
     };
     node.addEventListener("toggle", drawOnce);
-    addEventListener("beforeprint", () => { node.open = true; drawOnce(); });
+    drawFold.set(node, drawOnce);
     host.append(node);
     drawOnce();
     return node;

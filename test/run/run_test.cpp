@@ -176,7 +176,7 @@ TEST(Envelope, KeepsMinAndMaxOfEveryBucketForAnyLength) {
 TEST(Base64, AgreesWithTheExamplesOfTheStandard) {  // RFC 4648, section 10
     const std::pair<const char*, const char*> cases[] = {
         {"", ""}, {"f", "Zg=="}, {"fo", "Zm8="}, {"foo", "Zm9v"}, {"foob", "Zm9vYg=="}, {"fooba", "Zm9vYmE="}, {"foobar", "Zm9vYmFy"}};
-    for (const auto& [plain, coded] : cases) EXPECT_EQ(base64(std::string_view(plain)), coded);
+    for (const auto& [plain, coded] : cases) EXPECT_EQ(base64(std::as_bytes(std::span(std::string_view(plain)))), coded);
 }
 
 }  // namespace

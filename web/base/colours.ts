@@ -5,6 +5,11 @@ let probe: HTMLElement | null = null;
 
 /// The colour of a series, from eight that all common kinds of colour vision can tell apart.
 export const seriesColour = (index: number) => `var(--series-${index % 8})`;
+const CLASSES = ["sa1", "fa1", "sa2", "fa2"];
+/// The colour of a class of afferents, the same on all pages.
+export const classColour = (name: string) => seriesColour(Math.max(0, CLASSES.indexOf(name)));
+/// The colour of the k-th of several afferents of one class.
+export const variantColour = (name: string, k: number) => (k === 0 ? classColour(name) : mixed(classColour(name), k % 2 ? "var(--ink)" : "var(--paper)", [0.45, 0.4, 0.7, 0.6][(k - 1) % 4]));
 /// A mixture: fraction 0 is the first colour, 1 the second.
 export const mixed = (first: string, second: string, fraction: number) => `color-mix(in srgb, ${second} ${+(100 * fraction).toFixed(3)}%, ${first})`;
 

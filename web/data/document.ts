@@ -29,9 +29,18 @@ export interface TrialsData {
     histograms: HistogramData[]; classes?: number; spikes?: {trial: number; group: number; times: EncodedArray}[];
 }
 
+export interface QualityData { notes: {text: string; grave: boolean}[]; columns: string[]; rows: Cell[][] }
+
+/// Power and area of a netlist, by block. Powers are in W, areas in m².
+export interface CostData {
+    afferent: string; rest_force_N: number; area: {total_m2: number}; afferents?: {per_mm2: number};
+    power: {op: {delivered_W: number; sensor_W: number; blocks_W: Record<string, number>}; mean?: {delivered_W: number; sensor_W: number}};
+    blocks: {block: string; area: {total_m2: number}; worst_leak?: {current_A: number}}[];
+}
+
 export interface RespondData extends PageData {
     inputs: InputData[]; afferents: AfferentData[]; traces: TraceRecord[]; spikes: SpikesRecord[]; table: TableData;
-    comparisons: TableData & {cost: number; tau: number}; quality: {notes: {text: string; grave: boolean}[]; columns: string[]; rows: Cell[][]};
-    costs: unknown; trials?: TrialsData; versions: Record<string, string>;
+    comparisons: TableData & {cost: number; tau: number}; quality: QualityData;
+    costs?: CostData[]; trials?: TrialsData; versions: Record<string, string>;
     copies?: {count: number; shown: number; has_probes: boolean; rates: {afferent: string; channel: number; bin: number; values: number[]}[]};
 }

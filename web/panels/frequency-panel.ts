@@ -8,8 +8,8 @@ import type {Spikes} from "./signals";
 import {TimePanel, TimePanelOptions, fromZero} from "./time-panel";
 
 /// `shape`: selects the shape of the marks, so that trains differ in shape as well as in colour.
-export interface Train { name: string; colour: string; shape: number; spikes: Spikes }
-export interface FrequencyOptions extends Omit<TimePanelOptions, "series"> { trains: Train[] }
+export interface FrequencyTrain { name: string; colour: string; shape: number; spikes: Spikes }
+export interface FrequencyOptions extends Omit<TimePanelOptions, "series"> { trains: FrequencyTrain[] }
 
 const MARKS = ["●", "▲", "■", "◆"];
 /// Corners of the marks, in units of their size; none for a disc.
@@ -17,7 +17,7 @@ const CORNERS = [[], [[0, -1.2], [1.1, 0.8], [-1.1, 0.8]], [[-0.9, -0.9], [0.9, 
 const SIZE = 2.5;  // pixels
 
 export class FrequencyPanel extends TimePanel {
-    private trains: Train[];
+    private trains: FrequencyTrain[];
     private power: number;  // of ten, of the prefix of the axis
 
     constructor({trains, ...rest}: FrequencyOptions) {

@@ -5,16 +5,16 @@ import {h} from "../base/dom";
 import {fixedText, quantity, Ticks} from "../base/text";
 import type {Area} from "../plot/panel";
 import type {Pen} from "../plot/pen";
-import type {Trace} from "./signals";
+import type {Curve} from "./signals";
 import {PanelRow, RowsOptions, RowsPanel} from "./rows-panel";
 import {extentOf} from "./time-panel";
 import {rangeText, tracesCsv} from "./trace-panel";
 
 /// All rows have one unit and one clock.
-export interface HeatRow extends PanelRow { trace: Trace }
+export interface HeatRow extends PanelRow { trace: Curve }
 
 /// The height in pixels that suits a number of rows.
-export const heatHeight = (rows: number) => Math.max(60, Math.min(14, 240 / rows) * rows);
+export const heatHeight = (rows: number) => Math.max(60, Math.min(14, 112 / rows) * rows);
 
 /// The background is 0, or the smallest value if all are positive; each pixel shows the value farthest from it.
 export class HeatPanel<R extends HeatRow = HeatRow> extends RowsPanel<R> {
@@ -30,7 +30,7 @@ export class HeatPanel<R extends HeatRow = HeatRow> extends RowsPanel<R> {
 
     protected verticalTicks(): Ticks {
         const n = this.rows.length, labels = new Map<number, string>(), step = Math.ceil(n / (this.height / 11));
-        this.rows.forEach(({label}, k) => { if (k % step === 0) labels.set(n - k - 0.5, label); });
+        this.rows.forEach(({label}, k) => { if (k % step === step >> 1) labels.set(n - k - 0.5, label); });
         return {values: [...labels.keys()], text: (v) => labels.get(v) || ""};
     }
 

@@ -20,11 +20,10 @@ export class Scale {
 
 /// A trace whose ranges are scaled to the axis of the reference; at() returns unscaled values, for the legend.
 class ScaledTrace extends Trace {
-    constructor(private inner: Trace, private scale: Scale) { super(inner["record"], inner.clock); }
-    get source() { return this.inner; }
-    at(t: number) { return this.inner.at(t); }
+    constructor(readonly source: Trace, private scale: Scale) { super(source["record"], source.clock); }
+    at(t: number) { return this.source.at(t); }
     range(k: number, l: number): Range {
-        const [low, high] = this.inner.range(k, l);
+        const [low, high] = this.source.range(k, l);
         if (low === null || high === null) return [null, null];
         return this.scale.factor < 0 ? [this.scale.to(high), this.scale.to(low)] : [this.scale.to(low), this.scale.to(high)];
     }

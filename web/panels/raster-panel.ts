@@ -5,20 +5,21 @@ import {h} from "../base/dom";
 import {fixedText, quantity, Ticks} from "../base/text";
 import {Area, csvText} from "../plot/panel";
 import type {Pen} from "../plot/pen";
-import type {Spikes} from "./signals";
+import type {Train} from "./signals";
 import {PanelRow, RowsOptions, RowsPanel} from "./rows-panel";
 
-export const MAX_ROW_LABELS = 46;  // with more rows, there is no space for a label per row
-const STRIP = 16;                  // above the rows, for the names of the phases, pixels
+const STRIP = 16;            // above the rows, for the names of the phases, pixels
+const LABEL = 11;            // height of a label, pixels
+const MAX_STEP = 3;          // if fewer rows than one in so many have space for a label, each series has one label
 
 /// `series`: name of the series to which the row belongs.
-export interface Row extends PanelRow { series: string; colour: string; spikes: Spikes; group?: string }
+export interface Row extends PanelRow { series: string; colour: string; spikes: Train; group?: string }
 
 /// `isGrouped`: tint the chosen rows, and draw a line where the group of the rows changes.
 export interface RasterOptions<R extends Row = Row> extends RowsOptions<R> { isGrouped?: boolean }
 
-/// The height in pixels that suits a number of rows.
-export const rasterHeight = (rows: number) => STRIP + Math.max(40, Math.min(24, 560 / Math.max(rows, 1)) * rows);
+/// The height in pixels that suits a number of rows, at most `limit`.
+export const rasterHeight = (rows: number, limit = 560) => Math.max(40, Math.min(24, limit / Math.max(rows, 1)) * rows);
 
 /// Spikes are ticks if they can be distinguished, else the number of spikes per pixel is shown as shades.
 export class RasterPanel<R extends Row = Row> extends RowsPanel<R> {
@@ -27,15 +28,16 @@ export class RasterPanel<R extends Row = Row> extends RowsPanel<R> {
     constructor(options: RasterOptions<R>) {
         super(options);
         this.isGrouped = options.isGrouped || false;
-        this.strip = this.isNamed ? STRIP : 0;
+        if (this.isNamed) [this.strip, this.height] = [STRIP, this.height + STRIP];
     }
 
     protected get shownRows() { return this.rows.filter(({series}) => !this.hidden.has(series)); }
 
-    /// A label for each row if there is space, else one for each series in the middle of its rows.
+    /// A label for each row if there is space, else for one row in a few, else one for each series in the middle of its rows.
     protected verticalTicks(): Ticks {
         const rows = this.shownRows, n = rows.length, labels = new Map<number, string>();
-        if (n <= MAX_ROW_LABELS) rows.forEach(({label}, k) => labels.set(n - k - 0.5, label));
+        const step = Math.ceil(LABEL * n / (this.height - this.strip));
+        if (step <= MAX_STEP) rows.forEach(({label}, k) => k % step === step >> 1 && labels.set(n - k - 0.5, label));
         else for (const {name} of this.series) {
             const own = rows.map(({series}, k) => (series === name ? k : -1)).filter((k) => k >= 0);
             if (own.length) labels.set(n - (own[0] + own[own.length - 1] + 1) / 2, name);
@@ -89,7 +91,8 @@ export class RasterPanel<R extends Row = Row> extends RowsPanel<R> {
         });
         const image = painted(counts, colours), gap = area.h / rows.length > 6 ? 1 : 0;
         pen.imageSmoothingEnabled = false;
-        for (let k = 0; k < lines; ++k) pen.drawImage(image, 0, k, columns, 1, area.x, area.y + k * area.h / lines + gap, area.w, area.h / lines - 2 * gap);
+        if (gap === 0) pen.drawImage(image, 0, 0, columns, lines, area.x, area.y, area.w, area.h);
+        else for (let k = 0; k < lines; ++k) pen.drawImage(image, 0, k, columns, 1, area.x, area.y + k * area.h / lines + gap, area.w, area.h / lines - 2 * gap);
     }
 
     /// Shows in the legend how many spikes of the chosen rows of each series are visible.
@@ -114,14 +117,14 @@ export class RasterPanel<R extends Row = Row> extends RowsPanel<R> {
     }
 
     csv() {
-        const rows = this.shownRows.flatMap(({series, about, label, spikes}) => Array.from(spikes.times.slice(spikes.before(this.view.a), spikes.before(this.view.b)), (t) => [series, about || label, t]));
+        const rows = this.shownRows.flatMap(({series, about, label, spikes}) => Array.from(spikes.times).slice(spikes.before(this.view.a), spikes.before(this.view.b)).map((t) => [series, about || label, t]));
         return csvText(["afferent", "row", "time_s"], rows);
     }
 }
 
 /// Adds spikes i ... j-1 of a train to the counts of the pixel columns that divide the time range [a, b) equally. Few spikes are counted one by
 /// one; if there are many, the first spike of each column is found by binary search.
-export function countPerColumn(counts: Uint32Array, spikes: {times: ArrayLike<number>; before(t: number): number}, i: number, j: number, a: number, b: number) {
+export function countPerColumn(counts: Uint32Array, spikes: Pick<Train, "times" | "before">, i: number, j: number, a: number, b: number) {
     const t = spikes.times, columns = counts.length;
     if (j - i < 8 * columns) {
         for (let k = i; k < j; ++k) ++counts[Math.min(columns - 1, Math.floor((t[k] - a) / (b - a) * columns))];

@@ -7,14 +7,17 @@ import {TimePanel, TimePanelOptions} from "./time-panel";
 
 export interface PanelRow { label: string; isChosen?: boolean; about?: string }
 
+/// A method, so that a panel of special rows is also a panel of rows.
+type Choice<R> = {choose(row: R): void}["choose"];
+
 export interface RowsOptions<R> extends TimePanelOptions {
     rows: R[];                           ///< the first is at the top
-    pick?: ((row: R) => void) | null;    ///< called when a row is chosen
+    pick?: Choice<R> | null;    ///< called when a row is chosen
 }
 
 export abstract class RowsPanel<R extends PanelRow> extends TimePanel {
     rows: R[];
-    protected pick: ((row: R) => void) | null;
+    protected pick: Choice<R> | null;
     protected strip = 0;  // above the rows, pixels
     private current = -1;  // row that the keys have reached
 

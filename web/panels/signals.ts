@@ -10,6 +10,32 @@ export interface Phase { name: string; from: number; to: number }
 /// The time (s) at which an input ends.
 export const endOf = (clock: Clock) => clock.t0 + clock.samples * clock.T;
 
+/// A quantity over time that a panel can draw.
+export interface Curve {
+    readonly afferent: string | null;
+    readonly quantity: string;
+    readonly unit: string;
+    readonly bucket: number;
+    readonly clock: Clock;
+    /// [min, max] of samples k ... l-1.
+    range(k: number, l: number): Range;
+    fullRange(): Range;
+    /// [min, max] in the times from a to b (s).
+    rangeBetween(a: number, b: number): Range;
+    /// [min, max] near the time t (s).
+    at(t: number): Range;
+    /// The curve in its own unit, if this one is scaled.
+    readonly source?: Curve;
+}
+
+/// The spike times of one afferent, s, in ascending order.
+export interface Train {
+    readonly count: number;
+    readonly times: ArrayLike<number>;
+    before(t: number): number;
+    nearest(t: number): number;
+}
+
 export interface TraceRecord {
     channel: number; afferent: string | null; quantity: string; unit: string;
     bucket: number;  ///< if it is more than 1, only the minimum and maximum of each `bucket` consecutive samples are known
@@ -18,7 +44,7 @@ export interface TraceRecord {
 }
 
 /// One recorded quantity on one channel.
-export class Trace {
+export class Trace implements Curve {
     readonly afferent: string | null;
     readonly quantity: string;
     readonly unit: string;
@@ -29,8 +55,6 @@ export class Trace {
         [this.afferent, this.quantity, this.unit, this.bucket] = [record.afferent, record.quantity, record.unit, record.bucket];
     }
 
-    /// The trace in its own unit, if this one is scaled.
-    get source(): Trace { return this; }
     /// The values for range queries; entry j is bucket j. Decoded at the first use.
     get pyramid(): Pyramid { return (this.built = this.built || this.build()); }
 
@@ -61,7 +85,7 @@ export class Trace {
 export interface SpikesRecord { afferent: string; channel: number; count: number; times: EncodedArray }
 
 /// The ascending spike times t[k] (s) of one afferent on one channel. The instantaneous frequency at t[k] is f_k = 1 / (t[k+1] - t[k]).
-export class Spikes {
+export class Spikes implements Train {
     readonly count: number;
     private known: Float64Array | null;
     private built: Pyramid | null = null;

@@ -4,10 +4,11 @@ import {resolved} from "../base/colours";
 import {Panel, PanelOptions, Area} from "../plot/panel";
 import type {Pen} from "../plot/pen";
 import type {Range} from "../base/pyramid";
-import type {Phase} from "./signals";
+import type {Clock, Phase} from "./signals";
 
 export interface TimePanelOptions extends PanelOptions {
     phases?: Phase[];
+    clock?: Clock;      ///< of the data; panels take that of each curve
     isNamed?: boolean;  ///< show the names of the phases
     zero?: number | null;  ///< draw a dashed line at this time, such as the contact onset of trials
 }

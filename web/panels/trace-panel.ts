@@ -1,44 +1,51 @@
 // Force, currents, membranes and node voltages over time, reduced to the resolution of the screen.
 
 import {resolved} from "../base/colours";
-import {Child} from "../base/dom";
+import {Child, h} from "../base/dom";
 import type {Range} from "../base/pyramid";
 import {PREFIXES, prefixPower, quantity, roundTicks, unitText} from "../base/text";
 import {Area, Series, csvText} from "../plot/panel";
 import type {Pen} from "../plot/pen";
-import type {Trace} from "./signals";
+import type {Curve} from "./signals";
 import {TimePanel, TimePanelOptions, dashedLine, extentOf, withMargins} from "./time-panel";
 
 export interface TracePanelOptions extends TimePanelOptions {
-    traces: Trace[];     ///< of one unit; trace k has the style of series k
+    traces: Curve[];     ///< of one unit; trace k has the style of series k
     owners?: number[];   ///< the index of the series of each trace, if several traces share a series
     level?: {value: number; label: Child[]} | null;  ///< drawn dashed, such as a threshold
 }
 
 export class TracePanel extends TimePanel {
-    protected readonly traces: Trace[];
+    protected readonly traces: Curve[];
     private level: {value: number; label: Child[]} | null;
-    protected extent: [number, number];
+    protected extent: [number, number] = [0, 0];
     private owners: number[] | null;
-    private power: number;  // of ten, of the prefix of the axis
+    private power = 0;  // of ten, of the prefix of the axis
+    private unitNode = h("span", {class: "unit"});
     protected tickPixels = 32;
 
     constructor(options: TracePanelOptions) {
         super(options);
         [this.traces, this.owners] = [options.traces, options.owners || null];
         this.level = options.level || null;
-        this.extent = extentOf(this.traces.map((trace) => trace.fullRange()), this.level ? [this.level.value] : []);
-        const {unit} = this.traces[0];
-        this.power = prefixPower(Math.max(...this.extent.map(Math.abs)), unit);
-        const text = PREFIXES[this.power] + unitText(unit);
-        this.addTitle(text && ` (${text})`);
+        this.addTitle(" ", this.unitNode);
+        this.setExtent(extentOf(this.traces.map((trace) => trace.fullRange()), this.level ? [this.level.value] : []));
         if (this.level) {
             this.addLegendItem({name: "level", label: this.level.label, colour: "var(--level)", width: 1, dash: [5, 3]}, false);
-            this.setValue("level", quantity(this.level.value, unit, true));
+            this.setValue("level", quantity(this.level.value, this.traces[0].unit, true));
         }
     }
 
     private styleOf(k: number): Series { return this.series[this.owners ? this.owners[k] : k]; }
+
+    /// Sets the vertical range of all values, and with it the unit of the axis.
+    protected setExtent(extent: [number, number]) {
+        const {unit} = this.traces[0];
+        this.extent = extent;
+        this.power = prefixPower(Math.max(...extent.map(Math.abs)), unit);
+        const text = PREFIXES[this.power] + unitText(unit);
+        this.unitNode.textContent = text && `(${text})`;
+    }
 
     protected range(isAutoscale: boolean): [number, number] {
         const shown = this.traces.filter((_, k) => this.isVisible(this.styleOf(k)));
@@ -87,12 +94,12 @@ export class TracePanel extends TimePanel {
 
     csv() {
         const names = this.traces.map((trace, k) => (this.series.length > 1 && this.series[k].name !== trace.quantity ? `${this.series[k].name} ${trace.quantity}` : trace.quantity));
-        return tracesCsv(this.traces.map((one) => one.source), names, this.view.a, this.view.b);
+        return tracesCsv(this.traces.map((one) => one.source || one), names, this.view.a, this.view.b);
     }
 }
 
 /// The values of traces with one clock between two times. If a trace has buckets, the minimum and maximum of all traces over the longest bucket.
-export function tracesCsv(traces: Trace[], names: string[], a: number, b: number): string {
+export function tracesCsv(traces: Curve[], names: string[], a: number, b: number): string {
     const {t0, T, samples} = traces[0].clock, bucket = Math.max(...traces.map((trace) => trace.bucket));
     const first = Math.max(0, Math.floor((a - t0) / T / bucket)), last = Math.min(samples / bucket, (b - t0) / T / bucket), rows: (number | null)[][] = [];
     for (let k = first; k < last; ++k)
@@ -105,7 +112,7 @@ export function tracesCsv(traces: Trace[], names: string[], a: number, b: number
 /// column of about one pixel has two points, the minimum and maximum of its samples; the one nearer to the previous point comes first, so that
 /// lines with a slope stay thin. A column's first sample is a multiple of its number of samples, so that the plot does not flicker while it is
 /// panned.
-export function pointsOf(trace: Trace, a: number, b: number, width: number): number[] {
+export function pointsOf(trace: Curve, a: number, b: number, width: number): number[] {
     const {t0, T, samples} = trace.clock, {bucket} = trace, count = (b - a) / T, pixels = width * (devicePixelRatio || 1);
     const isEach = bucket === 1 && count <= 2 * pixels;
     const column = isEach ? 1 : bucket * Math.max(1, Math.ceil(count / (bucket * pixels)));  // samples per column

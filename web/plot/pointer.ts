@@ -77,16 +77,17 @@ export function connectPointer(panel: Panel, view: View) {
     }, {passive: false});
 }
 
-/// Keys: + and - zoom, 0 resets, arrows pan, with Shift they move the cursor, Escape removes it. `target`: the part of the page in which they act.
-export function connectKeys(view: View, target: HTMLElement = document.documentElement) {
+/// Keys: + and - zoom, 0 resets, arrows pan, with Shift they move the cursor, Escape removes it. `host`: takes the keys of the elements in it.
+export function connectKeys(view: View, host: Element | Document = document) {
     const step = (direction: number) => view.point((view.cursor ?? (view.a + view.b) / 2) + direction * (view.b - view.a) / 200);
     const keys: Record<string, (event: KeyboardEvent) => void> = {
         "+": () => view.zoom(0.5), "=": () => view.zoom(0.5), "-": () => view.zoom(2), "0": () => view.reset(), "Escape": () => view.point(null),
         "ArrowLeft": (event) => (event.shiftKey ? step(-1) : view.pan(-0.25)), "ArrowRight": (event) => (event.shiftKey ? step(1) : view.pan(0.25)),
     };
-    target.addEventListener("keydown", (event) => {
+    host.addEventListener("keydown", (any) => {
+        const event = any as KeyboardEvent;
         const isTyping = (event.target as Element).closest("select, input, textarea, summary, [role=region], [role=slider]");
-        if (isTyping || event.ctrlKey || event.altKey || event.metaKey || !keys[event.key]) return;
+        if (isTyping || event.defaultPrevented || event.ctrlKey || event.altKey || event.metaKey || !keys[event.key]) return;
         event.preventDefault();
         keys[event.key](event);
     });

@@ -19,7 +19,10 @@ export class View {
     private cursorListeners: (() => void)[] = [];
 
     /// `unit`: of x, "s" for time.
-    constructor(readonly unit = "s") {}
+    constructor(readonly unit = "s") {
+        addEventListener("beforeprint", () => this.draw());
+        addEventListener("afterprint", () => this.request());
+    }
 
     /// Sets the range that can be shown. `keep`: keep the visible range and the cursor, else show everything.
     setLimits({begin, end, smallest}: Limits, keep = false) {

@@ -75,7 +75,7 @@ OutputRequest ChannelRun::output_request() const {
 
 Sink& ChannelRun::start_report() {
     const bool is_float = options_.precision == Precision::single_precision;  // records no probes
-    return report_.emplace(RespondReport::max_total_points, plan_.copies, !is_float);
+    return report_.emplace(RespondReport::max_total_points, plan_.copies, !is_float, !trials_);
 }
 
 /// Also prints the notes and warnings that are known before the run.

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "report/page_template.hpp"
+#include "report/trials_document.hpp"
 #include "run/channels/channel_population.hpp"
 #include "run/summary/grouped_notes.hpp"
 #include "run/summary/json_number.hpp"
@@ -11,6 +12,8 @@ namespace corpuscle {
 namespace {
 
 using Json = nlohmann::ordered_json;
+
+constexpr std::size_t max_input_labels = 8;  // of compared inputs: more could not be told apart by colour, so all are averaged together
 
 Json parameter_or_null(const AfferentPlan& plan, std::string_view name) {
     const auto value = plan.value(name);
@@ -119,7 +122,9 @@ Result<void> RespondReport::begin(const Input& input) {
             recordables_.push_back(std::move(probe_list));
             first_copies_.push_back(afferents.plans()[groups_[g]]);
         }  // once: the plans and probes are the same for every input
-    return {};
+    if (!compared_inputs_ && compares_inputs_ && input.input_count > 1 && copies_.count == 0)
+        compared_inputs_.emplace(TrialOptions{}, std::vector<Trial>{});
+    return compared_inputs_ ? compared_inputs_->begin(input) : Result<void>();
 }
 
 Result<void> RespondReport::block(const Input& input, const RunBlock& response) {
@@ -130,7 +135,7 @@ Result<void> RespondReport::block(const Input& input, const RunBlock& response) 
             for (std::size_t k = 0; k < response.steps; ++k)
                 probes_[u][p].add(response.probes[afferent_index(u / groups(), u % groups())][p][k]);
     for (const auto& s : response.spikes) trains_[input.afferent_of(s)].push_back(input.clock.time(s.step, s.offset));
-    return {};
+    return compared_inputs_ ? compared_inputs_->block(input, response) : Result<void>();
 }
 
 /// Adds to the page the spike trains of an afferent (or of its first max_copies copies) on a channel of this input.
@@ -163,7 +168,7 @@ void RespondReport::add_rate(const Input& input, std::size_t channel, std::size_
                       {"values", rates}});
 }
 
-Result<void> RespondReport::end(const Input& input, std::int64_t samples, std::span<const Spike>) {
+Result<void> RespondReport::end(const Input& input, std::int64_t samples, std::span<const Spike> last) {
     const auto& afferents = input.on_channels();
     Json channels = Json::array(), phases = Json::array();
     for (std::size_t c = 0; c < forces_.size(); ++c) {
@@ -188,7 +193,15 @@ Result<void> RespondReport::end(const Input& input, std::int64_t samples, std::s
                        {"phases", phases},
                        {"channels", channels}});
     first_channel_ += static_cast<std::uint32_t>(forces_.size());
-    return {};
+    return compared_inputs_ ? compared_inputs_->end(input, samples, last) : Result<void>();
+}
+
+Json RespondReport::compared_inputs_document() const {
+    if (!compared_inputs_) return nullptr;
+    auto inputs = *compared_inputs_;
+    if (inputs.responses.labels().size() > max_input_labels)
+        for (auto& trial : inputs.responses.trials) trial.label = "all inputs";
+    return trials_document(inputs, inputs.responses.default_bin({}));
 }
 
 std::string RespondReport::page(const RunSummary& summary, std::span<const AfferentPlan> plans, const std::string& command,
@@ -223,7 +236,8 @@ std::string RespondReport::page(const RunSummary& summary, std::span<const Affer
                      {"notes", notes},
                      {"versions", versions_document()},
                      {"costs", costs}};
-    if (!trials.is_null()) document["trials"] = trials;
+    if (auto shown_trials = trials.is_null() ? compared_inputs_document() : trials; !shown_trials.is_null())
+        document["trials"] = std::move(shown_trials);
     if (copies_.count > 0)
         document["copies"] = {
             {"count", copies_.count}, {"shown", std::min(copies_.count, max_copies)}, {"has_probes", wants_probes()}, {"rates", rates_}};

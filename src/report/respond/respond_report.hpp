@@ -19,9 +19,9 @@ public:
     static constexpr std::size_t max_brief_points = 100'000, max_brief_bytes = 1'500'000;
     static constexpr std::size_t unlimited = static_cast<std::size_t>(-1);
     /// `max_points`: limit on the stored values of all traces. `with_probes`: show currents and membranes if there are at most max_copies
-    /// copies of each afferent.
-    explicit RespondReport(std::size_t max_points = max_total_points, CopySpec copies = {}, bool with_probes = true)
-        : max_points_(max_points), copies_(std::move(copies)), with_probes_(with_probes) {}
+    /// copies of each afferent. `compares_inputs`: if there are several inputs and no copies, show each input as a trial from its start.
+    explicit RespondReport(std::size_t max_points = max_total_points, CopySpec copies = {}, bool with_probes = true, bool compares_inputs = false)
+        : max_points_(max_points), copies_(std::move(copies)), with_probes_(with_probes), compares_inputs_(compares_inputs) {}
 
     /// The raster shows at most this many copies of each afferent. If there are more copies, no probes are recorded; otherwise those of the
     /// first copy are.
@@ -42,7 +42,8 @@ private:
     using Json = nlohmann::ordered_json;
     std::size_t max_points_;
     CopySpec copies_;
-    bool with_probes_;
+    bool with_probes_, compares_inputs_;
+    std::optional<TrialCollector> compared_inputs_;  // each input as a trial, if there are several
     // Each afferent with all its copies is a group. For the current input: index of the first copy of each group among the plans, then the
     // number of plans.
     std::vector<std::size_t> groups_;
@@ -56,6 +57,8 @@ private:
     std::size_t afferent_index(std::size_t channel, std::size_t group) const { return channel * groups_.back() + groups_[group]; }
     /// The number of channels, counted over all inputs, whose data are at most `max_bytes`.
     std::uint32_t channels_within(std::size_t max_bytes) const;
+    /// The trials_document() of the compared inputs, or null.
+    Json compared_inputs_document() const;
     void add_spikes(const Input&, std::size_t channel, std::size_t group);
     void add_rate(const Input&, std::size_t channel, std::size_t group, std::int64_t samples);
     std::vector<AfferentPlan> first_copies_;  // of each group, with the parameters that were drawn for it

@@ -1,0 +1,104 @@
+// A chip under the press: its schematic, the voltages, currents and powers of its blocks now, and a Monte Carlo of fifty like it.
+
+import {append, fill, h} from "../base/dom";
+import {quantity} from "../base/text";
+import {RasterPanel} from "../panels/raster-panel";
+import {table} from "../panels/table";
+import {View} from "../plot/view";
+import {LiveTrain, appendSpikes} from "./history";
+import type {Session} from "./session";
+import {engineSettings} from "./settings";
+
+interface Block { name: string; power: number; nodes: {name: string; voltage: number}[] }
+
+const CHIPS = 50, SLICE = 0.03;  // chips of a Monte Carlo; s for which the engine computes before it answers
+
+export class Chip {
+    private summary = h("p", {class: "readout", role: "status"});
+    private drawing = h("div", {class: "schematic", id: "schematic"});
+    private block = h("div", {class: "block"});
+    private monteCarlo = h("div", {class: "monte-carlo"});
+    private chosen = "";
+    private isAsking = false;
+    private lastText = "";
+
+    constructor(private session: Session, private row: number, host: HTMLElement) {
+        const run: HTMLButtonElement = h("button", {type: "button", id: "run-monte-carlo", onclick: () => void this.runMonteCarlo(run)}, `Monte Carlo: ${CHIPS} chips under a press`);
+        append(host, h("h3", {}, "Circuit"), this.summary, this.drawing, this.block, h("p", {}, run), this.monteCarlo);
+        void this.showSchematic();
+    }
+
+    private get afferent() { return this.session.rows[this.row].info.name; }
+
+    private async showSchematic() {
+        try {
+            const {arrays} = await this.session.engine.request({request: "schematic", afferent: this.afferent});
+            const parsed = new DOMParser().parseFromString(new TextDecoder().decode(arrays.svg), "image/svg+xml").documentElement;
+            fill(this.drawing, document.importNode(parsed, true));
+            this.drawing.querySelectorAll<SVGElement>("[data-block]").forEach((node) => {
+                node.setAttribute("tabindex", "0");
+                node.setAttribute("role", "button");
+                const choose = () => this.choose(node.dataset.block!);
+                node.addEventListener("click", choose);
+                node.addEventListener("keydown", (event) => { if (event.key === "Enter") choose(); });
+            });
+        } catch (error) {
+            fill(this.drawing, h("p", {class: "note"}, (error as Error).message));
+        }
+    }
+
+    private choose(name: string) {
+        this.chosen = name;
+        this.lastText = "";
+        this.drawing.querySelectorAll<SVGElement>("[data-block]").forEach((node) => node.classList.toggle("chosen", node.dataset.block === name));
+        void this.update();
+    }
+
+    /// Shows the state of the chip at the last simulated sample.
+    async update() {
+        if (this.isAsking || !this.session.rows[this.row]) return;
+        this.isAsking = true;
+        try {
+            const {head} = await this.session.engine.request({request: "operating", row: this.row});
+            this.summary.textContent = head.blocks.length ? `${quantity(head.power, "W", true)} of the supplies, ${quantity(head.sensor_power, "W", true)} of it for the sensor. Choose a block.` : "";
+            this.showBlock(head.blocks);
+        } catch (error) {
+            this.summary.textContent = (error as Error).message;
+        }
+        this.isAsking = false;
+    }
+
+    private showBlock(blocks: Block[]) {
+        const block = blocks.find(({name}) => name === this.chosen) || blocks[0], text = JSON.stringify(block);
+        if (!block || text === this.lastText || this.block.contains(document.activeElement)) return;
+        this.lastText = text;
+        const rows = block.nodes.map(({name, voltage}) => [name, voltage]);
+        fill(this.block, h("h4", {}, `${block.name || "top level"}: ${quantity(block.power, "W", true)}`),
+            table({name: `nodes of ${block.name || "top level"}`, rows, columns: [{name: "node"}, {name: "voltage (V)", isNumber: true, show: (v) => [quantity(v as number, "V")]}]}));
+    }
+
+    /// Simulates chips that differ by mismatch, and shows their spikes as they come.
+    private async runMonteCarlo(button: HTMLButtonElement) {
+        const {engine, settings} = this.session, trains = Array.from({length: CHIPS}, () => new LiveTrain()), say = h("p", {class: "readout", role: "status"});
+        button.disabled = true;
+        fill(this.monteCarlo, say);
+        try {
+            let answer = await engine.request({request: "monte-carlo", afferent: this.afferent, set: engineSettings(settings.rows[this.row].set), chips: CHIPS, seed: settings.seed, rate: settings.rate, stimulus: "press", slice: SLICE});
+            const {rate, samples, phases = []} = answer.head, clock = {t0: 0, T: 1 / rate, samples}, view = new View();
+            view.setLimits({begin: 0, end: samples / rate, smallest: 0.01});
+            view.add(new RasterPanel({host: this.monteCarlo, name: "monte-carlo", title: [`spikes of ${CHIPS} chips of ${this.afferent}`], about: "spikes of chips that differ by mismatch", height: 320, clock, phases, isNamed: true, isBottom: true, series: [],
+                                      rows: trains.map((spikes, k) => ({series: "", label: `chip ${k + 1}`, colour: "var(--series-2)", spikes}))}));
+            for (;;) {
+                appendSpikes(trains, answer.arrays.unit, answer.arrays.time);
+                const counts = trains.map(({count}) => count), done = answer.head.chips_done;
+                say.textContent = `${done} of ${CHIPS} chips` + (answer.head.done ? `: ${Math.min(...counts)} to ${Math.max(...counts)} spikes` : "");
+                view.request();
+                if (answer.head.done) break;
+                answer = await engine.request({request: "continue", slice: SLICE});
+            }
+        } catch (error) {
+            say.textContent = (error as Error).message;
+        }
+        button.disabled = false;
+    }
+}

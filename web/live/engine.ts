@@ -1,0 +1,82 @@
+// The engine of the live page: WebAssembly in a worker, or native behind a WebSocket. Both answer requests in order (doc/page-protocol.md).
+
+import {Message, NumberArray, bytesOfMessage, messageOf} from "../base/arrays";
+
+export interface Answer { head: any; arrays: Record<string, NumberArray> }
+
+export interface Engine {
+    /// Where it computes, for the reader: "this browser".
+    readonly place: string;
+    /// Sends a request. The promise is rejected with the sentence of the engine's error.
+    request(head: object, arrays?: Record<string, NumberArray>): Promise<Answer>;
+}
+
+interface Waiting { resolve: (answer: Answer) => void; reject: (error: Error) => void }
+
+/// Matches answers to requests by their order.
+abstract class QueueEngine implements Engine {
+    abstract readonly place: string;
+    private waiting: Waiting[] = [];
+    private failure: Error | null = null;  // after which no request is answered
+
+    protected abstract send(bytes: Uint8Array): void;
+
+    request(head: object, arrays: Record<string, NumberArray> = {}): Promise<Answer> {
+        if (this.failure) return Promise.reject(this.failure);
+        return new Promise((resolve, reject) => {
+            this.waiting.push({resolve, reject});
+            this.send(bytesOfMessage(head, arrays));
+        });
+    }
+
+    protected receive(buffer: ArrayBuffer) {
+        const message: Message = messageOf(buffer), next = this.waiting.shift();
+        if (!next) return;
+        if (typeof message.head.error === "string") next.reject(new Error(message.head.error));
+        else next.resolve(message);
+    }
+
+    protected fail(reason: string) {
+        this.failure = new Error(reason);
+        this.waiting.splice(0).forEach(({reject}) => reject(this.failure!));
+    }
+}
+
+/// The engine as WebAssembly in a worker, which is made from texts of the page, so that the page opens from disk.
+export class WorkerEngine extends QueueEngine {
+    readonly place = "this browser";
+    private worker: Worker;
+
+    /// `script`: the text of the worker; `wasm`: the module.
+    constructor(script: string, wasm: ArrayBuffer) {
+        super();
+        const url = URL.createObjectURL(new Blob([script], {type: "text/javascript"}));
+        this.worker = new Worker(url);
+        this.worker.onmessage = ({data}) => (typeof data === "string" ? this.fail(data) : this.receive(data as ArrayBuffer));
+        this.worker.onerror = ({message}) => this.fail(`The engine has stopped: ${message || "its worker did not start"}`);
+        this.worker.postMessage(wasm, [wasm]);
+    }
+
+    protected send(bytes: Uint8Array) { this.worker.postMessage(bytes.buffer, [bytes.buffer]); }
+}
+
+/// The native engine behind the server of `corpuscle stream --serve`.
+export class SocketEngine extends QueueEngine {
+    readonly place = "the server";
+    private socket: WebSocket;
+    private unsent: Uint8Array[] = [];  // until the connection is open
+
+    constructor(url: string) {
+        super();
+        this.socket = new WebSocket(url);
+        this.socket.binaryType = "arraybuffer";
+        this.socket.onopen = () => this.unsent.splice(0).forEach((bytes) => this.socket.send(bytes));
+        this.socket.onmessage = ({data}) => this.receive(data as ArrayBuffer);
+        this.socket.onclose = ({reason}) => this.fail(`The server has closed the connection${reason ? `: ${reason}` : ""}. Reload the page to connect again.`);
+    }
+
+    protected send(bytes: Uint8Array) {
+        if (this.socket.readyState === WebSocket.CONNECTING) this.unsent.push(bytes);
+        else this.socket.send(bytes);
+    }
+}

@@ -1,0 +1,99 @@
+// The list of afferents that feel the whole force: which they are, how they fire now, and the controls of their parameters.
+
+import {append, fill, h} from "../base/dom";
+import {quantity} from "../base/text";
+import type {Charts} from "./charts";
+import {Chip} from "./chip";
+import type {Session} from "./session";
+import {MAX_ROWS, RowSettings} from "./settings";
+import {parameterControl, settingControl} from "./sliders";
+
+const RATE_WINDOW = 0.25;  // s
+
+export class Rows {
+    readonly root = h("div", {class: "rows", id: "rows"});
+    private readouts: HTMLElement[] = [];
+    private chips: (Chip | null)[] = [];
+    private open = new Set<number>();  // rows whose details are shown
+    private closers: (() => void)[] = [];
+
+    /// `restart`: starts the simulation with the changed settings. `changed`: a setting of a running row has changed.
+    constructor(private session: Session, private charts: Charts, private restart: () => void, private changed: () => void) {}
+
+    /// Builds the list anew, after a start.
+    renew() {
+        const {session} = this;
+        this.closers.splice(0).forEach((close) => close());
+        this.readouts = session.rows.map(() => h("span", {class: "readout"}));
+        this.chips = session.rows.map(() => null);
+        fill(this.root, ...session.rows.map((_, k) => this.card(k)), this.adder());
+    }
+
+    /// Shows rates and powers of now; called a few times a second.
+    update() {
+        const {session} = this;
+        session.rows.forEach(({train, power, error, info}, k) => {
+            const text = error || `${quantity(train.rate(session.time - info.delay, RATE_WINDOW), "Hz", true)}, ${train.count} spikes${power ? `, ${quantity(power, "W", true)}` : ""}`;
+            if (this.readouts[k].textContent !== text) this.readouts[k].textContent = text;
+            if (this.chips[k] && this.open.has(k)) void this.chips[k]!.update();
+        });
+    }
+
+    private adder(): HTMLElement {
+        const {afferents} = this.session.catalogue, {rows} = this.session.settings;
+        const select: HTMLSelectElement = h("select", {id: "add-row", "aria-label": "Add an afferent", disabled: rows.length >= MAX_ROWS, onchange: () => this.add(afferents[select.selectedIndex - 1].name)},
+            h("option", {}, "Add an afferent …"), ...afferents.map(({name, composition}) => h("option", {}, `${name}  (${composition})`)));
+        return h("div", {class: "row-card"}, select);
+    }
+
+    private add(afferent: string) {
+        this.session.settings.rows.push({afferent, set: new Map()});
+        this.restart();
+    }
+
+    private remove(k: number) {
+        this.session.settings.rows.splice(k, 1);
+        this.open.clear();
+        this.restart();
+    }
+
+    private card(k: number): HTMLElement {
+        const {info} = this.session.rows[k], content = h("div"), details: HTMLDetailsElement = h("details", {open: this.open.has(k)},
+            h("summary", {}, h("span", {class: "chip", style: `background: ${this.session.rows[k].colour}`}), h("b", {}, info.name), " ", this.readouts[k]), content);
+        details.addEventListener("toggle", () => {
+            if (details.open) this.open.add(k);
+            else this.open.delete(k);
+            if (details.open && !content.firstChild) this.showDetails(k, content);
+        });
+        if (details.open) this.showDetails(k, content);
+        return h("div", {class: "row-card", "data-row": info.name}, details, h("button", {type: "button", class: "remove", title: "Remove", "aria-label": `Remove ${info.name}`, onclick: () => this.remove(k)}, "×"));
+    }
+
+    private showDetails(k: number, host: HTMLElement) {
+        const row = this.session.rows[k], settings = this.session.settings.rows[k], described = this.session.catalogue.afferents.find(({name}) => name === row.info.name);
+        append(host, h("p", {class: "note"}, described ? `${described.description} (${described.composition})` : row.info.composition));
+        const probes = h("div", {class: "probes"});
+        host.append(probes);
+        this.closers.push(this.charts.showProbes(row, probes));
+        if (row.info.is_circuit) {
+            this.chips[k] = new Chip(this.session, k, host);
+            void this.chips[k]!.update();
+        }
+        append(host, h("h3", {}, "Parameters"), h("div", {class: "parameters"}, ...row.info.parameters.map((one) => parameterControl(one, one.value ?? one.default, (text) => this.set(k, settings, one.name, text)))));
+        if (described?.settable?.length) {
+            const general = described.settable.filter(({block}) => !block), arrays = described.settable.filter(({block}) => block);
+            const control = (one: typeof general[0]) => settingControl(one, settings.set.get(one.name), (text) => this.set(k, settings, one.name, text));
+            append(host, h("h3", {}, "Supply, temperature, corner"), h("div", {class: "parameters"}, ...general.map(control)),
+                h("details", {}, h("summary", {}, `Sizes of ${arrays.length} transistors`), h("div", {class: "parameters"}, ...arrays.map(control))));
+        }
+    }
+
+    /// Changes a setting; null restores the default. If the engine refuses, the setting stays as it was.
+    private async set(k: number, settings: RowSettings, name: string, text: string | null) {
+        const before = settings.set.get(name);
+        if (text === null) settings.set.delete(name); else settings.set.set(name, text);
+        if (await this.session.setRow(k)) this.changed();
+        else if (before === undefined) settings.set.delete(name);
+        else settings.set.set(name, before);
+    }
+}

@@ -1,0 +1,134 @@
+// The simulation behind the page: what was started, and the history of its force, spikes and probes.
+
+import type {NumberArray} from "../base/arrays";
+import {variantColour} from "../base/colours";
+import type {Catalogue, Parameter} from "./catalogue";
+import type {Engine} from "./engine";
+import {HISTORY, LiveCurve, LiveTrain, appendSpikes} from "./history";
+import type {Press} from "./press";
+import {Settings, engineSettings} from "./settings";
+
+export interface RowInfo {
+    name: string; class: string; composition: string; is_circuit: boolean; probes: {name: string; unit: string}[]; delay: number; parameters: Parameter[];
+    ranges: {quantity: string; unit: string; low: number; high: number; meaning: string}[];
+}
+
+export interface Row { info: RowInfo; colour: string; train: LiveTrain; curves: LiveCurve[]; power: number; error: string }
+export interface SkinClass { name: string; afferent: string; first: number; count: number }
+
+export interface Skin {
+    population: string; classes: SkinClass[]; regions: string[]; site_side: number; left: number; right: number; low: number; high: number; contact: string;
+    x: Float32Array; y: Float32Array; class: Uint8Array; region: Uint32Array; site_x: Float32Array; site_y: Float32Array; site_region: Uint32Array;
+    outline: unknown;
+    trains: LiveTrain[];
+}
+
+const PROBE_RATE = 1000;     // values of a probe per second
+const LONGEST_BLOCK = 0.05;  // s; if the engine needs longer, the simulation is slower than real time
+
+export class Session {
+    rows: Row[] = [];
+    skin: Skin | null = null;
+    force = new LiveCurve("force", "N", 1 / PROBE_RATE);  // of each sample
+    time = 0;       // simulated since the start, s
+    speed = 1;      // simulated seconds per second, over about the last second
+    contactRadius = 0;  // m
+    isPaused = false;
+    warnings: string[] = [];
+    private isBusy = false;
+    private generation = 0;  // answers to a start that has been replaced are ignored
+    private lastFrame = 0;
+    private due = 0;         // s of simulation that are not requested yet
+
+    /// `failed`: called with the sentence of an error of the engine.
+    constructor(readonly engine: Engine, readonly catalogue: Catalogue, public settings: Settings, private press: Press, private failed: (text: string) => void) {}
+
+    /// Starts the simulation of the settings. Returns false, and keeps the one before, if the engine refuses.
+    async start(): Promise<boolean> {
+        const {rate, seed, rows, population, indenter, contact} = this.settings;
+        const request = {request: "start", rate, seed, rows: rows.map(({afferent, set}) => ({afferent, set: engineSettings(set)})),
+                         ...(population ? {skin: {population, indenter, contact: engineSettings(contact)}} : {})};
+        try {
+            const {head, arrays} = await this.engine.request(request);
+            ++this.generation;
+            this.rows = head.rows.map((info: RowInfo, k: number) => this.emptyRow(info, variantColour(info.class, head.rows.slice(0, k).filter((one: RowInfo) => one.class === info.class).length)));
+            this.skin = head.skin ? {...head.skin, ...arrays, trains: head.skin.classes.flatMap((one: SkinClass) => Array.from({length: one.count}, () => new LiveTrain()))} : null;
+            this.force = new LiveCurve("force", "N", 1 / rate);
+            [this.time, this.due, this.warnings, this.contactRadius] = [0, 0, head.warnings || [], 0];
+            return true;
+        } catch (error) {
+            this.failed((error as Error).message);
+            return false;
+        }
+    }
+
+    private emptyRow(info: RowInfo, colour: string): Row {
+        const T = this.every / this.settings.rate;
+        return {info, colour, train: new LiveTrain(), power: 0, error: "", curves: info.probes.map(({name, unit}) => new LiveCurve(name, unit, T, info.name))};
+    }
+
+    private get every() { return Math.max(1, Math.round(this.settings.rate / PROBE_RATE)); }
+
+    /// Replaces the settings of a row while the simulation goes on.
+    async setRow(k: number): Promise<boolean> {
+        try {
+            const {head} = await this.engine.request({request: "set", row: k, set: engineSettings(this.settings.rows[k].set)});
+            this.rows[k].info = head.row;
+            this.rows[k].error = "";
+            return true;
+        } catch (error) {
+            this.failed((error as Error).message);
+            return false;
+        }
+    }
+
+    /// Replaces the indenter while the simulation goes on.
+    async setContact() {
+        const {indenter, contact} = this.settings;
+        try {
+            await this.engine.request({request: "contact", indenter, set: engineSettings(contact)});
+        } catch (error) {
+            this.failed((error as Error).message);
+        }
+    }
+
+    /// Called at each screen frame with its time (s): requests the samples since the last one, unless the engine is still busy.
+    frame(now: number) {
+        const passed = Math.min(now - this.lastFrame, 0.25);
+        this.lastFrame = now;
+        if (this.isPaused) return;
+        this.due = Math.min(this.due + passed, LONGEST_BLOCK);
+        const samples = Math.floor(this.due * this.settings.rate);
+        if (this.isBusy || samples === 0) return;
+        this.due -= samples / this.settings.rate;
+        void this.advance(samples);
+    }
+
+    private async advance(samples: number) {
+        const {generation} = this, begin = performance.now(), {rate} = this.settings, {force, ...place} = this.press.block(samples, rate);
+        this.isBusy = true;
+        try {
+            const {head, arrays} = await this.engine.request({request: "advance", samples, every: this.every}, this.skin ? {force, ...place} : {force});
+            if (generation === this.generation) this.append(head, arrays, force);
+        } catch (error) {
+            this.isPaused = true;
+            this.failed((error as Error).message);
+        }
+        this.isBusy = false;
+        const seconds = (performance.now() - begin) / 1000, capacity = samples / rate / Math.max(seconds, 1e-4);
+        this.speed += 0.05 * (Math.min(capacity, 99) - this.speed);
+    }
+
+    private append(head: any, arrays: Record<string, NumberArray>, force: Float64Array) {
+        this.time = head.to / this.settings.rate;
+        this.force.append(force, head.from / this.settings.rate);
+        appendSpikes([...this.rows.map(({train}) => train), ...(this.skin ? this.skin.trains : [])], arrays.unit, arrays.time);
+        head.rows.forEach((one: any, r: number) => {
+            const row = this.rows[r];
+            [row.power, row.error] = [one.power || 0, one.error || row.error];
+            row.curves.forEach((curve, p) => { const values = arrays[`probe.${r}.${p}`]; if (values) curve.append(values, one.first); });
+        });
+        if (head.contact) this.contactRadius = head.contact.radius;
+        for (const train of [...this.rows.map((row) => row.train), ...(this.skin ? this.skin.trains : [])]) train.forget(this.time - HISTORY);
+    }
+}

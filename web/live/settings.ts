@@ -1,0 +1,72 @@
+// What the user has chosen: afferents and their settings, skin, indenter. It is kept in the link of the page.
+
+import {linkNumber, linkValues, setLink} from "../base/link";
+import type {Catalogue} from "./catalogue";
+
+export interface RowSettings { afferent: string; set: Map<string, string> }  ///< set: "f_B" -> "25Hz"
+
+export interface Settings {
+    rate: number;        ///< samples per second
+    seed: number;
+    force: number;       ///< of a press, N
+    rows: RowSettings[];
+    population: string;  ///< "": no skin
+    indenter: string;
+    contact: Map<string, string>;
+}
+
+export const MAX_ROWS = 12;
+
+export const defaultSettings = (catalogue: Catalogue): Settings => ({
+    rate: 2000, seed: 1, force: 1, population: "fingertip", indenter: catalogue.indenters[0].name, contact: new Map(),
+    rows: ["sa1", "sa1-nerve", "sa1-circuit", "fa1-nerve"].map((afferent) => ({afferent, set: new Map()})),
+});
+
+const settingTexts = (set: Map<string, string>) => Array.from(set, ([name, value]) => `${name}=${value}`);
+/// The settings as the engine takes them: ["f_B=25Hz"].
+export const engineSettings = settingTexts;
+
+function parsedSettings(texts: string[]): Map<string, string> | null {
+    const out = new Map<string, string>();
+    for (const text of texts) {
+        const [, name, value] = /^([\w.-]{1,80})=([^=~,]{1,80})$/.exec(text) || [];
+        if (!name) return null;
+        out.set(name, value);
+    }
+    return out;
+}
+
+/// The rows of a link: "sa1~f_B=25Hz,sa1-circuit".
+function parsedRows(text: string, catalogue: Catalogue): RowSettings[] | null {
+    const rows: RowSettings[] = [];
+    for (const part of text.split(",").filter(Boolean)) {
+        const [afferent, ...rest] = part.split("~"), set = parsedSettings(rest);
+        if (!set || !catalogue.afferents.some(({name}) => name === afferent)) return null;
+        rows.push({afferent, set});
+    }
+    return rows.length <= MAX_ROWS ? rows : null;
+}
+
+/// The settings in the link of the page; null if the link is damaged.
+export function settingsOfLink(catalogue: Catalogue): Settings | null {
+    const values = linkValues(), out = defaultSettings(catalogue);
+    if (!values) return null;
+    const number = (name: string, low: number, high: number, fallback: number) => {
+        if (!values.has(name)) return fallback;
+        const value = linkNumber(values.get(name));
+        return value !== null && value >= low && value <= high ? value : NaN;
+    };
+    const rows = values.has("rows") ? parsedRows(values.get("rows")!, catalogue) : out.rows;
+    const contact = parsedSettings((values.get("contact") || "").split("~").filter(Boolean));
+    const skin = values.get("skin") ?? out.population, indenter = values.get("indenter") ?? out.indenter;
+    const isKnown = (skin === "" || skin === "none" || catalogue.populations.some(({name}) => name === skin)) && catalogue.indenters.some(({name}) => name === indenter);
+    const isForeign = [...values.keys()].some((name) => !["rate", "seed", "force", "rows", "contact", "skin", "indenter"].includes(name));
+    Object.assign(out, {rate: number("rate", 500, 100_000, out.rate), seed: number("seed", 0, 2 ** 53, out.seed), force: number("force", 0, 100, out.force)});
+    if (!rows || !contact || !isKnown || isForeign || [out.rate, out.seed, out.force].some(Number.isNaN)) return null;
+    return {...out, rows, contact, population: skin === "none" ? "" : skin, indenter};
+}
+
+export function putSettingsInLink({rate, seed, force, rows, population, indenter, contact}: Settings) {
+    setLink({rate, seed, force, skin: population || "none", indenter, contact: settingTexts(contact).join("~"),
+             rows: rows.map(({afferent, set}) => [afferent, ...settingTexts(set)].join("~")).join(",")});
+}
