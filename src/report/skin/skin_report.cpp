@@ -168,7 +168,10 @@ Json SkinReport::spikes_document() const {
             bytes.append_number(static_cast<std::uint64_t>(ticks[k] - std::exchange(before, ticks[k])));
         next = u + 1, ++trains;
     }
-    return {{"count", spikes_}, {"trains", trains}, {"tick", clock_.T() / ticks_per_sample}, {"data", array_document(std::as_bytes(std::span(bytes.bytes)))}};
+    return {{"count", spikes_},
+            {"trains", trains},
+            {"tick", clock_.T() / ticks_per_sample},
+            {"data", array_document(std::as_bytes(std::span(bytes.bytes)))}};
 }
 
 Json SkinReport::document() const {

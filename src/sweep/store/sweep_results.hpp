@@ -14,8 +14,8 @@ ItemEnd end_of_name(std::string_view);
 /// contains everything on which the results depend, but neither user nor date.
 ///
 /// - about(key, value): the metadata entries of the sweep by their names. Further keys are items (number of items of the complete sweep),
-///   metadata (names of the entries, in order), trains, traces (names of the spike trains and probes in the file) and trace_times (times of
-///   the probes' samples, s), the last four as JSON.
+///   metadata (names of the entries, in order), trains, traces (names of the spike trains and probes in the file), trace_units (of the
+///   probes; optional) and trace_times (times of the probes' samples, s), the last five as JSON.
 ///
 /// - columns(position, kind, name, unit, description, words, at_least, at_most, stored): rows for the axes, then for the measures. The
 ///   kind is 'axis' or 'measure'. The words are the labels of an axis, as JSON. The limits of a measure are at_least and at_most. The
