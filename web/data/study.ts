@@ -1,9 +1,9 @@
 // The data of the pages of studies and of a fitted transistor (reproduction/page/study_page.cpp, src/report/transistor/transistor_page.cpp).
 
-import type {EncodedArray} from "../base/arrays";
+import type {Numbers} from "../base/arrays";
 import type {PageData} from "./document";
 
-export interface PlotSeries { name: string; style: "line" | "points" | "path" | "raster"; x: EncodedArray; y: EncodedArray; colour?: number }
+export interface PlotSeries { name: string; style: "line" | "points" | "path" | "raster"; x: Numbers; y: Numbers; colour?: number }
 export interface PlotData { title: string; published?: string; x: string; y: string; log_x: boolean; log_y: boolean; series: PlotSeries[] }
 
 export type Verdict = "" | "agrees" | "differs" | "holds" | "does not hold";

@@ -1,10 +1,8 @@
 // The data of the page of a sweep (src/report/sweep, and document_of() in src/sweep/stats). A "row" is a row of the sweep's table: one finished item.
 
-import type {EncodedArray} from "../base/arrays";
+import type {EncodedArray, Numbers} from "../base/arrays";
 import type {Estimate} from "../panels/bars";
 import type {PageData} from "./document";
-
-export type Numbers = EncodedArray | (number | null)[];
 
 export interface SweepAxis { name: string; unit: string; description: string; words?: string[] }
 /// Limits are there if any measure of the sweep has some; null stands for no limit.

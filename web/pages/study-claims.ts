@@ -3,7 +3,7 @@
 import {Child, h} from "../base/dom";
 import {label} from "../base/label";
 import type {Cell} from "../base/text";
-import type {ClaimData, KindData, StudyRecord, Verdict} from "../data/study";
+import type {ClaimData, KindData, PlotData, PlotSeries, StudyRecord, Verdict} from "../data/study";
 import {Column, table} from "../panels/table";
 
 const AGREES: Verdict[] = ["agrees", "holds"], DIFFERS: Verdict[] = ["differs", "does not hold"];
@@ -53,6 +53,16 @@ export function kindTable(kinds: KindData[]): HTMLElement {
     return table({name: "kinds of claims", isStacked: true, isSortable: false,
                   columns: [{name: "kind"}, ...groups.flatMap((one) => words[one].map((name) => ({name, isNumber: true}))), {name: "meaning", class: "unit reason"}],
                   rows: kinds.map((one) => [one.kind, ...groups.flatMap((group) => [one[group].agreeing, one[group].deviating]), one.meaning])});
+}
+
+/// The deviations of the published numbers as a plot, for a study without figures; null if there are none.
+export function deviationPlot({claims}: StudyRecord): PlotData | null {
+    const compared = claims.map((claim, k) => ({claim, k})).filter(({claim}) => claim.deviation !== null && claim.verdict !== "");
+    const series = [{name: "✓ agrees", isOwn: isAgreeing, colour: 2}, {name: "✗ differs", isOwn: isDeviating, colour: 1}].map(({name, isOwn, colour}): PlotSeries => {
+        const own = compared.filter(({claim}) => isOwn(claim));
+        return {name, style: "points", x: own.map(({k}) => k + 1), y: own.map(({claim}) => 100 * claim.deviation!), colour};
+    });
+    return compared.length ? {title: "Deviation from the published numbers", x: "row of the table", y: "deviation (%)", log_x: false, log_y: false, series: series.filter(({x}) => (x as number[]).length)} : null;
 }
 
 /// True if the words of a search are in the name, title or claims of a study.

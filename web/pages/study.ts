@@ -4,10 +4,10 @@ import {h} from "../base/dom";
 import {label} from "../base/label";
 import {linkValues, setLink} from "../base/link";
 import {expose, forgetRemoved} from "../base/panels";
-import type {StudyData, StudyRecord} from "../data/study";
+import type {PlotData, StudyData, StudyRecord} from "../data/study";
 import {plotPanel, thumbnail} from "../panels/plots";
 import {section, startPage} from "../shell";
-import {ClaimRow, claimTable, isDeviating, kindTable, matches, verdictCounts} from "./study-claims";
+import {ClaimRow, claimTable, deviationPlot, isDeviating, kindTable, matches, verdictCounts} from "./study-claims";
 
 interface Filter { search: string; isDeviatingOnly: boolean; kind: string }
 
@@ -49,8 +49,8 @@ class Gallery {
 
     constructor(studies: StudyRecord[], private filter: Filter) {
         for (const study of studies) {
-            const [plot] = study.plots, button = h("button", {type: "button", class: "open", "aria-expanded": "false", onclick: () => this.toggle(study.name)},
-                plot ? thumbnail(plot) : h("span", {class: "thumbnail empty"}, "numbers only"), h("span", {class: "name"}, study.name), h("span", {class: "study-title"}, ...label(study.title)), verdictCounts(study.claims));
+            const [plot] = plotsOf(study), button = h("button", {type: "button", class: "open", "aria-expanded": "false", onclick: () => this.toggle(study.name)},
+                plot ? thumbnail(plot) : h("span", {class: "thumbnail empty"}, "statements only"), h("span", {class: "name"}, study.name), h("span", {class: "study-title"}, ...label(study.title)), verdictCounts(study.claims));
             const card = h("article", {class: "card", id: study.name}, button);
             this.cards.set(study.name, {study, card, button, content: null});
             this.root.append(card);
@@ -103,12 +103,17 @@ class Gallery {
     }
 }
 
+function plotsOf(study: StudyRecord): PlotData[] {
+    const deviations = study.plots.length ? null : deviationPlot(study);
+    return deviations ? [deviations] : study.plots;
+}
+
 /// The figures of a study, then its claims and notes.
 function openStudy(host: Element, study: StudyRecord) {
     host.append(h("h2", {}, ...label(study.title), h("small", {}, verdictCounts(study.claims))), h("p", {class: "question"}, ...label(study.question)));
     const figures = h("div", {class: "columns"});
     host.append(figures);
-    expose(...study.plots.map((plot) => plotPanel(figures, plot, `${study.name}: `)));
+    expose(...plotsOf(study).map((plot) => plotPanel(figures, plot, `${study.name}: `)));
     if (study.claims.length) host.append(claimTable(`claims of ${study.name}`, study.claims.map((claim) => ({study: study.name, claim}))));
     for (const note of study.notes) host.append(h("p", {class: "note"}, ...label(note)));
 }

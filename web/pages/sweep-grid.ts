@@ -117,7 +117,7 @@ export function showGridMeasures(host: Element, sweep: Sweep) {
         return [one.name, one.items, one.min, at(extremes[0]), one.max, at(extremes[Math.ceil(extremes.length / 2)] ?? extremes[0]), one.mean.value];
     });
     const show = (value: unknown, k: number): Child[] => [textOn(sweep.measures[k], value as number | null)];
-    host.append(table({name: "measures", isStacked: true, rows, columns: [{name: "measure"}, {name: "items", isNumber: true}, {name: "min", isNumber: true, show}, {name: "at (min)", label: ["at"]},
-        {name: "max", isNumber: true, show}, {name: "at (max)", label: ["at"]}, {name: "mean", isNumber: true, show}]}));
+    host.append(table({name: "measures", isStacked: true, rows, columns: [{name: "measure"}, {name: "items", isNumber: true}, {name: "min", isNumber: true, show}, {name: "at (min)", label: ["at"], class: "wide"},
+        {name: "max", isNumber: true, show}, {name: "at (max)", label: ["at"], class: "wide"}, {name: "mean", isNumber: true, show}]}));
 }
 

@@ -90,7 +90,7 @@ class Figures {
         if (sweep.isGrid) {
             axisChoosers(this.axes, sweep, choice.measure, grid, redraw);
             showGridFigures(columns, sweep, choice.measure, grid);
-            const effects = h("div", {class: "grid"});
+            const effects = h("div", {class: "columns thirds"});
             showMainEffects(effects, sweep, choice.measure);
             if (effects.childElementCount) section(panels, "effects", `Effect of each axis on ${sweep.measures[choice.measure].name}`, "mean at each value, over all values of the other axes").append(effects);
         } else if (sweep.measures.length) {

@@ -37,7 +37,7 @@ export class HeatMap extends Panel {
     private extent: [number, number];
 
     constructor(options: HeatOptions) {
-        super({...options, title: [...label(options.title), options.note], series: [], isBottom: true});
+        super({...options, title: [...label(options.title), " ", options.note], series: [], isBottom: true});
         this.data = options;
         const known = options.values.flat().filter((v): v is number => v !== null && Number.isFinite(v));
         this.extent = known.length ? [Math.min(...known), Math.max(...known)] : [0, 1];
@@ -60,17 +60,18 @@ export class HeatMap extends Panel {
     protected paint(pen: Pen, area: Area) {
         const {xs, ys, values} = this.data, w = area.w / (this.view.b - this.view.a), height = area.h / ys.length;
         this.drawn = 0;
+        pen.textAlign = "center";
+        pen.textBaseline = "middle";
         values.forEach((column, i) => column.forEach((value, j) => {
             if (value === null || !Number.isFinite(value)) return;
             const [left, top] = [Math.floor(this.x(i)), Math.floor(this.y(j + 1))], shade = heatComponents(this.fractionOf(value));
             pen.fillStyle = `rgb(${shade.join(", ")})`;
             pen.fillRect(left, top, Math.floor(this.x(i + 1)) - left, Math.floor(this.y(j)) - top);
             ++this.drawn;
-            if (w < 58 || height < 17 || xs.length * ys.length > 400) return;
+            const text = textOn(this.data.quantity, value);
+            if (height < 17 || xs.length * ys.length > 400 || pen.measureText(text).width + 6 > w) return;
             pen.fillStyle = shade[0] * 0.3 + shade[1] * 0.59 + shade[2] * 0.11 > 120 ? "#000" : "#fff";
-            pen.textAlign = "center";
-            pen.textBaseline = "middle";
-            pen.fillText(textOn(this.data.quantity, value), (this.x(i) + this.x(i + 1)) / 2, (top + this.y(j)) / 2);
+            pen.fillText(text, (this.x(i) + this.x(i + 1)) / 2, (top + this.y(j)) / 2);
         }));
         pen.textBaseline = "alphabetic";
     }
