@@ -114,11 +114,11 @@ OVERLAPS = """
         const host = document.createElement("div");
         host.append(new DOMParser().parseFromString(panel.svg(), "image/svg+xml").documentElement);
         document.body.append(host);
-        const boxes = [...host.querySelectorAll("text")].map((one) => [one.textContent.trim(), one.getBBox()]).filter(([text]) => text);
+        const boxes = [...host.querySelectorAll("text")].map((one) => { const {x, y, height} = one.getBBox(); return [one.textContent.trim(), {x, y, height, width: one.getComputedTextLength()}]; }).filter(([text]) => text);
         const isLabel = ([, box]) => box.width > 0;
         boxes.forEach(([text, a], i) => boxes.slice(i + 1).filter(isLabel).forEach(([other, b]) => {
             const w = Math.min(a.x + a.width, b.x + b.width) - Math.max(a.x, b.x), h = Math.min(a.y + a.height, b.y + b.height) - Math.max(a.y, b.y);
-            if (w > 1 && h > 4) found.push(`${name}: ${text} | ${other}`);
+            if (w > 2 && h > 4) found.push(`${name}: ${text} | ${other}`);
         }));
         host.remove();
     }
