@@ -97,7 +97,7 @@ class Studies(Pages):
         expected = sorted((claim["deviation"] for _, claim in self.claims if claim["deviation"] is not None))
         self.assertEqual(self.all("#claims th[aria-sort=ascending]")[0].text, "deviation")
         texts = [row[column] for row in self.rows()][:len(expected)]
-        values = [float(text.replace(" %", "").replace("+", "")) for text in texts]
+        values = [float(text.replace(" %", "").replace("+", "").replace("−", "-")) for text in texts]
         self.assertEqual(values, sorted(values))
         self.assertGreater(len(set(values)), 5)
         self.js("document.querySelector('#claims .save').click()")

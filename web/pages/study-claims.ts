@@ -24,14 +24,17 @@ export function verdictCounts(claims: ClaimData[]): HTMLElement {
 
 export interface ClaimRow { study: string; claim: ClaimData }
 
+/// The text of a number with its unit: "1.5 um^2" is 1.5 µm².
+const typeset = (text: string) => (text === "-" ? "–" : text.replace(/(\d) u(?=[A-Za-z])/g, "$1 µ").replace(/\^2\b/g, "²").replace(/^-(?=\d)/, "−"));
+
 /// The columns of a claim after its heading. Numbers are sorted by value and shown as the texts that C++ wrote.
 const claimColumns = (rows: ClaimRow[]): Column[] => {
-    const text = (k: number) => (_: Cell, row: number): Child[] => [rows[row].claim.texts[k] === "-" ? "–" : rows[row].claim.texts[k]];
+    const text = (k: number) => (_: Cell, row: number): Child[] => [typeset(rows[row].claim.texts[k])];
     return [
         {name: "computed", isNumber: true, show: text(0)}, {name: "published", isNumber: true, show: text(1)},
         {name: "deviation", isNumber: true, show: text(2)}, {name: "allowed", isNumber: true, show: text(3)},
         {name: "unit", class: "file-only"}, {name: "verdict", class: "verdict", show: (value) => verdictOf(value as Verdict)},
-        {name: "kind", class: "unit kind"}, {name: "source and reason", class: "unit reason"},
+        {name: "kind", class: "unit kind"}, {name: "source and reason", class: "unit reason", show: (value) => label(String(value ?? ""))},
     ];
 };
 

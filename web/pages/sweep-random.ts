@@ -67,7 +67,7 @@ class ItemRaster extends RasterPanel<Row & {hasFailed: boolean}> {
     protected paintMargins(pen: Pen, {x, y, h: height}: Area) {
         pen.fillStyle = resolved("var(--bad)");
         const row = height / this.rows.length;
-        this.rows.forEach(({hasFailed}, k) => hasFailed && pen.fillRect(x - 5, y + k * row, 4, Math.max(1, row - 1)));
+        this.rows.forEach(({hasFailed}, k) => hasFailed && pen.fillRect(x + 1, y + k * row, 4, Math.max(1, row - 1)));
     }
 }
 

@@ -21,7 +21,7 @@ export function plotPanel(host: Element, plot: PlotData, prefix = ""): XyPanel {
     const curves = curvesOf(plot), isRaster = curves.every(({style}) => style === "raster");
     const panel = new XyPanel({host, name: prefix + plot.title, title: plot.title, about: `${plot.title}: ${curves.map(({name}) => name).filter(Boolean).join(", ")}`,
                                height: isRaster ? Math.max(70, 24 * curves.length) : 220, xAxis: axisOf(plot.x, plot.log_x), yAxis: axisOf(plot.y, plot.log_y), curves});
-    if (plot.published) panel.root.append(h("p", {class: "note published"}, `Published: ${plot.published}`));
+    if (plot.published) panel.root.append(h("p", {class: "note published"}, "Published: ", ...label(plot.published)));
     return panel;
 }
 

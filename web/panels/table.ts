@@ -29,7 +29,7 @@ export function table(options: TableOptions): HTMLElement {
     let order = rows.map((_, k) => k), sorted = -1, direction = 1;
     const heads = columns.map((column, c) => {
         const label = column.label || [column.name];
-        const content = isSortable && rows.length > 1 ? h("button", {type: "button", title: "Sort", onclick: () => sort(c)}, ...label) : h("span", {}, ...label);
+        const content = isSortable && rows.length > 1 && label.some((part) => part !== "") ? h("button", {type: "button", title: "Sort", onclick: () => sort(c)}, ...label) : h("span", {}, ...label);
         return h("th", {scope: "col", class: classOf(column)}, content);
     });
     const shownRows = () => order.filter((k) => !options.isShown || options.isShown(k));
