@@ -1,8 +1,6 @@
 #include "reproduction/page/study_page.hpp"
 
-#include <fmt/format.h>
 #include <algorithm>
-#include <cmath>
 #include <nlohmann/json.hpp>
 
 #include "report/envelope.hpp"

@@ -101,7 +101,7 @@ class RandomItems(SweepPages):
         self.assertEqual(len(values), len(measured))
         self.assertLess(max(abs(a - b) for a, b in zip(values, measured)), 1e-7)
 
-    def test_a_point_tells_its_values(self):
+    def test_a_point_shows_its_values(self):
         self.open(self.path)
         name = self.panels()[2]
         plot = self.plot(name)
@@ -225,7 +225,7 @@ class Grids(SweepPages):
         self.assertNotIn("heat", " ".join(self.panels()))
         self.assertEqual(self.curve("spikes over press.F_max"), [[1, 2, 4], [row["spikes"] for row in items_of(path)]])
 
-    def test_a_cell_of_the_heat_map_tells_its_value(self):
+    def test_a_cell_of_the_heat_map_shows_its_value(self):
         self.open(self.path)
         plot = self.plot("spikes: heat map")
         x, y = self.js("const p = corpuscle.panels['spikes: heat map']; return [p.x(3.5) - p.plot.clientWidth / 2, p.y(0.5) - p.plot.clientHeight / 2]")
