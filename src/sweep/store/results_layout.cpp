@@ -202,7 +202,11 @@ bool same_columns(const std::vector<SweepColumn>& a, const std::vector<SweepColu
 
 }  // namespace
 
-ResultsLayout ResultsLayout::of(const SweepDescription& sweep) { return {sweep, format, unique_names(sweep.axes, sweep.measures)}; }
+ResultsLayout ResultsLayout::of(const SweepDescription& sweep) {
+    ResultsLayout out{sweep, format, unique_names(sweep.axes, sweep.measures)};
+    out.probe_units.resize(out.probe_names.size());
+    return out;
+}
 
 Result<ResultsLayout> ResultsLayout::read(const sql::Database& file) {
     const auto stored_format = TRY(format_of(file));
