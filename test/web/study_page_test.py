@@ -163,6 +163,16 @@ class Studies(Pages):
     def test_colours_have_contrast(self):
         self.assert_contrast(self.path)
 
+    def test_pictures_and_figures_follow_a_change_of_the_theme(self):
+        self.open(self.path, "#fig13")
+        ink = """return [document.querySelector(".thumbnail"), corpuscle.panels[Object.keys(corpuscle.panels)[0]].canvas].map((canvas) => {
+            const counts = {}, pixels = new Uint32Array(canvas.getContext("2d").getImageData(0, 0, canvas.width, canvas.height).data.buffer);
+            for (const one of pixels) if (one) counts[one] = (counts[one] || 0) + 1;
+            return Number(Object.entries(counts).sort((a, b) => b[1] - a[1])[0][0]); })"""
+        light = self.js(ink)
+        self.browser.execute_cdp_cmd("Emulation.setEmulatedMedia", {"features": [{"name": "prefers-color-scheme", "value": "dark"}]})
+        self.until(lambda: all(one != other for one, other in zip(light, self.js(ink))))
+
     def test_a_single_study_is_open(self):
         path = OUT / "one_study.html"
         subprocess.run([CORPUSCLE, "study", "kim", "--report", str(path), "--quiet"], check=True)
