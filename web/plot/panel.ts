@@ -36,6 +36,7 @@ export abstract class Panel {
     rightMargin = 14;
     height: number;
     isBottom: boolean;
+    protected titleSpace = {top: 0, bottom: 0};  // for titles of the axes, pixels
     drawn = 0;  // points of the last drawing, for tests
     view!: View;
     protected values = new Map<string, HTMLElement>();
@@ -44,7 +45,7 @@ export abstract class Panel {
     protected readonly about: string;
     protected readonly heading: HTMLElement;
     protected readonly legend: HTMLElement;
-    private canvas = h("canvas", {});
+    protected readonly canvas = h("canvas", {});
     private hairline = h("div", {class: "hairline"});
     private selection = h("div", {class: "selection"});
     private tip = h("div", {class: "tip", role: "status"});
@@ -111,7 +112,7 @@ export abstract class Panel {
         if (!label.length) swatch.hidden = true;  // a single curve, which the title names
         const item = canHide && this.series.length > 1
             ? h("button", {class: "legend-item", type: "button", "aria-pressed": "true", title: "Show or hide", "data-series": name, onclick: () => this.toggle(name)}, swatch, h("span", {class: "legend-name"}, ...label), value)
-            : h("span", {class: "legend-item", "data-series": name}, swatch, h("span", {class: "legend-name"}, ...label), value);
+            : h("span", {class: "legend-item", "data-series": name}, label.length ? swatch : null, h("span", {class: "legend-name"}, ...label), value);
         this.values.set(name, value);
         this.legend.append(item);
     }
@@ -138,10 +139,10 @@ export abstract class Panel {
 
     /// Draws the panel with these margins, which are the same for all panels of a view.
     draw(left: number, right: number) {
-        const width = this.plot.clientWidth, height = this.height + (this.isBottom ? X_AXIS : X_AXIS_WITHOUT_LABELS);
+        const width = this.plot.clientWidth, height = this.fullHeight;
         const ratio = document.documentElement.classList.contains("printing") ? 3 : devicePixelRatio || 1;
         this.root.style.setProperty("--left", `${left}px`);
-        this.area = {x: left, y: 4, w: Math.max(1, width - left - right), h: this.height - 4};
+        this.area = {x: left, y: 4 + this.titleSpace.top, w: Math.max(1, width - left - right), h: this.height - 4};
         if (this.canvas.width !== Math.round(width * ratio) || this.canvas.height !== Math.round(height * ratio)) {
             [this.canvas.width, this.canvas.height] = [Math.round(width * ratio), Math.round(height * ratio)];
             [this.canvas.style.width, this.canvas.style.height] = [`${width}px`, `${height}px`];
@@ -150,8 +151,15 @@ export abstract class Panel {
         pen.setTransform(ratio, 0, 0, ratio, 0, 0);
         pen.clearRect(0, 0, width, height);
         this.drawAll(pen);
+        this.plot.setAttribute("aria-label", `${this.about}, ${this.spanText()}`);
+    }
+
+    private get fullHeight() { return this.height + this.titleSpace.top + this.titleSpace.bottom + (this.isBottom ? X_AXIS : X_AXIS_WITHOUT_LABELS); }
+
+    /// The visible range of x, for screen readers.
+    protected spanText(): string {
         const {a, b, unit} = this.view, step = (b - a) / 1000;
-        this.plot.setAttribute("aria-label", `${this.about}, from ${fixedText(a, step, unit)} to ${fixedText(b, step, unit)}`);
+        return `from ${fixedText(a, step, unit)} to ${fixedText(b, step, unit)}`;
     }
 
     private drawAll(pen: Pen) {
@@ -201,7 +209,7 @@ export abstract class Panel {
         const isInside = x !== null && x >= this.view.a && x <= this.view.b;
         this.hairline.style.display = isInside ? "block" : "none";
         if (isInside) this.hairline.style.transform = `translateX(${this.x(x)}px)`;
-        this.hairline.style.height = `${this.area.h + 4}px`;
+        this.hairline.style.height = `${this.area.y + this.area.h}px`;
         if (x !== null) this.showValues(x);
         else this.clearValues();
     }
@@ -210,7 +218,7 @@ export abstract class Panel {
 
     /// Marks the part between two pixels that a drag selects.
     showSelection(from: number, to: number) {
-        Object.assign(this.selection.style, {display: from === to ? "none" : "block", left: `${Math.min(from, to)}px`, width: `${Math.abs(to - from)}px`, height: `${this.area.h + 4}px`});
+        Object.assign(this.selection.style, {display: from === to ? "none" : "block", left: `${Math.min(from, to)}px`, width: `${Math.abs(to - from)}px`, height: `${this.area.y + this.area.h}px`});
     }
 
     /// Shows the tip of the point at (x, y); negative coordinates hide it.
@@ -225,7 +233,7 @@ export abstract class Panel {
 
     /// The drawing as an SVG file.
     svg(): string {
-        const pen = new SvgPen(), width = this.plot.clientWidth, height = this.height + (this.isBottom ? X_AXIS : X_AXIS_WITHOUT_LABELS);
+        const pen = new SvgPen(), width = this.plot.clientWidth, height = this.fullHeight;
         pen.fillStyle = resolved("var(--paper)");
         pen.fillRect(0, 0, width, height);
         this.drawAll(pen);
