@@ -99,7 +99,7 @@ setup-run:
 	@setup/install run
 
 setup-page:
-	@setup/install page
+	@setup/install run page
 
 setup-test:
 	@setup/install run test
