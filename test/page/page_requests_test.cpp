@@ -74,7 +74,7 @@ TEST(PageRequests, ARecordingIsReadFromItsBytes) {
     EXPECT_EQ(answer["rate"], 100.0);
     EXPECT_EQ(answer["samples"], 4);
     EXPECT_EQ(answer["channels"].size(), 2U);
-    EXPECT_EQ(answer.numbers("force.0"), (std::vector{0, 0.5, 1, 1}));
+    EXPECT_EQ(answer.numbers("force.0"), (std::vector<double>{0, 0.5, 1, 1}));
     const auto scaled =
         ask(engine, R"({"request": "read", "name": "two.csv", "options": {"channel": "2", "scale": "2", "rate": "50Hz"}})", "file", bytes);
     ASSERT_EQ(scaled.error(), "");
