@@ -1,7 +1,6 @@
 // The page of the verb `respond`: force, spikes and rates of a channel, then currents and membranes of each afferent, folded, then tables.
 
 import {setLink} from "../base/link";
-import {seriesColour} from "../base/colours";
 import {chooser, fill, h} from "../base/dom";
 import {quantity} from "../base/text";
 import type {ChannelData, InputData, RespondData, TrialData} from "../data/document";
@@ -116,9 +115,9 @@ class RespondPage {
     private addAfferentType(type: AfferentType) {
         const {members, name} = type, {input} = this;
         if (!members.some((one) => tracesOf(this.shown, one).length)) return;
-        const [{index}] = members, isOne = members.length === 1, title = isOne ? members[0].afferent.name : name;
+        const [{colour}] = members, isOne = members.length === 1, title = isOne ? members[0].afferent.name : name;
         const about = isOne ? aboutMember(members[0], this.shown.isCopy) : members.map(({afferent}) => afferent.name).join(", ");
-        const node = folded(this.figures, `afferent ${title}`, title, about, isOne ? seriesColour(index) : "", (host) => this.input === input && this.add(afferentTypePanels(host, type, this.shown)), this.open.has(title));
+        const node = folded(this.figures, `afferent ${title}`, title, about, isOne ? colour : "", (host) => this.input === input && this.add(afferentTypePanels(host, type, this.shown)), this.open.has(title));
         node.addEventListener("toggle", () => {
             if (!node.isConnected) return;
             node.open ? this.open.add(title) : this.open.delete(title);
