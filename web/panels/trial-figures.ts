@@ -65,6 +65,7 @@ export class TrialFigures {
         this.view.clear();
         const force = this.forcePanel(), raster = this.data.spikes ? [this.rasterPanel(group)] : [];
         this.view.add(force, ...raster, this.ratePanel(group));
+        for (const panel of this.view.panels) panel.onToggle = (name) => this.view.panels.forEach((one) => one.toggle(name));  // a label in all
         for (const panel of this.view.panels) for (const name of hidden.get(panel.name) || []) panel.toggle(name);
         this.view.set(a, b);
     }
