@@ -10,6 +10,7 @@ import type {Panel} from "../plot/panel";
 import {View} from "../plot/view";
 import {addNote, folded, hint, section, showVersions, startPage, timeToolbar} from "../shell";
 import {aboutMember, afferentTypePanels, tracesOf} from "./respond/afferent-figures";
+import {consoleAccess} from "./respond/console-access";
 import {FirstFigures, channelName} from "./respond/first-figures";
 import {AfferentType, afferentTypesOf} from "./respond/implementations";
 import {costTables, implementationTable, parameterTables, qualityTable, rateTable} from "./respond/tables";
@@ -44,7 +45,7 @@ class RespondPage {
         addEventListener("hashchange", () => this.restore(readViewLink()));
     }
 
-    private get views() { return this.trials ? [this.trials.view, this.view] : [this.view]; }
+    get views() { return this.trials ? [this.trials.view, this.view] : [this.view]; }
 
     /// Shows the view of a link: what of it the page has.
     private restore(state: ViewState | null) {
@@ -163,28 +164,6 @@ class RespondPage {
         parameterTables(main, data.afferents);
         showVersions(main, data.versions);
     }
-
-    /// For tests and the browser's console.
-    ///
-    ///   panels                 by name: "force", "all forces", "raster", "population", "frequency", "sa1 current", "sa1 membrane", "trial raster".
-    ///                          With several implementations the names are "sa1 I", "sa1 I_A", "sa1 u", "sa1 frequency"
-    ///   valueAt(quantity, t, afferent)   the value on the chosen channel at the sample nearest to t. It is [min, max] if the trace has only the minimum
-    ///                          and maximum of several samples, and null if there is no such trace. "force" has no afferent
-    ///   window(), setWindow(a, b)   the visible times (s); setting them redraws at once
-    ///   pointsDrawn()          by panel: the points of its longest curve, and the width of its plot in pixels
-    get testing() {
-        const page = this, all = () => this.views.flatMap(({panels}) => panels);
-        return {
-            get panels() { return Object.fromEntries(all().map((panel) => [panel.name, panel])); },
-            valueAt(name: string, t: number, afferent: string | null = null) {
-                const trace = page.traces.find((one) => one.quantity === name && one.afferent === afferent);
-                return trace ? (trace.bucket === 1 ? trace.at(t)[0] : trace.at(t)) : null;
-            },
-            window: () => [this.view.a, this.view.b],
-            setWindow: (a: number, b: number) => { this.view.set(a, b); this.view.draw(); },
-            pointsDrawn: () => Object.fromEntries(all().map(({name, drawn, area}) => [name, {rows: drawn, width: area.w}])),
-        };
-    }
 }
 
-export function showRespondPage(data: RespondData) { Object.assign(window, {corpuscle: new RespondPage(data).testing}); }
+export function showRespondPage(data: RespondData) { Object.assign(window, {corpuscle: consoleAccess(new RespondPage(data))}); }
