@@ -83,11 +83,11 @@ std::string fill_template(std::string_view page_template, std::string_view title
         out += page_template.substr(0, open);
         if (open == std::string_view::npos || close == std::string_view::npos) return out;
         const auto name = page_template.substr(open + 2, close - open - 2);
-        const auto value = name == "title"  ? title
-                           : name == "data" ? data
-                                            : embedded_text_of(name == "style"    ? "page.bundle.css"
-                                                               : name == "script" ? "page.js"
-                                                                                  : name);
+        const auto value = name == "title"    ? title
+                           : name == "data"   ? data
+                           : name == "style"  ? embedded_text_of("page.bundle.css")
+                           : name == "script" ? embedded_text_of("page.js")
+                                              : "";
         out += value.empty() ? fmt::format("{{{{{}}}}}", name) : value;  // an unknown name stays visible as {{name}}
         page_template.remove_prefix(close + 2);
     }
@@ -126,7 +126,7 @@ std::string report_page(std::string_view page, const std::string& title, const s
     Json data = {{"page", page}, {"title", title}, {"program", fmt::format("corpuscle {}", version)}, {"command", command}};
     data.update(document);
     DirectoryRemover().apply(data);
-    return fill_template(embedded_text_of(page.ends_with(".html") ? page : "shell.html"), escape_html(title), script_json(data));
+    return fill_template(embedded_text_of("shell.html"), escape_html(title), script_json(data));
 }
 
 }  // namespace corpuscle

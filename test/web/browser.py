@@ -102,7 +102,7 @@ def si(text):
 
 def frames(record):
     """The nonzero values of a map: for each frame, {position: value}."""
-    source, all_frames = iter(base64.b64decode(record["data"])), []
+    source, all_frames = iter(base64.b64decode(record["data"]["u8"])), []
 
     def number():
         n, shift = 0, 0
