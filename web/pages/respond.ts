@@ -1,7 +1,6 @@
 // The page of the verb `respond`: force, spikes and rates of a channel, then currents and membranes of each afferent, folded, then tables.
 
 import {setLink} from "../base/link";
-import {seriesColour} from "../base/colours";
 import {chooser, fill, h} from "../base/dom";
 import {quantity} from "../base/text";
 import type {ChannelData, InputData, RespondData, TrialData} from "../data/document";
@@ -11,6 +10,7 @@ import type {Panel} from "../plot/panel";
 import {View} from "../plot/view";
 import {addNote, folded, hint, section, showVersions, startPage, timeToolbar} from "../shell";
 import {aboutMember, afferentTypePanels, tracesOf} from "./respond/afferent-figures";
+import {consoleAccess} from "./respond/console-access";
 import {FirstFigures, channelName} from "./respond/first-figures";
 import {AfferentType, afferentTypesOf} from "./respond/implementations";
 import {costTables, implementationTable, parameterTables, qualityTable, rateTable} from "./respond/tables";
@@ -45,7 +45,7 @@ class RespondPage {
         addEventListener("hashchange", () => this.restore(readViewLink()));
     }
 
-    private get views() { return this.trials ? [this.trials.view, this.view] : [this.view]; }
+    get views() { return this.trials ? [this.trials.view, this.view] : [this.view]; }
 
     /// Shows the view of a link: what of it the page has.
     private restore(state: ViewState | null) {
@@ -116,9 +116,9 @@ class RespondPage {
     private addAfferentType(type: AfferentType) {
         const {members, name} = type, {input} = this;
         if (!members.some((one) => tracesOf(this.shown, one).length)) return;
-        const [{index}] = members, isOne = members.length === 1, title = isOne ? members[0].afferent.name : name;
+        const [{colour}] = members, isOne = members.length === 1, title = isOne ? members[0].afferent.name : name;
         const about = isOne ? aboutMember(members[0], this.shown.isCopy) : members.map(({afferent}) => afferent.name).join(", ");
-        const node = folded(this.figures, `afferent ${title}`, title, about, isOne ? seriesColour(index) : "", (host) => this.input === input && this.add(afferentTypePanels(host, type, this.shown)), this.open.has(title));
+        const node = folded(this.figures, `afferent ${title}`, title, about, isOne ? colour : "", (host) => this.input === input && this.add(afferentTypePanels(host, type, this.shown)), this.open.has(title));
         node.addEventListener("toggle", () => {
             if (!node.isConnected) return;
             node.open ? this.open.add(title) : this.open.delete(title);
@@ -164,28 +164,6 @@ class RespondPage {
         parameterTables(main, data.afferents);
         showVersions(main, data.versions);
     }
-
-    /// For tests and the browser's console.
-    ///
-    ///   panels                 by name: "force", "all forces", "raster", "population", "frequency", "sa1 current", "sa1 membrane", "trial raster".
-    ///                          With several implementations the names are "sa1 I", "sa1 I_A", "sa1 u", "sa1 frequency"
-    ///   valueAt(quantity, t, afferent)   the value on the chosen channel at the sample nearest to t. It is [min, max] if the trace has only the minimum
-    ///                          and maximum of several samples, and null if there is no such trace. "force" has no afferent
-    ///   window(), setWindow(a, b)   the visible times (s); setting them redraws at once
-    ///   pointsDrawn()          by panel: the points of its longest curve, and the width of its plot in pixels
-    get testing() {
-        const page = this, all = () => this.views.flatMap(({panels}) => panels);
-        return {
-            get panels() { return Object.fromEntries(all().map((panel) => [panel.name, panel])); },
-            valueAt(name: string, t: number, afferent: string | null = null) {
-                const trace = page.traces.find((one) => one.quantity === name && one.afferent === afferent);
-                return trace ? (trace.bucket === 1 ? trace.at(t)[0] : trace.at(t)) : null;
-            },
-            window: () => [this.view.a, this.view.b],
-            setWindow: (a: number, b: number) => { this.view.set(a, b); this.view.draw(); },
-            pointsDrawn: () => Object.fromEntries(all().map(({name, drawn, area}) => [name, {rows: drawn, width: area.w}])),
-        };
-    }
 }
 
-export function showRespondPage(data: RespondData) { Object.assign(window, {corpuscle: new RespondPage(data).testing}); }
+export function showRespondPage(data: RespondData) { Object.assign(window, {corpuscle: consoleAccess(new RespondPage(data))}); }

@@ -109,13 +109,15 @@ export abstract class Panel {
         const swatch = mark ? h("span", {class: "mark", style: `color: ${colour}`}, mark)
             : h("span", {class: "swatch", style: `border-top: ${width}px ${dash ? (dash[0] > 3 ? "dashed" : "dotted") : "solid"} ${colour}`});
         const value = h("span", {class: "legend-value"});
-        if (!label.length) swatch.hidden = true;  // a single curve, which the title names
         const item = canHide && this.series.length > 1
-            ? h("button", {class: "legend-item", type: "button", "aria-pressed": "true", title: "Show or hide", "data-series": name, onclick: () => this.toggle(name)}, swatch, h("span", {class: "legend-name"}, ...label), value)
+            ? h("button", {class: "legend-item", type: "button", "aria-pressed": "true", title: "Show or hide", "data-series": name, onclick: () => this.onToggle(name)}, swatch, h("span", {class: "legend-name"}, ...label), value)
             : h("span", {class: "legend-item", "data-series": name}, label.length ? swatch : null, h("span", {class: "legend-name"}, ...label), value);
         this.values.set(name, value);
         this.legend.append(item);
     }
+
+    /// Called when the user clicks a series in the legend.
+    onToggle: (name: string) => void = (name) => this.toggle(name);
 
     toggle(name: string) {
         if (!this.hidden.delete(name)) this.hidden.add(name);
