@@ -1,5 +1,5 @@
 # The commands of the README. Each installs the packages it needs (setup/packages).
-.PHONY: demo build test bench fuzz format lint install pictures notebooks reproduction deb setup-run setup-test setup-bench setup-python setup-deb release asan clean
+.PHONY: demo build page test bench fuzz format lint install pictures notebooks reproduction deb setup-run setup-page setup-test setup-bench setup-python setup-deb release asan clean
 
 FUZZ_SECONDS ?= 600
 PREFIX ?= /usr/local
@@ -18,6 +18,11 @@ demo:
 build: setup-run
 	@cmake --preset release > /dev/null
 	@cmake --build --preset release --target corpuscle-cli
+
+# The engine of the live page, as WebAssembly.
+page: setup-run setup-page
+	@cmake --preset release -D CORPUSCLE_PAGE=ON > /dev/null
+	@cmake --build --preset release --target page-engine
 
 test: release asan
 	ctest --test-dir build/release --output-on-failure -j 3
@@ -90,6 +95,9 @@ notebooks: release
 
 setup-run:
 	@setup/install run
+
+setup-page:
+	@setup/install run page
 
 setup-test:
 	@setup/install run test

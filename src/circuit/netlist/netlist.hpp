@@ -175,6 +175,8 @@ public:
     };
     /// All parameters of the top level, by name.
     std::map<std::string, Parameter, std::less<>> parameters() const;
+    /// The process corners that parse() accepts: the sections of the libraries of which the netlist reads one.
+    std::vector<std::string> corners() const;
 
     /// The flat circuit. `parameters` replace .param lines of the top level, even those that the netlist's overrides set. Random values are
     /// their means, unless `draws` or the mismatch override selects a chip.

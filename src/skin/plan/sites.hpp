@@ -9,6 +9,8 @@ namespace corpuscle {
 
 inline constexpr std::size_t max_sites = std::size_t{1} << 22;
 
+// A skin as a set of regions, each made of shapes. The regions are filled with sites.
+
 /// One shape of a region; lengths in m. A strip has two straight sides and, at both ends of its centre line, a width; a capsule is a strip
 /// with a round end at each end of its centre line.
 struct SkinShape {
@@ -32,12 +34,12 @@ struct SkinRegion {
 
 /// Sites of one skin. x points to the right, y away from the wrist. A hand is a right hand in palm view.
 struct Sites {
-    std::vector<Position> positions;    ///< m
-    std::vector<std::string> names;     ///< one for each site
-    std::vector<std::uint32_t> region;  ///< for each site: index of its region in `regions`
-    std::vector<std::string> regions;   ///< names of the regions; at least one
-    double area = 0;                    ///< area of skin that one site represents, m2; 0: sites are separate sensors
-    std::vector<SkinRegion> shapes;     ///< of each region, if the sites fill regions; else empty
+    std::vector<Position> positions;      ///< m
+    std::vector<std::string> names;       ///< one for each site
+    std::vector<std::uint32_t> region;    ///< for each site: index of its region in `regions`
+    std::vector<std::string> regions;     ///< names of the regions; at least one
+    std::vector<SkinRegion> shapes = {};  ///< the regions' shapes, if the skin is made of them
+    double area = 0;                      ///< area of skin that one site represents, m2; 0: sites are separate sensors
 
     std::size_t size() const { return positions.size(); }
     /// Adds a site, and its region if it is new.
@@ -67,8 +69,6 @@ Result<std::optional<std::vector<std::uint32_t>>> find_sites_if_named(const Site
 /// of its site. Other columns are ignored. Every channel from 1 to the highest must have exactly one row. The result has the site of each
 /// channel. Errors name file, line and column.
 Result<std::vector<std::uint32_t>> read_site_map(const std::string& path, const Sites&);
-
-// A skin as a set of regions, each made of shapes. The regions are filled with sites.
 
 /// Divides the plane into square cells of side `pitch` (m), and places a site at the centre of each cell whose centre is in a region. A
 /// centre that is in several regions belongs to the first of them. Each site represents pitch squared of skin. A region without a site is
