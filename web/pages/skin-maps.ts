@@ -51,6 +51,8 @@ export class SkinMaps {
         skin.classes.forEach((_, k) => this.addMap(k));
         new ResizeObserver(() => this.layOut()).observe(this.row);
         this.layOut();
+        addEventListener("beforeprint", () => { this.layOut(); this.scene.draw(); });
+        addEventListener("afterprint", () => this.layOut());
         view.onCursor(() => view.cursor !== null && this.setTime(view.cursor));
         this.showScales();
     }
@@ -139,13 +141,13 @@ export class SkinMaps {
 
     /// All maps are as large as the width allows; on a phone, one is swiped to the next.
     layOut() {
-        const width = this.row.clientWidth, count = this.maps.length, {aspect} = this.scene;
+        const width = this.row.clientWidth, count = this.maps.length, {aspect} = this.scene, isSwiped = isNarrow() && width < 520;
         if (!width) return;
-        const tallest = isNarrow() ? 0.56 * innerHeight : Math.max(260, Math.min(720, 0.6 * innerHeight));
-        let columns = isNarrow() ? 1 : count;
+        const tallest = isSwiped ? 0.56 * innerHeight : Math.max(260, Math.min(720, 0.6 * innerHeight));
+        let columns = isSwiped ? 1 : count;
         const widthOf = (n: number) => (width - GAP * (n - 1)) / n;
         while (columns > 1 && widthOf(columns) < Math.min(220, 0.9 * tallest * aspect)) columns = Math.ceil(columns / 2);
-        const mapWidth = isNarrow() && count > 1 ? 0.88 * width : widthOf(columns);
+        const mapWidth = isSwiped && count > 1 ? 0.88 * width : widthOf(columns);
         this.scene.resize(mapWidth, Math.min(tallest, Math.max(90, mapWidth / aspect)));
     }
 

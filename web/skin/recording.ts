@@ -120,6 +120,6 @@ export class SkinRecording {
 
 /// The colours of classes: those of all pages if each is of another class of afferents, else the first ones.
 function coloursOf(names: string[]): string[] {
-    const known = names.map((name) => (/^[sf]a[12](?![a-z0-9])/.exec(name) || [])[0]), isDistinct = !known.includes(undefined) && new Set(known).size === names.length;
-    return names.map((_, k) => (isDistinct ? classColour(known[k]!) : seriesColour(k)));
+    const known = names.map((name) => (/^[sf]a[12](?![a-z0-9])/.exec(name) || [""])[0]), isDistinct = !known.includes("") && new Set(known).size === names.length;
+    return names.map((_, k) => (isDistinct ? classColour(known[k]) : seriesColour(k)));
 }

@@ -1,6 +1,7 @@
 // The part of the skin that all maps show, and the chosen mark.
 
-import {h} from "../base/dom";
+import {onThemeChange} from "../base/colours";
+import {h, pixelRatio} from "../base/dom";
 import {Box, SkinGeometry, boxOf, grown, joined} from "./geometry";
 import {Levels, Surface} from "./surface";
 import type {SkinMap} from "./skin-map";
@@ -27,6 +28,7 @@ export class SkinScene {
         const contents = [boxOf(geometry.marks), ...geometry.outline.map((one) => boxOf(one))].reduce(joined, grown(sites, geometry.side / 2));
         this.all = this.box = grown(contents, 0.03 * Math.max(contents[2] - contents[0], contents[3] - contents[1]));
         this.surface = new Surface(this, force);
+        onThemeChange(() => this.renew());
     }
 
     /// The radius of an active mark, pixels: equal on all maps.
@@ -96,7 +98,7 @@ export class SkinScene {
 
     /// A canvas as large as a map, and its pen.
     layer(): [HTMLCanvasElement, CanvasRenderingContext2D] {
-        const ratio = devicePixelRatio || 1, canvas = h("canvas", {width: Math.round(this.width * ratio), height: Math.round(this.height * ratio)}), pen = canvas.getContext("2d")!;
+        const ratio = pixelRatio(), canvas = h("canvas", {width: Math.round(this.width * ratio), height: Math.round(this.height * ratio)}), pen = canvas.getContext("2d")!;
         pen.scale(ratio, ratio);
         return [canvas, pen];
     }

@@ -7,7 +7,7 @@
 //     scene.forceChanged();         // when force has changed; scene.request() when only activity has
 
 import {mixed, resolved} from "../base/colours";
-import {Child, h} from "../base/dom";
+import {Child, h, pixelRatio} from "../base/dom";
 import {Pen, SvgPen} from "../plot/pen";
 import {saveMenu} from "../plot/save-menu";
 import {Places, fanned, spacing} from "./geometry";
@@ -76,7 +76,7 @@ export class SkinMap {
     }
 
     draw() {
-        const {scene, canvas} = this, ratio = devicePixelRatio || 1, width = Math.round(scene.width * ratio), height = Math.round(scene.height * ratio), pen = canvas.getContext("2d")!;
+        const {scene, canvas} = this, ratio = pixelRatio(), width = Math.round(scene.width * ratio), height = Math.round(scene.height * ratio), pen = canvas.getContext("2d")!;
         if (canvas.width !== width || canvas.height !== height) {
             [canvas.width, canvas.height] = [width, height];
             [canvas.style.width, canvas.style.height, this.root.style.width] = [`${scene.width}px`, `${scene.height}px`, `${scene.width}px`];

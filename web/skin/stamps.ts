@@ -1,7 +1,7 @@
 // Images of active marks, one for each of some levels, so that thousands can be drawn per frame.
 
 import {mixed, resolved} from "../base/colours";
-import {h} from "../base/dom";
+import {h, pixelRatio} from "../base/dom";
 
 export const LEVELS = 16;
 
@@ -23,7 +23,7 @@ export class DotStamps {
     constructor(colour: string, private radius: number, private ramp: ((colour: string) => string[]) | undefined) {
         this.colours = (ramp || rateRamp)(colour).map(resolved);
         this.side = Math.ceil(2 * HALO * this.radiusOf(1)) + 2;
-        const ratio = devicePixelRatio || 1;
+        const ratio = pixelRatio();
         this.sheet = h("canvas", {width: Math.ceil(this.side * this.colours.length * ratio), height: Math.ceil(this.side * ratio)});
         const pen = this.sheet.getContext("2d")!;
         pen.scale(ratio, ratio);
