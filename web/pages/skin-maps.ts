@@ -25,6 +25,7 @@ export class SkinMaps {
     private maps: SkinMap[] = [];
     private scales: HTMLElement[] = [];
     private unit = h("p", {class: "readout unit-about", id: "unit", role: "status"});
+    private when = h("span", {class: "when readout strong"});  // on paper, where there is no player
     private row = h("div", {class: "skin-row"});
     readonly regions: [string, Box][];
     region = 0;
@@ -47,7 +48,7 @@ export class SkinMaps {
         [this.modeSelect, this.regionSelect] = [show.querySelector("select")!, zoom.querySelector("select")!];
         [this.modeSelect.id, this.regionSelect.id] = ["mode", "region"];
         node.append(h("div", {class: "bar", role: "group", "aria-label": "maps"}, show, zoom,
-            h("span", {class: "buttons"}, this.button("−", "Zoom out of the maps", 1.5), this.button("+", "Zoom into the maps", 1 / 1.5)), this.forceKey()), this.row, this.unit);
+            h("span", {class: "buttons"}, this.button("−", "Zoom out of the maps", 1.5), this.button("+", "Zoom into the maps", 1 / 1.5)), this.forceKey(), this.when), this.row, this.unit);
         skin.classes.forEach((_, k) => this.addMap(k));
         new ResizeObserver(() => this.layOut()).observe(this.row);
         this.layOut();
@@ -107,6 +108,7 @@ export class SkinMaps {
     private setTime(t: number) {
         if (t === this.time) return;
         this.time = t;
+        this.when.textContent = `t = ${fixedText(t, 1e-4)}`;
         this.scene.forceChanged();
         this.showMark();
     }
