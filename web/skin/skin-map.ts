@@ -10,6 +10,7 @@ import {mixed, resolved} from "../base/colours";
 import {Child, h, pixelRatio} from "../base/dom";
 import {Pen, SvgPen} from "../plot/pen";
 import {saveMenu} from "../plot/save-menu";
+import {DotLayer} from "./dot-layer";
 import {Places, fanned, spacing} from "./geometry";
 import {connectMapPointer} from "./map-pointer";
 import type {SkinScene} from "./scene";
@@ -42,6 +43,7 @@ export class SkinMap {
     readonly tip = h("div", {class: "tip", role: "status"});
     active = 0;             // number of marks that the last drawing showed as active
     private idle: HTMLCanvasElement | null = null;
+    private dots: DotLayer | null = null;
     private stamps: DotStamps[] = [];
     private places: Places;
     private distance: number;  // between neighbours, m
@@ -65,7 +67,7 @@ export class SkinMap {
 
     /// Discards what depends on size, box and theme.
     renew() {
-        this.idle = null;
+        this.idle = this.dots = null;
         this.stamps = [];
     }
 
@@ -86,7 +88,10 @@ export class SkinMap {
         pen.drawImage(scene.surface.groundLayer(), 0, 0, scene.width, scene.height);
         if (this.options.hasForce !== false) scene.surface.paintForce(pen);
         pen.drawImage(this.idleLayer(), 0, 0, scene.width, scene.height);
-        this.paintActive(pen, (stamps, level, x, y) => stamps.draw(pen, level, x, y));
+        this.dots = this.dots || new DotLayer(width, height);
+        this.dots.clear();
+        this.paintActive(pen, (stamps, level, x, y) => this.dots!.add(stamps.imageOf(level), x * ratio, y * ratio));
+        this.dots.draw(pen, ratio);
         this.paintRing(pen);
         if (this.options.drawn) this.options.drawn(this);
     }
