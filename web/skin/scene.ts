@@ -55,6 +55,9 @@ export class SkinScene {
     x(metres: number) { return this.width / 2 + (metres - this.cx) * this.scale; }
     y(metres: number) { return this.height / 2 - (metres - this.cy) * this.scale; }
 
+    /// The point of the skin, in m, at pixels of a map.
+    placeAt(x: number, y: number): [number, number] { return [this.cx + (x - this.width / 2) / this.scale, this.cy - (y - this.height / 2) / this.scale]; }
+
     show(box: Box) {
         this.box = box;
         this.renew();
@@ -62,7 +65,7 @@ export class SkinScene {
 
     /// Multiplies the visible length by `factor`; the point (x, y) of a map keeps its place. Shows the complete skin rather than much more than it.
     zoom(factor: number, x = this.width / 2, y = this.height / 2) {
-        const px = this.cx + (x - this.width / 2) / this.scale, py = this.cy - (y - this.height / 2) / this.scale;
+        const [px, py] = this.placeAt(x, y);
         const w = this.width / this.scale * factor, height = this.height / this.scale * factor;
         const cx = px - (px - this.cx) * factor, cy = py - (py - this.cy) * factor, [x0, y0, x1, y1] = this.all;
         if (w > 1.2 * (x1 - x0) && height > 1.2 * (y1 - y0)) this.show(this.all);
