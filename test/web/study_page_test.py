@@ -147,7 +147,10 @@ class Studies(Pages):
         svg = self.saved(name, "SVG").decode()
         self.assertIn("</svg>", svg)
         self.assertGreaterEqual(svg.count("<path"), len(plot["series"]))
-        self.assertEqual(self.saved(name, "PNG")[:8], b"\x89PNG\r\n\x1a\n")
+        png = self.saved(name, "PNG")
+        self.assertEqual(png[:8], b"\x89PNG\r\n\x1a\n")
+        size = self.js("const {canvas} = corpuscle.panels[arguments[0]]; return [canvas.width, canvas.height]", name)
+        self.assertEqual([int.from_bytes(png[k:k + 4], "big") for k in (16, 20)], size)
 
     def test_it_fits_every_screen_and_a_claim_is_a_few_lines_high_on_a_phone(self):
         self.assert_it_fits(self.path, "#fig13", "studies")
