@@ -1,5 +1,6 @@
 // Values of the curves of a plot: their positions on the axes, the points at a place, and their numbers as a file.
 
+import {plainNumber} from "../base/text";
 import {csvText} from "../plot/panel";
 import {Axis, positionOn, titleOf} from "./axis";
 import type {Curve} from "./curves";
@@ -28,8 +29,8 @@ export function nearestIndex(xs: ArrayLike<number>, at: number): number {
 /// The points of the curves with positions from a to b, one row each; then the limits of the areas around a curve, if there are any.
 export function curvesCsv(curves: Curve[], placed: Curve[], xAxis: Axis, yAxis: Axis, a: number, b: number): string {
     const bands = curves.find((curve) => curve.bands)?.bands || [], title = (axis: Axis) => titleOf({...axis, isLog: false}, 0);
-    const known = (value: number | undefined) => (value === undefined || Number.isNaN(value) ? null : value);
+    const known = (value: number | undefined) => (value === undefined || Number.isNaN(value) ? null : plainNumber(value));
     const rows = curves.flatMap((curve, c) => Array.from(curve.x, (x, k) => ({x, k})).filter(({k}) => placed[c].x[k] >= a && placed[c].x[k] <= b)
-        .map(({x, k}) => [nameOf(curves, curve), x, known(curve.y[k]), ...(curve.bands || []).flatMap(({low, high}) => [known(low[k]), known(high[k])])]));
+        .map(({x, k}) => [nameOf(curves, curve), plainNumber(x), known(curve.y[k]), ...(curve.bands || []).flatMap(({low, high}) => [known(low[k]), known(high[k])])]));
     return csvText(["series", title(xAxis), title(yAxis) || "y", ...bands.flatMap((_, k) => [`low ${k + 1}`, `high ${k + 1}`])], rows);
 }
