@@ -1,5 +1,5 @@
 # The commands of the README. Each installs the packages it needs (setup/packages).
-.PHONY: demo build test bench fuzz format lint install pictures notebooks reproduction deb setup-run setup-test setup-bench setup-python setup-deb release asan clean
+.PHONY: demo build page test bench fuzz format lint install pictures notebooks reproduction deb setup-run setup-page setup-test setup-bench setup-python setup-deb release asan clean
 
 FUZZ_SECONDS ?= 600
 PREFIX ?= /usr/local
@@ -18,6 +18,11 @@ demo:
 build: setup-run
 	@cmake --preset release > /dev/null
 	@cmake --build --preset release --target corpuscle-cli
+
+# The engine of the live page, as WebAssembly.
+page: setup-run setup-page
+	@cmake --preset release -D CORPUSCLE_PAGE=ON > /dev/null
+	@cmake --build --preset release --target page-engine
 
 test: release asan
 	ctest --test-dir build/release --output-on-failure -j 3
@@ -82,6 +87,8 @@ pictures: release
 	$(draw) doc/pictures/eskin.png $(CORPUSCLE_DATA)/fbg_eskin_press/fbg_press_S6_T16.csv --rate 100Hz --scale 40 --layout $(CORPUSCLE_DATA)/fbg_eskin_press/sensor_positions.csv
 	$(draw) doc/pictures/fabric.png $(CORPUSCLE_DATA)/fabric_slide_cpm/Board10mm_F150_V-5mmps_0.csv --time-unit ms --channel 3-18 --scale 0.01
 	for cell in $(schematics); do /usr/bin/python3 doc/schematic_picture.py circuits/schematics/$$cell.sch doc/pictures/schematics/$$(basename $$cell).svg || exit 1; done
+	$(corpuscle) export sa1-circuit --for svg -o doc/pictures/schematics/drawn-sa1.svg
+	$(corpuscle) export sa1-circuit --for svg --block summer -o doc/pictures/schematics/drawn-summer.svg
 
 # The notebooks with their pictures, in out/notebooks. `make test` runs two of them.
 notebooks: release
@@ -90,6 +97,9 @@ notebooks: release
 
 setup-run:
 	@setup/install run
+
+setup-page:
+	@setup/install run page
 
 setup-test:
 	@setup/install run test

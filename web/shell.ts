@@ -15,21 +15,6 @@ export function startPage({title, program, command, notes = []}: PageData): HTML
           h("ul", {class: "notes", id: "notes", "aria-label": "notes", hidden: true}), h("button", {type: "button", id: "all-notes", hidden: true, onclick: showAllNotes}, "More notes")),
         main);
     notes.forEach(addNote);
-    addEventListener("beforeprint", () => {
-        document.documentElement.classList.add("printing");
-        document.querySelectorAll<HTMLDetailsElement>("details.fold:not([open])").forEach((node) => {
-            node.open = true;
-            node.dataset.closed = "";
-            drawFold.get(node)!();
-        });
-    });
-    addEventListener("afterprint", () => {
-        document.documentElement.classList.remove("printing");
-        document.querySelectorAll<HTMLDetailsElement>("details.fold[data-closed]").forEach((node) => {
-            node.open = false;
-            delete node.dataset.closed;
-        });
-    });
     return main;
 }
 
@@ -38,7 +23,7 @@ export function addNote(text: string) {
     const list = document.getElementById("notes")!;
     list.hidden = false;
     list.append(h("li", {}, text));
-    document.getElementById("all-notes")!.hidden = list.childElementCount <= 2;
+    document.getElementById("all-notes")?.toggleAttribute("hidden", list.childElementCount <= 2);
 }
 
 function showAllNotes() {
@@ -78,6 +63,23 @@ export function section(host: Element, id: string, title: Child, about = "", col
 /// Draws the content of a folded section.
 const drawFold = new WeakMap<Element, () => void>();
 
+// At the import, so that views, which are made later, draw after this.
+addEventListener("beforeprint", () => {
+    document.documentElement.classList.add("printing");
+    document.querySelectorAll<HTMLDetailsElement>("details.fold:not([open])").forEach((node) => {
+        node.open = true;
+        node.dataset.closed = "";
+        drawFold.get(node)!();
+    });
+});
+addEventListener("afterprint", () => {
+    document.documentElement.classList.remove("printing");
+    document.querySelectorAll<HTMLDetailsElement>("details.fold[data-closed]").forEach((node) => {
+        node.open = false;
+        delete node.dataset.closed;
+    });
+});
+
 /// A section that is folded until the user opens it. `draw` is called at the first opening, with the element for the content.
 export function folded(host: Element, id: string, title: Child, about: string, colour: string, draw: (host: HTMLElement) => void, isOpen = false): HTMLDetailsElement {
     const content = h("div"), node = h("details", {class: "fold", id, open: isOpen},
@@ -107,6 +109,7 @@ export function timeToolbar(host: Element, view: View, ...first: Child[]): HTMLE
         h("label", {title: "Scale the vertical axes to the visible data"}, autoscale, " Autoscale y"), span, now);
     view.onDraw(() => {
         const step = (view.b - view.a) / 1000;
+        autoscale.checked = view.isAutoscale;
         span.textContent = `${fixedText(view.a, step)} to ${fixedText(view.b, step)}`;
     });
     view.onCursor(() => { now.textContent = view.cursor === null ? "" : `t = ${fixedText(view.cursor, (view.b - view.a) / 2000)}`; });

@@ -2,7 +2,6 @@
 
 #include <fmt/format.h>
 #include <algorithm>
-#include <limits>
 #include <memory>
 #include <nlohmann/json.hpp>
 
@@ -13,7 +12,7 @@
 #include "core/text/ascii_text.hpp"
 #include "core/text/quantity.hpp"
 #include "model/catalog.hpp"
-#include "run/catalogue/catalogue_sections.hpp"
+#include "run/catalogue/catalogue_document.hpp"
 
 namespace corpuscle {
 namespace {
@@ -62,11 +61,6 @@ Result<std::vector<ListSection>> select_sections(const std::vector<std::string>&
     return out;
 }
 
-/// True if at least one limit is not the largest double, which means no limit.
-bool has_range(const ParameterInfo& r) {
-    return r.low > -std::numeric_limits<double>::max() || r.high < std::numeric_limits<double>::max();
-}
-
 /// "[LOW, HIGH]"; "" without a range.
 std::string range_text(const ParameterInfo& r) {
     if (!has_range(r)) return "";
@@ -83,24 +77,6 @@ std::string text_of(const ListEntry& e) {
                         std::string(p.info.description) + (p.info.source.empty() ? "" : fmt::format(" ({})", p.info.source))});
     for (const auto& t : e.notes) rows.push_back({"    " + t.subject, t.text, t.source.empty() ? "" : "(" + t.source + ")"});
     return text + format_table(rows, false);
-}
-
-Json document_of(const ListEntry& e) {
-    Json out = {{"name", e.name}, {"description", e.description}};
-    if (!e.detail.empty()) out[std::string(e.detail_key)] = e.detail;
-    if (!e.source.empty()) out["source"] = e.source;
-    if (!e.other_names.empty()) out["also_called"] = e.other_names;
-    for (const auto& p : e.parameters)
-        out["parameters"].push_back({{"name", p.info.name},
-                                     {"default", p.info.default_value},
-                                     {"unit", p.info.unit},
-                                     {"low", has_range(p.info) ? Json(p.info.low) : Json(nullptr)},
-                                     {"high", has_range(p.info) ? Json(p.info.high) : Json(nullptr)},
-                                     {"description", p.info.description},
-                                     {"source", p.info.source},
-                                     {"component", p.component}});
-    for (const auto& t : e.notes) out["notes"].push_back({{"subject", t.subject}, {"text", t.text}, {"source", t.source}});
-    return out;
 }
 
 struct ListArguments {

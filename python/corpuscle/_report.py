@@ -2,6 +2,7 @@
 
 import copy
 import html
+import os
 
 import numpy as np
 
@@ -28,14 +29,15 @@ class Run:
     def command(self):
         """The run as a call of this package."""
         s = self.simulation
+        afferents = [os.path.basename(name) for name in s.afferents]  # without directories, which a published page would reveal
         force = repr(self.force) if isinstance(self.force, str) else f"<{self.force.name}>"
         rate = [f"rate={self.rate:g}"] if isinstance(self.force, str) and self.rate else []
         shown = lambda *names: [f"{name}={getattr(s, name)!r}" for name in names if getattr(s, name)]
         settings = shown("settings", "copies", "spreads", "seed", "noise", "sampled", "single_precision")
         method = ["method='backward-euler'"] if s.backward_euler else []
         if s.population:
-            return f"corpuscle.population({s.population!r}).respond({', '.join([force, *rate, *shown('contact', 'taxels'), *settings])})"
-        return f"corpuscle.respond({', '.join([force, *rate, f'afferent={s.afferents!r}', *settings, *method])})"
+            return f"corpuscle.population({os.path.basename(s.population)!r}).respond({', '.join([force, *rate, *shown('contact', 'taxels'), *settings])})"
+        return f"corpuscle.respond({', '.join([force, *rate, f'afferent={afferents!r}', *settings, *method])})"
 
     def page(self, response, detail):
         """The report page, as text. Raises InputError if the run now gives other spikes than the response has."""

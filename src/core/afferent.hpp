@@ -4,6 +4,7 @@
 #include <cstddef>
 #include <string_view>
 
+#include "core/operating_state.hpp"
 #include "core/spike.hpp"
 
 namespace corpuscle {
@@ -97,6 +98,8 @@ public:
     virtual std::int64_t delay() const { return 0; }
     /// Simulates the next block (force in newtons, one value for each sample). The spikes do not depend on the length of the blocks.
     virtual Result<void> respond(std::span<const double> force, State&, ResponseBlock&) const = 0;
+    /// Voltages and power in this state; without blocks if the afferent is not a circuit, or has not started.
+    virtual Result<OperatingState> operating_state(const State&) const { return OperatingState{}; }
 };
 
 }  // namespace corpuscle

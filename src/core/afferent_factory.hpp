@@ -44,6 +44,8 @@ public:
     virtual Result<std::shared_ptr<const AfferentFactory>> rebuilt(const AfferentPlan& copy, const AfferentPlan& original) const;
     /// Power, area and leakage at rest under a force (N), and the mean power over `used` if its time is not 0; null if they are not known.
     virtual nlohmann::ordered_json cost(double rest_force, const EnergyUse& used) const;
+    /// The values that overrides can set beside the plan's parameters; empty for equations.
+    virtual Result<std::vector<SettableValue>> settable_values() const { return std::vector<SettableValue>(); }
 };
 
 /// One parameter of an afferent.

@@ -28,7 +28,7 @@ Result<double> victor_purpura(std::span<const double> a, std::span<const double>
 /// Like victor_purpura(), but also returns the spikes that are moved. More than a quarter of max_candidates() pairs are an error.
 Result<Alignment> align_trains(std::span<const double> a, std::span<const double> b, double q);
 /// The largest number of pairs that victor_purpura() examines.
-constexpr std::size_t max_candidates() { return std::size_t{1} << 32; }
+constexpr std::uint64_t max_candidates() { return std::uint64_t{1} << 32; }
 
 /// The square of van Rossum's distance (2001, Neural Comput 13:751) with time constant tau (s), scaled so that one extra isolated spike
 /// counts 1. It is (2/tau) times the integral of (f - g)^2, where f(t) and g(t) are the sums of e^(-(t - t_k)/tau) over the spikes t_k <= t

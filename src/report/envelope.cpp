@@ -61,6 +61,11 @@ nlohmann::ordered_json array_document(std::span<const std::uint32_t> values) { r
 nlohmann::ordered_json array_document(std::span<const std::uint16_t> values) { return {{"u16", base64(std::as_bytes(values))}}; }
 nlohmann::ordered_json array_document(std::span<const std::byte> values) { return {{"u8", base64(values)}}; }
 
+bool is_array_type(std::string_view key) {
+    constexpr std::string_view types[] = {"f32", "f64", "u32", "u16", "u8"};
+    return std::find(std::begin(types), std::end(types), key) != std::end(types);
+}
+
 std::size_t encoded_size(const nlohmann::ordered_json& array) { return array.begin()->get_ref<const std::string&>().size(); }
 
 nlohmann::ordered_json curve_document(std::uint32_t channel, const nlohmann::ordered_json& afferent, std::string_view quantity,

@@ -37,6 +37,8 @@ nlohmann::ordered_json array_document(std::span<const double>);
 nlohmann::ordered_json array_document(std::span<const std::uint32_t>);
 nlohmann::ordered_json array_document(std::span<const std::uint16_t>);
 nlohmann::ordered_json array_document(std::span<const std::byte>);
+/// True for the key of such an array.
+bool is_array_type(std::string_view key);
 /// The size of such an array in a page, bytes.
 std::size_t encoded_size(const nlohmann::ordered_json& array);
 

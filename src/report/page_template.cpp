@@ -1,10 +1,13 @@
 #include "report/page_template.hpp"
 
 #include <fmt/format.h>
+#include <algorithm>
+#include <map>
 #include <nlohmann/json.hpp>
 
 #include "core/text/embedded_files.hpp"
 #include "core/version.hpp"
+#include "report/envelope.hpp"
 
 namespace corpuscle {
 
@@ -21,6 +24,50 @@ std::string script_json(const Json& document) {
     return out;
 }
 
+/// Replaces absolute paths by the names of their files, so that a published page does not reveal directories. Different files keep
+/// different names.
+class DirectoryRemover {
+    std::map<std::string, std::string> names_;  // by path
+    std::map<std::string, int> uses_;           // of each file name
+
+    const std::string& name_of(const std::string& path) {
+        auto& name = names_[path];
+        if (!name.empty()) return name;
+        name = path.substr(path.rfind('/') + 1);
+        const int use = ++uses_[name];
+        return use == 1 ? name : name += fmt::format(" ({})", use);
+    }
+
+public:
+    std::string text(const std::string& text) {
+        constexpr std::string_view before = " '\"(:=,[<", ends = " '\"),:;]>";
+        std::string out;
+        for (std::size_t at = 0; at < text.size();) {
+            const auto end = std::min(text.find_first_of(ends, at), text.size());
+            const bool begins = text[at] == '/' && (at == 0 || before.find(text[at - 1]) != before.npos);
+            const auto path = text.substr(at, end - at);
+            if (begins && path.find('/', 1) != path.npos && path.back() != '/')
+                out += name_of(path), at = end;
+            else
+                out += text[at++];
+        }
+        return out;
+    }
+
+    /// All texts of a document, but not its encoded arrays.
+    void apply(Json& document) {
+        if (document.is_string()) {
+            const auto& whole = document.get_ref<const std::string&>();
+            if (whole.find('/') != whole.npos) document = text(whole);
+        } else if (document.is_array()) {
+            for (auto& value : document) apply(value);
+        } else if (document.is_object()) {
+            for (auto& [key, value] : document.items())
+                if (!is_array_type(key)) apply(value);
+        }
+    }
+};
+
 /// Text with < and & escaped for HTML.
 std::string escape_html(std::string_view text) {
     std::string out;
@@ -36,11 +83,11 @@ std::string fill_template(std::string_view page_template, std::string_view title
         out += page_template.substr(0, open);
         if (open == std::string_view::npos || close == std::string_view::npos) return out;
         const auto name = page_template.substr(open + 2, close - open - 2);
-        const auto value = name == "title"  ? title
-                           : name == "data" ? data
-                                            : embedded_text_of(name == "style"    ? "page.bundle.css"
-                                                               : name == "script" ? "page.js"
-                                                                                  : name);
+        const auto value = name == "title"    ? title
+                           : name == "data"   ? data
+                           : name == "style"  ? embedded_text_of("page.bundle.css")
+                           : name == "script" ? embedded_text_of("page.js")
+                                              : "";
         out += value.empty() ? fmt::format("{{{{{}}}}}", name) : value;  // an unknown name stays visible as {{name}}
         page_template.remove_prefix(close + 2);
     }
@@ -78,7 +125,8 @@ Json parameters_document(const AfferentPlan& plan, std::span<const ParameterDist
 std::string report_page(std::string_view page, const std::string& title, const std::string& command, const Json& document) {
     Json data = {{"page", page}, {"title", title}, {"program", fmt::format("corpuscle {}", version)}, {"command", command}};
     data.update(document);
-    return fill_template(embedded_text_of(page.ends_with(".html") ? page : "shell.html"), escape_html(title), script_json(data));
+    DirectoryRemover().apply(data);
+    return fill_template(embedded_text_of("shell.html"), escape_html(title), script_json(data));
 }
 
 }  // namespace corpuscle

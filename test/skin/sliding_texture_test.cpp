@@ -147,5 +147,34 @@ TEST(SlidingTexture, DependsOnTheSeedAndOnNothingThatHappenedBefore) {
     }
 }
 
+/// The force at the middle site under 1 N, at positions along y = 8 mm.
+std::vector<double> force_at_middle(const Slide& slide, const std::vector<double>& x) {
+    const auto sites = patch();
+    const auto contact = contact_of(slide, sites);
+    const std::vector<double> force(x.size(), 1.0), y(x.size(), 8e-3);
+    const auto pressed = contact->press({.force = force, .x = x, .y = y});
+    EXPECT_TRUE(pressed) << pressed.error().text();
+    return {pressed->data + 40 * pressed->stride, pressed->data + 40 * pressed->stride + x.size()};
+}
+
+TEST(SlidingTexture, ASurfaceThatPassesUnderAGivenPositionVibratesAsUnderARestingContact) {
+    auto felt = force_at_middle(fine_grating, std::vector<double>(1500, 8e-3));
+    felt.erase(felt.begin(), felt.begin() + 500);
+    for (int h = 1; h <= 6; ++h) EXPECT_NEAR(amplitude(felt, 80 * h), mean(felt) * 0.04 / h, 1e-9) << h;
+}
+
+TEST(SlidingTexture, ARoughSurfaceVibratesWhileGivenPositionsMoveAndFadesAtRest) {
+    std::vector<double> x;  // back and forth over 4 mm at 40 mm/s, then at rest
+    for (int k = 0; k < 2000; ++k) x.push_back(8e-3 + 2e-3 * std::abs(k % 100 - 50) / 50 * 2 - 2e-3);
+    x.resize(2500, x.back());
+    const auto rough = force_at_middle({"flat", {"radius=8mm", "roughness=0.1", "grain=1mm"}}, x);
+    const auto smooth = force_at_middle({"flat", {"radius=8mm"}}, x);
+    double squares = 0;
+    for (std::size_t k = 100; k < 2000; ++k) squares += std::pow(rough[k] / smooth[k] - 1, 2) / 1900;
+    EXPECT_NEAR(std::sqrt(squares), 0.1, 0.04);
+    for (std::size_t k = 2300; k < 2500; ++k) EXPECT_EQ(rough[k], smooth[k]);
+    EXPECT_EQ(rough[0], smooth[0]) << "without movement there is no vibration";
+}
+
 }  // namespace
 }  // namespace corpuscle

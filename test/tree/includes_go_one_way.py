@@ -22,10 +22,11 @@ MAY_INCLUDE = {
     "sweep": BASE | {"model", "circuit", "measure", "io", "skin", "live", "run"},
     "optimize": BASE | {"model", "circuit", "measure", "io", "skin", "live", "run", "sweep"},
     "fit": BASE | {"model", "circuit", "measure", "io", "skin", "live", "run"},
+    "page": BASE | {"model", "circuit", "measure", "io", "nir", "skin", "live", "run"},
     "api": BASE | {"model", "circuit", "measure", "io", "nir", "skin", "live", "run", "sweep", "fit", "report"},
     "report": BASE | {"model", "circuit", "measure", "io", "skin", "live", "run", "sweep", "fit"},
     "readers": BASE | {"io"},
-    "cli": BASE | {"model", "circuit", "measure", "io", "skin", "live", "run", "sweep", "optimize", "fit", "report"},
+    "cli": BASE | {"model", "circuit", "measure", "io", "skin", "live", "run", "sweep", "optimize", "fit", "report", "page"},
     "reproduction": BASE | {"model", "circuit", "measure", "io", "skin", "live", "run", "report", "cli"},
 }
 MAX_FILES = 25

@@ -18,6 +18,7 @@ import sys
 import tempfile
 import unittest
 from array import array
+from xml.etree import ElementTree
 
 from selenium import webdriver
 from selenium.webdriver.chrome.service import Service
@@ -56,14 +57,18 @@ def with_changed_data(path, name, change):
     return changed
 
 
-def numbers(kind, text):
+ARRAY_KEYS = {"f": "f32", "d": "f64", "I": "u32", "H": "u16", "B": "u8"}
+
+
+def numbers(kind, encoded):
+    """The numbers of an array of a page: {"f32": base64}."""
     values = array(kind)
-    values.frombytes(base64.b64decode(text))
+    values.frombytes(base64.b64decode(encoded[ARRAY_KEYS[kind]]))
     return values
 
 
-def base64_of(kind, values):
-    return base64.b64encode(array(kind, values).tobytes()).decode()
+def encoded_array(kind, values):
+    return {ARRAY_KEYS[kind]: base64.b64encode(array(kind, values).tobytes()).decode()}
 
 
 def trace(data, quantity, afferent=None, channel=None):
@@ -97,7 +102,7 @@ def si(text):
 
 def frames(record):
     """The nonzero values of a map: for each frame, {position: value}."""
-    source, all_frames = iter(base64.b64decode(record["data"])), []
+    source, all_frames = iter(base64.b64decode(record["data"]["u8"])), []
 
     def number():
         n, shift = 0, 0
@@ -199,11 +204,25 @@ class Page(unittest.TestCase):
     def panels(self):
         return self.js("return Object.keys(corpuscle.panels)")
 
+    def open_sections(self):
+        """Opens all folded sections and waits until their panels are drawn."""
+        self.js("document.querySelectorAll('details.fold').forEach((one) => { one.open = true; })")
+        self.next_frame()
+
+    def next_frame(self):
+        self.js("return new Promise((done) => setTimeout(() => requestAnimationFrame(() => requestAnimationFrame(done))))")
+
+    def texts(self, panel, anchor):
+        """The texts of a panel, as its SVG file has them: [text, x, y]. `anchor`: "end" for the left axis, "middle" for the x axis and names in the
+        plot, "start" for the right axis."""
+        root = ElementTree.fromstring(self.js("return corpuscle.panels[arguments[0]].svg()", panel))
+        return [[one.text, float(one.get("x")), float(one.get("y"))] for one in root.iter("{http://www.w3.org/2000/svg}text") if one.get("text-anchor") == anchor]
+
     def dark_pixels(self):
         """For each panel, the number of pixels of the plot that are darker than bands and grid."""
         return self.js("""
             return Object.fromEntries(Object.entries(corpuscle.panels).map(([name, {area}]) => {
-                const canvas = document.querySelector(`[data-panel="${name}"] canvas`), ratio = canvas.width / canvas.clientWidth;
+                const canvas = document.querySelector(`[data-panel="${name}"] .plot canvas`), ratio = canvas.width / canvas.clientWidth;
                 const {x, y, w, h} = area;
                 const pixels = canvas.getContext("2d").getImageData((x + 3) * ratio, (y + 2) * ratio, (w - 4) * ratio, (h - 4) * ratio).data;
                 let count = 0;

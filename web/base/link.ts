@@ -20,9 +20,18 @@ export function linkValues(text = location.hash): Map<string, string> | null {
     return values;
 }
 
-/// Puts values into the link of the page, without an entry in the history. Values that are null are left out.
+let timer = 0;
+
+/// Puts values into the link of the page, without an entry in the history. Values that are null are left out. The last of several calls counts,
+/// because browsers limit how often a link may change.
 export function setLink(values: Record<string, string | number | null | undefined>) {
     const text = Object.entries(values).filter(([, value]) => value !== null && value !== undefined && value !== "").map(([name, value]) => (name && `${name}=`) + encodeURIComponent(value!)).join("&");
+    clearTimeout(timer);
+    timer = window.setTimeout(() => replaceLink(text), 200);
+}
+
+function replaceLink(text: string) {
+    if (location.hash.replace(/^#/, "") === text) return;
     try {
         history.replaceState(null, "", text ? `#${text}` : location.pathname + location.search);
     } catch {

@@ -14,7 +14,7 @@ import {aboutMember, afferentTypePanels, tracesOf} from "./respond/afferent-figu
 import {FirstFigures, channelName} from "./respond/first-figures";
 import {AfferentType, afferentTypesOf} from "./respond/implementations";
 import {costTables, implementationTable, parameterTables, qualityTable, rateTable} from "./respond/tables";
-import {ViewState, readViewLink, viewLinkValues} from "./respond/view-link";
+import {NO_VIEW, ViewState, readViewLink, viewLinkValues} from "./respond/view-link";
 
 class RespondPage {
     readonly view = new View();
@@ -35,49 +35,60 @@ class RespondPage {
         this.types = afferentTypesOf(data.afferents);
         this.first = new FirstFigures(data, this.types);
         const main = startPage(data), state = readViewLink();
-        if (!state) addNote("The view in the link of this page is damaged, so it was ignored.");
-        else Object.assign(this, {hidden: new Set(state.hidden), open: new Set(state.open), areAllRows: state.areAllRows});
+        this.areAllRows = Boolean(state && state.areAllRows);
         this.trials = data.trials ? this.addTrials(main) : null;
         timeToolbar(main, this.view, this.choice);
         main.append(this.figures);
         this.addTables(main);
         this.restore(state);
-        this.view.onDraw(() => this.keepInLink());
+        for (const view of this.views) view.onDraw(() => this.keepInLink());
         addEventListener("hashchange", () => this.restore(readViewLink()));
     }
 
-    /// Shows the view of a link: its input and channel, if they exist, and its times.
+    private get views() { return this.trials ? [this.trials.view, this.view] : [this.view]; }
+
+    /// Shows the view of a link: what of it the page has.
     private restore(state: ViewState | null) {
-        const {inputs} = this.data, input = inputs[(state && state.input || 1) - 1] || inputs[0];
-        const channel = (state && state.channel && input.channels[state.channel - 1]) || this.first.mostActiveChannel(input);
-        if (state) this.view.setAutoscale(state.isAutoscale);
+        if (!state) addNote("The view in the link of this page is damaged, so it was ignored.");
+        const {inputs} = this.data, {input: inputNumber, channel: channelNumber, from, to, isAutoscale, hidden, open} = state || NO_VIEW;
+        const input = inputs[(inputNumber || 1) - 1] || inputs[0], channel = (channelNumber && input.channels[channelNumber - 1]) || this.first.mostActiveChannel(input);
+        this.view.clear();
+        [this.hidden, this.open] = [new Set(hidden), new Set(open)];
+        this.view.setAutoscale(isAutoscale);
         this.show(input, channel);
-        if (state && state.from !== null) this.view.set(state.from, state.to!);
+        if (this.trials) this.hide(this.trials.view.panels);
+        if (from !== null) this.view.set(from, to!);
+        else this.view.reset();
     }
 
+    /// Keeps in the link what differs from the view that the page opens with.
     private keepInLink() {
-        const {inputs} = this.data, {view} = this, at = [inputs.indexOf(this.input) + 1, this.input.channels.indexOf(this.channel) + 1];
-        const digits = (t: number) => Number(t.toPrecision(9));
+        const {inputs} = this.data, {view, input, channel} = this, digits = (t: number) => Number(t.toPrecision(9));
         this.collectHidden();
-        setLink(viewLinkValues({input: inputs.length > 1 ? at[0] : null, channel: this.input.channels.length > 1 ? at[1] : null, from: view.isComplete ? null : digits(view.a),
-                                to: view.isComplete ? null : digits(view.b), isAutoscale: view.isAutoscale, areAllRows: this.areAllRows, hidden: [...this.hidden], open: [...this.open]}));
+        setLink(viewLinkValues({input: input === inputs[0] ? null : inputs.indexOf(input) + 1, channel: channel === this.first.mostActiveChannel(input) ? null : input.channels.indexOf(channel) + 1,
+                                from: view.isComplete ? null : digits(view.a), to: view.isComplete ? null : digits(view.b), isAutoscale: view.isAutoscale, areAllRows: this.areAllRows,
+                                hidden: [...this.hidden], open: [...this.open]}));
     }
 
     private collectHidden() {
-        for (const panel of this.view.panels)
+        for (const panel of this.views.flatMap(({panels}) => panels))
             for (const {name} of panel.series) panel.hidden.has(name) ? this.hidden.add(`${panel.name}:${name}`) : this.hidden.delete(`${panel.name}:${name}`);
     }
 
     /// Adds panels to the view, without the series that the user has hidden.
     private add(panels: Panel[]) {
         this.view.add(...panels);
-        for (const panel of panels) for (const {name} of panel.series) if (this.hidden.has(`${panel.name}:${name}`)) panel.toggle(name);
+        this.hide(panels);
+    }
+
+    private hide(panels: Panel[]) {
+        for (const panel of panels) for (const {name} of panel.series) if (panel.hidden.has(name) !== this.hidden.has(`${panel.name}:${name}`)) panel.toggle(name);
     }
 
     /// Shows the figures and tables of one channel of an input. The visible times are kept if only the channel changes.
     show(input: InputData, channel: ChannelData) {
         const keep = this.input === input, focus = (document.activeElement?.closest("[data-panel]") as HTMLElement | null)?.dataset.panel, scroll = scrollY;
-        this.collectHidden();
+        if (this.view.panels.length) this.collectHidden();
         Object.assign(this, {input, channel, traces: this.data.traces.filter((one) => one.channel === channel.id).map((one) => new Trace(one, input))});
         this.view.clear();
         fill(this.figures);
@@ -163,7 +174,7 @@ class RespondPage {
     ///   window(), setWindow(a, b)   the visible times (s); setting them redraws at once
     ///   pointsDrawn()          by panel: the points of its longest curve, and the width of its plot in pixels
     get testing() {
-        const page = this, all = () => [...(this.trials ? this.trials.view.panels : []), ...this.view.panels];
+        const page = this, all = () => this.views.flatMap(({panels}) => panels);
         return {
             get panels() { return Object.fromEntries(all().map((panel) => [panel.name, panel])); },
             valueAt(name: string, t: number, afferent: string | null = null) {

@@ -19,6 +19,9 @@ export interface TrialFigureOptions {
     choices?: string[];                           ///< texts of the groups, else name and channel
     rowsHeight?: number;                          ///< of the raster, at most, pixels
     pick?: ((trial: TrialData) => void) | null;   ///< called when a row of the raster is chosen
+    groupsOf?: (choice: number) => number[];      ///< groups of which a choice shows the rates, without rasters; else the group with its index
+    noun?: string;                                ///< of a choice, "Afferent" unless given
+    firstColour?: number;                         ///< of the labels, an index
 }
 
 export class TrialFigures {
@@ -30,9 +33,9 @@ export class TrialFigures {
 
     constructor(host: Element, private data: TrialsData, private options: TrialFigureOptions = {}) {
         this.order = data.trials.map((_, t) => t).sort((a, b) => this.label(a) - this.label(b) || a - b);
-        this.group = this.mostActive();
+        this.group = options.groupsOf ? 0 : this.mostActive();
         const names = options.choices || data.groups.map(({name, channel}) => `${name} ${channel}`);
-        host.append(h("div", {class: "trial-choice"}, names.length > 1 && chooser("Afferent", names, this.group, (group) => this.show(group)),
+        host.append(h("div", {class: "trial-choice"}, names.length > 1 && chooser(options.noun || "Afferent", names, this.group, (group) => this.show(group)),
                       h("button", {type: "button", onclick: () => this.view.reset()}, "Reset")), this.plots);
         connectKeys(this.view, host);
         const aligned = data.trials.filter(({zero}) => zero !== null);
@@ -47,7 +50,7 @@ export class TrialFigures {
     private label(trial: number) { return this.data.labels.indexOf(this.data.trials[trial].label); }
 
     private series(): Series[] {
-        return this.data.labels.map((name, k) => ({name, label: [`${name} (${this.data.trials.filter((one) => one.label === name).length})`], colour: seriesColour(k)}));
+        return this.data.labels.map((name, k) => ({name, label: [`${name} (${this.data.trials.filter((one) => one.label === name).length})`], colour: seriesColour(k + (this.options.firstColour || 0))}));
     }
 
     /// The group with the most spikes; without spikes, that with the highest rate.
@@ -61,10 +64,12 @@ export class TrialFigures {
     /// Shows the spikes and rates of a group.
     show(group: number) {
         this.group = group;
-        const {a, b} = this.view;
+        const {a, b} = this.view, hidden = new Map(this.view.panels.map((panel) => [panel.name, [...panel.hidden]]));
         this.view.clear();
-        const force = this.forcePanel(), raster = this.data.spikes ? [this.rasterPanel(group)] : [];
-        this.view.add(force, ...raster, this.ratePanel(group));
+        const force = this.forcePanel(), {groupsOf} = this.options, raster = this.data.spikes && !groupsOf ? [this.rasterPanel(group)] : [];
+        const rates = groupsOf ? groupsOf(group).map((one, k, all) => this.ratePanel(one, `trial rate ${this.data.groups[one].name}`, k === all.length - 1)) : [this.ratePanel(group)];
+        this.view.add(force, ...raster, ...rates);
+        for (const panel of this.view.panels) for (const name of hidden.get(panel.name) || []) panel.toggle(name);
         this.view.set(a, b);
     }
 
@@ -100,12 +105,12 @@ export class TrialFigures {
                                 height: Math.max(60, Math.min(limit, rows.length * 13)), zero: 0, rows, series: this.series(), isGrouped: true, pick: pick && ((row) => pick(trials[row.trial]))});
     }
 
-    private ratePanel(group: number) {
+    private ratePanel(group: number, panelName = "trial rate", isBottom = true) {
         const {histograms, groups, bin, labels} = this.data, {name, afferents} = groups[group], series = this.series();
         const curves = histograms.filter((one) => one.group === group).map(({label, edges, end, rate, error}) =>
             ({...series[labels.indexOf(label)], edges: [...edges, end], values: rate, errors: error}));
         const title = [`${name}: mean rate${afferents > 1 ? " per afferent" : ""} ± standard error, bins of ${quantity(bin, "s", true)}`];
-        return new RatePanel({host: this.plots, name: "trial rate", title, about: `mean rate of ${name} over the trials of a label`, height: 130, zero: 0, curves, isBottom: true});
+        return new RatePanel({host: this.plots, name: panelName, title, about: `mean rate of ${name} over the trials of a label`, height: isBottom ? 130 : 100, zero: 0, curves, isBottom});
     }
 }
 

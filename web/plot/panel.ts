@@ -1,10 +1,11 @@
 // A panel is one plot with a heading, which is also the legend and shows the values at the cursor.
 
 import {resolved} from "../base/colours";
-import {Child, append, download, h, isNarrow} from "../base/dom";
+import {Child, append, h, isNarrow, isWide} from "../base/dom";
 import {Ticks, fixedText, roundTicks} from "../base/text";
 import {Pen, SvgPen} from "./pen";
 import {connectPointer} from "./pointer";
+import {saveMenu} from "./save-menu";
 import type {View} from "./view";
 
 export interface Area { x: number; y: number; w: number; h: number }
@@ -20,7 +21,7 @@ export interface PanelOptions {
     isBottom?: boolean;  ///< label the x axis
 }
 
-const FONT = "11px system-ui, sans-serif";
+const font = () => `${isWide() ? 14 : 11}px system-ui, sans-serif`;
 const X_AXIS = 22, X_AXIS_WITHOUT_LABELS = 8;
 
 /// Derived classes define what they draw, their vertical range, their values at the cursor and their numbers as CSV.
@@ -51,9 +52,9 @@ export abstract class Panel {
     private ticks: Ticks = {values: [], text: String};
 
     constructor({host, name, title, about, height, series, isBottom = false}: PanelOptions) {
-        [this.name, this.about, this.height, this.series, this.isBottom] = [name, about, height, series, isBottom];
+        [this.name, this.about, this.height, this.series, this.isBottom] = [name, about, height * (isWide() ? 1.4 : 1), series, isBottom];
         this.legend = h("span", {class: "legend"});
-        this.heading = h("figcaption", {}, h("span", {class: "panel-title"}, ...title), this.legend, this.menu());
+        this.heading = h("figcaption", {}, h("span", {class: "panel-title"}, ...title), this.legend, saveMenu(name, this.canvas, () => this.svg(), () => this.csv()));
         this.plot = h("div", {class: "plot", tabindex: 0, role: "img", "aria-label": about}, this.canvas, this.hairline, this.selection, this.tip);
         this.plot.addEventListener("keydown", (event) => {
             if (event.ctrlKey || event.altKey || event.metaKey || !this.key(event.key)) return;
@@ -132,7 +133,7 @@ export abstract class Panel {
         [this.low, this.high] = this.range(this.view.isAutoscale);
         this.ticks = this.verticalTicks(this.low, this.high, this.height);
         const pen = this.canvas.getContext("2d")!;
-        pen.font = FONT;
+        pen.font = font();
         this.leftMargin = Math.ceil(Math.max(isNarrow() ? 24 : 44, ...this.ticks.values.map((v) => pen.measureText(this.ticks.text(v)).width + 9)));
     }
 
@@ -163,7 +164,7 @@ export abstract class Panel {
 
     private drawAll(pen: Pen) {
         const {area} = this, {x, y, w} = area;
-        pen.font = FONT;
+        pen.font = font();
         pen.lineJoin = "bevel";  // mitred peaks would exceed the values
         this.drawGrid(pen);
         pen.save();
@@ -228,24 +229,6 @@ export abstract class Panel {
         this.tip.textContent = tip.text;
         const left = Math.min(tip.x + 10, this.plot.clientWidth - this.tip.offsetWidth - 4);
         Object.assign(this.tip.style, {left: `${Math.max(0, left)}px`, top: `${Math.max(0, tip.y - this.tip.offsetHeight - 8)}px`});
-    }
-
-    private menu() {
-        const item = (text: string, save: () => void) => h("button", {type: "button", onclick: () => { save(); list.removeAttribute("open"); }}, text);
-        const list: HTMLDetailsElement = h("details", {class: "menu"}, h("summary", {title: "Save this figure", "aria-label": `Save the figure ${this.name}`}, "⋯"),
-            h("div", {}, item("PNG", () => this.savePng()), item("SVG", () => download(`${this.fileName}.svg`, this.svg(), "image/svg+xml")),
-              item("CSV", () => download(`${this.fileName}.csv`, this.csv()))));
-        return list;
-    }
-
-    private get fileName() { return this.name.replace(/[^\p{L}\p{N}.-]+/gu, "-"); }
-
-    private savePng() {
-        const copy = h("canvas", {width: this.canvas.width, height: this.canvas.height}), pen = copy.getContext("2d")!;
-        pen.fillStyle = resolved("var(--paper)");
-        pen.fillRect(0, 0, copy.width, copy.height);
-        pen.drawImage(this.canvas, 0, 0);
-        copy.toBlob((blob) => blob && download(`${this.fileName}.png`, blob));
     }
 
     /// The drawing as an SVG file.

@@ -5,6 +5,7 @@
 
 #include "circuit/afferent/streaming_transient.hpp"
 #include "circuit/cost/cost.hpp"
+#include "circuit/variant/settable_values.hpp"
 #include "core/checksum.hpp"
 
 namespace corpuscle::circuit {
@@ -87,6 +88,10 @@ class CircuitAfferent final : public Afferent {
         idle_.push_back(std::move(transient));
     }
 
+    Error damaged_state() const {
+        return bad_input(
+            fmt::format("{}: a saved state is damaged: its values are not possible for this netlist", factory_->circuit->file));
+    }
     Result<void> respond_with(StreamingTransient&, std::span<const double> force, State&, ResponseBlock&) const;
     Result<void> simulate_samples(StreamingTransient&, std::int64_t from, std::int64_t to, ResponseBlock&) const;
 
@@ -118,6 +123,16 @@ public:
         give_back(std::move(transient));
         return done;
     }
+
+    Result<OperatingState> operating_state(const State& state) const override {
+        TRY(check_block(factory_->circuit->file, format_, state.values.size(), state, {}));
+        if (state.step == 0) return OperatingState{};
+        auto transient = TRY(borrow());
+        if (!transient->restore(state.values, state.step)) return damaged_state();
+        auto out = transient->operating_state();
+        give_back(std::move(transient));
+        return out;
+    }
 };
 
 Result<void> CircuitAfferent::respond_with(StreamingTransient& transient, std::span<const double> force, State& state,
@@ -125,9 +140,7 @@ Result<void> CircuitAfferent::respond_with(StreamingTransient& transient, std::s
     if (state.step == 0) {
         TRY(transient.begin(force));
     } else {
-        if (!transient.restore(state.values, state.step))
-            return bad_input(
-                fmt::format("{}: a saved state is damaged: its values are not possible for this netlist", factory_->circuit->file));
+        if (!transient.restore(state.values, state.step)) return damaged_state();
         transient.append_force(force);
     }
     const auto before = transient.work();
@@ -248,6 +261,16 @@ nlohmann::ordered_json CircuitAfferentFactory::cost(double rest_force, const Ene
         cost->power.emplace_back("mean", PowerBreakdown{supplies, sensor, supplies - sensor, {}, {}});
     }
     return document_of(*cost);
+}
+
+Result<std::vector<SettableValue>> CircuitAfferentFactory::settable_values() const {
+    auto out = settable_values_of(*circuit);
+    if (!netlist) return out;
+    SettableValue corner{.name = "corner", .kind = SettableValue::Kind::choice, .description = "process corner"};
+    corner.choices = netlist->corners();
+    corner.text = netlist->overrides().corner;
+    if (!corner.choices.empty()) out.insert(out.begin(), std::move(corner));
+    return out;
 }
 
 std::unique_ptr<Afferent> CircuitAfferentFactory::make(double dt, bool sampled, std::uint32_t copy) const {

@@ -26,6 +26,7 @@ public:
     std::vector<std::pair<std::string, std::string>> labels(const AfferentPlan&) const override;
     Result<std::shared_ptr<const AfferentFactory>> rebuilt(const AfferentPlan& copy, const AfferentPlan& original) const override;
     nlohmann::ordered_json cost(double rest_force, const EnergyUse& used) const override;
+    Result<std::vector<SettableValue>> settable_values() const override;
 
     /// Creates an afferent for a sample period of `dt` s. If `sampled`, spikes occur only at sample times. `copy` is the number of a copy
     /// with its own chip, counted from 1; 0 selects the nominal circuit.

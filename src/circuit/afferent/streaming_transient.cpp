@@ -113,6 +113,28 @@ double StreamingTransient::probe_value(const SavedQuantity& saved, std::int64_t 
     return saved.value(context_->system, [&](int u) { return transient_->interpolate(t, u); });
 }
 
+OperatingState StreamingTransient::operating_state() const {
+    const auto& system = context_->system;
+    const auto x = transient_->x();
+    const auto power = meter_->power_at(x, transient_->time());
+    OperatingState out;
+    out.time = static_cast<double>(origin_sample_) * force_.T() + transient_->time();
+    out.supply = meter_->supply(), out.power = power.supplies, out.sensor = power.sensor;
+    const auto names = meter_->sources();
+    const auto currents = meter_->source_currents(x, transient_->time());
+    for (std::size_t k = 0; k < names.size(); ++k) out.sources.push_back({names[k], power.sources[k], currents[k]});
+    const auto& blocks = meter_->blocks().names;
+    for (std::size_t k = 0; k < blocks.size(); ++k) out.blocks.push_back({blocks[k], power.blocks[k]});
+    const auto& nodes = system.circuit().nodes;  // the first is ground
+    for (std::size_t k = 1; k < nodes.size() && k <= static_cast<std::size_t>(system.nodes()); ++k) {
+        const auto block = Blocks::name_of_node(nodes[k]);
+        auto at = std::find_if(out.blocks.begin(), out.blocks.end(), [&](const auto& b) { return b.name == block; });
+        if (at == out.blocks.end()) at = out.blocks.insert(at, {block, 0});  // all elements outside of subcircuits are sources
+        at->nodes.push_back({nodes[k], x[k - 1]});
+    }
+    return out;
+}
+
 void StreamingTransient::archive(StateArchive& a) {
     auto spike = pending_spike_.value_or(Spike{});
     bool has_spike = pending_spike_.has_value();

@@ -52,6 +52,9 @@ public:
     /// The energy used since the last call of this function or of restore().
     EnergyUse take_energy_use() { return std::exchange(energy_.sum, {}); }
 
+    /// Voltages and power at the end of the last step.
+    OperatingState operating_state() const;
+
     AnalysisContext& context() { return *context_; }
     const ForceWaveform& force() const { return force_; }
     const Transient& transient() const { return *transient_; }

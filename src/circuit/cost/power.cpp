@@ -5,11 +5,19 @@
 namespace corpuscle::circuit {
 namespace {
 
+constexpr std::string_view top_level = "top level";
+
+/// The subcircuit of the top level in which an element or node with this name is; "" if it is in none.
+std::string_view subcircuit_of(std::string_view name) {
+    const auto dot = name.find('.');
+    return dot == std::string_view::npos || dot == 0 ? "" : name.substr(1, dot - 1);
+}
+
 /// The name of the block to which an element belongs.
 std::string block_of(const Element& e) {
-    const auto dot = e.name.find('.');
-    if (dot != std::string::npos) return e.name.substr(1, dot - 1);
-    return has_role(e, Role::current_source) ? "ideal currents" : "top level";
+    const auto subcircuit = subcircuit_of(e.name);
+    if (!subcircuit.empty()) return std::string(subcircuit);
+    return has_role(e, Role::current_source) ? "ideal currents" : std::string(top_level);
 }
 
 bool is_force_source(const Element& e) { return e.waveform.shape == Waveform::Shape::force; }
@@ -51,6 +59,11 @@ Blocks::Blocks(const Circuit& circuit) {
         block_of_element.push_back(static_cast<std::size_t>(at - names.begin()));
         if (at == names.end()) names.push_back(name);
     }
+}
+
+std::string Blocks::name_of_node(std::string_view node) {
+    const auto subcircuit = subcircuit_of(node);
+    return std::string(subcircuit.empty() ? top_level : subcircuit);
 }
 
 PowerMeter::PowerMeter(const System& system, std::span<const double> x, double gmin)
@@ -125,6 +138,16 @@ PowerMeter::DeliveredPower PowerMeter::delivered_at(std::span<const double> x, d
 std::vector<std::string> PowerMeter::sources() const {
     std::vector<std::string> out;
     for (const auto k : sources_) out.push_back(system_.devices()[k]->name);
+    return out;
+}
+
+std::vector<double> PowerMeter::source_currents(std::span<const double> x, double t) const {
+    std::vector<double> out;
+    double power = 0;
+    for (const auto k : sources_) {
+        const auto& u = system_.devices()[k]->unknowns;
+        out.push_back(u.size() == 3 ? value_of(x, u[2]) : current(k, x, t, power));  // that of a voltage source is an unknown
+    }
     return out;
 }
 

@@ -14,6 +14,8 @@ struct Blocks {
     std::vector<std::string> names;
     std::vector<std::size_t> block_of_element;  ///< index of the block of each element
     explicit Blocks(const Circuit&);
+    /// The block of a node: its subcircuit of the top level, or "top level".
+    static std::string name_of_node(std::string_view node);
 };
 
 /// Powers in W. Sources deliver power and blocks dissipate it. The difference charges capacitors; it averages to zero.
@@ -53,6 +55,8 @@ public:
     DeliveredPower delivered_at(std::span<const double> x, double t) const;
     const Blocks& blocks() const { return blocks_; }
     std::vector<std::string> sources() const;  ///< names of the sources
+    /// The current into the first terminal of each source, A.
+    std::vector<double> source_currents(std::span<const double> x, double t) const;
     double supply() const { return supply_; }  ///< V: voltage of the voltage source that delivers the most power at the operating point
     bool has_sensor() const { return !sensors_.empty(); }
 };

@@ -38,6 +38,19 @@ std::vector<std::string> sections_in(std::string_view text, std::string_view wan
     return out;
 }
 
+/// The sections of a library that no other section of it reads.
+std::vector<std::string> corners_in(std::string_view text) {
+    auto out = sections_in(text, "");
+    LogicalLineReader lines(text, std::make_shared<const std::string>());
+    LogicalLine line;
+    for (auto more = lines.next(line); more && *more; more = lines.next(line)) {
+        if (lower(std::string_view(line.text).substr(0, 4)) != ".lib") continue;
+        const auto head = split_directive(std::move(line));
+        if (head && head->words.size() == 3) std::erase(out, lower(unquoted(head->text(2))));
+    }
+    return out;
+}
+
 }  // namespace
 
 bool is_modifier_of_tran(std::string_view word) {
@@ -105,6 +118,16 @@ std::map<std::string, Netlist::Parameter, std::less<>> Netlist::parameters() con
     if (impl_)
         for (const auto& [name, text] : impl_->top.parameters)
             out.emplace(name, Parameter{std::string(text.view()), !impl_->libraries.contains(text.location().file)});
+    return out;
+}
+
+std::vector<std::string> Netlist::corners() const {
+    std::vector<std::string> out;
+    if (!impl_) return out;
+    for (const auto& library : impl_->libraries)
+        if (const auto text = read_file_text(library))
+            for (auto& corner : corners_in(*text))
+                if (std::find(out.begin(), out.end(), corner) == out.end()) out.push_back(std::move(corner));
     return out;
 }
 

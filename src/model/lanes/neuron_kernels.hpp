@@ -53,6 +53,8 @@ template <class F>
 struct ComputedCurrents : F {
     [[gnu::always_inline]] const ComputedCurrents& copy() const { return *this; }
 };
+template <class F>
+ComputedCurrents(F) -> ComputedCurrents<F>;  // clang 14 needs it
 /// The current into vector j, from an array. Only a copy() is indexed with a j that is known at run time only, so the array itself can stay
 /// in registers.
 template <class T, int J>

@@ -6,6 +6,7 @@
 
 #include "report/page_template.hpp"
 #include "report/skin/skin_report.hpp"
+#include "skin/plan/skin_outline.hpp"
 
 namespace corpuscle {
 namespace {
@@ -14,21 +15,29 @@ using Json = nlohmann::ordered_json;
 
 constexpr std::size_t max_named = 500;  // if there are more sites, the page does not contain their names
 
-/// Positions as an array x, y, x, y ... in mm, rounded to micrometres. `position_of` returns metres.
-template <class PositionOf>
-Json places_document(std::size_t count, PositionOf position_of) {
+/// Positions as an array x, y, x, y ... in m.
+Json places_document(std::span<const Position> positions) {
     std::vector<float> xy;
-    for (std::size_t k = 0; k < count; ++k) {
-        const Position p = position_of(k);
-        for (const double v : {p.x, p.y}) xy.push_back(static_cast<float>(std::round(1e6 * v) * 1e-3));
-    }
+    for (const auto& p : positions)
+        for (const double v : {p.x, p.y}) xy.push_back(static_cast<float>(v));
     return array_document(xy);
+}
+
+/// The outlines of the skin and of its regions as polygons; none if the sites are separate sensors.
+Json outline_document(const Sites& sites) {
+    const auto outline = skin_outline(sites);
+    Json skin = Json::array(), regions = Json::array();
+    for (const auto& polygon : outline.skin) skin.push_back(places_document(polygon));
+    for (const auto& region : outline.regions)
+        for (const auto& polygon : region) regions.push_back(places_document(polygon));
+    return {{"skin", skin}, {"regions", regions}};
 }
 
 Json sites_document(const Sites& sites) {
     const std::vector<std::uint16_t> region(sites.region.begin(), sites.region.end());
-    return {{"places", places_document(sites.size(), [&](std::size_t s) { return sites.positions[s]; })},
-            {"side", 1e3 * std::sqrt(sites.area)},
+    return {{"places", places_document(sites.positions)},
+            {"side", std::sqrt(sites.area)},
+            {"outline", outline_document(sites)},
             {"region", array_document(region)},
             {"names", sites.size() <= max_named ? Json(sites.names) : Json(nullptr)}};
 }
@@ -52,7 +61,7 @@ Json marks_document(const SkinSummary& summary, std::span<const std::uint32_t> b
         region.push_back(static_cast<std::uint16_t>(afferents[begin[m]].region)), copy.push_back(afferents[begin[m]].number);
     }
     return {{"begin", array_document(begin)},
-            {"places", places_document(positions.size(), [&](std::size_t m) { return positions[m]; })},
+            {"places", places_document(positions)},
             {"region", array_document(region)},
             {"copy", array_document(copy)},
             {"first", array_document(first_spikes)}};
@@ -80,7 +89,7 @@ std::string skin_page(const SkinSummary& summary, const SkinReport& report, cons
     const auto title = fmt::format("{} on {}", summary.input.name, summary.skin->plan.name);
     Json notes = run_info.warnings;
     for (const auto& r : run_info.notes) notes.push_back(r);
-    return report_page("skin.html", title, command,
+    return report_page("skin", title, command,
                        {{"notes", notes},
                         {"summary", summary.document(options, run_info)},
                         {"regions", summary.skin->plan.sites.regions},

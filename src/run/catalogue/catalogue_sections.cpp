@@ -56,8 +56,8 @@ std::vector<ListEntry> afferent_entries() {
     entries.push_back(list_pattern("path/own.cir", "netlist",
                                    "any netlist with a force input (a source with FORCE) and a spike output (.spike)",
                                    "doc/circuits.md; circuits/spiker.cir"));
-    entries.push_back(list_pattern("path/own.nir", "NIR graph", "any NIR graph with one input, the force in N, and one output of spikes",
-                                   "doc/nir.md"));
+    entries.push_back(
+        list_pattern("path/own.nir", "NIR graph", "any NIR graph with one input, the force in N, and one output of spikes", "doc/nir.md"));
     return entries;
 }
 

@@ -1,7 +1,7 @@
 // spikes.csv: afferent,channel,time_s; input after input, each in order of time. Times are on the clock of the input, to the nanosecond.
 
-#include "core/text/fixed_number.hpp"
 #include "run/sinks.hpp"
+#include "run/sinks/spike_lines.hpp"
 
 namespace corpuscle {
 namespace {
@@ -11,13 +11,7 @@ class SpikesFile final : public SpikeFileSink {
     fmt::memory_buffer text_;
 
     Result<void> add(const Input& input, std::span<const Spike> spikes) override {
-        for (const auto& s : spikes) {
-            const auto& name = names_[input.afferent_of(s)];
-            text_.append(name.data(), name.data() + name.size());
-            text_.push_back(',');
-            append_fixed(text_, input.clock.time(s.step, s.offset), 9);
-            text_.push_back('\n');
-        }
+        for (const auto& s : spikes) append_spike_line(text_, names_[input.afferent_of(s)], s, input.clock);
         return write_text(text_);
     }
 
@@ -25,7 +19,7 @@ public:
     using SpikeFileSink::SpikeFileSink;
     Result<void> open() {
         TRY(create("spikes.csv"));
-        return files_[0].write("afferent,channel,time_s\n");
+        return files_[0].write(spike_lines_heading);
     }
     Result<void> begin(const Input& input) override {
         names_ = afferent_csv_names(input.population);

@@ -49,14 +49,18 @@ class IndenterContact final : public Contact {
     const Indenter& indenter_;
     ContactParams p_;
     Clock clock_;
-    const std::size_t sites_;  // number of sites
+    const Sites& sites_;
     SkinCells cells_;
     double move_duration_;  // s
     std::unique_ptr<PressureDistribution> pressure_;
     SlidingTexture texture_;
+    std::optional<SlidingTexture> free_texture_;  // instead of texture_, once a block has positions
+    Position passing_;                            // m/s, velocity of a surface that passes under the contact
+    std::uint64_t seed_;
 
     ContactShear shear_;
-    bool has_shear_ = false;  // true: of shear_, or with the force of the block
+    bool has_shear_ = false;    // true: of shear_, or with the force of the block
+    bool is_touching_ = false;  // at the last sample
 
     Distribution pressed_by_, stuck_by_;  // of the force at the last sample, and of the part of the contact that sticks
     std::vector<double> column_;          // scratch array of distribute()
@@ -145,21 +149,28 @@ class IndenterContact final : public Contact {
                                      format_quantity(2 * half.height, "m"), format_quantity(cells_.side(), "m")));
     }
 
-    /// Distributes the force of sample k of the block, which has `steps` samples. `sample` is its number on the clock.
-    Result<void> press_once(double force, std::int64_t sample, std::size_t k, std::size_t steps) {
-        if (!(force > 0)) {
+    /// Distributes the force of sample k of the block.
+    Result<void> press_once(const ContactForce& block, std::size_t k) {
+        const double force = block.force[k];
+        is_touching_ = force > 0;
+        if (!is_touching_) {
             negative_samples_ += force < 0;
             shear_.release();
+            if (free_texture_) free_texture_->lift();
             return {};
         }
-        const double t = clock_.time(sample), size = pressure_->size(force);
+        const double t = clock_.time(block.first + static_cast<std::int64_t>(k)), size = pressure_->size(force);
         TRY(check(size, force));
-        distribute(position_at(t), size, pattern_shift(t), pressed_by_);
-        texture_.move_to(t);
+        distribute(block.x.empty() ? position_at(t) : Position{block.x[k], block.y[k], 0}, size, pattern_shift(t), pressed_by_);
+        auto& texture = block.x.empty() ? texture_ : *free_texture_;
+        if (block.x.empty())
+            texture.move_to(t);
+        else
+            texture.move_to({pressed_by_.at.x + passing_.x * t, pressed_by_.at.y + passing_.y * t, 0}, clock_.T());
         pressed_ += force, off_skin_ += force * (1 - pressed_by_.on_skin), max_size_ = std::max(max_size_, size);
         for (const auto& s : pressed_by_.fractions) {
-            touch(s.site, steps);
-            force_[s.site * stride_ + k] = force * s.fraction * std::max(0.0, 1 + texture_.at(s.site));
+            touch(s.site, block.force.size());
+            force_[s.site * stride_ + k] = force * s.fraction * std::max(0.0, 1 + texture.at(s.site));
         }
         if (shear_.any()) shear_once(t, force, k);
         return {};
@@ -167,9 +178,10 @@ class IndenterContact final : public Contact {
 
 public:
     IndenterContact(const Indenter& indenter, const ContactParams& p, const Sites& sites, const Clock& clock, std::uint64_t seed)
-        : indenter_(indenter), p_(p), clock_(clock), sites_(sites.size()), cells_(sites), move_duration_(move_duration(p)),
+        : indenter_(indenter), p_(p), clock_(clock), sites_(sites), cells_(sites), move_duration_(move_duration(p)),
           pressure_(make_pressure_distribution(indenter, p, cells_.side())),
-          texture_(indenter, p, sites, surface_motion(indenter, p), clock.rate(), seed), shear_(p, surface_motion(indenter, p)),
+          texture_(indenter, p, sites, surface_motion(indenter, p), clock.rate(), seed),
+          passing_(is_moving(p) ? Position{} : surface_motion(indenter, p).velocity), seed_(seed), shear_(p, surface_motion(indenter, p)),
           in_block_(sites.size(), 0) {}
 
     std::string description() const override {
@@ -225,24 +237,27 @@ public:
         return out;
     }
 
-    Result<SiteForce> press(std::span<const double> force, std::int64_t first, std::span<const double> shear_x,
-                            std::span<const double> shear_y) override {
-        if (!shear_x.empty() && shear_.any())
+    ContactState state() const override { return is_touching_ ? ContactState{pressed_by_.size, pressed_by_.on_skin} : ContactState{}; }
+
+    Result<SiteForce> press(const ContactForce& block) override {
+        const auto& force = block.force;
+        if (!block.shear_x.empty() && shear_.any())
             return bad_input("contact: the force has its own shear; remove contact.tilt and contact.friction");
-        has_shear_ = has_shear_ || shear_.any() || !shear_x.empty();  // the last block of a force is empty
+        if (!block.x.empty() && !free_texture_) free_texture_.emplace(indenter_, p_, sites_, seed_);
+        has_shear_ = has_shear_ || shear_.any() || !block.shear_x.empty();  // the last block of a force is empty
         for (const auto site : touched_) in_block_[site] = 0;
         touched_.clear();
         if (force.size() > stride_) {
             stride_ = force.size();
-            force_.assign(sites_ * stride_, 0.0);
+            force_.assign(sites_.size() * stride_, 0.0);
         }
         if (has_shear_ && shear_x_force_.size() < force_.size()) shear_x_force_ = shear_y_force_ = force_;
         for (std::size_t k = 0; k < force.size(); ++k) {
             if (!std::isfinite(force[k]))
                 return bad_input(
-                    fmt::format("the force of sample {} is {}, not a finite number", first + static_cast<std::int64_t>(k), force[k]));
-            TRY(press_once(force[k], first + static_cast<std::int64_t>(k), k, force.size()));
-            if (!shear_x.empty() && force[k] > 0) spread_shear(shear_x[k], shear_y[k], k);
+                    fmt::format("the force of sample {} is {}, not a finite number", block.first + static_cast<std::int64_t>(k), force[k]));
+            TRY(press_once(block, k));
+            if (!block.shear_x.empty() && force[k] > 0) spread_shear(block.shear_x[k], block.shear_y[k], k);
         }
         std::sort(touched_.begin(), touched_.end());
         if (!has_shear_) return SiteForce{force_.data(), stride_, touched_, false};

@@ -27,9 +27,19 @@ public:
     /// Without a pattern or movement there is no vibration: is_empty(). `rate`: sampling rate, Hz; `seed`: of a rough surface.
     SlidingTexture(const Indenter&, const ContactParams&, const Sites&, const Motion&, double rate, std::uint64_t seed);
 
+    /// A surface whose movement is not known in advance: move_to() gives its position in each sample. The waves of a rough surface then
+    /// have all directions, because there is no path along which they could have their wavelength. The envelope grows over the first
+    /// wavelength of a movement, and falls to 0 in `fade_time` without one (a choice).
+    SlidingTexture(const Indenter&, const ContactParams&, const Sites&, std::uint64_t seed);
+    static constexpr double fade_time = 0.2;  ///< s
+
     bool is_empty() const { return components_.empty(); }
     /// Prepares at() for a time (s).
     void move_to(double t);
+    /// Prepares at() for a surface at this position, T (s) after the last call. A component that moves by more than half a wavelength in
+    /// this time is left out.
+    void move_to(const Position&, double T);
+    void lift() { position_.reset(), envelope_ = 0; }  ///< the contact ends; the next one may be anywhere
     /// The vibration at a site, relative to the force there.
     double at(std::uint32_t site) {
         if (!(envelope_ > 0)) return 0;
@@ -50,6 +60,7 @@ private:
     Motion motion_;
     double wavelength_ = 1;  // along the path, m: of the envelope
     double left_out_ = 0, frequency_ = 0, envelope_ = 0;
+    std::optional<Position> position_;   // of a surface that move_to() moves, at the last call; empty: no contact
     std::vector<Component> components_;  // their number is a multiple of `lanes`
     std::vector<double> surface_;        // of the current time: for each component cosine, then sine of 2 pi k . X
     std::vector<double> skin_;           // [slot][2 * components]: the same of 2 pi k . p + phase, times the amplitude
@@ -59,6 +70,7 @@ private:
     void add(const Component&, double rate, double& all, double& kept);
     void add_grating(const ContactParams&, double rate);
     void add_rough_surface(const ContactParams&, double rate, std::uint64_t seed);
+    void finish_components();
     double sum(std::uint32_t site);
     void compute_site(std::uint32_t site);
 };

@@ -121,6 +121,7 @@ Result<Sites> fill_regions(std::span<const SkinRegion> regions, double pitch) {
     auto lattice = TRY(lattice_over(regions, pitch));
     Sites out;
     out.area = pitch * pitch;
+    out.shapes.assign(regions.begin(), regions.end());
     std::int32_t number = 0;
     for (const auto& r : regions) {
         out.regions.push_back(r.name);

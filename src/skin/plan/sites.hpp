@@ -9,13 +9,37 @@ namespace corpuscle {
 
 inline constexpr std::size_t max_sites = std::size_t{1} << 22;
 
+// A skin as a set of regions, each made of shapes. The regions are filled with sites.
+
+/// One shape of a region; lengths in m. A strip has two straight sides and, at both ends of its centre line, a width; a capsule is a strip
+/// with a round end at each end of its centre line.
+struct SkinShape {
+    enum class Kind { strip, capsule, ellipse, polygon } kind;
+    /// The ends of the centre line for a strip and a capsule, the centre of an ellipse, the corners of a polygon.
+    std::vector<Position> points;
+    double width = 0;      ///< width of an ellipse, or of a strip or capsule at the first point
+    double end_width = 0;  ///< height of an ellipse, or width of a strip or capsule at the second point
+    double turns = 0;      ///< of an ellipse: angle from the x axis to the axis of `width`, counter-clockwise, in turns
+
+    bool contains(double x, double y) const;
+    /// The corners {left, low} and {right, high} of a box that contains the shape.
+    std::pair<Position, Position> bounding_box() const;
+};
+
+/// A named part of a skin: the union of its shapes.
+struct SkinRegion {
+    std::string name;
+    std::vector<SkinShape> shapes;
+};
+
 /// Sites of one skin. x points to the right, y away from the wrist. A hand is a right hand in palm view.
 struct Sites {
-    std::vector<Position> positions;    ///< m
-    std::vector<std::string> names;     ///< one for each site
-    std::vector<std::uint32_t> region;  ///< for each site: index of its region in `regions`
-    std::vector<std::string> regions;   ///< names of the regions; at least one
-    double area = 0;                    ///< area of skin that one site represents, m2; 0: sites are separate sensors
+    std::vector<Position> positions;      ///< m
+    std::vector<std::string> names;       ///< one for each site
+    std::vector<std::uint32_t> region;    ///< for each site: index of its region in `regions`
+    std::vector<std::string> regions;     ///< names of the regions; at least one
+    std::vector<SkinRegion> shapes = {};  ///< the regions' shapes, if the skin is made of them
+    double area = 0;                      ///< area of skin that one site represents, m2; 0: sites are separate sensors
 
     std::size_t size() const { return positions.size(); }
     /// Adds a site, and its region if it is new.
@@ -45,29 +69,6 @@ Result<std::optional<std::vector<std::uint32_t>>> find_sites_if_named(const Site
 /// of its site. Other columns are ignored. Every channel from 1 to the highest must have exactly one row. The result has the site of each
 /// channel. Errors name file, line and column.
 Result<std::vector<std::uint32_t>> read_site_map(const std::string& path, const Sites&);
-
-// A skin as a set of regions, each made of shapes. The regions are filled with sites.
-
-/// One shape of a region; lengths in m. A strip has two straight sides and, at both ends of its centre line, a width; a capsule is a strip
-/// with a round end at each end of its centre line.
-struct SkinShape {
-    enum class Kind { strip, capsule, ellipse, polygon } kind;
-    /// The ends of the centre line for a strip and a capsule, the centre of an ellipse, the corners of a polygon.
-    std::vector<Position> points;
-    double width = 0;      ///< width of an ellipse, or of a strip or capsule at the first point
-    double end_width = 0;  ///< height of an ellipse, or width of a strip or capsule at the second point
-    double turns = 0;      ///< of an ellipse: angle from the x axis to the axis of `width`, counter-clockwise, in turns
-
-    bool contains(double x, double y) const;
-    /// The corners {left, low} and {right, high} of a box that contains the shape.
-    std::pair<Position, Position> bounding_box() const;
-};
-
-/// A named part of a skin: the union of its shapes.
-struct SkinRegion {
-    std::string name;
-    std::vector<SkinShape> shapes;
-};
 
 /// Divides the plane into square cells of side `pitch` (m), and places a site at the centre of each cell whose centre is in a region. A
 /// centre that is in several regions belongs to the first of them. Each site represents pitch squared of skin. A region without a site is

@@ -1,10 +1,11 @@
 #pragma once
-// Sparse linear equations with one pattern and many sets of values, solved by SuiteSparse's KLU. Only matrix.cpp includes KLU.
+// Sparse linear equations with one pattern and many sets of values.
 
 #include <complex>
 
 #include "circuit/solve/linear/elimination.hpp"
 #include "circuit/solve/linear/front_elimination.hpp"
+#include "circuit/solve/linear/sparse_factors.hpp"
 
 namespace corpuscle::circuit {
 
@@ -36,8 +37,9 @@ public:
 /// Factors matrices of one pattern and solves equations with them. The pattern must outlive the solver. T: double or std::complex<double>.
 template <class T>
 class LinearSolver {
-    struct Impl;
-    std::unique_ptr<Impl> impl_;  // of KLU
+    static constexpr bool is_real = std::is_same_v<T, double>;
+    const SparsityPattern* pattern_;
+    SparseFactors<T> factors_;  // chooses pivots; used without a list
     std::optional<Elimination> list_;
     std::optional<FrontElimination> fronts_;  // if there is no list, because it would be too long
     bool by_list_ = false;                    // the last factorization used the list or the fronts
@@ -48,13 +50,12 @@ class LinearSolver {
 
 public:
     explicit LinearSolver(const SparsityPattern&);
-    ~LinearSolver();
-    LinearSolver(LinearSolver&&) noexcept;
 
     /// Factors the matrix with these values and reuses the previous pivots if they are still stable. Returns false if the matrix is
     /// singular.
     bool factor(std::span<const T> values);
-    int singular_column() const;  ///< why it failed: this column depends linearly on others; -1: not known
+    /// Why it failed: this column depends linearly on others; -1: not known.
+    int singular_column() const { return factors_.singular_column(); }
     /// Fixes the pivot order of this matrix and prepares its elimination as a list. Later matrices use the list; if its pivots are not
     /// stable for a matrix, that matrix gets new pivots. Where the list would be too long, the elimination in dense fronts takes its place.
     /// No effect on complex matrices.
@@ -70,7 +71,8 @@ public:
     double growth() const { return !by_list_ ? 0 : list_ ? list_->growth() : fronts_->growth(); }
     bool factor_with_new_pivots(std::span<const T> values);  ///< chooses new pivots even if there is a list; increases fallback_count()
     void solve(std::span<T> right_side) const;               ///< A x = b, in place
-    void solve_transposed(std::span<T> right_side) const;    ///< A^T x = b (no conjugate), in place; not after fix_pivot_order()
+    /// A^T x = b (no conjugate), in place; not after fix_pivot_order().
+    void solve_transposed(std::span<T> right_side) const { factors_.solve_transposed(right_side); }
 };
 
 extern template class LinearSolver<double>;

@@ -1,7 +1,5 @@
 #include "circuit/solve/linear/pivot_order.hpp"
 
-#include <amd.h>
-
 #include <array>
 
 #include "circuit/solve/linear/matrix.hpp"
@@ -66,7 +64,7 @@ public:
 
 /// An order of the unknowns with little fill-in, by AMD. `kept`: the unknowns, ascending.
 std::vector<int> minimum_degree(const SparsityPattern& p, const std::vector<int>& kept) {
-    std::vector<int> number(static_cast<std::size_t>(p.size()), -1), begin, rows, order(kept.size());
+    std::vector<int> number(static_cast<std::size_t>(p.size()), -1), begin, rows;
     for (std::size_t k = 0; k < kept.size(); ++k) number[static_cast<std::size_t>(kept[k])] = static_cast<int>(k);
     for (const int column : kept) {
         begin.push_back(static_cast<int>(rows.size()));
@@ -74,7 +72,7 @@ std::vector<int> minimum_degree(const SparsityPattern& p, const std::vector<int>
             if (const int row = number[static_cast<std::size_t>(p.rows()[static_cast<std::size_t>(e)])]; row >= 0) rows.push_back(row);
     }
     begin.push_back(static_cast<int>(rows.size()));
-    if (amd_order(static_cast<int>(kept.size()), begin.data(), rows.data(), order.data(), nullptr, nullptr) < AMD_OK) return {};
+    auto order = minimum_degree_order(begin, rows);
     for (int& k : order) k = kept[static_cast<std::size_t>(k)];
     return order;
 }

@@ -1,0 +1,56 @@
+#include "circuit/variant/settable_values.hpp"
+
+#include "circuit/cost/power.hpp"
+#include "circuit/devices.hpp"
+#include "circuit/variant/hierarchical_names.hpp"
+#include "circuit/variant/named_value.hpp"
+
+namespace corpuscle::circuit {
+namespace {
+
+/// The subcircuit of the top level in which an element is; "" if it is in none.
+std::string subcircuit_block(const Element& e) { return e.name.find('.') == std::string::npos ? "" : Blocks::name_of_node(e.name); }
+
+/// The name under which a user sets a device: "summer.n3b" for xsummer.mn3b.
+std::string device_name(const Element& e) { return short_name(e.name, piece_count(e.name), LastPiece::element); }
+
+void add_array(const Circuit& circuit, const Element& e, std::vector<SettableValue>& out) {
+    const auto columns = find_named_value(circuit, e.name + ".m"), units = find_named_value(circuit, e.name + ".stack");
+    if (!columns || !units) return;
+    SettableValue array{.name = device_name(e), .kind = SettableValue::Kind::array, .block = subcircuit_block(e)};
+    array.text = fmt::format("{:g}x{:g}", columns->value, units->value);
+    array.description = "columns x transistors in series";
+    out.push_back(std::move(array));
+}
+
+void add_numbers(const Circuit& circuit, const Element& e, std::vector<SettableValue>& out) {
+    const auto shape = e.waveform.shape;
+    if (e.expression || (shape != Waveform::Shape::none && shape != Waveform::Shape::force)) return;
+    for (const auto& p : kind_of(e).parameters) {
+        const auto suffix = p.is_value ? std::string() : "." + std::string(p.name);
+        const bool is_in_array = has_role(e, Role::transistor) && (p.name == "m" || p.name == "stack");
+        const auto value = find_named_value(circuit, e.name + suffix);
+        if (!value || is_in_array || p.name == "temp" || p.name == "dtemp") continue;
+        SettableValue number{.name = device_name(e) + suffix, .unit = std::string(p.unit), .value = value->value};
+        number.block = subcircuit_block(e);
+        number.description = kind_of(e).description;
+        out.push_back(std::move(number));
+    }
+}
+
+}  // namespace
+
+std::vector<SettableValue> settable_values_of(const Circuit& circuit) {
+    std::vector<SettableValue> out;
+    out.push_back({.name = "temp", .value = circuit.temperature, .description = "temperature, degrees Celsius"});
+    out.push_back({.name = "mismatch",
+                   .value = static_cast<double>(circuit.mismatch_seed.value_or(0)),
+                   .description = "seed of the device mismatch of a chip; without it the circuit is nominal"});
+    for (const auto& e : circuit.elements) {
+        if (has_role(e, Role::transistor)) add_array(circuit, e, out);
+        add_numbers(circuit, e, out);
+    }
+    return out;
+}
+
+}  // namespace corpuscle::circuit

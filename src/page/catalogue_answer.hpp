@@ -1,0 +1,10 @@
+#pragma once
+
+#include "page/message.hpp"
+
+namespace corpuscle::page {
+
+/// Adds the answer of `catalogue`.
+Result<void> describe_catalogue(MessageWriter& answer);
+
+}  // namespace corpuscle::page

@@ -1,0 +1,39 @@
+#pragma once
+// Reads the members of a JSON object of a request. Every member must be read: check_all_read() refuses the others, so that a mistyped key
+// is an error.
+
+#include <optional>
+
+#include "page/message.hpp"
+
+namespace corpuscle::page {
+
+class ObjectReader {
+    const Json& object_;
+    std::string name_;                // for messages: "advance", "row 2"
+    std::vector<std::string> known_;  // keys that were asked for
+
+    const Json* find(const char* key);
+
+public:
+    /// `object` must be a JSON object; it must outlive the reader.
+    ObjectReader(const Json& object, std::string name) : object_(object), name_(std::move(name)) {}
+
+    const std::string& name() const { return name_; }
+    bool has(const char* key) { return find(key) != nullptr; }
+    /// A number in [low, high]. Without a default the key must be there.
+    Result<double> number(const char* key, double low, double high, std::optional<double> default_value = {});
+    /// An integer in [low, high]; high is at most 2^53.
+    Result<std::uint64_t> integer(const char* key, std::uint64_t low, std::uint64_t high, std::optional<std::uint64_t> default_value = {});
+    Result<std::string> text(const char* key, std::optional<std::string> default_value = {});
+    Result<std::vector<std::string>> texts(const char* key);    ///< a list of texts; empty if the key is not there
+    Result<std::vector<const Json*>> objects(const char* key);  ///< a list of objects; empty if the key is not there
+    Result<const Json*> object(const char* key);                ///< null if the key is not there
+    /// Returns an error that lists the known keys if the object has others.
+    Result<void> check_all_read() const;
+};
+
+/// For each of `samples` samples, the array or the number with this name; `default_value` if the request has neither.
+Result<std::vector<double>> signal(ObjectReader&, const Message&, const char* name, std::size_t samples, double default_value);
+
+}  // namespace corpuscle::page

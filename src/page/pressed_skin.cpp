@@ -1,0 +1,155 @@
+#include "page/pressed_skin.hpp"
+
+#include <fmt/format.h>
+#include <algorithm>
+
+#include "skin/contact/indenters.hpp"
+
+namespace corpuscle::page {
+namespace {
+
+constexpr std::size_t max_page_sites = 1 << 16, max_page_afferents = 1 << 16;
+constexpr std::size_t pressed_samples = 32;  // simulated at once; bounds the memory for the force at all sites
+
+/// The page must not read files of the machine on which the engine runs.
+Result<void> refuse_population_path(const std::string& population) {
+    if (population.find_first_of("./\\") == std::string::npos) return {};
+    return bad_input(
+        fmt::format("'{}' is the path of a file; the page has the populations of the catalogue, such as fingertip", population));
+}
+
+/// "radius=5mm" as an override with the target "contact". The movement is the page's, so those of a path are refused.
+Result<std::vector<ParameterOverride>> contact_overrides(std::span<const std::string> set) {
+    std::vector<ParameterOverride> out;
+    for (const auto& setting : set) {
+        auto parsed = TRY(parse_override("contact." + setting));
+        parsed.typed = setting;
+        for (const std::string_view name : {"x", "y", "x1", "y1", "t_start", "t_move"})
+            if (parsed.parameter == name)
+                return bad_input(fmt::format("{}: the position of the contact is that of each request `advance`", setting));
+        out.push_back(std::move(parsed));
+    }
+    return out;
+}
+
+Result<std::unique_ptr<Contact>> make_page_contact(const std::string& indenter, std::span<const std::string> set, const Sites& sites,
+                                                   const Clock& clock) {
+    const auto overrides = TRY(contact_overrides(set));
+    auto made = TRY(make_contact(indenter, overrides, sites, clock));
+    const std::string_view targets[] = {"contact"};
+    TRY(check_all_used(made.unused, targets));
+    return std::move(made.result);
+}
+
+Json shape_document(const SkinShape& shape) {
+    constexpr const char* kinds[] = {"strip", "capsule", "ellipse", "polygon"};  // in the order of the enumerators
+    Json out = {{"kind", kinds[static_cast<int>(shape.kind)]}};
+    for (const auto& p : shape.points) out["points"].push_back({p.x, p.y});
+    out["width"] = shape.width, out["end_width"] = shape.end_width, out["turns"] = shape.turns;
+    return out;
+}
+
+Json outline_of(const Sites& sites) {
+    auto out = Json::array();
+    for (const auto& region : sites.shapes) {
+        Json row = {{"name", region.name}, {"shapes", Json::array()}};
+        for (const auto& shape : region.shapes) row["shapes"].push_back(shape_document(shape));
+        out.push_back(std::move(row));
+    }
+    return out;
+}
+
+void add_positions(MessageWriter& answer, const std::string& prefix, const std::vector<Position>& positions) {
+    std::vector<float> x, y;
+    for (const auto& p : positions) x.push_back(static_cast<float>(p.x)), y.push_back(static_cast<float>(p.y));
+    answer.add(prefix + "x", std::span<const float>(x)), answer.add(prefix + "y", std::span<const float>(y));
+}
+
+/// The afferents' positions, classes and regions.
+void add_afferents(MessageWriter& answer, std::span<const SkinAfferent> afferents) {
+    std::vector<Position> positions;
+    std::vector<std::uint8_t> classes;
+    std::vector<std::uint32_t> regions;
+    for (const auto& a : afferents)
+        positions.push_back(a.position), classes.push_back(static_cast<std::uint8_t>(a.class_index)), regions.push_back(a.region);
+    add_positions(answer, "", positions);
+    answer.add("class", std::span<const std::uint8_t>(classes)), answer.add("region", std::span<const std::uint32_t>(regions));
+}
+
+}  // namespace
+
+Result<SkinRequest> read_skin_request(ObjectReader& object) {
+    SkinRequest out;
+    out.population = TRY(object.text("population"));
+    out.set = TRY(object.texts("set"));
+    out.indenter = TRY(object.text("indenter", "sphere"));
+    out.contact = TRY(object.texts("contact"));
+    TRY(object.check_all_read());
+    return out;
+}
+
+Result<PressedSkin> PressedSkin::make(const SkinRequest& request, const SimulationOptions& options, const Clock& clock) {
+    TRY(refuse_population_path(request.population));
+    auto plan = TRY(load_skin_plan(request.population));
+    if (plan.sites.size() > max_page_sites)
+        return bad_input(fmt::format("{} has {} sites; the page presses at most {}", plan.name, plan.sites.size(), max_page_sites));
+    auto applied = TRY(apply_overrides(std::move(plan), TRY(parse_overrides(request.set))));
+    TRY(check_all_used(applied.unused, override_targets(applied.result)));
+    PressedSkin out;
+    if (auto note = treat_as_skin(applied.result); !note.empty()) out.warnings_.push_back(std::move(note));
+    auto innervation = TRY(innervate(std::move(applied.result)));
+    if (innervation->afferents.size() > max_page_afferents || innervation->plan.classes.size() > 255)
+        return bad_input(fmt::format("{} has {} afferents; the page simulates at most {}", request.population,
+                                     innervation->afferents.size(), max_page_afferents));
+    const auto set = TRY(instruction_set());
+    out.population_ = request.population;
+    out.skin_ = TRY(Skin::make(innervation, options, set));
+    TRY(out.change_contact(request.indenter, request.contact, clock));
+    const auto middle = TRY(read_contact_params(indenters[0], {}, innervation->plan.sites)).result;
+    out.middle_ = {middle.x, middle.y, 0};
+    return out;
+}
+
+void PressedSkin::describe(MessageWriter& answer, std::size_t first_unit) const {
+    const auto& plan = innervation().plan;
+    Json out = {{"population", population_}, {"description", plan.description}, {"classes", Json::array()}};
+    for (std::size_t c = 0; c < plan.classes.size(); ++c) {
+        const auto begin = innervation().class_begin[c], end = innervation().class_begin[c + 1];
+        out["classes"].push_back({{"name", plan.classes[c].name},
+                                  {"afferent", plan.classes[c].afferent_name},
+                                  {"first", first_unit + begin},
+                                  {"count", end - begin}});
+    }
+    const auto& at = plan.sites.positions;
+    const auto [left, right] = std::minmax_element(at.begin(), at.end(), [](const auto& a, const auto& b) { return a.x < b.x; });
+    const auto [low, high] = std::minmax_element(at.begin(), at.end(), [](const auto& a, const auto& b) { return a.y < b.y; });
+    out["regions"] = plan.sites.regions, out["site_side"] = std::sqrt(plan.sites.area);
+    out["left"] = left->x, out["right"] = right->x, out["low"] = low->y, out["high"] = high->y;
+    out["x"] = middle_.x, out["y"] = middle_.y;
+    out["contact"] = contact_->description(), out["outline"] = outline_of(plan.sites);
+    answer.head["skin"] = std::move(out);
+    add_afferents(answer, innervation().afferents);
+    add_positions(answer, "site_", at);
+    answer.add("site_region", std::span<const std::uint32_t>(plan.sites.region));
+}
+
+Result<void> PressedSkin::change_contact(const std::string& indenter, std::span<const std::string> set, const Clock& clock) {
+    contact_ = TRY(make_page_contact(indenter, set, innervation().plan.sites, clock));
+    return {};
+}
+
+Result<void> PressedSkin::press(const ContactForce& all, std::uint32_t first_unit, std::vector<Spike>& spikes) {
+    ThreadPool pool(1);
+    const auto first_spike = spikes.size();
+    for (std::size_t at = 0; at < all.force.size(); at += pressed_samples) {
+        const auto count = std::min(pressed_samples, all.force.size() - at);
+        const auto part = [&](std::span<const double> values) { return values.empty() ? values : values.subspan(at, count); };
+        const auto sites = TRY(contact_->press(
+            {part(all.force), all.first + static_cast<std::int64_t>(at), part(all.shear_x), part(all.shear_y), part(all.x), part(all.y)}));
+        TRY(skin_->respond(sites, count, spikes, pool));
+    }
+    for (auto k = first_spike; k < spikes.size(); ++k) spikes[k].afferent_index += first_unit;
+    return {};
+}
+
+}  // namespace corpuscle::page

@@ -1,0 +1,107 @@
+#include "page/recording_answer.hpp"
+
+#include <fmt/format.h>
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+
+#include "io/recording/recording_options.hpp"
+#include "page/documents.hpp"
+
+namespace corpuscle::page {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr std::size_t max_values = 50'000'000;  // of all channels together
+
+/// A file in a new directory, both of which the destructor removes.
+class TemporaryFile {
+    fs::path directory_;
+
+public:
+    TemporaryFile() = default;
+    TemporaryFile(const TemporaryFile&) = delete;
+    TemporaryFile& operator=(const TemporaryFile&) = delete;
+    ~TemporaryFile() {
+        std::error_code ignored;
+        if (!directory_.empty()) fs::remove_all(directory_, ignored);
+    }
+    Result<std::string> write(const std::string& name, std::span<const std::byte> bytes) {
+        std::error_code status;
+        auto pattern = (fs::temp_directory_path(status) / "corpuscle-page-XXXXXX").string();
+        if (status || !::mkdtemp(pattern.data())) return bad_input("read: a temporary directory cannot be created");
+        directory_ = pattern;
+        const auto path = directory_ / name;
+        std::ofstream file(path, std::ios::binary);
+        file.write(reinterpret_cast<const char*>(bytes.data()), static_cast<std::streamsize>(bytes.size()));
+        if (!file.flush()) return bad_input("read: the recording cannot be written to a temporary file");
+        return path.string();
+    }
+};
+
+/// The options of the request: each is a text, as on the command line.
+Result<RecordingOptions> read_options(ObjectReader& request) {
+    RecordingOptions out;
+    auto group = recording_option_group(out);
+    group.rows.push_back({"--rate", quantity_reader(out.rate.emplace(), "Hz"), "HZ", "sampling rate"});
+    bool has_rate = false;
+    if (const auto* options = TRY(request.object("options")))
+        for (const auto& [name, value] : options->items()) {
+            if (!value.is_string()) return bad_input(fmt::format("read: the option \"{}\" is not a text, such as \"100Hz\"", name));
+            if (name == "layout") return bad_input("read: the page reads one file, without a layout");
+            TRY(set_option(group, name, value.get<std::string>()));
+            has_rate = has_rate || name == "rate";
+        }
+    if (!has_rate) out.rate.reset();
+    return out;
+}
+
+/// The text of an error or note without the path of the temporary file.
+std::string without_path(std::string text, const std::string& path, const std::string& name) {
+    for (auto at = text.find(path); at != text.npos; at = text.find(path)) text.replace(at, path.size(), name);
+    return text;
+}
+
+Result<void> add_force(ForceSource& source, MessageWriter& answer) {
+    std::vector<std::vector<double>> force(source.channels().size());
+    for (Frames block(force.size(), 4096);;) {
+        TRY(source.read(block));
+        if (block.count == 0) break;
+        if ((force[0].size() + block.count) * force.size() > max_values)
+            return bad_input(fmt::format("the recording has more than {} values; use `corpuscle respond`", max_values));
+        for (std::size_t c = 0; c < force.size(); ++c)
+            force[c].insert(force[c].end(), block.force[c].begin(), block.force[c].begin() + static_cast<std::ptrdiff_t>(block.count));
+    }
+    answer.head["samples"] = force[0].size();
+    for (std::size_t c = 0; c < force.size(); ++c) answer.add(fmt::format("force.{}", c), std::span<const double>(force[c]));
+    return {};
+}
+
+}  // namespace
+
+Result<void> read_recording(ObjectReader& request, const Message& message, MessageWriter& answer) {
+    const auto name = fs::path(TRY(request.text("name"))).filename().string();
+    const auto options = TRY(read_options(request));
+    TRY(request.check_all_read());
+    const auto* bytes = message.find("file");
+    if (!bytes || bytes->type != "u8") return bad_input("read: the array \"file\" of type u8 is missing");
+    if (name.empty() || name == "." || name == "..") return bad_input("read: \"name\" is not the name of a file, such as touch.csv");
+    TemporaryFile file;
+    const auto path = TRY(file.write(name, bytes->data));
+    const auto clean = [&](const std::string& text) { return without_path(text, path, name); };
+    auto source = open_recording(path, options);
+    if (!source) return bad_input(clean(source.error().text()));
+    if (const auto done = add_force(**source, answer); !done) return bad_input(clean(done.error().text()));
+    answer.head["rate"] = (*source)->clock().rate();
+    for (const auto& channel : (*source)->channels()) answer.head["channels"].push_back(channel.name);
+    answer.head["description"] = clean((*source)->description());
+    answer.head["notes"] = answer.head["warnings"] = Json::array();
+    for (const auto& note : (*source)->notes()) answer.head["notes"].push_back(clean(note));
+    const auto quality = (*source)->quality();
+    for (const auto& text : quality.descriptions) answer.head["notes"].push_back(clean(text));
+    for (const auto& text : quality.warnings) answer.head["warnings"].push_back(clean(text));
+    return {};
+}
+
+}  // namespace corpuscle::page

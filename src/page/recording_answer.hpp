@@ -1,0 +1,10 @@
+#pragma once
+
+#include "page/object_reader.hpp"
+
+namespace corpuscle::page {
+
+/// Answers `read`: a recording as force. Its bytes pass through a temporary file, because the readers open paths.
+Result<void> read_recording(ObjectReader&, const Message&, MessageWriter& answer);
+
+}  // namespace corpuscle::page

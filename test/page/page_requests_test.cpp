@@ -1,0 +1,132 @@
+// The requests of the page that are not simulations, and refused ones.
+
+#include <fmt/format.h>
+
+#include "page/ask.hpp"
+
+namespace corpuscle::page {
+namespace {
+
+const Json* find_named(const Json& list, std::string_view name) {
+    for (const auto& entry : list)
+        if (entry["name"] == name) return &entry;
+    return nullptr;
+}
+
+TEST(PageRequests, TheCatalogueHasAfferentsAndWhatCanBeSet) {
+    PageEngine engine;
+    const auto answer = ask_well(engine, R"({"request": "catalogue", "id": 7})");
+    EXPECT_EQ(answer["id"], 7);
+    const auto* model = find_named(answer["afferents"], "sa1-nerve");
+    ASSERT_NE(model, nullptr);
+    EXPECT_EQ((*model)["class"], "sa1");
+    EXPECT_EQ((*model)["is_circuit"], false);
+    EXPECT_FALSE((*model)["probes"].empty());
+    const auto* chip = find_named(answer["afferents"], "sa1-circuit");
+    ASSERT_NE(chip, nullptr);
+    EXPECT_EQ((*chip)["class"], "sa1");
+    EXPECT_EQ((*chip)["is_circuit"], true);
+    const auto* array = find_named((*chip)["settable"], "summer.n3b");
+    ASSERT_NE(array, nullptr);
+    EXPECT_EQ((*array)["value"], "12x4");
+    EXPECT_EQ((*array)["block"], "summer");
+    const auto* width = find_named((*chip)["settable"], "summer.n3b.w");
+    ASSERT_NE(width, nullptr);
+    EXPECT_DOUBLE_EQ((*width)["value"], 1e-6);
+    EXPECT_EQ((*find_named((*chip)["settable"], "corner"))["choices"].dump(), R"(["tt","ss","ff","sf","fs","mc"])");
+    EXPECT_NE(find_named(answer["sections"]["stimuli"], "press"), nullptr);
+    EXPECT_GT((*find_named(answer["populations"], "fingertip"))["afferents"].get<int>(), 100);
+    EXPECT_NE(find_named(answer["indenters"], "grating"), nullptr);
+}
+
+/// Each value that the catalogue offers can be set to its present value.
+TEST(PageRequests, EachSettableValueOfAChipIsAccepted) {
+    PageEngine engine;
+    const auto catalogue = ask_well(engine, R"({"request": "catalogue"})");
+    const auto* chip = find_named(catalogue["afferents"], "fa1-circuit");
+    Json start = {{"request", "start"}, {"rate", 10000}, {"rows", {{{"afferent", "fa1-circuit"}, {"set", Json::array()}}}}};
+    for (const auto& value : (*chip)["settable"]) {
+        if (value["name"] == "corner") continue;  // without a value it is that of the netlist
+        const auto text = value["value"].is_string() ? value["value"].get<std::string>() : fmt::format("{}", value["value"].get<double>());
+        start["rows"][0]["set"] = {fmt::format("{}={}", value["name"].get<std::string>(), text)};
+        EXPECT_EQ(ask(engine, start.dump()).error(), "") << start.dump();
+    }
+}
+
+TEST(PageRequests, ARecordingIsReadFromItsBytes) {
+    PageEngine engine;
+    const std::string text = "time_s,left_N,right_N\n0,0,1\n0.01,0.5,1\n0.02,1,1\n0.03,1,1\n";
+    const std::vector<std::uint8_t> bytes(text.begin(), text.end());
+    const auto answer = ask(engine, R"({"request": "read", "name": "two.csv"})", "file", bytes);
+    ASSERT_EQ(answer.error(), "");
+    EXPECT_EQ(answer["rate"], 100.0);
+    EXPECT_EQ(answer["samples"], 4);
+    EXPECT_EQ(answer["channels"].size(), 2U);
+    EXPECT_EQ(answer.numbers("force.0"), (std::vector{0, 0.5, 1, 1}));
+    const auto scaled =
+        ask(engine, R"({"request": "read", "name": "two.csv", "options": {"channel": "2", "scale": "2", "rate": "50Hz"}})", "file", bytes);
+    ASSERT_EQ(scaled.error(), "");
+    EXPECT_EQ(scaled["rate"], 50.0);
+    EXPECT_EQ(scaled.numbers("force.0"), (std::vector{2.0, 2.0, 2.0, 2.0}));
+    const auto wrong = ask(engine, R"({"request": "read", "name": "two.csv"})", "file", std::vector<std::uint8_t>{'x', '\n', 'y', '\n'});
+    EXPECT_NE(wrong.error(), "");
+    EXPECT_EQ(wrong.error().find("/tmp"), std::string::npos) << wrong.error();
+}
+
+TEST(PageRequests, TheSpikesSinceTheStartAreSavedAsCsv) {
+    PageEngine engine;
+    ask_well(engine, R"({"request": "start", "rate": 10000, "rows": [{"afferent": "sa1"}, {"afferent": "sa1"}]})");
+    const auto advanced = ask_well(engine, R"({"request": "advance", "samples": 5000, "force": 2})");
+    const auto saved = ask_well(engine, R"({"request": "save"})");
+    EXPECT_EQ(saved["name"], "spikes.csv");
+    const auto* file = saved.message.find("file");
+    const std::string text(reinterpret_cast<const char*>(file->data.data()), file->data.size());
+    EXPECT_TRUE(text.starts_with("afferent,channel,time_s\nsa1,force,")) << text.substr(0, 60);
+    EXPECT_NE(text.find("sa1#2,force,"), std::string::npos);
+    EXPECT_EQ(static_cast<std::size_t>(std::count(text.begin(), text.end(), '\n')), 1 + advanced.numbers("time").size());
+}
+
+TEST(PageRequests, TheIndenterChangesWhileTheSimulationGoesOn) {
+    PageEngine engine;
+    ask_well(engine, R"({"request": "start", "rate": 1000, "skin": {"population": "fingertip"}})");
+    const auto answer = ask_well(engine, R"({"request": "contact", "indenter": "grating", "set": ["period=2mm"]})");
+    EXPECT_NE(answer["contact"].get<std::string>().find("grating with a ridge every 2 mm"), std::string::npos) << answer["contact"];
+    ask_well(engine, R"({"request": "advance", "samples": 100, "force": 1, "shear_x": 0.2, "shear_y": 0})");
+    EXPECT_EQ(ask(engine, R"({"request": "contact", "indenter": "grating", "set": ["x=2mm"]})").error(),
+              "x=2mm: the position of the contact is that of each request `advance`");
+}
+
+TEST(PageRequests, RefusedOnesNameTheFaultAndKeepTheSession) {
+    PageEngine engine;
+    EXPECT_EQ(ask(engine, R"({"request": "advance", "samples": 10})").error(),
+              "advance: there is no session; send the request \"start\" first");
+    ask_well(engine, R"({"request": "start", "rate": 10000, "rows": [{"afferent": "sa1"}]})");
+    const std::pair<const char*, const char*> refused[] = {
+        {R"({"request": "advance", "samples": 10, "forces": 1})", "advance: unknown key 'forces'; did you mean 'force'? (it has "},
+        {R"({"request": "advance", "samples": 0})", "advance: \"samples\" is 0; expected an integer from 1 to 100000"},
+        {R"({"request": "advance", "samples": 10, "x": 1})", "advance: give both x and y, or neither"},
+        {R"({"request": "advance", "samples": 10, "force": null})", "advance: \"force\" is null; expected a number"},
+        {R"({"request": "advanse"})", "there is no request 'advanse'; did you mean 'advance'?"},
+        {R"({"request": "start", "rate": 10000, "rows": [{"afferent": "circuits/own.cir"}]})", "'circuits/own.cir' is the path of a file"},
+        {R"({"request": "start", "rate": 10000, "skin": {"population": "own.toml"}})", "'own.toml' is the path of a file"},
+        {R"({"request": "start", "rate": 10000, "rows": [{"afferent": "sa1", "set": ["f_b=25Hz"]}]})",
+         "sa1: unknown parameter 'f_b'; did you mean 'f_B'?"},
+        {R"({"request": "start", "rate": 1e9})", "start: \"rate\" is 1000000000.0; expected a number from 10 to 1e+06"},
+        {R"({"request": "set", "row": 3})", "set: there is no row 3; the session has 1"},
+        {R"({"request": "respond", "rate": 10000})", "respond: give either a \"stimulus\" or the array \"force\""},
+        {R"({"request": "monte-carlo", "afferent": "sa1", "chips": 2, "rate": 10000, "stimulus": "press"})",
+         "sa1: unknown parameter 'mismatch'"},
+        {"[]", "a message needs at least 4 bytes"},
+        {"", "a message needs at least 4 bytes"},
+    };
+    for (const auto& [request, expected] : refused) {
+        const auto error = ask(engine, request).error();
+        EXPECT_EQ(error.substr(0, std::string_view(expected).size()), expected) << request;
+    }
+    const auto too_long = ask(engine, R"({"request": "advance", "samples": 3})", "force", std::vector{1.0, 2.0});
+    EXPECT_EQ(too_long.error(), "advance: the array 'force' has 2 values for 3 samples");
+    EXPECT_EQ(ask_well(engine, R"({"request": "advance", "samples": 10, "force": 1})")["from"], 0);
+}
+
+}  // namespace
+}  // namespace corpuscle::page

@@ -1,0 +1,60 @@
+"""wasm_engine_test.py CORPUSCLE ENGINE.js: the WebAssembly engine responds as the program does.
+
+Afferents of equations give the same bits. A chip's time steps have the same tolerances, but its matrices are solved with other pivots (Eigen
+instead of KLU), so its spikes differ by rounding that the step control amplifies: `max_chip_difference` bounds it."""
+import json
+import pathlib
+import subprocess
+import sys
+import tempfile
+
+import numpy
+
+program, engine = sys.argv[1:]
+max_chip_difference = 1e-6  # s
+if not pathlib.Path(engine).exists():
+    print(f"{engine} is not built; cmake -D CORPUSCLE_PAGE=ON builds it")
+    sys.exit(77)
+
+here = pathlib.Path(__file__).parent
+node = subprocess.Popen(["node", str(here / "ask_engine.js"), engine], stdin=subprocess.PIPE, stdout=subprocess.PIPE, text=True)
+
+
+def ask(**request):
+    node.stdin.write(json.dumps(request) + "\n")
+    node.stdin.flush()
+    answer = json.loads(node.stdout.readline())
+    assert "error" not in answer, answer["error"]
+    return answer
+
+
+def native(afferent):
+    """Spike times of the program, s."""
+    with tempfile.TemporaryDirectory() as folder:
+        subprocess.run([program, "respond", "press", "--afferent", afferent, "--npz", "--quiet", "--out", folder], check=True)
+        with numpy.load(pathlib.Path(folder) / "response.npz") as arrays:
+            return arrays["spike_time"] if "spike_time" in arrays else arrays[[n for n in arrays.files if "time" in n][0]]
+
+
+def of_page(afferent):
+    return numpy.array(ask(request="respond", rate=10000, stimulus="press", rows=[{"afferent": afferent}])["data"]["time"])
+
+
+failed = False
+for afferent, bound in [("sa1", 0), ("fa1", 0), ("sa1-nerve", 0), ("fa1-nerve", 0), ("sa1-circuit", max_chip_difference), ("fa1-circuit", max_chip_difference)]:
+    expected, found = native(afferent), of_page(afferent)
+    same_count = len(expected) == len(found)
+    difference = float(numpy.abs(expected - found).max()) if same_count else float("inf")
+    print(f"{afferent}: {len(expected)} spikes, {len(found)} as WebAssembly; largest difference {difference:.3g} s" + (", equal bits" if difference == 0 else ""))
+    failed = failed or not same_count or len(expected) == 0 or difference > bound
+
+# A skin, pressed and advanced in blocks: as many spikes as in one block.
+counts = []
+for length in (10, 500):
+    ask(request="start", rate=1000, skin={"population": "fingertip"})
+    counts.append(sum(len(ask(request="advance", samples=length, force=1.5)["data"]["time"]) for _ in range(500 // length)))
+print(f"fingertip: {counts[0]} spikes in 500 ms")
+failed = failed or counts[0] != counts[1] or counts[0] < 100
+
+node.stdin.close()
+sys.exit(failed or node.wait() != 0)
