@@ -48,11 +48,11 @@ class Studies(Pages):
         for name, plot in zip(self.panels(), study["plots"]):
             self.assertEqual(self.drawn_points(name), sum(len(floats(one["x"])) for one in plot["series"]))
         self.assertEqual(len(self.rows(".opened")), len(study["claims"]))
-        self.assertTrue(self.browser.current_url.endswith("#fig13"))
+        self.until(lambda: self.browser.current_url.endswith("#fig13"))
         self.assertEqual(self.browser.find_element(By.CSS_SELECTOR, "#fig13 .open").get_attribute("aria-expanded"), "true")
         self.js("document.querySelector('.opened .close').click()")
         self.assertEqual((self.all(".opened"), self.panels()), ([], []))
-        self.assertNotIn("#", self.browser.current_url)
+        self.until(lambda: "#" not in self.browser.current_url)
 
     def test_a_link_opens_its_study_and_a_damaged_link_is_ignored(self):
         self.open(self.path, "#kim")

@@ -87,7 +87,7 @@ class RandomItems(SweepPages):
         self.assertIn("temp = 85 degC", self.texts_of("[data-panel=histogram] .legend-name"))
         self.select("Measure", "i(vis)")
         self.assertIn("i(vis)", self.texts_of("[data-panel=histogram] figcaption")[0])
-        self.assertIn("#measure=i(vis)&colour=temp", self.browser.current_url)
+        self.until(lambda: "#measure=i(vis)&colour=temp" in self.browser.current_url)
 
     def test_a_link_restores_the_selection_and_a_damaged_link_is_ignored(self):
         self.open(self.path, "#measure=i(vis)&colour=temp")
@@ -207,7 +207,7 @@ class Grids(SweepPages):
 
         self.assert_close(shown(), expected())
         self.select("press.F_max", "4\u00a0N")
-        self.assertTrue(self.browser.current_url.endswith("&at=4%2C%2C"), self.browser.current_url)
+        self.until(lambda: self.browser.current_url.endswith("&at=4%2C%2C"))
         self.assert_close(shown(), expected(4))
         self.assertIn("press.F_max 4\u00a0N", self.texts_of("[data-panel='spikes: heat map'] figcaption")[0])
         self.assertEqual([self.curve("spikes over sa1.f_B", k)[1] for k in range(2)], [[expected(4)[(f_B, V_th)] for f_B in (20, 40, 80)] for V_th in (0.4, 0.6)])
