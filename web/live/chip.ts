@@ -94,6 +94,7 @@ export class Chip {
         try {
             let answer = await engine.request({request: "monte-carlo", afferent: this.afferent, set: engineSettings(settings.rows[this.row].set), chips: CHIPS, seed: settings.seed, rate: settings.rate, stimulus: "press", slice: SLICE});
             const {rate, samples, phases = []} = answer.head, clock = {t0: 0, T: 1 / rate, samples}, view = new View();
+            (window as any).corpuscle.monteCarlo = trains;
             view.setLimits({begin: 0, end: samples / rate, smallest: 0.01});
             view.add(new RasterPanel({host: this.monteCarlo, name: "monte-carlo", title: [`spikes of ${CHIPS} chips of ${this.afferent}`], about: "spikes of chips that differ by mismatch", height: 320, clock, phases, isNamed: true, isBottom: true, series: [],
                                       rows: trains.map((spikes, k) => ({series: "", label: `chip ${k + 1}`, colour: "var(--series-2)", spikes}))}));
