@@ -44,7 +44,7 @@ public:
         std::string out;
         for (std::size_t at = 0; at < text.size();) {
             const auto end = std::min(text.find_first_of(ends, at), text.size());
-            const bool begins = text[at] == '/' && (at == 0 || before.find(text[at - 1]) != before.npos);
+            const bool begins = text[at] == '/' && text[at + 1] != '/' && (at == 0 || before.find(text[at - 1]) != before.npos);
             const auto path = text.substr(at, end - at);
             if (begins && path.find('/', 1) != path.npos && path.back() != '/')
                 out += name_of(path), at = end;
