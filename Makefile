@@ -19,10 +19,10 @@ build: setup-run
 	@cmake --preset release > /dev/null
 	@cmake --build --preset release --target corpuscle-cli
 
-# The engine of the live page, as WebAssembly.
-page: setup-run setup-page
-	@cmake --preset release -D CORPUSCLE_PAGE=ON > /dev/null
-	@cmake --build --preset release --target page-engine
+# The live page: a skin to press in a browser, with the engine as WebAssembly.
+page: setup-page
+	@web/build build/page
+	@echo "Open build/page/press.html in a browser."
 
 test: release asan
 	ctest --test-dir build/release --output-on-failure -j 3

@@ -58,7 +58,10 @@ std::string study_page(std::span<const Study* const> studies, std::span<const St
     for (std::size_t k = 0; k < studies.size(); ++k) all.push_back(page_document(*studies[k], outcomes[k]));
     const std::string title = studies.size() == 1 ? std::string(studies[0]->title) : "Reproduction of all figures and tables";
     return report_page("study", title, command,
-                       {{"headline", prediction_sentence(outcomes)}, {"kinds", document_of_kinds(outcomes)}, {"studies", all}});
+                       {{"headline", prediction_sentence(outcomes)},
+                        {"kinds", document_of_kinds(outcomes)},
+                        {"studies", all},
+                        {"versions", versions_document()}});
 }
 
 }  // namespace corpuscle

@@ -10,6 +10,7 @@
 #include "circuit/schematic/schematic.hpp"
 #include "circuit/schematic_checks.hpp"
 #include "circuit/variant/netlist_overrides.hpp"
+#include "run/export/targets.hpp"
 #include "support/test_paths.hpp"
 
 namespace corpuscle::circuit {
@@ -203,6 +204,32 @@ TEST(Schematic, OfABlockThatDoesNotExistNamesThoseThatDo) {
     EXPECT_EQ(several.error().message,
               "'trigger' is one of several blocks: xrectb.xtrigger, xrectc.xtrigger, xcco.xtrigger; name one of them");
     ASSERT_TRUE(draw_schematic(*netlist, "hpb.RES"));
+}
+
+TEST(Schematic, IsAnExportTargetThatTakesABlock) {
+    const auto* target = find_export_target("svg");
+    ASSERT_NE(target, nullptr);
+    ExportRequest request, equations;
+    request.subject = "sa1-circuit", request.block = "summer", equations.subject = "sa1";
+    const auto summer = write_model(*target, request);
+    ASSERT_TRUE(summer) << summer.error().text();
+    EXPECT_NE(summer->text.find("data-device=\"xsummer.mn3b\""), std::string::npos);
+    EXPECT_NE(summer->text.find(">12 x 4<"), std::string::npos);
+    EXPECT_TRUE(target->is_own(summer->text));
+    EXPECT_FALSE(target->is_own("<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"10\"/>"));
+    const auto other = write_model(*find_export_target("ngspice"), request);
+    ASSERT_FALSE(other);
+    EXPECT_EQ(other.error().message, "--block summer is for --for svg; ngspice exports the complete subject");
+    EXPECT_FALSE(write_model(*target, equations));
+}
+
+TEST(Schematic, ShowsTheValuesOfOverrides) {
+    ExportRequest request;
+    request.subject = "sa1-circuit", request.block = "summer";
+    request.settings.push_back(*parse_netlist_override("sa1-circuit", "summer.N3B=7x3"));
+    const auto drawn = write_model(*find_export_target("svg"), request);
+    ASSERT_TRUE(drawn) << drawn.error().text();
+    EXPECT_NE(drawn->text.find(">7 x 3<"), std::string::npos);
 }
 
 TEST(Schematic, OfUnusualCircuitsOverlapsNothing) {

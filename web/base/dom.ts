@@ -50,6 +50,9 @@ export const isNarrow = () => document.documentElement.clientWidth < 520;
 /// True on a very wide screen: figures then are higher and have larger texts.
 export const isWide = () => document.documentElement.clientWidth >= 2200;
 
+/// Pixels of a canvas per CSS pixel.
+export const pixelRatio = () => (document.documentElement.classList.contains("printing") ? 3 : devicePixelRatio || 1);
+
 /// Downloads a file that the page has made.
 export function download(name: string, content: Blob | string, type = "text/csv") {
     const url = URL.createObjectURL(content instanceof Blob ? content : new Blob([content], {type}));

@@ -4,7 +4,7 @@ import {Child, h} from "./dom";
 import type {Pen} from "../plot/pen";
 
 type Run = {text: string; kind: "plain" | "symbol" | "subscript"};
-const SYMBOL = /(^|[^\w.])([A-Za-z]{1,2}|alpha|beta|gamma|sigma|tau|theta|phi)_([A-Za-z0-9]+|[+−-])(?![\w.])/g;
+const SYMBOL = /(^|[^\w.])([A-Za-z]{1,2}|alpha|beta|gamma|sigma|tau|theta|phi)_([A-Za-z0-9]{1,6}|[+−-])(?![\w.])/g;
 const GREEK: Record<string, string> = {alpha: "α", beta: "β", gamma: "γ", sigma: "σ", tau: "τ", theta: "θ", phi: "φ"};
 
 export function labelRuns(label: string): Run[] {

@@ -1,4 +1,5 @@
-// The state of a page in its link: "#channel=3&from=0.5&to=1.25", or first the name of a part of the page: "#fig13&by=label". A link with an unknown key, or a value that is too long, is refused.
+// The state of a page in its link: "#channel=3&from=0.5&to=1.25", or first the name of a part of the page: "#fig13&by=label". A
+// link with an unknown key, or a value that is too long, is refused.
 
 const MAX_LINK = 4000;
 

@@ -27,6 +27,9 @@ export function quantity(value: number | null | undefined, unit: string, short =
     return withMinus(short ? String(Number(digits)) : digits) + (suffix && "\u00a0" + suffix);
 }
 
+/// A number of single precision without the digits that it does not have: 0.1, not 0.10000000149.
+export const plainNumber = (value: number) => Number(value.toPrecision(7));
+
 export type Cell = string | number | boolean | null | undefined | Cell[];
 
 /// The text of a table cell. A number has `decimals` decimals, or four digits if that is not given; an array is a mean with its standard

@@ -7,8 +7,9 @@ import {csvText} from "../plot/panel";
 import type {View} from "../plot/view";
 import {section} from "../shell";
 import {FirstSpikes, Mode, firstSpikesOf, modesOf} from "../skin/activity";
-import {Box, boxOf, emptyBox, grown, joined} from "../skin/geometry";
+import type {Box} from "../skin/geometry";
 import type {SkinRecording} from "../skin/recording";
+import {regionsOf} from "../skin/regions";
 import {colourScale} from "../skin/scale";
 import {SkinScene} from "../skin/scene";
 import {SkinMap} from "../skin/skin-map";
@@ -25,6 +26,7 @@ export class SkinMaps {
     private maps: SkinMap[] = [];
     private scales: HTMLElement[] = [];
     private unit = h("p", {class: "readout unit-about", id: "unit", role: "status"});
+    private when = h("span", {class: "when readout strong"});  // on paper, where there is no player
     private row = h("div", {class: "skin-row"});
     readonly regions: [string, Box][];
     region = 0;
@@ -47,10 +49,12 @@ export class SkinMaps {
         [this.modeSelect, this.regionSelect] = [show.querySelector("select")!, zoom.querySelector("select")!];
         [this.modeSelect.id, this.regionSelect.id] = ["mode", "region"];
         node.append(h("div", {class: "bar", role: "group", "aria-label": "maps"}, show, zoom,
-            h("span", {class: "buttons"}, this.button("−", "Zoom out of the maps", 1.5), this.button("+", "Zoom into the maps", 1 / 1.5)), this.forceKey()), this.row, this.unit);
+            h("span", {class: "buttons"}, this.button("−", "Zoom out of the maps", 1.5), this.button("+", "Zoom into the maps", 1 / 1.5)), this.forceKey(), this.when), this.row, this.unit);
         skin.classes.forEach((_, k) => this.addMap(k));
         new ResizeObserver(() => this.layOut()).observe(this.row);
         this.layOut();
+        addEventListener("beforeprint", () => { this.layOut(); this.scene.draw(); });
+        addEventListener("afterprint", () => this.layOut());
         view.onCursor(() => view.cursor !== null && this.setTime(view.cursor));
         this.showScales();
     }
@@ -105,6 +109,7 @@ export class SkinMaps {
     private setTime(t: number) {
         if (t === this.time) return;
         this.time = t;
+        this.when.textContent = `t = ${fixedText(t, 1e-4)}`;
         this.scene.forceChanged();
         this.showMark();
     }
@@ -139,13 +144,13 @@ export class SkinMaps {
 
     /// All maps are as large as the width allows; on a phone, one is swiped to the next.
     layOut() {
-        const width = this.row.clientWidth, count = this.maps.length, {aspect} = this.scene;
+        const width = this.row.clientWidth, count = this.maps.length, {aspect} = this.scene, isSwiped = isNarrow() && width < 520;
         if (!width) return;
-        const tallest = isNarrow() ? 0.56 * innerHeight : Math.max(260, Math.min(720, 0.6 * innerHeight));
-        let columns = isNarrow() ? 1 : count;
+        const tallest = isSwiped ? 0.56 * innerHeight : Math.max(260, Math.min(720, 0.6 * innerHeight));
+        let columns = isSwiped ? 1 : count;
         const widthOf = (n: number) => (width - GAP * (n - 1)) / n;
         while (columns > 1 && widthOf(columns) < Math.min(220, 0.9 * tallest * aspect)) columns = Math.ceil(columns / 2);
-        const mapWidth = isNarrow() && count > 1 ? 0.88 * width : widthOf(columns);
+        const mapWidth = isSwiped && count > 1 ? 0.88 * width : widthOf(columns);
         this.scene.resize(mapWidth, Math.min(tallest, Math.max(90, mapWidth / aspect)));
     }
 
@@ -157,15 +162,4 @@ export class SkinMaps {
         });
         return csvText(["afferent", "x_m", "y_m", "level", "spikes"], rows);
     }
-}
-
-/// The regions to which the maps can be zoomed.
-function regionsOf(skin: SkinRecording, all: Box): [string, Box][] {
-    const {geometry, force, siteRegion, data} = skin, touched = new Uint8Array(geometry.sites.length / 2);
-    force.place.forEach((p) => touched.fill(1, p * data.over.sites_per_mark, (p + 1) * data.over.sites_per_mark));
-    const grow = (box: Box): Box => grown(joined(box, emptyBox()), Math.max(2 * geometry.side, 0.15 * Math.max(box[2] - box[0], box[3] - box[1])));
-    const regions: [string, Box][] = [["complete skin", all]];
-    if (touched.includes(1) && touched.includes(0)) regions.push(["touched area", grow(boxOf(geometry.sites, (s) => touched[s] > 0))]);
-    if (data.regions.length > 1) data.regions.forEach((name, r) => regions.push([name, grow(boxOf(geometry.sites, (s) => siteRegion[s] === r))]));
-    return regions.filter(([, box]) => box.every(Number.isFinite));
 }

@@ -14,6 +14,7 @@ import {showClasses, showFirstTable, showParameters, showRates} from "./skin-tab
 
 export function showSkinPage(data: SkinPageData) {
     const main = startPage(data), skin = new SkinRecording(data), view = new View();
+    document.body.classList.add("skin");
     view.setLimits({begin: skin.clock.t0, end: skin.end, smallest: 4 * skin.clock.T});
     view.point(skin.clock.t0);
     const player = new Player(view, skin.marks.width), link = () => setLink(linkOf());

@@ -6,14 +6,19 @@ import {linkValues, setLink} from "../base/link";
 import {expose, forgetRemoved} from "../base/panels";
 import type {PlotData, StudyData, StudyRecord} from "../data/study";
 import {plotPanel, thumbnail} from "../panels/plots";
-import {section, startPage} from "../shell";
+import {section, showVersions, startPage} from "../shell";
 import {ClaimRow, claimTable, deviationPlot, isDeviating, kindTable, matches, verdictCounts} from "./study-claims";
 
 interface Filter { search: string; isDeviatingOnly: boolean; kind: string }
 
-export function showStudyPage(data: StudyData): void {
+export function showStudyPage(data: StudyData) {
     const main = startPage(data);
-    if (data.studies.length === 1) return void openStudy(section(main, data.studies[0].name, ""), data.studies[0]);
+    if (data.studies.length === 1) openStudy(section(main, data.studies[0].name, ""), data.studies[0]);
+    else showStudies(main, data);
+    if (data.versions) showVersions(main, data.versions);
+}
+
+function showStudies(main: Element, data: StudyData) {
     const claims: ClaimRow[] = data.studies.flatMap(({name, claims: own}) => own.map((claim) => ({study: name, claim})));
     main.append(h("p", {class: "headline"}, verdictCounts(claims.map(({claim}) => claim)), h("span", {}, data.headline)));
     const filter: Filter = {search: "", isDeviatingOnly: false, kind: ""}, gallery = new Gallery(data.studies, filter);

@@ -32,8 +32,12 @@ export class Sweep {
     measureAxis(k: number): Axis { return axisOfMeasure(this.measures[k]); }
     levelText(axis: number, value: number) { return textOn(this.summary.axes[axis], value); }
 
-    /// The values of an axis in the rows of the page, ascending.
-    levels(axis: number): number[] { return [...new Set(Array.from(this.axisValues[axis]).filter((v) => !Number.isNaN(v)))].sort((a, b) => a - b); }
+    /// The values of an axis, ascending: those of a grid, else those in the rows of the page.
+    levels(axis: number): number[] {
+        const effect = this.data.grids?.flatMap(({effects}) => effects).find((one) => one.axis === axis);
+        const values = Array.from(effect ? numbersOf(effect.values) : this.axisValues[axis]);
+        return [...new Set(values.filter((v) => !Number.isNaN(v)))].sort((a, b) => a - b);
+    }
 
     /// The values of all axes in a row: "press.F_max 2 N, sa1.f_B 20 Hz".
     pointText(row: number) { return this.summary.axes.map(({name}, a) => `${name} ${this.levelText(a, this.axisValues[a][this.at(row)])}`).join(", "); }

@@ -2,7 +2,7 @@
 
 import {Child, h} from "../base/dom";
 import {label} from "../base/label";
-import {Cell, unitText} from "../base/text";
+import {Cell, plainNumber, unitText} from "../base/text";
 import type {MeasureSummary, PointSummary} from "../data/sweep";
 import {textOn} from "../panels/axis";
 import {Estimate, fractionBar} from "../panels/bars";
@@ -98,7 +98,7 @@ export function showInfluences(host: Element, sweep: Sweep) {
 /// Items with their axis values and measures; a measure beyond its limits is marked. `hasReason`: tell why an item failed.
 export function itemTable(name: string, sweep: Sweep, rows: number[], hasReason = false): HTMLElement {
     const {axes} = sweep.summary, {data, measures} = sweep, isOff = (k: number, value: number | null) => "at_least" in measures[k] && (value === null || limitsOf(measures[k]).length > 0 && !isWithin(measures[k], value));
-    const known = (value: number): Cell => (Number.isNaN(value) ? null : value);
+    const known = (value: number): Cell => (Number.isNaN(value) ? null : plainNumber(value));
     const reason = (row: number) => {
         const k = sweep.at(row);
         return data.rows.end[k] ? data.reasons[data.rows.item[k]] || ["", "too many steps or iterations", "did not converge"][data.rows.end[k]] : "limits";

@@ -4,8 +4,9 @@
 import {chooser, fill, h} from "../base/dom";
 import {linkValues, setLink} from "../base/link";
 import {forgetRemoved} from "../base/panels";
+import {plainNumber} from "../base/text";
 import type {SweepData} from "../data/sweep";
-import {section, startPage} from "../shell";
+import {section, showVersions, startPage} from "../shell";
 import {Sweep} from "./sweep-data";
 import {GridChoice, axisChoosers, showEffects, showGridFigures, showGridMeasures, showMainEffects, variedAxes} from "./sweep-grid";
 import {Choice, showEnvelope, showFactor, showHistogram, showNormalPlot, showRaster} from "./sweep-random";
@@ -27,6 +28,7 @@ export function showSweepPage(data: SweepData) {
     showPoints(main, sweep);
     figures.showExtremes(main);
     showFailed(main, sweep);
+    if (data.versions) showVersions(main, data.versions);
     figures.draw();
 }
 
@@ -71,14 +73,14 @@ class Figures {
         const names = sweep.summary.axes.map(({name}) => name), [x, y] = [index(names, values?.get("across")), index(names, values?.get("up"))];
         if (x >= 0 && y >= 0 && x !== y) [grid.x, grid.y] = [x, y];
         (values?.get("at") || "").split(",").forEach((text, a) => {
-            if (a < names.length && text !== "" && sweep.levels(a).includes(Number(text))) grid.fixed[a] = Number(text);
+            if (a < names.length && text !== "") grid.fixed[a] = sweep.levels(a).find((level) => plainNumber(level) === Number(text)) ?? null;
         });
     }
 
     private store() {
         const {sweep, choice, grid} = this, {axes} = sweep.summary;
         setLink({measure: choice.measure ? sweep.measures[choice.measure].name : null, colour: choice.grouping ? sweep.data.groupings[choice.grouping].name : null,
-                 ...(sweep.isGrid && axes.length > 1 ? {across: axes[grid.x].name, up: axes[grid.y].name, at: grid.fixed.some((v) => v !== null) ? grid.fixed.map((v) => v ?? "").join(",") : null} : {})});
+                 ...(sweep.isGrid && axes.length > 1 ? {across: axes[grid.x].name, up: axes[grid.y].name, at: grid.fixed.some((v) => v !== null) ? grid.fixed.map((v) => (v === null ? "" : plainNumber(v))).join(",") : null} : {})});
     }
 
     draw() {
@@ -87,7 +89,7 @@ class Figures {
         const redraw = () => { this.draw(); this.store(); };
         const columns = h("div", {class: sweep.isGrid ? "columns thirds" : "columns"});
         panels.append(columns);
-        if (sweep.isGrid) {
+        if (sweep.isGrid && sweep.measures.length) {
             axisChoosers(this.axes, sweep, choice.measure, grid, redraw);
             showGridFigures(columns, sweep, choice.measure, grid);
             const effects = h("div", {class: "columns thirds"});

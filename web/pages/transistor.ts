@@ -6,7 +6,7 @@ import {expose} from "../base/panels";
 import type {TransistorData} from "../data/study";
 import {plotPanel} from "../panels/plots";
 import {table} from "../panels/table";
-import {section, startPage} from "../shell";
+import {section, showVersions, startPage} from "../shell";
 
 export function showTransistorPage(data: TransistorData) {
     const main = startPage({...data, notes: data.fit.notes}), {parameters} = data.fit;
@@ -18,4 +18,5 @@ export function showTransistorPage(data: TransistorData) {
     const figures = h("div", {class: "columns"});
     section(main, "curves", "Curves and differences").append(figures);
     expose(...data.plots.map((plot, k) => plotPanel(figures, plot, `${k + 1} `)));
+    if (data.versions) showVersions(main, data.versions);
 }

@@ -3,7 +3,7 @@
 import {resolved} from "../base/colours";
 import {Child} from "../base/dom";
 import {label, writeLabel} from "../base/label";
-import {Ticks, roundTicks} from "../base/text";
+import {Ticks, plainNumber, roundTicks} from "../base/text";
 import {Area, Panel, PanelOptions, csvText} from "../plot/panel";
 import type {Pen} from "../plot/pen";
 import {connectKeys} from "../plot/pointer";
@@ -106,8 +106,8 @@ export class HeatMap extends Panel {
     showCursor() { super.showCursor(null); }
 
     csv() {
-        const {xAxis, yAxis, quantity, xs, ys, values} = this.data, cell = (axis: Axis, v: number) => (axis.words ? axis.words[v] : v);
-        return csvText([titleOf(xAxis, 0), titleOf(yAxis, 0), titleOf(quantity, 0)], xs.flatMap((x, i) => ys.map((y, j) => [cell(xAxis, x), cell(yAxis, y), values[i][j]])));
+        const {xAxis, yAxis, quantity, xs, ys, values} = this.data, cell = (axis: Axis, v: number) => (axis.words ? axis.words[v] : plainNumber(v));
+        return csvText([titleOf(xAxis, 0), titleOf(yAxis, 0), titleOf(quantity, 0)], xs.flatMap((x, i) => ys.map((y, j) => [cell(xAxis, x), cell(yAxis, y), values[i][j] === null ? null : plainNumber(values[i][j]!)])));
     }
 }
 

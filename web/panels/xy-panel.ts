@@ -4,11 +4,12 @@ import {resolved} from "../base/colours";
 import {h} from "../base/dom";
 import {label, writeLabel} from "../base/label";
 import {Ticks} from "../base/text";
-import {Area, Panel, PanelOptions, csvText} from "../plot/panel";
+import {Area, Panel, PanelOptions, Series} from "../plot/panel";
 import type {Pen} from "../plot/pen";
 import {connectKeys} from "../plot/pointer";
 import {View} from "../plot/view";
 import {Axis, axisPower, positionOn, spanOn, textOn, ticksOf, titleOf, valueOn} from "./axis";
+import {binAt, curvesCsv, nameOf, nearestIndex, placedCurves} from "./curve-values";
 import {Curve, Plane, extentsOf, paintCurve} from "./curves";
 import {withMargins} from "./time-panel";
 
@@ -39,15 +40,9 @@ export class XyPanel extends Panel {
         super({...options, title: [...label(title), note ? h("small", {}, " ", note) : null], series: curves.filter(({name}) => name !== ""), isBottom: true});
         [this.curves, this.xAxis, this.yAxis, this.levels, this.given] = [curves, xAxis, yAxis, levels, range];
         this.isRaster = curves.length > 0 && curves.every(({style}) => style === "raster");
-        this.placed = curves.map((curve, k) => this.placedCurve(curve, k));
+        this.placed = placedCurves(curves, xAxis, yAxis, this.isRaster);
         this.titleSpace = {top: this.yAxis.name && !this.isRaster ? 17 : 0, bottom: xAxis.name ? 16 : 0};
         this.startView();
-    }
-
-    private placedCurve(curve: Curve, k: number): Curve {
-        const place = (axis: Axis, values: ArrayLike<number>) => Float64Array.from(values, (v) => positionOn(axis, v));
-        const y = this.isRaster ? new Float64Array(curve.x.length).fill(this.curves.length - k - 0.5) : place(this.yAxis, curve.y);
-        return {...curve, x: place(this.xAxis, curve.x), y, bands: curve.bands?.map(({low, high}) => ({low: place(this.yAxis, low), high: place(this.yAxis, high)}))};
     }
 
     private startView() {
@@ -61,13 +56,7 @@ export class XyPanel extends Panel {
 
     private get shownCurves() { return this.placed.filter((curve) => this.isVisible(curve)); }
 
-    protected isVisible(one: {name: string}) { return !this.hidden.has(one.name || this.partner(one as Curve)); }
-
-    /// A curve without a name belongs to the one before it.
-    private partner(curve: Curve): string {
-        const k = this.placed.indexOf(curve);
-        return this.placed.slice(0, k).reverse().find(({name}) => name)?.name || "";
-    }
+    protected isVisible(one: Series) { return !this.hidden.has(nameOf(this.placed, one as Curve)); }
 
     protected range(): [number, number] {
         if (this.isRaster) return [0, this.curves.length];
@@ -145,30 +134,13 @@ export class XyPanel extends Panel {
             }
         }
         if (!best) return null;
-        const {curve, k} = best, own = this.curves[this.placed.indexOf(curve)], name = own.name || this.partner(curve);
+        const {curve, k} = best, own = this.curves[this.placed.indexOf(curve)], name = nameOf(this.placed, curve);
         const at = `${this.xAxis.name} ${textOn(this.xAxis, own.x[k])}`, text = this.isRaster ? at : `${at}, ${this.yAxis.name || "y"} ${textOn(this.yAxis, own.y[k])}`;
         return {x: this.x(curve.x[k]), y: this.y(curve.y[k]), text: name ? `${name}: ${text}` : text};
     }
 
-    csv() {
-        const {a, b} = this.view, hasBands = this.curves.some(({bands}) => bands);
-        const rows = this.curves.flatMap((curve, c) => Array.from(curve.x, (x, k) => ({x, k, at: this.placed[c].x[k]})).filter(({at}) => at >= a && at <= b)
-            .map(({x, k}) => [curve.name || this.partner(this.placed[c]), x, known(curve.y[k]), ...(hasBands ? (curve.bands || []).flatMap(({low, high}) => [known(low[k]), known(high[k])]) : [])]));
-        const bandNames = hasBands ? (this.curves.find(({bands}) => bands)!.bands!).flatMap((_, k) => [`low ${k + 1}`, `high ${k + 1}`]) : [];
-        return csvText(["series", titleOf({...this.xAxis, isLog: false}, 0), titleOf({...this.yAxis, isLog: false}, 0) || "y", ...bandNames], rows);
-    }
+    csv() { return curvesCsv(this.curves, this.placed, this.xAxis, this.yAxis, this.view.a, this.view.b); }
 
     /// The value of x at a pixel, on a logarithmic axis too.
     xAt(pixel: number) { return valueOn(this.xAxis, this.valueAt(pixel)); }
-}
-
-const known = (value: number | undefined) => (value === undefined || Number.isNaN(value) ? null : value);
-
-/// The index of the bin that holds x, from the edges of the bins.
-const binAt = (edges: ArrayLike<number>, x: number) => Array.from(edges).findIndex((edge, k) => edge <= x && x < edges[k + 1]);
-
-function nearestIndex(xs: ArrayLike<number>, at: number): number {
-    let best = -1;
-    for (let k = 0; k < xs.length; ++k) if (best < 0 || Math.abs(xs[k] - at) < Math.abs(xs[best] - at)) best = k;
-    return best;
 }

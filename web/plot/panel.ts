@@ -1,7 +1,7 @@
 // A panel is one plot with a heading, which is also the legend and shows the values at the cursor.
 
 import {resolved} from "../base/colours";
-import {Child, append, h, isNarrow, isWide} from "../base/dom";
+import {Child, append, h, isNarrow, isWide, pixelRatio} from "../base/dom";
 import {Ticks, fixedText, roundTicks} from "../base/text";
 import {Pen, SvgPen} from "./pen";
 import {connectPointer} from "./pointer";
@@ -141,8 +141,7 @@ export abstract class Panel {
 
     /// Draws the panel with these margins, which are the same for all panels of a view.
     draw(left: number, right: number) {
-        const width = this.plot.clientWidth, height = this.fullHeight;
-        const ratio = document.documentElement.classList.contains("printing") ? 3 : devicePixelRatio || 1;
+        const width = this.plot.clientWidth, height = this.fullHeight, ratio = pixelRatio();
         this.root.style.setProperty("--left", `${left}px`);
         this.area = {x: left, y: 4 + this.titleSpace.top, w: Math.max(1, width - left - right), h: this.height - 4};
         if (this.canvas.width !== Math.round(width * ratio) || this.canvas.height !== Math.round(height * ratio)) {

@@ -1,7 +1,7 @@
 // The decoded data of the page of a skin: its shape, the force on it, the spikes of its afferents.
 
 import {decoded, firstAt} from "../base/arrays";
-import {seriesColour} from "../base/colours";
+import {classColour, seriesColour} from "../base/colours";
 import type {SkinPageData} from "../data/skin";
 import type {Clock, Phase} from "../panels/signals";
 import {Frames, SpikeBins, Train, trainsOf} from "./frames";
@@ -39,7 +39,8 @@ export class SkinRecording {
         [this.marks, this.force, this.perClass] = [new Frames(over.marks), new Frames(over.sites), new Frames(over.classes)];
         this.totals = this.marks.totals();
         const active = new Map(summary.rates.filter(({region, phase}) => region === "all" && phase === "all").map((row) => [row.afferent, row.active]));
-        this.classes = data.classes.map(({name, first, afferents}, k) => ({name, colour: seriesColour(k), afferents, firstAfferent: first, active: active.get(name) || 0,
+        const colours = coloursOf(data.classes.map(({name}) => name));
+        this.classes = data.classes.map(({name, first, afferents}, k) => ({name, colour: colours[k], afferents, firstAfferent: first, active: active.get(name) || 0,
                                                                           first: firstAt(this.begin, first), end: firstAt(this.begin, first + afferents)}));
         const places = decoded<Float32Array>(sites.places);
         this.geometry = {outline: sites.outline.skin.map((one) => decoded<Float32Array>(one)), borders: sites.outline.regions.map((one) => decoded<Float32Array>(one)),
@@ -115,4 +116,10 @@ export class SkinRecording {
             return most || 1;
         });
     }
+}
+
+/// The colours of classes: those of all pages if each is of another class of afferents, else the first ones.
+function coloursOf(names: string[]): string[] {
+    const known = names.map((name) => (/^[sf]a[12](?![a-z0-9])/.exec(name) || [""])[0]), isDistinct = !known.includes("") && new Set(known).size === names.length;
+    return names.map((_, k) => (isDistinct ? classColour(known[k]) : seriesColour(k)));
 }

@@ -1,6 +1,7 @@
 // The part of the skin that all maps show, and the chosen mark.
 
-import {h} from "../base/dom";
+import {onThemeChange} from "../base/colours";
+import {h, pixelRatio} from "../base/dom";
 import {Box, SkinGeometry, boxOf, grown, joined} from "./geometry";
 import {Levels, Surface} from "./surface";
 import type {SkinMap} from "./skin-map";
@@ -27,6 +28,7 @@ export class SkinScene {
         const contents = [boxOf(geometry.marks), ...geometry.outline.map((one) => boxOf(one))].reduce(joined, grown(sites, geometry.side / 2));
         this.all = this.box = grown(contents, 0.03 * Math.max(contents[2] - contents[0], contents[3] - contents[1]));
         this.surface = new Surface(this, force);
+        onThemeChange(() => this.renew());
     }
 
     /// The radius of an active mark, pixels: equal on all maps.
@@ -53,6 +55,13 @@ export class SkinScene {
     x(metres: number) { return this.width / 2 + (metres - this.cx) * this.scale; }
     y(metres: number) { return this.height / 2 - (metres - this.cy) * this.scale; }
 
+    /// The point of the skin, in m, at pixels of a map.
+    placeAt(x: number, y: number): [number, number] { return [this.cx + (x - this.width / 2) / this.scale, this.cy - (y - this.height / 2) / this.scale]; }
+
+    /// The coordinates (m) of a point of the map.
+    metresX(x: number) { return this.cx + (x - this.width / 2) / this.scale; }
+    metresY(y: number) { return this.cy - (y - this.height / 2) / this.scale; }
+
     show(box: Box) {
         this.box = box;
         this.renew();
@@ -60,7 +69,7 @@ export class SkinScene {
 
     /// Multiplies the visible length by `factor`; the point (x, y) of a map keeps its place. Shows the complete skin rather than much more than it.
     zoom(factor: number, x = this.width / 2, y = this.height / 2) {
-        const px = this.cx + (x - this.width / 2) / this.scale, py = this.cy - (y - this.height / 2) / this.scale;
+        const [px, py] = this.placeAt(x, y);
         const w = this.width / this.scale * factor, height = this.height / this.scale * factor;
         const cx = px - (px - this.cx) * factor, cy = py - (py - this.cy) * factor, [x0, y0, x1, y1] = this.all;
         if (w > 1.2 * (x1 - x0) && height > 1.2 * (y1 - y0)) this.show(this.all);
@@ -96,7 +105,7 @@ export class SkinScene {
 
     /// A canvas as large as a map, and its pen.
     layer(): [HTMLCanvasElement, CanvasRenderingContext2D] {
-        const ratio = devicePixelRatio || 1, canvas = h("canvas", {width: Math.round(this.width * ratio), height: Math.round(this.height * ratio)}), pen = canvas.getContext("2d")!;
+        const ratio = pixelRatio(), canvas = h("canvas", {width: Math.round(this.width * ratio), height: Math.round(this.height * ratio)}), pen = canvas.getContext("2d")!;
         pen.scale(ratio, ratio);
         return [canvas, pen];
     }

@@ -5,13 +5,18 @@
 //     new SkinMap(scene, {host, name: "sa1", about: "activity of sa1", classes: [0], activity: (draw) => { for (const [mark, level] of active) draw(mark, level); }});
 //     scene.resize(width, height);  // pixels of each map
 //     scene.forceChanged();         // when force has changed; scene.request() when only activity has
+//
+// A page that presses the skin with the pointer sets hasPointer to false and asks scene.placeAt(x, y) for the point of the skin. A map may have
+// several classes. Its style sheet is skin-map.css.
 
 import {mixed, resolved} from "../base/colours";
-import {Child, h} from "../base/dom";
+import {Child, h, pixelRatio} from "../base/dom";
 import {Pen, SvgPen} from "../plot/pen";
 import {saveMenu} from "../plot/save-menu";
+import {DotLayer} from "./dot-layer";
 import {Places, fanned, spacing} from "./geometry";
 import {connectMapPointer} from "./map-pointer";
+import {circle, disc, fadingRing} from "./marks";
 import type {SkinScene} from "./scene";
 import {DotStamps} from "./stamps";
 import type {Levels} from "./surface";
@@ -29,8 +34,10 @@ export interface SkinMapOptions {
     hasRings?: boolean;                   ///< a ring grows around a mark of a sparse class while its level falls
     describe?: (mark: number) => string;  ///< of the mark under the pointer
     pick?: (mark: number | null) => void; ///< called when the pointer moves to another mark, or to none
+    hasPointer?: boolean;                 ///< true unless given: pointer and keys pan and zoom, and name marks
     csv?: (map: SkinMap) => string;
     drawn?: (map: SkinMap) => void;       ///< called after each drawing
+    connect?: (map: SkinMap) => void;     ///< connects the pointer; by default it zooms, pans and picks marks
 }
 
 export class SkinMap {
@@ -42,6 +49,7 @@ export class SkinMap {
     readonly tip = h("div", {class: "tip", role: "status"});
     active = 0;             // number of marks that the last drawing showed as active
     private idle: HTMLCanvasElement | null = null;
+    private dots: DotLayer | null = null;
     private stamps: DotStamps[] = [];
     private places: Places;
     private distance: number;  // between neighbours, m
@@ -58,14 +66,14 @@ export class SkinMap {
         options.host.append(this.root);
         scene.maps.push(this);
         scene.distance = Math.min(scene.distance, this.distance);
-        connectMapPointer(this);
+        if (options.hasPointer !== false) connectMapPointer(this);
     }
 
     get classes() { return this.options.classes.map((c) => this.scene.geometry.classes[c]); }
 
     /// Discards what depends on size, box and theme.
     renew() {
-        this.idle = null;
+        this.idle = this.dots = null;
         this.stamps = [];
     }
 
@@ -76,7 +84,7 @@ export class SkinMap {
     }
 
     draw() {
-        const {scene, canvas} = this, ratio = devicePixelRatio || 1, width = Math.round(scene.width * ratio), height = Math.round(scene.height * ratio), pen = canvas.getContext("2d")!;
+        const {scene, canvas} = this, ratio = pixelRatio(), width = Math.round(scene.width * ratio), height = Math.round(scene.height * ratio), pen = canvas.getContext("2d")!;
         if (canvas.width !== width || canvas.height !== height) {
             [canvas.width, canvas.height] = [width, height];
             [canvas.style.width, canvas.style.height, this.root.style.width] = [`${scene.width}px`, `${scene.height}px`, `${scene.width}px`];
@@ -86,7 +94,10 @@ export class SkinMap {
         pen.drawImage(scene.surface.groundLayer(), 0, 0, scene.width, scene.height);
         if (this.options.hasForce !== false) scene.surface.paintForce(pen);
         pen.drawImage(this.idleLayer(), 0, 0, scene.width, scene.height);
-        this.paintActive(pen, (stamps, level, x, y) => stamps.draw(pen, level, x, y));
+        this.dots = this.dots || new DotLayer(width, height);
+        this.dots.clear();
+        this.paintActive(pen, (stamps, level, x, y) => this.dots!.add(stamps.imageOf(level), x * ratio, y * ratio));
+        this.dots.draw(pen, ratio);
         this.paintRing(pen);
         if (this.options.drawn) this.options.drawn(this);
     }
@@ -116,7 +127,7 @@ export class SkinMap {
             ++this.active;
             const [x, y] = this.place(mark), k = classes.findIndex(({end}) => mark < end);
             if (x < -20 || y < -20 || x > scene.width + 20 || y > scene.height + 20) return;
-            if (hasRings) paintWave(pen, x, y, scene.dotRadius + (1 - level) * Math.min(0.8 * room, 26), level, classes[k].colour);
+            if (hasRings) fadingRing(pen, x, y, scene.dotRadius + (1 - level) * Math.min(0.8 * room, 26), level, classes[k].colour);
             draw(this.stamps[k], level, x, y);
         });
     }
@@ -154,25 +165,4 @@ export class SkinMap {
         });
         return pen.text(width, height, this.options.about);
     }
-}
-
-function disc(pen: Pen, x: number, y: number, r: number) {
-    if (r < 1.2) return pen.fillRect(x - r, y - r, 2 * r, 2 * r);
-    pen.beginPath();
-    pen.arc(x, y, r, 0, 2 * Math.PI);
-    pen.fill();
-}
-
-function circle(pen: Pen, x: number, y: number, r: number) {
-    pen.beginPath();
-    pen.arc(x, y, r, 0, 2 * Math.PI);
-    pen.stroke();
-}
-
-function paintWave(pen: Pen, x: number, y: number, r: number, level: number, colour: string) {
-    pen.strokeStyle = resolved(colour);
-    pen.lineWidth = 1.5;
-    pen.globalAlpha = Math.max(0, Math.min(1, level));
-    circle(pen, x, y, r);
-    pen.globalAlpha = 1;
 }

@@ -42,7 +42,7 @@ public:
     }
 };
 
-/// The frames of a map as compact base64 text for skin-data.js. `T`: sampling period, s. `level`: converts the value of a place in frame k
+/// The frames of a map as compact base64 text for web/skin/frames.ts. `T`: sampling period, s. `level`: converts the value of a place in frame k
 /// to its level. `properties`: further members of the document.
 template <class V, class Level>
 Json frames_document(const BinnedFrames<V>& sums, double T, const Json& properties, Level level) {

@@ -157,7 +157,7 @@ Json sizes_document(const SweepSummary& s) {
 Result<std::string> sweep_page(const SweepResults& results, const SweepTable& table, const SweepSummary& summary, const std::string& title,
                                const std::string& command) {
     const auto groupings = groupings_of(table);
-    Json page = {{"summary", document_of(table, summary, title)}};
+    Json page = {{"summary", document_of(table, summary, title)}, {"versions", versions_document()}};
     page["groupings"] = Json::array();
     for (const auto& g : groupings) {
         Json labels = Json::array();

@@ -89,7 +89,7 @@ void add_plots(Json& plots, const TransistorFit& fit, const IvData& data, std::s
 
 std::string transistor_page(const TransistorFit& fit, const IvData& data, const std::string& command) {
     const auto& m = fit.misfit;
-    Json page = {{"fit", document_of(fit, data)}, {"plots", Json::array()}};
+    Json page = {{"fit", document_of(fit, data)}, {"plots", Json::array()}, {"versions", versions_document()}};
     page["misfit"] = fmt::format("I_D: rms difference {}, largest {}, in {} points; scatter between neighbouring points {}.",
                                  percent_text(m.rms), percent_text(m.largest), m.points, percent_text(m.scatter));
     for (std::size_t k = 0; k < fit.values.size(); ++k) {

@@ -6,6 +6,7 @@ import re
 import socket
 import struct
 import subprocess
+import threading
 import time
 
 BINARY, CLOSE, PING, PONG = 2, 8, 9, 10
@@ -114,39 +115,56 @@ def http_status(address, port, target="/", host=None, headers=""):
 
 
 class Server:
-    """corpuscle stream with a page server, until stop()."""
+    """corpuscle stream with a page server. `out` and `messages`: its standard output and standard error so far."""
 
-    def __init__(self, program, options, prefix=(), stdin=subprocess.DEVNULL):
-        self.process = subprocess.Popen([*prefix, program, "stream", *options], stdin=stdin, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
-        self.messages = ""
-        self.urls = [self.wait_for(r"open (http://\S+)")]
+    def __init__(self, program, options, stdin=subprocess.DEVNULL):
+        self.process = subprocess.Popen([program, "stream", *options], stdin=stdin, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
+        self.out = self.messages = ""
+        self.readers = [threading.Thread(target=self._read, args=names, daemon=True) for names in (("out", self.process.stdout), ("messages", self.process.stderr))]
+        for reader in self.readers:
+            reader.start()
+        self.url = self.wait_for(r"open (http://\S+)\n")
+
+    def _read(self, name, pipe):
+        for line in pipe:
+            setattr(self, name, getattr(self, name) + line)
 
     def wait_for(self, pattern):
-        """Reads standard error until it has the pattern; returns its first group."""
-        while not (found := re.search(pattern, self.messages)):
-            line = self.process.stderr.readline()
-            if not line:
-                raise RuntimeError(f"the program has ended: {self.messages}")
-            self.messages += line
-        return found[1]
+        """Waits until standard error has the pattern; returns its first group."""
+        for _ in range(3000):
+            is_ended = self.process.poll() is not None
+            if found := re.search(pattern, self.messages):
+                return found[1]
+            if is_ended:
+                break
+            time.sleep(0.01)
+        self.process.kill()
+        raise RuntimeError(f"no message {pattern!r}: {self.messages}")
 
     @property
     def port(self):
-        return int(re.search(r":(\d+)/", self.urls[0])[1])
+        return int(re.search(r":(\d+)/", self.url)[1])
 
     def memory(self):
         """Resident memory, bytes."""
         with open(f"/proc/{self.process.pid}/status", encoding="ascii") as status:
             return 1024 * int(re.search(r"VmRSS:\s*(\d+)", status.read())[1])
 
-    def stop(self):
-        """Ends it as Ctrl-C does. Returns the exit status, standard output and standard error."""
-        started = time.monotonic()
-        self.process.send_signal(2)
+    def wait(self, seconds=30):
+        """Waits for its end. Returns the exit status."""
         try:
-            out, err = self.process.communicate(timeout=20)
+            status = self.process.wait(seconds)
         except subprocess.TimeoutExpired:
             self.process.kill()
             raise
+        for reader in self.readers:
+            reader.join()
+        return status
+
+    def stop(self):
+        """Ends it as Ctrl-C does. Returns the exit status."""
+        started = time.monotonic()
+        self.process.send_signal(2)
+        status = self.wait()
         self.seconds_to_end = time.monotonic() - started
-        return self.process.returncode, out, self.messages + err
+        return status

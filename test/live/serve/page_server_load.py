@@ -6,7 +6,6 @@ stays, and that its memory stays. It prints both delays and the memory."""
 import json
 import os
 import random
-import re
 import selectors
 import socket
 import subprocess
@@ -169,13 +168,13 @@ def run(program, seconds, with_pages):
         if with_pages:
             counts = run_pages(server, seconds, memory)
         sender.wait(seconds + 60)
-        out, err = server.process.communicate(timeout=60)
+        status = server.wait(60)
     finally:
         for process in (sender, server.process):
             if process.poll() is None:
                 process.kill()
-    assert server.process.returncode == 0, server.messages + err
-    summary = json.loads(out)
+    assert status == 0, server.messages
+    summary = json.loads(server.out)
     assert summary["frames"] == int((seconds + 2) * RATE), summary
     assert summary["events"]["dropped"] == 0, summary
     return summary, counts, memory

@@ -48,7 +48,6 @@ def check_sensor(program):
             if k % 20 == 0:
                 server.process.stdin.flush()
         server.process.stdin.close()
-        server.process.stdin = None
         seen, forces, times = [], [], []
         while True:
             opcode, message = page.next()
@@ -67,10 +66,9 @@ def check_sensor(program):
         opcode, close = page.next()
         assert opcode == CLOSE and struct.unpack(">H", close[:2])[0] == 1001, close
         page.close(), late.close()
-        out, err = server.process.communicate(timeout=20)
-        assert server.process.returncode == 0, err
-        assert out == "", "spikes go to the file only"
-        assert "2 pages connected, at most 2 at once" in server.messages + err, err
+        assert server.wait() == 0, server.messages
+        assert server.out == "", "spikes go to the file only"
+        assert "2 pages connected, at most 2 at once" in server.messages, server.messages
         with open(spikes, encoding="utf-8") as lines:
             written = [float(line.rsplit(",", 1)[1]) for line in lines if line[0] not in "#a" or line.split(",")[-1][0].isdigit()]
         assert len(written) == len(seen)
@@ -90,9 +88,8 @@ def check_recording_waits(program):
     while (message := page.message())["event"] != "end":
         spikes += sum(row["count"] for row in message["arrays"] if row["name"] == "unit" and message["event"] == "frames")
     page.close()
-    out, err = server.process.communicate(timeout=30)
-    summary = json.loads(out)
-    assert server.process.returncode == 0, err
+    assert server.wait() == 0, server.messages
+    summary = json.loads(server.out)
     assert summary["spikes"] == message["spikes"] == spikes > 0, (summary, message, spikes)
     assert summary["pages"]["connections"] == 1 and summary["events"]["to"] == "nowhere", summary
 
@@ -100,7 +97,7 @@ def check_recording_waits(program):
 def check_sessions(program):
     """Each page has a session of its own; a page too many is refused; Ctrl-C ends the server quickly."""
     server = Server(program, ["--in", "page", "--serve", "0", "--max-viewers", "2"])
-    assert server.urls[0].startswith("http://localhost:"), server.urls
+    assert server.url.startswith("http://localhost:"), server.url
     assert http_status("localhost", server.port) == 200
     pages = [Page("127.0.0.1", server.port) for _ in range(2)]
     for page in pages:
@@ -120,10 +117,9 @@ def check_sessions(program):
         time.sleep(0.05)
     else:
         raise AssertionError("the place of a page that has left is not given to another")
-    status, out, err = server.stop()
-    assert status == 130 and out == "", (status, out, err)
+    assert server.stop() == 130 and server.out == "", (server.out, server.messages)
     assert server.seconds_to_end < 5, server.seconds_to_end
-    assert "at most 2 at once" in err, err
+    assert "at most 2 at once" in server.messages, server.messages
 
 
 def check_errors(program):
@@ -132,10 +128,8 @@ def check_errors(program):
     assert status == 1 and f":{server.port}" in error and "give --serve another number, or 0" in error, error
     second = Server(program, ["--in", "page", "--serve", "0", "--quiet"])
     assert second.port != server.port and http_status("127.0.0.1", second.port) == 200
-    status, out, err = second.stop()
-    assert (status, out, err.count("\n")) == (130, "", len(second.urls)), "--quiet prints the address only"
-    status, out, err = server.stop()
-    assert status == 130 and json.loads(out)["pages"]["connections"] == 0, out
+    assert (second.stop(), second.out, second.messages.count("\n")) == (130, "", 1), "--quiet prints the address only"
+    assert server.stop() == 130 and json.loads(server.out)["pages"]["connections"] == 0, server.out
     for options, part in ((["--in", "page"], "add --serve 8080"), (["--rate", "1kHz", "--bind", "0.0.0.0"], "add --serve 8080"),
                           (["--rate", "1kHz", "--max-viewers", "3"], "add --serve 8080"),
                           (["--in", "page", "--serve", "0", "--rate", "1kHz"], "--rate cannot be used with --in page"),

@@ -57,13 +57,20 @@ class LayerFinder {
         }
         return count;
     }
+    /// True for a block that takes nothing in, such as a generator of bias currents.
+    bool only_drives(std::size_t p) const {
+        const auto& pins = part(p).pins;
+        return part(p).symbol == Symbol::block && std::all_of(pins.begin(), pins.end(), [&](const Pin& pin) {
+                   return pin.role == PinRole::drive || connection_of(drawing_.level, drawing_.styles, pin) != Connection::wire;
+               });
+    }
     /// Small for parts at which the signal begins.
     int rank_as_beginning(std::size_t p) const {
         if (part(p).symbol == Symbol::port) return part(p).pins[0].role == PinRole::drive ? 1 : 5;
         if (part(p).is_signal_source) return 0;
         const bool is_source = part(p).symbol == Symbol::voltage_source || part(p).symbol == Symbol::current_source;
         if (is_source && (is_rail(drawing_.level, part(p).pins[0]) || is_rail(drawing_.level, part(p).pins[1]))) return 2;
-        return 3;
+        return only_drives(p) ? 2 : 3;
     }
 
     void find_places() {

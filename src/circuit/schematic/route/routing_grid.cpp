@@ -22,10 +22,10 @@ RoutingGrid::RoutingGrid(const Box& extent, long step_limit)
 
 void RoutingGrid::block(const Box& box) {
     if (box.is_empty()) return;
-    constexpr int clearance = 2;
-    const int x0 = std::max(grid_ceil(box.left - clearance), corner_.x), y0 = std::max(grid_ceil(box.top - clearance), corner_.y);
-    for (int y = y0; y <= std::min(box.bottom + clearance, corner_.y + (height_ - 1) * grid_step); y += grid_step)
-        for (int x = x0; x <= std::min(box.right + clearance, corner_.x + (width_ - 1) * grid_step); x += grid_step)
+    constexpr int beside = 5, above = 2;  // free space around a box; a text has some above and below its letters
+    const int x0 = std::max(grid_ceil(box.left - beside), corner_.x), y0 = std::max(grid_ceil(box.top - above), corner_.y);
+    for (int y = y0; y <= std::min(box.bottom + above, corner_.y + (height_ - 1) * grid_step); y += grid_step)
+        for (int x = x0; x <= std::min(box.right + beside, corner_.x + (width_ - 1) * grid_step); x += grid_step)
             blocked_[vertex({x, y})] = 1;
 }
 
