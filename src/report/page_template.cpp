@@ -39,15 +39,14 @@ class DirectoryRemover {
     }
 
 public:
-    std::string text(const std::string& text) {
+    std::string without_directories(const std::string& text) {
         constexpr std::string_view before = " '\"(:=,[<", ends = " '\"),:;]>";
         std::string out;
         for (std::size_t at = 0; at < text.size();) {
-            const auto end = std::min(text.find_first_of(ends, at), text.size());
-            const bool begins = text[at] == '/' && (at == 0 || before.find(text[at - 1]) != before.npos);
-            const auto path = text.substr(at, end - at);
-            if (begins && path.find('/', 1) != path.npos && path.back() != '/')
-                out += name_of(path), at = end;
+            const bool may_begin = text[at] == '/' && text[at + 1] != '/' && (at == 0 || before.find(text[at - 1]) != before.npos);
+            const auto path = may_begin ? text.substr(at, text.find_first_of(ends, at) - at) : "";
+            if (path.find('/', 1) != path.npos && path.back() != '/')
+                out += name_of(path), at += path.size();
             else
                 out += text[at++];
         }
@@ -58,7 +57,7 @@ public:
     void apply(Json& document) {
         if (document.is_string()) {
             const auto& whole = document.get_ref<const std::string&>();
-            if (whole.find('/') != whole.npos) document = text(whole);
+            if (whole.find('/') != whole.npos) document = without_directories(whole);
         } else if (document.is_array()) {
             for (auto& value : document) apply(value);
         } else if (document.is_object()) {

@@ -166,8 +166,9 @@ TEST(PrintedText, NoPageNamesTheDirectoriesOfNetlistsPopulationsAndSweeps) {
     for (const auto& command :
          {"respond press -a sa1," + at + "own.cir --report page.html", "respond press --population " + at + "own.toml --report page.html",
           "sweep show " + at + "results.sqlite --report page.html"}) {
-        if (command.starts_with("sweep"))
+        if (command.starts_with("sweep")) {
             ASSERT_EQ(test::run_program(folder, "sweep " + at + "sweep.toml -o " + at + "results.sqlite -q").status, 0);
+        }
         ASSERT_EQ(test::run_program(folder, command + " --overwrite -q").status, 0) << command;
         const auto page = test::read_file(folder / "page.html");
         EXPECT_EQ(page.find("secret"), std::string::npos)

@@ -44,7 +44,7 @@ def check_sensor(program):
         late = Page("localhost", server.port, host=f"localhost:{server.port}", origin=f"http://localhost:{server.port}")
         assert late.message()["event"] == "stream"
         for k in range(500):
-            server.process.stdin.write(",".join("0.5" if k >= 100 and s in (3, 7) else "0" for s in range(16)) + "\n")
+            server.process.stdin.write(",".join("3" if k >= 100 and s in (3, 7) else "0" for s in range(16)) + "\n")
             if k % 20 == 0:
                 server.process.stdin.flush()
         server.process.stdin.close()
@@ -74,7 +74,7 @@ def check_sensor(program):
         assert len(written) == len(seen)
         assert all(abs(a - b[0]) < 1e-8 for a, b in zip(sorted(written), sorted(seen)))
         assert [abs(t - k / 1000) < 1e-12 for k, t in enumerate(times)] == 500 * [True]
-        assert forces == 100 * [[]] + 400 * [[(3, 0.5), (7, 0.5)]]
+        assert forces == 100 * [[]] + 400 * [[(3, 3.0), (7, 3.0)]]
 
 
 def check_recording_waits(program):
