@@ -19,10 +19,10 @@ build: setup-run
 	@cmake --preset release > /dev/null
 	@cmake --build --preset release --target corpuscle-cli
 
-# The engine of the live page, as WebAssembly.
-page: setup-run setup-page
-	@cmake --preset release -D CORPUSCLE_PAGE=ON > /dev/null
-	@cmake --build --preset release --target page-engine
+# The live page: a skin to press in a browser, with the engine as WebAssembly.
+page: setup-page
+	@web/build build/page
+	@echo "Open build/page/press.html in a browser."
 
 test: release asan
 	ctest --test-dir build/release --output-on-failure -j 3
@@ -87,6 +87,8 @@ pictures: release
 	$(draw) doc/pictures/eskin.png $(CORPUSCLE_DATA)/fbg_eskin_press/fbg_press_S6_T16.csv --rate 100Hz --scale 40 --layout $(CORPUSCLE_DATA)/fbg_eskin_press/sensor_positions.csv
 	$(draw) doc/pictures/fabric.png $(CORPUSCLE_DATA)/fabric_slide_cpm/Board10mm_F150_V-5mmps_0.csv --time-unit ms --channel 3-18 --scale 0.01
 	for cell in $(schematics); do /usr/bin/python3 doc/schematic_picture.py circuits/schematics/$$cell.sch doc/pictures/schematics/$$(basename $$cell).svg || exit 1; done
+	$(corpuscle) export sa1-circuit --for svg -o doc/pictures/schematics/drawn-sa1.svg
+	$(corpuscle) export sa1-circuit --for svg --block summer -o doc/pictures/schematics/drawn-summer.svg
 
 # The notebooks with their pictures, in out/notebooks. `make test` runs two of them.
 notebooks: release

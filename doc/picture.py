@@ -19,7 +19,8 @@ FLAGS = ("--headless=new --no-sandbox --disable-gpu --disable-quic --no-first-ru
 RESPONSE = """
     const sections = [...document.querySelectorAll('#figures > section')];
     const skin = document.querySelector('#maps') !== null;
-    for (const other of skin ? sections.slice(1, -1) : sections.slice(2)) other.remove();  // without currents and membranes
+    for (const other of skin ? sections.slice(1, -1) : document.querySelectorAll('#figures > details, #figures .hint, #first h2')) other.remove();  // without currents and membranes
+    document.querySelectorAll('.menu').forEach((menu) => menu.remove());
     document.querySelector('#figures').style.padding = '0 12px';
     // the maps and the figures below them, in one picture
     for (const other of document.querySelectorAll('main > *')) other.hidden = skin && !['maps', 'figures'].includes(other.id);

@@ -26,6 +26,9 @@ small-signal parameters (0.1 %), but without noise. Directives that ngspice does
 With --card the transistors are those of a foundry's kit, which is read from its own file: columns
 are multipliers, units in series a chain. See doc/kits.md.
 
+With --for svg a netlist becomes a schematic: its top level, or the block that --block names. See
+doc/schematics.md.
+
 An afferent becomes a script, a module or a NIR graph with its equations and all values; see
 doc/export.md.
 
@@ -36,6 +39,7 @@ Examples:
   corpuscle export invc.cir --for ngspice --card bsim3.lib --map bsim --nch nmos1 --pch pmos1 -o invc-kit.cir
   corpuscle export sa1-circuit --for ngspice --map sky130 --card sky130.lib.spice --set sa1-circuit.corner=ss -o sa1-ss.cir
   corpuscle export sa1 --for brian2 --set sa1.f_B=25Hz -o sa1.py && python3 sa1.py force.csv spikes.csv
+  corpuscle export sa1-circuit --for svg --block summer -o summer.svg
   corpuscle export sa1 --for nir -o sa1.nir                             for neuromorphic simulators and chips)";
 
 struct ExportArguments {
@@ -107,7 +111,8 @@ Verb make_export_verb() {
                                    "a SPICE netlist or a built-in one (sa1-circuit, fa1-circuit), or an afferent (sa1, sa1b+izhikevich)"})),
                           {"--for", &args->target, "SIMULATOR", target_description(), target_names()},
                           repeatable({"--set,-s", override_reader(args->request.settings, "--set"), "NAME.PARAMETER=VALUE",
-                                      "set a parameter of the subject, such as sa1.f_B=25Hz"})}},
+                                      "set a parameter of the subject, such as sa1.f_B=25Hz"}),
+                          {"--block", &args->request.block, "NAME", "draw this block of a netlist (with --for svg)"}}},
                         {"Kit (with --for ngspice)",
                          {{"--card", &args->request.kit.card, "FILE", "the kit's file: transistors are its devices instead of UICM"},
                           {"--map", &args->request.kit.map, "NAME|FILE", map_description()},

@@ -1,10 +1,9 @@
 #include "reproduction/page/study_page.hpp"
 
-#include <fmt/format.h>
 #include <algorithm>
-#include <cmath>
 #include <nlohmann/json.hpp>
 
+#include "report/envelope.hpp"
 #include "report/page_template.hpp"
 #include "reproduction/claims/study_document.hpp"
 #include "reproduction/claims/verdict_counts.hpp"
@@ -30,23 +29,22 @@ StudyPlot::Series thinned(const StudyPlot::Series& all) {
     return out;
 }
 
-/// Rounds the numbers of a JSON array to six digits, enough for a plot.
-Json rounded(Json values) {
-    for (auto& v : values)
-        if (v.is_number()) v = std::strtod(fmt::format("{:.6g}", v.get<double>()).c_str(), nullptr);
-    return values;
-}
+/// The numbers in single precision, which is enough for a plot.
+Json plot_numbers(const std::vector<double>& values) { return array_document(std::vector<float>(values.begin(), values.end())); }
 
 /// The document of a study, with reduced plots and with the formatted numbers of each claim.
 Json page_document(const Study& study, StudyResult outcome) {
     for (auto& p : outcome.plots)
         for (auto& s : p.series) s = thinned(s);
     auto document = document_of(study, outcome);
-    for (auto& p : document["plots"])
-        for (auto& s : p["series"]) s["x"] = rounded(s["x"]), s["y"] = rounded(s["y"]);
+    for (std::size_t p = 0; p < outcome.plots.size(); ++p)
+        for (std::size_t s = 0; s < outcome.plots[p].series.size(); ++s) {
+            const auto& series = outcome.plots[p].series[s];
+            auto& shown = document["plots"][p]["series"][s];
+            shown["x"] = plot_numbers(series.x), shown["y"] = plot_numbers(series.y);
+        }
     for (std::size_t k = 0; k < outcome.claims.size(); ++k) {
         const auto& c = outcome.claims[k];
-        document["claims"][k]["on_top"] = is_headline(c);
         document["claims"][k]["texts"] = {format_claim_value(c.computed, c), format_published(c), format_deviation(c),
                                           format_allowed_range(c)};
     }
@@ -59,8 +57,11 @@ std::string study_page(std::span<const Study* const> studies, std::span<const St
     Json all = Json::array();
     for (std::size_t k = 0; k < studies.size(); ++k) all.push_back(page_document(*studies[k], outcomes[k]));
     const std::string title = studies.size() == 1 ? std::string(studies[0]->title) : "Reproduction of all figures and tables";
-    return report_page("study.html", title, command,
-                       {{"headline", prediction_sentence(outcomes)}, {"kinds", document_of_kinds(outcomes)}, {"studies", all}});
+    return report_page("study", title, command,
+                       {{"headline", prediction_sentence(outcomes)},
+                        {"kinds", document_of_kinds(outcomes)},
+                        {"studies", all},
+                        {"versions", versions_document()}});
 }
 
 }  // namespace corpuscle

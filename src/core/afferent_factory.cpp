@@ -28,4 +28,8 @@ void set_values(AfferentPlan& plan, std::span<const Setting> settings) {
             if ((*plan.parameters)[k].info.name == s.name) plan.values[k] = s.value;
 }
 
+Result<std::string> AfferentFactory::schematic(std::string_view) const {
+    return bad_input("an afferent of equations has no schematic; a circuit, such as sa1-circuit, has one");
+}
+
 }  // namespace corpuscle

@@ -46,6 +46,8 @@ public:
     virtual nlohmann::ordered_json cost(double rest_force, const EnergyUse& used) const;
     /// The values that overrides can set beside the plan's parameters; empty for equations.
     virtual Result<std::vector<SettableValue>> settable_values() const { return std::vector<SettableValue>(); }
+    /// A drawing of the circuit as SVG. `block`: "" for its top level, or the name of a block, "summer". An error for equations.
+    virtual Result<std::string> schematic(std::string_view block) const;
 };
 
 /// One parameter of an afferent.

@@ -109,7 +109,7 @@ class ByteReader {
 
 public:
     explicit ByteReader(std::span<const std::byte> in) : in_(in) {}
-    explicit ByteReader(std::string_view in) : in_(std::as_bytes(std::span(in))) {}
+    explicit ByteReader(std::string_view in) : in_(std::as_bytes(std::span(in.data(), in.size()))) {}
     bool get_raw(void* data, std::size_t size) {
         if (in_.size() < size) return false;
         if (size > 0) std::memcpy(data, in_.data(), size);

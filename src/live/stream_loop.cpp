@@ -19,6 +19,7 @@ StreamLoop::StreamLoop(SkinStream& skin, const EventFormat& format, FrameSource&
 
 Result<void> StreamLoop::run() {
     Result<void> ended;
+    frame_ = skin_.frames();
     while (ended && !options_.stop()) {
         const auto more = wait_and_run();
         if (!more) {
@@ -33,7 +34,7 @@ Result<void> StreamLoop::run() {
     }
     if (ended && options_.stop()) ended = run_remaining();
     if (ended) ended = run_batch();
-    if (ended && !options_.keeps_state) ended = put(skin_.finish());
+    if (ended && !options_.keeps_state) ended = finish_spikes();
     // The sink's reader has a second to accept the rest, unless it has already had one.
     const auto finished = sink_.finish({reader_deadline_ == FrameSource::never ? second : 0, !frames_.is_live(), options_.stop});
     return ended ? finished : ended;
@@ -101,8 +102,13 @@ Result<void> StreamLoop::run_frame(bool was_received, std::int64_t now) {
         ++stats_.filled;
     }
     const auto x = frames_.shear_x(), y = frames_.shear_y();
-    if (skin_.batch_frames() > 1 && !skin_.add_to_batch(force_, x, y)) return {};
-    return write_spikes(skin_.batch_frames() > 1 ? skin_.run_batch() : skin_.push(force_, x, y));
+    if (skin_.batch_frames() == 1)
+        TRY(write_spikes(skin_.push(force_, x, y)));
+    else if (skin_.add_to_batch(force_, x, y))
+        TRY(write_spikes(skin_.run_batch()));
+    if (options_.observer) options_.observer->add_frame(frame_, force_);
+    ++frame_;
+    return {};
 }
 
 /// Simulates the incomplete batch at the end of a stream.
@@ -116,7 +122,15 @@ Result<void> StreamLoop::write_spikes(const Result<std::span<const Spike>>& spik
     const auto now = steady_now();
     for (const auto at : arrival_times_) stats_.latency.add(now - at);
     arrival_times_.clear();
+    if (options_.observer) options_.observer->add_spikes(*spikes);
     return {};
+}
+
+/// Writes the spikes that are still in transit at the end.
+Result<void> StreamLoop::finish_spikes() {
+    const auto spikes = skin_.finish();
+    if (options_.observer) options_.observer->add_spikes(spikes);
+    return put(spikes);
 }
 
 /// Puts spikes into the sink; drops those for which there is no space.

@@ -2,6 +2,7 @@
 // The main loop of a live stream: waits for frames, simulates each, and writes its spikes. It runs in one thread. If the reader of the
 // spikes is slow, the loop waits for it only if the spikes go to a file, or if the frames can wait. Otherwise it drops spikes.
 
+#include "live/frame_observer.hpp"
 #include "live/input/frame_source.hpp"
 #include "live/latency_histogram.hpp"
 #include "live/output/event_sink.hpp"
@@ -35,6 +36,7 @@ public:
         bool busy_poll = false;                             ///< true: polls without sleeping, which saves the wake-up delay but uses a core
         std::function<void(const FrameError&)> on_frame_error = [](const FrameError&) {
         };  ///< called for the first frame that could not be read
+        FrameObserver* observer = nullptr;  ///< sees all frames and spikes; null: none
         bool keeps_state = false;  ///< true: the state will be saved, so spikes in transit at the end are not written but saved with it
     };
 
@@ -52,6 +54,7 @@ private:
     Result<void> run_batch();
     Result<void> run_remaining();
     Result<void> write_spikes(const Result<std::span<const Spike>>&);
+    Result<void> finish_spikes();
     Result<void> put(std::span<const Spike> spikes);
     Result<bool> wait_for_space(std::size_t bytes);
     bool waits_for_reader() const { return sink_.is_file() || !frames_.is_live(); }
@@ -64,6 +67,7 @@ private:
     StreamOptions options_;
     StreamStats stats_;
     std::vector<double> force_;
+    std::int64_t frame_ = 0;                             // number of the next frame
     std::vector<char> event_;                            // one event in the output format
     std::vector<std::int64_t> arrival_times_;            // steady_now() of the arrival of each received frame of the batch
     std::int64_t next_check_ = 0;                        // steady_now() of the next call of on_second()

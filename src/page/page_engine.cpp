@@ -43,6 +43,15 @@ Result<void> answer_catalogue(Engine&, const Request& request) {
     return describe_catalogue(request.answer);
 }
 
+Result<void> answer_schematic(Engine&, const Request& request) {
+    const RowRequest row{TRY(request.head.text("afferent")), TRY(request.head.texts("set")), {}};
+    const auto block = TRY(request.head.text("block", ""));
+    TRY(request.head.check_all_read());
+    const auto plan = TRY(plan_row(row));
+    request.answer.add("svg", TRY(plan.factory->schematic(block)));
+    return {};
+}
+
 Result<void> answer_start(Engine& engine, const Request& request) {
     engine.session = TRY(Session::start(request.head, request.answer));
     return {};
@@ -100,10 +109,19 @@ struct Handler {
     std::string_view name;
     Result<void> (*answer)(Engine&, const Request&);
 };
-constexpr Handler handlers[] = {{"catalogue", answer_catalogue},     {"start", answer_start},       {"advance", answer_advance},
-                                {"contact", answer_contact},         {"set", answer_set},           {"respond", answer_respond},
-                                {"monte-carlo", answer_monte_carlo}, {"continue", answer_continue}, {"cancel", answer_cancel},
-                                {"operating", answer_operating},     {"read", answer_read},         {"save", answer_save}};
+constexpr Handler handlers[] = {{"catalogue", answer_catalogue},
+                                {"schematic", answer_schematic},
+                                {"start", answer_start},
+                                {"advance", answer_advance},
+                                {"contact", answer_contact},
+                                {"set", answer_set},
+                                {"respond", answer_respond},
+                                {"monte-carlo", answer_monte_carlo},
+                                {"continue", answer_continue},
+                                {"cancel", answer_cancel},
+                                {"operating", answer_operating},
+                                {"read", answer_read},
+                                {"save", answer_save}};
 
 Result<const Handler*> find_handler(const std::string& name) {
     std::vector<std::string_view> known;

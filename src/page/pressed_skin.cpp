@@ -4,6 +4,7 @@
 #include <algorithm>
 
 #include "skin/contact/indenters.hpp"
+#include "skin/plan/skin_outline.hpp"
 
 namespace corpuscle::page {
 namespace {
@@ -41,28 +42,27 @@ Result<std::unique_ptr<Contact>> make_page_contact(const std::string& indenter, 
     return std::move(made.result);
 }
 
-Json shape_document(const SkinShape& shape) {
-    constexpr const char* kinds[] = {"strip", "capsule", "ellipse", "polygon"};  // in the order of the enumerators
-    Json out = {{"kind", kinds[static_cast<int>(shape.kind)]}};
-    for (const auto& p : shape.points) out["points"].push_back({p.x, p.y});
-    out["width"] = shape.width, out["end_width"] = shape.end_width, out["turns"] = shape.turns;
-    return out;
-}
-
-Json outline_of(const Sites& sites) {
-    auto out = Json::array();
-    for (const auto& region : sites.shapes) {
-        Json row = {{"name", region.name}, {"shapes", Json::array()}};
-        for (const auto& shape : region.shapes) row["shapes"].push_back(shape_document(shape));
-        out.push_back(std::move(row));
-    }
-    return out;
-}
-
 void add_positions(MessageWriter& answer, const std::string& prefix, const std::vector<Position>& positions) {
     std::vector<float> x, y;
     for (const auto& p : positions) x.push_back(static_cast<float>(p.x)), y.push_back(static_cast<float>(p.y));
     answer.add(prefix + "x", std::span<const float>(x)), answer.add(prefix + "y", std::span<const float>(y));
+}
+
+void add_polygons(MessageWriter& answer, const std::string& prefix, const std::vector<Polygon>& polygons) {
+    for (std::size_t k = 0; k < polygons.size(); ++k) {
+        std::vector<float> xy;
+        for (const auto& p : polygons[k]) xy.push_back(static_cast<float>(p.x)), xy.push_back(static_cast<float>(p.y));
+        answer.add(prefix + std::to_string(k), std::span<const float>(xy));
+    }
+}
+
+/// The outline of the skin, and those of its regions.
+void add_outline(MessageWriter& answer, const Sites& sites) {
+    const auto outline = skin_outline(sites);
+    add_polygons(answer, "outline.", outline.skin);
+    std::vector<Polygon> borders;
+    for (const auto& region : outline.regions) borders.insert(borders.end(), region.begin(), region.end());
+    add_polygons(answer, "border.", borders);
 }
 
 /// The afferents' positions, classes and regions.
@@ -126,11 +126,12 @@ void PressedSkin::describe(MessageWriter& answer, std::size_t first_unit) const 
     out["regions"] = plan.sites.regions, out["site_side"] = std::sqrt(plan.sites.area);
     out["left"] = left->x, out["right"] = right->x, out["low"] = low->y, out["high"] = high->y;
     out["x"] = middle_.x, out["y"] = middle_.y;
-    out["contact"] = contact_->description(), out["outline"] = outline_of(plan.sites);
+    out["contact"] = contact_->description();
     answer.head["skin"] = std::move(out);
     add_afferents(answer, innervation().afferents);
     add_positions(answer, "site_", at);
     answer.add("site_region", std::span<const std::uint32_t>(plan.sites.region));
+    add_outline(answer, plan.sites);
 }
 
 Result<void> PressedSkin::change_contact(const std::string& indenter, std::span<const std::string> set, const Clock& clock) {

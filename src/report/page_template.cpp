@@ -24,8 +24,8 @@ std::string script_json(const Json& document) {
     return out;
 }
 
-/// Replaces absolute paths by the names of their files, so that a published page does not reveal directories. Different files keep different
-/// names.
+/// Replaces absolute paths by the names of their files, so that a published page does not reveal directories. Different files keep
+/// different names.
 class DirectoryRemover {
     std::map<std::string, std::string> names_;  // by path
     std::map<std::string, int> uses_;           // of each file name
@@ -39,15 +39,14 @@ class DirectoryRemover {
     }
 
 public:
-    std::string text(const std::string& text) {
+    std::string without_directories(const std::string& text) {
         constexpr std::string_view before = " '\"(:=,[<", ends = " '\"),:;]>";
         std::string out;
         for (std::size_t at = 0; at < text.size();) {
-            const auto end = std::min(text.find_first_of(ends, at), text.size());
-            const bool begins = text[at] == '/' && (at == 0 || before.find(text[at - 1]) != before.npos);
-            const auto path = text.substr(at, end - at);
-            if (begins && path.find('/', 1) != path.npos && path.back() != '/')
-                out += name_of(path), at = end;
+            const bool may_begin = text[at] == '/' && text[at + 1] != '/' && (at == 0 || before.find(text[at - 1]) != before.npos);
+            const auto path = may_begin ? text.substr(at, text.find_first_of(ends, at) - at) : "";
+            if (path.find('/', 1) != path.npos && path.back() != '/')
+                out += name_of(path), at += path.size();
             else
                 out += text[at++];
         }
@@ -58,7 +57,7 @@ public:
     void apply(Json& document) {
         if (document.is_string()) {
             const auto& whole = document.get_ref<const std::string&>();
-            if (whole.find('/') != whole.npos) document = text(whole);
+            if (whole.find('/') != whole.npos) document = without_directories(whole);
         } else if (document.is_array()) {
             for (auto& value : document) apply(value);
         } else if (document.is_object()) {
@@ -83,11 +82,11 @@ std::string fill_template(std::string_view page_template, std::string_view title
         out += page_template.substr(0, open);
         if (open == std::string_view::npos || close == std::string_view::npos) return out;
         const auto name = page_template.substr(open + 2, close - open - 2);
-        const auto value = name == "title"  ? title
-                           : name == "data" ? data
-                                            : embedded_text_of(name == "style"    ? "page.bundle.css"
-                                                               : name == "script" ? "page.js"
-                                                                                  : name);
+        const auto value = name == "title"    ? title
+                           : name == "data"   ? data
+                           : name == "style"  ? embedded_text_of("page.bundle.css")
+                           : name == "script" ? embedded_text_of("page.js")
+                                              : "";
         out += value.empty() ? fmt::format("{{{{{}}}}}", name) : value;  // an unknown name stays visible as {{name}}
         page_template.remove_prefix(close + 2);
     }
@@ -126,7 +125,7 @@ std::string report_page(std::string_view page, const std::string& title, const s
     Json data = {{"page", page}, {"title", title}, {"program", fmt::format("corpuscle {}", version)}, {"command", command}};
     data.update(document);
     DirectoryRemover().apply(data);
-    return fill_template(embedded_text_of(page.ends_with(".html") ? page : "shell.html"), escape_html(title), script_json(data));
+    return fill_template(embedded_text_of("shell.html"), escape_html(title), script_json(data));
 }
 
 }  // namespace corpuscle

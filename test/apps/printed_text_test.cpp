@@ -160,13 +160,19 @@ TEST(PrintedText, NoPageNamesTheDirectoriesOfNetlistsPopulationsAndSweeps) {
     const auto at = folder / "secret/deep/";
     folder.write("secret/deep/own.cir", test::read_file(test::source_root() + "/circuits/spiker.cir"));
     folder.write("secret/deep/own.toml", test::read_file(test::source_root() + "/skins/fingertip.toml"));
-    folder.write("secret/deep/sweep.toml", "afferent = \"" + at + "own.cir\"\nmeasures = [\"spikes\"]\n[[vary]]\nwhat = \"press.F_max\"\nfrom = \"1N\"\nto = \"2N\"\ncount = 2\n");
-    for (const auto& command : {"respond press -a sa1," + at + "own.cir --report page.html", "respond press --population " + at + "own.toml --report page.html",
-                                "sweep show " + at + "results.sqlite --report page.html"}) {
-        if (command.starts_with("sweep")) ASSERT_EQ(test::run_program(folder, "sweep " + at + "sweep.toml -o " + at + "results.sqlite -q").status, 0);
+    folder.write("secret/deep/sweep.toml",
+                 "afferent = \"" + at +
+                     "own.cir\"\nmeasures = [\"spikes\"]\n[[vary]]\nwhat = \"press.F_max\"\nfrom = \"1N\"\nto = \"2N\"\ncount = 2\n");
+    for (const auto& command :
+         {"respond press -a sa1," + at + "own.cir --report page.html", "respond press --population " + at + "own.toml --report page.html",
+          "sweep show " + at + "results.sqlite --report page.html"}) {
+        if (command.starts_with("sweep")) {
+            ASSERT_EQ(test::run_program(folder, "sweep " + at + "sweep.toml -o " + at + "results.sqlite -q").status, 0);
+        }
         ASSERT_EQ(test::run_program(folder, command + " --overwrite -q").status, 0) << command;
         const auto page = test::read_file(folder / "page.html");
-        EXPECT_EQ(page.find("secret"), std::string::npos) << command << ": " << page.substr(page.find("secret") - std::min<std::size_t>(page.find("secret"), 80), 200);
+        EXPECT_EQ(page.find("secret"), std::string::npos)
+            << command << ": " << page.substr(page.find("secret") - std::min<std::size_t>(page.find("secret"), 80), 200);
         EXPECT_NE(page.find("--report page.html"), std::string::npos) << command;
     }
 }

@@ -1,5 +1,5 @@
-// Arbitrary bytes as a netlist and its included files (separated by lines "=== name"). Expected: a consistent circuit, or an error with a
-// message and a location.
+// Arbitrary bytes as a netlist and its included files (separated by lines "=== name"). Expected: a consistent circuit and its
+// schematics, or an error with a message and a location.
 
 #include <cmath>
 #include <cstdint>
@@ -7,6 +7,7 @@
 #include <map>
 
 #include "circuit/netlist/netlist.hpp"
+#include "circuit/schematic/schematic.hpp"
 
 using namespace corpuscle;
 using namespace corpuscle::circuit;
@@ -70,6 +71,14 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     for (const auto& values : {Values{}, zeros, ones}) {
         const auto circuit = netlist->elaborate(values);
         circuit ? check(*circuit) : check(circuit.error());
+    }
+    // Drawings of many devices take long, and those of few find the same faults.
+    if (const auto circuit = netlist->elaborate_hierarchy();
+        circuit && circuit->circuit.elements.size() < 60 && circuit->instances.size() < 20) {
+        const auto drawn = draw_schematics(*netlist);
+        if (!drawn) return check(drawn.error()), 0;
+        for (const auto& one : *drawn)
+            if (one.svg.substr(0, 4) != "<svg" || one.svg.substr(one.svg.size() - 7) != "</svg>\n") std::abort();
     }
     return 0;
 }

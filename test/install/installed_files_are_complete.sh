@@ -13,7 +13,7 @@ for file in bin/corpuscle bin/corpuscle-study libexec/corpuscle/corpuscle-hdf5 l
   share/doc/corpuscle/doc/concepts.md share/doc/corpuscle/doc/press.png; do
   [ -s "$prefix/$file" ] || { echo "$prefix/$file is missing"; status=1; }
 done
-for work in dygraphs CLI11 nlohmann-json xsimd toml++ fmt 'Frances Y. Kuo and Stephen Joe'; do
+for work in CLI11 nlohmann-json xsimd toml++ fmt 'Frances Y. Kuo and Stephen Joe'; do
   grep -qF "$work" "$prefix/share/doc/corpuscle/NOTICE" || { echo "NOTICE lacks $work"; status=1; }
 done
 headers=$(cd "$prefix/include" && find . -type f | sort | tr '\n' ' ')

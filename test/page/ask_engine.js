@@ -6,14 +6,16 @@ const started = process.hrtime.bigint();
 const seconds = () => Number(process.hrtime.bigint() - started) * 1e-9;
 const types = { f32: Float32Array, f64: Float64Array, u32: Uint32Array, u8: Uint8Array };
 
+/// Lists of numbers become f64, texts u8.
 function encode({ data = {}, ...head }) {
-  const arrays = Object.entries(data).map(([name, values]) => ({ name, values: Float64Array.from(values) }));
-  if (arrays.length > 0) head.arrays = arrays.map(({ name, values }) => ({ name, type: "f64", count: values.length }));
-  let text = Buffer.from(JSON.stringify(head));
-  text = Buffer.concat([text, Buffer.alloc((8 - ((4 + text.length) % 8)) % 8, " ")]);
+  const arrays = Object.entries(data).map(([name, values]) => ({ name, values: typeof values === "string" ? Buffer.from(values) : Float64Array.from(values) }));
+  if (arrays.length > 0) head.arrays = arrays.map(({ name, values }) => ({ name, type: values instanceof Float64Array ? "f64" : "u8", count: values.length }));
+  const padded = (bytes, size, fill) => Buffer.concat([bytes, Buffer.alloc((8 - (size % 8)) % 8, fill)]);
+  const text = padded(Buffer.from(JSON.stringify(head)), 4 + Buffer.byteLength(JSON.stringify(head)), " ");
   const length = Buffer.alloc(4);
   length.writeUInt32LE(text.length);
-  return Buffer.concat([length, text, ...arrays.map(({ values }) => Buffer.from(values.buffer))]);
+  const bytes = ({ values }) => Buffer.from(values.buffer, values.byteOffset, values.byteLength);
+  return Buffer.concat([length, text, ...arrays.map((array) => padded(bytes(array), bytes(array).length, 0))]);
 }
 
 function decode(bytes) {

@@ -53,6 +53,18 @@ TEST(PageRequests, EachSettableValueOfAChipIsAccepted) {
     }
 }
 
+TEST(PageRequests, ASchematicIsDrawn) {
+    PageEngine engine;
+    const auto answer = ask_well(engine, R"({"request": "schematic", "afferent": "sa1-circuit"})");
+    const auto* svg = answer.message.find("svg");
+    const std::string text(reinterpret_cast<const char*>(svg->data.data()), svg->data.size());
+    EXPECT_TRUE(text.starts_with("<svg")) << text.substr(0, 80);
+    EXPECT_NE(text.find("xcco"), std::string::npos);
+    EXPECT_NE(ask_well(engine, R"({"request": "schematic", "afferent": "sa1-circuit", "block": "summer"})").message.find("svg"), nullptr);
+    EXPECT_EQ(ask(engine, R"({"request": "schematic", "afferent": "sa1"})").error(),
+              "an afferent of equations has no schematic; a circuit, such as sa1-circuit, has one");
+}
+
 TEST(PageRequests, ARecordingIsReadFromItsBytes) {
     PageEngine engine;
     const std::string text = "time_s,left_N,right_N\n0,0,1\n0.01,0.5,1\n0.02,1,1\n0.03,1,1\n";
@@ -62,7 +74,7 @@ TEST(PageRequests, ARecordingIsReadFromItsBytes) {
     EXPECT_EQ(answer["rate"], 100.0);
     EXPECT_EQ(answer["samples"], 4);
     EXPECT_EQ(answer["channels"].size(), 2U);
-    EXPECT_EQ(answer.numbers("force.0"), (std::vector{0, 0.5, 1, 1}));
+    EXPECT_EQ(answer.numbers("force.0"), (std::vector<double>{0, 0.5, 1, 1}));
     const auto scaled =
         ask(engine, R"({"request": "read", "name": "two.csv", "options": {"channel": "2", "scale": "2", "rate": "50Hz"}})", "file", bytes);
     ASSERT_EQ(scaled.error(), "");

@@ -5,6 +5,7 @@ import json
 import os
 import pickle
 import re
+import shutil
 import tempfile
 import unittest
 import warnings
@@ -93,6 +94,17 @@ class Pages(Folders):
                                (None, "is not a path"), ("\ud800.html", "is not a path")):
                 with self.subTest(name=name), self.assertRaisesRegex(corpuscle.InputError, text):
                     response.report(name)
+
+    def test_a_page_names_no_directories(self):
+        os.mkdir(self.path("secret"))
+        shutil.copy(f"{ROOT}/circuits/spiker.cir", self.path("secret/own.cir"))
+        shutil.copy(f"{ROOT}/skins/fingertip.toml", self.path("secret/own.toml"))
+        page = self.report_of(corpuscle.respond("press", afferent=["sa1", self.path("secret/own.cir")]))
+        self.assertIn("afferent=['sa1', 'own.cir']", data_of(page)["command"])
+        self.assertNotIn("secret", page)
+        page = self.report_of(corpuscle.population(self.path("secret/own.toml")).respond("press"), "skin.html")
+        self.assertIn("corpuscle.population('own.toml')", data_of(page)["command"])
+        self.assertNotIn("secret", page)
 
     def test_a_force_that_has_changed_is_refused(self):
         force = press()

@@ -142,7 +142,7 @@ TEST(RespondReport, KeepsItsSizeLimitForAnyNumberOfInputs) {
         (void)test::value_or_throw(corpuscle::run(sources, std::span(&plan, 1), sinks, {}));
         const auto page = report.page(summary, std::span(&plan, 1), "", {}, nlohmann::ordered_json::array());
         EXPECT_EQ(page.find("{{page"), std::string::npos);
-        EXPECT_EQ(page.find("{{dygraphs"), std::string::npos) << "every part of the template was filled";
+        EXPECT_EQ(page.find("{{script"), std::string::npos) << "every part of the template was filled";
         const auto data = page.substr(page.find("id=\"data\">") + 10);
         const auto document = nlohmann::json::parse(data.substr(0, data.find("</script>")));
         std::size_t points = 0;
@@ -152,6 +152,28 @@ TEST(RespondReport, KeepsItsSizeLimitForAnyNumberOfInputs) {
     EXPECT_LE(points_of(1), 100'000U);
     EXPECT_LE(points_of(5), 100'000U);
     EXPECT_GE(points_of(5), 25'000U);
+}
+
+TEST(RespondReport, ComparesSeveralInputsFromTheirStart) {
+    const auto trials_of = [](const std::vector<std::string>& stimuli) {
+        std::vector<std::unique_ptr<ForceSource>> sources;
+        for (const auto& name : stimuli) sources.push_back(test::value_or_throw(make_stimulus(name, 1e3, 0)));
+        const auto plan = test::value_or_throw(plan_afferent("sa1"));
+        RespondReport report(100'000, {}, true, true);
+        RunSummary summary;
+        Sink* sinks[] = {&report, &summary};
+        (void)test::value_or_throw(corpuscle::run(sources, std::span(&plan, 1), sinks, {}));
+        const auto page = report.page(summary, std::span(&plan, 1), "", {}, nlohmann::ordered_json::array());
+        const auto data = page.substr(page.find("id=\"data\">") + 10);
+        return nlohmann::json::parse(data.substr(0, data.find("</script>"))).value("trials", nlohmann::json());
+    };
+    EXPECT_TRUE(trials_of({"press"}).is_null()) << "there is nothing to compare";
+    const auto two = trials_of({"press", "press"});
+    ASSERT_EQ(two["trials"].size(), 2U);
+    EXPECT_EQ(two["labels"].size(), 1U);
+    EXPECT_EQ(two["trials"][1]["zero"], 0.0);
+    EXPECT_EQ(two["spikes"][0]["times"], two["spikes"][1]["times"]);
+    EXPECT_FALSE(two["histograms"].empty());
 }
 
 TEST(Envelope, KeepsMinAndMaxOfEveryBucketForAnyLength) {

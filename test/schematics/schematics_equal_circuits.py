@@ -29,7 +29,7 @@ def page_failures(corpuscle, folder):
     environment = {**os.environ, "HOME": folder, "PATH": f"{pathlib.Path(corpuscle).resolve().parent}:{os.environ['PATH']}"}
     environment.pop("DISPLAY", None)
     ran = [subprocess.run(["sh", "-ec", block], cwd=folder, env=environment, stdin=subprocess.DEVNULL, capture_output=True, text=True, check=False) for block in blocks]
-    return [f"doc/schematics.md has {len(blocks)} blocks of commands instead of 2"] * (len(blocks) != 2) + [one.stderr for one in ran if one.returncode != 0]
+    return [f"doc/schematics.md has {len(blocks)} blocks of commands instead of 3"] * (len(blocks) != 3) + [one.stderr for one in ran if one.returncode != 0]
 
 
 def main(corpuscle):

@@ -371,13 +371,17 @@ class ManyChannels(Page):
         WebDriverWait(self.browser, 20).until(lambda _: self.shown() == "taxel30")
         self.assertIn("channel=31", WebDriverWait(self.browser, 20).until(lambda _: self.js("return location.hash")))
 
+    def test_a_long_pan_does_not_change_the_link_too_often(self):
+        self.js("for (let k = 0; k < 400; ++k) setTimeout(() => corpuscle.setWindow(k / 1000, k / 1000 + 0.1), 2 * k)")
+        WebDriverWait(self.browser, 30).until(lambda _: "from=0.399" in self.js("return location.hash"))  # a warning in the console would fail
+
     def test_back_in_the_history_shows_the_view_of_that_link(self):
         self.js("location.hash = '#channel=4&from=0.25&to=0.5'")
         WebDriverWait(self.browser, 20).until(lambda _: self.shown() == "taxel03")
         self.assertEqual(self.js("return corpuscle.window()"), [0.25, 0.5])
 
 
-class Framed(Page):
+class InAFrame(Page):
     """The page in a sandboxed frame without an origin, as in a notebook."""
 
     @classmethod

@@ -332,6 +332,14 @@ class Trials(Page):
             inside = sum(edges[k] <= t < edges[k + 1] for t in times)
             self.assertAlmostEqual(rate, inside / 4 / (edges[k + 1] - edges[k]), delta=1e-6 * (1 + rate) + 1.01 / 4 / trials["bin"] * any(abs(t - e) < 1e-9 for t in times for e in edges))
 
+    def test_a_label_is_hidden_in_all_figures_of_the_trials(self):
+        self.browser.find_element(By.CSS_SELECTOR, '[data-panel="trial rate"] button[data-series="smooth"]').click()
+        self.next_frame()
+        Select(self.browser.find_element(By.CSS_SELECTOR, "#trials select")).select_by_index(1)
+        self.next_frame()
+        self.assertEqual(self.js("return ['trial force', 'trial raster', 'trial rate'].map((name) => [...corpuscle.panels[name].hidden])"), [["smooth"]] * 3)
+        self.assertEqual({row["afferent"] for row in csv.DictReader(self.js("return corpuscle.panels['trial raster'].csv()").splitlines())}, {"rough"})
+
     def test_zooming_the_trials_does_not_zoom_the_recording(self):
         before = self.js("return corpuscle.window()")
         plot = self.plot("trial force")
@@ -386,6 +394,14 @@ class ManyFiles(Page):
         for record in trials["spikes"]:
             if record["group"] == group:
                 self.assertEqual(list(numbers("d", record["times"])), list(numbers("d", of_input(record["trial"])["times"])), "each file begins at 0")
+
+    def test_more_labels_than_colours_become_one(self):
+        names = "one two three four five six seven eight nine".split()
+        for name in names:
+            (OUT / f"{name}.csv").write_bytes((OUT / "press_01.csv").read_bytes())
+        page = OUT / "nine.html"
+        subprocess.run([CORPUSCLE, "respond", *(str(OUT / f"{name}.csv") for name in names), "--report", str(page), "--quiet"], check=True, stderr=subprocess.DEVNULL)
+        self.assertEqual(data_of(page)["trials"]["labels"], ["all inputs"])
 
     def test_the_title_is_short_and_the_command_has_no_directories(self):
         self.assertEqual(self.browser.find_element(By.ID, "title").text, "press_01, press_02, press_03 and 9 more")

@@ -66,3 +66,17 @@ export function firstAt(times: ArrayLike<number>, t: number): number {
     }
     return low;
 }
+
+/// Numbers of a page's data: encoded, or a list in which null stands for a number that is not known.
+export type Numbers = EncodedArray | (number | null)[];
+
+/// The numbers, with NaN for those that are not known.
+export const numbersOf = (values: Numbers): Float32Array | Float64Array =>
+    (Array.isArray(values) ? Float64Array.from(values, (v) => v ?? NaN) : decoded<Float32Array>(values));
+
+/// The arrays "NAME.0", "NAME.1" ... of an answer.
+export function numberedArrays(arrays: Record<string, NumberArray>, name: string): Float32Array[] {
+    const out: Float32Array[] = [];
+    for (let k = 0; arrays[`${name}.${k}`]; ++k) out.push(arrays[`${name}.${k}`] as Float32Array);
+    return out;
+}

@@ -5,7 +5,7 @@ let probe: HTMLElement | null = null;
 
 /// The colour of a series, from eight that all common kinds of colour vision can tell apart.
 export const seriesColour = (index: number) => `var(--series-${index % 8})`;
-const CLASSES = ["sa1", "fa1", "sa2", "fa2"];
+export const CLASSES = ["sa1", "fa1", "sa2", "fa2"];
 /// The colour of a class of afferents, the same on all pages.
 export const classColour = (name: string) => seriesColour(Math.max(0, CLASSES.indexOf(name)));
 /// The colour of the k-th of several afferents of one class.

@@ -47,6 +47,9 @@ export function chooser(label: string, options: string[], selected: number, choo
 /// True on the screen of a phone: figures then have narrower margins.
 export const isNarrow = () => document.documentElement.clientWidth < 520;
 
+/// True on a very wide screen: figures then are higher and have larger texts.
+export const isWide = () => document.documentElement.clientWidth >= 2200;
+
 /// Pixels of a canvas per CSS pixel.
 export const pixelRatio = () => (document.documentElement.classList.contains("printing") ? 3 : devicePixelRatio || 1);
 

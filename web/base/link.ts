@@ -1,12 +1,15 @@
-// The state of a page in its link: "#channel=3&from=0.5&to=1.25". A link with an unknown key, or a value that is too long, is refused.
+// The state of a page in its link: "#channel=3&from=0.5&to=1.25", or first the name of a part of the page: "#fig13&by=label". A
+// link with an unknown key, or a value that is too long, is refused.
 
 const MAX_LINK = 4000;
 
-/// The values in the link of the page; null if the link is damaged.
+/// The values in the link of the page; null if the link is damaged. The name of a part of the page has the key "".
 export function linkValues(text = location.hash): Map<string, string> | null {
     if (text.length > MAX_LINK) return null;
     const values = new Map<string, string>();
-    for (const part of text.replace(/^#/, "").split("&").filter(Boolean)) {
+    const parts = text.replace(/^#/, "").split("&").filter(Boolean);
+    if (parts.length && /^[\w.-]+$/.test(parts[0])) values.set("", parts.shift()!);
+    for (const part of parts) {
         const [, name, value] = /^([a-z][\w-]*)=(.*)$/i.exec(part) || [];
         if (!name) return null;
         try {
@@ -18,9 +21,18 @@ export function linkValues(text = location.hash): Map<string, string> | null {
     return values;
 }
 
-/// Puts values into the link of the page, without an entry in the history. Values that are null are left out.
+let timer = 0;
+
+/// Puts values into the link of the page, without an entry in the history. Values that are null are left out. The last of several calls counts,
+/// because browsers limit how often a link may change.
 export function setLink(values: Record<string, string | number | null | undefined>) {
-    const text = Object.entries(values).filter(([, value]) => value !== null && value !== undefined && value !== "").map(([name, value]) => `${name}=${encodeURIComponent(value!)}`).join("&");
+    const text = Object.entries(values).filter(([, value]) => value !== null && value !== undefined && value !== "").map(([name, value]) => (name && `${name}=`) + encodeURIComponent(value!)).join("&");
+    clearTimeout(timer);
+    timer = window.setTimeout(() => replaceLink(text), 200);
+}
+
+function replaceLink(text: string) {
+    if (location.hash.replace(/^#/, "") === text) return;
     try {
         history.replaceState(null, "", text ? `#${text}` : location.pathname + location.search);
     } catch {

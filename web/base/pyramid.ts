@@ -24,13 +24,16 @@ export class Pyramid {
         j = Math.min(j, this.levels[0].lo.length);
         for (let level = 0; i < j; ++level, i >>= 2, j >>= 2) {
             const {lo, hi} = this.levels[level], isTop = level === this.levels.length - 1;
-            const include = (k: number) => {
+            // Entries that do not fill a complete parent are included here; the level above covers the rest.
+            const head = isTop ? j : Math.min(j, (i + 3) & ~3), tail = isTop ? j : Math.max(head, j & ~3);
+            for (let k = i; k < j; ++k) {
+                if (k === head) k = tail;
+                if (k === j) break;
                 if (lo[k] < min) min = lo[k];
                 if (hi[k] > max) max = hi[k];
-            };
-            // Entries that do not fill a complete parent are included here; the level above covers the rest.
-            while (i < j && (isTop || i % 4)) include(i++);
-            while (i < j && j % 4) include(--j);
+            }
+            i = head;
+            j = tail;
         }
         return max < min ? [null, null] : [min, max];
     }

@@ -7,7 +7,7 @@ export const PREFIXES: Record<number, string> = {[-15]: "f", [-12]: "p", [-9]: "
 const GREEK: Record<string, string> = {tau: "τ", alpha: "α", beta: "β", gamma: "γ", delta: "δ", theta: "θ", lambda: "λ", sigma: "σ", omega: "ω"};
 
 const withMinus = (text: string) => text.replace("-", "−");
-export const unitText = (unit: string) => (unit === "1" ? "" : unit.replace(/[oO]hm/g, "Ω"));
+export const unitText = (unit: string) => (unit === "1" ? "" : unit.replace(/[oO]hm/g, "Ω").replace(/^degC$/, "°C").replace(/^u(?=[A-Z])/, "µ").replace(/sqrt\(Hz\)/, "√Hz"));
 
 /// The power of ten of the SI prefix that suits a value: -3 for 0.02 V. It is 0 for units that take no prefix (m^2, %, plain numbers), and at
 /// least 0 for Hz.
@@ -26,6 +26,9 @@ export function quantity(value: number | null | undefined, unit: string, short =
     const suffix = PREFIXES[power] + unitText(unit);
     return withMinus(short ? String(Number(digits)) : digits) + (suffix && "\u00a0" + suffix);
 }
+
+/// A number of single precision without the digits that it does not have: 0.1, not 0.10000000149.
+export const plainNumber = (value: number) => Number(value.toPrecision(7));
 
 export type Cell = string | number | boolean | null | undefined | Cell[];
 

@@ -16,7 +16,8 @@ const CHIPS = 50, SLICE = 0.03;  // chips of a Monte Carlo; s for which the engi
 export class Chip {
     private summary = h("p", {class: "readout", role: "status"});
     private drawing = h("div", {class: "schematic", id: "schematic"});
-    private block = h("div", {class: "block"});
+    private block = h("div", {class: "block-state"});
+    private blockDrawing = h("div", {class: "schematic"});
     private monteCarlo = h("div", {class: "monte-carlo"});
     private chosen = "";
     private isAsking = false;
@@ -24,33 +25,41 @@ export class Chip {
 
     constructor(private session: Session, private row: number, host: HTMLElement) {
         const run: HTMLButtonElement = h("button", {type: "button", id: "run-monte-carlo", onclick: () => void this.runMonteCarlo(run)}, `Monte Carlo: ${CHIPS} chips under a press`);
-        append(host, h("h3", {}, "Circuit"), this.summary, this.drawing, this.block, h("p", {}, run), this.monteCarlo);
-        void this.showSchematic();
+        append(host, h("h3", {}, "Circuit"), this.summary, this.drawing, h("div", {class: "columns"}, this.block, this.blockDrawing), h("p", {}, run), this.monteCarlo);
+        void this.showSchematic(this.drawing, "");
     }
 
     private get afferent() { return this.session.rows[this.row].info.name; }
 
-    private async showSchematic() {
+    /// Draws the top level, or a block, into a host.
+    private async showSchematic(host: HTMLElement, block: string) {
+        const {afferent, set} = this.session.settings.rows[this.row];
         try {
-            const {arrays} = await this.session.engine.request({request: "schematic", afferent: this.afferent});
+            const {arrays} = await this.session.engine.request({request: "schematic", afferent, set: engineSettings(set), block});
             const parsed = new DOMParser().parseFromString(new TextDecoder().decode(arrays.svg), "image/svg+xml").documentElement;
-            fill(this.drawing, document.importNode(parsed, true));
-            this.drawing.querySelectorAll<SVGElement>("[data-block]").forEach((node) => {
-                node.setAttribute("tabindex", "0");
-                node.setAttribute("role", "button");
-                const choose = () => this.choose(node.dataset.block!);
-                node.addEventListener("click", choose);
-                node.addEventListener("keydown", (event) => { if (event.key === "Enter") choose(); });
-            });
+            fill(host, document.importNode(parsed, true));
         } catch (error) {
-            fill(this.drawing, h("p", {class: "note"}, (error as Error).message));
+            fill(host, h("p", {class: "note"}, (error as Error).message));
         }
+        if (!block) this.connectBlocks(host);
+    }
+
+    private connectBlocks(host: HTMLElement) {
+        host.querySelectorAll<SVGElement>(".block[data-block]").forEach((node) => {
+            const choose = () => this.choose(node.dataset.block!);
+            node.setAttribute("tabindex", "0");
+            node.setAttribute("role", "button");
+            node.setAttribute("aria-label", `Block ${node.dataset.block}`);
+            node.addEventListener("click", choose);
+            node.addEventListener("keydown", (event) => { if (event.key === "Enter") choose(); });
+        });
     }
 
     private choose(name: string) {
         this.chosen = name;
         this.lastText = "";
-        this.drawing.querySelectorAll<SVGElement>("[data-block]").forEach((node) => node.classList.toggle("chosen", node.dataset.block === name));
+        this.drawing.querySelectorAll<SVGElement>(".block[data-block]").forEach((node) => node.classList.toggle("chosen", node.dataset.block === name));
+        void this.showSchematic(this.blockDrawing, name);
         void this.update();
     }
 
@@ -69,7 +78,7 @@ export class Chip {
     }
 
     private showBlock(blocks: Block[]) {
-        const block = blocks.find(({name}) => name === this.chosen) || blocks[0], text = JSON.stringify(block);
+        const block = blocks.find(({name}) => name === this.chosen || `x${name}` === this.chosen) || blocks[0], text = JSON.stringify(block);
         if (!block || text === this.lastText || this.block.contains(document.activeElement)) return;
         this.lastText = text;
         const rows = block.nodes.map(({name, voltage}) => [name, voltage]);
@@ -85,6 +94,7 @@ export class Chip {
         try {
             let answer = await engine.request({request: "monte-carlo", afferent: this.afferent, set: engineSettings(settings.rows[this.row].set), chips: CHIPS, seed: settings.seed, rate: settings.rate, stimulus: "press", slice: SLICE});
             const {rate, samples, phases = []} = answer.head, clock = {t0: 0, T: 1 / rate, samples}, view = new View();
+            (window as any).corpuscle.monteCarlo = trains;
             view.setLimits({begin: 0, end: samples / rate, smallest: 0.01});
             view.add(new RasterPanel({host: this.monteCarlo, name: "monte-carlo", title: [`spikes of ${CHIPS} chips of ${this.afferent}`], about: "spikes of chips that differ by mismatch", height: 320, clock, phases, isNamed: true, isBottom: true, series: [],
                                       rows: trains.map((spikes, k) => ({series: "", label: `chip ${k + 1}`, colour: "var(--series-2)", spikes}))}));

@@ -3,11 +3,13 @@
 import {SocketEngine, WorkerEngine} from "./engine";
 import {showLivePage} from "./page";
 
-/// `worker`: the script of the engine's worker; `wasm`: its module as base64.
-export function startLivePage(worker: string, wasm: string) {
+declare const DecompressionStream: new (format: string) => GenericTransformStream & ReadableWritablePair;  // TypeScript 4.8 does not know it
+
+/// `worker`: the script of the engine's worker; `wasm`: its module, compressed by gzip, as base64.
+export async function startLivePage(worker: string, wasm: string) {
     const isServed = document.querySelector("meta[name=corpuscle-engine]") !== null;
     if (isServed) return showLivePage(new SocketEngine(`${location.protocol.replace("http", "ws")}//${location.host}/engine${location.search}`));
-    const text = atob(wasm), bytes = new Uint8Array(text.length);
-    for (let k = 0; k < bytes.length; ++k) bytes[k] = text.charCodeAt(k);
-    return showLivePage(new WorkerEngine(worker, bytes.buffer));
+    const bytes = Uint8Array.from(atob(wasm), (c) => c.charCodeAt(0));
+    const module = await new Response(new Blob([bytes]).stream().pipeThrough(new DecompressionStream("gzip"))).arrayBuffer();
+    return showLivePage(new WorkerEngine(worker, module));
 }

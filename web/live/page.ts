@@ -58,7 +58,7 @@ class LivePage {
         append(document.body, h("header", {}, h("h1", {}, "Press a skin"), h("span", {class: "program"}, `corpuscle ${this.catalogue.version}, computed in ${engine.place}`)), this.toolbar(), this.message, main);
         folded(document.body, "recordings", "Replay a recording", "", "", (host) => host.append(new Recording(this.session).root));
         connectKeys(this.charts.view);
-        onThemeChange(() => { this.stage.renew(); this.charts.view.request(); });
+        onThemeChange(() => { this.stage.redraw(); this.charts.view.request(); });
     }
 
     private toolbar(): HTMLElement {
@@ -104,7 +104,7 @@ class LivePage {
     private programmes(): HTMLElement {
         const {press} = this, frequency: HTMLInputElement = h("input", {type: "number", id: "vibration", value: 100, min: 1, max: 500, "aria-label": "Frequency of the vibration in Hz"});
         const line = (): [[number, number], [number, number]] => {
-            const {left, right} = this.session.skin || {left: 0, right: 0}, reach = 0.4 * Math.min(right - left, 0.03);
+            const reach = 6e-3;  // m
             return [[press.x - reach, press.y], [press.x + reach, press.y]];
         };
         const button = (text: string, id: string, play: () => void) => h("button", {type: "button", id, onclick: play}, text);

@@ -1,6 +1,6 @@
 // The simulation behind the page: what was started, and the history of its force, spikes and probes.
 
-import type {NumberArray} from "../base/arrays";
+import {NumberArray, numberedArrays} from "../base/arrays";
 import {variantColour} from "../base/colours";
 import type {Catalogue, Parameter} from "./catalogue";
 import type {Engine} from "./engine";
@@ -17,9 +17,11 @@ export interface Row { info: RowInfo; colour: string; train: LiveTrain; curves: 
 export interface SkinClass { name: string; afferent: string; first: number; count: number }
 
 export interface Skin {
-    population: string; classes: SkinClass[]; regions: string[]; site_side: number; left: number; right: number; low: number; high: number; contact: string;
-    x: Float32Array; y: Float32Array; class: Uint8Array; region: Uint32Array; site_x: Float32Array; site_y: Float32Array; site_region: Uint32Array;
-    outline: unknown;
+    population: string; classes: SkinClass[]; regions: string[]; site_side: number; contact: string;
+    x: number; y: number;                              ///< where the contact is in the beginning, m
+    unitX: Float32Array; unitY: Float32Array;          ///< of the afferents, m
+    siteX: Float32Array; siteY: Float32Array;          ///< m
+    outline: Float32Array[]; borders: Float32Array[];  ///< polygons x, y, x, y ... in m
     trains: LiveTrain[];
 }
 
@@ -52,7 +54,7 @@ export class Session {
             const {head, arrays} = await this.engine.request(request);
             ++this.generation;
             this.rows = head.rows.map((info: RowInfo, k: number) => this.emptyRow(info, variantColour(info.class, head.rows.slice(0, k).filter((one: RowInfo) => one.class === info.class).length)));
-            this.skin = head.skin ? {...head.skin, ...arrays, trains: head.skin.classes.flatMap((one: SkinClass) => Array.from({length: one.count}, () => new LiveTrain()))} : null;
+            this.skin = head.skin ? skinOf(head.skin, arrays) : null;
             this.force = new LiveCurve("force", "N", 1 / rate);
             [this.time, this.due, this.warnings, this.contactRadius] = [0, 0, head.warnings || [], 0];
             return true;
@@ -131,4 +133,10 @@ export class Session {
         if (head.contact) this.contactRadius = head.contact.radius;
         for (const train of [...this.rows.map((row) => row.train), ...(this.skin ? this.skin.trains : [])]) train.forget(this.time - HISTORY);
     }
+}
+
+function skinOf(head: any, arrays: Record<string, NumberArray>): Skin {
+    const floats = (name: string) => arrays[name] as Float32Array;
+    const trains = (head.classes as SkinClass[]).flatMap(({count}) => Array.from({length: count}, () => new LiveTrain()));
+    return {...head, unitX: floats("x"), unitY: floats("y"), siteX: floats("site_x"), siteY: floats("site_y"), outline: numberedArrays(arrays, "outline"), borders: numberedArrays(arrays, "border"), trains};
 }

@@ -1,38 +1,36 @@
-// The skin under the pointer: its sites, its afferents, the spikes of the last moments, and the indenter.
+// The skin under the pointer: its afferents, the spikes of the last moments, and the indenter.
 
 import {classColour, resolved} from "../base/colours";
 import {h} from "../base/dom";
 import {quantity} from "../base/text";
+import {Places, SkinGeometry, spacing} from "../skin/geometry";
+import {SkinScene} from "../skin/scene";
+import {SkinMap} from "../skin/skin-map";
 import type {Press} from "./press";
 import type {Session, Skin} from "./session";
 
-const GLOW = 0.12;  // s for which a spike is shown
+const GLOW = 0.15;  // s for which a spike is shown
 
 export class Stage {
     readonly root: HTMLElement;
-    private canvas = h("canvas", {});
+    private host = h("div", {class: "stage-map"});
     private readout = h("p", {class: "readout", id: "stage-readout"});
-    private ground: HTMLCanvasElement | null = null;  // sites and afferents at rest
-    private size = "";
-    private scale = 1;  // pixels per metre
-    private left = 0;   // of the canvas's middle, m
-    private low = 0;
+    private scene: SkinScene | null = null;
+    private active: [number, number][] = [];  // mark, level
 
     constructor(private session: Session, private press: Press) {
         const help = "Skin. Press with the pointer, or hold the space bar; Enter presses until Enter. Arrow keys move, with Shift faster; + and − change the force.";
-        this.root = h("div", {class: "stage", tabindex: 0, role: "application", "aria-label": help, id: "stage"}, this.canvas, this.readout,
+        this.root = h("div", {class: "stage", tabindex: 0, role: "application", "aria-label": help, id: "stage"}, this.host, this.readout,
             h("p", {class: "hint"}, h("span", {class: "for-mouse"}, "Press and move. Wheel: force. Keys: hold space or Enter, arrows, + −."), h("span", {class: "for-touch"}, "Press with a finger, and move it.")));
-        this.connectPointer();
         this.connectKeys();
+        new ResizeObserver(() => this.resize()).observe(this.host);
     }
 
-    private get skin(): Skin | null { return this.session.skin; }
+    /// Set by the page: multiplies the force, and shows it on its control.
+    changeForce: (factor: number) => void = () => {};
 
-    private connectPointer() {
-        const {canvas, press} = this, follow = (event: PointerEvent) => {
-            const box = canvas.getBoundingClientRect();
-            press.moveTo(this.left + (event.clientX - box.left - box.width / 2) / this.scale, this.low - (event.clientY - box.top - box.height / 2) / this.scale);
-        };
+    private connectPointer({canvas, scene}: SkinMap) {
+        const {press} = this, follow = (event: PointerEvent) => press.moveTo(scene.metresX(event.offsetX), scene.metresY(event.offsetY));
         canvas.addEventListener("pointerdown", (event) => {
             press.stop();
             follow(event);
@@ -68,81 +66,56 @@ export class Stage {
         this.root.addEventListener("blur", () => { press.isDown = false; });
     }
 
-    /// Set by the page: changes the force and its control.
-    changeForce: (factor: number) => void = () => {};
-
-    /// Called after a start, or if the theme changes.
+    /// Draws the skin anew, after a start. The press moves to its middle.
     renew() {
-        this.ground = null;
-        const {skin} = this;
-        if (skin) this.press.moveTo((skin.left + skin.right) / 2, (skin.low + skin.high) / 2);
+        const {skin} = this.session;
+        this.host.replaceChildren();
+        this.root.hidden = !skin;
+        this.scene = null;
+        if (!skin) return;
+        this.scene = new SkinScene(geometryOf(skin, this.session.rows.length));
+        new SkinMap(this.scene, {host: this.host, name: "skin", title: [], about: "the skin, its active afferents, and the contact", classes: skin.classes.map((_, k) => k), hasForce: false, hasRings: true,
+                                 activity: (draw) => this.active.forEach(([mark, level]) => draw(mark, level)), drawn: (map) => this.drawContact(map), connect: (map) => this.connectPointer(map)});
+        this.press.moveTo(skin.x, skin.y);
+        this.resize();
     }
 
+    private resize() {
+        const {clientWidth, clientHeight} = this.host;
+        if (this.scene && clientWidth > 0) this.scene.resize(clientWidth, clientHeight);
+    }
+
+    redraw() { this.scene?.renew(); }
+
+    /// Called at each frame of the screen.
     draw() {
-        const {skin, canvas} = this, ratio = devicePixelRatio || 1, width = canvas.clientWidth, height = canvas.clientHeight;
-        this.root.hidden = !skin;
-        if (!skin || width === 0) return;
-        if (this.size !== `${width}x${height}x${ratio}`) this.ground = null;
-        this.size = `${width}x${height}x${ratio}`;
-        if (!this.ground) this.drawGround(skin, width, height, ratio);
-        const pen = canvas.getContext("2d")!;
-        pen.setTransform(1, 0, 0, 1, 0, 0);
-        pen.drawImage(this.ground!, 0, 0);
-        pen.setTransform(ratio, 0, 0, ratio, 0, 0);
-        this.drawContact(pen, width, height);
-        this.drawSpikes(pen, skin, width, height);
+        const {skin, time} = this.session;
+        if (!skin || !this.scene) return;
+        this.active = [];
+        skin.trains.forEach(({times}, mark) => {
+            const age = times.length ? time - times[times.length - 1] : GLOW;
+            if (age < GLOW) this.active.push([mark, 1 - Math.max(0, age) / GLOW]);
+        });
+        this.scene.draw();
         this.readout.textContent = `${quantity(this.press.force, "N", true)} at ${quantity(this.press.x, "m", true)}, ${quantity(this.press.y, "m", true)}`;
     }
 
-    private place(x: number, y: number, width: number, height: number): [number, number] { return [width / 2 + (x - this.left) * this.scale, height / 2 - (y - this.low) * this.scale]; }
-
-    private drawGround(skin: Skin, width: number, height: number, ratio: number) {
-        [this.canvas.width, this.canvas.height] = [Math.round(width * ratio), Math.round(height * ratio)];
-        const layer = (this.ground = h("canvas", {width: this.canvas.width, height: this.canvas.height})), pen = layer.getContext("2d")!;
-        this.scale = 0.94 * Math.min(width / (skin.right - skin.left), height / (skin.high - skin.low));
-        [this.left, this.low] = [(skin.left + skin.right) / 2, (skin.low + skin.high) / 2];
-        pen.setTransform(ratio, 0, 0, ratio, 0, 0);
-        pen.fillStyle = resolved("var(--paper)");
-        pen.fillRect(0, 0, width, height);
-        pen.fillStyle = resolved("var(--flesh)");
-        const radius = Math.max(1, 0.9 * skin.site_side * this.scale);
-        for (let s = 0; s < skin.site_x.length; ++s) dot(pen, this.place(skin.site_x[s], skin.site_y[s], width, height), radius);
-        pen.globalAlpha = 0.45;
-        for (let u = 0; u < skin.x.length; ++u) {
-            pen.fillStyle = resolved(classColour(skin.classes[skin.class[u]].name));
-            dot(pen, this.place(skin.x[u], skin.y[u], width, height), 1.3);
-        }
-    }
-
-    private drawContact(pen: CanvasRenderingContext2D, width: number, height: number) {
-        const {press} = this, [x, y] = this.place(press.x, press.y, width, height), radius = Math.max(this.session.contactRadius * this.scale, 5);
-        pen.strokeStyle = resolved(press.force > 0 ? "var(--force)" : "var(--axis)");
-        pen.fillStyle = resolved("var(--force)");
+    private drawContact({canvas, scene}: SkinMap) {
+        const {press} = this, pen = canvas.getContext("2d")!, x = scene.x(press.x), y = scene.y(press.y), radius = Math.max(this.session.contactRadius * scene.scale, 5);
+        pen.strokeStyle = pen.fillStyle = resolved(press.force > 0 ? "var(--force)" : "var(--axis)");
         pen.lineWidth = 2;
-        pen.globalAlpha = 0.35;
-        if (press.force > 0) dot(pen, [x, y], radius);
-        pen.globalAlpha = 1;
         pen.beginPath();
         pen.arc(x, y, radius, 0, 2 * Math.PI);
         pen.stroke();
-    }
-
-    /// A spike is a mark that fades. An afferent whose spikes are frequent stays lit.
-    private drawSpikes(pen: CanvasRenderingContext2D, skin: Skin, width: number, height: number) {
-        const now = this.session.time;
-        for (let u = 0; u < skin.trains.length; ++u) {
-            const {times} = skin.trains[u], age = times.length ? now - times[times.length - 1] : GLOW;
-            if (age >= GLOW) continue;
-            pen.globalAlpha = 1 - Math.max(0, age) / GLOW;
-            pen.fillStyle = resolved(classColour(skin.classes[skin.class[u]].name));
-            dot(pen, this.place(skin.x[u], skin.y[u], width, height), 3.6);
-        }
+        pen.globalAlpha = 0.25;
+        if (press.force > 0) pen.fill();
         pen.globalAlpha = 1;
     }
 }
 
-function dot(pen: CanvasRenderingContext2D, [x, y]: [number, number], radius: number) {
-    pen.beginPath();
-    pen.arc(x, y, radius, 0, 2 * Math.PI);
-    pen.fill();
+function geometryOf(skin: Skin, firstUnit: number): SkinGeometry {
+    const pairs = (x: Float32Array, y: Float32Array): Places => Float32Array.from({length: 2 * x.length}, (_, k) => (k % 2 ? y : x)[k >> 1]);
+    const sites = pairs(skin.siteX, skin.siteY);
+    return {outline: skin.outline, borders: skin.borders, sites, side: skin.site_side || 0.9 * spacing(sites), marks: pairs(skin.unitX, skin.unitY),
+            classes: skin.classes.map(({name, first, count}) => ({name, colour: classColour(name), first: first - firstUnit, end: first - firstUnit + count}))};
 }

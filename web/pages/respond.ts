@@ -1,7 +1,6 @@
 // The page of the verb `respond`: force, spikes and rates of a channel, then currents and membranes of each afferent, folded, then tables.
 
 import {setLink} from "../base/link";
-import {seriesColour} from "../base/colours";
 import {chooser, fill, h} from "../base/dom";
 import {quantity} from "../base/text";
 import type {ChannelData, InputData, RespondData, TrialData} from "../data/document";
@@ -11,10 +10,11 @@ import type {Panel} from "../plot/panel";
 import {View} from "../plot/view";
 import {addNote, folded, hint, section, showVersions, startPage, timeToolbar} from "../shell";
 import {aboutMember, afferentTypePanels, tracesOf} from "./respond/afferent-figures";
+import {consoleAccess} from "./respond/console-access";
 import {FirstFigures, channelName} from "./respond/first-figures";
 import {AfferentType, afferentTypesOf} from "./respond/implementations";
 import {costTables, implementationTable, parameterTables, qualityTable, rateTable} from "./respond/tables";
-import {ViewState, readViewLink, viewLinkValues} from "./respond/view-link";
+import {NO_VIEW, ViewState, readViewLink, viewLinkValues} from "./respond/view-link";
 
 class RespondPage {
     readonly view = new View();
@@ -35,24 +35,30 @@ class RespondPage {
         this.types = afferentTypesOf(data.afferents);
         this.first = new FirstFigures(data, this.types);
         const main = startPage(data), state = readViewLink();
-        if (!state) addNote("The view in the link of this page is damaged, so it was ignored.");
-        else Object.assign(this, {hidden: new Set(state.hidden), open: new Set(state.open), areAllRows: state.areAllRows});
+        this.areAllRows = Boolean(state && state.areAllRows);
         this.trials = data.trials ? this.addTrials(main) : null;
         timeToolbar(main, this.view, this.choice);
         main.append(this.figures);
         this.addTables(main);
         this.restore(state);
-        this.view.onDraw(() => this.keepInLink());
+        for (const view of this.views) view.onDraw(() => this.keepInLink());
         addEventListener("hashchange", () => this.restore(readViewLink()));
     }
 
-    /// Shows the view of a link: its input and channel, if they exist, and its times.
+    get views() { return this.trials ? [this.trials.view, this.view] : [this.view]; }
+
+    /// Shows the view of a link: what of it the page has.
     private restore(state: ViewState | null) {
-        const {inputs} = this.data, input = inputs[(state && state.input || 1) - 1] || inputs[0];
-        const channel = (state && state.channel && input.channels[state.channel - 1]) || this.first.mostActiveChannel(input);
-        if (state) this.view.setAutoscale(state.isAutoscale);
+        if (!state) addNote("The view in the link of this page is damaged, so it was ignored.");
+        const {inputs} = this.data, {input: inputNumber, channel: channelNumber, from, to, isAutoscale, hidden, open} = state || NO_VIEW;
+        const input = inputs[(inputNumber || 1) - 1] || inputs[0], channel = (channelNumber && input.channels[channelNumber - 1]) || this.first.mostActiveChannel(input);
+        this.view.clear();
+        [this.hidden, this.open] = [new Set(hidden), new Set(open)];
+        this.view.setAutoscale(isAutoscale);
         this.show(input, channel);
-        if (state && state.from !== null) this.view.set(state.from, state.to!);
+        if (this.trials) this.hide(this.trials.view.panels);
+        if (from !== null) this.view.set(from, to!);
+        else this.view.reset();
     }
 
     /// Keeps in the link what differs from the view that the page opens with.
@@ -65,20 +71,24 @@ class RespondPage {
     }
 
     private collectHidden() {
-        for (const panel of this.view.panels)
+        for (const panel of this.views.flatMap(({panels}) => panels))
             for (const {name} of panel.series) panel.hidden.has(name) ? this.hidden.add(`${panel.name}:${name}`) : this.hidden.delete(`${panel.name}:${name}`);
     }
 
     /// Adds panels to the view, without the series that the user has hidden.
     private add(panels: Panel[]) {
         this.view.add(...panels);
-        for (const panel of panels) for (const {name} of panel.series) if (this.hidden.has(`${panel.name}:${name}`)) panel.toggle(name);
+        this.hide(panels);
+    }
+
+    private hide(panels: Panel[]) {
+        for (const panel of panels) for (const {name} of panel.series) if (panel.hidden.has(name) !== this.hidden.has(`${panel.name}:${name}`)) panel.toggle(name);
     }
 
     /// Shows the figures and tables of one channel of an input. The visible times are kept if only the channel changes.
     show(input: InputData, channel: ChannelData) {
         const keep = this.input === input, focus = (document.activeElement?.closest("[data-panel]") as HTMLElement | null)?.dataset.panel, scroll = scrollY;
-        this.collectHidden();
+        if (this.view.panels.length) this.collectHidden();
         Object.assign(this, {input, channel, traces: this.data.traces.filter((one) => one.channel === channel.id).map((one) => new Trace(one, input))});
         this.view.clear();
         fill(this.figures);
@@ -106,9 +116,9 @@ class RespondPage {
     private addAfferentType(type: AfferentType) {
         const {members, name} = type, {input} = this;
         if (!members.some((one) => tracesOf(this.shown, one).length)) return;
-        const [{index}] = members, isOne = members.length === 1, title = isOne ? members[0].afferent.name : name;
+        const [{colour}] = members, isOne = members.length === 1, title = isOne ? members[0].afferent.name : name;
         const about = isOne ? aboutMember(members[0], this.shown.isCopy) : members.map(({afferent}) => afferent.name).join(", ");
-        const node = folded(this.figures, `afferent ${title}`, title, about, isOne ? seriesColour(index) : "", (host) => this.input === input && this.add(afferentTypePanels(host, type, this.shown)), this.open.has(title));
+        const node = folded(this.figures, `afferent ${title}`, title, about, isOne ? colour : "", (host) => this.input === input && this.add(afferentTypePanels(host, type, this.shown)), this.open.has(title));
         node.addEventListener("toggle", () => {
             if (!node.isConnected) return;
             node.open ? this.open.add(title) : this.open.delete(title);
@@ -154,28 +164,6 @@ class RespondPage {
         parameterTables(main, data.afferents);
         showVersions(main, data.versions);
     }
-
-    /// For tests and the browser's console.
-    ///
-    ///   panels                 by name: "force", "all forces", "raster", "population", "frequency", "sa1 current", "sa1 membrane", "trial raster".
-    ///                          With several implementations the names are "sa1 I", "sa1 I_A", "sa1 u", "sa1 frequency"
-    ///   valueAt(quantity, t, afferent)   the value on the chosen channel at the sample nearest to t. It is [min, max] if the trace has only the minimum
-    ///                          and maximum of several samples, and null if there is no such trace. "force" has no afferent
-    ///   window(), setWindow(a, b)   the visible times (s); setting them redraws at once
-    ///   pointsDrawn()          by panel: the points of its longest curve, and the width of its plot in pixels
-    get testing() {
-        const page = this, all = () => [...(this.trials ? this.trials.view.panels : []), ...this.view.panels];
-        return {
-            get panels() { return Object.fromEntries(all().map((panel) => [panel.name, panel])); },
-            valueAt(name: string, t: number, afferent: string | null = null) {
-                const trace = page.traces.find((one) => one.quantity === name && one.afferent === afferent);
-                return trace ? (trace.bucket === 1 ? trace.at(t)[0] : trace.at(t)) : null;
-            },
-            window: () => [this.view.a, this.view.b],
-            setWindow: (a: number, b: number) => { this.view.set(a, b); this.view.draw(); },
-            pointsDrawn: () => Object.fromEntries(all().map(({name, drawn, area}) => [name, {rows: drawn, width: area.w}])),
-        };
-    }
 }
 
-export function showRespondPage(data: RespondData) { Object.assign(window, {corpuscle: new RespondPage(data).testing}); }
+export function showRespondPage(data: RespondData) { Object.assign(window, {corpuscle: consoleAccess(new RespondPage(data))}); }

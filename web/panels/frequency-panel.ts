@@ -1,6 +1,7 @@
 // The instantaneous frequency of spike trains: f_k = 1 / (t[k+1] - t[k]) as a mark at the time t[k] of its spike. The last spike has none.
 
 import {resolved} from "../base/colours";
+import {h} from "../base/dom";
 import {PREFIXES, fixedText, prefixPower, quantity, roundTicks} from "../base/text";
 import {Area, csvText} from "../plot/panel";
 import type {Pen} from "../plot/pen";
@@ -24,7 +25,7 @@ export class FrequencyPanel extends TimePanel {
         super({...rest, series: trains.map(({name, colour, shape}) => ({name, colour, mark: MARKS[shape % 4]}))});
         this.trains = trains;
         this.power = prefixPower(this.highest(-Infinity, Infinity), "Hz");
-        this.addTitle(` (${PREFIXES[this.power]}Hz)`);
+        this.addTitle(" ", h("span", {class: "unit"}, `(${PREFIXES[this.power]}Hz)`));
     }
 
     private get shown() { return this.trains.filter((_, k) => this.isVisible(this.series[k])); }

@@ -1,7 +1,7 @@
 // One quantity of several implementations of an afferent type. The left axis is that of the reference. Implementations with another scale are read on
 // the right axis, which has the scale of the first of them.
 
-import {resolved} from "../base/colours";
+import {mixed, resolved} from "../base/colours";
 import {h, isNarrow} from "../base/dom";
 import {PREFIXES, prefixPower, roundTicks, unitText} from "../base/text";
 import type {Area} from "../plot/panel";
@@ -29,6 +29,9 @@ class ScaledTrace extends Trace {
     }
 }
 
+/// The colour of a series, with enough contrast for texts.
+const textColour = (colour: string) => mixed(colour, "var(--ink)", 0.45);
+
 export interface Implementation { trace: Trace; scale: Scale; colour: string; name: string }
 export interface OverlayOptions extends Omit<TracePanelOptions, "traces" | "series"> { implementations: Implementation[] }
 
@@ -44,7 +47,7 @@ export class OverlayPanel extends TracePanel {
         if (!this.right) return;
         const {scale, colour, name, trace} = this.right, power = prefixPower(Math.max(...this.extent.map((v) => Math.abs(scale.from(v)))), trace.unit);
         [this.rightScale, this.rightMargin] = [10 ** power, isNarrow() ? 38 : 58];
-        this.heading.append(h("span", {class: "right-title", style: `color: ${colour}`}, `${name}${scale.factor < 0 ? ", inverted" : ""} (${PREFIXES[power]}${unitText(trace.unit)})`));
+        this.heading.append(h("span", {class: "right-title", style: `color: ${textColour(colour)}`}, `${name}${scale.factor < 0 ? ", inverted" : ""} (${PREFIXES[power]}${unitText(trace.unit)})`));
     }
 
     /// Round values of the right axis: [value in SI, text].
@@ -57,7 +60,7 @@ export class OverlayPanel extends TracePanel {
 
     protected paintMargins(pen: Pen, {x, y, w, h: height}: Area) {
         if (!this.right) return;
-        pen.fillStyle = resolved(this.right.colour);
+        pen.fillStyle = resolved(textColour(this.right.colour));
         pen.textAlign = "left";
         pen.textBaseline = "middle";
         for (const [value, text] of this.rightTicks()) {

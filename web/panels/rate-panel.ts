@@ -2,6 +2,7 @@
 
 import {resolved} from "../base/colours";
 import {firstAt} from "../base/arrays";
+import {h} from "../base/dom";
 import {PREFIXES, prefixPower, quantity, roundTicks} from "../base/text";
 import {Area, Series, csvText} from "../plot/panel";
 import type {Pen} from "../plot/pen";
@@ -25,7 +26,7 @@ export class RatePanel extends TimePanel {
         super({...rest, series: curves});
         this.curves = curves;
         this.power = prefixPower(this.highest(-Infinity, Infinity), "Hz");
-        this.addTitle(` (${PREFIXES[this.power]}Hz)`);
+        this.addTitle(" ", h("span", {class: "unit"}, `(${PREFIXES[this.power]}Hz)`));
     }
 
     /// Replaces the curves, which must have the same series.

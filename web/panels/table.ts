@@ -9,6 +9,7 @@ export interface Column {
     label?: Child[];
     decimals?: number | null;  ///< of its numbers; four digits if it is not given
     isNumber?: boolean;        ///< aligned to the right
+    class?: string;            ///< CSS class of its cells
     show?: (value: Cell, row: number) => Child[];  ///< the content of a cell, if it is not the text of the value
 }
 
@@ -18,6 +19,8 @@ export interface TableOptions {
     rows: Cell[][];
     rowClass?: (row: number) => string;  ///< CSS class of a row
     isSortable?: boolean;                ///< true unless given
+    isShown?: (row: number) => boolean;  ///< filters the rows; asked again at the event "filter" of the table
+    isStacked?: boolean;                 ///< on a narrow screen each row is a list of its cells with their headings
 }
 
 /// A table in a region that scrolls. The first column is the heading of each row.
@@ -26,10 +29,11 @@ export function table(options: TableOptions): HTMLElement {
     let order = rows.map((_, k) => k), sorted = -1, direction = 1;
     const heads = columns.map((column, c) => {
         const label = column.label || [column.name];
-        const content = isSortable && rows.length > 1 ? h("button", {type: "button", title: "Sort", onclick: () => sort(c)}, ...label) : h("span", {}, ...label);
-        return h("th", {scope: "col", class: column.isNumber ? "number" : ""}, content);
+        const content = isSortable && rows.length > 1 && label.some((part) => part !== "") ? h("button", {type: "button", title: "Sort", onclick: () => sort(c)}, ...label) : h("span", {}, ...label);
+        return h("th", {scope: "col", class: classOf(column)}, content);
     });
-    const draw = () => fill(body, ...order.map((k) => rowOf(options, k)));
+    const shownRows = () => order.filter((k) => !options.isShown || options.isShown(k));
+    const draw = () => fill(body, ...shownRows().map((k) => rowOf(options, k)));
     const sort = (column: number) => {
         direction = sorted === column ? -direction : 1;
         sorted = column;
@@ -38,17 +42,19 @@ export function table(options: TableOptions): HTMLElement {
         draw();
     };
     draw();
-    const save = () => download(`${name.replace(/[^\p{L}\p{N}.-]+/gu, "-")}.csv`, csvText(columns.map((one) => one.name), order.map((k) => rows[k].map(csvCell))));
-    return h("div", {class: "table"}, h("button", {type: "button", class: "save", onclick: save, title: "Save this table as CSV"}, "CSV"),
+    const save = () => download(`${name.replace(/[^\p{L}\p{N}.-]+/gu, "-")}.csv`, csvText(columns.map((one) => one.name), shownRows().map((k) => rows[k].map(csvCell))));
+    return h("div", {class: options.isStacked ? "table stacked" : "table", onfilter: draw}, h("button", {type: "button", class: "save", onclick: save, title: "Save this table as CSV"}, "CSV"),
         h("div", {class: "scroll", tabindex: 0, role: "region", "aria-label": name}, h("table", {}, h("thead", {}, h("tr", {}, ...heads)), body)));
 }
 
 function rowOf({columns, rows, rowClass}: TableOptions, k: number): HTMLTableRowElement {
     return h("tr", {class: rowClass ? rowClass(k) : ""}, ...columns.map((column, c) => {
         const value = rows[k][c], content = column.show ? column.show(value, k) : [cellText(value, column.decimals)];
-        return c === 0 ? h("th", {scope: "row"}, ...content) : h("td", {class: column.isNumber ? "number" : ""}, ...content);
+        return c === 0 ? h("th", {scope: "row", class: column.class}, ...content) : h("td", {class: classOf(column), "data-head": column.name}, ...content);
     }));
 }
+
+const classOf = ({isNumber, class: own}: Column) => [isNumber ? "number" : "", own || ""].join(" ").trim();
 
 const csvCell = (value: Cell) => (value === null || value === undefined ? null : typeof value === "number" ? value : Array.isArray(value) ? cellText(value) : String(value));
 

@@ -64,11 +64,13 @@ export class TrialFigures {
     /// Shows the spikes and rates of a group.
     show(group: number) {
         this.group = group;
-        const {a, b} = this.view;
+        const {a, b} = this.view, hidden = new Map(this.view.panels.map((panel) => [panel.name, [...panel.hidden]]));
         this.view.clear();
         const force = this.forcePanel(), {groupsOf} = this.options, raster = this.data.spikes && !groupsOf ? [this.rasterPanel(group)] : [];
         const rates = groupsOf ? groupsOf(group).map((one, k, all) => this.ratePanel(one, `trial rate ${this.data.groups[one].name}`, k === all.length - 1)) : [this.ratePanel(group)];
         this.view.add(force, ...raster, ...rates);
+        for (const panel of this.view.panels) panel.onToggle = (name) => this.view.panels.forEach((one) => one.toggle(name));  // a label in all
+        for (const panel of this.view.panels) for (const name of hidden.get(panel.name) || []) panel.toggle(name);
         this.view.set(a, b);
     }
 

@@ -1,7 +1,7 @@
 // A panel is one plot with a heading, which is also the legend and shows the values at the cursor.
 
 import {resolved} from "../base/colours";
-import {Child, append, h, isNarrow, pixelRatio} from "../base/dom";
+import {Child, append, h, isNarrow, isWide, pixelRatio} from "../base/dom";
 import {Ticks, fixedText, roundTicks} from "../base/text";
 import {Pen, SvgPen} from "./pen";
 import {connectPointer} from "./pointer";
@@ -21,7 +21,7 @@ export interface PanelOptions {
     isBottom?: boolean;  ///< label the x axis
 }
 
-const FONT = "11px system-ui, sans-serif";
+const font = () => `${isWide() ? 14 : 11}px system-ui, sans-serif`;
 const X_AXIS = 22, X_AXIS_WITHOUT_LABELS = 8;
 
 /// Derived classes define what they draw, their vertical range, their values at the cursor and their numbers as CSV.
@@ -36,6 +36,7 @@ export abstract class Panel {
     rightMargin = 14;
     height: number;
     isBottom: boolean;
+    protected titleSpace = {top: 0, bottom: 0};  // for titles of the axes, pixels
     drawn = 0;  // points of the last drawing, for tests
     view!: View;
     protected values = new Map<string, HTMLElement>();
@@ -44,14 +45,14 @@ export abstract class Panel {
     protected readonly about: string;
     protected readonly heading: HTMLElement;
     protected readonly legend: HTMLElement;
-    private canvas = h("canvas", {});
+    protected readonly canvas = h("canvas", {});
     private hairline = h("div", {class: "hairline"});
     private selection = h("div", {class: "selection"});
     private tip = h("div", {class: "tip", role: "status"});
     private ticks: Ticks = {values: [], text: String};
 
     constructor({host, name, title, about, height, series, isBottom = false}: PanelOptions) {
-        [this.name, this.about, this.height, this.series, this.isBottom] = [name, about, height, series, isBottom];
+        [this.name, this.about, this.height, this.series, this.isBottom] = [name, about, height * (isWide() ? 1.4 : 1), series, isBottom];
         this.legend = h("span", {class: "legend"});
         this.heading = h("figcaption", {}, h("span", {class: "panel-title"}, ...title), this.legend, saveMenu(name, this.canvas, () => this.svg(), () => this.csv()));
         this.plot = h("div", {class: "plot", tabindex: 0, role: "img", "aria-label": about}, this.canvas, this.hairline, this.selection, this.tip);
@@ -108,13 +109,15 @@ export abstract class Panel {
         const swatch = mark ? h("span", {class: "mark", style: `color: ${colour}`}, mark)
             : h("span", {class: "swatch", style: `border-top: ${width}px ${dash ? (dash[0] > 3 ? "dashed" : "dotted") : "solid"} ${colour}`});
         const value = h("span", {class: "legend-value"});
-        if (!label.length) swatch.hidden = true;  // a single curve, which the title names
         const item = canHide && this.series.length > 1
-            ? h("button", {class: "legend-item", type: "button", "aria-pressed": "true", title: "Show or hide", "data-series": name, onclick: () => this.toggle(name)}, swatch, h("span", {class: "legend-name"}, ...label), value)
-            : h("span", {class: "legend-item", "data-series": name}, swatch, h("span", {class: "legend-name"}, ...label), value);
+            ? h("button", {class: "legend-item", type: "button", "aria-pressed": "true", title: "Show or hide", "data-series": name, onclick: () => this.onToggle(name)}, swatch, h("span", {class: "legend-name"}, ...label), value)
+            : h("span", {class: "legend-item", "data-series": name}, label.length ? swatch : null, h("span", {class: "legend-name"}, ...label), value);
         this.values.set(name, value);
         this.legend.append(item);
     }
+
+    /// Called when the user clicks a series in the legend.
+    onToggle: (name: string) => void = (name) => this.toggle(name);
 
     toggle(name: string) {
         if (!this.hidden.delete(name)) this.hidden.add(name);
@@ -132,16 +135,15 @@ export abstract class Panel {
         [this.low, this.high] = this.range(this.view.isAutoscale);
         this.ticks = this.verticalTicks(this.low, this.high, this.height);
         const pen = this.canvas.getContext("2d")!;
-        pen.font = FONT;
+        pen.font = font();
         this.leftMargin = Math.ceil(Math.max(isNarrow() ? 24 : 44, ...this.ticks.values.map((v) => pen.measureText(this.ticks.text(v)).width + 9)));
     }
 
     /// Draws the panel with these margins, which are the same for all panels of a view.
     draw(left: number, right: number) {
-        const width = this.plot.clientWidth, height = this.height + (this.isBottom ? X_AXIS : X_AXIS_WITHOUT_LABELS);
-        const ratio = pixelRatio();
+        const width = this.plot.clientWidth, height = this.fullHeight, ratio = pixelRatio();
         this.root.style.setProperty("--left", `${left}px`);
-        this.area = {x: left, y: 4, w: Math.max(1, width - left - right), h: this.height - 4};
+        this.area = {x: left, y: 4 + this.titleSpace.top, w: Math.max(1, width - left - right), h: this.height - 4};
         if (this.canvas.width !== Math.round(width * ratio) || this.canvas.height !== Math.round(height * ratio)) {
             [this.canvas.width, this.canvas.height] = [Math.round(width * ratio), Math.round(height * ratio)];
             [this.canvas.style.width, this.canvas.style.height] = [`${width}px`, `${height}px`];
@@ -150,13 +152,20 @@ export abstract class Panel {
         pen.setTransform(ratio, 0, 0, ratio, 0, 0);
         pen.clearRect(0, 0, width, height);
         this.drawAll(pen);
+        this.plot.setAttribute("aria-label", `${this.about}, ${this.spanText()}`);
+    }
+
+    private get fullHeight() { return this.height + this.titleSpace.top + this.titleSpace.bottom + (this.isBottom ? X_AXIS : X_AXIS_WITHOUT_LABELS); }
+
+    /// The visible range of x, for screen readers.
+    protected spanText(): string {
         const {a, b, unit} = this.view, step = (b - a) / 1000;
-        this.plot.setAttribute("aria-label", `${this.about}, from ${fixedText(a, step, unit)} to ${fixedText(b, step, unit)}`);
+        return `from ${fixedText(a, step, unit)} to ${fixedText(b, step, unit)}`;
     }
 
     private drawAll(pen: Pen) {
         const {area} = this, {x, y, w} = area;
-        pen.font = FONT;
+        pen.font = font();
         pen.lineJoin = "bevel";  // mitred peaks would exceed the values
         this.drawGrid(pen);
         pen.save();
@@ -201,7 +210,7 @@ export abstract class Panel {
         const isInside = x !== null && x >= this.view.a && x <= this.view.b;
         this.hairline.style.display = isInside ? "block" : "none";
         if (isInside) this.hairline.style.transform = `translateX(${this.x(x)}px)`;
-        this.hairline.style.height = `${this.area.h + 4}px`;
+        this.hairline.style.height = `${this.area.y + this.area.h}px`;
         if (x !== null) this.showValues(x);
         else this.clearValues();
     }
@@ -210,7 +219,7 @@ export abstract class Panel {
 
     /// Marks the part between two pixels that a drag selects.
     showSelection(from: number, to: number) {
-        Object.assign(this.selection.style, {display: from === to ? "none" : "block", left: `${Math.min(from, to)}px`, width: `${Math.abs(to - from)}px`, height: `${this.area.h + 4}px`});
+        Object.assign(this.selection.style, {display: from === to ? "none" : "block", left: `${Math.min(from, to)}px`, width: `${Math.abs(to - from)}px`, height: `${this.area.y + this.area.h}px`});
     }
 
     /// Shows the tip of the point at (x, y); negative coordinates hide it.
@@ -225,7 +234,7 @@ export abstract class Panel {
 
     /// The drawing as an SVG file.
     svg(): string {
-        const pen = new SvgPen(), width = this.plot.clientWidth, height = this.height + (this.isBottom ? X_AXIS : X_AXIS_WITHOUT_LABELS);
+        const pen = new SvgPen(), width = this.plot.clientWidth, height = this.fullHeight;
         pen.fillStyle = resolved("var(--paper)");
         pen.fillRect(0, 0, width, height);
         this.drawAll(pen);

@@ -60,7 +60,7 @@ export class SvgPen implements Pen {
     fillText(text: string, x: number, y: number) {
         const anchor = {center: "middle", right: "end", end: "end", left: "start", start: "start"}[this.textAlign];
         const shift = this.textBaseline === "middle" ? "0.35em" : this.textBaseline === "top" ? "0.8em" : "0";
-        const size = /(\d+(?:\.\d+)?)px/.exec(this.font)![1], weight = /^(bold|600)/.test(this.font) ? ' font-weight="600"' : "";
+        const size = /(\d+(?:\.\d+)?)px/.exec(this.font)![1], weight = /^(bold|600)/.test(this.font) ? ' font-weight="600"' : /^italic/.test(this.font) ? ' font-style="italic"' : "";
         this.parts.push(`<text x="${rounded(x)}" y="${rounded(y)}" dy="${shift}" text-anchor="${anchor}" font-size="${size}"${weight} fill="${escaped(this.fillStyle)}"${this.opacity()}>${escaped(text)}</text>`);
     }
 

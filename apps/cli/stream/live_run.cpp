@@ -8,7 +8,7 @@
 #include "circuit/variant/netlist_overrides.hpp"
 #include "cli/output/output_files.hpp"
 #include "cli/output/terminal.hpp"
-#include "cli/stream/stream.hpp"
+#include "cli/stream/page/stream_page.hpp"
 #include "core/text/ascii_text.hpp"
 #include "core/text/input_files.hpp"
 #include "io/output/output_check.hpp"
@@ -54,12 +54,13 @@ class LiveRun {
     FrameLayout layout_;                     // of live frames only
     std::unique_ptr<EventFormat> format_;
     std::unique_ptr<EventSink> sink_;
+    std::unique_ptr<StreamPage> page_;  // null: without --serve
     std::unique_ptr<StreamLoop> loop_;
     std::optional<TaxelLayout> taxels_;    // of --taxels
     std::vector<std::string> skin_notes_;  // about the skin and the taxels
     bool is_status_shown_ = false;         // true while the last line of the terminal is the status line
 
-    StreamReportInput report_input() const { return {*skin_, *frames_, *sink_, *format_, *loop_}; }
+    StreamReportInput report_input() const { return {*skin_, *frames_, *sink_, *format_, *loop_, page_.get()}; }
 
     /// Opens a recording or a stimulus, and the skin that it drives.
     Result<void> open_recorded() {
@@ -191,6 +192,11 @@ class LiveRun {
         const auto addressing = make_event_addressing(skin_->innervation(), skin_->clock());
         format_ = TRY(make_event_format(args_.format, addressing));
         const auto buffer_size = static_cast<std::size_t>(args_.buffer);
+        const auto was_given = [](const TypedOption& option) { return option.name == "--out"; };
+        if (args_.serve && args_.to.empty() && std::none_of(common_.typed.begin(), common_.typed.end(), was_given)) {
+            sink_ = make_null_sink(*format_, buffer_size);
+            return {};
+        }
         sink_ = TRY(!args_.to.empty()  ? connect_event_client(args_.to, *format_, buffer_size)
                     : args_.out == "-" ? open_standard_output(*format_, buffer_size)
                                        : create_event_file(args_.out, *format_, buffer_size));
@@ -323,7 +329,9 @@ class LiveRun {
         if (source_) others.push_back(source_->name());
         TRY(check_all_used(unused_, override_targets(skin_->innervation().plan, others)));
         TRY(check_outputs());
-        return open_sink();
+        TRY(open_sink());
+        if (args_.serve) page_ = TRY(StreamPage::start(args_, *skin_));
+        return {};
     }
 
     /// Checks that the output files may be written. The file of --resume may be replaced by --save-state, but by no other output.
@@ -348,10 +356,13 @@ public:
         options.on_frame_error = [this](const FrameError& frame_error) { warn(frame_error_text(frame_error)); };
         if (!common_.quiet && !common_.json && ::isatty(STDERR_FILENO) && !::isatty(STDOUT_FILENO))
             options.on_second = [this] { show_status(); };
+        if (page_) options.observer = page_->observer();
         loop_ = std::make_unique<StreamLoop>(*skin_, *format_, *frames_, *sink_, std::move(options));
         TRY(load_state());
         if (is_live_input(args_.in) && args_.in != "-") print_message(frames_->description());
+        if (page_ && !is_live_input(args_.in)) page_->wait_for_viewer(common_.quiet);
         auto ended = loop_->run();
+        if (page_) page_->finish(skin_->frames(), loop_->stats().spikes);
         print_quality();
         print_summary();
         if (auto ok = save_state(); ended && !ok) return ok;

@@ -1,8 +1,8 @@
 // corpuscle stream: its options and the examples of its help.
 
-#include "cli/stream/stream.hpp"
 #include "cli/output/terminal.hpp"
 #include "cli/shell/suggestions.hpp"
+#include "cli/stream/page/stream_page.hpp"
 #include "cli/verbs.hpp"
 
 namespace corpuscle {
@@ -32,6 +32,8 @@ Examples:
   corpuscle stream --channels 16 --rate 500Hz --in serial:/dev/ttyACM0 --baud 921600 --frames i16 --scale 2mN -o spikes.csv
   corpuscle stream --in grip.csv --unit mN --format jsonl --pace fast  a recording, with the recording options of respond
   corpuscle stream --channels 16 --rate 1kHz --in udp:7000 --stamp sequence --frames f32     numbered frames in datagrams
+  sensor | corpuscle stream --rate 1kHz --serve 8080                   forces and spikes on a page, http://localhost:8080/
+  corpuscle stream --in page --serve 8080                              press by pointer on a page
   corpuscle stream --rate 1kHz --save-state now.state; corpuscle stream --rate 1kHz --resume now.state
 
 Ctrl-C ends the stream: received frames are processed, files and the state are saved, and a summary
@@ -68,7 +70,7 @@ OptionGroup input_options(StreamArguments& args) {
     return {"",
             {{"--in,-i", &args.in, "WHERE",
               "source of the frames: - (standard input), tcp:PORT or udp:PORT to listen on (0: any free port), serial:DEVICE, a "
-              "recording, or a stimulus"},
+              "recording, a stimulus, or page: presses by pointer on the page of --serve"},
              {"--rate,-r", quantity_reader(args.recording.rate, "Hz"), "FREQUENCY",
               "frame rate (default for a recording: its sampling rate)"}}};
 }
@@ -108,9 +110,21 @@ OptionGroup spike_options(StreamArguments& args) {
              {"--resume", &args.resume, "FILE", "continue from a saved state, with the same population and rate"}}};
 }
 
+OptionGroup page_options(StreamArguments& args) {
+    return {"Page",
+            {{"--serve", &args.serve, "PORT",
+              "show the stream on a page, at http://localhost:PORT/ (0: any free port); spikes are then written only with --out or --to",
+              std::pair(0U, 65535U)},
+             {"--bind", &args.bind, "ADDRESS",
+              "serve the page at this address of the machine, such as 0.0.0.0 (all), instead of to this machine only; the printed address "
+              "of the page then has a token, without which there is no access"},
+             {"--max-viewers", &args.max_viewers, "N", "number of pages that may be connected (default: 256, with --in page 8)",
+              std::pair(1U, 4096U)}}};
+}
+
 Result<void> check_destination(const StreamArguments& args, const CommonArguments& common) {
     if (!args.to.empty() && args.out != "-") return bad_usage("--out and --to cannot be used together");
-    if (common.json && args.to.empty() && args.out == "-")
+    if (common.json && args.to.empty() && args.out == "-" && !args.serve)
         return bad_usage("--json prints on standard output; send the spikes elsewhere by --out FILE or --to PORT");
     return {};
 }
@@ -119,23 +133,24 @@ Result<void> check_destination(const StreamArguments& args, const CommonArgument
 
 Verb make_stream_verb() {
     const auto args = std::make_shared<StreamArguments>();
-    return {
-        .name = "stream",
-        .description = "simulate live: frames of force in, spikes out",
-        .examples = stream_examples,
-        .common_options = {"--in", "--rate", "--population", "--channels", "--frames", "--scale", "--out", "--to", "--format", "--json"},
-        .options = {population_options(*args), input_options(*args), frame_options(*args), recording_option_group(args->recording),
-                    spike_options(*args)},
-        .reports = true,
-        .writes_files = true,
-        .run = [args](const CommonArguments& common) {
-            catch_interrupt();
-            if (const auto ok = check_destination(*args, common); !ok) return report_error(ok.error());
-            const auto done = run_live(*args, common);
-            if (!done && done.error().code == ErrorCode::interrupted)
-                return static_cast<int>(done.error().code);  // its summary has said so
-            return exit_status(done);
-        }};
+    return {.name = "stream",
+            .description = "simulate live: frames of force in, spikes out",
+            .examples = stream_examples,
+            .common_options = {"--in", "--rate", "--population", "--channels", "--frames", "--scale", "--out", "--to", "--format",
+                               "--serve", "--json"},
+            .options = {population_options(*args), input_options(*args), frame_options(*args), recording_option_group(args->recording),
+                        spike_options(*args), page_options(*args)},
+            .reports = true,
+            .writes_files = true,
+            .run = [args](const CommonArguments& common) {
+                catch_interrupt();
+                if (const auto ok = check_destination(*args, common); !ok) return report_error(ok.error());
+                if (const auto ok = check_page_options(*args, common); !ok) return report_error(ok.error());
+                const auto done = args->in == "page" ? run_page_sessions(*args, common) : run_live(*args, common);
+                if (!done && done.error().code == ErrorCode::interrupted)
+                    return static_cast<int>(done.error().code);  // its summary has said so
+                return exit_status(done);
+            }};
 }
 
 }  // namespace corpuscle

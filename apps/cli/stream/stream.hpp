@@ -20,6 +20,9 @@ struct StreamArguments {
     std::uint64_t batch_frames = 1;   ///< frames per batch
     std::int64_t clients = 0;         ///< number of senders, one after another, after which the stream ends; 0: unlimited
     std::int64_t baud = 115200;
+    std::optional<std::uint32_t> serve;        ///< port of the page server; not set: no server
+    std::string bind;                          ///< address of the page server; "": loopback
+    std::optional<std::uint32_t> max_viewers;  ///< number of pages that may be connected to it
     bool sampled = false, busy_poll = false, allow_drops = false;
 };
 
@@ -84,6 +87,8 @@ Result<FrameLayout> live_layout(const StreamArguments&, std::size_t sites, const
 /// Opens a live input: standard input, a port or a serial device.
 Result<std::unique_ptr<ByteSource>> open_live_input(const StreamArguments&, const FrameLayout&);
 
+class StreamPage;
+
 /// The parts of a running or finished stream that the reports read.
 struct StreamReportInput {
     const SkinStream& skin;
@@ -91,6 +96,7 @@ struct StreamReportInput {
     const EventSink& sink;
     const EventFormat& format;
     const StreamLoop& loop;
+    const StreamPage* page;  ///< null: without a page server
 };
 
 /// The summary at the end of a stream.

@@ -3,7 +3,7 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
-#include "cli/stream/stream.hpp"
+#include "cli/stream/page/stream_page.hpp"
 #include "core/text/quantity.hpp"
 
 namespace corpuscle {
@@ -84,6 +84,7 @@ std::string stream_summary(const StreamReportInput& parts) {
     if (parts.sink.connections() != 1) text += fmt::format("  {}\n", count_of(parts.sink.connections(), "connection") + " to the receiver");
     if (stats.latency.count() > 0) text += fmt::format("  latency from a frame to its written spikes: {}\n", quantiles(stats.latency));
     if (is_paced(parts)) text += fmt::format("  input rate {}; jitter: {}\n", format_quantity(stats.rate(), "Hz"), quantiles(stats.jitter));
+    if (parts.page) text += fmt::format("  {}\n", page_summary(parts.page->counts()));
     return text + problems(parts);
 }
 
@@ -123,6 +124,7 @@ nlohmann::ordered_json stream_document(const StreamReportInput& parts) {
                      {"dropped", stats.dropped},
                      {"undelivered", parts.sink.dropped()},
                      {"connections", parts.sink.connections()}};
+    if (parts.page) doc["pages"] = page_document(parts.page->counts());
     doc["work"] = {{"afferent_steps", parts.skin.stats().afferent_steps},
                    {"at_rest", parts.skin.stats().skipped_steps},
                    {"truncated_steps", parts.skin.stats().truncated_steps}};

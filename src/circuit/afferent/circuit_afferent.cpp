@@ -5,6 +5,7 @@
 
 #include "circuit/afferent/streaming_transient.hpp"
 #include "circuit/cost/cost.hpp"
+#include "circuit/schematic/schematic.hpp"
 #include "circuit/variant/settable_values.hpp"
 #include "core/checksum.hpp"
 
@@ -271,6 +272,11 @@ Result<std::vector<SettableValue>> CircuitAfferentFactory::settable_values() con
     corner.text = netlist->overrides().corner;
     if (!corner.choices.empty()) out.insert(out.begin(), std::move(corner));
     return out;
+}
+
+Result<std::string> CircuitAfferentFactory::schematic(std::string_view block) const {
+    if (!netlist) return bad_input("this circuit was made without a netlist, which is what a schematic shows");
+    return TRY(draw_schematic(*netlist, block)).svg;
 }
 
 std::unique_ptr<Afferent> CircuitAfferentFactory::make(double dt, bool sampled, std::uint32_t copy) const {

@@ -27,6 +27,7 @@ public:
     Result<std::shared_ptr<const AfferentFactory>> rebuilt(const AfferentPlan& copy, const AfferentPlan& original) const override;
     nlohmann::ordered_json cost(double rest_force, const EnergyUse& used) const override;
     Result<std::vector<SettableValue>> settable_values() const override;
+    Result<std::string> schematic(std::string_view block) const override;
 
     /// Creates an afferent for a sample period of `dt` s. If `sampled`, spikes occur only at sample times. `copy` is the number of a copy
     /// with its own chip, counted from 1; 0 selects the nominal circuit.

@@ -84,7 +84,7 @@ private:
     void move_interval_behind_curve() {
         const auto is_bound = [](std::string_view w) { return w.starts_with("from=") || w.starts_with("to=") || w.starts_with("td="); };
         const auto first =
-            std::ranges::find_if_not(out_.words.begin() + std::min<std::ptrdiff_t>(3, std::ssize(out_.words)), out_.words.end(), is_bound);
+            std::find_if_not(out_.words.begin() + std::min<std::ptrdiff_t>(3, std::ssize(out_.words)), out_.words.end(), is_bound);
         if (first == out_.words.end() || std::ssize(out_.words) < 4) return;
         const auto k = first - out_.words.begin();
         std::rotate(out_.words.begin() + 3, first, first + 1);

@@ -16,6 +16,7 @@ class CircuitElaborator {
     const ParsedNetlist& parsed_;
     CircuitBuilder builder_;
     bool changes_values_;
+    std::vector<SubcircuitInstance>* instances_;
     Scope top_;
 
     struct NodeVoltage {
@@ -32,9 +33,10 @@ class CircuitElaborator {
 
 public:
     /// `overrides`: with the values of the .set lines. `changes_values`: true if values differ from those of the netlist as written.
+    /// `instances`: receives the instances of subcircuits, whose ports are then nodes of their own; may be null.
     CircuitElaborator(const ParsedNetlist& parsed, const ResolvedOverrides& overrides, bool changes_values,
-                      std::optional<RandomDraws> draws)
-        : parsed_(parsed), builder_(parsed, overrides, draws), changes_values_(changes_values) {
+                      std::optional<RandomDraws> draws, std::vector<SubcircuitInstance>* instances = nullptr)
+        : parsed_(parsed), builder_(parsed, overrides, draws), changes_values_(changes_values), instances_(instances) {
         top_.definition = &parsed.top, top_.random = &builder_.random;
     }
 
@@ -55,7 +57,7 @@ public:
         TRY(check_set_lines(parsed_, c));
         TRY(check_references());
         TRY(resolve_node_voltages());
-        add_resistance_in_loops(c);
+        if (instances_ == nullptr) add_resistance_in_loops(c);
         for (const auto* s : parsed_.directives)
             if (top_.holds(*s)) add_directive(*s);
         apply_overrides_to_directives(c);
@@ -175,10 +177,11 @@ private:
         const Word subcircuit_name = words.back();
         words.pop_back();
         Scope inner;
+        inner.path = fmt::format("{}{}.", scope.path, name);
         TRY(find_body(scope, s, subcircuit_name, inner));
         TRY(connect(scope, s, words, inner));
-        inner.caller = &scope, inner.random = scope.random, inner.depth = scope.depth + 1,
-        inner.path = fmt::format("{}{}.", scope.path, name);
+        inner.caller = &scope, inner.random = scope.random, inner.depth = scope.depth + 1;
+        if (instances_ != nullptr) add_instance(scope, s, words, inner);
         if (inner.depth > max_subcircuit_depth)
             return error_at(s.line.location(), "{}: subcircuits are nested deeper than the limit of {}", name, max_subcircuit_depth);
         TRY(check_recursion(inner, s));
@@ -226,12 +229,24 @@ private:
                 builder_.warn_once(error_at(s.location(words[k]), "{}: port {} of subcircuit '{}' is ground, so it is not connected to {}",
                                             s.text(0), ports[k], inner.definition->name, outside));
             const int node = builder_.find_or_add_node(scope, outside);
-            inner.ports.emplace(ports[k], node);
+            inner.ports.emplace(ports[k], instances_ == nullptr ? node : add_port_node(inner.path, ports[k]));
             if (ports_in_ic_.empty()) continue;
             const auto named = ports_in_ic_.find(fmt::format("{}{}.{}", scope.path, s.text(0), ports[k]));
             if (named != ports_in_ic_.end()) named->second = node;
         }
         return {};
+    }
+
+    int add_port_node(const std::string& path, const std::string& port) {
+        return is_ground(port) ? 0 : builder_.add_inner_node(path + port);
+    }
+    void add_instance(const Scope& scope, const Statement& s, const std::vector<Word>& words, const Scope& inner) {
+        SubcircuitInstance instance{inner.path.substr(0, inner.path.size() - 1), inner.definition->name, inner.definition->ports, {}, {}};
+        for (std::size_t k = 0; k < words.size(); ++k) {
+            instance.inside.push_back(inner.ports.find(instance.ports[k])->second);
+            instance.outside.push_back(builder_.find_or_add_node(scope, s.text(words[k])));
+        }
+        instances_->push_back(std::move(instance));
     }
 
     /// Returns an error if the subcircuit contains an instance of itself.
@@ -509,6 +524,16 @@ Result<Circuit> Netlist::elaborate(const Values& parameters, std::optional<Rando
     if (!draws && overrides().mismatch_seed) draws = RandomDraws{*overrides().mismatch_seed, overrides().chip};
     const auto with_set_lines = TRY(add_set_lines(*impl_, overrides()));
     return CircuitElaborator(*impl_, with_set_lines, overrides().changes_values(), draws).run(parameters);
+}
+
+Result<HierarchicalCircuit> Netlist::elaborate_hierarchy() const {
+    HierarchicalCircuit out;
+    if (!impl_) return out;
+    std::optional<RandomDraws> draws;
+    if (overrides().mismatch_seed) draws = RandomDraws{*overrides().mismatch_seed, overrides().chip};
+    const auto with_set_lines = TRY(add_set_lines(*impl_, overrides()));
+    out.circuit = TRY(CircuitElaborator(*impl_, with_set_lines, overrides().changes_values(), draws, &out.instances).run({}));
+    return out;
 }
 
 }  // namespace corpuscle::circuit

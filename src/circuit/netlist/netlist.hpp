@@ -141,6 +141,21 @@ struct ResolvedOverrides {
     bool replaces_saved = false;  ///< true: `saved` replaces every .save and .probe
 };
 
+/// An X line: an instance of a subcircuit.
+struct SubcircuitInstance {
+    std::string path;                  ///< "x1.xres"
+    std::string subcircuit;            ///< the name of its definition
+    std::vector<std::string> ports;    ///< names of the ports, in the order of the .subckt line
+    std::vector<int> inside, outside;  ///< indices in Circuit::nodes of each port, and of the node to which the X line connects it
+};
+
+/// A circuit whose subcircuits are kept apart: each port of an instance is a node of its own, such as "x1.in", and not the node outside. A
+/// port that is named as ground is ground. It is for drawings; it cannot be simulated.
+struct HierarchicalCircuit {
+    Circuit circuit;
+    std::vector<SubcircuitInstance> instances;  ///< an instance comes before those that it contains
+};
+
 /// Selects the chip whose random values a netlist takes; see RandomValues.
 struct RandomDraws {
     std::uint64_t seed = 0, chip = 0;
@@ -181,6 +196,8 @@ public:
     /// The flat circuit. `parameters` replace .param lines of the top level, even those that the netlist's overrides set. Random values are
     /// their means, unless `draws` or the mismatch override selects a chip.
     Result<Circuit> elaborate(const Values& parameters = {}, std::optional<RandomDraws> draws = {}) const;
+    /// The same elements with the same values, in a circuit whose subcircuits are kept apart.
+    Result<HierarchicalCircuit> elaborate_hierarchy() const;
 };
 
 }  // namespace corpuscle::circuit

@@ -22,6 +22,8 @@ public:
         if (fd_ >= 0) ::close(std::exchange(fd_, -1));
     }
     int get() const { return fd_; }
+    /// The descriptor, which the caller must close from now on.
+    int release() { return std::exchange(fd_, -1); }
     explicit operator bool() const { return fd_ >= 0; }
 };
 

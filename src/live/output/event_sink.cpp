@@ -100,6 +100,22 @@ public:
     }
 };
 
+class NullSink final : public EventSink {
+public:
+    using EventSink::EventSink;
+    std::string description() const override { return "nowhere"; }
+    bool is_file() const override { return true; }
+    Result<void> flush() override {
+        for (auto chunk = ring_.readable(); !chunk.empty(); chunk = ring_.readable()) ring_.consume(chunk.size());
+        return {};
+    }
+    Result<bool> wait_for_space(std::size_t bytes, int) override {
+        TRY(flush());
+        return ring_.has_space(bytes);
+    }
+    Result<void> finish(const FinishPolicy&) override { return flush(); }
+};
+
 class TcpClientSink final : public PollingSink {
     static constexpr std::int64_t retry_interval = 1'000'000'000;  // ns
     ResolvedEndpoint to_;  // resolved only once: the name service may not be available when the reader reconnects
@@ -176,6 +192,8 @@ std::unique_ptr<EventSink> make_pipe_sink(Descriptor own, int fd, std::string na
     if (!socket) ::fcntl(fd, F_SETFL, ::fcntl(fd, F_GETFL) | O_NONBLOCK);
     return std::make_unique<PipeSink>(format, ring, std::move(own), fd, socket, std::move(name));
 }
+
+std::unique_ptr<EventSink> make_null_sink(const EventFormat& format, std::size_t ring) { return std::make_unique<NullSink>(format, ring); }
 
 Result<std::unique_ptr<EventSink>> open_standard_output(const EventFormat& format, std::size_t ring) {
     struct ::stat info = {};

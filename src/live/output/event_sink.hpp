@@ -102,6 +102,9 @@ std::unique_ptr<EventSink> make_pipe_sink(Descriptor own, int fd, std::string na
 /// A sink that writes to the open descriptor `fd` of a file, and does not close it. `name` is for messages.
 Result<std::unique_ptr<EventSink>> make_file_sink(int fd, const std::string& name, const EventFormat&, std::size_t ring);
 
+/// A sink that discards all events; they do not count as dropped.
+std::unique_ptr<EventSink> make_null_sink(const EventFormat&, std::size_t ring);
+
 /// A sink that creates a file. It is written as PATH.part and renamed when it is complete; a named pipe is written directly.
 Result<std::unique_ptr<EventSink>> create_event_file(const std::string& path, const EventFormat&, std::size_t ring);
 

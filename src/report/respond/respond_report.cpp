@@ -30,12 +30,6 @@ double round_part(double length, int parts) {
     return decade * (max >= 5 * decade ? 5 : max >= 2 * decade ? 2 : 1);
 }
 
-/// The cell of measure m: its value, or the array [mean, standard deviation] over the copies if at least two of them have a value.
-Json cell_document(const MeasureRow& row, std::size_t m) {
-    if (row.copy_statistics.empty() || row.copy_statistics[m].copies < 2) return json_number(row.values[m]);
-    return {json_number(row.copy_statistics[m].mean()), json_number(row.copy_statistics[m].standard_deviation())};
-}
-
 /// The entries of a list whose channel is one of the first `count`.
 Json first_channels(const Json& all, std::uint32_t count, const char* key = "channel") {
     Json out = Json::array();
@@ -63,40 +57,6 @@ void keep_first_channels(Json& document, std::uint32_t count) {
     if (document.contains("copies")) document["copies"]["rates"] = first_channels(document["copies"]["rates"], count);
     for (const auto& [table, column] : {std::pair{"table", 1U}, {"comparisons", 1U}, {"quality", 0U}})
         document[table]["rows"] = rows_of(document[table]["rows"], column, names);
-}
-
-/// The table of all measures, with a row for each afferent, channel and phase.
-Json table_document(const RunSummary& summary) {
-    Json columns = {"afferent", "channel", "phase"}, decimals = {nullptr, nullptr, nullptr}, rows = Json::array();
-    const auto shown = summary.columns();
-    const bool means = !summary.rows.empty() && !summary.rows[0].copy_statistics.empty();  // of copies; the mean of a count needs a decimal
-    for (const auto m : shown)
-        columns.push_back(column_heading(measures[m])), decimals.push_back(std::max(measures[m].decimals, means ? 1 : 0));
-    for (const auto& r : summary.rows) {
-        Json row = {r.afferent, r.channel, r.phase};
-        for (const auto m : shown) row.push_back(cell_document(r, m));
-        rows.push_back(std::move(row));
-    }
-    return {{"columns", columns}, {"decimals", decimals}, {"rows", rows}};
-}
-
-/// Recording quality: findings as text, and a row of quality metrics for each channel of a recording. Stimuli have no rows.
-Json quality_document(const RunSummary& summary) {
-    Json messages = Json::array(), columns = {"channel"}, rows = Json::array();
-    const bool several = summary.inputs.size() > 1;
-    for (const auto& i : summary.inputs) {
-        const auto add = [&](const std::vector<std::string>& texts, bool is_warning) {
-            for (const auto& s : texts) messages.push_back({{"text", several ? i.name + ": " + s : s}, {"grave", is_warning}});
-        };
-        add(i.quality.warnings, true);
-        add(i.quality.descriptions, false);
-        for (const auto& f : i.quality.metrics) {
-            if (rows.empty() || rows.back()[0] != i.channels[f.channel]) rows.push_back(Json::array({i.channels[f.channel]}));
-            if (rows.size() == 1) columns.push_back(f.unit.empty() ? std::string(f.name) : fmt::format("{} ({})", f.name, f.unit));
-            rows.back().push_back(json_number(f.value));
-        }
-    }
-    return {{"notes", messages}, {"columns", columns}, {"rows", rows}};
 }
 
 }  // namespace
@@ -230,7 +190,7 @@ std::string RespondReport::page(const RunSummary& summary, std::span<const Affer
                      {"afferents", afferents},
                      {"traces", traces_},
                      {"spikes", spikes_},
-                     {"table", table_document(summary)},
+                     {"table", rates_document(summary)},
                      {"comparisons", implementations_document(summary.comparisons)},
                      {"quality", quality_document(summary)},
                      {"notes", notes},

@@ -20,7 +20,8 @@ public:
     static constexpr std::size_t unlimited = static_cast<std::size_t>(-1);
     /// `max_points`: limit on the stored values of all traces. `with_probes`: show currents and membranes if there are at most max_copies
     /// copies of each afferent. `compares_inputs`: if there are several inputs and no copies, show each input as a trial from its start.
-    explicit RespondReport(std::size_t max_points = max_total_points, CopySpec copies = {}, bool with_probes = true, bool compares_inputs = false)
+    explicit RespondReport(std::size_t max_points = max_total_points, CopySpec copies = {}, bool with_probes = true,
+                           bool compares_inputs = false)
         : max_points_(max_points), copies_(std::move(copies)), with_probes_(with_probes), compares_inputs_(compares_inputs) {}
 
     /// The raster shows at most this many copies of each afferent. If there are more copies, no probes are recorded; otherwise those of the
@@ -36,7 +37,8 @@ public:
     /// document of costs_of(). If the data would be more than `max_bytes`, only the first channels are shown, which a note says; "" if not
     /// even one channel fits. `trials`: trials_document(), or null.
     std::string page(const RunSummary&, std::span<const AfferentPlan>, const std::string& command, const std::vector<std::string>& warnings,
-                     const nlohmann::ordered_json& costs, std::size_t max_bytes = unlimited, const nlohmann::ordered_json& trials = nullptr) const;
+                     const nlohmann::ordered_json& costs, std::size_t max_bytes = unlimited,
+                     const nlohmann::ordered_json& trials = nullptr) const;
 
 private:
     using Json = nlohmann::ordered_json;
@@ -65,6 +67,12 @@ private:
     Json recordables_ = Json::array();        // names and units of the probes of each group
     Json inputs_ = Json::array(), traces_ = Json::array(), spikes_ = Json::array(), rates_ = Json::array();
 };
+
+/// The table of all measures, with a row for each afferent, channel and phase.
+nlohmann::ordered_json rates_document(const RunSummary&);
+
+/// Recording quality: findings as text, and a row of quality metrics for each channel of a recording. Stimuli have no rows.
+nlohmann::ordered_json quality_document(const RunSummary&);
 
 /// The table of implementations: for each afferent type and channel a row of the reference, then a row for each other implementation.
 nlohmann::ordered_json implementations_document(const ImplementationComparisons&);

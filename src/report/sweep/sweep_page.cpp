@@ -16,6 +16,7 @@ using Json = nlohmann::ordered_json;
 constexpr std::size_t max_points = 1500;  // items in a scatter plot
 constexpr std::size_t max_rasters = 800;  // items in a raster
 constexpr std::size_t max_traces = 1000;  // items in a trace envelope
+constexpr std::size_t max_grid = 20000;   // items of a grid that the page has completely, so that it can show any part of the grid
 constexpr std::size_t max_failed = 200;   // items in the table of failed items
 constexpr std::size_t max_extremes = 8;   // items listed with the smallest values of a measure, and with the largest
 constexpr std::size_t max_scatters = 4;   // scatter plots per measure
@@ -28,7 +29,7 @@ Json rows_document(const SweepTable& table, const std::set<std::size_t>& rows, c
     const auto column = [&](const std::vector<double>& all) {
         std::vector<double> selected;
         for (const auto row : rows) selected.push_back(all[row]);
-        return rounded_numbers(selected);
+        return plot_numbers(selected);
     };
     for (const auto row : rows) {
         out["item"].push_back(table.items[row]), out["end"].push_back(static_cast<int>(table.ends[row]));
@@ -73,7 +74,7 @@ Json factor_document(const SweepTable& table, const SweepSummary& s, const Named
     auto deviates = deviates_of(device, s.mismatch->seed, chips);
     auto& values = i.quantity == "V_T" ? deviates.V_T : deviates.I_S;
     for (auto& x : values) x *= i.quantity == "V_T" ? device.sigma_VT : 100 * device.sigma_IS;
-    out["unit"] = i.quantity == "V_T" ? "V" : "%", out["values"] = rounded_numbers(values);
+    out["unit"] = i.quantity == "V_T" ? "V" : "%", out["values"] = plot_numbers(values);
     return out;
 }
 
@@ -98,13 +99,14 @@ Json factors_document(const SweepTable& table, const SweepSummary& s, const std:
 
 Json matrix_of(const std::vector<std::vector<double>>& rows) {
     Json out = Json::array();
-    for (const auto& row : rows) out.push_back(rounded_numbers(row));
+    for (const auto& row : rows) out.push_back(plot_numbers(row));
     return out;
 }
 
-/// For each measure of a grid: the effect of each axis, and the mean at each pair of values of two of the four most influential axes.
+/// For each measure of a grid: the effect of each axis, and the mean at each pair of values of two of the six most influential axes. The
+/// page needs these means only if it has not all items.
 Json grids_document(const SweepTable& table) {
-    constexpr std::size_t max_axes = 4, max_cells = 40'000;
+    constexpr std::size_t max_axes = 6, max_cells = 40'000;
     Json out = Json::array();
     for (const auto& values : table.measure_values) {
         const auto effects = axis_effects(table, values);
@@ -112,16 +114,16 @@ Json grids_document(const SweepTable& table) {
         for (const auto& e : effects)
             one["effects"].push_back({{"axis", e.axis},
                                       {"fraction", e.fraction},
-                                      {"values", rounded_numbers(table.points[e.axis])},
-                                      {"means", rounded_numbers(e.means)}});
+                                      {"values", plot_numbers(table.points[e.axis])},
+                                      {"means", plot_numbers(e.means)}});
         for (std::size_t a = 0; a < std::min(effects.size(), max_axes); ++a)
             for (std::size_t b = a + 1; b < std::min(effects.size(), max_axes); ++b) {
                 const auto x = effects[a].axis, y = effects[b].axis;
                 if (table.points[x].size() * table.points[y].size() > max_cells) continue;
                 one["pairs"].push_back({{"x", x},
                                         {"y", y},
-                                        {"xs", rounded_numbers(table.points[x])},
-                                        {"ys", rounded_numbers(table.points[y])},
+                                        {"xs", plot_numbers(table.points[x])},
+                                        {"ys", plot_numbers(table.points[y])},
                                         {"means", matrix_of(means_over(table, values, x, y))}});
             }
         out.push_back(std::move(one));
@@ -155,7 +157,7 @@ Json sizes_document(const SweepSummary& s) {
 Result<std::string> sweep_page(const SweepResults& results, const SweepTable& table, const SweepSummary& summary, const std::string& title,
                                const std::string& command) {
     const auto groupings = groupings_of(table);
-    Json page = {{"summary", document_of(table, summary, title)}};
+    Json page = {{"summary", document_of(table, summary, title)}, {"versions", versions_document()}};
     page["groupings"] = Json::array();
     for (const auto& g : groupings) {
         Json labels = Json::array();
@@ -195,11 +197,13 @@ Result<std::string> sweep_page(const SweepResults& results, const SweepTable& ta
     page["reasons"] = Json::object();
     for (const auto& failure : diverged) page["reasons"][fmt::format("{}", failure.item)] = failure.reason;
     for (const auto* rows : {&points, &chips, &failed}) shown.insert(rows->begin(), rows->end());
+    if (table.is_grid && table.rows() <= max_grid)
+        for (std::size_t r = 0; r < table.rows(); ++r) shown.insert(r);
     page["points"] = points, page["failed"] = failed;
     page["factors"] = factors_document(table, summary, points);
     page["sizes"] = sizes_document(summary);
     page["rows"] = rows_document(table, shown, groupings);
-    return report_page("sweep.html", title, command, page);
+    return report_page("sweep", title, command, page);
 }
 
 }  // namespace corpuscle

@@ -37,8 +37,8 @@ Result<PlotJson> envelopes(const SweepResults&, std::size_t probe, const SweepTa
 /// The spike times (s) of spike train number `train` (from 0) in these rows. Omits the last rows if there are too many spikes.
 Result<PlotJson> rasters(const SweepResults&, std::size_t train, const SweepTable&, const std::vector<std::size_t>& rows);
 
-/// The values rounded to five digits, enough for a plot; null for values that are not finite.
-PlotJson rounded_numbers(const std::vector<double>&);
+/// The values in single precision, enough for a plot.
+PlotJson plot_numbers(const std::vector<double>&);
 
 /// The page as self-contained HTML.
 Result<std::string> sweep_page(const SweepResults&, const SweepTable&, const SweepSummary&, const std::string& title,

@@ -1,4 +1,3 @@
-#include <fmt/format.h>
 #include <algorithm>
 #include <cmath>
 
@@ -14,9 +13,6 @@ constexpr std::size_t max_bins = 60;             // of a histogram
 constexpr std::size_t max_in_normal_plot = 200;  // points of a group
 constexpr std::size_t max_times = 500;           // of an envelope
 constexpr std::size_t max_spikes = 200000;       // of a raster
-
-/// Rounds to five digits.
-double rounded(double x) { return std::isfinite(x) ? std::strtod(fmt::format("{:.5g}", x).c_str(), nullptr) : x; }
 
 /// The quantile q (0 to 1) of the values, without interpolation. Reorders the values, which must not be empty.
 double quantile_of(std::vector<double>& values, double q) {
@@ -75,11 +71,7 @@ struct EnvelopeStats {
 
 }  // namespace
 
-PlotJson rounded_numbers(const std::vector<double>& values) {
-    PlotJson out = PlotJson::array();
-    for (const double x : values) out.push_back(json_number(rounded(x)));
-    return out;
-}
+PlotJson plot_numbers(const std::vector<double>& values) { return array_document(std::vector<float>(values.begin(), values.end())); }
 
 std::vector<Grouping> groupings_of(const SweepTable& table) {
     std::vector<Grouping> out = {{"all together", group_rows_by_axes(table, {})}};
@@ -130,9 +122,8 @@ PlotJson normal_plots(const std::vector<double>& values, const SweepGroups& grou
             scores.push_back(normal_quantile((static_cast<double>(k) + 1 - 0.375) / (n + 0.25)));
             points.push_back(sorted.values()[k]);
         }
-        out.push_back({{"scores", rounded_numbers(scores)},
-                       {"values", rounded_numbers(points)},
-                       {"correlation", rounded_numbers({sorted.normality()})[0]}});
+        out.push_back(
+            {{"scores", plot_numbers(scores)}, {"values", plot_numbers(points)}, {"correlation", json_number(sorted.normality())}});
     }
     return out;
 }
@@ -164,17 +155,18 @@ Result<PlotJson> envelopes(const SweepResults& results, std::size_t probe, const
     for (const auto& g : groupings) {
         medians.push_back(PlotJson::array());
         for (std::size_t k = 0; k < g.row_groups.groups.size() && g.row_groups.groups.size() > 1; ++k)
-            medians.back().push_back(rounded_numbers(stats_over([&](std::size_t r) { return g.row_groups.group_of[r] == k; }).median));
+            medians.back().push_back(plot_numbers(stats_over([&](std::size_t r) { return g.row_groups.group_of[r] == k; }).median));
     }
     return PlotJson{{"name", results.probe_names[probe]},
-                    {"times", rounded_numbers(times)},
+                    {"unit", results.probe_units[probe]},
+                    {"times", plot_numbers(times)},
                     {"every", results.probe_times.size() > max_times},
                     {"items", rows.size()},
-                    {"min", rounded_numbers(overall.min)},
-                    {"low", rounded_numbers(overall.low)},
-                    {"median", rounded_numbers(overall.median)},
-                    {"high", rounded_numbers(overall.high)},
-                    {"max", rounded_numbers(overall.max)},
+                    {"min", plot_numbers(overall.min)},
+                    {"low", plot_numbers(overall.low)},
+                    {"median", plot_numbers(overall.median)},
+                    {"high", plot_numbers(overall.high)},
+                    {"max", plot_numbers(overall.max)},
                     {"medians", medians}};
 }
 

@@ -5,6 +5,7 @@
 #include <nlohmann/json.hpp>
 
 #include "fit/transistor/fitted_card.hpp"
+#include "report/envelope.hpp"
 #include "report/page_template.hpp"
 
 namespace corpuscle {
@@ -61,24 +62,23 @@ void add_plots(Json& plots, const TransistorFit& fit, const IvData& data, std::s
     std::size_t colour = 0;
     for (const auto c : thinned(curves.size(), max_plot_curves)) {
         const auto& curve = curves[c];
-        Json V, measured, fitted, difference_V, difference;
+        std::vector<float> V, measured, fitted, difference_V, difference;
+        const auto add = [](std::vector<float>& to, double value) { to.push_back(static_cast<float>(value)); };
         for (const auto k : thinned(curve.end - curve.begin, max_curve_points)) {
             const auto& p = data.points[curve.begin + k];
             const double I = fit.currents[curve.begin + k].I_D;
-            const auto height = [&](double current) -> Json {
-                if (!is_logarithmic) return current;
-                return std::abs(current) > 0 ? Json(std::abs(current)) : Json();
-            };
+            const auto height = [&](double current) { return is_logarithmic ? std::abs(current) : current; };
             if (is_logarithmic && (p.I_D == 0 || I == 0)) continue;
-            V.push_back(p.v[terminal]), measured.push_back(height(p.I_D)), fitted.push_back(height(I));
-            if (std::abs(I) > 10 * floor) difference_V.push_back(p.v[terminal]), difference.push_back(100 * (p.I_D / I - 1));
+            add(V, p.v[terminal]), add(measured, height(p.I_D)), add(fitted, height(I));
+            if (std::abs(I) > 10 * floor) add(difference_V, p.v[terminal]), add(difference, 100 * (p.I_D / I - 1));
         }
         const auto label = label_of(data, curve, curve.swept);
-        shown["series"].push_back({{"name", label}, {"x", V}, {"y", measured}, {"style", "points"}, {"colour", colour}});
-        shown["series"].push_back({{"name", ""}, {"x", V}, {"y", fitted}, {"style", "line"}, {"colour", colour}});
-        if (!difference.empty())
-            differences["series"].push_back(
-                {{"name", label}, {"x", difference_V}, {"y", difference}, {"style", "line"}, {"colour", colour}});
+        const auto series = [&](const std::string& series_name, const auto& x, const auto& y, std::string_view style) {
+            return Json{{"name", series_name}, {"x", array_document(x)}, {"y", array_document(y)}, {"style", style}, {"colour", colour}};
+        };
+        shown["series"].push_back(series(label, V, measured, "points"));
+        shown["series"].push_back(series("", V, fitted, "line"));
+        if (!difference.empty()) differences["series"].push_back(series(label, difference_V, difference, "line"));
         ++colour;
     }
     plots.push_back(shown);
@@ -89,7 +89,7 @@ void add_plots(Json& plots, const TransistorFit& fit, const IvData& data, std::s
 
 std::string transistor_page(const TransistorFit& fit, const IvData& data, const std::string& command) {
     const auto& m = fit.misfit;
-    Json page = {{"fit", document_of(fit, data)}, {"plots", Json::array()}};
+    Json page = {{"fit", document_of(fit, data)}, {"plots", Json::array()}, {"versions", versions_document()}};
     page["misfit"] = fmt::format("I_D: rms difference {}, largest {}, in {} points; scatter between neighbouring points {}.",
                                  percent_text(m.rms), percent_text(m.largest), m.points, percent_text(m.scatter));
     for (std::size_t k = 0; k < fit.values.size(); ++k) {
@@ -97,7 +97,7 @@ std::string transistor_page(const TransistorFit& fit, const IvData& data, const 
         shown["text"] = card_value_text(fit.values[k]), shown["interval"] = card_interval_text(fit.values[k]);
     }
     for (const std::size_t terminal : {1U, 0U, 3U, 2U}) add_plots(page["plots"], fit, data, terminal);
-    return report_page("transistor.html", fit.is_pmos ? "A PMOS transistor" : "An NMOS transistor", command, page);
+    return report_page("transistor", fit.is_pmos ? "A PMOS transistor" : "An NMOS transistor", command, page);
 }
 
 }  // namespace corpuscle

@@ -47,6 +47,8 @@ Result<ExportedModel> write_model(const ExportTarget& target, const ExportReques
     const auto option = request.kit.first_option();
     if (!target.takes_kit && !option.empty())
         return bad_usage(fmt::format("{} is for --for ngspice; {} exports no transistors", option, target.name));
+    if (!target.takes_block && !request.block.empty())
+        return bad_usage(fmt::format("--block {} is for --for svg; {} exports the complete subject", request.block, target.name));
     return target.write(request);
 }
 

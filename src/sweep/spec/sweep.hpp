@@ -47,6 +47,7 @@ struct SweepDescription {
     std::int64_t item_count = 0;
     std::vector<SweepColumn> axes, measures;            ///< axes: quantities that vary; mismatch is not among them
     std::vector<std::string> train_names, probe_names;  ///< of the spike trains and probes that are written to the results
+    std::vector<std::string> probe_units;               ///< for each of probe_names; "" if it is not known
     std::vector<double> probe_times;                    ///< times of the probes' samples, s; 0 is the first sample of the force
     /// Everything on which the results depend: title, the sweep file, every netlist and model card that it reads. Two sweeps with equal
     /// metadata have equal results; the first entry that differs shows what has changed.

@@ -202,7 +202,11 @@ bool same_columns(const std::vector<SweepColumn>& a, const std::vector<SweepColu
 
 }  // namespace
 
-ResultsLayout ResultsLayout::of(const SweepDescription& sweep) { return {sweep, format, unique_names(sweep.axes, sweep.measures)}; }
+ResultsLayout ResultsLayout::of(const SweepDescription& sweep) {
+    ResultsLayout out{sweep, format, unique_names(sweep.axes, sweep.measures)};
+    out.probe_units.resize(out.probe_names.size());
+    return out;
+}
 
 Result<ResultsLayout> ResultsLayout::read(const sql::Database& file) {
     const auto stored_format = TRY(format_of(file));
@@ -212,10 +216,12 @@ Result<ResultsLayout> ResultsLayout::read(const sql::Database& file) {
     TRY(check_table(file, "about", {"key", "value"}));
     TRY(check_table(file, "columns", {"position", "kind", "name", "unit", names.description, "words", "at_least", "at_most", "stored"}));
     try {
-        const auto about = TRY(read_about(file));
+        auto about = TRY(read_about(file));
+        about.try_emplace("trace_units", "[]");  // earlier versions did not write it
         for (const auto& [key, limit] : {std::pair{names.metadata, max_label_bytes},
                                          {"trains", max_label_bytes},
                                          {"traces", max_label_bytes},
+                                         {"trace_units", max_label_bytes},
                                          {"trace_times", max_time_bytes}})
             if (about.at(key).size() > limit)
                 return changed_by_other_program(file, fmt::format("'{}' of its table about is larger than {} MB", key, limit >> 20));
@@ -224,6 +230,8 @@ Result<ResultsLayout> ResultsLayout::read(const sql::Database& file) {
             if (const auto text = about.find(name); text != about.end()) out.metadata.push_back({name, text->second});
         out.train_names = Json::parse(about.at("trains")).get<std::vector<std::string>>();
         out.probe_names = Json::parse(about.at("traces")).get<std::vector<std::string>>();
+        out.probe_units = Json::parse(about.at("trace_units")).get<std::vector<std::string>>();
+        out.probe_units.resize(out.probe_names.size());
         out.probe_times = Json::parse(about.at("trace_times")).get<std::vector<double>>();
         for (auto [kind, into] : {std::pair{"axis", &out.axes}, std::pair{"measure", &out.measures}})
             *into = TRY(read_columns(file, kind, names, out.stored_column_names));
@@ -258,6 +266,7 @@ Result<void> ResultsLayout::write(const sql::Database& file) const {
     all["metadata"] = Json(metadata_names).dump();
     all["trains"] = Json(train_names).dump();
     all["traces"] = Json(probe_names).dump();
+    all["trace_units"] = Json(probe_units).dump();
     all["trace_times"] = Json(probe_times).dump();
     for (const auto& [key, value] : all) TRY(row.set(1, std::string_view(key)).set(2, std::string_view(value)).finish());
     TRY(write_columns(file, "axis", axes, stored_column_names, 0));

@@ -13,9 +13,9 @@ ItemEnd end_of_name(std::string_view);
 /// The file has the following tables. A file of format 1 has other names; it can be read, but not extended or merged. The table `about`
 /// contains everything on which the results depend, but neither user nor date.
 ///
-/// - about(key, value): the metadata entries of the sweep by their names. Further keys are items (number of items of the complete sweep),
-///   metadata (names of the entries, in order), trains, traces (names of the spike trains and probes in the file) and trace_times (times of
-///   the probes' samples, s), the last four as JSON.
+/// - about(key, value): the metadata entries of the sweep by their names. Further keys are items (number of items of the complete sweep)
+///   and metadata (names of the entries, in order). The entries trains and traces have the names of the spike trains and probes in the
+///   file, trace_units the units of the probes (optional), and trace_times the times of their samples, s; the last five are JSON.
 ///
 /// - columns(position, kind, name, unit, description, words, at_least, at_most, stored): rows for the axes, then for the measures. The
 ///   kind is 'axis' or 'measure'. The words are the labels of an axis, as JSON. The limits of a measure are at_least and at_most. The

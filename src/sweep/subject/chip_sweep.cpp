@@ -55,6 +55,9 @@ class ChipSweep final : public AfferentSweep {
         probe_names.push_back(*found);
         netlist_.save(probe_names);
         nominal_ = TRY(CircuitAfferentFactory::create(TRY(netlist_.nominal())));
+        const auto own =
+            std::find_if(nominal_->probes.begin(), nominal_->probes.end(), [&](const auto& one) { return one.name == *found; });
+        probe_units.emplace_back(own == nominal_->probes.end() ? "" : own->is_voltage() ? "V" : "A");
         return {};
     }
 

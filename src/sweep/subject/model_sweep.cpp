@@ -91,7 +91,8 @@ class ModelSweep final : public AfferentSweep {
         if (at == names.end())
             return probe.error_here(fmt::format("traces: {} has no '{}'{} (it has {})", nominal_.name, probe.text,
                                                 did_you_mean(probe.text, names), joined(names)));
-        probes_.push_back(static_cast<std::size_t>(at - names.begin())), probe_names.push_back(probe.text);
+        probes_.push_back(static_cast<std::size_t>(at - names.begin()));
+        probe_names.push_back(probe.text), probe_units.emplace_back(afferent->probes()[probes_.back()].unit);
         return {};
     }
 

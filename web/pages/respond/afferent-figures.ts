@@ -1,7 +1,7 @@
 // The figures of an afferent type. If there is one implementation, they show its currents, membranes and other quantities. If there are several, the
 // figures overlay each quantity of all of them.
 
-import {mixed, seriesColour} from "../../base/colours";
+import {mixed} from "../../base/colours";
 import {h} from "../../base/dom";
 import {symbol} from "../../base/text";
 import {OverlayPanel, Scale} from "../../panels/overlay-panel";
@@ -30,7 +30,7 @@ export function afferentTypePanels(host: Element, {name, members}: AfferentType,
 /// Panels that overlay the currents and membranes that several implementations have, then panels of the remaining quantities of each.
 function overlayPanels(host: Element, name: string, members: TracedMember[], shown: ShownChannel): Panel[] {
     host.append(h("ul", {class: "implementations"}, ...members.map((member) =>
-        h("li", {}, h("span", {class: "chip", style: `background: ${seriesColour(member.index)}`}), h("b", {}, member.afferent.name), ` ${aboutMember(member, shown.isCopy)}`))));
+        h("li", {}, h("span", {class: "chip", style: `background: ${member.colour}`}), h("b", {}, member.afferent.name), ` ${aboutMember(member, shown.isCopy)}`))));
     const {currents, membranes} = sharedQuantities(members);
     const windows = members.map((member) => membranes.flatMap((list) => list.filter((one) => one.member === member))
         .map(({trace}) => windowOf(member.afferent, trace, shown.spikesOf(member)))[0]);
@@ -49,7 +49,7 @@ function overlay(host: Element, name: string, members: TracedMember[], list: Qua
         host, phases, name: `${name} ${trace.quantity}`, title: [title, ...symbol(trace.quantity)], height: isMain ? 130 : 84,
         about: `${name} ${title}${trace.quantity} of ${list.map((one) => one.member.afferent.name).join(", ")}`,
         level: unit === "V" && scaleOf(member).isIdentity ? levelOf(member) : null,
-        implementations: list.map((one) => ({trace: one.trace, name: one.member.afferent.name, colour: seriesColour(one.member.index), scale: scaleOf(one.member)})),
+        implementations: list.map((one) => ({trace: one.trace, name: one.member.afferent.name, colour: one.member.colour, scale: scaleOf(one.member)})),
     });
 }
 
@@ -57,12 +57,12 @@ const levelOf = ({afferent: {V_th}}: Member) => (V_th === null ? null : {value: 
 
 /// The panels of one implementation, one for each kind of quantity: currents, membranes, other states. `withName`: name the afferent in the titles.
 function memberPanels(host: Element, member: Member, traces: Trace[], {phases}: ShownChannel, withName = false): Panel[] {
-    const {afferent, index} = member;
+    const {afferent} = member;
     return byKind(traces, afferent.netlist).map(([kind, group]) => {
         const {unit} = group[0], names = group.map((trace) => trace.quantity).join(", "), title = ({A: "current", V: "membrane", nodes: "nodes"} as Record<string, string>)[kind] || names;
         group.sort((one, other) => Number(isTotal(other)) - Number(isTotal(one)));  // totals first, so that components are drawn over them
         return new TracePanel({host, phases, traces: group, name: `${afferent.name} ${title}`, title: [withName ? `${afferent.name} ${title}` : title], about: `${afferent.name} ${title}: ${names}`,
-                               height: unit === "A" ? 130 : 110, level: kind === "V" ? levelOf(member) : null, series: styles(group, seriesColour(index))});
+                               height: unit === "A" ? 130 : 110, level: kind === "V" ? levelOf(member) : null, series: styles(group, member.colour)});
     });
 }
 

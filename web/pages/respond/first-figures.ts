@@ -1,6 +1,6 @@
 // The figures of the first screen: force, spikes and rates of one channel, and an overview of all channels.
 
-import {mixed, seriesColour} from "../../base/colours";
+import {mixed} from "../../base/colours";
 import {quantity, symbol} from "../../base/text";
 import type {ChannelData, InputData, RespondData} from "../../data/document";
 import {isNarrow} from "../../base/dom";
@@ -64,7 +64,7 @@ export class FirstFigures {
     private spikePanels(host: Element, input: InputData, channel: ChannelData, isNamed: boolean, pick: (channel: ChannelData) => void): Panel[] {
         if (!this.data.afferents.length) return [];
         const {copies} = this.data, {phases} = input, areAll = input.channels.length > 1 && !copies, areSeveral = this.types.some(({members}) => members.length > 1);
-        const series = this.data.afferents.map(({name}, index) => ({name, colour: seriesColour(index), width: 3})), rows = this.rows(input, channel);
+        const series = this.members.sort((one, other) => one.index - other.index).map(({afferent, colour}) => ({name: afferent.name, colour, width: 3})), rows = this.rows(input, channel);
         const title = copies ? copies.shown === copies.count ? `spikes of all ${copies.count} copies` : `spikes of the first ${copies.shown} of ${copies.count} copies; counts of these`
             : areAll ? `spikes on all channels; counts on ${channelName(input, channel)}` : "spikes";
         const raster = new RasterPanel<ChannelRow>({host, phases, name: "raster", title: [title], about: title, height: rasterHeight(rows.length, rows.length > 12 ? (areAll ? 200 : 240) : 288), isNamed, rows, series, isBottom: true,
@@ -75,9 +75,9 @@ export class FirstFigures {
     /// The rate of each afferent in bins, as the mean over all copies.
     private copiesPanel(host: Element, input: InputData, channel: ChannelData): Panel {
         const {count, rates} = this.data.copies!, end = endOf(input);
-        const curves = this.data.afferents.map(({name}, index) => {
+        const curves = this.members.map(({afferent: {name}, index, colour}) => {
             const {bin, values} = rates.find((one) => one.afferent === name && one.channel === channel.id)!;
-            return {name, colour: seriesColour(index), width: 1.6, dash: dashOf(index), edges: equalBins(input.t0, bin, values.length, end), values};
+            return {name, colour, width: 1.6, dash: dashOf(index), edges: equalBins(input.t0, bin, values.length, end), values};
         });
         const title = `mean rate of all ${count} copies`, bins = `, in bins of ${quantity(rates[0].bin, "s", true)}`;
         return new RatePanel({host, phases: input.phases, name: "population", title: [title + bins], about: title, height: 100, curves, isBottom: true});
@@ -90,7 +90,7 @@ export class FirstFigures {
         const where = this.data.copies ? " of copy 1" : input.channels.length > 1 ? ` on ${channelName(input, channel)}` : "";
         return lists.map(({prefix, members}) => new FrequencyPanel({host, phases: input.phases, name: `${prefix}frequency`, title: [`${prefix}instantaneous frequency${where}`],
             about: `${prefix}instantaneous frequency${where}`, height: areApart ? 96 : 120, isBottom: true,
-            trains: members.map((one) => ({name: one.afferent.name, colour: seriesColour(one.index), shape: one.index, spikes: this.spikes(this.copiesOf(one)[0], channel)}))}));
+            trains: members.map((one) => ({name: one.afferent.name, colour: one.colour, shape: one.index, spikes: this.spikes(this.copiesOf(one)[0], channel)}))}));
     }
 
     /// The rows of the raster: every afferent on every channel, or the shown copies of every afferent on the channel. With several implementations on
@@ -99,7 +99,7 @@ export class FirstFigures {
         const isOne = Boolean(this.data.copies), channels = isOne ? [chosen] : input.channels, areAll = channels.length > 1;
         const rowsOf = (member: Member, on: ChannelData[], group: string) => on.flatMap((channel) => this.copiesOf(member).map((name): ChannelRow => {
             const about = areAll ? `${name} ${channelName(input, channel)}` : name;
-            return {series: member.afferent.name, group, channel, isChosen: channel === chosen, colour: seriesColour(member.index), spikes: this.spikes(name, channel), label: areAll && isNarrow() ? channelName(input, channel) : short(about), about};
+            return {series: member.afferent.name, group, channel, isChosen: channel === chosen, colour: member.colour, spikes: this.spikes(name, channel), label: areAll && isNarrow() ? channelName(input, channel) : short(about), about};
         }));
         return this.types.flatMap(({name, members}) => (members.length > 1 && areAll && this.data.afferents.length * channels.length <= 46
             ? channels.flatMap((channel) => members.flatMap((one) => rowsOf(one, [channel], `${name} ${channel.id}`)))

@@ -1,12 +1,13 @@
 // For overlays of the implementations of one afferent type: matches their quantities, and computes the scales with which they share a panel.
 
+import {CLASSES, classColour, seriesColour} from "../../base/colours";
 import {quantity} from "../../base/text";
 import type {AfferentData} from "../../data/document";
 import {Scale} from "../../panels/overlay-panel";
 import type {Spikes, Trace} from "../../panels/signals";
 
-/// `index`: of the afferent in the data of the page, which selects its colour.
-export interface Member { afferent: AfferentData; index: number }
+/// `index`: of the afferent in the data of the page.
+export interface Member { afferent: AfferentData; index: number; colour: string }
 export interface TracedMember extends Member { traces: Trace[] }
 export interface AfferentType { name: string; members: Member[] }
 export interface Quantity { trace: Trace; member: TracedMember }
@@ -27,13 +28,22 @@ export const isTotal = (trace: Trace) => (trace.unit === "A" ? /^i[+-]?$/ : /^u[
 /// the last of them.
 export const isFrontEnd = (trace: Trace, traces: Trace[]) => traces.indexOf(trace) <= traces.findIndex((one) => one.quantity === "F_read");
 
+/// The colour of each afferent: the first of a class has that of its class, the others have the remaining colours.
+export function afferentColours(afferents: AfferentData[]): string[] {
+    const isFirst = afferents.map(({type}, k) => CLASSES.includes(type) && afferents.findIndex((one) => one.type === type) === k);
+    const used = new Set(afferents.filter((_, k) => isFirst[k]).map(({type}) => classColour(type)));
+    const free = Array.from({length: 8}, (_, k) => seriesColour(k)).filter((colour) => !used.has(colour));
+    let next = 0;
+    return afferents.map(({type}, k) => (isFirst[k] ? classColour(type) : free[next++ % free.length]));
+}
+
 /// The afferent types in order of first occurrence. The members are the implementations, the reference first: the afferent with the name of the
 /// type, then other models, then netlists.
 export function afferentTypesOf(afferents: AfferentData[]): AfferentType[] {
-    const all = new Map<string, Member[]>();
+    const all = new Map<string, Member[]>(), colours = afferentColours(afferents);
     afferents.forEach((afferent, index) => {
         const name = afferent.type || afferent.name;
-        all.set(name, [...(all.get(name) || []), {afferent, index}]);
+        all.set(name, [...(all.get(name) || []), {afferent, index, colour: colours[index]}]);
     });
     const rank = ({afferent}: Member, name: string) => (afferent.netlist ? 2 : afferent.name === name ? 0 : 1);
     return [...all].map(([name, members]) => ({name, members: members.sort((one, other) => rank(one, name) - rank(other, name))}));

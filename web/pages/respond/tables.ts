@@ -1,11 +1,11 @@
 // The tables of the page: rates, implementations, recording quality, costs, parameters.
 
-import {seriesColour} from "../../base/colours";
 import {fill, h} from "../../base/dom";
 import {Cell, quantity} from "../../base/text";
 import type {AfferentData, CostData, ParameterData, QualityData, TableData} from "../../data/document";
 import {Column, table} from "../../panels/table";
 import {section} from "../../shell";
+import {afferentColours} from "./implementations";
 
 const MAX_ROWS = 2000;  // of a table; more would slow the browser. All rows are in summary.json
 
@@ -50,18 +50,19 @@ export function qualityTable(host: Element, {notes, columns, rows}: QualityData)
                 dataTable("recording quality", {columns, decimals: [], rows}, () => true, () => false));
 }
 
-const chip = (index: number) => h("span", {class: "chip", style: `background: ${seriesColour(index)}`});
+const chip = (colour: string) => h("span", {class: "chip", style: `background: ${colour}`});
 const short = (value: number, unit: string) => quantity(value, unit, true);
 
 /// Power and area of afferents that are netlists, by block.
 export function costTables(host: Element, costs: CostData[] | undefined, afferents: AfferentData[]) {
     if (!costs || !costs.length) return;
-    section(host, "costs", "Power and area").append(h("div", {class: "columns"}, ...costs.map((cost) => costTable(cost, afferents.findIndex(({name}) => name === cost.afferent)))),
+    const colours = afferentColours(afferents);
+    section(host, "costs", "Power and area").append(h("div", {class: "columns"}, ...costs.map((cost) => costTable(cost, colours[afferents.findIndex(({name}) => name === cost.afferent)]))),
         h("p", {class: "note"}, "Areas are of transistor arrays and capacitors, without wells, wires and pads. For comparison, measured silicon (0.18 µm): 12.33 nW per taxel, " +
             "25 taxels per mm² (Alea et al. 2024, doi:10.1109/TBCAS.2024.3387545). Its piezoelectric taxels generate their own charge and respond to changes only."));
 }
 
-function costTable({afferent, rest_force_N, power, area, blocks, afferents}: CostData, index: number): HTMLElement {
+function costTable({afferent, rest_force_N, power, area, blocks, afferents}: CostData, colour: string): HTMLElement {
     // Blocks with transistors, and other blocks that take more than a millionth of the delivered power.
     const listed = blocks.filter((one) => one.area.total_m2 || Math.abs(power.op.blocks_W[one.block]) > 1e-6 * power.op.delivered_W);
     const rows: Cell[][] = listed.map((one) => [one.block, power.op.blocks_W[one.block], one.area.total_m2 || null, one.worst_leak ? one.worst_leak.current_A : null]);
@@ -69,7 +70,7 @@ function costTable({afferent, rest_force_N, power, area, blocks, afferents}: Cos
     const inUnit = (unit: string) => (value: Cell) => [value === null ? "–" : short(value as number, unit)];
     const mean = power.mean ? `; mean ${short(power.mean.delivered_W, "W")}, of which sensor ${short(power.mean.sensor_W, "W")}` : "";
     const about = `power at rest ${short(power.op.delivered_W, "W")}, of which sensor ${short(power.op.sensor_W, "W")}${mean}.${afferents ? ` Density: ${short(afferents.per_mm2, "")} per mm².` : ""}`;
-    return h("div", {}, h("p", {}, chip(index), h("b", {}, afferent), " ", h("span", {class: "unit"}, about)),
+    return h("div", {}, h("p", {}, chip(colour), h("b", {}, afferent), " ", h("span", {class: "unit"}, about)),
         table({name: `power and area of ${afferent}`, rows, isSortable: false, columns: [{name: "block"}, {name: "power_W", label: [`power at rest (${short(rest_force_N, "N")})`], isNumber: true, show: inUnit("W")},
             {name: "area_m2", label: ["area (µm²)"], isNumber: true, show: (value) => [value === null ? "–" : ((value as number) * 1e12).toFixed(0)]},
             {name: "leakage_A", label: ["leakage when off"], isNumber: true, show: inUnit("A")}]}));
@@ -77,14 +78,14 @@ function costTable({afferent, rest_force_N, power, area, blocks, afferents}: Cos
 
 /// The parameters of all afferents, with marks at those that the user has set.
 export function parameterTables(host: Element, afferents: AfferentData[]) {
-    const listed = afferents.map((one, index) => ({...one, index})).filter((one) => one.parameters && one.parameters.length);
-    if (listed.length) section(host, "parameters", "Parameters").append(h("div", {class: "columns"}, ...listed.map((one) => parameterTable(one, one.index))));
+    const colours = afferentColours(afferents), listed = afferents.map((one, k) => ({...one, colour: colours[k]})).filter((one) => one.parameters && one.parameters.length);
+    if (listed.length) section(host, "parameters", "Parameters").append(h("div", {class: "columns"}, ...listed.map((one) => parameterTable(one, one.colour))));
 }
 
-function parameterTable({name, composition, parameters}: AfferentData, index: number): HTMLElement {
+function parameterTable({name, composition, parameters}: AfferentData, colour: string): HTMLElement {
     const isFirst = (k: number) => !k || parameters[k - 1].component !== parameters[k].component;
     const value = (_: Cell, k: number) => [valueText(parameters[k]), parameters[k].set && h("span", {class: "tag"}, "set")];
-    return h("div", {}, h("p", {}, chip(index), h("b", {}, name), " ", h("span", {class: "unit"}, composition)),
+    return h("div", {}, h("p", {}, chip(colour), h("b", {}, name), " ", h("span", {class: "unit"}, composition)),
         table({name: `parameters of ${name}`, rows: parameters.map((one) => [one.name, one.component, one.value, one.default, one.description]), rowClass: (k) => (k && isFirst(k) ? "group" : ""),
             columns: [{name: "parameter"}, {name: "model"}, {name: "value", isNumber: true, show: value},
                 {name: "default", isNumber: true, show: (_, k) => [short(parameters[k].default, parameters[k].unit)]},

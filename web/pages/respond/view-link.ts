@@ -5,6 +5,9 @@ import {linkNumber, linkValues} from "../../base/link";
 /// `input` and `channel`: their numbers on the page, counted from 1. `hidden`: "panel:series".
 export interface ViewState { input: number | null; channel: number | null; from: number | null; to: number | null; isAutoscale: boolean; areAllRows: boolean; hidden: string[]; open: string[] }
 
+/// The view of a link without values.
+export const NO_VIEW: ViewState = {input: null, channel: null, from: null, to: null, isAutoscale: false, areAllRows: false, hidden: [], open: []};
+
 const KEYS = ["input", "channel", "from", "to", "autoscale", "all", "hide", "open"];
 const MAX_LIST = 1500;  // characters of a list; a longer one is left out, so that the link stays valid
 

@@ -1,0 +1,250 @@
+#!/usr/bin/python3
+"""Tests of the live page:   live_page_test.py CORPUSCLE OUTDIR PAGE
+
+The engine in the page must respond as the program CORPUSCLE does: for equations the same spikes within 1 ns, for chips within CHIP_TOLERANCE.
+Exits with 77 if there is no PAGE, which `make page` builds.
+"""
+from page_checks import *
+
+PAGE = pathlib.Path(sys.argv.pop(3)).resolve()
+CHIP_TOLERANCE = 1e-6  # s; the pivots of the elimination are others, so the last digits of voltages are
+
+
+def program(*arguments):
+    """The JSON document that the program prints."""
+    done = subprocess.run([CORPUSCLE, *map(str, arguments), "--json", "--quiet"], check=True, cwd=ROOT, capture_output=True, text=True)
+    return json.loads(done.stdout)
+
+
+def trains(path, column="afferent"):
+    """Spike times by afferent of a file spikes.csv."""
+    out = {}
+    with open(path, newline="") as file:
+        for row in csv.DictReader(file):
+            out.setdefault(row[column], []).append(float(row["time_s"]))
+    return out
+
+
+class LivePage(Pages):
+    ROWS = "sa1,sa1-nerve,sa1-circuit"
+
+    def setUp(self):
+        self.start(f"#rows={self.ROWS}&rate=2000&skin=fingertip")
+
+    def start(self, link="", **screen):
+        self.open(PAGE, link, **screen)
+        WebDriverWait(self.browser, 60).until(lambda _: self.js("return !!window.corpuscle && corpuscle.session.time > 0"))
+
+    def time(self):
+        return self.js("return corpuscle.session.time")
+
+    def wait(self, seconds):
+        """Waits until so much more time is simulated."""
+        until = self.time() + seconds
+        WebDriverWait(self.browser, 60).until(lambda _: self.time() >= until)
+
+    def press(self, seconds):
+        """Presses the middle of the skin with the pointer."""
+        canvas = self.browser.find_element(By.CSS_SELECTOR, "#stage canvas")
+        ActionChains(self.browser, duration=50).move_to_element(canvas).click_and_hold().perform()
+        self.wait(seconds)
+        ActionChains(self.browser, duration=50).move_by_offset(20, 10).release().perform()
+        self.wait(0.3)
+
+    def download(self, button, name):
+        for old in self.files.iterdir():
+            old.unlink()
+        self.browser.find_element(By.ID, button).click()
+        self.until(lambda: (self.files / name).exists() and (self.files / name).stat().st_size > 0)
+        return self.files / name
+
+    def pause(self):
+        self.browser.find_element(By.ID, "pause").click()
+        self.wait_for_idle()
+
+    def wait_for_idle(self):
+        self.until(lambda: not self.js("return corpuscle.session.isBusy"))
+
+    def counts(self):
+        return self.js("return corpuscle.session.rows.map(({train}) => train.count)")
+
+    def text(self, id):
+        return self.browser.find_element(By.ID, id).text
+
+    def check_spikes(self, found, expected, name):
+        tolerance = CHIP_TOLERANCE if "circuit" in name else 1e-9
+        self.assertEqual(len(found), len(expected), name)
+        self.assertLessEqual(max((abs(a - b) for a, b in zip(found, expected)), default=0), tolerance, name)
+
+
+class Press(LivePage):
+    def test_a_press_by_pointer_gives_the_spikes_of_the_program(self):
+        self.press(1.0)
+        self.pause()
+        spikes, force = trains(self.download("save", "spikes.csv")), OUT / "force.csv"
+        shutil.copy(self.download("save-force", "force.csv"), force)
+        afferents = self.ROWS.split(",")
+        subprocess.run([CORPUSCLE, "respond", force, "--rate", "2kHz", "--afferent", self.ROWS, "--out", OUT / "replayed", "--quiet", "--overwrite"], check=True, cwd=ROOT)
+        expected = trains(OUT / "replayed" / "spikes.csv")
+        for name in afferents:
+            self.assertGreater(len(expected.get(name, [])), 3, name)
+            self.check_spikes(spikes.get(name, []), [t for t in expected[name]], name)
+
+    def test_the_skin_fires_where_it_is_pressed(self):
+        self.press(0.5)
+        counts = self.js("""const {skin} = corpuscle.session, press = corpuscle.press, near = [0, 0], far = [0, 0];
+            skin.trains.forEach(({count}, k) => {
+                const side = Math.hypot(skin.unitX[k] - press.x, skin.unitY[k] - press.y) < 4e-3 ? near : far;
+                side[0] += count, side[1] += 1;
+            });
+            return [near[0] / near[1], far[0] / far[1]]""")
+        self.assertGreater(counts[0], 1)
+        self.assertGreater(counts[0], 2 * counts[1])
+
+    def test_the_keyboard_alone_presses_and_moves(self):
+        stage = self.browser.find_element(By.ID, "stage")
+        for _ in range(40):
+            if self.js("return document.activeElement === arguments[0]", stage):
+                break
+            ActionChains(self.browser).send_keys(Keys.TAB).perform()
+        self.assertTrue(self.js("return document.activeElement === arguments[0]", stage), "the tab key reaches the skin")
+        before = self.js("return corpuscle.press.x")
+        ActionChains(self.browser).send_keys(Keys.ARROW_RIGHT, Keys.ARROW_RIGHT, Keys.ENTER).perform()
+        self.wait(0.6)
+        ActionChains(self.browser).send_keys(Keys.ENTER).perform()
+        self.wait(0.2)
+        self.assertGreater(self.js("return corpuscle.press.x"), before)
+        self.assertGreater(self.counts()[0], 3)
+        self.assertLess(self.js("return corpuscle.press.force"), 0.01)
+
+
+class Settings(LivePage):
+    def open_row(self, k):
+        self.js("const details = document.querySelectorAll('.row-card details')[arguments[0]]; details.open = true", k)
+        self.until(lambda: self.all(f".row-card[data-row] .parameter"))
+
+    def set_number(self, parameter, value):
+        field = self.browser.find_element(By.CSS_SELECTOR, f'.parameter[data-parameter="{parameter}"] input:not([type=range])')
+        self.js("arguments[0].scrollIntoView({block: 'center'}); arguments[0].value = arguments[1]; arguments[0].dispatchEvent(new Event('change'))", field, value)
+
+    def test_a_changed_parameter_changes_the_spikes_and_is_in_the_link(self):
+        self.press(0.8)
+        before = self.counts()[0]
+        self.open_row(0)
+        self.set_number("f_B", "60")
+        self.until(lambda: "f_B%3D60Hz" in self.js("return location.hash"))
+        self.press(0.8)
+        self.assertGreater(self.counts()[0] - before, 1.3 * before)
+        link = self.js("return location.hash")
+        self.start(link)
+        self.open_row(0)
+        self.assertEqual(self.js("""return document.querySelector('.parameter[data-parameter="f_B"] input[type=number]').value"""), "60")
+
+    def test_a_value_out_of_its_range_is_refused_with_the_engines_sentence(self):
+        self.open_row(0)
+        self.set_number("f_B", "-5")
+        self.until(lambda: "f_B" in self.text("message"))
+        self.assertNotIn("f_B", self.js("return location.hash"))
+
+    def test_a_chip_has_another_temperature(self):
+        self.js("document.querySelectorAll('.row-card details')[2].open = true")
+        self.until(lambda: self.all('.parameter[data-parameter="temp"]'))
+        self.press(0.5)
+        before = self.counts()[2]
+        self.set_number("temp", "60")
+        self.until(lambda: "temp%3D60" in self.js("return location.hash"))
+        self.press(0.5)
+        self.assertGreater(self.counts()[2], before)
+
+    def test_a_damaged_or_oversized_link_is_refused(self):
+        for link in ("#rows=sa1~f_B", "#rows=nothing", "#skin=..%2Fetc", "#rate=0", "#force=1e9", "#%", "#x=1", "#rows=" + "sa1," * 2000, "#rows=sa1~f_B%3D" + "9" * 200, "#rows=" + urllib.parse.quote(PAYLOAD)):
+            self.start(link)
+            self.assertIn("damaged", self.text("message"), link)
+            self.assertEqual(self.js("return corpuscle.session.rows.length"), 4, link)
+
+    def test_an_afferent_can_be_added_and_removed(self):
+        self.js("const select = document.getElementById('add-row'); select.selectedIndex = [...select.options].findIndex(({text}) => text.startsWith('fa1-circuit')); select.dispatchEvent(new Event('change'))")
+        self.until(lambda: len(self.counts()) == 4)
+        self.browser.find_element(By.CSS_SELECTOR, '[data-row="sa1"] .remove').click()
+        self.until(lambda: len(self.counts()) == 3)
+        self.assertIn("fa1-circuit", self.js("return corpuscle.session.rows.map(({info}) => info.name)"))
+
+
+class Chip(LivePage):
+    ROWS = "sa1-circuit"
+
+    def test_blocks_show_their_voltages(self):
+        self.js("document.querySelector('.row-card details').open = true")
+        self.until(lambda: self.all("#schematic .block[data-block]"))
+        blocks = self.all("#schematic .block[data-block]")
+        self.assertGreater(len(blocks), 5)
+        self.js("arguments[0].dispatchEvent(new MouseEvent('click', {bubbles: true}))", blocks[0])
+        self.until(lambda: len(self.all(".schematic")) == 2 and self.all(".row-card .columns .schematic .device[data-device]"))
+        self.assertGreater(len(self.all(".block-state tbody tr")), 1)
+
+    def test_a_monte_carlo_has_the_chips_of_the_program(self):
+        self.js("document.querySelector('.row-card details').open = true")
+        self.until(lambda: self.all("#run-monte-carlo"))
+        self.js("document.getElementById('run-monte-carlo').click()")
+        WebDriverWait(self.browser, 240).until(lambda _: "50 of 50" in self.js("return document.querySelector('.monte-carlo').textContent"))
+        found = self.js("return corpuscle.charts && [...document.querySelectorAll('.monte-carlo')].length")
+        self.assertEqual(found, 1)
+        subprocess.run([CORPUSCLE, "respond", "press", "--rate", "2kHz", "--afferent", "sa1-circuit", "--set", "sa1-circuit.mismatch=1", "--copies", "3", "--out", OUT / "chips", "--quiet", "--overwrite"], check=True, cwd=ROOT)
+        expected = trains(OUT / "chips" / "spikes.csv")
+        for k in range(3):
+            self.check_spikes(self.js("return corpuscle.monteCarlo[arguments[0]].times", k), expected[f"sa1-circuit#{k + 1}"], f"sa1-circuit chip {k + 1}")
+
+
+class Recordings(LivePage):
+    def load(self, path):
+        self.js("document.getElementById('recordings').open = true")
+        self.until(lambda: self.all("#recording-file"))
+        self.browser.find_element(By.ID, "recording-file").send_keys(str(path))
+
+    def test_a_recording_gives_the_spikes_of_the_program(self):
+        self.load(ROOT / "examples" / "data" / "touch.csv")
+        WebDriverWait(self.browser, 120).until(lambda _: "spikes" in self.text("recording-status"))
+        document = program("respond", "examples/data/touch.csv", "--afferent", self.ROWS, "--out", OUT / "touch", "--overwrite")
+        expected = {name: len(times) for name, times in trains(OUT / "touch" / "spikes.csv").items()}
+        self.assertTrue(document)
+        for name in self.ROWS.split(","):
+            self.assertIn(f"{name} {expected.get(name, 0)}", self.text("recording-status"))
+
+    def test_names_in_a_recording_stay_text(self):
+        path = OUT / ("<img src=x onerror=document.title=1>.csv".replace("/", ""))
+        path.write_text("time_s,\"" + PAYLOAD.replace('"', '""') + " (N)\",second (N)\n" + "".join(f"{k / 100},{k % 7 / 10},0\n" for k in range(100)))
+        self.load(path)
+        self.until(lambda: self.text("recording-status"))
+        self.wait(0.5)
+        self.assertNotEqual(self.browser.title, "1")
+        self.assertEqual(self.all("#recording img"), [])
+
+    def test_a_file_that_is_no_recording_is_refused(self):
+        path = OUT / "noise.csv"
+        path.write_bytes(bytes(range(256)) * 10)
+        self.load(path)
+        self.until(lambda: self.text("recording-status"))
+        self.assertNotIn("spikes", self.text("recording-status"))
+
+
+class Look(LivePage):
+    def test_four_sizes_in_two_themes(self):
+        for width, height in SIZES:
+            for is_dark in (False, True):
+                self.start("", width=width, height=height, is_dark=is_dark)
+                self.js("corpuscle.press.isDown = true")
+                self.wait(1)
+                overflow = self.js("return document.documentElement.scrollWidth - document.documentElement.clientWidth")
+                self.browser.save_screenshot(str(OUT / f"live-{width}{'-dark' if is_dark else ''}.png"))
+                self.assertLessEqual(overflow, 0, (width, is_dark))
+
+    def test_it_requests_nothing_but_itself(self):
+        text = PAGE.read_text()
+        self.assertEqual(re.findall(r"<script[^>]*\bsrc\b|<link[^>]*stylesheet", text), [])
+
+
+if __name__ == "__main__":
+    if not PAGE.exists():
+        print(f"There is no {PAGE}: make page builds it.")
+        sys.exit(77)
+    run_tests()
