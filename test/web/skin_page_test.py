@@ -419,6 +419,26 @@ class HostileNamesOnASkin(SkinPage):
         WebDriverWait(self.browser, 20).until(lambda _: HOSTILE in self.browser.find_element(By.ID, "unit").text)
 
 
+class WithoutSpikeTimes(SkinPage):
+    """More spikes than the page contains the times of."""
+
+    @classmethod
+    def report(cls):
+        def change(data):
+            cls.spikes, data["over"]["spikes"] = data["over"]["spikes"]["count"], None
+
+        return with_changed_data(respond("skin-times.html", "--population", "fingertip"), "skin-counts.html", change)
+
+    def test_rasters_show_counts_and_maps_show_rates(self):
+        self.assertIn("the rasters show counts per frame", self.browser.find_element(By.ID, "plots").text)
+        self.assertEqual(self.js("return corpuscle.maps.modes.map(({key}) => key.split('-')[0])[0]"), "rate")
+        rows = [row for one in self.classes for row in csv.DictReader(self.js("return corpuscle.panels[arguments[0]].csv()", f"raster {one['name']}").splitlines())]
+        self.assertEqual(sum(int(row["spikes"]) for row in rows), self.spikes)
+        dark_pixels = self.dark_pixels()
+        for one in self.classes:
+            self.assertGreater(dark_pixels[f"raster {one['name']}"], 0)
+
+
 class SensorsOfTwo(SkinPage):
     """Separate sensors with two afferents each."""
 

@@ -29,7 +29,6 @@ export function connectMapPointer(map: SkinMap) {
     const end = (event: PointerEvent) => {
         fingers.delete(event.pointerId);
         isDrag = fingers.size > 0;
-        canvas.style.touchAction = scene.isComplete ? "pan-x pan-y" : "none";
     };
     canvas.addEventListener("pointerup", (event) => {
         end(event);

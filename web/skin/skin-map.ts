@@ -99,6 +99,7 @@ export class SkinMap {
         this.paintActive(pen, (stamps, level, x, y) => this.dots!.add(stamps.imageOf(level), x * ratio, y * ratio));
         this.dots.draw(pen, ratio);
         this.paintRing(pen);
+        canvas.style.touchAction = scene.isComplete ? "pan-x pan-y" : "none";  // one finger pans a zoomed map
         if (this.options.drawn) this.options.drawn(this);
     }
 
