@@ -15,14 +15,16 @@ namespace {
 const std::string token = "0123456789abcdef0123456789abcdef";
 
 void check(const PageRequest& request) {
-    static const AccessPolicy local("", 8080, "", "http://localhost:8080/"), open("10.0.0.1", 8080, token, "http://10.0.0.1:8080/");
+    static const AccessPolicy local("", 8080, "", "http://localhost:8080/", "/stream"),
+        open("10.0.0.1", 8080, token, "http://10.0.0.1:8080/", "/stream");
     const auto here = local.decide(request).status, elsewhere = open.decide(request).status;
     for (const auto status : {here, elsewhere}) {
         require((status == 101) <= request.is_upgrade && (status == 200) <= !request.is_upgrade);
         require(status == 101 || status == 200 || (status >= 400 && status < 500));
         if (status >= 400) continue;
         require(request.hosts.size() == 1 && (request.method == "GET" || request.method == "HEAD"));
-        require(request.target == "/" || request.target.starts_with("/?"));
+        const std::string path = request.is_upgrade ? "/stream" : "/";
+        require(request.target == path || request.target.starts_with(path + "?"));
         if (status == 101 && !request.origins.empty())
             require(request.origins.size() == 1 && equal_ignoring_case(request.origins[0], "http://" + std::string(request.hosts[0])));
     }

@@ -47,8 +47,8 @@ bool is_loopback_address(std::string_view address) {
            (address.starts_with("127.") && address.find_first_not_of("0123456789.") == address.npos);
 }
 
-AccessPolicy::AccessPolicy(std::string address, int port, std::string token, std::string url)
-    : token_(std::move(token)), url_(std::move(url)) {
+AccessPolicy::AccessPolicy(std::string address, int port, std::string token, std::string url, std::string socket_path)
+    : token_(std::move(token)), socket_path_(std::move(socket_path)), url_(std::move(url)) {
     if (!token_.empty()) return;
     if (address.find(':') != address.npos) address = "[" + address + "]";
     for (const std::string& name : {std::string("localhost"), std::string("127.0.0.1"), std::string("[::1]"), lower(address)}) {
@@ -67,7 +67,8 @@ AccessDecision AccessPolicy::decide(const PageRequest& request) const {
         return {401, "Open the address with the token that corpuscle has printed."};
     if (request.method != "GET" && request.method != "HEAD") return {405, "This server answers GET and HEAD only."};
     if (!request.target.starts_with('/')) return {400, "The target of a request begins with '/'."};
-    if (path_of(request.target) != "/") return {404, "There is one page here, at /."};
+    if (path_of(request.target) != (request.is_upgrade ? socket_path_ : "/"))
+        return {404, fmt::format("There is one page here, at /, and one WebSocket, at {}.", socket_path_)};
     if (!request.is_upgrade) return {200};
     if (request.origins.size() > 1 || (request.origins.size() == 1 && lower(request.origins[0]) != "http://" + host))
         return {403, "A page of another site must not open this WebSocket."};

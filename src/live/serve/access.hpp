@@ -36,13 +36,15 @@ struct AccessDecision {
 
 class AccessPolicy {
     std::string token_;               // "": none is required
+    std::string socket_path_;         // of the WebSocket; the page is at "/"
     std::vector<std::string> hosts_;  // accepted values of the Host header; empty: all
     std::string url_;
 
 public:
     /// Without a token, as on loopback: the Host header must name this machine as a loopback address. Otherwise another site, whose name
-    /// leads to this machine (DNS rebinding), could read the stream. `url`: the address of the page, for messages.
-    AccessPolicy(std::string address, int port, std::string token, std::string url);
+    /// leads to this machine (DNS rebinding), could read the stream. `url`: the address of the page, for messages. `socket_path`: of the
+    /// WebSocket, such as "/stream".
+    AccessPolicy(std::string address, int port, std::string token, std::string url, std::string socket_path);
     AccessDecision decide(const PageRequest&) const;
 };
 

@@ -283,7 +283,7 @@ Result<std::unique_ptr<PageServer>> PageServer::start(PageServerOptions options)
     std::string token;
     if (!is_local) token = TRY(make_access_token());
     auto listeners = TRY(open_listeners(options.address, options.port));
-    AccessPolicy policy(options.address, listeners.port, token, listeners.urls[0]);
+    AccessPolicy policy(options.address, listeners.port, token, listeners.urls[0], options.make_session ? "/engine" : "/stream");
     return std::unique_ptr<PageServer>(
         std::make_unique<serve::BeastServer>(std::move(options), std::move(policy), std::move(listeners), token));
 }

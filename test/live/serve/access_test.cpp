@@ -8,8 +8,8 @@
 namespace corpuscle {
 namespace {
 
-AccessPolicy local_policy() { return {"", 8080, "", "http://localhost:8080/"}; }
-AccessPolicy token_policy() { return {"192.168.1.5", 8080, "0123456789abcdef0123456789abcdef", "http://192.168.1.5:8080/"}; }
+AccessPolicy local_policy() { return {"", 8080, "", "http://localhost:8080/", "/stream"}; }
+AccessPolicy token_policy() { return {"192.168.1.5", 8080, "0123456789abcdef0123456789abcdef", "http://192.168.1.5:8080/", "/stream"}; }
 
 TEST(PageAccess, OnThisMachineOnlyItsOwnNamesAreAcceptedAsHost) {
     for (const char* host : {"localhost:8080", "127.0.0.1:8080", "[::1]:8080", "LocalHost:8080"})
@@ -20,8 +20,8 @@ TEST(PageAccess, OnThisMachineOnlyItsOwnNamesAreAcceptedAsHost) {
         EXPECT_EQ(local_policy().decide({"GET", "/", {host}, {}, false}).status, 421U) << host;
     EXPECT_EQ(local_policy().decide({"GET", "/", {}, {}, false}).status, 400U);
     EXPECT_EQ(local_policy().decide({"GET", "/", {"localhost:8080", "localhost:8080"}, {}, false}).status, 400U);
-    EXPECT_EQ(AccessPolicy("", 80, "", "").decide({"GET", "/", {"localhost"}, {}, false}).status, 200U);
-    EXPECT_EQ(AccessPolicy("127.0.0.9", 8080, "", "").decide({"GET", "/", {"127.0.0.9:8080"}, {}, false}).status, 200U);
+    EXPECT_EQ(AccessPolicy("", 80, "", "", "/stream").decide({"GET", "/", {"localhost"}, {}, false}).status, 200U);
+    EXPECT_EQ(AccessPolicy("127.0.0.9", 8080, "", "", "/stream").decide({"GET", "/", {"127.0.0.9:8080"}, {}, false}).status, 200U);
 }
 
 TEST(PageAccess, ThereIsOnePathAndTwoMethods) {
@@ -37,22 +37,25 @@ TEST(PageAccess, ThereIsOnePathAndTwoMethods) {
 }
 
 TEST(PageAccess, AWebSocketIsOpenedByTheOwnPageOrByAProgram) {
-    EXPECT_EQ(local_policy().decide({"GET", "/", {"localhost:8080"}, {}, true}).status, 101U);
-    EXPECT_EQ(local_policy().decide({"GET", "/", {"localhost:8080"}, {"http://localhost:8080"}, true}).status, 101U);
+    EXPECT_EQ(local_policy().decide({"GET", "/stream", {"localhost:8080"}, {}, true}).status, 101U);
+    EXPECT_EQ(local_policy().decide({"GET", "/", {"localhost:8080"}, {}, true}).status, 404U);
+    EXPECT_EQ(local_policy().decide({"GET", "/stream", {"localhost:8080"}, {}, false}).status, 404U);
+    EXPECT_EQ(local_policy().decide({"GET", "/stream", {"localhost:8080"}, {"http://localhost:8080"}, true}).status, 101U);
     for (const char* origin : {"http://evil.example", "http://127.0.0.1:8080", "https://localhost:8080", "null", "",
                                "http://localhost:80801", "http://localhost:8080/", "file://"})
-        EXPECT_EQ(local_policy().decide({"GET", "/", {"localhost:8080"}, {origin}, true}).status, 403U) << origin;
-    EXPECT_EQ(local_policy().decide({"GET", "/", {"localhost:8080"}, {"http://localhost:8080", "http://localhost:8080"}, true}).status,
-              403U);
+        EXPECT_EQ(local_policy().decide({"GET", "/stream", {"localhost:8080"}, {origin}, true}).status, 403U) << origin;
+    EXPECT_EQ(
+        local_policy().decide({"GET", "/stream", {"localhost:8080"}, {"http://localhost:8080", "http://localhost:8080"}, true}).status,
+        403U);
 }
 
 TEST(PageAccess, ElsewhereNothingIsAnsweredWithoutTheToken) {
     const std::string right = "token=0123456789abcdef0123456789abcdef";
     EXPECT_EQ(token_policy().decide({"GET", "/?" + right, {"robot.local:8080"}, {}, false}).status, 200U)
         << "the machine may have any name";
-    const auto upgrade = token_policy().decide({"GET", "/?" + right, {"robot.local:8080"}, {"http://robot.local:8080"}, true});
+    const auto upgrade = token_policy().decide({"GET", "/stream?" + right, {"robot.local:8080"}, {"http://robot.local:8080"}, true});
     EXPECT_EQ(upgrade.status, 101U);
-    EXPECT_EQ(token_policy().decide({"GET", "/?" + right, {"robot.local:8080"}, {"http://evil.example"}, true}).status, 403U);
+    EXPECT_EQ(token_policy().decide({"GET", "/stream?" + right, {"robot.local:8080"}, {"http://evil.example"}, true}).status, 403U);
     EXPECT_EQ(token_policy().decide({"GET", "/?a=1&" + right + "&b", {"robot.local:8080"}, {}, false}).status, 200U);
     const std::string wrong[] = {"/",
                                  "/x",

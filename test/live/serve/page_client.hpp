@@ -101,7 +101,7 @@ public:
         return request(fmt::format("{} {} HTTP/1.1\r\nHost: {}\r\n{}\r\n", method, target, host(), more_headers));
     }
     /// Opens the WebSocket. Returns the status of the response.
-    int open(const std::string& more_headers = "", const std::string& target = "/") {
+    int open(const std::string& more_headers = "", const std::string& target = "/stream") {
         send(
             fmt::format("GET {} HTTP/1.1\r\nHost: {}\r\nUpgrade: websocket\r\nConnection: Upgrade\r\nSec-WebSocket-Version: 13\r\n"
                         "Sec-WebSocket-Key: dGhlIHNhbXBsZSBub25jZQ==\r\n{}\r\n",

@@ -21,7 +21,7 @@ def frame(opcode, data, final=True):
     return bytes([(0x80 if final else 0) | opcode]) + length + mask + masked
 
 
-def handshake(host, target="/", origin=None):
+def handshake(host, target="/stream", origin=None):
     key = base64.b64encode(os.urandom(16)).decode()
     lines = [f"GET {target} HTTP/1.1", f"Host: {host}", "Upgrade: websocket", "Connection: Upgrade", "Sec-WebSocket-Version: 13", f"Sec-WebSocket-Key: {key}"]
     if origin:
@@ -67,7 +67,7 @@ class Frames:
 class Page:
     """A page that waits for what it reads."""
 
-    def __init__(self, address, port, target="/", host=None, origin=None, timeout=10):
+    def __init__(self, address, port, target="/stream", host=None, origin=None, timeout=10):
         self.socket = socket.create_connection((address, port), timeout)
         self.frames = Frames()
         self.socket.sendall(handshake(host or f"{address}:{port}", target, origin))

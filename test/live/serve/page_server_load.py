@@ -186,7 +186,7 @@ def delay_text(latency):
 
 def main(program, seconds):
     quiet, _, _ = run(program, min(seconds, 20), False)
-    os.nice(10)  # the clients: on a machine with few cores they would take the time of the stream
+    os.nice(2)  # the clients: on a machine with few cores they would take the time of the stream
     loaded, counts, memory = run(program, seconds, True)
     print("delay without pages:", delay_text(quiet["latency_s"]))
     print(f"delay with {PAGES} pages:", delay_text(loaded["latency_s"]))

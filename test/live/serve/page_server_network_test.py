@@ -68,11 +68,12 @@ def check_open_server(program, address):
         port = server.port
         for wrong in ("/", "/?token=" + 32 * "0", "/x", target[:-1]):
             assert from_outside(f"http_status('{SERVER_ADDRESS}', {port}, {wrong!r})") == "401", wrong
-            assert from_outside(f"Page('{SERVER_ADDRESS}', {port}, {wrong!r}).status") == "401", wrong
+            assert from_outside(f"Page('{SERVER_ADDRESS}', {port}, {'/engine' + wrong[1:]!r}).status") == "401", wrong
         assert from_outside(f"http_status('{SERVER_ADDRESS}', {port}, {target!r})") == "200"
-        page = f"Page('{SERVER_ADDRESS}', {port}, {target!r}, origin='http://{SERVER_ADDRESS}:{port}')"
-        assert from_outside(f"{page}.message()['event']") == "session"
-        evil = f"Page('{SERVER_ADDRESS}', {port}, {target!r}, origin='http://evil.example').status"
+        socket = "/engine" + target[1:]
+        page = f"Page('{SERVER_ADDRESS}', {port}, {socket!r}, origin='http://{SERVER_ADDRESS}:{port}')"
+        assert from_outside(f"{page}.request({{'request': 'catalogue'}})['answer']") == "catalogue"
+        evil = f"Page('{SERVER_ADDRESS}', {port}, {socket!r}, origin='http://evil.example').status"
         assert from_outside(evil) == "403"
     finally:
         status = server.stop()

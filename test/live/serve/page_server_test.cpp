@@ -19,8 +19,6 @@ std::vector<std::byte> message_of(page::Json head) {
     return out.finish();
 }
 
-std::string text_of(const std::vector<std::byte>& bytes) { return {reinterpret_cast<const char*>(bytes.data()), bytes.size()}; }
-
 PageServerOptions server_options() {
     PageServerOptions options;
     options.page = test_page;
@@ -134,7 +132,7 @@ TEST(PageServer, OpensWebSocketsForItsOwnPagesOnly) {
     EXPECT_EQ(other.open("Origin: http://evil.example\r\n"), 403);
     EXPECT_EQ(own.open("Origin: http://" + own.host() + "\r\n"), 101);
     EXPECT_EQ(head_of(own.next()->data)["event"], "hello");
-    EXPECT_EQ(PageClient(server->port()).open("", "/stream"), 404);
+    EXPECT_EQ(PageClient(server->port()).open("", "/"), 404);
 }
 
 TEST(PageServer, SendsFramesToAllPagesAndALastMessage) {
@@ -277,8 +275,8 @@ TEST(PageServer, AnswersTheRequestsOfEachSessionInOrder) {
     const auto server = start(session_options());
     if (!server) GTEST_SKIP() << no_server;
     PageClient first(server->port()), second(server->port());
-    ASSERT_EQ(first.open(), 101);
-    ASSERT_EQ(second.open(), 101);
+    ASSERT_EQ(first.open("", "/engine"), 101);
+    ASSERT_EQ(second.open("", "/engine"), 101);
     for (auto* page : {&first, &second}) EXPECT_EQ(head_of(page->next()->data)["event"], "hello");
     for (int k = 1; k <= 50; ++k) first.send(client_frame(0x82, "a" + std::to_string(k)));
     second.send(client_frame(0x02, "in ") + client_frame(0x89, "") + client_frame(0x00, "three ") + client_frame(0x80, "fragments"));
@@ -302,7 +300,7 @@ TEST(PageServer, EndsWhileASessionComputes) {
     auto server = start(session_options());
     if (!server) GTEST_SKIP() << no_server;
     PageClient page(server->port());
-    ASSERT_EQ(page.open(), 101);
+    ASSERT_EQ(page.open("", "/engine"), 101);
     page.next();
     page.send(client_frame(0x82, "wait"));
     std::thread ending([&] { server->finish({}, std::chrono::milliseconds(50)); });
@@ -318,14 +316,14 @@ TEST(PageServer, AClientThatLeavesInTheMiddleHarmsNothing) {
     for (int k = 0; k < 40; ++k) {
         PageClient page(server->port());
         if (k % 4 == 0) page.send("GET / HT");
-        if (k % 4 == 1) page.open();
-        if (k % 4 == 2) page.open(), page.send(client_frame(0x82, "x"));
-        if (k % 4 == 3) page.open(), page.send(client_frame(0x82, "incomplete").substr(0, 9));
+        if (k % 4 == 1) page.open("", "/engine");
+        if (k % 4 == 2) page.open("", "/engine"), page.send(client_frame(0x82, "x"));
+        if (k % 4 == 3) page.open("", "/engine"), page.send(client_frame(0x82, "incomplete").substr(0, 9));
     }
     PageClient last(server->port());
     for (int k = 0; k < 1000 && server->counts().viewers > 0; ++k) std::this_thread::sleep_for(std::chrono::milliseconds(5));
     EXPECT_EQ(server->counts().viewers, 0);
-    ASSERT_EQ(last.open(), 101);
+    ASSERT_EQ(last.open("", "/engine"), 101);
     EXPECT_EQ(head_of(last.next()->data)["event"], "hello");
 }
 
@@ -343,7 +341,7 @@ TEST(PageServer, ElsewhereNeedsTheToken) {
     EXPECT_EQ(refused.find("<title>"), refused.npos) << refused;
     EXPECT_EQ(PageClient(server->port()).open(), 401);
     EXPECT_TRUE(PageClient(server->port()).get(target).starts_with("HTTP/1.1 200 "));
-    EXPECT_EQ(PageClient(server->port()).open("", target), 101);
+    EXPECT_EQ(PageClient(server->port()).open("", "/stream" + target.substr(1)), 101);
 }
 
 }  // namespace

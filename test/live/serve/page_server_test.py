@@ -99,19 +99,18 @@ def check_sessions(program):
     server = Server(program, ["--in", "page", "--serve", "0", "--max-viewers", "2"])
     assert server.url.startswith("http://localhost:"), server.url
     assert http_status("localhost", server.port) == 200
-    pages = [Page("127.0.0.1", server.port) for _ in range(2)]
+    pages = [Page("127.0.0.1", server.port, "/engine") for _ in range(2)]
     for page in pages:
-        assert page.message() == {"event": "session"}
         answer = page.request({"request": "catalogue"})
         assert answer.get("answer") == "catalogue", answer
         assert "error" in page.request({"request": "no such request"})
-    third = Page("127.0.0.1", server.port)
+    third = Page("127.0.0.1", server.port, "/engine")
     assert "--max-viewers 2" in third.message()["error"]
     third.close()
     pages[0].close()  # as a reload does
     for _ in range(100):
-        page = Page("127.0.0.1", server.port)
-        if page.message()["event"] == "session":
+        page = Page("127.0.0.1", server.port, "/engine")
+        if page.request({"request": "catalogue"}).get("answer") == "catalogue":
             break
         page.close()
         time.sleep(0.05)

@@ -1,5 +1,6 @@
 #include "cli/stream/page/live_page.hpp"
 
+#include <fmt/format.h>
 #include <filesystem>
 
 #include "core/text/embedded_files.hpp"
@@ -8,7 +9,7 @@
 namespace corpuscle {
 namespace {
 
-constexpr const char* page_name = "live.html";
+constexpr const char* page_name = "press.html";
 
 constexpr const char* page_in_place_of_it = R"(<!DOCTYPE html>
 <html lang="en">
@@ -30,15 +31,25 @@ body { font: 1rem/1.5 system-ui, sans-serif; max-width: 40rem; margin: 3rem auto
 </html>
 )";
 
-}  // namespace
-
-Result<std::string> load_live_page() {
+/// The text of the page; "" if it has not been built.
+Result<std::string> find_page() {
     if (const auto text = embedded_text_of(page_name); !text.empty()) return std::string(text);
     std::error_code unknown;
     const auto folder = std::filesystem::read_symlink("/proc/self/exe", unknown).parent_path();
-    for (const auto& path : {folder / page_name, folder / "../share/corpuscle" / page_name})
+    for (const auto& path : {folder / "../page" / page_name, folder / "../share/corpuscle" / page_name})
         if (std::filesystem::is_regular_file(path, unknown)) return read_entire_input(path.string(), std::size_t{1} << 28, "page");
-    return std::string(page_in_place_of_it);
+    return std::string();
+}
+
+}  // namespace
+
+Result<std::string> load_live_page(std::string_view purpose) {
+    constexpr std::string_view head = "<head>";
+    auto page = TRY(find_page());
+    const auto at = page.find(head);
+    if (page.find(purpose) == page.npos || at == page.npos) return std::string(page_in_place_of_it);
+    page.insert(at + head.size(), fmt::format("<meta name=\"{}\">", purpose));
+    return page;
 }
 
 }  // namespace corpuscle

@@ -60,12 +60,6 @@ std::vector<std::byte> encode_stream_greeting(const SkinStream& stream, std::int
     return out.finish();
 }
 
-std::vector<std::byte> encode_session_greeting() {
-    MessageWriter out;
-    out.head = {{"event", "session"}};
-    return out.finish();
-}
-
 std::vector<std::byte> encode_frames(const FrameBatch& batch, const Clock& clock) {
     MessageWriter out;
     out.head = {{"event", "frames"}};

@@ -8,8 +8,6 @@ namespace corpuscle {
 
 /// The first message: the population, with the positions of its sites and afferents.
 std::vector<std::byte> encode_stream_greeting(const SkinStream&, std::int64_t force_interval);
-/// The first message of a page that has a session.
-std::vector<std::byte> encode_session_greeting();
 /// Forces and spikes.
 std::vector<std::byte> encode_frames(const FrameBatch&, const Clock&);
 /// Messages that were lost, or the reason why the connection ends.

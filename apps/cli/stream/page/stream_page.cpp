@@ -65,7 +65,7 @@ Result<void> check_page_options(const StreamArguments& args, const CommonArgumen
 
 Result<std::unique_ptr<StreamPage>> StreamPage::start(const StreamArguments& args, const SkinStream& skin) {
     auto out = std::make_unique<StreamPage>();
-    out->page_ = TRY(load_live_page());
+    out->page_ = TRY(load_live_page("corpuscle-stream"));
     out->ring_ = std::make_unique<FrameRing>(skin.sites(), skin.clock().rate());
     PageServerOptions options;
     options.page = out->page_, options.frames = out->ring_.get();
@@ -106,11 +106,10 @@ nlohmann::ordered_json page_document(const PageServerCounts& counts) {
 }
 
 Result<void> run_page_sessions(const StreamArguments& args, const CommonArguments& common) {
-    const auto text = TRY(load_live_page());
+    const auto text = TRY(load_live_page("corpuscle-engine"));
     PageServerOptions options;
     options.page = text;
     options.max_viewers = args.max_viewers.value_or(default_sessions);
-    options.greeting = encode_session_greeting();
     options.make_session = [] { return std::make_unique<EngineSession>(); };
     options.session_threads = std::max(1U, std::thread::hardware_concurrency());
     options.max_request = max_session_request, options.max_request_rate = max_session_request_rate;
