@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 #include <chrono>
+#include <cmath>
 
 #include "model/copies.hpp"
 #include "page/documents.hpp"
@@ -9,7 +10,7 @@
 namespace corpuscle::page {
 namespace {
 
-constexpr std::size_t job_block = 512;            // samples; a circuit computes them in some milliseconds
+constexpr double job_block = 5e-3;                // s, simulated at once; a circuit computes it in some milliseconds
 constexpr std::size_t max_recorded = 20'000'000;  // values of all probes together
 
 }  // namespace
@@ -60,7 +61,8 @@ void ResponseJob::begin_plan() {
 /// Simulates the next block of the present afferent, or goes on to the next afferent.
 void ResponseJob::simulate_block() {
     if (!afferent_) begin_plan();
-    const auto count = std::min(job_block, force_.force.size() - at_);
+    const auto block = static_cast<std::size_t>(std::ceil(job_block * force_.clock.rate()));
+    const auto count = std::min(block, force_.force.size() - at_);
     std::vector<std::vector<double>> values(probes_.back().size(), std::vector<double>(count));
     std::vector<double*> arrays;
     for (auto& v : values) arrays.push_back(v.data());

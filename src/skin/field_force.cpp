@@ -30,7 +30,9 @@ void FieldForce::compute(const SiteForce& force, std::span<const std::uint32_t> 
 }
 
 void FieldForce::build_by_afferent() {
-    auto &begin = by_afferent_.begin, &site = by_afferent_.site, &weight = by_afferent_.weight;
+    auto& begin = by_afferent_.begin;
+    auto& site = by_afferent_.site;
+    auto& weight = by_afferent_.weight;
     // Calls add(afferent, site, weight) for each site of each receptive field, for each afferent in the order of the sites.
     const auto for_each_entry = [this](const auto& add) {
         for (std::size_t n = 0; n < pieces_.pieces(); ++n)

@@ -44,7 +44,7 @@ inline from_chars_result from_chars(const char* begin, const char* end, double& 
     char* stopped = nullptr;
     const double read = strtod(number.c_str(), &stopped);
     if (stopped == number.c_str()) return {begin, errc::invalid_argument};
-    const bool is_zero = number.find_first_of("123456789") > number.find_first_of("eE");
+    const bool is_zero = number.substr(0, number.find_first_of("eE")).find_first_of("123456789") == string::npos;
     last = begin + (stopped - number.c_str());
     if (!begins_infinite(begin, end) && (!isfinite(read) || (read == 0 && !is_zero))) return {last, errc::result_out_of_range};
     value = read;

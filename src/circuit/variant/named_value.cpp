@@ -17,8 +17,9 @@ double value_of(const Element& e, const ElementParameter& p) {
     return at == e.values.end() ? p.initial : at->second;
 }
 
-/// The parameter of an element with this name; "" is the element's value.
-std::optional<NamedValue> parameter_of(const Element& e, std::string_view name) {
+}  // namespace
+
+std::optional<NamedValue> named_value_of(const Element& e, std::string_view name) {
     for (const auto& p : kind_of(e).parameters) {
         if (!(name.empty() ? p.is_value : p.name == name) || (e.expression && !p.works_with_expression)) continue;
         return NamedValue{value_of(e, p), std::string(p.unit), name.empty() ? e.name : e.name + "." + std::string(name), false,
@@ -27,20 +28,18 @@ std::optional<NamedValue> parameter_of(const Element& e, std::string_view name) 
     return {};
 }
 
-}  // namespace
-
 std::optional<NamedValue> find_named_value(const Circuit& circuit, std::string_view typed) {
     const auto name = lower(typed);
     if (const auto p = circuit.parameters.find(name); p != circuit.parameters.end()) return NamedValue{p->second, "", name, true};
     std::vector<std::string_view> names;
     for (const auto& e : circuit.elements) names.push_back(e.name);
     if (const auto found = find_matching_names(names, name, LastPiece::element); found.size() == 1)
-        if (auto value = parameter_of(circuit.elements[found[0]], "")) return value;
+        if (auto value = named_value_of(circuit.elements[found[0]], "")) return value;
     const auto dot = name.rfind('.');
     if (dot == std::string::npos) return {};
     const auto owners = find_matching_names(names, std::string_view(name).substr(0, dot), LastPiece::element);
     if (owners.size() != 1) return {};
-    return parameter_of(circuit.elements[owners[0]], std::string_view(name).substr(dot + 1));
+    return named_value_of(circuit.elements[owners[0]], std::string_view(name).substr(dot + 1));
 }
 
 std::string unit_of_difference(const Circuit& a, const Circuit& b) {

@@ -19,6 +19,9 @@ struct NamedValue {
 /// The number that an override of this name sets; see apply_overrides(). Nothing if there is none, or if the name is ambiguous.
 std::optional<NamedValue> find_named_value(const Circuit&, std::string_view name);
 
+/// The parameter of an element with this name; "" is the element's value. Nothing if it cannot be set.
+std::optional<NamedValue> named_value_of(const Element&, std::string_view parameter);
+
 /// The unit of the numbers in which two circuits with the same elements differ; "" if they differ in numbers of several units, or in none
 /// of known unit. If only a .param differs, this is its unit.
 std::string unit_of_difference(const Circuit&, const Circuit&);

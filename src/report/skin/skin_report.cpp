@@ -42,8 +42,8 @@ public:
     }
 };
 
-/// The frames of a map as compact base64 text for web/skin/frames.ts. `T`: sampling period, s. `level`: converts the value of a place in frame k
-/// to its level. `properties`: further members of the document.
+/// The frames of a map as compact base64 text for web/skin/frames.ts. `T`: sampling period, s. `level`: converts the value of a place in
+/// frame k to its level. `properties`: further members of the document.
 template <class V, class Level>
 Json frames_document(const BinnedFrames<V>& sums, double T, const Json& properties, Level level) {
     PackedNumbers bytes;
@@ -51,7 +51,7 @@ Json frames_document(const BinnedFrames<V>& sums, double T, const Json& properti
     for (std::size_t k = 0; k < frames.size(); ++k) bytes.append_frame(frames[k], sums.places(), [&](V x) { return level(x, k); });
     Json out = {{"count", frames.size()}, {"width", static_cast<double>(sums.width()) * T}, {"places", sums.places()}};
     out.update(properties);
-    out["data"] = array_document(bytes.bytes);
+    out["data"] = array_document(std::as_bytes(std::span(bytes.bytes)));
     return out;
 }
 
@@ -168,7 +168,10 @@ Json SkinReport::spikes_document() const {
             bytes.append_number(static_cast<std::uint64_t>(ticks[k] - std::exchange(before, ticks[k])));
         next = u + 1, ++trains;
     }
-    return {{"count", spikes_}, {"trains", trains}, {"tick", clock_.T() / ticks_per_sample}, {"data", array_document(bytes.bytes)}};
+    return {{"count", spikes_},
+            {"trains", trains},
+            {"tick", clock_.T() / ticks_per_sample},
+            {"data", array_document(std::as_bytes(std::span(bytes.bytes)))}};
 }
 
 Json SkinReport::document() const {

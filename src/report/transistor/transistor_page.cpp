@@ -73,8 +73,12 @@ void add_plots(Json& plots, const TransistorFit& fit, const IvData& data, std::s
             if (std::abs(I) > 10 * floor) add(difference_V, p.v[terminal]), add(difference, 100 * (p.I_D / I - 1));
         }
         const auto label = label_of(data, curve, curve.swept);
-        const auto series = [&](const std::string& series_name, const auto& x, const auto& y, std::string_view style) {
-            return Json{{"name", series_name}, {"x", array_document(x)}, {"y", array_document(y)}, {"style", style}, {"colour", colour}};
+        const auto series = [&](const std::string& series_name, const auto& voltages, const auto& heights, std::string_view style) {
+            return Json{{"name", series_name},
+                        {"x", array_document(voltages)},
+                        {"y", array_document(heights)},
+                        {"style", style},
+                        {"colour", colour}};
         };
         shown["series"].push_back(series(label, V, measured, "points"));
         shown["series"].push_back(series("", V, fitted, "line"));

@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include "circuit/solve/pencil.hpp"
 #include "io/sandbox/helper_process.hpp"
 #include "io/table/archive.hpp"
 #include "io/text/gzip_text.hpp"
@@ -51,5 +52,9 @@ Result<HelperProcess> HelperProcess::start(const std::string& program, int, cons
 Result<std::string> HelperProcess::receive(const std::string&, const std::string&) { return find_helper_program(program_).error(); }
 bool send_message(int, const std::string&) { return false; }
 bool receive_message(int, std::string&) { return false; }
+
+Result<std::vector<std::complex<double>>> circuit::finite_eigenvalues(const Pencil&) {
+    return bad_input("the page has no pole-zero analysis; use `corpuscle run`");
+}
 
 }  // namespace corpuscle
