@@ -6,7 +6,7 @@ import {RasterPanel, Row as RasterRow} from "../panels/raster-panel";
 import {TracePanel} from "../panels/trace-panel";
 import {View} from "../plot/view";
 import type {LiveCurve} from "./history";
-import type {Row, Session} from "./session";
+import type {Row, Skin} from "./session";
 
 const SPAN = 5;  // s that are visible while the page follows the present
 
@@ -19,12 +19,15 @@ class LivePanel extends TracePanel {
     }
 }
 
+/// The data of the figures: of a session, or of a stream.
+export interface LiveSource { rows: Row[]; skin: Skin | null; force: LiveCurve; time: number }
+
 export class Charts {
     readonly view = new View();
     private isFollowing = true;
     private shown: [number, number] = [0, SPAN];  // set by follow(); another range was chosen by the user
 
-    constructor(private session: Session, private host: HTMLElement) {
+    constructor(private session: LiveSource, private host: HTMLElement) {
         this.view.setLimits({begin: 0, end: SPAN, smallest: 0.01});
     }
 

@@ -135,7 +135,8 @@ export class Session {
     }
 }
 
-function skinOf(head: any, arrays: Record<string, NumberArray>): Skin {
+/// The skin that an answer describes.
+export function skinOf(head: any, arrays: Record<string, NumberArray>): Skin {
     const floats = (name: string) => arrays[name] as Float32Array;
     const trains = (head.classes as SkinClass[]).flatMap(({count}) => Array.from({length: count}, () => new LiveTrain()));
     return {...head, unitX: floats("x"), unitY: floats("y"), siteX: floats("site_x"), siteY: floats("site_y"), outline: numberedArrays(arrays, "outline"), borders: numberedArrays(arrays, "border"), trains};

@@ -91,11 +91,7 @@ export class Stage {
     draw() {
         const {skin, time} = this.session;
         if (!skin || !this.scene) return;
-        this.active = [];
-        skin.trains.forEach(({times}, mark) => {
-            const age = times.length ? time - times[times.length - 1] : GLOW;
-            if (age < GLOW) this.active.push([mark, 1 - Math.max(0, age) / GLOW]);
-        });
+        this.active = glowing(skin, time);
         this.scene.draw();
         this.readout.textContent = `${quantity(this.press.force, "N", true)} at ${quantity(this.press.x, "m", true)}, ${quantity(this.press.y, "m", true)}`;
     }
@@ -113,9 +109,19 @@ export class Stage {
     }
 }
 
-function geometryOf(skin: Skin, firstUnit: number): SkinGeometry {
+export function geometryOf(skin: Skin, firstUnit: number): SkinGeometry {
     const pairs = (x: Float32Array, y: Float32Array): Places => Float32Array.from({length: 2 * x.length}, (_, k) => (k % 2 ? y : x)[k >> 1]);
     const sites = pairs(skin.siteX, skin.siteY);
     return {outline: skin.outline, borders: skin.borders, sites, side: skin.site_side || 0.9 * spacing(sites), marks: pairs(skin.unitX, skin.unitY),
             classes: skin.classes.map(({name, first, count}) => ({name, colour: classColour(name), first: first - firstUnit, end: first - firstUnit + count}))};
+}
+
+/// The marks of the afferents that have just fired, and how bright they are.
+export function glowing({trains}: Skin, now: number): [number, number][] {
+    const out: [number, number][] = [];
+    trains.forEach(({times}, mark) => {
+        const age = times.length ? now - times[times.length - 1] : GLOW;
+        if (age < GLOW) out.push([mark, 1 - Math.max(0, age) / GLOW]);
+    });
+    return out;
 }
