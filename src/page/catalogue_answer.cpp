@@ -22,8 +22,6 @@ Result<Json> afferents_document(const Json& entries) {
         row["description"] = entry["description"];
         row["probes"] = document_of(afferent->probes());
         row["ranges"] = document_of(afferent->ranges());
-        const auto settable = TRY(plan.factory->settable_values());
-        if (!settable.empty()) row["settable"] = document_of(settable);
         out.push_back(std::move(row));
     }
     return out;

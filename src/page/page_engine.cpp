@@ -5,6 +5,7 @@
 #include <new>
 
 #include "page/catalogue_answer.hpp"
+#include "page/documents.hpp"
 #include "page/recording_answer.hpp"
 #include "page/response_job.hpp"
 #include "page/session.hpp"
@@ -41,6 +42,14 @@ Result<void> run_job(Engine& engine, const Request& request, double seconds) {
 Result<void> answer_catalogue(Engine&, const Request& request) {
     TRY(request.head.check_all_read());
     return describe_catalogue(request.answer);
+}
+
+Result<void> answer_settable(Engine&, const Request& request) {
+    const RowRequest row{TRY(request.head.text("afferent")), {}, {}};
+    TRY(request.head.check_all_read());
+    const auto plan = TRY(plan_row(row));
+    request.answer.head["settable"] = document_of(TRY(plan.factory->settable_values()));
+    return {};
 }
 
 Result<void> answer_schematic(Engine&, const Request& request) {
@@ -110,6 +119,7 @@ struct Handler {
     Result<void> (*answer)(Engine&, const Request&);
 };
 constexpr Handler handlers[] = {{"catalogue", answer_catalogue},
+                                {"settable", answer_settable},
                                 {"schematic", answer_schematic},
                                 {"start", answer_start},
                                 {"advance", answer_advance},

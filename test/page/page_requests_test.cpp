@@ -13,7 +13,7 @@ const Json* find_named(const Json& list, std::string_view name) {
     return nullptr;
 }
 
-TEST(PageRequests, TheCatalogueHasAfferentsAndWhatCanBeSet) {
+TEST(PageRequests, TheCatalogueHasAfferentsSkinsAndIndenters) {
     PageEngine engine;
     const auto answer = ask_well(engine, R"({"request": "catalogue", "id": 7})");
     EXPECT_EQ(answer["id"], 7);
@@ -26,26 +26,32 @@ TEST(PageRequests, TheCatalogueHasAfferentsAndWhatCanBeSet) {
     ASSERT_NE(chip, nullptr);
     EXPECT_EQ((*chip)["class"], "sa1");
     EXPECT_EQ((*chip)["is_circuit"], true);
-    const auto* array = find_named((*chip)["settable"], "summer.n3b");
-    ASSERT_NE(array, nullptr);
-    EXPECT_EQ((*array)["value"], "12x4");
-    EXPECT_EQ((*array)["block"], "summer");
-    const auto* width = find_named((*chip)["settable"], "summer.n3b.w");
-    ASSERT_NE(width, nullptr);
-    EXPECT_DOUBLE_EQ((*width)["value"], 1e-6);
-    EXPECT_EQ((*find_named((*chip)["settable"], "corner"))["choices"].dump(), R"(["tt","ss","ff","sf","fs","mc"])");
     EXPECT_NE(find_named(answer["sections"]["stimuli"], "press"), nullptr);
     EXPECT_GT((*find_named(answer["populations"], "fingertip"))["afferents"].get<int>(), 100);
     EXPECT_NE(find_named(answer["indenters"], "grating"), nullptr);
 }
 
-/// Each value that the catalogue offers can be set to its present value.
+TEST(PageRequests, ACircuitTellsWhatCanBeSet) {
+    PageEngine engine;
+    const auto answer = ask_well(engine, R"({"request": "settable", "afferent": "sa1-circuit"})");
+    const auto& settable = answer["settable"];
+    const auto* array = find_named(settable, "summer.n3b");
+    ASSERT_NE(array, nullptr);
+    EXPECT_EQ((*array)["value"], "12x4");
+    EXPECT_EQ((*array)["block"], "summer");
+    const auto* width = find_named(settable, "summer.n3b.w");
+    ASSERT_NE(width, nullptr);
+    EXPECT_DOUBLE_EQ((*width)["value"], 1e-6);
+    EXPECT_EQ((*find_named(settable, "corner"))["choices"].dump(), R"(["tt","ss","ff","sf","fs","mc"])");
+    EXPECT_TRUE(ask_well(engine, R"({"request": "settable", "afferent": "sa1-nerve"})")["settable"].empty());
+}
+
+/// Each value that is offered can be set to its present value.
 TEST(PageRequests, EachSettableValueOfAChipIsAccepted) {
     PageEngine engine;
-    const auto catalogue = ask_well(engine, R"({"request": "catalogue"})");
-    const auto* chip = find_named(catalogue["afferents"], "fa1-circuit");
+    const auto answer = ask_well(engine, R"({"request": "settable", "afferent": "fa1-circuit"})");
     Json start = {{"request", "start"}, {"rate", 10000}, {"rows", {{{"afferent", "fa1-circuit"}, {"set", Json::array()}}}}};
-    for (const auto& value : (*chip)["settable"]) {
+    for (const auto& value : answer["settable"]) {
         if (value["name"] == "corner") continue;  // without a value it is that of the netlist
         const auto text = value["value"].is_string() ? value["value"].get<std::string>() : fmt::format("{}", value["value"].get<double>());
         start["rows"][0]["set"] = {fmt::format("{}={}", value["name"].get<std::string>(), text)};

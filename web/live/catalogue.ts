@@ -11,7 +11,7 @@ export interface Parameter {
 export interface Setting { name: string; kind: "number" | "choice" | "array"; unit: string; value: number | string; choices?: string[]; block?: string; description: string }
 export interface Afferent {
     name: string; class: string; composition: string; description: string; is_circuit: boolean; probes: {name: string; unit: string}[];
-    parameters: Parameter[]; settable?: Setting[];
+    parameters: Parameter[];
 }
 export interface Entry { name: string; description: string; parameters?: Parameter[] }
 

@@ -4,6 +4,7 @@ import {append, fill, h} from "../base/dom";
 import {quantity} from "../base/text";
 import type {Charts} from "./charts";
 import {Chip} from "./chip";
+import type {Setting} from "./catalogue";
 import type {Session} from "./session";
 import {MAX_ROWS, RowSettings} from "./settings";
 import {parameterControl, settingControl} from "./sliders";
@@ -80,11 +81,19 @@ export class Rows {
             void this.chips[k]!.update();
         }
         append(host, h("h3", {}, "Parameters"), h("div", {class: "parameters"}, ...row.info.parameters.map((one) => parameterControl(one, one.value ?? one.default, (text) => this.set(k, settings, one.name, text)))));
-        if (described?.settable?.length) {
-            const general = described.settable.filter(({block}) => !block), arrays = described.settable.filter(({block}) => block);
-            const control = (one: typeof general[0]) => settingControl(one, settings.set.get(one.name), (text) => this.set(k, settings, one.name, text));
-            append(host, h("h3", {}, "Supply, temperature, corner"), h("div", {class: "parameters"}, ...general.map(control)),
-                h("details", {}, h("summary", {}, `Sizes of ${arrays.length} transistors`), h("div", {class: "parameters"}, ...arrays.map(control))));
+        if (row.info.is_circuit) void this.showSettings(k, settings, host.appendChild(h("div")));
+    }
+
+    /// Supply, temperature, corner and sizes of a circuit.
+    private async showSettings(k: number, settings: RowSettings, host: HTMLElement) {
+        const {head} = await this.session.engine.request({request: "settable", afferent: settings.afferent}), all = head.settable as Setting[];
+        const control = (one: Setting) => settingControl(one, settings.set.get(one.name), (text) => this.set(k, settings, one.name, text));
+        const blocks = [...new Set(all.map(({block}) => block || ""))].filter(Boolean);
+        append(host, h("h3", {}, "Supply, temperature, corner"), h("div", {class: "parameters"}, ...all.filter(({block}) => !block).map(control)), h("h3", {}, "Sizes of the devices"));
+        for (const block of blocks) {
+            const own = all.filter((one) => one.block === block), content = h("div", {class: "parameters"}), node: HTMLDetailsElement = h("details", {}, h("summary", {}, `${block} (${own.length})`), content);
+            node.addEventListener("toggle", () => { if (node.open && !content.firstChild) append(content, ...own.map(control)); });
+            host.append(node);
         }
     }
 

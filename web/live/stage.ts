@@ -30,7 +30,7 @@ export class Stage {
     changeForce: (factor: number) => void = () => {};
 
     private connectPointer({canvas, scene}: SkinMap) {
-        const {press} = this, follow = (event: PointerEvent) => press.moveTo(scene.metresX(event.offsetX), scene.metresY(event.offsetY));
+        const {press} = this, follow = (event: PointerEvent) => press.moveTo(...scene.placeAt(event.offsetX, event.offsetY));
         canvas.addEventListener("pointerdown", (event) => {
             press.stop();
             follow(event);
@@ -74,8 +74,9 @@ export class Stage {
         this.scene = null;
         if (!skin) return;
         this.scene = new SkinScene(geometryOf(skin, this.session.rows.length));
-        new SkinMap(this.scene, {host: this.host, name: "skin", title: [], about: "the skin, its active afferents, and the contact", classes: skin.classes.map((_, k) => k), hasForce: false, hasRings: true,
-                                 activity: (draw) => this.active.forEach(([mark, level]) => draw(mark, level)), drawn: (map) => this.drawContact(map), connect: (map) => this.connectPointer(map)});
+        const map = new SkinMap(this.scene, {host: this.host, name: "skin", title: [], about: "the skin, its active afferents, and the contact", classes: skin.classes.map((_, k) => k), hasForce: false, hasRings: true,
+                                 activity: (draw) => this.active.forEach(([mark, level]) => draw(mark, level)), drawn: (one) => this.drawContact(one), hasPointer: false});
+        this.connectPointer(map);
         this.press.moveTo(skin.x, skin.y);
         this.resize();
     }

@@ -58,10 +58,6 @@ export class SkinScene {
     /// The point of the skin, in m, at pixels of a map.
     placeAt(x: number, y: number): [number, number] { return [this.cx + (x - this.width / 2) / this.scale, this.cy - (y - this.height / 2) / this.scale]; }
 
-    /// The coordinates (m) of a point of the map.
-    metresX(x: number) { return this.cx + (x - this.width / 2) / this.scale; }
-    metresY(y: number) { return this.cy - (y - this.height / 2) / this.scale; }
-
     show(box: Box) {
         this.box = box;
         this.renew();

@@ -37,7 +37,6 @@ export interface SkinMapOptions {
     hasPointer?: boolean;                 ///< true unless given: pointer and keys pan and zoom, and name marks
     csv?: (map: SkinMap) => string;
     drawn?: (map: SkinMap) => void;       ///< called after each drawing
-    connect?: (map: SkinMap) => void;     ///< connects the pointer; by default it zooms, pans and picks marks
 }
 
 export class SkinMap {
