@@ -21,7 +21,7 @@ build: setup-run
 
 # The live page: a skin to press in a browser, with the engine as WebAssembly.
 page: setup-page
-	@web/build build/page
+	@web/build build
 	@echo "Open build/page/press.html in a browser."
 
 test: release asan
