@@ -24,7 +24,7 @@ page: setup-page
 	@web/build build
 	@echo "Open build/page/press.html in a browser."
 
-test: release asan
+test: release asan page
 	ctest --test-dir build/release --output-on-failure -j 3
 	ctest --test-dir build/asan --output-on-failure -j 3 -LE once
 	$(MAKE) fuzz FUZZ_SECONDS=2
