@@ -18,7 +18,7 @@ export interface Settings {
 export const MAX_ROWS = 12;
 
 export const defaultSettings = (catalogue: Catalogue): Settings => ({
-    rate: 2000, seed: 1, force: 1, population: "fingertip", indenter: catalogue.indenters[0].name, contact: new Map(),
+    rate: 2000, seed: 0, force: 1, population: "fingertip", indenter: catalogue.indenters[0].name, contact: new Map(),
     rows: ["sa1", "sa1-nerve", "sa1-circuit", "fa1-nerve"].map((afferent) => ({afferent, set: new Map()})),
 });
 
