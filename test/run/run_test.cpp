@@ -170,7 +170,7 @@ TEST(RespondReport, ComparesSeveralInputsFromTheirStart) {
     EXPECT_TRUE(trials_of({"press"}).is_null()) << "there is nothing to compare";
     const auto two = trials_of({"press", "press"});
     ASSERT_EQ(two["trials"].size(), 2U);
-    EXPECT_EQ(two["labels"].size(), 1U);
+    EXPECT_EQ(two["labels"].size(), 2U) << "inputs of one name are numbered";
     EXPECT_EQ(two["trials"][1]["zero"], 0.0);
     EXPECT_EQ(two["spikes"][0]["times"], two["spikes"][1]["times"]);
     EXPECT_FALSE(two["histograms"].empty());
