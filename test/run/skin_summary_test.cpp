@@ -94,7 +94,7 @@ std::vector<unsigned> decode_base64(const std::string& text) {
 
 /// Dense rows of a page's frames: [frame][position].
 std::vector<std::vector<unsigned>> frames_of(const SkinJson& frames) {
-    const auto bytes = decode_base64(frames["data"]);
+    const auto bytes = decode_base64(frames["data"]["u8"]);
     const auto value_count = frames["places"].get<std::size_t>();
     std::vector<std::vector<unsigned>> out;
     std::size_t at = 0;
@@ -233,7 +233,7 @@ TEST(SkinPage, ContainsForceMapsAndEverySpike) {
     EXPECT_EQ(frames_of(over["classes"])[5], (std::vector<unsigned>{0, 0}));
     EXPECT_EQ(frames_of(over["classes"])[6], (std::vector<unsigned>{1, 1})) << "a bin includes its start";
     // For each of the afferents 0, 1 and 3: afferents skipped before it, its spikes, and the intervals in tenths of a sample.
-    EXPECT_EQ(decode_base64(over["spikes"]["data"]), (std::vector<unsigned>{0, 2, 25, 78, 0, 2, 60, 90, 1, 3, 60, 90, 55}));
+    EXPECT_EQ(decode_base64(over["spikes"]["data"]["u8"]), (std::vector<unsigned>{0, 2, 25, 78, 0, 2, 60, 90, 1, 3, 60, 90, 55}));
 }
 
 TEST(SkinPage, OmitsSpikesIfThereAreTooMany) {

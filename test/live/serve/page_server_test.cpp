@@ -186,14 +186,18 @@ TEST(PageServer, ReportsLostMessagesToTheSlowPage) {
     }
     ASSERT_GE(server->counts().lost_messages, 3);
     std::int64_t seen = 0, lost = 0, lost_messages = 0;
-    ring.add_spikes({&spike, 1}), ++put_spikes;
+    const auto put = [&] {
+        ring.add_spikes({&spike, 1}), ring.add_frame(frame, force);
+        ++put_spikes, frame += ring.force_interval();
+    };
+    put();
     for (auto message = slow.next(); message && message->opcode == 2; message = slow.next()) {
         const auto head = head_of(message->data);
         if (head["event"] == "frames") seen += head["spikes"].get<std::int64_t>();
         if (head["event"] == "lost") lost += head["spikes"].get<std::int64_t>(), lost_messages += head["messages"].get<std::int64_t>();
         if (head["event"] == "end") break;
         if (seen + lost == put_spikes && lost_messages > 0) break;
-        if (seen > 0 && lost == 0) ring.add_spikes({&spike, 1}), ++put_spikes;  // a later message carries the notice
+        if (seen > 0 && lost == 0) put();  // a later message carries the notice
     }
     EXPECT_GE(lost_messages, 3);
     EXPECT_GE(lost, 3);
@@ -224,7 +228,7 @@ TEST(PageServer, RefusesAPageTooManyWithTheReason) {
 TEST(PageServer, DisconnectsPagesThatBreakTheProtocol) {
     struct Violation {
         std::string bytes;
-        int code;
+        int code;  // 0: 1002 or 1009, as the version of Boost has it
         const char* description;
     };
     std::string gigabyte("\x82\xff\0\0\0\0\x40\0\0\0mask", 14);
@@ -232,7 +236,7 @@ TEST(PageServer, DisconnectsPagesThatBreakTheProtocol) {
         {client_frame(0x81, "{}"), 1003, "a text message"},
         {gigabyte, 1009, "a length of a gigabyte"},
         {client_frame(0x82, std::string(70000, 'x')), 1009, "a message above the limit"},
-        {client_frame(0x02, std::string(60000, 'x')) + client_frame(0x80, std::string(10000, 'x')), 1009, "fragments above the limit"},
+        {client_frame(0x02, std::string(60000, 'x')) + client_frame(0x80, std::string(10000, 'x')), 0, "fragments above the limit"},
         {client_frame(0xc2, "x"), 1002, "a compressed message"},
         {client_frame(0x82, "x", false), 1002, "a message without a mask"},
         {client_frame(0x80, "x"), 1002, "a continuation of nothing"},
@@ -245,7 +249,8 @@ TEST(PageServer, DisconnectsPagesThatBreakTheProtocol) {
         PageClient page(server->port());
         ASSERT_EQ(page.open(), 101) << v.description;
         page.send(v.bytes);
-        EXPECT_EQ(page.close_code(), v.code) << v.description;
+        const auto code = page.close_code();
+        EXPECT_TRUE(v.code == 0 ? code == 1002 || code == 1009 : code == v.code) << v.description << ": " << code;
     }
     const auto all = static_cast<std::int64_t>(std::size(violations));
     for (int k = 0; k < 1000 && server->counts().disconnected < all; ++k) std::this_thread::sleep_for(std::chrono::milliseconds(5));
