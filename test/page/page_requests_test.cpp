@@ -31,7 +31,7 @@ TEST(PageRequests, TheCatalogueHasAfferentsSkinsAndIndenters) {
     EXPECT_NE(find_named(answer["indenters"], "grating"), nullptr);
 }
 
-TEST(PageRequests, ACircuitTellsWhatCanBeSet) {
+TEST(PageRequests, ACircuitHasSettableValues) {
     PageEngine engine;
     const auto answer = ask_well(engine, R"({"request": "settable", "afferent": "sa1-circuit"})");
     const auto& settable = answer["settable"];

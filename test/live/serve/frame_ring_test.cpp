@@ -69,11 +69,14 @@ TEST(FrameRing, IsReadInAnotherThreadWithoutLoss) {
     constexpr std::int64_t count = 20000;
     std::atomic<bool> is_done = false;
     std::int64_t put_spikes = 0;
-    std::thread writer([&] {
+    const auto add_frame = [&](std::int64_t k) {
         std::vector<double> force(50);
+        for (std::size_t s = 0; s < force.size(); ++s) force[s] = static_cast<double>((static_cast<std::int64_t>(s) + k) % 3);
+        ring.add_frame(k, force);
+    };
+    std::thread writer([&] {
         for (std::int64_t k = 0; k < count; ++k) {
-            for (std::size_t s = 0; s < force.size(); ++s) force[s] = static_cast<double>((static_cast<std::int64_t>(s) + k) % 3);
-            ring.add_frame(k, force);
+            add_frame(k);
             const std::vector<Spike> spikes(static_cast<std::size_t>(k % 5), Spike{k, 0.5, static_cast<std::uint32_t>(k % 50)});
             ring.add_spikes(spikes), put_spikes += k % 5;
         }
@@ -101,8 +104,7 @@ TEST(FrameRing, IsReadInAnotherThreadWithoutLoss) {
     while (!is_done) read(), std::this_thread::yield();
     writer.join();
     read();
-    const std::vector<double> force(50, 1.0);
-    ring.add_frame(count, force);  // tells the last losses
+    add_frame(count);  // tells the last losses
     read();
     EXPECT_EQ(next, count + 1);
     EXPECT_EQ(spikes, put_spikes);

@@ -173,7 +173,7 @@ TEST(PageServer, ReportsLostMessagesToTheSlowPage) {
     options.frames = &ring;
     const auto server = start(std::move(options));
     if (!server) GTEST_SKIP() << no_server;
-    PageClient slow(server->port(), "127.0.0.1", 4096);
+    PageClient slow(server->port(), "127.0.0.1", 65536);
     ASSERT_EQ(slow.open(), 101);
     EXPECT_EQ(head_of(slow.next()->data)["event"], "hello");
     const std::vector<double> force(20000, 1.0);
