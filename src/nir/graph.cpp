@@ -30,7 +30,7 @@ class NodeCheck {
     Result<void> check_names() const {
         for (const auto& [name, values] : node_.values) {
             const auto known = node_.kind->parameters;
-            if (std::none_of(known.begin(), known.end(), [name = &name](const auto& p) { return p.name == *name; }))
+            if (std::none_of(known.begin(), known.end(), [given = &name](const auto& p) { return p.name == *given; }))
                 return bad("unknown parameter '{}'; a {} has {}", name, node_.kind->type, fmt::join(names(), ", "));
         }
         for (const auto& p : node_.kind->parameters)

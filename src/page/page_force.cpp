@@ -39,7 +39,7 @@ Result<std::vector<ParameterOverride>> stimulus_overrides(const std::string& sti
 Result<PageForce> read_force(ObjectReader& request, const Message& message) {
     PageForce out;
     out.clock = TRY(read_clock(request));
-    const auto seed = TRY(request.integer("seed", 0, 1ULL << 53, 0));
+    out.seed = TRY(request.integer("seed", 0, 1ULL << 53, 0));
     const auto name = TRY(request.text("stimulus", ""));
     const auto set = TRY(request.texts("stimulus_set"));
     const auto* array = message.find("force");
@@ -50,7 +50,7 @@ Result<PageForce> read_force(ObjectReader& request, const Message& message) {
         return out;
     }
     const auto overrides = TRY(stimulus_overrides(name, set));
-    auto made = TRY(make_stimulus(name, overrides, out.clock.rate(), seed));
+    auto made = TRY(make_stimulus(name, overrides, out.clock.rate(), out.seed));
     const auto members = stimulus_members(name);
     TRY(check_all_used(made.unused, members));
     out.is_stimulus = true, out.phases = made.result->phases();

@@ -11,6 +11,7 @@ struct PageForce {
     std::vector<double> force;  ///< N
     std::vector<Phase> phases;  ///< of a stimulus
     bool is_stimulus = false;
+    std::uint64_t seed = 0;  ///< of all random numbers of the request
 };
 
 /// Reads the keys "rate", "seed", "stimulus" and "stimulus_set", or the array "force" instead of the last two.

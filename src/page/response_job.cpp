@@ -10,8 +10,8 @@
 namespace corpuscle::page {
 namespace {
 
-constexpr double job_block = 5e-3;                // s, simulated at once; a circuit computes it in some milliseconds
-constexpr std::size_t max_recorded = 20'000'000;  // values of all probes together
+constexpr double job_block = 5e-3;    // s, simulated at once; a circuit computes it in some milliseconds
+constexpr double max_recorded = 2e7;  // values of all probes together
 
 }  // namespace
 
@@ -24,8 +24,17 @@ Result<ResponseJob> ResponseJob::respond(ObjectReader& request, const Message& m
     TRY(request.number("slice", 0, 10, 0));
     TRY(request.check_all_read());
     if (rows.empty()) return bad_input("respond: there are no rows; add \"rows\": [{\"afferent\": \"sa1\"}]");
-    for (const auto& row : rows) out.plans_.push_back(TRY(plan_row(row)));
-    out.options_ = {.dt = out.force_.clock.T()};
+    std::size_t probes = 0;
+    for (const auto& row : rows) {
+        out.plans_.push_back(TRY(plan_row(row)));
+        probes += make_afferent(out.plans_.back(), {})->probes().size();
+    }
+    const double values = out.every_ == 0 ? 0 : static_cast<double>(probes * out.force_.force.size()) / static_cast<double>(out.every_);
+    if (values > max_recorded)
+        return bad_input(
+            fmt::format("respond: the probes would have {:.3g} values; the page keeps at most {:.3g}: choose a larger \"every\"", values,
+                        max_recorded));
+    out.options_ = {.dt = out.force_.clock.T(), .seed = out.force_.seed};
     return out;
 }
 

@@ -59,6 +59,28 @@ TEST(PageRequests, EachSettableValueOfAChipIsAccepted) {
     }
 }
 
+TEST(PageRequests, TheSeedOfARequestChangesTheNoise) {
+    PageEngine engine;
+    const auto times = [&](int seed) {
+        return ask_well(
+                   engine,
+                   fmt::format(
+                       R"({{"request": "respond", "rate": 2000, "seed": {}, "stimulus": "press", "rows": [{{"afferent": "sa1-nerve"}}]}})",
+                       seed))
+            .numbers("time");
+    };
+    EXPECT_EQ(times(1), times(1));
+    EXPECT_NE(times(1), times(2));
+}
+
+TEST(PageRequests, ProbesWithTooManyValuesAreRefused) {
+    PageEngine engine;
+    const auto answer = ask(
+        engine,
+        R"({"request": "respond", "rate": 1000000, "stimulus": "press", "every": 1, "rows": [{"afferent": "sa1"}, {"afferent": "fa1"}, {"afferent": "sa1-circuit"}, {"afferent": "fa1-circuit"}]})");
+    EXPECT_NE(answer.error().find("choose a larger"), std::string::npos) << answer.error();
+}
+
 TEST(PageRequests, ASchematicIsDrawn) {
     PageEngine engine;
     const auto answer = ask_well(engine, R"({"request": "schematic", "afferent": "sa1-circuit"})");

@@ -2,6 +2,8 @@
 // Collects the time-dependent data of a skin page in bounded memory: total force, spike counts of classes, maps of afferents and sites, and
 // the spike times if there are not too many.
 
+#include <nlohmann/json.hpp>
+
 #include "report/envelope.hpp"
 #include "report/skin/binned_frames.hpp"
 #include "run/summary/skin_summary.hpp"
