@@ -1,5 +1,5 @@
 # The commands of the README. Each installs the packages it needs (setup/packages).
-.PHONY: demo build page test bench fuzz format lint install pictures notebooks reproduction deb setup-run setup-page setup-test setup-bench setup-python setup-deb release asan clean
+.PHONY: demo build page test bench fuzz format lint install pictures notebooks reproduction deb setup-run setup-page setup-test setup-bench setup-python setup-deb release asan asan-readers sanitize clean
 
 FUZZ_SECONDS ?= 600
 PREFIX ?= /usr/local
@@ -24,10 +24,18 @@ page: setup-page
 	@web/build build
 	@echo "Open build/page/press.html in a browser."
 
-test: release asan page
+# Under the sanitizers the tests of readers, skins, streams and pages, and all fuzzers; `make sanitize` runs also those of circuits and the examples.
+test: release asan-readers
 	ctest --test-dir build/release --output-on-failure -j 3
+	ctest --test-dir build/asan --output-on-failure -j 3 -LE once -R '^(corpuscle|page)-tests'
+	$(MAKE) fuzz FUZZ_SECONDS=1
+
+sanitize: asan
 	ctest --test-dir build/asan --output-on-failure -j 3 -LE once
-	$(MAKE) fuzz FUZZ_SECONDS=2
+
+asan-readers: setup-test
+	cmake --preset asan
+	cmake --build --preset asan --target corpuscle-tests page-tests corpuscle-hdf5 corpuscle-sound fuzzers
 
 release: setup-test setup-python
 	cmake --preset release -D CORPUSCLE_TESTS=ON -D CORPUSCLE_PYTHON=ON
