@@ -35,7 +35,8 @@ export interface SkinPageData extends PageData {
     regions: string[];
     /// Lengths in m. `side` is 0 if the sites have no area.
     sites: {places: EncodedArray; side: number; outline: {skin: EncodedArray[]; regions: EncodedArray[]}; region: EncodedArray; names: string[] | null};
-    /// Of each mark: its first afferent, place, region, number of its first afferent within the class from 1, and first spike (s after t0; NaN without).
+    /// Arrays with one value for each mark: its first afferent, place, region, number of its first afferent within the class (from 1), and
+    /// first spike (s after t0; NaN without).
     marks: {begin: EncodedArray; places: EncodedArray; region: EncodedArray; copy: EncodedArray; first: EncodedArray};
     classes: {name: string; composition: string; description: string; source: string; first: number; afferents: number; parameters: ParameterData[]}[];
     over: {

@@ -1,4 +1,4 @@
-// What the user has chosen: afferents and their settings, skin, indenter. It is kept in the link of the page.
+// The choices of the user: afferents and their settings, skin, indenter. It is kept in the link of the page.
 
 import {linkNumber, linkValues, setLink} from "../base/link";
 import type {Catalogue} from "./catalogue";

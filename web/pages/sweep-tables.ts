@@ -22,7 +22,7 @@ const interval = ({low, high}: Estimate, text: (value: number | null) => string)
 const headed = (name: string, unit: string): Child[] => [name, unit ? h("span", {class: "unit"}, ` (${unitText(unit)})`) : null];
 const columnName = (name: string, unit: string) => (unit ? `${name} (${unitText(unit)})` : name);
 
-/// What the sweep varies, and over which values.
+/// A table of the parameters that the sweep varies, and their values.
 export function showAxes(host: Element, sweep: Sweep) {
     if (!sweep.summary.axes.length) return;
     const valuesText = (a: number) => {

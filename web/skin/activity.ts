@@ -14,7 +14,7 @@ export interface Mode {
     scale: (k: number) => string[];
 }
 
-/// What the maps can show, the first choice first.
+/// The quantities that the maps can show, the first choice first.
 export function modesOf(skin: SkinRecording): Mode[] {
     const classes = skin.classes.map(({name}) => name), windows = skin.trains ? [0.01, 0.05, 0.2].filter((window) => window < skin.duration) : [];
     const frames = [...new Set([0, 0.05, 0.1, 0.2, 0.5].map((seconds) => skin.framesOver(seconds)))].filter((n) => n < skin.marks.count || n === 1);
