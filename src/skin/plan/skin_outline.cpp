@@ -138,7 +138,7 @@ SkinOutline skin_outline(const Sites& sites) {
     SkinOutline out;
     if (sites.shapes.empty()) return out;
     const auto grid = sample(sites, 0.5 * std::sqrt(sites.area));
-    out.skin = curves_around(grid, 0, sites.shapes.size() - 1, 12);
+    out.skin = curves_around(grid, 0, sites.shapes.size() - 1, 14);
     for (std::size_t r = 0; r < sites.shapes.size(); ++r) out.regions.push_back(curves_around(grid, r, r, 2));
     return out;
 }

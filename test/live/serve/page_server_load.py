@@ -196,7 +196,7 @@ def main(program, seconds):
     print("clients:", counts)
     print("server:", loaded["pages"])
     assert counts["open at the end"] >= 0.95 * PAGES, counts
-    assert counts["messages"] > PAGES * seconds, counts  # a busy machine starves the clients, not the stream
+    assert counts["messages"] > 5 * PAGES * seconds, counts
     assert loaded["pages"]["disconnected"] >= counts["floods"] * 0.9, (counts, loaded["pages"])
     assert loaded["pages"]["lost_messages"] > 0, "the page that never reads"
     assert loaded["pages"]["lost_frames"] == 0 and loaded["pages"]["lost_spikes"] == 0, "the server was too slow"
