@@ -7,7 +7,7 @@
 #include "circuit/device/device_kind.hpp"
 
 namespace corpuscle::circuit {
-extern const DeviceKind varistor_kind;  // the line of circuit/devices.hpp
+extern const DeviceKind varistor_kind;  // the line of circuit/devices.cpp
 }
 using namespace corpuscle::circuit;
 

@@ -1,20 +1,14 @@
 #pragma once
-// All analyses, by directive name. To add one, write its file in circuit/analysis/ and add its name to the two lists below.
+// All analyses, by directive name. Their list is in analyses.cpp.
 
 #include "circuit/analysis/analysis_context.hpp"
 
 namespace corpuscle::circuit {
 
-extern const Analysis op_analysis, dc_analysis, ac_analysis, noise_analysis, tran_analysis, pz_analysis, tf_analysis, sens_analysis;
-
 /// In the order in which help texts list them.
-inline constexpr const Analysis* analyses[] = {&op_analysis,   &dc_analysis, &ac_analysis, &noise_analysis,
-                                               &tran_analysis, &pz_analysis, &tf_analysis, &sens_analysis};
+extern const std::span<const Analysis* const> analyses;
 
 /// The analysis of this name; null if there is none.
-inline const Analysis* find_analysis(std::string_view name) {
-    const auto* const found = std::ranges::find(analyses, name, &Analysis::name);
-    return found == std::end(analyses) ? nullptr : *found;
-}
+const Analysis* find_analysis(std::string_view name);
 
 }  // namespace corpuscle::circuit

@@ -1,76 +1,22 @@
 #pragma once
-// All kinds of devices, by letter. To add one, write its file in circuit/device/ and add its name to the two lists below.
+// All kinds of devices, by letter. Their list is in devices.cpp.
 
 #include "circuit/device/device_kind.hpp"
 
 namespace corpuscle::circuit {
 
-extern const DeviceKind resistor_kind, capacitor_kind, inductor_kind, coupling_kind, voltage_source_kind, current_source_kind,
-    voltage_controlled_voltage_kind, current_controlled_current_kind, voltage_controlled_current_kind, current_controlled_voltage_kind,
-    expression_source_kind, voltage_switch_kind, current_switch_kind, diode_kind, bipolar_kind, mos1_kind, ekv_kind, transistor_kind;
-
 /// In the order of messages and catalogues.
-inline constexpr const DeviceKind* device_kinds[] = {&resistor_kind,
-                                                     &capacitor_kind,
-                                                     &inductor_kind,
-                                                     &coupling_kind,
-                                                     &voltage_source_kind,
-                                                     &current_source_kind,
-                                                     &voltage_controlled_voltage_kind,
-                                                     &current_controlled_current_kind,
-                                                     &voltage_controlled_current_kind,
-                                                     &current_controlled_voltage_kind,
-                                                     &expression_source_kind,
-                                                     &voltage_switch_kind,
-                                                     &current_switch_kind,
-                                                     &diode_kind,
-                                                     &bipolar_kind,
-                                                     &mos1_kind,
-                                                     &ekv_kind,
-                                                     &transistor_kind};
-
-/// True if models of this level belong to the kind.
-inline bool has_level(const DeviceKind& kind, double level) {
-    return kind.level == level || std::find(kind.other_levels.begin(), kind.other_levels.end(), level) != kind.other_levels.end();
-}
+extern const std::span<const DeviceKind* const> device_kinds;
 
 /// The kind of device of this letter whose models have this level. Without a level, or if no kind has it, the first one of the letter. Null
 /// if there is none.
-inline const DeviceKind* find_device_kind(char letter, std::optional<double> level = {}) {
-    const DeviceKind* first = nullptr;
-    for (const auto* kind : device_kinds) {
-        if (kind->letter != letter) continue;
-        if (level && has_level(*kind, *level)) return kind;
-        if (first == nullptr) first = kind;
-    }
-    return first;
-}
+const DeviceKind* find_device_kind(char letter, std::optional<double> level = {});
 
 /// The levels of the models of a letter: "level=1 (SPICE level 1), 44, 55 or 260 (EKV 2.6) or 80 (UICM)".
-inline std::string supported_levels(char letter) {
-    const auto listed = [](const std::vector<std::string>& texts) {
-        std::string out;
-        for (std::size_t k = 0; k < texts.size(); ++k) out += (k == 0 ? "" : k + 1 == texts.size() ? " or " : ", ") + texts[k];
-        return out;
-    };
-    std::vector<std::string> kinds;
-    for (const auto* kind : device_kinds) {
-        if (kind->letter != letter) continue;
-        std::vector<std::string> levels = {fmt::format("{:g}", kind->level)};
-        for (const double level : kind->other_levels) levels.push_back(fmt::format("{:g}", level));
-        const auto comma = kind->description.find(", ");  // "MOS transistor, UICM"
-        kinds.push_back(fmt::format("{} ({})", listed(levels), kind->description.substr(comma == std::string_view::npos ? 0 : comma + 2)));
-    }
-    return "level=" + listed(kinds);
-}
+std::string supported_levels(char letter);
 
 /// "R C L ... X": the letters of all elements, subcircuits included.
-inline std::string element_letters() {
-    std::string out;
-    for (const auto* kind : device_kinds)
-        if (find_device_kind(kind->letter) == kind) (out += static_cast<char>(kind->letter - 'a' + 'A')) += ' ';
-    return out + 'X';
-}
+std::string element_letters();
 
 /// The kind of device of an element of a circuit.
 inline const DeviceKind& kind_of(const Element& e) { return *e.kind; }

@@ -1,28 +1,26 @@
 #include "page/catalogue_answer.hpp"
 
 #include "core/version.hpp"
-#include "page/documents.hpp"
 #include "run/afferent_plan.hpp"
 #include "run/catalogue/catalogue_document.hpp"
+#include "run/compare/implementation_comparison.hpp"
 #include "skin/contact/indenters.hpp"
 #include "skin/innervation.hpp"
 
 namespace corpuscle::page {
 namespace {
 
-/// The named afferents of the catalogue, with what a plan and its afferent tell.
-Result<Json> afferents_document(const Json& entries) {
+/// The named afferents of the catalogue.
+Json afferents_document(const Json& entries) {
     auto out = Json::array();
     for (const auto& entry : entries) {
         const auto name = entry["name"].get<std::string>();
         if (name.find('/') != name.npos) continue;  // an entry that stands for files
-        const auto plan = TRY(plan_any_afferent(name)).result;
-        const auto afferent = make_afferent(plan, {});
-        auto row = document_of(plan);
-        row["description"] = entry["description"];
-        row["probes"] = document_of(afferent->probes());
-        row["ranges"] = document_of(afferent->ranges());
-        out.push_back(std::move(row));
+        out.push_back({{"name", name},
+                       {"class", afferent_type_of(name)},
+                       {"composition", entry["composition"]},
+                       {"is_circuit", names_netlist(name)},
+                       {"description", entry["description"]}});
     }
     return out;
 }
@@ -52,16 +50,15 @@ Json indenters_document() {
 
 }  // namespace
 
-Result<void> describe_catalogue(MessageWriter& answer) {
+void describe_catalogue(MessageWriter& answer) {
     answer.head["version"] = version;
     auto& sections = answer.head["sections"] = Json::object();
     for (const auto& section : catalogue_sections())
         for (const auto& entry : section.entries()) sections[std::string(section.name)].push_back(corpuscle::document_of(entry));
-    auto afferents = TRY(afferents_document(sections["afferents"]));
+    auto afferents = afferents_document(sections["afferents"]);
     answer.head["afferents"] = std::move(afferents);
     answer.head["populations"] = populations_document();
     answer.head["indenters"] = indenters_document();
-    return {};
 }
 
 }  // namespace corpuscle::page

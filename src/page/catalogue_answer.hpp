@@ -5,6 +5,6 @@
 namespace corpuscle::page {
 
 /// Adds the answer of `catalogue`.
-Result<void> describe_catalogue(MessageWriter& answer);
+void describe_catalogue(MessageWriter& answer);
 
 }  // namespace corpuscle::page

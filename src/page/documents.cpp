@@ -7,7 +7,7 @@ namespace corpuscle::page {
 
 Json document_of(const AfferentPlan& plan) {
     return {{"name", plan.name},
-            {"class", afferent_type_of(plan)},
+            {"class", afferent_type_of(plan.name)},
             {"composition", plan.composition()},
             {"is_circuit", plan.traits().is_implementation},
             {"description", plan.description}};

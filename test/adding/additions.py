@@ -9,7 +9,7 @@ class Addition:
     file: str  # path of the new file; its text is below files/, if `text` does not say otherwise
     list: str  # path of the list
     insertions: list  # (text of the list, text that replaces it); each adds to one line
-    list_names: str  # regular expression: the names that the list defines; a file that uses none of them does not depend on its entries
+    list_names: str = ""  # of a list in a header, regular expression: the names that it defines; a file that uses none of them does not depend on its entries
     text: str = ""  # path of the text of the new file, from the root of the tree
 
 
@@ -75,17 +75,15 @@ ADDITIONS = [
     Addition(
         kind="a netlist device",
         file="src/circuit/device/varistor.cpp",
-        list="src/circuit/devices.hpp",
+        list="src/circuit/devices.cpp",
         insertions=[(", transistor_kind;", ", transistor_kind, varistor_kind;"), ("&transistor_kind};", "&transistor_kind, &varistor_kind};")],
-        list_names="device_kinds|find_device_kind|kind_of|has_branch_current|has_role|is_independent_source|is_current_expression|main_value|element_letters",
         text="examples/own_device/varistor.cpp",
     ),
     Addition(
         kind="a netlist analysis",
         file="src/circuit/analysis/size.cpp",
-        list="src/circuit/analyses.hpp",
+        list="src/circuit/analyses.cpp",
         insertions=[("tf_analysis, sens_analysis;", "tf_analysis, sens_analysis, size_analysis;"), ("&sens_analysis};", "&sens_analysis, &size_analysis};")],
-        list_names="analyses|find_analysis",
     ),
     Addition(
         kind="an output format of `respond`",

@@ -3,6 +3,7 @@
 Only the objects that depend on an extended list are compiled, with the commands of the build; all others are those of the build."""
 
 import concurrent.futures
+import functools
 import os
 import pathlib
 import re
@@ -22,6 +23,12 @@ def included_files(path, tree):
         for folder in (tree / "src", tree / "apps"):
             if (folder / name).exists():
                 yield folder / name
+
+
+@functools.cache
+def code_of(path):
+    """The text of a file without comments and strings."""
+    return re.sub(r'"(?:\\.|[^"\\\n])*"', '""', re.sub(r"//[^\n]*", "", path.read_text()))
 
 
 def files_read(source, tree, known):
@@ -67,9 +74,11 @@ class Build:
         for source in self.sources(command):
             files = files_read(source, self.tree, self.known) if source.is_relative_to(self.tree) else set()
             for addition in additions:
-                names = re.compile(rf"\b({addition.list_names})\b")
                 own = self.tree / addition.list
-                if own in files and any(names.search(f.read_text()) for f in files if f != own):
+                if own == source:
+                    return True
+                names = re.compile(rf"\b({addition.list_names})\b")
+                if own in files and any(names.search(code_of(f)) for f in files if f != own):
                     return True
         return False
 

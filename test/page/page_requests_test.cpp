@@ -21,7 +21,8 @@ TEST(PageRequests, TheCatalogueHasAfferentsSkinsAndIndenters) {
     ASSERT_NE(model, nullptr);
     EXPECT_EQ((*model)["class"], "sa1");
     EXPECT_EQ((*model)["is_circuit"], false);
-    EXPECT_FALSE((*model)["probes"].empty());
+    EXPECT_EQ((*model)["composition"], "slowly-adapting+alif");
+    EXPECT_FALSE((*model)["description"].empty());
     const auto* chip = find_named(answer["afferents"], "sa1-circuit");
     ASSERT_NE(chip, nullptr);
     EXPECT_EQ((*chip)["class"], "sa1");

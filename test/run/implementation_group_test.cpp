@@ -23,14 +23,14 @@ AfferentPlan make_named(const std::string& name) {
 TEST(ImplementationGroup, IsTheAfferentTypeAtTheBeginningOfAName) {
     for (const auto* name :
          {"sa1", "SA1", "SA-I", "sa1-kim", "sa1-circuit", "sa1-macro", "circuits/sa1.cir", "./sa1_biased.cir", "/x.y/SA1-b.cir"})
-        EXPECT_EQ(afferent_type_of(make_named(name)), "sa1") << name;
-    EXPECT_EQ(afferent_type_of(make_named("RA")), "fa1") << "an alias of fa1-nerve";
-    EXPECT_EQ(afferent_type_of(make_named("fa1-nerve")), "fa1");
-    EXPECT_EQ(afferent_type_of(make_named("fa1-lee")), "fa1");
+        EXPECT_EQ(afferent_type_of(make_named(name).name), "sa1") << name;
+    EXPECT_EQ(afferent_type_of(make_named("RA").name), "fa1") << "an alias of fa1-nerve";
+    EXPECT_EQ(afferent_type_of(make_named("fa1-nerve").name), "fa1");
+    EXPECT_EQ(afferent_type_of(make_named("fa1-lee").name), "fa1");
     for (const auto* name : {"sa1b+izhikevich", "fsr+f2i+sa1", "own-thing"})
-        EXPECT_EQ(afferent_type_of(make_named(name)), name) << "not the name of an afferent type";
-    EXPECT_EQ(afferent_type_of(make_named("circuits/spiker.cir")), "spiker");
-    EXPECT_EQ(afferent_type_of(make_named("my_sa1.cir")), "my_sa1") << "does not begin with the name of an afferent";
+        EXPECT_EQ(afferent_type_of(make_named(name).name), name) << "not the name of an afferent type";
+    EXPECT_EQ(afferent_type_of(make_named("circuits/spiker.cir").name), "spiker");
+    EXPECT_EQ(afferent_type_of(make_named("my_sa1.cir").name), "my_sa1") << "does not begin with the name of an afferent";
 }
 
 TEST(ImplementationGroup, TheAfferentOfThisNameIsFirstThenModelsThenNetlists) {

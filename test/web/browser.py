@@ -4,9 +4,11 @@
 It writes pages with the program CORPUSCLE, opens them in headless Chromium, uses them as a reader would, and compares the displayed values with
 the data in the page. Screenshots such as OUTDIR/press.png remain for inspection.
 """
+import atexit
 import base64
 import contextlib
 import csv
+import functools
 import json
 import math
 import pathlib
@@ -125,6 +127,30 @@ def frames(record):
     return all_frames
 
 
+@functools.cache
+def the_browser():
+    """The browser of this program, which all test cases share."""
+    profile = tempfile.TemporaryDirectory(ignore_cleanup_errors=True)
+    options = webdriver.ChromeOptions()
+    options.binary_location = shutil.which("chromium")
+    for flag in [*FLAGS, "--user-data-dir=" + profile.name]:
+        options.add_argument(flag)
+    options.set_capability("goog:loggingPrefs", {"browser": "ALL", "performance": "ALL"})
+    browser = webdriver.Chrome(service=Service(shutil.which("chromedriver")), options=options)
+    atexit.register(lambda: (browser.quit(), profile.cleanup()))
+    return browser
+
+
+def with_default_settings(browser):
+    """The browser, without the screen, theme and open page of earlier tests."""
+    browser.execute_cdp_cmd("Emulation.clearDeviceMetricsOverride", {})
+    browser.execute_cdp_cmd("Emulation.setEmulatedMedia", {"features": []})
+    browser.set_window_size(1200, 900)
+    browser.get("about:blank")
+    browser.get_log("browser")
+    return browser
+
+
 def missing_values(browser):
     """Words of the page that a script writes if a key or a number is missing."""
     text = browser.execute_script("""return [...document.body.querySelectorAll("*")].filter((one) => !["SCRIPT", "STYLE"].includes(one.tagName))
@@ -137,15 +163,7 @@ class Page(unittest.TestCase):
 
     @classmethod
     def setUpClass(cls):
-        cls.profile = tempfile.TemporaryDirectory(ignore_cleanup_errors=True)
-        cls.addClassCleanup(cls.profile.cleanup)
-        options = webdriver.ChromeOptions()
-        options.binary_location = shutil.which("chromium")
-        for flag in [*FLAGS, "--user-data-dir=" + cls.profile.name]:
-            options.add_argument(flag)
-        options.set_capability("goog:loggingPrefs", {"browser": "ALL", "performance": "ALL"})
-        cls.browser = webdriver.Chrome(service=Service(shutil.which("chromedriver")), options=options)
-        cls.addClassCleanup(cls.browser.quit)
+        cls.browser = with_default_settings(the_browser())
         cls.path = cls.report()
         cls.data = data_of(cls.path)
 

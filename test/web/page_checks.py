@@ -17,15 +17,7 @@ class Pages(unittest.TestCase):
 
     @classmethod
     def setUpClass(cls):
-        profile = tempfile.TemporaryDirectory(ignore_cleanup_errors=True)
-        cls.addClassCleanup(profile.cleanup)
-        options = webdriver.ChromeOptions()
-        options.binary_location = shutil.which("chromium")
-        for flag in [*FLAGS, "--user-data-dir=" + profile.name]:
-            options.add_argument(flag)
-        options.set_capability("goog:loggingPrefs", {"browser": "ALL"})
-        cls.browser = webdriver.Chrome(service=Service(shutil.which("chromedriver")), options=options)
-        cls.addClassCleanup(cls.browser.quit)
+        cls.browser = with_default_settings(the_browser())
         cls.files = pathlib.Path(tempfile.mkdtemp(dir=OUT))
         cls.browser.execute_cdp_cmd("Browser.setDownloadBehavior", {"behavior": "allow", "downloadPath": str(cls.files)})
 

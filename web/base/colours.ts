@@ -1,6 +1,8 @@
 // Colours are CSS texts such as "var(--ink)", so that one name serves both themes. A canvas needs the colour itself.
 
-const known = new Map<string, string>();
+interface Colour { components: [number, number, number]; text: string }
+
+const known = new Map<string, Colour>();
 let probe: HTMLElement | null = null;
 
 /// The colour of a series, from eight that all common kinds of colour vision can tell apart.
@@ -15,26 +17,26 @@ export const mixed = (first: string, second: string, fraction: number) => `color
 
 /// The red, green and blue of a CSS colour, 0 to 255.
 export function components(css: string): [number, number, number] {
-    const numbers = (/\(.*\)/.exec(computed(css)) || ["0 0 0"])[0].match(/[\d.]+(e-?\d+)?/g)!.map(Number);
-    const factor = computed(css).startsWith("color(") ? 255 : 1;
-    return [0, 1, 2].map((k) => Math.round((numbers[k] || 0) * factor)) as [number, number, number];
+    return colourOf(css).components;
 }
 
 /// A CSS colour as a text that canvas and SVG understand.
 export function resolved(css: string): string {
-    const [r, g, b] = components(css);
-    return `rgb(${r}, ${g}, ${b})`;
+    return colourOf(css).text;
 }
 
-function computed(css: string): string {
-    let text = known.get(css);
-    if (text === undefined) {
-        if (!probe) document.body.append((probe = document.createElement("span")));
-        probe.style.display = "none";
-        probe.style.color = css;
-        known.set(css, (text = getComputedStyle(probe).color));
-    }
-    return text;
+function colourOf(css: string): Colour {
+    const found = known.get(css);
+    if (found) return found;
+    if (!probe) document.body.append((probe = document.createElement("span")));
+    probe.style.display = "none";
+    probe.style.color = css;
+    const computed = getComputedStyle(probe).color, numbers = (/\(.*\)/.exec(computed) || ["0 0 0"])[0].match(/[\d.]+(e-?\d+)?/g)!.map(Number);
+    const factor = computed.startsWith("color(") ? 255 : 1;
+    const [r, g, b] = [0, 1, 2].map((k) => Math.round((numbers[k] || 0) * factor));
+    const colour: Colour = {components: [r, g, b], text: `rgb(${r}, ${g}, ${b})`};
+    known.set(css, colour);
+    return colour;
 }
 
 /// Calls `redraw` when the theme changes, or when the page is printed in the light theme.

@@ -1,7 +1,7 @@
 // Spikes of many afferents: one row each. The effort depends on the number of pixels, not of spikes.
 
 import {components, resolved} from "../base/colours";
-import {h} from "../base/dom";
+import {h, pixelRatio} from "../base/dom";
 import {fixedText, quantity, Ticks} from "../base/text";
 import {Area, csvText} from "../plot/panel";
 import type {Pen} from "../plot/pen";
@@ -21,7 +21,7 @@ export interface RasterOptions<R extends Row = Row> extends RowsOptions<R> { isG
 /// The height in pixels that suits a number of rows, at most `limit`.
 export const rasterHeight = (rows: number, limit = 560) => Math.max(40, Math.min(24, limit / Math.max(rows, 1)) * rows);
 
-/// Spikes are ticks if they can be distinguished, else the number of spikes per pixel is shown as shades.
+/// Spikes are ticks if they and their rows can be distinguished, else the number of spikes per pixel is shown as shades.
 export class RasterPanel<R extends Row = Row> extends RowsPanel<R> {
     private isGrouped: boolean;
 
@@ -51,8 +51,9 @@ export class RasterPanel<R extends Row = Row> extends RowsPanel<R> {
         const visible = rows.map(({spikes}) => [spikes.before(a), spikes.before(b)] as [number, number]);
         const most = visible.reduce((max, [i, j]) => Math.max(max, j - i), 0), total = visible.reduce((sum, [i, j]) => sum + j - i, 0);
         this.markRows(pen, inner, rows);
-        if (most * 4 < area.w && total < 20000) this.paintTicks(pen, inner, rows, visible);
-        else if (rows.length) this.paintDensity(pen, inner, rows, visible);
+        const areDistinct = rows.length < 2 * inner.h * pixelRatio();
+        if (areDistinct && most * 4 < area.w && total < 20000) this.paintTicks(pen, inner, rows, visible);
+        else if (rows.length) this.paintDensity(pen, inner, rows, visible, total < 20000 ? 150 : undefined);
         this.drawn = Math.min(total, 20000);
         this.paintCurrent(pen, inner);
         this.countSpikes(rows, visible);
@@ -61,14 +62,11 @@ export class RasterPanel<R extends Row = Row> extends RowsPanel<R> {
     /// Tints the chosen rows and draws a line between groups.
     private markRows(pen: Pen, area: Area, rows: Row[]) {
         if (!this.isGrouped) return;
-        const height = area.h / rows.length;
-        rows.forEach((row, k) => {
-            const y = area.y + k * height;
-            pen.fillStyle = resolved("var(--chosen)");
-            if (this.pick && row.isChosen) pen.fillRect(area.x, y, area.w, Math.max(height, 2));
-            pen.fillStyle = resolved("var(--rule)");
-            if (k && row.group !== rows[k - 1].group) pen.fillRect(area.x, Math.round(y), area.w, 1);
-        });
+        const height = area.h / rows.length, y = (k: number) => area.y + k * height;
+        pen.fillStyle = resolved("var(--chosen)");
+        if (this.pick) rows.forEach((row, k) => row.isChosen && pen.fillRect(area.x, y(k), area.w, Math.max(height, 2)));
+        pen.fillStyle = resolved("var(--rule)");
+        rows.forEach((row, k) => k && row.group !== rows[k - 1].group && pen.fillRect(area.x, Math.round(y(k)), area.w, 1));
     }
 
     private paintTicks(pen: Pen, area: Area, rows: Row[], visible: [number, number][]) {
@@ -81,15 +79,15 @@ export class RasterPanel<R extends Row = Row> extends RowsPanel<R> {
 
     /// Paints an image with one pixel per line and column, then scales it to the plot. A line is one row, or several if rows are thinner than a
     /// pixel of the screen.
-    private paintDensity(pen: Pen, area: Area, rows: Row[], visible: [number, number][]) {
-        const ratio = devicePixelRatio || 1, columns = Math.max(1, Math.round(area.w * ratio)), lines = Math.min(rows.length, Math.max(1, Math.floor(area.h * ratio)));
+    private paintDensity(pen: Pen, area: Area, rows: Row[], visible: [number, number][], minAlpha?: number) {
+        const ratio = pixelRatio(), columns = Math.max(1, Math.round(area.w * ratio)), lines = Math.min(rows.length, Math.max(1, Math.floor(area.h * ratio)));
         const counts = Array.from({length: lines}, () => new Uint32Array(columns)), colours: string[] = [];
         rows.forEach(({spikes, colour}, k) => {
             const line = Math.floor(k * lines / rows.length);
             countPerColumn(counts[line], spikes, ...visible[k], this.view.a, this.view.b);
             colours[line] = colour;
         });
-        const image = painted(counts, colours), gap = area.h / rows.length > 6 ? 1 : 0;
+        const image = painted(counts, colours, minAlpha), gap = area.h / rows.length > 6 ? 1 : 0;
         pen.imageSmoothingEnabled = false;
         if (gap === 0) pen.drawImage(image, 0, 0, columns, lines, area.x, area.y, area.w, area.h);
         else for (let k = 0; k < lines; ++k) pen.drawImage(image, 0, k, columns, 1, area.x, area.y + k * area.h / lines + gap, area.w, area.h / lines - 2 * gap);

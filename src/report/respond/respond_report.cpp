@@ -174,7 +174,7 @@ std::string RespondReport::page(const RunSummary& summary, std::span<const Affer
     for (std::size_t a = 0; a < plans.size(); ++a) {
         const auto& plan = plans[a];
         afferents.push_back({{"name", plan.name},
-                             {"type", afferent_type_of(plan)},
+                             {"type", afferent_type_of(plan.name)},
                              {"netlist", plan.traits().is_implementation},
                              {"composition", plan.composition()},
                              {"description", plan.description},

@@ -129,8 +129,8 @@ int reference_rank(const AfferentPlan& plan, const std::string& afferent_type) {
 
 }  // namespace
 
-std::string afferent_type_of(const AfferentPlan& plan) {
-    const auto stem = std::filesystem::path(plan.name).stem().string();  // without folder and extension, if the name is a path
+std::string afferent_type_of(std::string_view plan_name) {
+    const auto stem = std::filesystem::path(plan_name).stem().string();  // without folder and extension, if the name is a path
     const auto* by_alias = find_afferent(lower(stem));  // SA-I is sa1, RA is fa1-nerve
     const auto name = by_alias ? std::string(by_alias->name) : lower(stem);
     const auto* prefix_match = find_afferent(name.substr(0, name.find_first_of("-_")));
@@ -140,7 +140,7 @@ std::string afferent_type_of(const AfferentPlan& plan) {
 std::vector<ImplementationGroup> implementation_groups(std::span<const AfferentPlan> plans) {
     std::vector<ImplementationGroup> all;
     for (std::size_t k = 0; k < plans.size(); ++k) {
-        const auto afferent_type = afferent_type_of(plans[k]);
+        const auto afferent_type = afferent_type_of(plans[k].name);
         auto at =
             std::find_if(all.begin(), all.end(), [&](const ImplementationGroup& group) { return group.afferent_type == afferent_type; });
         if (at == all.end()) at = all.insert(at, {afferent_type, {}});

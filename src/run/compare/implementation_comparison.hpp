@@ -11,10 +11,10 @@
 
 namespace corpuscle {
 
-/// The afferent type of a plan, from its name: "sa1" for sa1, SA-I, sa1-circuit, sa1-kim, and for paths such as circuits/sa1.cir or
+/// The afferent type of a plan with this name: "sa1" for sa1, SA-I, sa1-circuit, sa1-kim, and for paths such as circuits/sa1.cir or
 /// sa1_biased.cir. If the name does not begin with the name of a catalogue afferent, returns the complete name; for the path of a netlist,
 /// the file name without directory and extension.
-std::string afferent_type_of(const AfferentPlan&);
+std::string afferent_type_of(std::string_view plan_name);
 
 /// The plans of one afferent type. The first is the reference: the afferent with the name of the type, otherwise the first model, otherwise
 /// the first netlist.
