@@ -25,7 +25,7 @@ page: setup-page
 	@echo "Open build/page/press.html in a browser."
 
 # Under the sanitizers the tests of readers, skins, streams and pages, and all fuzzers; `make sanitize` runs also those of circuits and the examples.
-test: release asan-readers
+test: release page asan-readers
 	ctest --test-dir build/release --output-on-failure -j 3
 	ctest --test-dir build/asan --output-on-failure -j 3 -LE once -R '^(corpuscle|page)-tests'
 	$(MAKE) fuzz FUZZ_SECONDS=1

@@ -6,7 +6,7 @@
 
 namespace corpuscle::circuit {
 
-extern const Analysis op_analysis, dc_analysis, ac_analysis, noise_analysis, tran_analysis, pz_analysis, tf_analysis, sens_analysis;
+extern const Analysis dc_analysis, noise_analysis, pz_analysis, tf_analysis, sens_analysis;
 
 namespace {
 

@@ -5,6 +5,8 @@
 
 namespace corpuscle::circuit {
 
+extern const Analysis op_analysis, ac_analysis, tran_analysis;  // those that other files name
+
 /// In the order in which help texts list them.
 extern const std::span<const Analysis* const> analyses;
 

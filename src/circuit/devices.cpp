@@ -32,14 +32,13 @@ constexpr const DeviceKind* all_kinds[] = {&resistor_kind,
                                            &ekv_kind,
                                            &transistor_kind};
 
-/// True if models of this level belong to the kind.
-bool has_level(const DeviceKind& kind, double level) {
-    return kind.level == level || std::find(kind.other_levels.begin(), kind.other_levels.end(), level) != kind.other_levels.end();
-}
-
 }  // namespace
 
 constinit const std::span<const DeviceKind* const> device_kinds = all_kinds;
+
+bool has_level(const DeviceKind& kind, double level) {
+    return kind.level == level || std::find(kind.other_levels.begin(), kind.other_levels.end(), level) != kind.other_levels.end();
+}
 
 const DeviceKind* find_device_kind(char letter, std::optional<double> level) {
     const DeviceKind* first = nullptr;

@@ -8,6 +8,9 @@ namespace corpuscle::circuit {
 /// In the order of messages and catalogues.
 extern const std::span<const DeviceKind* const> device_kinds;
 
+/// True if models of this level belong to the kind.
+bool has_level(const DeviceKind& kind, double level);
+
 /// The kind of device of this letter whose models have this level. Without a level, or if no kind has it, the first one of the letter. Null
 /// if there is none.
 const DeviceKind* find_device_kind(char letter, std::optional<double> level = {});

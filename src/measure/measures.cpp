@@ -1,7 +1,26 @@
+// The list of measures. To add one, put its struct into a file of this folder, and its include and its name below. It is then a column of
+// the summary, the tables and the report. A measure receives the spikes one after another, and stores a few numbers however long the train
+// is.
+
 #include "measure/measures.hpp"
+
+#include <algorithm>
+#include <tuple>
+
+#include "measure/intervals.hpp"
+#include "measure/phase_locking.hpp"
+#include "measure/rates.hpp"
 
 namespace corpuscle {
 namespace {
+
+template <class... M>
+struct MeasureList {
+    using Tuple = std::tuple<M...>;
+    static constexpr MeasureInfo infos[] = {M::info...};
+};
+using Measures = MeasureList<SpikeCount, MeanRate, PeakRate, FirstRate, LastRate, Latency, AdaptationRatio, IntervalVariation,
+                             VectorStrength, Entrainment>;
 
 /// Calls f with each measure.
 template <class Tuple, class F>
@@ -11,8 +30,24 @@ void each(Tuple& all, F&& f) {
 
 }  // namespace
 
+constinit const std::span<const MeasureInfo> measures = Measures::infos;
+
+std::size_t measure_index(std::string_view name) {
+    return static_cast<std::size_t>(std::ranges::find(measures, name, &MeasureInfo::name) - measures.begin());
+}
+
+struct MeasureAccumulator::Train {
+    std::vector<Measures::Tuple> measures;  // for each window, one object of each measure
+    std::size_t window = 0;                 // index of the first window that ends after the latest spike
+    double last = no_value;                 // time of the latest spike, s; NaN if it was in no window
+};
+
 MeasureAccumulator::MeasureAccumulator(std::vector<TimeWindow> windows, std::size_t trains)
     : windows_(std::move(windows)), trains_(trains, Train{std::vector<Measures::Tuple>(windows_.size())}) {}
+
+MeasureAccumulator::MeasureAccumulator(MeasureAccumulator&&) noexcept = default;
+MeasureAccumulator& MeasureAccumulator::operator=(MeasureAccumulator&&) noexcept = default;
+MeasureAccumulator::~MeasureAccumulator() = default;
 
 void MeasureAccumulator::spike(std::size_t train_index, double t) {
     auto& train = trains_[train_index];

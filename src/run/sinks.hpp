@@ -1,16 +1,11 @@
 #pragma once
-// All output formats of a run. To add one, write its file in run/sinks/ and add its name to the two lists below.
+// All output formats of a run. Their list is in sinks.cpp.
 
 #include "run/sinks/file_sink.hpp"
 
 namespace corpuscle {
 
-extern const OutputFormat spikes_format, events_format, copies_format, afferents_format, npz_format, psth_format, sound_format,
-    probes_format, vectors_format, trials_format, nwb_format;
-
 /// In the order in which outputs are listed.
-inline const OutputFormat* const output_formats[] = {&spikes_format, &events_format, &copies_format,  &afferents_format,
-                                                     &npz_format,    &psth_format,   &sound_format,   &probes_format,
-                                                     &vectors_format, &trials_format, &nwb_format};
+extern const std::span<const OutputFormat* const> output_formats;
 
 }  // namespace corpuscle

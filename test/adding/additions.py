@@ -22,19 +22,17 @@ ADDITIONS = [
     Addition(
         kind="a measure",
         file="src/measure/longest_interval.hpp",
-        list="src/measure/measures.hpp",
+        list="src/measure/measures.cpp",
         insertions=[included_after("measure/intervals.hpp", "measure/longest_interval.hpp"), ("Entrainment>;", "Entrainment, LongestInterval>;")],
-        list_names="Measures|measures|MeasureAccumulator|measure_index",
     ),
     Addition(
         kind="a recording format",
         file="src/io/table/hexadecimal_table.cpp",
-        list="src/io/recording/recording_formats.hpp",
+        list="src/io/recording/recording_formats.cpp",
         insertions=[
-            ("struct RecordingFormat {\n", "Result<std::unique_ptr<Table>> open_hexadecimal_table(const std::string& path, const TableOptions&);\n\nstruct RecordingFormat {\n"),
+            ("namespace corpuscle {\n", "namespace corpuscle {\n\nResult<std::unique_ptr<Table>> open_hexadecimal_table(const std::string& path, const TableOptions&);\n"),
             ("open_hdf5_table},\n", 'open_hdf5_table},\n    {"hexadecimal", ".hex", "one hexadecimal integer in each line", open_hexadecimal_table},\n'),
         ],
-        list_names="recording_formats",
     ),
     Addition(
         kind="a verb (a command of the program)",
@@ -46,9 +44,8 @@ ADDITIONS = [
     Addition(
         kind="a stimulus",
         file="src/core/stimulus/triangle.hpp",
-        list="src/core/stimulus/stimuli.hpp",
+        list="src/core/stimulus/stimuli.cpp",
         insertions=[included_after("core/stimulus/touch.hpp", "core/stimulus/triangle.hpp"), ("Noise, Grating>;", "Noise, Grating, Triangle>;")],
-        list_names="Stimuli",
     ),
     Addition(
         kind="a receptor, a neuron",
@@ -88,8 +85,7 @@ ADDITIONS = [
     Addition(
         kind="an output format of `respond`",
         file="src/run/sinks/names_file.cpp",
-        list="src/run/sinks.hpp",
+        list="src/run/sinks.cpp",
         insertions=[("trials_format, nwb_format;", "trials_format, nwb_format, names_format;"), ("&nwb_format};", "&nwb_format, &names_format};")],
-        list_names="output_formats",
     ),
 ]

@@ -104,8 +104,9 @@ TEST(Summary, OfCopiesHasTheStatisticsOfTheirSeparateRows) {
             std::vector<double> values;
             for (const auto& r : separate.rows)
                 if (r.afferent.starts_with(row.afferent + "#") && r.channel == row.channel && r.phase == row.phase)
-                    values.push_back(m == measure_index<MeanRate> && r.values[measure_index<SpikeCount>] == 1 ? 1 / length_of(separate, r)
-                                                                                                              : r.values[m]);
+                    values.push_back(m == measure_index<MeanRate>() && r.values[measure_index<SpikeCount>()] == 1
+                                         ? 1 / length_of(separate, r)
+                                         : r.values[m]);
             ASSERT_EQ(values.size(), 25U);
             const auto expected = statistics(values);
             const auto& accumulated = row.copy_statistics[m];

@@ -51,7 +51,7 @@ std::string copies_line(const CopySpec& spec) {
 /// The table of rates and other measures. A long table omits afferents that did not fire.
 std::string rate_table(const RunSummary& summary) {
     std::map<std::pair<std::string, std::string>, double> spikes;  // by afferent and channel, over all phases
-    for (const auto& r : summary.rows) spikes[{r.afferent, r.channel}] += r.values[measure_index<SpikeCount>];
+    for (const auto& r : summary.rows) spikes[{r.afferent, r.channel}] += r.values[measure_index<SpikeCount>()];
     const bool shows_silent = summary.rows.size() <= max_rate_rows_with_silent;
     TableRows rows = {{"afferent", "channel", "phase"}};
     const auto columns = summary.columns();

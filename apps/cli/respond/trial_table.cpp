@@ -10,7 +10,7 @@ namespace corpuscle {
 namespace {
 
 constexpr std::size_t max_rows = 40;
-constexpr std::size_t shown[] = {measure_index<SpikeCount>, measure_index<MeanRate>, measure_index<PeakRate>, measure_index<Latency>};
+const std::size_t shown[] = {measure_index<SpikeCount>(), measure_index<MeanRate>(), measure_index<PeakRate>(), measure_index<Latency>()};
 
 std::string cell(const CopyStatistics& statistics, const MeasureInfo& measure) {
     const int decimals = std::max(measure.decimals, 1);
@@ -33,8 +33,8 @@ std::string trial_table(const TrialCollector& collected) {
         rows.push_back({row.label, group.name, group.channel, std::to_string(row.statistics[shown[0]].copies)});
         for (const auto m : shown) rows.back().push_back(cell(row.statistics[m], measures[m]));
     }
-    auto text = fmt::format("\n{} trials, aligned to {}{}; mean +- standard deviation over trials that have a value\n", responses.trials.size(),
-                            collected.options().uses_onsets() ? "contact onset" : "their start",
+    auto text = fmt::format("\n{} trials, aligned to {}{}; mean +- standard deviation over trials that have a value\n",
+                            responses.trials.size(), collected.options().uses_onsets() ? "contact onset" : "their start",
                             without_zero > 0 ? fmt::format(" ({} have none)", without_zero) : "");
     text += format_table(rows);
     if (all.size() + 1 > rows.size()) text += fmt::format("... and {} more rows; --out writes all of them\n", all.size() + 1 - rows.size());

@@ -1,11 +1,23 @@
+// The list of stimuli. To add one, put its struct into stimulus/, and its include and its name below. The struct has a name, a description,
+// a source, a struct Params with defaults, a table `fields` of ParameterDef, and a member `p` of type Params.
+//
+// duration() is its length in s, and at(t) the force in N at t s from its start. A stimulus may have phases(), its phases; a periodic one
+// has cycle(), its frequency in Hz; a random one has a member `seed`.
+
 #include "core/stimulus/stimuli.hpp"
 
 #include <fmt/format.h>
 
+#include "core/stimulus/touch.hpp"
+#include "core/stimulus/vibration.hpp"
 #include "core/text/ascii_text.hpp"
 
 namespace corpuscle {
 namespace {
+
+template <class... S>
+struct StimulusList {};
+using Stimuli = StimulusList<Press, RampHold, Step, Sine, Chirp, Noise, Grating>;
 
 /// One member of a sum, without its type.
 struct ErasedStimulus {

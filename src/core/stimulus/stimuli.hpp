@@ -1,19 +1,11 @@
 #pragma once
-// The built-in stimuli. To add one, put its struct into stimulus/ and its name into the list below. The struct has a name, a description, a
-// source, a struct Params with defaults, a table `fields` of ParameterDef, and a member `p` of type Params.
-//
-// duration() is its length in s, and at(t) the force in N at t s from its start. A stimulus may have phases(), its phases; a periodic one
-// has cycle(), its frequency in Hz; a random one has a member `seed`.
+// The built-in stimuli. Their list is in stimuli.cpp.
 
 #include "core/parameter_override.hpp"
 #include "core/stimulus/touch.hpp"
 #include "core/stimulus/vibration.hpp"
 
 namespace corpuscle {
-
-template <class... S>
-struct StimulusList {};
-using Stimuli = StimulusList<Press, RampHold, Step, Sine, Chirp, Noise, Grating>;
 
 /// Name, description and parameters of each stimulus, in the order of the list.
 std::vector<CatalogEntry> stimulus_catalog();

@@ -68,7 +68,7 @@ std::function<Result<double>(const StimulusResponse&)> of_train(std::size_t inde
 std::vector<TargetMeasure> make_measures() {
     std::vector<TargetMeasure> out;
     for (std::size_t k = 0; k < std::size(measures); ++k) {
-        const bool needs_cycle = k == measure_index<VectorStrength> || k == measure_index<Entrainment>;
+        const bool needs_cycle = k == measure_index<VectorStrength>() || k == measure_index<Entrainment>();
         out.push_back({measures[k], false, needs_cycle, false, of_train(k)});
     }
     out.push_back({{"min_interval", "least interval", "s", 4, "shortest interval between two spikes of the window"},

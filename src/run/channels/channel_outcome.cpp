@@ -19,7 +19,7 @@ void append(std::vector<std::string>& to, std::vector<std::string> more) { std::
 
 /// The highest firing rate of a row, Hz; infinite if several spikes come within one sample.
 double highest_rate(const MeasureRow& row) {
-    constexpr auto peak = measure_index<PeakRate>;
+    const auto peak = measure_index<PeakRate>();
     if (row.has_unresolved_rate) return std::numeric_limits<double>::infinity();
     return row.copy_statistics.empty() ? row.values[peak] : row.copy_statistics[peak].max;
 }

@@ -109,7 +109,7 @@ void CopyStatistics::add(double x) {
 bool remove_unresolved_rates(std::vector<double>& values, double T) {
     constexpr double tolerance = 1e-3;  // for spikes on the samples themselves, which are one sample apart except for rounding
     bool any = false;
-    for (const auto m : {measure_index<MeanRate>, measure_index<PeakRate>, measure_index<FirstRate>, measure_index<LastRate>})
+    for (const auto m : {measure_index<MeanRate>(), measure_index<PeakRate>(), measure_index<FirstRate>(), measure_index<LastRate>()})
         if (values[m] * T > 1 + tolerance) values[m] = no_value, any = true;
     return any;
 }
@@ -187,7 +187,8 @@ MeasureRow RunSummary::row(const Input& input, std::size_t channel, std::size_t 
     const double T = input.clock.T();
     if (plans[from].copy_number == 0) {  // not a copy
         row.has_unresolved_rate = remove_unresolved_rates(row.values, T);
-        if (row.values[measure_index<SpikeCount>] == 1) row.values[measure_index<MeanRate>] = no_value;  // one spike does not define a rate
+        if (row.values[measure_index<SpikeCount>()] == 1)
+            row.values[measure_index<MeanRate>()] = no_value;  // one spike does not define a rate
         return row;
     }
     row.copy_statistics.resize(std::size(measures));

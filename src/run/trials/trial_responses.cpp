@@ -64,7 +64,7 @@ double HistogramBin::standard_error() const { return rate.standard_deviation() /
 std::vector<double> trial_values(std::span<const double> train, const AlignedTrial& trial) {
     if (!trial.has_zero()) return std::vector<double>(std::size(measures), no_value);
     auto values = values_in(train, {trial.begin, trial.end});
-    constexpr auto latency = measure_index<Latency>;
+    const auto latency = measure_index<Latency>();
     if (trial.from != 0) values[latency] = trial.to > 0 ? values_in(train, {trial.zero, trial.end})[latency] : no_value;
     return values;
 }

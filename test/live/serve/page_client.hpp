@@ -40,9 +40,10 @@ std::string client_frame(int first, std::string_view data, bool is_masked = true
     const auto mask_bit = is_masked ? 0x80U : 0U;
     if (data.size() < 126) {
         out += static_cast<char>(mask_bit | data.size());
-    } else {
-        out += static_cast<char>(mask_bit | 127);
-        for (int k = 7; k >= 0; --k) out += static_cast<char>(data.size() >> (8 * k));
+    } else {  // in as few bytes as possible, else the frame itself violates the protocol
+        const int bytes = data.size() < 65536 ? 2 : 8;
+        out += static_cast<char>(mask_bit | (bytes == 2 ? 126 : 127));
+        for (int k = bytes - 1; k >= 0; --k) out += static_cast<char>(data.size() >> (8 * k));
     }
     constexpr std::string_view mask = "\x11\x22\x33\x44";
     if (is_masked) out += mask;

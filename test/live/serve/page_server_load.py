@@ -185,7 +185,7 @@ def delay_text(latency):
 
 
 def main(program, seconds):
-    quiet, _, _ = run(program, min(seconds, 20), False)
+    quiet, _, _ = run(program, min(seconds, 10), False)
     os.nice(2)  # the clients: on a machine with few cores they would take the time of the stream
     loaded, counts, memory = run(program, seconds, True)
     print("delay without pages:", delay_text(quiet["latency_s"]))

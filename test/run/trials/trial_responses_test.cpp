@@ -42,7 +42,7 @@ TEST(TrialResponses, CountEverySpikeOnceIfTrialsCoverARecording) {
         const auto all = responses_of(aligned(trials, end), train);
         std::size_t count = 0;
         double counted = 0;
-        for (const auto& r : all.responses) count += r.spikes.size(), counted += r.values[measure_index<SpikeCount>];
+        for (const auto& r : all.responses) count += r.spikes.size(), counted += r.values[measure_index<SpikeCount>()];
         RC_ASSERT(count == train.size());
         RC_ASSERT(counted == static_cast<double>(train.size()));
     }));
@@ -69,19 +69,19 @@ TEST(TrialResponses, MeasureTheWindowAndCountLatencyFromTheAlignment) {
     EXPECT_NEAR(trials[1].to, 0.2, 1e-12) << "the recording ends";
     const auto all = responses_of(trials, {1.0, 1.42, 1.53, 1.55, 1.99, 2.0, 4.75});
     const auto& first = all.responses[0].values;
-    EXPECT_EQ(first[measure_index<SpikeCount>], 4);
-    EXPECT_NEAR(first[measure_index<MeanRate>], 4 / 0.6, 1e-9);
-    EXPECT_NEAR(first[measure_index<Latency>], 0.03, 1e-12) << "not from the start of the window, in which an earlier spike is";
-    EXPECT_NEAR(first[measure_index<PeakRate>], 1 / 0.01, 1e-6) << "of the last spike in the window with the next one";
-    EXPECT_TRUE(std::isnan(all.responses[1].values[measure_index<Latency>])) << "its only spike is before the contact";
+    EXPECT_EQ(first[measure_index<SpikeCount>()], 4);
+    EXPECT_NEAR(first[measure_index<MeanRate>()], 4 / 0.6, 1e-9);
+    EXPECT_NEAR(first[measure_index<Latency>()], 0.03, 1e-12) << "not from the start of the window, in which an earlier spike is";
+    EXPECT_NEAR(first[measure_index<PeakRate>()], 1 / 0.01, 1e-6) << "of the last spike in the window with the next one";
+    EXPECT_TRUE(std::isnan(all.responses[1].values[measure_index<Latency>()])) << "its only spike is before the contact";
 }
 
 TEST(TrialResponses, LeaveTrialsWithoutAnOnsetOutOfMeans) {
     TrialOptions options{.alignment = AlignmentPoint::onset};
     const auto all = responses_of(aligned({{0, 1, "a"}, {1, 2, "a"}}, 2, options, {0.5}), {0.6, 1.1});
     EXPECT_FALSE(all.trials[1].has_zero());
-    EXPECT_TRUE(std::isnan(all.responses[1].values[measure_index<SpikeCount>]));
-    EXPECT_EQ(all.label_rows()[0].statistics[measure_index<SpikeCount>].copies, 1);
+    EXPECT_TRUE(std::isnan(all.responses[1].values[measure_index<SpikeCount>()]));
+    EXPECT_EQ(all.label_rows()[0].statistics[measure_index<SpikeCount>()].copies, 1);
     const auto histograms = value_or_throw(all.histograms(0.1, {}));
     for (const auto& bin : histograms[0].bins) EXPECT_LE(bin.rate.copies, 1);
 }
@@ -91,8 +91,8 @@ TEST(TrialResponses, HaveMeansDeviationsAndHistogramsInClosedForm) {
     const std::vector<double> train = {0.25, 1.21, 1.22, 2.21, 2.22, 2.29};
     const auto all = responses_of(aligned({{0, 1, "a"}, {1, 2, "a"}, {2, 3, "a"}}, 3), train);
     const auto row = all.label_rows()[0];
-    EXPECT_EQ(row.statistics[measure_index<SpikeCount>].mean(), 2);
-    EXPECT_EQ(row.statistics[measure_index<SpikeCount>].standard_deviation(), 1);
+    EXPECT_EQ(row.statistics[measure_index<SpikeCount>()].mean(), 2);
+    EXPECT_EQ(row.statistics[measure_index<SpikeCount>()].standard_deviation(), 1);
     const auto histogram = value_or_throw(all.histograms(0.1, {}))[0];
     ASSERT_EQ(histogram.bins.size(), 10U);
     for (std::size_t b = 0; b < 10; ++b) {
@@ -121,7 +121,7 @@ TEST(TrialResponses, AverageOverTheAfferentsOfAGroup) {
     all.add(aligned({{0, 1, "a"}}, 1), Trains{{0.1, 0.2}, {}}, indexes);
     ASSERT_EQ(all.groups.size(), 1U);
     EXPECT_EQ(all.responses.size(), 1U) << "only the one that fired";
-    EXPECT_EQ(all.label_rows()[0].statistics[measure_index<SpikeCount>].mean(), 1);
+    EXPECT_EQ(all.label_rows()[0].statistics[measure_index<SpikeCount>()].mean(), 1);
     EXPECT_EQ(value_or_throw(all.histograms(1, {}))[0].bins[0].rate.mean(), 1);
 }
 
