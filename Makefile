@@ -84,8 +84,9 @@ CORPUSCLE_DATA ?= ../shared/data
 draw = /usr/bin/python3 doc/picture.py $(corpuscle)
 # Those of doc/schematics.md; on Debian 12 they also need: apt-get install xvfb xauth
 schematics = sa1 $(addprefix parts/, transducer amplifier bias invb invc ccvs high_pass rectifier_sa rectifier_fa summer oscillator trigger currents)
-pictures: release
+pictures: release page
 	$(draw) doc/press.png $(touched)
+	/usr/bin/python3 doc/picture.py build/page/press.html doc/pictures/live-page.png
 	$(draw) doc/pictures/range.png study range "supply by temperature"
 	$(draw) doc/pictures/touch.png examples/data/touch.csv
 	$(draw) doc/pictures/touch-chips.png examples/data/touch.csv --afferent sa1,sa1-circuit,fa1,fa1-circuit

@@ -1,6 +1,6 @@
 # Writes the units of a unity build (unity_build.cmake): FOLDER/0.cpp to FOLDER/LAST.cpp include the files listed in FOLDER/files.txt.
-# Neighbours in the list share a unit, unless a name that one of them declares in its anonymous namespace occurs in the other: then the
-# file goes to the next unit in which nothing meets. A unit is written only if it changes.
+# Neighbours in the list share a unit, unless both declare a name in their anonymous namespaces, or a type of one's occurs in the other: then the
+# file goes to the next unit in which nothing meets; units from COUNT on are kept for such files. A unit is written only if it changes.
 cmake_minimum_required(VERSION 3.25)
 
 # The words of a file, each between spaces, without comments, strings and names after '.', '->' or '::'.
@@ -12,9 +12,12 @@ function(read_words text result)
   set(${result} " ${words} " PARENT_SCOPE)
 endfunction()
 
-# The names that a file declares in its anonymous namespaces: of types, and before the first '(', '=', '{', '[' or ';' of a line that is not indented.
-function(read_local_names text result)
+# What a file declares in its anonymous namespaces: the names of types, and those before the first '(', '=', '{', '[' or ';' of a line that is not
+# indented. The name of a function is followed by its parameters, because functions may be overloaded: 'read(intn'. That of an alias is followed
+# by its definition, 'Json:nlohmann::json', because two equal ones do not meet.
+function(read_local_names text types_result names_result)
   string(REGEX REPLACE "[][;]" "=" text "${text}")  # characters with a meaning in CMake's lists
+  set(types "")
   set(names "")
   string(FIND "${text}" "\nnamespace {\n" begin)
   while(begin GREATER_EQUAL 0)
@@ -24,14 +27,37 @@ function(read_local_names text result)
     string(SUBSTRING "${text}" ${end} -1 text)
     string(REGEX MATCHALL "\n[A-Za-z][^\n]*" lines "${body}")
     foreach(line IN LISTS lines)
-      if(line MATCHES "^\n(struct|class|enum class|enum|union) ([A-Za-z_0-9]+)" OR (NOT line MATCHES "^\ntemplate" AND line MATCHES "^(\n[^(={]*[ *&>])([A-Za-z_][A-Za-z_0-9]*) ?[(={]"))
-        list(APPEND names ${CMAKE_MATCH_2})
+      if(line MATCHES "^\n(struct|class|enum class|enum|union) ([A-Za-z_0-9]+)")
+        list(APPEND types ${CMAKE_MATCH_2})
+      elseif(line MATCHES "^\nusing ([A-Za-z_0-9]+) = (.*)$")
+        set(alias ${CMAKE_MATCH_1})
+        string(REGEX REPLACE "[ =]" "" definition "${CMAKE_MATCH_2}")
+        list(APPEND names ${alias}:${definition})
+      elseif(NOT line MATCHES "^\n(template|using)" AND line MATCHES "^(\n[^(={]*[ *&>])([A-Za-z_][A-Za-z_0-9]*) ?[(={]")
+        string(REGEX MATCH "^\n[^(={]*[ *&>]([A-Za-z_][A-Za-z_0-9]*) ?([(][^)]*)?" line "${line}")  # NOT has cleared the match
+        string(REGEX REPLACE "[ =]" "" name "${CMAKE_MATCH_1}${CMAKE_MATCH_2}")
+        list(APPEND names ${name})
       endif()
     endforeach()
     string(FIND "${text}" "\nnamespace {\n" begin)
   endwhile()
   list(REMOVE_ITEM names operator)
-  set(${result} "${names}" PARENT_SCOPE)
+  set(${types_result} "${types}" PARENT_SCOPE)
+  set(${names_result} ${types} ${names} PARENT_SCOPE)
+endfunction()
+
+# Whether one of the names is among those of a unit; of aliases, with another definition.
+function(name_occurs names unit_names result)
+  set(${result} OFF PARENT_SCOPE)
+  foreach(name IN LISTS names)
+    string(FIND "${unit_names}" " ${name} " same)
+    string(REGEX REPLACE "^([A-Za-z_0-9]+:).*" "\\1" alias "${name}")  # the name itself if it is no alias
+    string(FIND "${unit_names}" " ${alias}" other)
+    if((same GREATER_EQUAL 0 AND NOT alias MATCHES ":$") OR (same LESS 0 AND other GREATER_EQUAL 0 AND alias MATCHES ":$"))
+      set(${result} ON PARENT_SCOPE)
+      return()
+    endif()
+  endforeach()
 endfunction()
 
 # Whether one of the names is among the words.
@@ -56,23 +82,29 @@ set(offset 0)  # of a file in all of them, in bytes: it decides in which unit th
 foreach(file IN LISTS files)
   file(READ ${file} text)
   read_words("${text}" words)
-  read_local_names("${text}" names)
-  math(EXPR first "${offset} * (${LAST} + 1) / ${bytes}")
+  read_local_names("${text}" types names)
+  math(EXPR first "${offset} * ${COUNT} / ${bytes}")
   set(unit -1)
   foreach(step RANGE ${LAST})
-    math(EXPR candidate "(${first} + ${step}) % (${LAST} + 1)")
-    occurs("${names}" "${words_${candidate}}" meets)
-    occurs("${names_${candidate}}" "${words}" meets_too)
-    if(NOT meets AND NOT meets_too)
+    set(candidate ${step})  # a spare unit, unless ...
+    if(step LESS COUNT)
+      math(EXPR candidate "(${first} + ${step}) % ${COUNT}")
+    endif()
+    occurs("${types}" "${words_${candidate}}" type_meets)
+    occurs("${types_${candidate}}" "${words}" type_meets_too)
+    name_occurs("${names}" "${names_${candidate}}" name_meets)
+    if(NOT type_meets AND NOT type_meets_too AND NOT name_meets)
       set(unit ${candidate})
       break()
     endif()
   endforeach()
   if(unit LESS 0)
-    message(FATAL_ERROR "${file}: one of the names ${names} of its anonymous namespace occurs in every unit. Rename it, or exclude the file from the unity build with SKIP_UNITY_BUILD_INCLUSION.")
+    message(FATAL_ERROR "${file}: one of the names ${names} of its anonymous namespace meets another in every unit. Rename it, or exclude the file from the unity build with SKIP_UNITY_BUILD_INCLUSION.")
   endif()
   string(APPEND words_${unit} "${words}")
-  list(APPEND names_${unit} ${names})
+  list(APPEND types_${unit} ${types})
+  list(JOIN names " " spaced)
+  string(APPEND names_${unit} " ${spaced} ")
   file(RELATIVE_PATH relative ${FOLDER} ${file})
   string(APPEND text_${unit} "#include \"${relative}\"\n")
   file(SIZE ${file} size)

@@ -1,6 +1,8 @@
 """Renders a report as a picture: doc/picture.py CORPUSCLE OUT.png ARGUMENTS..., with the arguments of `corpuscle respond`: force and spikes.
 
-doc/picture.py CORPUSCLE OUT.png study NAME TEXT: those plots of a study whose title contains TEXT, in two columns."""
+doc/picture.py CORPUSCLE OUT.png study NAME TEXT: those plots of a study whose title contains TEXT, in two columns.
+
+doc/picture.py PRESS.html OUT.png: the live page while its skin is pressed."""
 
 import pathlib
 import subprocess
@@ -16,47 +18,77 @@ FLAGS = ("--headless=new --no-sandbox --disable-gpu --disable-quic --no-first-ru
          "--disable-background-networking --disable-component-update --disable-sync --window-size=1000,2600").split()
 
 
+# The force, spikes and rates of a response, or the maps and figures of a skin.
 RESPONSE = """
-    const sections = [...document.querySelectorAll('#figures > section')];
-    const skin = document.querySelector('#maps') !== null;
-    for (const other of skin ? sections.slice(1, -1) : document.querySelectorAll('#figures > details, #figures .hint, #first h2')) other.remove();  // without currents and membranes
-    document.querySelectorAll('.menu').forEach((menu) => menu.remove());
-    document.querySelector('#figures').style.padding = '0 12px';
-    // the maps and the figures below them, in one picture
-    for (const other of document.querySelectorAll('main > *')) other.hidden = skin && !['maps', 'figures'].includes(other.id);
-    for (const hint of document.querySelectorAll('#maps .bar')) hint.hidden = skin;"""
+    document.querySelectorAll('.menu, .hint').forEach((one) => one.remove());
+    const isSkin = document.querySelector('#maps') !== null, kept = isSkin ? ['maps', 'plots'] : ['first'];
+    for (const other of document.querySelectorAll('main > *')) other.hidden = !kept.includes(other.id);
+    document.querySelector('main').style.padding = '0 12px';"""
 
+# The plots of a study whose title contains a text, in two columns: the first half of them is in the left one.
 STUDY = """
-    const kept = [...document.querySelectorAll('figure')].filter((one) => one.querySelector('figcaption').textContent.includes(arguments[0]));
+    const kept = [...document.querySelectorAll('figure.panel')].filter((one) => one.querySelector('.panel-title').textContent.includes(arguments[0]));
+    document.querySelectorAll('.menu').forEach((one) => one.remove());
     document.querySelector('main').replaceChildren(...kept);
-    const rows = Math.ceil(kept.length / 2);  // the first half of the plots is in the left column
-    document.querySelector('main').style = `display: grid; grid: repeat(${rows}, auto) / auto-flow minmax(0, 1fr); gap: 12px; padding: 12px; width: 970px`;
+    document.querySelector('main').style = `display: grid; grid: repeat(${Math.ceil(kept.length / 2)}, auto) / auto-flow minmax(0, 1fr); gap: 12px; padding: 12px; width: 970px`;
     for (const one of kept) one.style = 'margin: 0; width: auto';
-    for (const key of [...document.querySelectorAll('.key')].slice(1)) key.remove();
-    for (const plot of document.querySelectorAll('.plot')) plot.style.height = '190px';
-    for (const chart of window.charts) if (kept.some((one) => one.contains(chart.graphDiv))) chart.resize();"""
+    dispatchEvent(new Event('resize'));"""
+
+# The live page, while the skin is pressed for two seconds and the contact moves.
+PRESSED = """
+    const done = arguments[0], wait = () => {
+        if (!window.corpuscle || corpuscle.session.time === 0) return setTimeout(wait, 50);
+        const {session, press} = corpuscle, x = press.x, y = press.y, from = session.time;
+        const step = () => {
+            const t = session.time - from;
+            press.isDown = t > 0.5;
+            press.moveTo(x + 2e-3 * Math.sin(3 * t), y + 1e-3 * t);
+            if (t < 2.5) return requestAnimationFrame(step);
+            session.isPaused = true;
+            requestAnimationFrame(() => requestAnimationFrame(done));
+        };
+        step();
+    };
+    wait();"""
 
 
-def main(corpuscle, picture, *arguments):
-    study = arguments[0] == "study"
+def start_browser(folder):
+    options = Options()
+    options.binary_location = "/usr/bin/chromium"
+    for flag in [*FLAGS, f"--user-data-dir={folder}/profile"]:
+        options.add_argument(flag)
+    browser = webdriver.Chrome(service=Service("/usr/bin/chromedriver"), options=options)
+    browser.set_script_timeout(120)
+    return browser
+
+
+def draw_report(browser, folder, corpuscle, picture, *arguments):
+    is_study = arguments[0] == "study"
+    report = pathlib.Path(folder) / "report.html"
+    command = ["study", arguments[1]] if is_study else ["respond", *arguments]
+    subprocess.run([corpuscle, *command, "--report", report, "--quiet"], check=True)
+    browser.get(report.as_uri())
+    browser.execute_script(STUDY if is_study else RESPONSE, *arguments[2:3])
+    browser.execute_async_script("setTimeout(() => requestAnimationFrame(() => requestAnimationFrame(arguments[0])), 200)")
+    return browser.find_element(By.TAG_NAME, "main").screenshot(picture)
+
+
+def draw_live_page(browser, page, picture):
+    browser.set_window_size(1300, 1000)
+    browser.get(pathlib.Path(page).resolve().as_uri())
+    browser.execute_async_script(PRESSED)
+    return browser.save_screenshot(picture)
+
+
+def main(first, picture, *arguments):
     with tempfile.TemporaryDirectory() as folder:
-        report = pathlib.Path(folder) / "report.html"
-        command = ["study", arguments[1]] if study else ["respond", *arguments]
-        subprocess.run([corpuscle, *command, "--report", report, "--quiet"], check=True)
-        options = Options()
-        options.binary_location = "/usr/bin/chromium"
-        for flag in [*FLAGS, f"--user-data-dir={folder}/profile"]:
-            options.add_argument(flag)
-        browser = webdriver.Chrome(service=Service("/usr/bin/chromedriver"), options=options)
+        browser = start_browser(folder)
         try:
-            browser.get(report.as_uri())
-            browser.execute_script(STUDY if study else RESPONSE, *arguments[2:3])
-            browser.execute_async_script("requestAnimationFrame(() => requestAnimationFrame(arguments[0]))")
-            shown = browser.find_elements(By.CSS_SELECTOR, "main:has(#maps)" if not study else "main") or browser.find_elements(By.ID, "figures")
-            if not shown[0].screenshot(picture):
-                sys.exit(f"{picture} cannot be written")
+            is_drawn = draw_report(browser, folder, first, picture, *arguments) if arguments else draw_live_page(browser, first, picture)
         finally:
             browser.quit()
+    if not is_drawn:
+        sys.exit(f"{picture} cannot be written")
 
 
 if __name__ == "__main__":

@@ -4,8 +4,8 @@
 
 namespace corpuscle {
 
-extern const OutputFormat spikes_format, events_format, copies_format, afferents_format, npz_format, psth_format, sound_format,
-    probes_format, vectors_format, trials_format, nwb_format;
+extern const OutputFormat spikes_format, events_format, copies_format, afferents_format, npz_format, sound_format, probes_format,
+    vectors_format, trials_format, nwb_format;
 
 namespace {
 

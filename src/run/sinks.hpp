@@ -5,6 +5,8 @@
 
 namespace corpuscle {
 
+extern const OutputFormat psth_format;  // other files name it
+
 /// In the order in which outputs are listed.
 extern const std::span<const OutputFormat* const> output_formats;
 

@@ -151,7 +151,7 @@ def use_the_additions(program):
     use_the_device(corpuscle)
     use_the_analysis(corpuscle)
 
-    if any(a.list == "src/run/sinks.hpp" for a in ADDITIONS):
+    if any(a.list == "src/run/sinks.cpp" for a in ADDITIONS):
         corpuscle("respond", "press", "--afferent", "sa1,sa2", "--names", "--out", "result")
         check((out / "result/names.txt").read_text() == "sa1,press\nsa2,press\n", "the output format writes another text")
 

@@ -14,7 +14,6 @@ namespace corpuscle {
 namespace {
 
 using test::TemporaryFolder, test::value_or_throw;
-using Json = nlohmann::ordered_json;
 
 struct CopiesOfAfferents {
     std::vector<AfferentPlan> base, copies;

@@ -12,6 +12,7 @@
 #include "run/population_exceptions.hpp"
 #include "run/sinks.hpp"
 #include "support/program.hpp"
+#include "support/sinks.hpp"
 #include "support/support.hpp"
 
 namespace corpuscle {
@@ -156,7 +157,8 @@ TEST(PopulationsAndFormats, EveryFileHasTheSpikesOfTheTable) {
         for (const auto* format : output_formats) {
             if (format == &events_format || find_exception(population.kind, format->name())) continue;
             const auto paths = files_of(*format, directory);
-            EXPECT_EQ(paths.empty(), (format == &copies_format && population.name != "copies") || format == &trials_format) << format->name();
+            EXPECT_EQ(paths.empty(), (format == &copies_format && population.name != "copies") || format == &trials_format)
+                << format->name();
             if (!paths.empty()) expect_same_spikes(*format, paths, expected);
         }
         const auto trials = respond_into(folder, population, "trials", "--align start");  // each input is a trial

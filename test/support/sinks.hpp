@@ -5,6 +5,11 @@
 #include "run/sinks.hpp"
 #include "support/support.hpp"
 
+namespace corpuscle {
+extern const OutputFormat spikes_format, events_format, copies_format, afferents_format, npz_format, sound_format, probes_format,
+    vectors_format, trials_format, nwb_format;
+}
+
 namespace corpuscle::test {
 
 /// The sink of a format that writes into a folder.

@@ -69,40 +69,19 @@ constexpr Operation operations[] = {
     {">=", 2, [](In x) -> double { return x.a >= x.b; }, nullptr, 4},
     {"<", 2, [](In x) -> double { return x.a < x.b; }, nullptr, 4},
     {">", 2, [](In x) -> double { return x.a > x.b; }, nullptr, 4},
-    {"+", 2, [](In x) { return x.a + x.b; },
-     [](In) -> Slopes {
-         return {1, 1};
-     },
-     sum_level},
-    {"-", 2, [](In x) { return x.a - x.b; },
-     [](In) -> Slopes {
-         return {1, -1};
-     },
-     sum_level},
-    {"*", 2, [](In x) { return x.a * x.b; },
-     [](In x) -> Slopes {
-         return {x.b, x.a};
-     },
-     product_level},
-    {"/", 2, [](In x) { return x.a / x.b; },
-     [](In x) -> Slopes {
-         return {1 / x.b, -x.a / x.b / x.b};
-     },
-     product_level},
+    {"+", 2, [](In x) { return x.a + x.b; }, [](In) -> Slopes { return {1, 1}; }, sum_level},
+    {"-", 2, [](In x) { return x.a - x.b; }, [](In) -> Slopes { return {1, -1}; }, sum_level},
+    {"*", 2, [](In x) { return x.a * x.b; }, [](In x) -> Slopes { return {x.b, x.a}; }, product_level},
+    {"/", 2, [](In x) { return x.a / x.b; }, [](In x) -> Slopes { return {1 / x.b, -x.a / x.b / x.b}; }, product_level},
     // |a|^b, as ^ and ** in ngspice
     {"^", 2, [](In x) { return std::pow(std::abs(x.a), x.b); }, [](In x) { return slopes_of_power(x, x.a < 0 ? -1 : 1); }, power_level,
      "pow({3},{4})"},
     {"-", 1, [](In x) { return -x.a; }, [](In) -> Slopes { return {-1}; }, 0, "-{0}"},
     {"!", 1, [](In x) -> double { return x.a == 0; }, nullptr, 0, "({0} == 0)"},
-    {"?:", 3, [](In x) { return x.a != 0 ? x.b : x.c; },
-     [](In x) {
-         return x.a != 0 ? Slopes{0, 1, 0} : Slopes{0, 0, 1};
-     },
-     0, "({0} ? {1} : {2})"},
+    {"?:", 3, [](In x) { return x.a != 0 ? x.b : x.c; }, [](In x) { return x.a != 0 ? Slopes{0, 1, 0} : Slopes{0, 0, 1}; }, 0,
+     "({0} ? {1} : {2})"},
     {"pow", 2, [](In x) { return std::pow(x.a, x.b); },  // C's; never occurs with voltages
-     [](In x) -> Slopes {
-         return {x.b == 0 ? 0 : x.b * std::pow(x.a, x.b - 1), x.a > 0 ? x.value * logarithm(x.a) : 0};
-     }},
+     [](In x) -> Slopes { return {x.b == 0 ? 0 : x.b * std::pow(x.a, x.b - 1), x.a > 0 ? x.value * logarithm(x.a) : 0}; }},
     {"pwr", 2, [](In x) { return x.a < 0 ? -std::pow(-x.a, x.b) : std::pow(x.a, x.b); }, [](In x) { return slopes_of_power(x, 1); }},
     {"abs", 1, [](In x) { return std::abs(x.a); }, [](In x) -> Slopes { return {x.a < 0 ? -1.0 : 1.0}; }},
     {"acos", 1, [](In x) { return std::acos(x.a); }, [](In x) -> Slopes { return {-1 / std::sqrt((1 - x.a) * (1 + x.a))}; }},
@@ -111,10 +90,8 @@ constexpr Operation operations[] = {
     {"asinh", 1, [](In x) { return std::asinh(x.a); }, [](In x) -> Slopes { return {1 / std::hypot(x.a, 1.0)}; }},
     {"atan", 1, [](In x) { return std::atan(x.a); }, [](In x) -> Slopes { return {1 / (1 + x.a * x.a)}; }},
     {"atan2", 2, [](In x) { return std::atan2(x.a, x.b); },  // ngspice does not have it
-     [](In x) -> Slopes {
-         return {x.b / (x.a * x.a + x.b * x.b), -x.a / (x.a * x.a + x.b * x.b)};
-     },
-     0, "({1} > 0 ? atan({0}/{1}) : ({1} < 0 ? ({0} < 0 ? atan({0}/{1})-pi : atan({0}/{1})+pi) : sgn({0})*pi/2))"},
+     [](In x) -> Slopes { return {x.b / (x.a * x.a + x.b * x.b), -x.a / (x.a * x.a + x.b * x.b)}; }, 0,
+     "({1} > 0 ? atan({0}/{1}) : ({1} < 0 ? ({0} < 0 ? atan({0}/{1})-pi : atan({0}/{1})+pi) : sgn({0})*pi/2))"},
     {"atanh", 1, [](In x) { return std::atanh(x.a); }, [](In x) -> Slopes { return {1 / ((1 - x.a) * (1 + x.a))}; }},
     {"ceil", 1, [](In x) { return std::ceil(x.a); }},
     {"cos", 1, [](In x) { return cosine(x.a); }, [](In x) -> Slopes { return {-sine(x.a)}; }},
@@ -122,21 +99,12 @@ constexpr Operation operations[] = {
     {"exp", 1, [](In x) { return std::isnan(x.a) ? x.a : num::exp(x.a); }, [](In x) -> Slopes { return {x.value}; }},
     {"floor", 1, [](In x) { return std::floor(x.a); }},
     {"hypot", 2, [](In x) { return std::hypot(x.a, x.b); },
-     [](In x) {
-         return x.value == 0 ? Slopes{} : Slopes{x.a / x.value, x.b / x.value};
-     },
-     0, "sqrt({0}*{0}+{1}*{1})"},
+     [](In x) { return x.value == 0 ? Slopes{} : Slopes{x.a / x.value, x.b / x.value}; }, 0, "sqrt({0}*{0}+{1}*{1})"},
     {"int", 1, [](In x) { return std::trunc(x.a); }, nullptr, 0, "({0} < 0 ? ceil({3}) : floor({3}))"},
     {"ln", 1, [](In x) { return logarithm(x.a); }, [](In x) -> Slopes { return {1 / x.a}; }},
     {"log10", 1, [](In x) { return logarithm(x.a) / ln_10; }, [](In x) -> Slopes { return {1 / (x.a * ln_10)}; }},
-    {"max", 2, [](In x) { return x.a < x.b ? x.b : x.a; },
-     [](In x) {
-         return x.a < x.b ? Slopes{0, 1} : Slopes{1, 0};
-     }},
-    {"min", 2, [](In x) { return x.b < x.a ? x.b : x.a; },
-     [](In x) {
-         return x.b < x.a ? Slopes{0, 1} : Slopes{1, 0};
-     }},
+    {"max", 2, [](In x) { return x.a < x.b ? x.b : x.a; }, [](In x) { return x.a < x.b ? Slopes{0, 1} : Slopes{1, 0}; }},
+    {"min", 2, [](In x) { return x.b < x.a ? x.b : x.a; }, [](In x) { return x.b < x.a ? Slopes{0, 1} : Slopes{1, 0}; }},
     {"nint", 1, [](In x) { return std::nearbyint(x.a); }},
     {"sgn", 1, [](In x) -> double { return (x.a > 0) - (x.a < 0); }},
     {"sin", 1, [](In x) { return sine(x.a); }, [](In x) -> Slopes { return {cosine(x.a)}; }},
@@ -153,8 +121,8 @@ constexpr Operation operations[] = {
 /// Other spellings of operators and functions.
 constexpr struct {
     std::string_view name, operation;
-} aliases[] = {{"<>", "!="},       {"|", "||"},        {"&", "&&"},  {"**", "^"},           {"arccos", "acos"},
-               {"arcsin", "asin"}, {"arctan", "atan"}, {"if", "?:"}, {"ternary_fcn", "?:"}, {"log", "ln"}};
+} other_spellings[] = {{"<>", "!="},       {"|", "||"},        {"&", "&&"},  {"**", "^"},           {"arccos", "acos"},
+                       {"arcsin", "asin"}, {"arctan", "atan"}, {"if", "?:"}, {"ternary_fcn", "?:"}, {"log", "ln"}};
 
 /// limit(x,d) is a random function in ngspice; limit(x,a,b) is not.
 constexpr RandomFunction random_functions[] = {{"agauss", 3}, {"gauss", 3}, {"aunif", 2}, {"unif", 2}, {"limit", 2}};
@@ -166,7 +134,7 @@ const Row* find_row(const Row (&rows)[n], std::string_view name) {
 }
 
 std::string_view without_alias(std::string_view name) {
-    const auto* alias = find_row(aliases, name);
+    const auto* alias = find_row(other_spellings, name);
     return alias ? alias->operation : name;
 }
 
@@ -199,7 +167,7 @@ OperatorSpelling leading_operator(std::string_view text) {
         if (o && o->level > 0 && spelling.size() > out.length && text.starts_with(spelling)) out = {o, spelling.size()};
     };
     for (const auto& o : operations) try_spelling(o.name, &o);
-    for (const auto& alias : aliases) try_spelling(alias.name, find_operation(alias.operation, 2));
+    for (const auto& alias : other_spellings) try_spelling(alias.name, find_operation(alias.operation, 2));
     return out;
 }
 

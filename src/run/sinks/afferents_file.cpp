@@ -10,7 +10,7 @@
 
 #include "core/text/csv_field.hpp"
 #include "core/text/fixed_number.hpp"
-#include "run/sinks.hpp"
+#include "run/sinks/file_sink.hpp"
 #include "run/summary/skin_summary.hpp"
 
 namespace corpuscle {
@@ -69,7 +69,7 @@ public:
 
 }  // namespace
 
-const OutputFormat afferents_format = {
+extern const OutputFormat afferents_format = {
     .names = {"afferents.csv"},
     .make = make_file_sink<AfferentsFile>,
     .is_written = [](const OutputRequest& request) { return request.skin != nullptr; },

@@ -8,7 +8,7 @@
 
 #include "core/text/csv_field.hpp"
 #include "run/channels/channel_population.hpp"
-#include "run/sinks.hpp"
+#include "run/sinks/file_sink.hpp"
 #include "run/summary/run_summary.hpp"
 
 namespace corpuscle {
@@ -80,7 +80,7 @@ public:
 
 }  // namespace
 
-const OutputFormat copies_format = {
+extern const OutputFormat copies_format = {
     .names = {"copies.csv"},
     .make = make_file_sink<CopiesFile>,
     .is_written = [](const OutputRequest& request) { return request.copies.count > 0; },

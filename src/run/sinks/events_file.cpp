@@ -4,7 +4,7 @@
 
 #include "core/text/ascii_text.hpp"
 #include "io/spikes/events.hpp"
-#include "run/sinks.hpp"
+#include "run/sinks/file_sink.hpp"
 
 namespace corpuscle {
 namespace {
@@ -60,7 +60,7 @@ std::vector<std::string> event_file_names(const OutputRequest& request) {
 
 }  // namespace
 
-const OutputFormat events_format = {
+extern const OutputFormat events_format = {
     .names = {"spikes#.csv", "spikes#.jsonl", "spikes#.aer", "spikes#.aedat"},
     .option = "--events",
     .value_name = "FORMAT",

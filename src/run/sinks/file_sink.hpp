@@ -1,5 +1,5 @@
 #pragma once
-// Sinks that write files, and the description of an output format. The list of all formats is run/sinks.hpp.
+// Sinks that write files, and the description of an output format. The list of all formats is run/sinks.cpp.
 
 #include <fmt/format.h>
 #include <map>

@@ -8,7 +8,7 @@
 #include <numeric>
 
 #include "io/table/npz.hpp"
-#include "run/sinks.hpp"
+#include "run/sinks/file_sink.hpp"
 
 namespace corpuscle {
 namespace {
@@ -70,7 +70,7 @@ public:
 
 }  // namespace
 
-const OutputFormat npz_format = {
+extern const OutputFormat npz_format = {
     .names = {"spikes.npz"},
     .option = "--npz",
     .help = "with --out, also write spikes.npz: exact times for NumPy and SpikeInterface",

@@ -6,7 +6,7 @@
 
 #include "core/version.hpp"
 #include "run/afferent_details.hpp"
-#include "run/sinks.hpp"
+#include "run/sinks/file_sink.hpp"
 #include "run/trials/trial_collector.hpp"
 
 namespace corpuscle {
@@ -118,7 +118,7 @@ public:
 
 }  // namespace
 
-const OutputFormat nwb_format = {
+extern const OutputFormat nwb_format = {
     .names = {"response#.nwb"},
     .option = "--nwb",
     .help = "with --out, also write response.nwb: spikes, force and parameters for the tools of Neurodata Without Borders (doc/formats.md)",

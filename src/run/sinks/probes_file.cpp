@@ -4,7 +4,7 @@
 #include <iterator>
 
 #include "core/text/csv_field.hpp"
-#include "run/sinks.hpp"
+#include "run/sinks/file_sink.hpp"
 
 namespace corpuscle {
 namespace {
@@ -23,9 +23,8 @@ public:
         for (const auto& name : population.force_names()) header += "," + quote_csv_field(name + "_N");
         for (std::size_t u = 0; u < population.size(); ++u)
             for (const auto& p : population.probes(u))
-                header += "," + quote_csv_field(
-                                    fmt::format("{}.{}.{}{}", population.afferent_name(u), population.channel_name(u), p.name,
-                                                p.unit.empty() ? "" : fmt::format(" [{}]", p.unit)));
+                header += "," + quote_csv_field(fmt::format("{}.{}.{}{}", population.afferent_name(u), population.channel_name(u), p.name,
+                                                            p.unit.empty() ? "" : fmt::format(" [{}]", p.unit)));
         return files_.back().write(header + "\n");
     }
 
@@ -44,7 +43,7 @@ public:
 
 }  // namespace
 
-const OutputFormat probes_format = {
+extern const OutputFormat probes_format = {
     .names = {"probes#.csv"},
     .option = "--probe-files",
     .help = "with --out, also write probes.csv: force, currents, membranes",

@@ -1,15 +1,15 @@
-// psth.csv of a run without trials: spikes in time bins of equal width, written bin after bin from the start of the input. from_s and to_s are on its clock. The
-// first bin begins with the input; the last one ends with it, and may be shorter. A bin includes its start and excludes its end. A spike
-// closer to an edge than 1e-9 bin widths counts as at the edge. On channels: afferent,channel,from_s,to_s,spikes,rate_Hz, with one line for
-// each afferent. In a skin one line for each class in each region, with a column of the number of its afferents; the rate is the mean over
-// them.
+// psth.csv of a run without trials: spikes in time bins of equal width, written bin after bin from the start of the input. from_s and to_s
+// are on its clock. The first bin begins with the input; the last one ends with it, and may be shorter. A bin includes its start and
+// excludes its end. A spike closer to an edge than 1e-9 bin widths counts as at the edge. On channels:
+// afferent,channel,from_s,to_s,spikes,rate_Hz, with one line for each afferent. In a skin one line for each class in each region, with a
+// column of the number of its afferents; the rate is the mean over them.
 
 #include <algorithm>
 #include <cmath>
 #include <iterator>
 
 #include "core/text/quantity.hpp"
-#include "run/sinks.hpp"
+#include "run/sinks/file_sink.hpp"
 #include "run/sinks/trial_histogram_file.hpp"
 
 namespace corpuscle {
@@ -93,12 +93,15 @@ public:
 
 }  // namespace
 
-const OutputFormat psth_format = {
+extern const OutputFormat psth_format = {
     .names = {"psth.csv"},
     .option = "--bin",
     .value_name = "TIME",
     .help = "with --out, also write psth.csv: spike counts and rates in bins of this length; with trials, around their point of alignment",
-    .make = [](const OutputRequest& request) { return request.trials ? make_trial_histogram_file(request, *bin_width_of(request)) : make_file_sink<PsthFile>(request); },
+    .make =
+        [](const OutputRequest& request) {
+            return request.trials ? make_trial_histogram_file(request, *bin_width_of(request)) : make_file_sink<PsthFile>(request);
+        },
     .check =
         [](const OutputRequest& request) {
             const auto width = bin_width_of(request);

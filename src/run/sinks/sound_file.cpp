@@ -9,7 +9,7 @@
 #include <cmath>
 
 #include "core/number/elementary.hpp"
-#include "run/sinks.hpp"
+#include "run/sinks/file_sink.hpp"
 
 namespace corpuscle {
 namespace {
@@ -143,7 +143,7 @@ public:
 
 }  // namespace
 
-const OutputFormat sound_format = {
+extern const OutputFormat sound_format = {
     .names = {"spikes#.wav"},
     .option = "--wav",
     .help = "with --out, also write spikes.wav: one click per spike",

@@ -1,6 +1,6 @@
 // spikes.csv: afferent,channel,time_s; input after input, each in order of time. Times are on the clock of the input, to the nanosecond.
 
-#include "run/sinks.hpp"
+#include "run/sinks/file_sink.hpp"
 #include "run/sinks/spike_lines.hpp"
 
 namespace corpuscle {
@@ -29,7 +29,7 @@ public:
 
 }  // namespace
 
-const OutputFormat spikes_format = {
+extern const OutputFormat spikes_format = {
     .names = {"spikes.csv"},
     .make = make_file_sink<SpikesFile>,
     .is_written = [](const OutputRequest& request) { return !request.has("--events"); },

@@ -1,5 +1,6 @@
 // psth.csv of a run with trials: a histogram for each label and each afferent, or each class and region of a skin. The times of a bin are
-// relative to the point of alignment. Its rate is the mean over the trials that cover it, with its standard error. Its spikes are their sum.
+// relative to the point of alignment. Its rate is the mean over the trials that cover it, with its standard error. Its spikes are their
+// sum.
 
 #include "run/sinks/trial_histogram_file.hpp"
 
@@ -38,8 +39,8 @@ public:
     Result<void> end(const Input& input, std::int64_t, std::span<const Spike>) override {
         if (input.index + 1 < input.input_count) return {};
         const bool has_sizes = input.population.skin() != nullptr;
-        TRY(files_[0].write(fmt::format("label,afferent,channel,{}from_s,to_s,trials,spikes,rate_Hz,standard_error_Hz\n",
-                                        has_sizes ? "afferents," : "")));
+        TRY(files_[0].write(
+            fmt::format("label,afferent,channel,{}from_s,to_s,trials,spikes,rate_Hz,standard_error_Hz\n", has_sizes ? "afferents," : "")));
         const auto all = TRY(trials_.responses.histograms(bin_width_, trials_.options().window));
         for (const auto& histogram : all) {
             put(histogram, has_sizes);

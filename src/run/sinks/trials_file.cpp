@@ -1,12 +1,12 @@
-// trials.csv: a row for each trial and afferent, in a skin only for those that fired. Its start_s, stop_s and zero_s are on the clock of the
-// input, and zero_s is the point of alignment. The measured part, from_s and to_s, is relative to zero_s. Every measure over this part
+// trials.csv: a row for each trial and afferent, in a skin only for those that fired. Its start_s, stop_s and zero_s are on the clock of
+// the input, and zero_s is the point of alignment. The measured part, from_s and to_s, is relative to zero_s. Every measure over this part
 // follows. A field is empty if the measure has no value. The latency counts from zero_s.
 
 #include <cmath>
 #include <iterator>
 
 #include "core/text/csv_field.hpp"
-#include "run/sinks.hpp"
+#include "run/sinks/file_sink.hpp"
 #include "run/trials/trial_collector.hpp"
 
 namespace corpuscle {
@@ -55,7 +55,7 @@ public:
 
 }  // namespace
 
-const OutputFormat trials_format = {
+extern const OutputFormat trials_format = {
     .names = {"trials.csv"},
     .make = make_file_sink<TrialsFile>,
     .is_written = [](const OutputRequest& request) { return request.trials != nullptr; },

@@ -11,7 +11,7 @@
 
 #include "model/sensor/digital_afferent.hpp"
 #include "run/channels/channel_population.hpp"
-#include "run/sinks.hpp"
+#include "run/sinks/file_sink.hpp"
 
 namespace corpuscle {
 namespace {
@@ -143,7 +143,7 @@ public:
 
 }  // namespace
 
-const OutputFormat vectors_format = {
+extern const OutputFormat vectors_format = {
     .names = {"vectors-*.csv", "rom-*.csv"},
     .option = "--vectors",
     .help = "with --out, also write vectors-AFFERENT.csv and rom-AFFERENT.csv: every fixed-point value after the converter",

@@ -1,6 +1,6 @@
 // names.txt: the name and channel of each afferent, one in each line.
 
-#include "run/sinks.hpp"
+#include "run/sinks/file_sink.hpp"
 
 namespace corpuscle {
 namespace {
@@ -18,7 +18,7 @@ public:
 
 }  // namespace
 
-const OutputFormat names_format = {
+extern const OutputFormat names_format = {
     .names = {"names.txt"},
     .option = "--names",
     .help = "with --out, also write names.txt: the name of each afferent",
