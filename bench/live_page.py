@@ -2,8 +2,8 @@
 """live_page.py PAGE: how soon the live page (make page) responds after it is opened from disk, and how smoothly it runs, in Debian's headless
 Chromium, which draws in software. The page simulates a fingertip of 998 afferents, sa1, sa1-nerve and the chip sa1-circuit at 2 kHz.
 
-Printed: the size of the page; the time from its opening to the first simulated answer (median of 5); while it rests, and while the skin is pressed
-with 1 N and the contact moves: frames per second, the 95th percentile of the time between frames, and simulated seconds per second."""
+Prints the size of the page, and the time from its opening to the first simulated answer (median of 5). Then, at rest and pressed with 1 N by a contact
+that moves, it prints frames per second, the 95th percentile of the time between frames, and simulated seconds per second."""
 import pathlib
 import shutil
 import statistics

@@ -1,6 +1,6 @@
 # Writes the units of a unity build (unity_build.cmake): FOLDER/0.cpp to FOLDER/LAST.cpp include the files listed in FOLDER/files.txt.
-# Neighbours in the list share a unit, unless both declare a name in their anonymous namespaces, or a type of one's occurs in the other: then the
-# file goes to the next unit in which nothing meets; units from COUNT on are kept for such files. A unit is written only if it changes.
+# Neighbours in the list share a unit, unless both declare a name in their anonymous namespaces, or a type of one's occurs in the other. Then the
+# file goes to the next unit in which nothing meets. Units from COUNT on are kept for such files. A unit is written only if it changes.
 cmake_minimum_required(VERSION 3.25)
 
 # The words of a file, each between spaces, without comments, strings and names after '.', '->' or '::'.
@@ -12,9 +12,9 @@ function(read_words text result)
   set(${result} " ${words} " PARENT_SCOPE)
 endfunction()
 
-# What a file declares in its anonymous namespaces: the names of types, and those before the first '(', '=', '{', '[' or ';' of a line that is not
-# indented. The name of a function is followed by its parameters, because functions may be overloaded: 'read(intn'. That of an alias is followed
-# by its definition, 'Json:nlohmann::json', because two equal ones do not meet.
+# The declarations of a file in its anonymous namespaces: the names of types, and those before the first '(', '=', '{', '[' or ';' of a line that is not
+# indented. The name of a function is followed by the type of its first parameter, because functions may be overloaded: 'read(int'. That of an
+# alias is followed by its definition, 'Json:nlohmann::json', because two equal ones do not meet.
 function(read_local_names text types_result names_result)
   string(REGEX REPLACE "[][;]" "=" text "${text}")  # characters with a meaning in CMake's lists
   set(types "")
@@ -34,9 +34,11 @@ function(read_local_names text types_result names_result)
         string(REGEX REPLACE "[ =]" "" definition "${CMAKE_MATCH_2}")
         list(APPEND names ${alias}:${definition})
       elseif(NOT line MATCHES "^\n(template|using)" AND line MATCHES "^(\n[^(={]*[ *&>])([A-Za-z_][A-Za-z_0-9]*) ?[(={]")
-        string(REGEX MATCH "^\n[^(={]*[ *&>]([A-Za-z_][A-Za-z_0-9]*) ?([(][^)]*)?" line "${line}")  # NOT has cleared the match
-        string(REGEX REPLACE "[ =]" "" name "${CMAKE_MATCH_1}${CMAKE_MATCH_2}")
-        list(APPEND names ${name})
+        string(REGEX MATCH "^\n[^(={]*[ *&>]([A-Za-z_][A-Za-z_0-9]*) ?([(][^,)=]*)?" line "${line}")  # NOT has cleared the match
+        set(name ${CMAKE_MATCH_1})
+        string(REGEX REPLACE " +[A-Za-z_0-9]* *$|^[(]$" "" parameter "${CMAKE_MATCH_2}")
+        string(REPLACE " " "" parameter "${parameter}")
+        list(APPEND names "${name}${parameter}")
       endif()
     endforeach()
     string(FIND "${text}" "\nnamespace {\n" begin)
@@ -51,7 +53,7 @@ function(name_occurs names unit_names result)
   set(${result} OFF PARENT_SCOPE)
   foreach(name IN LISTS names)
     string(FIND "${unit_names}" " ${name} " same)
-    string(REGEX REPLACE "^([A-Za-z_0-9]+:).*" "\\1" alias "${name}")  # the name itself if it is no alias
+    string(REGEX REPLACE "^([A-Za-z_0-9]+:).*" "\\1" alias "${name}")  # or the name itself
     string(FIND "${unit_names}" " ${alias}" other)
     if((same GREATER_EQUAL 0 AND NOT alias MATCHES ":$") OR (same LESS 0 AND other GREATER_EQUAL 0 AND alias MATCHES ":$"))
       set(${result} ON PARENT_SCOPE)

@@ -13,7 +13,8 @@ namespace corpuscle::circuit {
 namespace {
 
 using Complex = std::complex<double>;
-constexpr double pi = 3.14159265358979323846, v_t = 1.380649e-23 * 300.15 / 1.602176634e-19;
+constexpr double pi = 3.14159265358979323846;
+constexpr double v_t = 1.380649e-23 * 300.15 / 1.602176634e-19;
 
 /// Compares a curve of .ac with a function of j omega, relative to its magnitude; differences below `rounding` are ignored.
 void expect_curve(const NetlistRun& ran, const std::string& name, double tolerance, const std::function<Complex(Complex s)>& formula,

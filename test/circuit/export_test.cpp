@@ -263,7 +263,7 @@ TEST(ExportedNames, AreLegalAndOneToOne) {
             if (circuit.node_numbers.try_emplace(name, static_cast<int>(circuit.nodes.size())).second) circuit.nodes.push_back(name);
             circuit.elements.push_back({});
             circuit.elements.back().name = "x." + name, circuit.elements.back().letter = 'r';
-            circuit.elements.back().kind = &resistor_kind;
+            circuit.elements.back().kind = find_device_kind('r');
         }
         const ExportNames names(circuit);
         std::set<std::string> nodes, elements;

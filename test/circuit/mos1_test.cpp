@@ -16,14 +16,15 @@
 namespace corpuscle::circuit::test {
 namespace {
 
-const Values full_card = {{"vto", 0.7}, {"kp", 1e-4},    {"gamma", 0.4},  {"phi", 0.65},   {"lambda", 0.05}, {"tox", 20e-9}, {"ld", 0.2e-6},
-                          {"cj", 3e-4}, {"cjsw", 2e-10}, {"cgso", 1e-10}, {"cgdo", 2e-10}, {"cgbo", 3e-10},  {"is", 1e-15}};
+const Values complete_card = {{"vto", 0.7},    {"kp", 1e-4},    {"gamma", 0.4}, {"phi", 0.65},   {"lambda", 0.05},
+                              {"tox", 20e-9},  {"ld", 0.2e-6},  {"cj", 3e-4},   {"cjsw", 2e-10}, {"cgso", 1e-10},
+                              {"cgdo", 2e-10}, {"cgbo", 3e-10}, {"is", 1e-15}};
 const Values size = {{"w", 10e-6}, {"l", 2e-6}, {"ad", 20e-12}, {"as", 20e-12}, {"pd", 24e-6}, {"ps", 24e-6}, {"m", 2}};
 
 Values with(Values values, const std::string& name, double value) { return values[name] = value, values; }
 
 /// The card of a PMOS with the same magnitudes.
-Values card_of(std::string_view type) { return type == "pmos" ? with(full_card, "vto", -0.7) : full_card; }
+Values card_of(std::string_view type) { return type == "pmos" ? with(complete_card, "vto", -0.7) : complete_card; }
 
 TEST(Mos1, ItsSlopesEqualFiniteDifferencesInAllRegionsAndBothPolarities) {
     for (const std::string type : {"nmos", "pmos"})
@@ -40,17 +41,17 @@ TEST(Mos1, ItsCurrentsAndChargesAddUpToZeroAndDependOnDifferencesOnly) {
 }
 
 TEST(Mos1, ExchangingDrainAndSourceExchangesCurrentsAndCharges) {
-    auto card = full_card;
+    auto card = complete_card;
     card["cgdo"] = card["cgso"];
     check_exchange(MosUnderTest(mos1_kind, "nmos", card, size), 1000, 5.0);
 }
 
 TEST(Mos1, APmosIsTheMirrorImageOfAnNmos) {
-    check_mirror(MosUnderTest(mos1_kind, "nmos", full_card, size), MosUnderTest(mos1_kind, "pmos", card_of("pmos"), size), 1000, 5.0);
+    check_mirror(MosUnderTest(mos1_kind, "nmos", complete_card, size), MosUnderTest(mos1_kind, "pmos", card_of("pmos"), size), 1000, 5.0);
 }
 
 TEST(Mos1, SlopesAndCapacitancesAreContinuousAtEveryBoundary) {
-    const MosUnderTest mos(mos1_kind, "nmos", full_card, size);
+    const MosUnderTest mos(mos1_kind, "nmos", complete_card, size);
     const double threshold = 0.7 + 0.4 * (std::sqrt(1.65) - std::sqrt(0.65));  // at v_bs = -1
     const struct {
         const char* what;
@@ -76,7 +77,7 @@ TEST(Mos1, SlopesAndCapacitancesAreContinuousAtEveryBoundary) {
 }
 
 TEST(Mos1, CurrentsAndCapacitancesHaveTheirClosedForms) {
-    Values card = full_card;
+    Values card = complete_card;
     for (const auto* name : {"ld", "cj", "cjsw", "cgso", "cgdo", "cgbo", "gamma"}) card[name] = 0;
     const MosUnderTest mos(mos1_kind, "nmos", card, {{"w", 10e-6}, {"l", 2e-6}});
     const double beta = 1e-4 * 5, C = 3.9 * 8.854214871e-12 / 20e-9 * 20e-12;
@@ -98,7 +99,7 @@ TEST(Mos1, CurrentsAndCapacitancesHaveTheirClosedForms) {
 }
 
 TEST(Mos1, TheOperatingPointHasItsRegionAndItsVoltages) {
-    const MosUnderTest n(mos1_kind, "nmos", full_card, size), p(mos1_kind, "pmos", card_of("pmos"), size);
+    const MosUnderTest n(mos1_kind, "nmos", complete_card, size), p(mos1_kind, "pmos", card_of("pmos"), size);
     const auto region = [](const MosUnderTest& mos, std::array<double, 4> v) { return mos.device().operating_region(v); };
     EXPECT_EQ(region(n, {3, 1.5, 0, 0}), "saturation");
     EXPECT_EQ(region(n, {0, 1.5, 3, 0}), "saturation");
