@@ -10,7 +10,7 @@ namespace corpuscle::page {
 namespace {
 
 constexpr std::size_t max_page_sites = 1 << 16, max_page_afferents = 1 << 16;
-constexpr std::size_t pressed_samples = 32;  // simulated at once; bounds the memory for the force at all sites
+constexpr std::size_t max_pressed_samples = 32;  // simulated at once; bounds the memory for the force at all sites
 
 /// The page must not read files of the machine on which the engine runs.
 Result<void> refuse_population_path(const std::string& population) {
@@ -142,8 +142,11 @@ Result<void> PressedSkin::change_contact(const std::string& indenter, std::span<
 Result<void> PressedSkin::press(const ContactForce& all, std::uint32_t first_unit, std::vector<Spike>& spikes) {
     ThreadPool pool(1);
     const auto first_spike = spikes.size();
-    for (std::size_t at = 0; at < all.force.size(); at += pressed_samples) {
-        const auto count = std::min(pressed_samples, all.force.size() - at);
+    const auto parts = (all.force.size() + max_pressed_samples - 1) / max_pressed_samples;
+    const auto samples =
+        parts > 0 ? (all.force.size() + parts - 1) / parts : 0;  // equal parts, because a single sample costs as much as ten
+    for (std::size_t at = 0; at < all.force.size(); at += samples) {
+        const auto count = std::min(samples, all.force.size() - at);
         const auto part = [&](std::span<const double> values) { return values.empty() ? values : values.subspan(at, count); };
         const auto sites = TRY(contact_->press(
             {part(all.force), all.first + static_cast<std::int64_t>(at), part(all.shear_x), part(all.shear_y), part(all.x), part(all.y)}));

@@ -6,7 +6,7 @@ export interface EncodedArray { f32?: string; f64?: string; u32?: string; u16?: 
 const TYPES = {f32: Float32Array, f64: Float64Array, u32: Uint32Array, u16: Uint16Array, u8: Uint8Array};
 type TypeName = keyof typeof TYPES;
 
-function bytesOf(base64: string): Uint8Array {
+export function bytesOf(base64: string): Uint8Array {
     const text = atob(base64), bytes = new Uint8Array(text.length);
     for (let i = 0; i < bytes.length; ++i) bytes[i] = text.charCodeAt(i);
     return bytes;

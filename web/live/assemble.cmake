@@ -2,9 +2,11 @@
 file(READ ${SHELL} page)
 file(READ ${DIRECTORY}/press.js script)
 file(READ ${DIRECTORY}/press.css style)
+file(READ ${DIRECTORY}/engine.txt engine)
 string(REPLACE "{{title}}" "Press a skin" page "${page}")
 string(REPLACE "{{style}}" "${style}" page "${page}")
 string(REPLACE "{{data}}" "{}" page "${page}")
+string(REPLACE "<script>{{script}}" "<script type=\"text/plain\" id=\"engine\">${engine}</script>\n<script>{{script}}" page "${page}")
 # The page makes a worker, which compiles WebAssembly. A page that a server has sent opens a WebSocket to it.
 string(REPLACE "script-src 'unsafe-inline'" "script-src 'unsafe-inline' 'wasm-unsafe-eval'; worker-src blob:; connect-src 'self'" page "${page}")
 string(REPLACE "{{script}}" "${script}" page "${page}")

@@ -1,7 +1,5 @@
 // The catalogue of the engine: names, parameters, units and ranges come from here only.
 
-import type {Answer} from "./engine";
-
 export interface Parameter {
     name: string; unit: string; default: number; low: number | null; high: number | null; description: string; source?: string; component?: string;
     value?: number;
@@ -24,8 +22,8 @@ export interface Catalogue {
     stimuli: Entry[];
 }
 
-/// Joins the parts of the answer to the request `catalogue`.
-export function catalogueOf({head}: Answer): Catalogue {
+/// Joins the parts of the answer to the request `catalogue`. `head`: of the answer.
+export function catalogueOf(head: any): Catalogue {
     const {sections} = head, entries = (name: string): any[] => sections[name] || [];
     const described = new Map(entries("afferents").map((one) => [one.name, one]));
     return {

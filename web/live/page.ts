@@ -169,12 +169,12 @@ function forceText({force}: Session): string {
     return csvText(["time_s", "force_N"], rows);
 }
 
-/// Starts the page with an engine.
-export async function showLivePage(engine: Engine) {
+/// Starts the page with an engine. `head`: its answer to the request `catalogue`, if it is known already.
+export async function showLivePage(engine: Engine, head?: object) {
     const waiting = h("p", {class: "note", id: "loading"}, "The engine starts …");
     document.body.append(waiting);
     try {
-        const catalogue = catalogueOf(await engine.request({request: "catalogue"})), settings = settingsOfLink(catalogue);
+        const catalogue = catalogueOf(head || (await engine.request({request: "catalogue"})).head), settings = settingsOfLink(catalogue);
         waiting.remove();
         const page = new LivePage(engine, catalogue, settings || defaultSettings(catalogue));
         await page.start();

@@ -26,6 +26,7 @@ export interface Skin {
 }
 
 const PROBE_RATE = 1000;     // values of a probe per second
+const MOST_PENDING = 2;
 const LONGEST_BLOCK = 0.05;  // s; if the engine needs longer, the simulation is slower than real time
 
 export class Session {
@@ -37,7 +38,10 @@ export class Session {
     contactRadius = 0;  // m
     isPaused = false;
     warnings: string[] = [];
-    private isBusy = false;
+    private pending = 0;     // blocks that the engine has not answered yet; two keep it busy while an answer is drawn
+    private lastAnswer = 0;  // its time, ms
+    private simulated = 0;   // recently simulated, s
+    private computed = 0;    // s that the engine needed for it
     private generation = 0;  // answers to a start that has been replaced are ignored
     private lastFrame = 0;
     private due = 0;         // s of simulation that are not requested yet
@@ -94,21 +98,23 @@ export class Session {
         }
     }
 
-    /// Called at each screen frame with its time (s): requests the samples since the last one, unless the engine is still busy.
+    /// Called at each screen frame with its time (s): requests the samples since the last one, unless the engine has two blocks to do.
     frame(now: number) {
         const passed = Math.min(now - this.lastFrame, 0.25);
         this.lastFrame = now;
         if (this.isPaused) return;
         this.due = Math.min(this.due + passed, LONGEST_BLOCK);
         const samples = Math.floor(this.due * this.settings.rate);
-        if (this.isBusy || samples === 0) return;
+        if (this.pending === MOST_PENDING || samples === 0) return;
         this.due -= samples / this.settings.rate;
         void this.advance(samples);
     }
 
+    get isBusy() { return this.pending > 0; }
+
     private async advance(samples: number) {
-        const {generation} = this, begin = performance.now(), {rate} = this.settings, {force, ...place} = this.press.block(samples, rate);
-        this.isBusy = true;
+        const {generation} = this, asked = performance.now(), {rate} = this.settings, {force, ...place} = this.press.block(samples, rate);
+        ++this.pending;
         try {
             const {head, arrays} = await this.engine.request({request: "advance", samples, every: this.every}, this.skin ? {force, ...place} : {force});
             if (generation === this.generation) this.append(head, arrays, force);
@@ -116,9 +122,11 @@ export class Session {
             this.isPaused = true;
             this.failed((error as Error).message);
         }
-        this.isBusy = false;
-        const seconds = (performance.now() - begin) / 1000, capacity = samples / rate / Math.max(seconds, 1e-4);
-        this.speed += 0.05 * (Math.min(capacity, 99) - this.speed);
+        --this.pending;
+        const now = performance.now(), seconds = (now - Math.max(asked, this.lastAnswer)) / 1000;
+        this.lastAnswer = now;
+        [this.simulated, this.computed] = [0.95 * this.simulated + samples / rate, 0.95 * this.computed + seconds];
+        this.speed = Math.min(99, this.simulated / Math.max(this.computed, 1e-4));
     }
 
     private append(head: any, arrays: Record<string, NumberArray>, force: Float64Array) {
