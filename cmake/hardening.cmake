@@ -1,8 +1,8 @@
 # Compile and link options that limit the damage of a memory fault, in our code or in a library that reads foreign files.
 # They change no result: one test looks for them in the built program, others compare the bytes of the output.
 #   corpuscle_hardened: for the library, the program and its helper programs. Not for SIMD kernels, which only compute, nor for tests.
-#   corpuscle_cold_code: also aborts on an index outside a standard container, and is compiled with -O1 (sanitized: -O0). For code that runs
-#   once per command, such as the readers of netlists and sweeps. Not for loops over samples or devices.
+#   corpuscle_cold_code: also aborts on an index outside a standard container, and is compiled with -O1. For code that runs once per
+#   command, such as the readers of netlists and sweeps. Not for loops over samples or devices.
 
 # Position-independent code, so that the archive can be linked into a shared library. The second option keeps inlining possible in it.
 add_compile_options(-fPIC -fno-semantic-interposition)
@@ -21,8 +21,5 @@ endif()
 add_library(corpuscle_cold_code INTERFACE)
 target_compile_definitions(corpuscle_cold_code INTERFACE _GLIBCXX_ASSERTIONS)
 target_compile_options(corpuscle_cold_code INTERFACE $<$<CONFIG:Release>:-O1>)
-if(CORPUSCLE_SANITIZE)
-  target_compile_options(corpuscle_cold_code INTERFACE -O0)
-endif()
 # Resolve addresses of other libraries at start and make them read-only. No executable stack.
 target_link_options(corpuscle_hardened INTERFACE LINKER:-z,relro,-z,now,-z,noexecstack)

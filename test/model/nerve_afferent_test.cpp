@@ -52,7 +52,7 @@ TEST(NerveReceptor, SineGainIsThatOfTwoHighAndTwoLowPasses) {
     }
 }
 
-std::vector<double> vibrate(const std::string& afferent, double f, double amplitude, double seconds) {
+std::vector<double> spikes_under_vibration(const std::string& afferent, double f, double amplitude, double seconds) {
     return test::train(afferent, "sine",
                        {.settings = {fmt::format("sine.f={}Hz", f), fmt::format("sine.F_amp={}N", amplitude), "sine.F_mean=2N",
                                      fmt::format("sine.duration={}s", seconds)},
@@ -75,15 +75,17 @@ bool fires_once_a_cycle(const std::vector<double>& train, double f, double secon
     return !std::isnan(phase);
 }
 
-// The factor of 3 is a choice. At 10 Hz fa1-nerve gives it up, because there it excludes the published best frequencies (doc/nerve-data.md).
+// The factor of 3 is a choice. At 10 Hz fa1-nerve gives it up, because there it excludes the published best frequencies
+// (doc/nerve-data.md).
 TEST(NerveAfferent, FollowsVibrationWithOneSpikeACycleOverAFactorOfThreeInAmplitude) {
-    const std::vector<std::pair<std::string, std::vector<double>>> bands = {{"fa1-nerve", {10, 20, 30, 40, 60, 80}}, {"fa2", {200, 250, 300}}};
+    const std::vector<std::pair<std::string, std::vector<double>>> bands = {{"fa1-nerve", {10, 20, 30, 40, 60, 80}},
+                                                                            {"fa2", {200, 250, 300}}};
     for (const auto& [afferent, band] : bands)
         for (const double f : band) {
             const double seconds = std::max(0.4, 10 / f);
             double widest = 0, first = 0;  // widest range of amplitudes so far; first amplitude of the present range, 0: none
             for (double amplitude = 50e-6; amplitude < 2; amplitude *= 1.1) {
-                if (!fires_once_a_cycle(vibrate(afferent, f, amplitude, seconds), f, seconds))
+                if (!fires_once_a_cycle(spikes_under_vibration(afferent, f, amplitude, seconds), f, seconds))
                     first = 0;
                 else if (first == 0)
                     first = amplitude;
@@ -96,7 +98,7 @@ TEST(NerveAfferent, FollowsVibrationWithOneSpikeACycleOverAFactorOfThreeInAmplit
 TEST(NerveAfferent, NoIntervalIsShorterThanAMillisecond) {
     for (const char* afferent : {"sa1-nerve", "fa1-nerve", "sa2", "fa2"})
         for (const double f : {5.0, 60.0, 250.0, 900.0}) {
-            const auto t = vibrate(afferent, f, 2, 0.5);
+            const auto t = spikes_under_vibration(afferent, f, 2, 0.5);
             for (std::size_t k = 1; k < t.size(); ++k) ASSERT_GE(t[k] - t[k - 1], 1e-3 - 1e-12) << afferent << ' ' << f;
         }
 }

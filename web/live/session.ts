@@ -42,6 +42,7 @@ export class Session {
     private lastAnswer = 0;  // its time, ms
     private simulated = 0;   // recently simulated, s
     private computed = 0;    // s that the engine needed for it
+    private isStarting = false;
     private generation = 0;  // answers to a start that has been replaced are ignored
     private lastFrame = 0;
     private due = 0;         // s of simulation that are not requested yet
@@ -54,6 +55,7 @@ export class Session {
         const {rate, seed, rows, population, indenter, contact} = this.settings;
         const request = {request: "start", rate, seed, rows: rows.map(({afferent, set}) => ({afferent, set: engineSettings(set)})),
                          ...(population ? {skin: {population, indenter, contact: engineSettings(contact)}} : {})};
+        this.isStarting = true;
         try {
             const {head, arrays} = await this.engine.request(request);
             ++this.generation;
@@ -65,6 +67,8 @@ export class Session {
         } catch (error) {
             this.failed((error as Error).message);
             return false;
+        } finally {
+            this.isStarting = false;
         }
     }
 
@@ -102,7 +106,7 @@ export class Session {
     frame(now: number) {
         const passed = Math.min(now - this.lastFrame, 0.25);
         this.lastFrame = now;
-        if (this.isPaused) return;
+        if (this.isPaused || this.isStarting) return;
         this.due = Math.min(this.due + passed, LONGEST_BLOCK);
         const samples = Math.floor(this.due * this.settings.rate);
         if (this.pending === MOST_PENDING || samples === 0) return;
