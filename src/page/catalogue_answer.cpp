@@ -1,7 +1,8 @@
 #include "page/catalogue_answer.hpp"
 
+#include <span>
+
 #include "core/version.hpp"
-#include "run/afferent_plan.hpp"
 #include "run/catalogue/catalogue_document.hpp"
 #include "run/compare/implementation_comparison.hpp"
 #include "skin/contact/indenters.hpp"
@@ -11,17 +12,15 @@ namespace corpuscle::page {
 namespace {
 
 /// The named afferents of the catalogue.
-Json afferents_document(const Json& entries) {
+Json afferents_document(std::span<const ListEntry> entries) {
     auto out = Json::array();
-    for (const auto& entry : entries) {
-        const auto name = entry["name"].get<std::string>();
-        if (name.find('/') != name.npos) continue;  // an entry that stands for files
-        out.push_back({{"name", name},
-                       {"class", afferent_type_of(name)},
-                       {"composition", entry["composition"]},
-                       {"is_circuit", names_netlist(name)},
-                       {"description", entry["description"]}});
-    }
+    for (const auto& entry : entries)
+        if (!entry.is_pattern)
+            out.push_back({{"name", entry.name},
+                           {"class", afferent_type_of(entry.name)},
+                           {"composition", entry.detail},
+                           {"is_circuit", entry.is_implementation},
+                           {"description", entry.description}});
     return out;
 }
 
@@ -52,11 +51,13 @@ Json indenters_document() {
 
 void describe_catalogue(MessageWriter& answer) {
     answer.head["version"] = version;
-    auto& sections = answer.head["sections"] = Json::object();
-    for (const auto& section : catalogue_sections())
-        for (const auto& entry : section.entries()) sections[std::string(section.name)].push_back(corpuscle::document_of(entry));
-    auto afferents = afferents_document(sections["afferents"]);
-    answer.head["afferents"] = std::move(afferents);
+    auto sections = Json::object();
+    for (const auto& section : catalogue_sections()) {
+        const auto entries = section.entries();
+        for (const auto& entry : entries) sections[std::string(section.name)].push_back(corpuscle::document_of(entry));
+        if (section.name == "afferents") answer.head["afferents"] = afferents_document(entries);
+    }
+    answer.head["sections"] = std::move(sections);
     answer.head["populations"] = populations_document();
     answer.head["indenters"] = indenters_document();
 }

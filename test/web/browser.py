@@ -250,6 +250,14 @@ class Page(unittest.TestCase):
                 return [name, count];
             }))""")
 
+    def themes(self):
+        """Shows the page in each theme, one after the other."""
+        for theme in ("light", "dark"):
+            self.browser.execute_cdp_cmd("Emulation.setEmulatedMedia", {"features": [{"name": "prefers-color-scheme", "value": theme}]})
+            self.next_frame()
+            yield theme
+        self.browser.execute_cdp_cmd("Emulation.setEmulatedMedia", {"features": []})
+
     @contextlib.contextmanager
     def screen(self, width, height, pixel_ratio):
         """Loads the page again on a screen of this size."""

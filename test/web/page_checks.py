@@ -29,9 +29,13 @@ class Pages(unittest.TestCase):
     def open(self, path, link="", width=1400, height=900, is_dark=False):
         """Shows a page on a screen of this size and waits until its panels are drawn."""
         self.browser.execute_cdp_cmd("Emulation.setDeviceMetricsOverride", {"width": width, "height": height, "deviceScaleFactor": 2 if width < 600 else 1, "mobile": width < 600})
-        self.browser.execute_cdp_cmd("Emulation.setEmulatedMedia", {"features": [{"name": "prefers-color-scheme", "value": "dark" if is_dark else "light"}]})
         self.browser.get("about:blank")
+        self.set_theme(is_dark)
         self.browser.get(path.as_uri() + link)
+        self.settle()
+
+    def set_theme(self, is_dark):
+        self.browser.execute_cdp_cmd("Emulation.setEmulatedMedia", {"features": [{"name": "prefers-color-scheme", "value": "dark" if is_dark else "light"}]})
         self.settle()
 
     def settle(self):
@@ -77,8 +81,9 @@ class Pages(unittest.TestCase):
     def assert_it_fits(self, path, link, name):
         """On small and large screens, light and dark, the page does not scroll sideways and no two labels of a plot overlap."""
         for width, height in SIZES:
+            self.open(path, link, width, height)
             for is_dark in (False, True):
-                self.open(path, link, width, height, is_dark)
+                self.set_theme(is_dark)
                 at = f"{name}, {width} x {height}, {'dark' if is_dark else 'light'}"
                 self.assertLessEqual(self.js("return document.documentElement.scrollWidth"), width, at)
                 self.assertEqual(self.js(OVERLAPS), [], at)

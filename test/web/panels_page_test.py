@@ -268,15 +268,14 @@ class Features(Page):
 
     def test_it_fits_every_screen_in_both_themes(self):
         for width, height, ratio in SIZES:
-            for theme in THEMES:
-                self.browser.execute_cdp_cmd("Emulation.setEmulatedMedia", {"features": [{"name": "prefers-color-scheme", "value": theme}]})
-                with self.subTest(width=width, theme=theme), self.screen(width, height, ratio):
-                    self.open_sections()
-                    self.assertLessEqual(self.js("return document.documentElement.scrollWidth"), width)
-                    for panel in self.panels():
-                        self.assertEqual(self.overlapping_labels(panel), [], panel)
-                    self.browser.save_screenshot(str(OUT / f"features-{width}-{theme}.png"))
-        self.browser.execute_cdp_cmd("Emulation.setEmulatedMedia", {"features": []})
+            with self.screen(width, height, ratio):
+                self.open_sections()
+                for theme in self.themes():
+                    with self.subTest(width=width, theme=theme):
+                        self.assertLessEqual(self.js("return document.documentElement.scrollWidth"), width)
+                        for panel in self.panels():
+                            self.assertEqual(self.overlapping_labels(panel), [], panel)
+                        self.browser.save_screenshot(str(OUT / f"features-{width}-{theme}.png"))
 
     def overlapping_labels(self, panel):
         """Pairs of tick labels that overlap or leave the drawing."""

@@ -43,6 +43,7 @@ std::vector<ListEntry> afferent_entries() {
     const auto add = [&](std::string_view name, const AfferentPlan& plan, const std::string& description, std::string_view source) {
         entries.push_back(list_entry(name, plan.composition(), description, source));
         entries.back().parameters = *keep_alive(plan.parameters);
+        entries.back().is_implementation = plan.traits().is_implementation;
     };
     for (const auto& a : named_afferents()) {
         add(a.name, *plan_afferent(a.name), std::string(a.description), a.source);

@@ -18,7 +18,8 @@ struct ListEntry {
     std::vector<std::string> other_names;
     std::string_view detail_key = "composition";  ///< the JSON key of `detail` for this kind of entry
     std::vector<CatalogNote> notes = {};
-    bool is_pattern = false;  ///< it stands for many things, as "path/own.cir" does
+    bool is_pattern = false;         ///< it stands for many things, as "path/own.cir" does
+    bool is_implementation = false;  ///< of an afferent, see its traits
 };
 
 inline ListEntry list_entry(std::string_view name, std::string_view detail, std::string_view description, std::string_view source = {}) {
