@@ -28,7 +28,7 @@ page: setup-page
 test: release page asan-readers
 	ctest --test-dir build/release --output-on-failure -j 3
 	ctest --test-dir build/asan --output-on-failure -j 3 -LE once -R '^(corpuscle|page)-tests'
-	$(MAKE) fuzz FUZZ_SECONDS=1
+	$(MAKE) fuzz FUZZ_SECONDS=2
 
 sanitize: asan
 	ctest --test-dir build/asan --output-on-failure -j 3 -LE once

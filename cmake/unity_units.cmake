@@ -88,9 +88,10 @@ foreach(file IN LISTS files)
   math(EXPR first "${offset} * ${COUNT} / ${bytes}")
   set(unit -1)
   foreach(step RANGE ${LAST})
-    set(candidate ${step})  # a spare unit, unless ...
     if(step LESS COUNT)
       math(EXPR candidate "(${first} + ${step}) % ${COUNT}")
+    else()
+      set(candidate ${step})  # a spare unit
     endif()
     occurs("${types}" "${words_${candidate}}" type_meets)
     occurs("${types_${candidate}}" "${words}" type_meets_too)

@@ -11,7 +11,6 @@ import time
 import unittest
 
 import corpuscle
-import numpy as np
 
 RC = "RC\nv1 in 0 dc 1 sin(0 1 1k)\nr1 in out 1k\nc1 out 0 1u\n"
 
